@@ -1,0 +1,44 @@
+# The few functions that every CMakeLists.txt of takt uses.
+
+# Options that every target of takt shares: warnings are errors, floating point is never contracted, one C++ dialect.
+add_library(takt_options INTERFACE)
+target_compile_features(takt_options INTERFACE cxx_std_20)
+target_compile_options(takt_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Werror
+                                              -ffp-contract=off)
+if(TAKT_SANITIZE)
+  target_compile_options(takt_options INTERFACE -fsanitize=${TAKT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(takt_options INTERFACE -fsanitize=${TAKT_SANITIZE})
+endif()
+if(TAKT_FUZZ)
+  target_compile_options(takt_options INTERFACE -fsanitize=fuzzer-no-link)
+  target_link_options(takt_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
+# takt_library(NAME SOURCES a.cpp ... LINKS other ...): one layer of the house; it links only what the layer may use.
+# Headers are included from the repository's root ("sim/time.hpp") or from src/ ("handshake/participant.hpp").
+function(takt_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  if(ARG_SOURCES)
+    add_library(${name} STATIC ${ARG_SOURCES})
+    target_link_libraries(${name} PUBLIC ${ARG_LINKS} PRIVATE takt_options ${ARG_PRIVATE_LINKS})
+    target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
+    target_compile_features(${name} PUBLIC cxx_std_20)
+  else()
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE ${ARG_LINKS})
+    target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
+    target_compile_features(${name} INTERFACE cxx_std_20)
+  endif()
+endfunction()
+
+# takt_test(NAME SOURCES a_test.cpp ... LINKS takt_sim ...): one GoogleTest binary, run by ctest as one test.
+function(takt_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;DEFINES" ${ARGN})
+  if(NOT TAKT_TESTS)
+    return()
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE takt_options ${ARG_LINKS} GTest::gtest GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE TAKT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${ARG_DEFINES})
+  add_test(NAME ${name} COMMAND ${name})
+endfunction()

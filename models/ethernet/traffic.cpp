@@ -1,0 +1,50 @@
+#include "models/ethernet/traffic.hpp"
+
+#include <algorithm>
+
+#include "models/ethernet/sizes.hpp"
+
+namespace takt::models {
+
+FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::TrueTime now) {
+  Stream& stream = streams_[index.value];
+  const FrameIndex handle = frames_.allocate();
+  Frame& frame = frames_[handle];
+  frame.produced = now;
+  frame.sequence = stream.sent++;
+  frame.destination = stream.destination;
+  frame.source = stream.source;
+  frame.stream = index;
+  frame.payload = PayloadIndex{};
+  frame.references = 1;
+  frame.length = static_cast<std::uint16_t>(frame_length(stream.headers + payload, stream.tagged).count);
+  frame.vlan = stream.vlan;
+  frame.priority = stream.priority;
+  frame.tagged = stream.tagged;
+  return handle;
+}
+
+FrameIndex Traffic::produce(StreamIndex index, std::span<const std::byte> octets, sim::TrueTime now) {
+  const FrameIndex handle = produce(index, Octets{static_cast<std::uint32_t>(octets.size())}, now);
+  const PayloadIndex payload = payloads_.allocate();
+  Payload& copy = payloads_[payload];
+  TAKT_CHECK(octets.size() <= copy.octets.size(), "a payload fits into one frame");
+  copy.length = static_cast<std::uint16_t>(octets.size());
+  std::copy(octets.begin(), octets.end(), copy.octets.begin());
+  frames_[handle].payload = payload;
+  return handle;
+}
+
+void Traffic::drop(FrameIndex index, DropReason reason, sim::ComponentId where, sim::Simulation& simulation) {
+  const Frame& frame = frames_[index];
+  ++streams_[frame.stream.value].dropped[static_cast<std::size_t>(reason)];
+  simulation.digest().add(static_cast<std::uint32_t>(Occurrence::drop),
+                          static_cast<std::uint64_t>(frame.stream.value) << 32 | where.index, simulation.now(),
+                          frame.sequence << 8 | static_cast<std::uint64_t>(reason));
+  if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
+    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::drop), where, index.value,
+                   static_cast<std::uint64_t>(reason)});
+  release(index);
+}
+
+}  // namespace takt::models

@@ -1,0 +1,107 @@
+// The frames under way and the account of every stream: what was sent, delivered, dropped and why.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "models/ethernet/frame_pool.hpp"
+#include "sim/histogram.hpp"
+#include "sim/simulation.hpp"
+
+namespace takt::models {
+
+/// Kinds of digest records and of trace records that the network writes.
+enum class Occurrence : std::uint32_t {
+  delivery = 1,  ///< a frame reached a listener; what = sequence
+  drop = 2,      ///< a frame ended early; what = sequence and reason
+  produced = 3,  ///< an application handed a frame over (trace only)
+  started = 4,   ///< the first bit of the preamble leaves a port (trace only)
+  enqueued = 5,  ///< a frame waits in a queue (trace only)
+};
+
+/// One stream: its addressing and its account.
+struct Stream {
+  std::string name;
+  NodeIndex talker;
+  AddressIndex source;
+  AddressIndex destination;
+  VlanId vlan = 0;
+  Priority priority = 0;
+  bool tagged = false;
+  Octets headers{0};               ///< octets between EtherType and payload (28 for UDP over IPv4)
+  std::uint32_t listeners = 1;
+
+  std::uint64_t sent = 0;          ///< frames produced by the talker
+  std::uint64_t copies = 0;        ///< extra copies made by bridges for multicast
+  std::uint64_t delivered = 0;     ///< frames handed to listeners
+  std::array<std::uint64_t, static_cast<std::size_t>(DropReason::count)> dropped{};
+  sim::Histogram latency;          ///< from production to delivery, all listeners
+
+  std::uint64_t dropped_in_all() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t n : dropped) sum += n;
+    return sum;
+  }
+  /// Conservation: sent + copies = delivered + dropped + in flight.
+  std::uint64_t in_flight() const { return sent + copies - delivered - dropped_in_all(); }
+};
+
+class Traffic {
+ public:
+  StreamIndex add_stream(Stream stream) {
+    streams_.push_back(std::move(stream));
+    return {static_cast<std::uint32_t>(streams_.size() - 1)};
+  }
+  Stream& stream(StreamIndex index) { return streams_[index.value]; }
+  const Stream& stream(StreamIndex index) const { return streams_[index.value]; }
+  const std::vector<Stream>& streams() const { return streams_; }
+
+  Frame& frame(FrameIndex index) { return frames_[index]; }
+  const Frame& frame(FrameIndex index) const { return frames_[index]; }
+  Payload& payload(PayloadIndex index) { return payloads_[index]; }
+  const Payload& payload(PayloadIndex index) const { return payloads_[index]; }
+
+  /// Makes a frame of the stream with a payload of that many octets, and counts it as sent.
+  FrameIndex produce(StreamIndex stream, Octets payload, sim::TrueTime now);
+  /// The same with octets, which are copied.
+  FrameIndex produce(StreamIndex stream, std::span<const std::byte> payload, sim::TrueTime now);
+
+  /// One more copy of the frame is under way.
+  void copy(FrameIndex index) {
+    Frame& frame = frames_[index];
+    ++frame.references;
+    ++streams_[frame.stream.value].copies;
+  }
+
+  /// The frame has reached a listener. It stays alive until released.
+  void count_delivery(const Frame& frame, NodeIndex listener, sim::Simulation& simulation) {
+    Stream& stream = streams_[frame.stream.value];
+    ++stream.delivered;
+    stream.latency.add(simulation.now() - frame.produced);
+    simulation.digest().add(static_cast<std::uint32_t>(Occurrence::delivery),
+                            static_cast<std::uint64_t>(frame.stream.value) << 32 | listener.value, simulation.now(),
+                            frame.sequence);
+  }
+
+  /// This copy of the frame ends here.
+  void release(FrameIndex index) {
+    Frame& frame = frames_[index];
+    if (--frame.references > 0) return;
+    if (!frame.payload.is_none()) payloads_.free(frame.payload);
+    frames_.free(index);
+  }
+
+  /// This copy of the frame ends at component `where` for that reason.
+  void drop(FrameIndex index, DropReason reason, sim::ComponentId where, sim::Simulation& simulation);
+
+  std::size_t live_frames() const { return frames_.live(); }
+
+ private:
+  std::vector<Stream> streams_;
+  FramePool frames_;
+  PayloadPool payloads_;
+};
+
+}  // namespace takt::models

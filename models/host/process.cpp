@@ -1,0 +1,53 @@
+#include "models/host/process.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace takt::models {
+namespace {
+// Kinds 0 .. n-1 are the alarms; this one hands a frame to the network interface.
+constexpr sim::EventKind transmit_now = 0xFFFF;
+}  // namespace
+
+Process::Process(sim::Simulation& simulation, Traffic& traffic, EgressPort& port, const LocalClock& clock,
+                 const OsLatency& latency, std::string_view path, std::unique_ptr<Application> application)
+    : simulation_(&simulation),
+      traffic_(&traffic),
+      port_(&port),
+      clock_(&clock),
+      source_(simulation.add(*this)),
+      transmit_(latency.transmit, simulation.seed(), path, "os transmit"),
+      wake_up_(latency.wake_up, simulation.seed(), path, "os wake-up"),
+      application_(std::move(application)) {
+  const AlarmId count = application_->alarm_count();
+  TAKT_CHECK(count < transmit_now, "too many alarms");
+  for (AlarmId alarm = 0; alarm < count; ++alarm) alarms_.emplace_back(source_.id(), sim::Phase::timer, alarm);
+}
+
+void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
+  if (event.kind() == transmit_now) {
+    port_->offer(simulation, FrameIndex{static_cast<std::uint32_t>(event.argument)}, id().index);
+    return;
+  }
+  TAKT_CHECK(event.kind() < alarms_.size(), "an alarm that was never set");
+  if (alarms_[event.kind()].fired(simulation, source_, event)) application_->wake(*this, event.kind());
+}
+
+void Process::set_alarm(AlarmId alarm, sim::LocalTime time) {
+  sim::TrueTime due = std::max(clock_->true_at(time), simulation_->now());
+  if (!wake_up_.is_none()) due += wake_up_.sample();
+  alarms_[alarm].arm(*simulation_, source_, due);
+}
+
+void Process::send(StreamIndex stream, std::span<const std::byte> payload) {
+  const FrameIndex frame = traffic_->produce(stream, payload, simulation_->now());
+  if (sim::TraceSink* const trace = simulation_->trace()) [[unlikely]]
+    trace->record({simulation_->now(), static_cast<std::uint32_t>(Occurrence::produced), id(), frame.value, stream.value});
+  if (transmit_.is_none()) {
+    port_->offer(*simulation_, frame, id().index);
+    return;
+  }
+  simulation_->schedule(source_, transmit_.pass(simulation_->now()), sim::Phase::arrival, id(), transmit_now, frame.value);
+}
+
+}  // namespace takt::models

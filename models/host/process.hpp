@@ -1,0 +1,52 @@
+// An application on a simulated host: its alarms, its way to the network interface.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "models/clock/local_clock.hpp"
+#include "models/egress/egress_port.hpp"
+#include "models/host/application.hpp"
+#include "models/host/os_latency.hpp"
+#include "sim/timer.hpp"
+
+namespace takt::models {
+
+class Process final : public sim::Component, public HostServices {
+ public:
+  /// `path` names the process in the random streams, e.g. "robot/trajectory". All references outlive the process.
+  Process(sim::Simulation& simulation, Traffic& traffic, EgressPort& port, const LocalClock& clock, const OsLatency& latency,
+          std::string_view path, std::unique_ptr<Application> application);
+
+  /// Starts the application at the present instant.
+  void start() { application_->start(*this); }
+  Application& application() { return *application_; }
+
+  void receive(StreamIndex stream, std::span<const std::byte> payload) { application_->receive(*this, stream, payload); }
+  /// Runs `action(application, services)` as the script's hand on the program.
+  template <class Action>
+  void call(Action&& action) { action(*application_, *this); }
+
+  void handle(sim::Simulation& simulation, const sim::Event& event) override;
+
+  sim::LocalTime now() const override { return clock_->local_at(simulation_->now()); }
+  void set_alarm(AlarmId alarm, sim::LocalTime time) override;
+  void cancel_alarm(AlarmId alarm) override { alarms_[alarm].cancel(); }
+  void send(StreamIndex stream, std::span<const std::byte> payload) override;
+
+  sim::ComponentId id() const { return source_.id(); }
+
+ private:
+  sim::Simulation* simulation_;
+  Traffic* traffic_;
+  EgressPort* port_;
+  const LocalClock* clock_;
+  sim::EventSource source_;
+  LatencyLine transmit_;
+  LatencyLine wake_up_;
+  std::vector<sim::Timer> alarms_;
+  std::unique_ptr<Application> application_;
+};
+
+}  // namespace takt::models

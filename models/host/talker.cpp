@@ -1,0 +1,82 @@
+#include "models/host/talker.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace takt::models {
+namespace {
+
+constexpr sim::EventKind produce_now = 0;
+constexpr sim::EventKind transmit_now = 1;
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
+}  // namespace
+
+Talker::Talker(sim::Simulation& simulation, Traffic& traffic, EgressPort& port, const LocalClock& clock, const OsLatency& latency,
+               std::string_view path, StreamIndex stream, Octets payload, TalkerSchedule schedule)
+    : traffic_(&traffic),
+      port_(&port),
+      clock_(&clock),
+      source_(simulation.add(*this)),
+      stream_(stream),
+      payload_(payload),
+      schedule_(std::move(schedule)),
+      transmit_(latency.transmit, simulation.seed(), path, "os transmit"),
+      chance_(simulation.seed(), path, "schedule") {}
+
+sim::LocalTime Talker::time_of_next() {
+  using sim::Duration;
+  using sim::LocalTime;
+  const auto count = static_cast<std::int64_t>(count_);
+  return std::visit(
+      Overloaded{[&](const PeriodicSchedule& s) {
+                   LocalTime time = LocalTime() + s.offset + s.period * count;
+                   if (s.jitter > Duration())
+                     time += Duration::from_ps(static_cast<std::int64_t>(chance_.below(static_cast<std::uint64_t>(s.jitter.ps()) + 1)));
+                   return time;
+                 },
+                 [&](const ExponentialSchedule& s) {
+                   const LocalTime from = count == 0 ? LocalTime() + s.offset : last_;
+                   return from + sim::Distribution::exponential(s.mean).draw(chance_);
+                 },
+                 [&](const BurstSchedule& s) {
+                   return LocalTime() + s.offset + s.period * (count / s.frames) + s.spacing * (count % s.frames);
+                 },
+                 [&](const TraceSchedule& s) {
+                   return count_ < s.entries.size() ? s.entries[count_].time : LocalTime::never();
+                 }},
+      schedule_);
+}
+
+void Talker::start(sim::Simulation& simulation) { schedule_next(simulation); }
+
+void Talker::schedule_next(sim::Simulation& simulation) {
+  const sim::LocalTime time = time_of_next();
+  if (time == sim::LocalTime::never()) return;
+  last_ = time;
+  simulation.schedule(source_, std::max(clock_->true_at(time), simulation.now()), sim::Phase::timer, source_.id(), produce_now, 0);
+}
+
+void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
+  if (event.kind() == transmit_now) {
+    port_->offer(simulation, FrameIndex{static_cast<std::uint32_t>(event.argument)}, source_.id().index);
+    return;
+  }
+  const auto* const trace_schedule = std::get_if<TraceSchedule>(&schedule_);
+  const Octets payload = trace_schedule != nullptr ? trace_schedule->entries[count_].payload : payload_;
+  const FrameIndex frame = traffic_->produce(stream_, payload, simulation.now());
+  if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
+    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::produced), source_.id(), frame.value, stream_.value});
+  if (transmit_.is_none())
+    port_->offer(simulation, frame, source_.id().index);
+  else
+    simulation.schedule(source_, transmit_.pass(simulation.now()), sim::Phase::arrival, source_.id(), transmit_now, frame.value);
+  ++count_;
+  schedule_next(simulation);
+}
+
+}  // namespace takt::models

@@ -1,0 +1,69 @@
+// A source of frames without protocol: periodic, random, in bursts or from a table of times.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "models/clock/local_clock.hpp"
+#include "models/egress/egress_port.hpp"
+#include "models/host/os_latency.hpp"
+
+namespace takt::models {
+
+/// Frame k is produced at offset + k * period + a uniform draw from [0, jitter]. jitter <= period.
+struct PeriodicSchedule {
+  sim::Duration offset;
+  sim::Duration period;
+  sim::Duration jitter;
+};
+/// Exponentially distributed gaps; the first frame comes one gap after the offset.
+struct ExponentialSchedule {
+  sim::Duration offset;
+  sim::Duration mean;
+};
+/// At offset + k * period, `frames` frames, `spacing` apart (0: all at the same instant).
+struct BurstSchedule {
+  sim::Duration offset;
+  sim::Duration period;
+  std::uint32_t frames = 1;
+  sim::Duration spacing;
+};
+/// Frames at given times with given payloads, ascending.
+struct TraceSchedule {
+  struct Entry {
+    sim::LocalTime time;
+    Octets payload;
+  };
+  std::vector<Entry> entries;
+};
+using TalkerSchedule = std::variant<PeriodicSchedule, ExponentialSchedule, BurstSchedule, TraceSchedule>;
+
+class Talker final : public sim::Component {
+ public:
+  /// Times are those of `clock`. `path` names the talker in the random streams. All references outlive the talker.
+  Talker(sim::Simulation& simulation, Traffic& traffic, EgressPort& port, const LocalClock& clock, const OsLatency& latency,
+         std::string_view path, StreamIndex stream, Octets payload, TalkerSchedule schedule);
+
+  /// Schedules the first frame.
+  void start(sim::Simulation& simulation);
+  void handle(sim::Simulation& simulation, const sim::Event& event) override;
+
+ private:
+  void schedule_next(sim::Simulation& simulation);
+  /// The local time of frame number `count_`, or never.
+  sim::LocalTime time_of_next();
+
+  Traffic* traffic_;
+  EgressPort* port_;
+  const LocalClock* clock_;
+  sim::EventSource source_;
+  StreamIndex stream_;
+  Octets payload_;
+  std::uint64_t count_ = 0;
+  sim::LocalTime last_;
+  TalkerSchedule schedule_;
+  LatencyLine transmit_;
+  sim::RandomStream chance_;
+};
+
+}  // namespace takt::models

@@ -1,0 +1,73 @@
+// A network as plain data: what Network is built from. It is checked before (scenario/); here it is taken as sound.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/egress/port_config.hpp"
+#include "models/ethernet/frame.hpp"
+#include "models/host/os_latency.hpp"
+#include "models/host/talker.hpp"
+#include "sim/units.hpp"
+
+namespace takt::models {
+
+enum class NodeKind : std::uint8_t { host, bridge };
+
+struct NodePlan {
+  std::string name;
+  NodeKind kind = NodeKind::host;
+  sim::Duration forwarding_delay;   ///< bridges: last bit in to the egress queue
+  std::uint32_t port_config = 0;    ///< index into NetworkPlan::port_configs
+  std::uint32_t os_latency = 0;     ///< hosts: index into NetworkPlan::os_latencies
+};
+
+struct LinkPlan {
+  struct End {
+    NodeIndex node;
+    std::uint16_t port = 0;         ///< port number within the node; the ports of a node are numbered from 0 without gaps
+  };
+  End a;
+  End b;
+  sim::DataRate rate;
+  sim::Duration delay;              ///< propagation, the same both ways
+};
+
+struct StreamPlan {
+  std::string name;
+  NodeIndex talker;
+  AddressIndex destination;
+  VlanId vlan = 0;
+  std::optional<Priority> priority; ///< with a priority the frames carry a VLAN tag; without one they are untagged
+  Octets headers{0};
+  std::vector<NodeIndex> listeners;
+};
+
+/// Static filtering entries: at `bridge`, frames of (vlan, address) leave through `port`.
+struct FilteringPlan {
+  NodeIndex bridge;
+  VlanId vlan = 0;
+  AddressIndex address;
+  std::uint16_t port = 0;
+};
+
+struct TalkerPlan {
+  StreamIndex stream;
+  Octets payload;
+  TalkerSchedule schedule;
+};
+
+/// Addresses 0 .. nodes-1 are the unicast addresses of the nodes; further ones are groups.
+struct NetworkPlan {
+  std::vector<NodePlan> nodes;
+  std::vector<LinkPlan> links;
+  std::vector<StreamPlan> streams;
+  std::vector<FilteringPlan> filtering;
+  std::vector<TalkerPlan> talkers;
+  std::vector<PortConfig> port_configs = {PortConfig{}};
+  std::vector<OsLatency> os_latencies = {OsLatency{}};
+};
+
+}  // namespace takt::models

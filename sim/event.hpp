@@ -1,0 +1,72 @@
+// The event record and the total order of events.
+//
+// An event is a plain record of 32 octets: no closure, no allocation. Two events are ordered by
+//   (time, phase, target, source, serial of the source)
+// which depends neither on the order in which they were scheduled nor on components that are not concerned, so that
+// a run in parallel could give the same run.
+#pragma once
+
+#include <cstdint>
+
+#include "sim/time.hpp"
+
+namespace takt::sim {
+
+/// Dense index of a component of a simulation; at most 2^30 of them.
+struct ComponentId {
+  std::uint32_t index = 0;
+  constexpr auto operator<=>(const ComponentId&) const = default;
+};
+inline constexpr std::uint32_t max_components = 1u << 30;
+
+/// What happens first when several things happen at one instant. After all phases of an instant the components that
+/// asked for it *settle* (Component::settle): they see everything that arrived and decide once.
+enum class Phase : std::uint8_t {
+  control = 0,  ///< scripts, faults, clock steps, gate changes
+  arrival = 1,  ///< frames reach a node; a medium becomes free
+  timer = 2,    ///< applications and protocols wake up; they see all that arrived at the same instant
+};
+
+/// What a component is told; each component type numbers its own kinds.
+using EventKind = std::uint16_t;
+
+struct Event {
+  TrueTime time;
+  std::uint64_t order = 0;        ///< phase (4 bits), target (30), source (30)
+  std::uint64_t serial_kind = 0;  ///< serial of the source (48 bits), kind (16)
+  std::uint64_t argument = 0;     ///< meaning given by the kind
+
+  static constexpr std::uint64_t order_of(Phase phase, ComponentId target, ComponentId source) {
+    return static_cast<std::uint64_t>(phase) << 60 | static_cast<std::uint64_t>(target.index) << 30 | source.index;
+  }
+  static constexpr std::uint64_t pair_mask = (1ULL << 60) - 1;
+
+  constexpr EventKind kind() const { return static_cast<EventKind>(serial_kind & 0xFFFF); }
+  constexpr ComponentId target() const { return {static_cast<std::uint32_t>(order >> 30) & (max_components - 1)}; }
+  constexpr ComponentId source() const { return {static_cast<std::uint32_t>(order) & (max_components - 1)}; }
+
+  friend constexpr bool operator<(const Event& a, const Event& b) {
+    // Time is never negative in the queue, so both words compare as one unsigned number of 128 bits.
+    const uint128 left = static_cast<uint128>(static_cast<std::uint64_t>(a.time.ps())) << 64 | a.order;
+    const uint128 right = static_cast<uint128>(static_cast<std::uint64_t>(b.time.ps())) << 64 | b.order;
+    if (left != right) [[likely]] return left < right;
+    return a.serial_kind < b.serial_kind;
+  }
+};
+static_assert(sizeof(Event) == 32);
+
+/// The identity under which a component schedules events, with its own count of them.
+class EventSource {
+ public:
+  EventSource() = default;
+  explicit EventSource(ComponentId id) : id_(id) {}
+  ComponentId id() const { return id_; }
+  /// The serial of the next event, moved to where Event keeps it. 2^48 events of one source do not occur.
+  std::uint64_t next_serial_word() { return serial_++ << 16; }
+
+ private:
+  std::uint64_t serial_ = 0;
+  ComponentId id_;
+};
+
+}  // namespace takt::sim

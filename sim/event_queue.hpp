@@ -1,0 +1,160 @@
+// The pending events of a simulation, smallest first in the order of Event.
+//
+// Small populations live in one 4-ary heap. From a few hundred events on, only the events of the near future stay in the
+// heap; later ones wait unsorted in a calendar of equally wide buckets, and those beyond the calendar in a second heap.
+// So the cost of an event hardly grows with the population, and the order never depends on the layout: every event
+// passes through the near heap, which holds all events before `near_end_`.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/check.hpp"
+#include "sim/event.hpp"
+
+namespace takt::sim {
+
+/// A 4-ary min-heap of events with a lazy root: after pop() the root is a hole which the next push() may fill directly.
+class EventHeap {
+ public:
+  bool empty() const { return size() == 0; }
+  std::size_t size() const { return items_.size() - (hole_ ? 1 : 0); }
+
+  /// The time of the first event. Precondition: not empty.
+  TrueTime first_time() const {
+    if (!hole_) return items_[0].time;
+    const std::size_t end = items_.size() < 5 ? items_.size() : 5;
+    std::int64_t first = items_[1].time.ps();
+    for (std::size_t child = 2; child < end; ++child) {
+      const std::int64_t time = items_[child].time.ps();
+      first = time < first ? time : first;
+    }
+    return TrueTime::from_ps(first);
+  }
+
+  /// Removes and returns the first event. Precondition: not empty.
+  Event pop() {
+    if (hole_) fill_hole();
+    hole_ = true;
+    return items_[0];
+  }
+
+  void push(const Event& event) {
+    if (hole_) {
+      hole_ = false;
+      sift_down(event, items_.size());
+      return;
+    }
+    items_.push_back(event);
+    sift_up(items_.size() - 1, event);
+  }
+
+  /// Removes all events in no particular order and hands each to `sink`.
+  template <class Sink>
+  void drain(Sink&& sink) {
+    for (std::size_t i = hole_ ? 1 : 0; i < items_.size(); ++i) sink(items_[i]);
+    items_.clear();
+    hole_ = false;
+  }
+
+ private:
+  void fill_hole() {
+    hole_ = false;
+    const Event last = items_.back();
+    items_.pop_back();
+    if (!items_.empty()) sift_down(last, items_.size());
+  }
+
+  void sift_up(std::size_t at, const Event& event) {
+    Event* const items = items_.data();
+    while (at > 0) {
+      const std::size_t parent = (at - 1) / 4;
+      if (!(event < items[parent])) break;
+      items[at] = items[parent];
+      at = parent;
+    }
+    items[at] = event;
+  }
+
+  /// Puts `event` where it belongs on the way down from the root, which is free.
+  void sift_down(const Event& event, std::size_t size) {
+    Event* const items = items_.data();
+    std::size_t at = 0;
+    for (;;) {
+      const std::size_t first = 4 * at + 1;
+      if (first >= size) break;
+      std::size_t least = first;
+      const std::size_t end = first + 4 < size ? first + 4 : size;
+      for (std::size_t child = first + 1; child < end; ++child) least = items[child] < items[least] ? child : least;
+      if (!(items[least] < event)) break;
+      items[at] = items[least];
+      at = least;
+    }
+    items[at] = event;
+  }
+
+  std::vector<Event> items_;
+  bool hole_ = false;
+};
+
+class EventQueue {
+ public:
+  bool empty() const { return near_.empty() && waiting_ == 0; }
+  std::size_t size() const { return near_.size() + waiting_; }
+
+  /// The time of the first event, or never. It may move events from the calendar to the heap.
+  TrueTime first_time() {
+    if (near_.empty()) [[unlikely]] {
+      if (waiting_ == 0) return TrueTime::never();
+      advance();
+    }
+    return near_.first_time();
+  }
+
+  /// Removes and returns the first event. Precondition: first_time() has just been asked and was not never.
+  Event pop() { return near_.pop(); }
+
+  void push(const Event& event) {
+    if (event.time < near_end_) [[likely]] {
+      near_.push(event);
+      if (near_.size() > crowded_) [[unlikely]] spread();
+      return;
+    }
+    push_far(event);
+  }
+
+ private:
+  struct Waiting {
+    Event event;
+    std::uint32_t next;
+  };
+  static constexpr std::uint32_t none = 0xFFFF'FFFF;
+  static constexpr std::size_t heap_only_limit = 256;
+
+  void push_far(const Event& event);
+  void put_into_bucket(const Event& event);
+  void advance();
+  void load_bucket(std::size_t bucket);
+  void spread();
+  void collapse();
+  std::size_t bucket_of(TrueTime time) const {
+    return static_cast<std::size_t>(time.ps() >> width_log2_) & (buckets_.size() - 1);
+  }
+  std::size_t next_occupied(std::size_t from) const;
+
+  EventHeap near_;
+  TrueTime near_end_ = TrueTime::never();   // events before it are in near_
+  TrueTime horizon_ = TrueTime::never();    // events from it on are in beyond_
+  std::size_t crowded_ = heap_only_limit;   // size of near_ at which the calendar is (re)built
+  std::size_t waiting_ = 0;                 // events in buckets and in beyond_
+  std::size_t in_buckets_ = 0;
+  int width_log2_ = 0;                      // a bucket spans 2^width_log2_ ps
+  std::size_t size_when_spread_ = 0;
+  std::vector<std::uint32_t> buckets_;      // head of each bucket's list; a power of two of them
+  std::vector<std::uint64_t> occupied_;     // one bit a bucket
+  std::vector<Waiting> pool_;
+  std::uint32_t free_ = none;
+  EventHeap beyond_;
+};
+
+}  // namespace takt::sim

@@ -1,0 +1,101 @@
+#include "sim/simulation.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace takt::sim {
+namespace {
+
+// A bijection on 60 bits: two rounds of odd multiplication and xor-shift, so that the target can be found again.
+constexpr std::uint64_t multiplier = 0x5851F42D4C957F2DULL;
+
+constexpr std::uint64_t inverse_of(std::uint64_t odd) {
+  std::uint64_t inverse = odd;  // Newton's iteration doubles the number of right bits each time
+  for (int i = 0; i < 6; ++i) inverse *= 2 - odd * inverse;
+  return inverse;
+}
+static_assert(multiplier * inverse_of(multiplier) == 1);
+
+constexpr std::uint64_t scramble(std::uint64_t x, std::uint64_t key) {
+  for (int round = 0; round < 2; ++round) {
+    x = ((x ^ key) * multiplier) & Event::pair_mask;
+    x ^= x >> 30;
+  }
+  return x & Event::pair_mask;
+}
+
+constexpr std::uint64_t unscramble(std::uint64_t x, std::uint64_t key) {
+  for (int round = 0; round < 2; ++round) {
+    x ^= x >> 30;  // its own inverse, since 30 is half of 60
+    x = ((x * inverse_of(multiplier)) & Event::pair_mask) ^ key;
+  }
+  return x & Event::pair_mask;
+}
+
+constexpr std::uint64_t phase_mask = ~Event::pair_mask;
+
+}  // namespace
+
+ComponentId Simulation::add(Component& component) {
+  TAKT_CHECK(components_.size() < max_components, "too many components");
+  components_.push_back(&component);
+  return {static_cast<std::uint32_t>(components_.size() - 1)};
+}
+
+void Simulation::set_tie_shuffle(std::uint64_t key) {
+  TAKT_CHECK(queue_.empty() && events_ == 0, "tie shuffle must be set before the first event");
+  tie_shuffle_ = key & Event::pair_mask;
+}
+
+std::uint64_t Simulation::shuffled(std::uint64_t order) const {
+  return (order & phase_mask) | scramble(order & Event::pair_mask, tie_shuffle_);
+}
+
+std::uint64_t Simulation::unshuffled(std::uint64_t order) const {
+  return (order & phase_mask) | unscramble(order & Event::pair_mask, tie_shuffle_);
+}
+
+bool Simulation::run(TrueTime until, std::uint64_t max_events) {
+  return tie_shuffle_ == 0 ? loop<false>(until, max_events) : loop<true>(until, max_events);
+}
+
+template <bool is_shuffled>
+bool Simulation::loop(TrueTime until, std::uint64_t max_events) {
+  const std::uint64_t stop_at = max_events > ~0ULL - events_ ? ~0ULL : events_ + max_events;
+  Event event;
+  try {
+    for (;;) {
+      const TrueTime next = queue_.first_time();
+      if (!settling_.empty() && next > now_) {
+        settle_all();
+        continue;
+      }
+      if (next > until) break;
+      if (events_ >= stop_at && next > now_) return false;
+      event = queue_.pop();
+      if constexpr (is_shuffled) event.order = unshuffled(event.order);
+      now_ = event.time;
+      ++events_;
+      components_[event.target().index]->handle(*this, event);
+      if ((events_ & 0x3FF) == 0) pending_peak_ = std::max(pending_peak_, queue_.size());
+    }
+  } catch (const InvariantBroken& broken) {
+    rethrow_with_context(broken, event);
+  }
+  now_ = until;
+  return true;
+}
+
+void Simulation::settle_all() {
+  // A component may ask again while it settles (never for itself twice); the list may therefore grow.
+  for (std::size_t i = 0; i < settling_.size(); ++i) settling_[i]->settle(*this);
+  settling_.clear();
+}
+
+void Simulation::rethrow_with_context(const InvariantBroken& broken, const Event& event) const {
+  throw InvariantBroken(std::string(broken.what()) + "\n  at " + std::to_string(now_.ps()) + " ps, event " +
+                        std::to_string(events_) + " (kind " + std::to_string(event.kind()) + " for component " +
+                        std::to_string(event.target().index) + "), seed " + std::to_string(seed_));
+}
+
+}  // namespace takt::sim

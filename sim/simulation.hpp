@@ -1,0 +1,90 @@
+// The kernel: virtual time, the event loop, settling, digest and trace. It knows no network.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/check.hpp"
+#include "sim/digest.hpp"
+#include "sim/event.hpp"
+#include "sim/event_queue.hpp"
+#include "sim/trace.hpp"
+
+namespace takt::sim {
+
+class Simulation;
+
+/// Anything that receives events. Components are owned by the model; the kernel keeps a reference.
+class Component {
+ public:
+  virtual ~Component() = default;
+  /// An event for this component has come due; simulation.now() is its time.
+  virtual void handle(Simulation& simulation, const Event& event) = 0;
+  /// The instant at which this component called settle_later() is complete: every event of it has been handled.
+  virtual void settle(Simulation& simulation) { static_cast<void>(simulation); }
+};
+
+/// One run. An object: many of them can live in one process and in threads side by side.
+class Simulation {
+ public:
+  explicit Simulation(std::uint64_t seed) : seed_(seed) {}
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// Registers a component; it must outlive the run. Ids are dense and given in order.
+  ComponentId add(Component& component);
+
+  TrueTime now() const { return now_; }
+  std::uint64_t seed() const { return seed_; }
+  std::uint64_t event_count() const { return events_; }
+  std::size_t pending() const { return queue_.size(); }
+  std::size_t pending_peak() const { return pending_peak_; }
+
+  /// Schedules an event. `time` is not before now().
+  void schedule(EventSource& source, TrueTime time, Phase phase, ComponentId target, EventKind kind,
+                std::uint64_t argument) {
+    TAKT_CHECK(time >= now_, "an event cannot be scheduled in the past");
+    std::uint64_t order = Event::order_of(phase, target, source.id());
+    if (tie_shuffle_ != 0) [[unlikely]] order = shuffled(order);
+    queue_.push({time, order, source.next_serial_word() | kind, argument});
+  }
+
+  /// Asks for component.settle() at the end of the present instant. The component remembers that it has asked.
+  void settle_later(Component& component) { settling_.push_back(&component); }
+
+  /// Handles the events up to and including `until`, at most about `max_events` of them. Returns true when `until` has been
+  /// reached (now() is `until` then), false when there is more to do. It never stops in the middle of an instant.
+  bool run(TrueTime until, std::uint64_t max_events = ~0ULL);
+
+  Digest& digest() { return digest_; }
+  const Digest& digest() const { return digest_; }
+
+  /// The recorder, or null. Recording costs one predictable branch when nobody listens.
+  TraceSink* trace() const { return trace_; }
+  void set_trace(TraceSink* sink) { trace_ = sink; }
+
+  /// Tests only: permutes events that are equal in (time, phase), except those of one source to one target, which are
+  /// cause and effect. Results must not change. 0 switches it off. To be called before anything is scheduled.
+  void set_tie_shuffle(std::uint64_t key);
+
+ private:
+  template <bool is_shuffled>
+  bool loop(TrueTime until, std::uint64_t max_events);
+  void settle_all();
+  std::uint64_t shuffled(std::uint64_t order) const;
+  std::uint64_t unshuffled(std::uint64_t order) const;
+  [[noreturn]] void rethrow_with_context(const InvariantBroken& broken, const Event& event) const;
+
+  TrueTime now_;
+  std::vector<Component*> components_;
+  std::vector<Component*> settling_;
+  EventQueue queue_;
+  std::uint64_t events_ = 0;
+  std::size_t pending_peak_ = 0;
+  Digest digest_;
+  TraceSink* trace_ = nullptr;
+  std::uint64_t seed_;
+  std::uint64_t tie_shuffle_ = 0;
+};
+
+}  // namespace takt::sim

@@ -1,0 +1,21 @@
+// One value of a document replaced from the command line: --set network.links.0.rate=100Mbps
+#pragma once
+
+#include <string_view>
+
+#include "scenario/json/diagnostics.hpp"
+#include "scenario/json/document.hpp"
+
+namespace takt::scenario::json {
+
+/// Applies "pointer=value" to a document.
+///
+/// The pointer is RFC 6901 ("/network/links/0/rate"; needed for names that contain a dot) or dotted
+/// ("network.links.0.rate"). The value is JSON if it reads as JSON, otherwise it is a string as it stands. Members that
+/// are missing are made, as objects, down to the last one; an item of an array must exist or be the next one.
+/// The new value's position is in a source of its own, named "--set pointer=value".
+///
+/// False, a diagnostic that names the option, and an unchanged document, if that cannot be done.
+bool apply(Document& document, std::string_view option, Diagnostics& diagnostics);
+
+}  // namespace takt::scenario::json

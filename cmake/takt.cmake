@@ -5,6 +5,9 @@ add_library(takt_options INTERFACE)
 target_compile_features(takt_options INTERFACE cxx_std_20)
 target_compile_options(takt_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Werror
                                               -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(takt_options INTERFACE -Wno-restrict)  # GCC bug 105651: false alarms for string concatenation
+endif()
 if(TAKT_SANITIZE)
   target_compile_options(takt_options INTERFACE -fsanitize=${TAKT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(takt_options INTERFACE -fsanitize=${TAKT_SANITIZE})

@@ -94,8 +94,8 @@ struct CodecOf<std::string> {
 template <>
 struct CodecOf<double> {
   struct Limits {
-    std::optional<double> min;
-    std::optional<double> max;
+    std::optional<double> min{};
+    std::optional<double> max{};
     bool above_min = false;  ///< min itself is excluded
     constexpr void apply(Bounds& bounds) const {
       bounds.has_min = min.has_value();
@@ -187,8 +187,8 @@ template <Quantity T>
 struct CodecOf<T> {
   /// Durations are not negative unless min is. min and max belong to the range unless above_min.
   struct Limits {
-    std::optional<T> min;
-    std::optional<T> max;
+    std::optional<T> min{};
+    std::optional<T> max{};
     bool above_min = false;
     constexpr void apply(Bounds& bounds) const {
       bounds.has_min = min.has_value();

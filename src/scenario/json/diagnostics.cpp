@@ -9,21 +9,33 @@ namespace takt::scenario::json {
 
 namespace {
 
+/// Names that users choose, with control characters made harmless for a terminal.
+std::string visible(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+      result += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+    else
+      result += c;
+  }
+  return result;
+}
+
 std::string_view name_of(Severity severity) { return severity == Severity::error ? "error" : "warning"; }
 
 }  // namespace
 
 std::string to_text(const Diagnostic& diagnostic) {
   const auto& [severity, place, message, details] = diagnostic;
-  std::string text = place.file;
+  std::string text = visible(place.file);
   if (place.line != 0) text += fmt::format(":{}:{}", place.line, place.column);
   text += text.empty() ? "" : ": ";
   text += name_of(severity);
-  if (!place.pointer.empty()) text += " at " + place.pointer;
+  if (!place.pointer.empty()) text += " at " + visible(place.pointer);
   text += ": " + message;
   if (!details.found.empty()) text += ": found " + details.found;
   if (!details.expected.empty()) text += (details.found.empty() ? ": expected " : ", expected ") + details.expected;
-  if (!details.suggestion.empty()) text += " (did you mean " + quoted(details.suggestion) + "?)";
+  if (!details.suggestion.empty()) text += " (did you mean " + quote(details.suggestion) + "?)";
   return text;
 }
 

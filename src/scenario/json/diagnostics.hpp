@@ -26,9 +26,9 @@ enum class Severity : std::uint8_t { error, warning };
 
 /// The optional parts of a diagnostic; empty means absent. `found` and `expected` are phrases that follow these words.
 struct Details {
-  std::string found;
-  std::string expected;
-  std::string suggestion;  ///< a name to try, without quotes
+  std::string found = {};
+  std::string expected = {};
+  std::string suggestion = {};  ///< a name to try, without quotes
 };
 
 struct Diagnostic {

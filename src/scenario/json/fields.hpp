@@ -68,9 +68,9 @@ constexpr Group at_most_one_of(std::span<const std::string_view> names) { return
 constexpr Group at_least_one_of(std::span<const std::string_view> names) { return {Group::Rule::at_least_one, names}; }
 
 struct ObjectOptions {
-  std::span<const Group> groups;
+  std::span<const Group> groups{};
   /// The name of a field: `"50ppm"` then stands for `{"offset": "50ppm"}`. No other field may be required.
-  std::string_view shorthand;
+  std::string_view shorthand{};
 };
 
 /// The table of a struct. It must be default-constructible; a member `json::Source where` gets where it was written.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scenario/json/utf8.hpp"
 #include "sim/check.hpp"
 
 namespace takt::scenario::json {
@@ -16,10 +17,13 @@ namespace {
 constexpr std::size_t longest_excerpt = 40;  // octets of a text that a message quotes
 constexpr std::size_t line_width = 100;      // an array of scalars that is shorter stays on one line
 
-bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
-
+/// Appends a text as it stands in a JSON string. What is not UTF-8 (in the name of a file, perhaps) becomes U+FFFD.
 void append_escaped(std::string& out, std::string_view text) {
-  for (const char c : text) {
+  while (!text.empty()) {
+    const char c = text.front();
+    const std::size_t length = character_length(text);
+    const std::string_view character = length == 0 ? "\uFFFD" : text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
     switch (c) {
       case '"': out += "\\\""; break;
       case '\\': out += "\\\\"; break;
@@ -30,7 +34,7 @@ void append_escaped(std::string& out, std::string_view text) {
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
           out += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
         else
-          out += c;
+          out += character;
     }
   }
 }
@@ -206,12 +210,11 @@ bool equal(const Node& a, const Node& b) {
                             [](const Member& x, const Member& y) { return x.key == y.key && equal(x.value, y.value); });
 }
 
-std::string quoted(std::string_view text) {
-  std::size_t length = std::min(text.size(), longest_excerpt);
-  while (length > 0 && length < text.size() && is_continuation(text[length])) --length;
+std::string quote(std::string_view text) {
+  const std::string_view start = first_octets(text, longest_excerpt);
   std::string result = "\"";
-  append_escaped(result, text.substr(0, length));
-  return result + (length < text.size() ? "...\"" : "\"");
+  append_escaped(result, start);
+  return result + (start.size() < text.size() ? "...\"" : "\"");
 }
 
 std::string excerpt(const Node& node) {
@@ -219,7 +222,7 @@ std::string excerpt(const Node& node) {
     case Kind::null: return "null";
     case Kind::boolean: return node.boolean ? "true" : "false";
     case Kind::number: return "the number " + node.text.substr(0, longest_excerpt);
-    case Kind::string: return "the string " + quoted(node.text);
+    case Kind::string: return "the string " + quote(node.text);
     case Kind::array: return node.items.empty() ? "an empty array" : fmt::format("an array of {}", node.items.size());
     case Kind::object: return "an object";
   }

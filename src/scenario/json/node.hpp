@@ -71,7 +71,7 @@ bool equal(const Node& a, const Node& b);
 /// How a value looks in a message: strings quoted and cut to a few words, `an object`, `an array of 3`.
 std::string excerpt(const Node& node);
 /// A text in quotes, control characters escaped, cut after 40 characters.
-std::string quoted(std::string_view text);
+std::string quote(std::string_view text);
 
 /// JSON text with two spaces of indentation; short arrays of scalars stay on one line. Ends with a newline.
 std::string pretty(const Node& node);

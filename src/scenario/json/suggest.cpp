@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t longest_name = 64;
 constexpr std::size_t most_candidates = 2000;
+constexpr std::size_t shortest_prefix = 3;
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -56,6 +57,10 @@ std::string suggest(std::string_view name, std::span<const std::string_view> can
       nearest = distance;
       best = candidate;
     }
+  }
+  if (best.empty() && name.size() >= shortest_prefix) {
+    const auto longer = std::ranges::find_if(candidates, [name](std::string_view c) { return c.starts_with(name); });
+    if (longer != candidates.end()) best = *longer;
   }
   return std::string(best);
 }

@@ -66,7 +66,7 @@ struct Object {
   std::string_view help;
   std::span<const Field> fields;
   std::span<const Group> groups;
-  std::string_view shorthand;          ///< a value that is no object stands for an object with only this field
+  std::string_view shorthand;          ///< a value that is no object stands for an object with only this field (not at the root)
   Source* (*where)(void* object);      ///< the member that keeps where it was read; may be null
   void (*with_prototype)(void (*use)(const void* object, void* context), void* context);  ///< calls with all defaults
 };

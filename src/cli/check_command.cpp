@@ -1,0 +1,33 @@
+// takt check: is it sound; what does it resolve to.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/load.hpp"
+#include "output/text_report.hpp"
+
+namespace takt::cli {
+
+void add_check_command(CLI::App& app, ExitStatus& status) {
+  CLI::App& command = *app.add_subcommand("check", "Say whether a scenario is sound and what it resolves to");
+  const auto options = std::make_shared<ScenarioOptions>();
+  add_scenario_options(command, *options);
+  command.footer(
+      "Examples:\n"
+      "  takt check scenarios/robot-arm.json                 nodes, paths, load of links and queues\n"
+      "  takt check scenarios/robot-arm.json --format json   the resolved scenario, all defaults filled in\n"
+      "Exit status: 0 sound, 2 mistakes (all of them are listed).");
+  command.callback([options, &status] {
+    const auto resolved = load(*options);
+    if (!resolved) {
+      status = ExitStatus::bad_input;
+      return;
+    }
+    const std::string page = options->is_json() ? scenario::json::encode(resolved->scenario) : output::check_report(*resolved);
+    std::fputs(page.c_str(), stdout);
+    status = ExitStatus::pass;
+  });
+}
+
+}  // namespace takt::cli

@@ -1,0 +1,17 @@
+// The sub-commands: each adds itself to the command line and runs when it was chosen.
+#pragma once
+
+#include "cli/exit_status.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace takt::cli {
+
+/// Each adds its sub-command to `app` and sets `status` when it has run.
+void add_run_command(CLI::App& app, ExitStatus& status);
+void add_check_command(CLI::App& app, ExitStatus& status);
+void add_schema_command(CLI::App& app, ExitStatus& status);
+
+}  // namespace takt::cli

@@ -1,0 +1,32 @@
+#include "cli/load.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+namespace takt::cli {
+
+void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
+  command.add_option("SCENARIO", options.file, "The scenario file (JSON, comments allowed)")->required();
+  command.add_option("--seed", options.seed, "Another seed than the scenario's")->type_name("N");
+  command.add_option("--duration", options.duration, "Another duration, such as 100ms or 1h")->type_name("D");
+  command.add_option("--set", options.overrides, "Another value in the scenario: network.links.0.rate=100Mbps (repeatable)")
+      ->type_name("POINTER=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}))->type_name("FORMAT");
+}
+
+std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, bool is_quiet) {
+  std::vector<std::string> overrides = options.overrides;
+  if (options.seed) overrides.push_back("/seed=" + *options.seed);
+  if (options.duration) overrides.push_back("/duration=" + *options.duration);
+  scenario::json::Diagnostics diagnostics;
+  auto resolved = scenario::load_file(options.file, overrides, diagnostics);
+  if (!resolved && options.is_json()) {
+    std::fputs(scenario::json::pretty(diagnostics.to_json()).c_str(), stdout);
+    return nullptr;
+  }
+  if (!resolved || !is_quiet) std::fputs(diagnostics.to_text().c_str(), stderr);
+  return resolved;
+}
+
+}  // namespace takt::cli

@@ -1,0 +1,33 @@
+// What run and check have in common: the scenario and the options that change it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/resolve.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace takt::cli {
+
+struct ScenarioOptions {
+  std::string file;
+  std::optional<std::string> seed;
+  std::optional<std::string> duration;
+  std::vector<std::string> overrides;
+  std::string format = "text";
+  bool is_json() const { return format == "json"; }
+};
+
+/// Adds SCENARIO, --seed, --duration, --set and --format.
+void add_scenario_options(CLI::App& command, ScenarioOptions& options);
+
+/// Loads the scenario. Diagnostics go to standard error as text, or to standard output as JSON with --format json. Null if there
+/// was an error; the exit status is then bad_input.
+std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, bool is_quiet = false);
+
+}  // namespace takt::cli

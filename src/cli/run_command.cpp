@@ -1,0 +1,76 @@
+// takt run: what happens.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/load.hpp"
+#include "cli/progress.hpp"
+#include "output/json_report.hpp"
+#include "output/result_folder.hpp"
+#include "output/text_report.hpp"
+#include "results/evaluate.hpp"
+
+namespace takt::cli {
+namespace {
+
+struct RunOptions {
+  ScenarioOptions scenario;
+  std::string out;
+  bool quiet = false;
+};
+
+/// Simulates in slices, so that the bar moves and Ctrl-C is seen. True if the end was reached.
+bool simulate(scenario::Run& run, bool show_progress) {
+  const InterruptGuard interrupt;
+  Progress progress(show_progress);
+  constexpr std::uint64_t events_a_slice = 200'000;
+  while (!run.advance(events_a_slice)) {
+    if (interrupt.requested()) return false;
+    progress.update(run.simulation().now().since_start(), run.end().since_start(), run.simulation().event_count());
+  }
+  return true;
+}
+
+ExitStatus status_of(const results::RunResult& result) {
+  if (result.verdict == results::Verdict::fail) return ExitStatus::requirement_failed;
+  return result.partial ? ExitStatus::interrupted : ExitStatus::pass;
+}
+
+ExitStatus run(const RunOptions& options) {
+  const auto resolved = load(options.scenario, options.quiet);
+  if (!resolved) return ExitStatus::bad_input;
+  scenario::Run live(*resolved);
+  const bool complete = simulate(live, !options.quiet && !options.scenario.is_json());
+  const results::RunResult result = results::evaluate(live, !complete);
+  if (!options.out.empty()) {
+    if (const std::string problem = output::write_result_folder(options.out, result, scenario::json::encode(resolved->scenario)); !problem.empty()) {
+      std::fprintf(stderr, "takt: cannot write results: %s\n", problem.c_str());
+      return ExitStatus::internal_error;
+    }
+  }
+  const std::string page = options.scenario.is_json() ? output::run_json(result) : options.quiet ? output::run_line(result) : output::run_report(result);
+  std::fputs(page.c_str(), stdout);
+  return status_of(result);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, ExitStatus& status) {
+  CLI::App& command = *app.add_subcommand("run", "Simulate a scenario and judge it");
+  const auto options = std::make_shared<RunOptions>();
+  add_scenario_options(command, options->scenario);
+  command.add_option("--out", options->out, "Write result.json, tables and the resolved scenario into this folder")->type_name("DIR");
+  command.add_flag("--quiet", options->quiet, "Print one line");
+  command.footer(
+      "Examples:\n"
+      "  takt run scenarios/robot-arm.json\n"
+      "  takt run scenarios/robot-arm.json --seed 7 --duration 1min --quiet\n"
+      "  takt run scenarios/robot-arm.json --set programs.0.cycle=1ms --out out/slow\n"
+      "  takt run scenarios/robot-arm.json --format json | jq .programs.trajectory.reactions\n"
+      "Exit status: 0 pass, 1 a requirement failed, 2 bad input, 3 internal error, 130 interrupted.");
+  command.callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace takt::cli

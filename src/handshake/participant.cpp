@@ -1,0 +1,163 @@
+#include "handshake/participant.hpp"
+
+#include <utility>
+
+#include "sim/check.hpp"
+
+namespace takt::handshake {
+
+template <std::size_t MaxPeers>
+Participant<MaxPeers>::Participant(const Config& config) : config_(config) {
+  TAKT_CHECK(config.slaves >= 1, "a group has at least one slave");
+  TAKT_CHECK((config.role == Role::Master) == (config.index == 0), "the master is participant 0, a slave is not");
+  TAKT_CHECK(config.index <= config.slaves, "a participant's index is within its group");
+  TAKT_CHECK(peer_count() <= MaxPeers, "a participant has room for all its peers");
+}
+
+template <std::size_t MaxPeers>
+Outputs Participant<MaxPeers>::step(const Input& input) {
+  const bool robust = config_.variant == Variant::Robust;
+  const Word before = word();
+  Outputs outputs;
+  switch (input.kind) {
+    case Input::Kind::Command:
+      robust ? robust_command(input.method, outputs) : paper_command(input.method, outputs);
+      break;
+    case Input::Kind::Received:
+      TAKT_CHECK(input.peer < peer_count(), "a word comes from a peer");
+      robust ? robust_received(input, outputs) : paper_received(input, outputs);
+      break;
+    case Input::Kind::Initialised:
+      if (!machine_.initialising() || input.run != intent_.run) break;
+      if (is_master()) {
+        initialised_ = true;
+        robust ? robust_barrier(outputs) : paper_barrier(outputs);
+      } else {
+        run_ = intent_.run;
+        move_to(PublishedState::Ready, outputs);
+      }
+      break;
+    case Input::Kind::Finished:
+      if (machine_.state() != program::State::Running) break;
+      if (robust) {
+        raise(IntentKind::Finish, intent_.number, outputs);
+      } else {
+        outputs.raised = true;
+        outputs.raised_kind = IntentKind::Finish;
+      }
+      move_to(PublishedState::Ready, outputs);
+      break;
+    case Input::Kind::PeerSilent:
+      TAKT_CHECK(input.peer < peer_count(), "only a peer falls silent");
+      if (robust) robust_silent(input.peer, outputs);
+      break;
+  }
+  outputs.publish = word() != before;
+  return outputs;
+}
+
+template <std::size_t MaxPeers>
+Word Participant<MaxPeers>::word() const {
+  if (config_.variant == Variant::Paper) return Word{0, state(), Intent{}, 0};
+  return Word{config_.incarnation, state(), intent_, run_};
+}
+
+template <std::size_t MaxPeers>
+bool Participant<MaxPeers>::process_data_counts(std::size_t peer) const {
+  TAKT_CHECK(peer < peer_count(), "process data comes from a peer");
+  return process_data_counts(peer, peers_[peer].run);
+}
+
+template <std::size_t MaxPeers>
+bool Participant<MaxPeers>::process_data_counts(std::size_t peer, std::uint32_t sender_run) const {
+  TAKT_CHECK(peer < peer_count(), "process data comes from a peer");
+  const Peer& sender = peers_[peer];
+  return machine_.state() == program::State::Running && sender.state == PublishedState::Running && sender.run == run_ &&
+         sender_run == run_;
+}
+
+/// Goes to a state by the one transition that leads there. INIT is always entered afresh, from Halted.
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::move_to(PublishedState target, Outputs& outputs) {
+  const PublishedState from = state();
+  if (target == PublishedState::HaltedInit) {
+    if (from != PublishedState::Halted) move_to(PublishedState::Halted, outputs);
+    enter_init(outputs);
+    return;
+  }
+  if (target == from) return;
+  if (target == PublishedState::Halted) run_ = 0;
+  initialised_ = false;
+  if (base_state(from) == base_state(target)) {
+    machine_.leave_init();
+    record(0, from, outputs);
+    return;
+  }
+  const program::Transition* transition = program::transition_between(base_state(from), base_state(target));
+  TAKT_CHECK(transition != nullptr, "the rules ask only for moves that one transition makes");
+  machine_.apply(*transition);
+  record(transition->number, from, outputs);
+}
+
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::enter_init(Outputs& outputs) {
+  machine_.enter_init();
+  run_ = 0;
+  record(0, PublishedState::Halted, outputs);
+  outputs.begin_initialisation = true;
+  outputs.initialisation_run = intent_.run;
+  // Whoever has not been heard for long gets a full time-out from the moment at which it begins to matter.
+  if (config_.variant == Variant::Robust) outputs.arm_timeout = all_peers();
+}
+
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::record(std::uint8_t transition, PublishedState from, Outputs& outputs) {
+  outputs.add({transition, from, state()});
+  if (from == PublishedState::Running) outputs.process_stopped = true;
+  if (state() == PublishedState::Running) outputs.process_started = true;
+}
+
+/// Keeps ready_ and running_ true for one peer whose word has changed.
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::sort_peer(std::size_t peer) {
+  const PeerSet bit = PeerSet{1} << peer;
+  const bool counts = peers_[peer].run == intent_.run;  // `paper`: both are always 0
+  ready_ &= ~bit;
+  running_ &= ~bit;
+  if (counts && peers_[peer].state == PublishedState::Ready) ready_ |= bit;
+  if (counts && peers_[peer].state == PublishedState::Running) running_ |= bit;
+}
+
+/// The same for all peers, after intent_ has changed.
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::sort_all_peers() {
+  for (std::size_t peer = 0; peer < peer_count(); ++peer) sort_peer(peer);
+}
+
+template <std::size_t MaxPeers>
+std::uint64_t Participant<MaxPeers>::hash() const {
+  std::uint64_t digest = 0xCBF29CE484222325ULL;
+  const auto mix = [&digest](std::uint64_t value) {
+    digest = (digest ^ value) * 0x9E3779B97F4A7C15ULL;
+    digest ^= digest >> 29;
+  };
+  const auto byte = [](auto value) { return static_cast<std::uint64_t>(static_cast<std::uint8_t>(value)); };
+  mix(byte(config_.variant) | byte(config_.role) << 8 | byte(config_.index) << 16 | byte(config_.slaves) << 24 |
+      std::uint64_t{config_.incarnation} << 32);
+  mix(byte(state()) | byte(machine_.last_transition()) << 8 | byte(initialised_) << 16 | byte(intent_.kind) << 24 |
+      std::uint64_t{intent_.number} << 32);
+  mix(byte(intent_.origin) | std::uint64_t{intent_.run} << 8);
+  mix(run_);
+  // ready_ and running_ follow from the rest.
+  for (std::size_t i = 0; i < peer_count(); ++i) {
+    const Peer& peer = peers_[i];
+    mix(std::uint64_t{peer.incarnation} | std::uint64_t{peer.run} << 32);
+    mix(peer.sequence | byte(peer.state) << 16 | byte(peer.heard) << 24 | byte(peer.sequence_known) << 32);
+  }
+  return digest;
+}
+
+template class Participant<4>;
+template class Participant<64>;
+
+}  // namespace takt::handshake

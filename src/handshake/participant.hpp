@@ -1,0 +1,120 @@
+// One participant of a distributed Program: step(input) -> outputs. Reads no clock, opens no socket, allocates nothing.
+//
+// Two variants of the handshake: `paper` (Fig. 3 to 6 of the paper, state only) and `robust` (agreement on intents). Their
+// rules are in README.md, their code in paper.cpp and robust.cpp. The value can be copied, compared and hashed, so the
+// simulator, the explorer and a real node host the same type.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "handshake/io.hpp"
+#include "handshake/word.hpp"
+#include "program/machine.hpp"
+
+namespace takt::handshake {
+
+enum class Variant : std::uint8_t { Paper, Robust };
+enum class Role : std::uint8_t { Master, Slave };
+
+struct Config {
+  Variant variant = Variant::Robust;
+  Role role = Role::Master;
+  std::uint8_t index = 0;         ///< among the participants: 0 the master, 1..slaves
+  std::uint8_t slaves = 1;        ///< of the group, at least 1
+  std::uint32_t incarnation = 0;  ///< another one after each restart; `paper` does not publish it
+  constexpr bool operator==(const Config&) const = default;
+};
+
+/// MaxPeers bounds the peers, whose words it listens to: in a star all slaves for the master, the master for a slave.
+template <std::size_t MaxPeers>
+class Participant {
+  static_assert(MaxPeers >= 1 && MaxPeers <= 64, "a PeerSet has 64 bits");
+
+ public:
+  /// A participant that has just been switched on (or restarted): Halted, knows no intent, has heard nobody.
+  explicit Participant(const Config& config);
+
+  Outputs step(const Input& input);
+
+  const Config& config() const { return config_; }
+  PublishedState state() const { return published_state(machine_); }
+  const program::Machine& machine() const { return machine_; }
+  /// The run in which it is or was Ready; 0 if none, and always 0 in `paper`.
+  std::uint32_t run() const { return run_; }
+  const Intent& intent() const { return intent_; }
+  /// What it publishes now.
+  Word word() const;
+
+  std::size_t peer_count() const { return is_master() ? config_.slaves : 1; }
+  /// The participant that a peer index stands for, and back. Only here does the star show.
+  std::size_t participant_of(std::size_t peer) const { return is_master() ? peer + 1 : 0; }
+  std::size_t peer_of(std::size_t participant) const { return is_master() ? participant - 1 : 0; }
+
+  /// S3: process data of this peer may reach the application now, as far as is known here: both are Running, and in
+  /// `robust` in the same run. Ask after the step with the word that came in the same message, and not if it was ignored.
+  bool process_data_counts(std::size_t peer) const;
+  /// The same for process data that carries the run of its sender by itself (a message without a word). Not for `paper`.
+  bool process_data_counts(std::size_t peer, std::uint32_t sender_run) const;
+
+  bool operator==(const Participant&) const = default;
+  /// Equal values have equal hashes; the same on every machine.
+  std::uint64_t hash() const;
+
+ private:
+  /// What is remembered of the last accepted word of a peer.
+  struct Peer {
+    std::uint32_t incarnation = 0;
+    std::uint32_t run = 0;
+    std::uint16_t sequence = 0;
+    PublishedState state = PublishedState::Halted;
+    bool heard = false;           ///< ever
+    bool sequence_known = false;  ///< false after silence: then any sequence number is the first
+    bool operator==(const Peer&) const = default;
+  };
+  enum class Freshness : std::uint8_t { Stale, Fresh, Restarted };
+
+  bool is_master() const { return config_.role == Role::Master; }
+  PeerSet all_peers() const { return ~PeerSet{0} >> (64 - peer_count()); }
+
+  // participant.cpp: shared by both variants
+  void move_to(PublishedState target, Outputs& outputs);
+  void enter_init(Outputs& outputs);
+  void record(std::uint8_t transition, PublishedState from, Outputs& outputs);
+  void sort_peer(std::size_t peer);
+  void sort_all_peers();
+
+  // robust.cpp
+  void robust_command(program::Method method, Outputs& outputs);
+  void robust_received(const Input& input, Outputs& outputs);
+  void robust_silent(std::size_t peer, Outputs& outputs);
+  bool robust_may_start() const;
+  bool robust_may_suspend() const;
+  Freshness note_word(Peer& peer, const Word& word, std::uint16_t sequence);
+  void raise(IntentKind kind, std::uint32_t above, Outputs& outputs);
+  void raise_alarm(Alarm alarm, std::uint32_t above, Outputs& outputs);
+  void adopt(const Intent& intent, Outputs& outputs);
+  bool counted_without_me(const Word& word) const;
+  void robust_barrier(Outputs& outputs);
+
+  // paper.cpp
+  void paper_command(program::Method method, Outputs& outputs);
+  void paper_received(const Input& input, Outputs& outputs);
+  void paper_barrier(Outputs& outputs);
+
+  Config config_;
+  program::Machine machine_;
+  bool initialised_ = false;  ///< INIT: the local initialisation has ended, the barrier has not
+  std::uint32_t run_ = 0;
+  Intent intent_;
+  PeerSet ready_ = 0;    ///< peers last heard Ready (`robust`: in the run of intent_)
+  PeerSet running_ = 0;  ///< peers last heard Running (`robust`: in the run of intent_)
+  std::array<Peer, MaxPeers> peers_{};
+};
+
+// Participant<4> (small groups, exploration) and Participant<64> are instantiated in the .cpp files.
+static_assert(std::is_trivially_copyable_v<Participant<4>>);
+
+}  // namespace takt::handshake

@@ -1,0 +1,215 @@
+// The rules of the variant `robust`. Each rule is explained in README.md; here they stand in the order of a step.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "handshake/participant.hpp"
+#include "sim/check.hpp"
+
+namespace takt::handshake {
+namespace {
+
+using program::Method;
+using program::StatusCode;
+
+constexpr auto halted = PublishedState::Halted;
+constexpr auto ready = PublishedState::Ready;
+constexpr auto running = PublishedState::Running;
+constexpr auto suspended = PublishedState::Suspended;
+constexpr auto init = PublishedState::HaltedInit;
+constexpr std::optional<PublishedState> mismatch = std::nullopt;
+
+using Row = std::array<std::optional<PublishedState>, published_state_count>;
+
+/// Where a participant goes when it adopts an intent of a kind (row) in a state (column); mismatch: it cannot follow.
+constexpr std::array<Row, intent_kind_count> reactions{{
+    //  Halted     Ready      Running    Suspended  INIT
+    Row{init,      ready,     init,      init,      init},      // Start
+    Row{mismatch,  mismatch,  running,   running,   mismatch},  // Resume
+    Row{mismatch,  mismatch,  suspended, suspended, mismatch},  // Suspend
+    Row{mismatch,  ready,     ready,     ready,     mismatch},  // Finish
+    Row{mismatch,  ready,     ready,     ready,     mismatch},  // Reset
+    Row{halted,    halted,    halted,    halted,    halted},    // Halt
+}};
+
+/// A reaction is one transition, or goes through Halted to INIT, or the state stays.
+constexpr bool reactions_are_sound() {
+  for (std::size_t kind = 0; kind < intent_kind_count; ++kind) {
+    for (std::size_t from = 0; from < published_state_count; ++from) {
+      const std::optional<PublishedState> to = reactions[kind][from];
+      if (!to || *to == init) continue;
+      if (*to != goal_of(static_cast<IntentKind>(kind)) && static_cast<IntentKind>(kind) != IntentKind::Start) return false;
+      const program::State base = base_state(published_state_at(from));
+      if (base != base_state(*to) && !program::transition_exists(base, base_state(*to))) return false;
+    }
+  }
+  return true;
+}
+static_assert(reactions_are_sound(), "each reaction is a move that the machine can make, towards the intent's goal");
+
+constexpr bool belongs_to_a_run(IntentKind kind) { return kind != IntentKind::Start && kind != IntentKind::Halt; }
+
+}  // namespace
+
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::robust_command(Method method, Outputs& outputs) {
+  const PublishedState now = state();
+  bool allowed = false;
+  switch (method) {
+    case Method::Start: allowed = robust_may_start(); break;
+    case Method::Halt: allowed = now != halted; break;
+    case Method::Suspend: allowed = robust_may_suspend(); break;
+    case Method::Resume:
+    case Method::Reset: allowed = now == suspended; break;
+  }
+  if (!allowed) {
+    outputs.status = StatusCode::BadInvalidState;
+    return;
+  }
+  const IntentKind kind = kind_of(method);
+  raise(kind, intent_.number, outputs);
+  // Ready stays Ready on a Start: run_ follows when all slaves are Ready in the new run (robust_barrier).
+  move_to(*reactions[index_of(kind)][index_of(now)], outputs);
+}
+
+template <std::size_t MaxPeers>
+bool Participant<MaxPeers>::robust_may_start() const {
+  if (!is_master()) return false;
+  if (state() == halted) return true;
+  return state() == ready && (intent_.kind == IntentKind::Reset || intent_.kind == IntentKind::Finish);
+}
+
+/// A slave waits until it knows that the barrier is over, so nobody can be caught Ready by a suspend.
+template <std::size_t MaxPeers>
+bool Participant<MaxPeers>::robust_may_suspend() const {
+  if (state() != running) return false;
+  if (is_master()) return true;
+  return peers_[0].run == run_ && (peers_[0].state == running || peers_[0].state == suspended);
+}
+
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::robust_received(const Input& input, Outputs& outputs) {
+  const Word& word = input.word;
+  const Freshness freshness = is_valid(word) ? note_word(peers_[input.peer], word, input.sequence) : Freshness::Stale;
+  if (freshness == Freshness::Stale) {
+    outputs.ignored = true;
+    return;
+  }
+  outputs.arm_timeout = PeerSet{1} << input.peer;
+  sort_peer(input.peer);
+  if (freshness == Freshness::Restarted && state() != halted) {
+    raise_alarm(Alarm::PeerRestarted, word.intent.number, outputs);
+  } else if (counted_without_me(word)) {
+    raise_alarm(Alarm::Mismatch, word.intent.number, outputs);
+  } else if (word.intent > intent_) {
+    adopt(word.intent, outputs);
+  }
+  robust_barrier(outputs);
+}
+
+/// Remembers a word unless it is older than what is known.
+template <std::size_t MaxPeers>
+auto Participant<MaxPeers>::note_word(Peer& peer, const Word& word, std::uint16_t sequence) -> Freshness {
+  Freshness freshness = Freshness::Fresh;
+  if (peer.heard && word.incarnation == peer.incarnation) {
+    const auto ahead = static_cast<std::int16_t>(static_cast<std::uint16_t>(sequence - peer.sequence));
+    if (peer.sequence_known && ahead < 0) return Freshness::Stale;
+  } else if (peer.heard) {
+    // A late word of a former incarnation looks the same. It costs a halt; to tell them apart would take an order of
+    // incarnations, and whoever got that wrong would be ignored for ever.
+    freshness = Freshness::Restarted;
+  }
+  peer.incarnation = word.incarnation;
+  peer.run = word.run;
+  peer.sequence = sequence;
+  peer.state = word.state;
+  peer.heard = true;
+  peer.sequence_known = true;
+  return freshness;
+}
+
+/// The master has taken me into the barrier of a run in which I have never been: I must have lost my memory since.
+template <std::size_t MaxPeers>
+bool Participant<MaxPeers>::counted_without_me(const Word& word) const {
+  return !is_master() && word.intent.kind == IntentKind::Start && word.intent >= intent_ &&
+         word.run == word.intent.run && word.run != run_;
+}
+
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::adopt(const Intent& intent, Outputs& outputs) {
+  TAKT_CHECK(intent > intent_, "intents only grow");
+  const std::optional<PublishedState> target = reactions[index_of(intent.kind)][index_of(state())];
+  const bool another_run = belongs_to_a_run(intent.kind) && intent.run != run_;
+  // Only the master starts, so a start that it does not know is one of its former life.
+  const bool former_start = is_master() && intent.kind == IntentKind::Start;
+  if (!target || another_run || former_start) {
+    raise_alarm(Alarm::Mismatch, intent.number, outputs);
+    return;
+  }
+  intent_ = intent;
+  sort_all_peers();
+  if (intent.kind == IntentKind::Start && state() == ready) run_ = intent.run;
+  move_to(*target, outputs);
+}
+
+/// Makes an intent of this participant that is greater than its own and than `above`.
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::raise(IntentKind kind, std::uint32_t above, Outputs& outputs) {
+  // Saturates: only a hostile word carries such a number, and then halts still win by their kind.
+  const std::uint32_t greatest = std::max(intent_.number, above);
+  const std::uint32_t number = greatest == std::numeric_limits<std::uint32_t>::max() ? greatest : greatest + 1;
+  intent_.number = number;
+  intent_.kind = kind;
+  intent_.origin = config_.index;
+  intent_.run = kind == IntentKind::Start ? run_of(config_.incarnation, number) : kind == IntentKind::Halt ? 0 : run_;
+  sort_all_peers();
+  outputs.raised = true;
+  outputs.raised_kind = kind;
+}
+
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::raise_alarm(Alarm alarm, std::uint32_t above, Outputs& outputs) {
+  raise(IntentKind::Halt, above, outputs);
+  outputs.alarm = alarm;
+  move_to(halted, outputs);
+}
+
+/// Silence halts the group; in Halted it only means that the peer's sequence numbers may begin anywhere.
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::robust_silent(std::size_t peer, Outputs& outputs) {
+  peers_[peer].sequence_known = false;
+  if (state() != halted) raise_alarm(Alarm::PeerSilent, intent_.number, outputs);
+}
+
+/// The start barrier of one run: slaves Ready, master Ready, slaves Running, master Running.
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::robust_barrier(Outputs& outputs) {
+  if (intent_.kind != IntentKind::Start) return;
+  const bool in_run = run_ == intent_.run;
+  if (!is_master()) {
+    const bool master_ready = ((ready_ | running_) & 1U) != 0;
+    if (state() == ready && in_run && master_ready) move_to(running, outputs);
+    return;
+  }
+  const bool may_be_ready = (state() == init && initialised_) || (state() == ready && !in_run);
+  if (may_be_ready && ready_ == all_peers()) {
+    run_ = intent_.run;
+    move_to(ready, outputs);
+  } else if (state() == ready && in_run && running_ == all_peers()) {
+    move_to(running, outputs);
+  }
+}
+
+template void Participant<4>::robust_command(Method, Outputs&);
+template void Participant<4>::robust_received(const Input&, Outputs&);
+template void Participant<4>::robust_silent(std::size_t, Outputs&);
+template void Participant<4>::raise(IntentKind, std::uint32_t, Outputs&);
+template void Participant<4>::robust_barrier(Outputs&);
+template void Participant<64>::robust_command(Method, Outputs&);
+template void Participant<64>::robust_received(const Input&, Outputs&);
+template void Participant<64>::robust_silent(std::size_t, Outputs&);
+template void Participant<64>::raise(IntentKind, std::uint32_t, Outputs&);
+template void Participant<64>::robust_barrier(Outputs&);
+
+}  // namespace takt::handshake

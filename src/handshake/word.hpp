@@ -1,0 +1,74 @@
+// The word: what a participant of a distributed Program publishes about itself.
+//
+// `robust` publishes all of it; `paper` publishes the state as one integer and leaves the rest at its default.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "handshake/intent.hpp"
+#include "program/machine.hpp"
+
+namespace takt::handshake {
+
+/// The state as others see it: the four StateNumbers of OPC UA, and Halted.INIT with the next free number.
+enum class PublishedState : std::uint8_t { Halted = 11, Ready = 12, Running = 13, Suspended = 14, HaltedInit = 15 };
+
+inline constexpr std::size_t published_state_count = 5;
+inline constexpr std::array<std::string_view, published_state_count> published_state_names{
+    "Halted", "Ready", "Running", "Suspended", "Halted.INIT"};
+
+/// Position in tables over all published states, 0 to 4.
+constexpr std::size_t index_of(PublishedState state) {
+  return static_cast<std::size_t>(state) - static_cast<std::size_t>(PublishedState::Halted);
+}
+constexpr PublishedState published_state_at(std::size_t index) {
+  return static_cast<PublishedState>(index + static_cast<std::size_t>(PublishedState::Halted));
+}
+constexpr std::string_view name_of(PublishedState state) { return published_state_names[index_of(state)]; }
+
+/// The published state with this integer; nothing if there is none (a foreign or damaged message).
+constexpr std::optional<PublishedState> published_state_from_number(std::uint32_t number) {
+  if (number < static_cast<std::uint32_t>(PublishedState::Halted)) return std::nullopt;
+  if (number > static_cast<std::uint32_t>(PublishedState::HaltedInit)) return std::nullopt;
+  return static_cast<PublishedState>(number);
+}
+
+/// The state of the base machine: INIT belongs to Halted.
+constexpr program::State base_state(PublishedState state) {
+  return state == PublishedState::HaltedInit ? program::State::Halted
+                                             : static_cast<program::State>(static_cast<std::uint8_t>(state));
+}
+
+constexpr PublishedState published_state(const program::Machine& machine) {
+  return machine.initialising() ? PublishedState::HaltedInit
+                                : static_cast<PublishedState>(program::number_of(machine.state()));
+}
+
+struct Word {
+  std::uint32_t incarnation = 0;                 ///< of the sender; another one after each restart, none used twice
+  PublishedState state = PublishedState::Halted;
+  Intent intent;                                 ///< the greatest that the sender knows
+  std::uint32_t run = 0;                         ///< in which the sender is, or was, Ready; 0 if none
+
+  constexpr bool operator==(const Word&) const = default;
+};
+
+/// False for values that no participant publishes. Such a word is ignored: it is hostile or damaged, not takt's error.
+constexpr bool is_valid(const Word& word) {
+  return published_state_from_number(static_cast<std::uint32_t>(word.state)).has_value() &&
+         index_of(word.intent.kind) < intent_kind_count;
+}
+
+/// The state that an intent names as the goal of the whole group.
+constexpr PublishedState goal_of(IntentKind kind) {
+  constexpr std::array<PublishedState, intent_kind_count> goals{
+      PublishedState::Running, PublishedState::Running, PublishedState::Suspended,
+      PublishedState::Ready,   PublishedState::Ready,   PublishedState::Halted};
+  return goals[index_of(kind)];
+}
+
+}  // namespace takt::handshake

@@ -1,0 +1,49 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "cli/commands.hpp"
+#include "results/version.hpp"
+#include "sim/check.hpp"
+
+namespace {
+
+using takt::cli::ExitStatus;
+
+ExitStatus main_with(int argc, char** argv) {
+  CLI::App app("takt: simulates TSN networks whose nodes run distributed OPC UA Programs");
+  app.set_version_flag("--version", std::string("takt ") + takt::results::version);
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  takt run scenarios/robot-arm.json      simulate and judge a scenario\n"
+      "  takt check scenarios/robot-arm.json    what the scenario resolves to\n"
+      "  takt run --help                        all options of a sub-command");
+  ExitStatus status = ExitStatus::pass;
+  takt::cli::add_run_command(app, status);
+  takt::cli::add_check_command(app, status);
+  takt::cli::add_schema_command(app, status);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and version are "errors" of the library with status 0.
+    return app.exit(error) == 0 ? ExitStatus::pass : ExitStatus::bad_input;
+  }
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return static_cast<int>(main_with(argc, argv));
+  } catch (const takt::sim::InvariantBroken& broken) {
+    std::fprintf(stderr, "takt: internal error, please report it with the scenario:\n%s\n", broken.what());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "takt: out of memory\n");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "takt: internal error: %s\n", error.what());
+  }
+  return static_cast<int>(ExitStatus::internal_error);
+}

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "output/text_report.hpp"
+
+namespace takt::output {
+namespace {
+
+using scenario::Resolved;
+
+constexpr std::size_t most_rows = 40;
+
+std::string path_text(const Resolved& r, const scenario::Path& path) {
+  std::string text;
+  const auto name = [&](std::size_t i) { return r.topology.nodes[path[i]].name; };
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path.size() > 12 && i == 5) {
+      text += fmt::format(" > ... {} more ...", path.size() - 10);
+      i = path.size() - 5;
+    }
+    text += (i == 0 ? "" : " > ") + name(i);
+  }
+  return text;
+}
+
+std::string more(std::size_t all) { return all > most_rows ? fmt::format("  ... {} more\n", all - most_rows) : std::string(); }
+
+}  // namespace
+
+std::string check_report(const Resolved& r) {
+  std::size_t hosts = 0;
+  for (const scenario::TopologyNode& node : r.topology.nodes) hosts += node.is_host() ? 1 : 0;
+  std::string out = fmt::format("{}: {} hosts, {} switches, {} links, {} streams, {} programs, {} requirements, {} to simulate\n", r.scenario.name, hosts,
+                                r.topology.nodes.size() - hosts, r.topology.links.size(), r.plan.streams.size(), r.programs.size(), r.scenario.require.size(),
+                                readable(r.scenario.duration));
+
+  out += "\nNodes\n";
+  for (std::size_t n = 0; n < std::min(most_rows, r.topology.nodes.size()); ++n) {
+    const scenario::TopologyNode& node = r.topology.nodes[n];
+    std::string what;
+    if (const auto* host = std::get_if<scenario::HostNode>(&node.description))
+      what = fmt::format("host, os {}", scenario::spelling(host->os.profile));
+    else
+      what = fmt::format("switch, forwarding delay {}", readable(std::get<scenario::SwitchNode>(node.description).forwarding_delay));
+    std::string neighbours;
+    for (std::size_t i = 0; i < std::min<std::size_t>(6, r.topology.neighbours[n].size()); ++i) {
+      const scenario::Neighbour& neighbour = r.topology.neighbours[n][i];
+      neighbours += fmt::format(" {}:{}", neighbour.port, r.topology.nodes[neighbour.node].name);
+    }
+    if (r.topology.neighbours[n].size() > 6) neighbours += " ...";
+    out += fmt::format("  {:<20} {:<36} ports{}\n", node.name, what, neighbours);
+  }
+  out += more(r.topology.nodes.size());
+
+  if (!r.streams.empty()) out += "\nStreams and their paths\n";
+  for (std::size_t s = 0; s < std::min(most_rows, r.streams.size()); ++s) {
+    const models::StreamPlan& plan = r.plan.streams[r.streams[s].index.value];
+    const std::string tag = plan.priority ? fmt::format("PCP {} VLAN {}", *plan.priority, plan.vlan) : std::string("untagged");
+    out += fmt::format("  {:<32} {:<16} {:>10.1f} frames/s {:>9.3f} Mb/s\n", plan.name, tag, r.streams[s].demand.frames_per_second,
+                       r.streams[s].demand.wire_bits_per_second / 1e6);
+    for (std::size_t p = 0; p < std::min<std::size_t>(4, r.streams[s].paths.size()); ++p) out += "      " + path_text(r, r.streams[s].paths[p]) + "\n";
+    if (r.streams[s].paths.size() > 4) out += fmt::format("      ... {} more receivers\n", r.streams[s].paths.size() - 4);
+  }
+  out += more(r.streams.size());
+
+  if (!r.ports.empty()) out += "\nLoad of links, and of the queues of their ports\n";
+  std::vector<const scenario::PortDemand*> ports;
+  for (const scenario::PortDemand& port : r.ports) ports.push_back(&port);
+  std::stable_sort(ports.begin(), ports.end(), [](const auto* a, const auto* b) { return a->share() > b->share(); });
+  for (std::size_t i = 0; i < std::min(most_rows, ports.size()); ++i) {
+    const scenario::PortDemand& port = *ports[i];
+    std::string queues;
+    for (std::size_t q = port.class_bits_per_second.size(); q-- > 0;)
+      if (port.class_bits_per_second[q] > 0) queues += fmt::format("  class {}: {:.2f} %", q, 100 * port.class_bits_per_second[q] / port.link_bits_per_second);
+    out += fmt::format("  {:<32} {:>7.2f} %  {}\n",
+                       fmt::format("{}:{} to {}", r.topology.nodes[port.node.value].name, port.port, r.topology.nodes[port.peer.value].name), 100 * port.share(), queues);
+  }
+  out += more(ports.size());
+  return out;
+}
+
+}  // namespace takt::output

@@ -1,0 +1,17 @@
+// The folder that --out names: each file is written whole or not at all.
+#pragma once
+
+#include <string>
+
+#include "results/run_result.hpp"
+
+namespace takt::output {
+
+/// Writes result.json, scenario.json (the resolved copy), streams.csv, reactions.csv, ports.csv and histograms.csv into the
+/// folder, which is made if it is not there. Returns an empty text, or what went wrong and where.
+std::string write_result_folder(const std::string& folder, const results::RunResult& result, const std::string& resolved_scenario);
+
+/// Writes one file whole: to a temporary name beside it, then renamed. Returns an empty text, or what went wrong.
+std::string write_file(const std::string& path, const std::string& content);
+
+}  // namespace takt::output

@@ -1,0 +1,53 @@
+// The OPC UA StatusCodes (OPC 10000-4, 7.39) that the call of a Program method can return.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace takt::program {
+
+enum class StatusCode : std::uint32_t {
+  Good = 0x00000000,
+  BadResourceUnavailable = 0x80040000,
+  BadShutdown = 0x800C0000,
+  BadUserAccessDenied = 0x801F0000,
+  BadNodeIdUnknown = 0x80340000,
+  BadMethodInvalid = 0x80750000,
+  BadArgumentsMissing = 0x80760000,
+  BadInvalidArgument = 0x80AB0000,
+  BadInvalidState = 0x80AF0000,  ///< the method is not allowed in the present state; nothing has changed
+  BadTooManyArguments = 0x80E50000,
+  BadNotExecutable = 0x81110000,
+};
+
+struct StatusInfo {
+  StatusCode code;
+  std::string_view name;  ///< as in the standard's StatusCode.csv, "Bad_" written apart
+};
+
+inline constexpr std::array<StatusInfo, 11> status_codes{{
+    {StatusCode::Good, "Good"},
+    {StatusCode::BadResourceUnavailable, "Bad_ResourceUnavailable"},
+    {StatusCode::BadShutdown, "Bad_Shutdown"},
+    {StatusCode::BadUserAccessDenied, "Bad_UserAccessDenied"},
+    {StatusCode::BadNodeIdUnknown, "Bad_NodeIdUnknown"},
+    {StatusCode::BadMethodInvalid, "Bad_MethodInvalid"},
+    {StatusCode::BadArgumentsMissing, "Bad_ArgumentsMissing"},
+    {StatusCode::BadInvalidArgument, "Bad_InvalidArgument"},
+    {StatusCode::BadInvalidState, "Bad_InvalidState"},
+    {StatusCode::BadTooManyArguments, "Bad_TooManyArguments"},
+    {StatusCode::BadNotExecutable, "Bad_NotExecutable"},
+}};
+
+/// OPC 10000-4, 7.39: the two highest bits are the severity; 00 is good.
+constexpr bool is_good(StatusCode code) { return (static_cast<std::uint32_t>(code) >> 30) == 0; }
+
+/// The standard's name; "(unknown)" for a code that is not in the table.
+constexpr std::string_view name_of(StatusCode code) {
+  for (const StatusInfo& each : status_codes)
+    if (each.code == code) return each.name;
+  return "(unknown)";
+}
+
+}  // namespace takt::program

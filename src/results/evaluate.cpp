@@ -1,0 +1,241 @@
+#include "results/evaluate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "results/version.hpp"
+
+namespace takt::results {
+namespace {
+
+using scenario::ResolvedProgram;
+
+std::string kind_name(handshake::IntentKind kind) { return std::string(handshake::name_of(kind)); }
+
+std::string cause_name(handshake::Alarm alarm) {
+  switch (alarm) {
+    case handshake::Alarm::None: return "command";
+    case handshake::Alarm::PeerSilent: return "silent peer";
+    case handshake::Alarm::PeerRestarted: return "restarted peer";
+    case handshake::Alarm::Mismatch: return "mismatch";
+  }
+  return "?";
+}
+
+LatencySummary summary_of(const sim::Histogram& histogram) {
+  return {histogram.minimum(),         histogram.mean(),    histogram.percentile(50, 100),
+          histogram.percentile(99, 100), histogram.maximum(), histogram.standard_deviation()};
+}
+
+StreamResult result_of(const models::Stream& stream, bool of_program) {
+  StreamResult result;
+  result.name = stream.name;
+  result.of_program = of_program;
+  result.listeners = stream.listeners;
+  result.sent = stream.sent;
+  result.copies = stream.copies;
+  result.delivered = stream.delivered;
+  result.in_flight = stream.in_flight();
+  for (std::size_t reason = 0; reason < stream.dropped.size(); ++reason)
+    if (stream.dropped[reason] > 0) result.dropped.emplace_back(models::name_of(static_cast<models::DropReason>(reason)), stream.dropped[reason]);
+  if (!stream.latency.empty()) {
+    result.latency = summary_of(stream.latency);
+    stream.latency.for_each_bucket([&](Duration from, Duration to, std::uint64_t n) { result.histogram.push_back({from, to, n}); });
+  }
+  return result;
+}
+
+ProgramResult result_of(const scenario::Run& run, std::size_t index) {
+  const ResolvedProgram& program = run.resolved().programs[index];
+  const scenario::ProgramMonitor& monitor = run.monitor(index);
+  ProgramResult result;
+  result.name = program.name;
+  result.variant = std::string(scenario::spelling(program.description->variant));
+  result.cycle = program.description->cycle;
+  for (std::size_t p = 0; p < program.participants.size(); ++p) {
+    result.participants.push_back(run.resolved().topology.nodes[program.participants[p].value].name);
+    result.states.emplace_back(handshake::name_of(run.state(index, p)));
+  }
+  for (const handshake::Reaction& reaction : monitor.reactions()) {
+    ReactionResult one;
+    one.kind = kind_name(reaction.kind);
+    one.initiator = result.participants[reaction.initiator];
+    one.cause = cause_name(reaction.alarm);
+    one.began = reaction.began;
+    if (reaction.outcome == handshake::ReactionOutcome::Completed) one.completed = reaction.completed;
+    one.superseded = reaction.outcome == handshake::ReactionOutcome::Superseded;
+    result.reactions.push_back(std::move(one));
+  }
+  for (const scenario::ViolationRecord& violation : monitor.violations())
+    result.violations.push_back({violation.time, std::string(handshake::name_of(violation.violation.invariant)),
+                                 result.participants[violation.violation.participant], std::string(handshake::text_of(violation.violation.finding))});
+  result.violations_allowed = program.description->violations == scenario::Violations::reported;
+  for (const scenario::StateRecord& record : monitor.history())
+    result.timeline.push_back({record.time, record.participant, "", std::string(handshake::name_of(record.change.to))});
+  for (const scenario::CallRecord& call : monitor.calls()) {
+    std::string text = std::string(program::name_of(call.method));
+    if (call.status != program::StatusCode::Good) text += " refused: " + std::string(program::name_of(call.status));
+    result.timeline.push_back({call.time, call.participant, std::move(text), ""});
+  }
+  // A call stands before the changes that it causes in the same instant.
+  std::stable_sort(result.timeline.begin(), result.timeline.end(), [](const TimelineEntry& a, const TimelineEntry& b) {
+    return a.at != b.at ? a.at < b.at : !a.call.empty() && b.call.empty();
+  });
+  result.changes = monitor.changes();
+  result.process_data_received = monitor.process_data_received();
+  return result;
+}
+
+std::vector<PortResult> ports_of(const scenario::Run& run, Duration simulated) {
+  std::vector<PortResult> results;
+  const models::NetworkPlan& plan = run.resolved().plan;
+  for (const models::LinkPlan& link : plan.links) {
+    const auto add = [&](const models::LinkPlan::End& from, const models::LinkPlan::End& to) {
+      const models::EgressPort& port = run.network().ports(from.node)[from.port];
+      if (port.frames_sent() == 0 && port.frames_dropped() == 0) return;
+      const double busy = static_cast<double>(port.wire_octets_sent()) * static_cast<double>(link.rate.octet_time().ps());
+      results.push_back({plan.nodes[from.node.value].name, from.port, plan.nodes[to.node.value].name, port.frames_sent(), port.frames_dropped(),
+                         port.queues().peak_frames(), simulated > Duration() ? busy / static_cast<double>(simulated.ps()) : 0});
+    };
+    add(link.a, link.b);
+    add(link.b, link.a);
+  }
+  return results;
+}
+
+/// Judges requirements against the result so far.
+class Judge {
+ public:
+  explicit Judge(RunResult& result) : result_(result) {}
+
+  void reaction(const scenario::Requirement& requirement) {
+    RequirementResult verdict;
+    const std::string kind(scenario::spelling(*requirement.reaction));
+    verdict.text = "reaction " + kind + (requirement.program ? " of " + *requirement.program : "") + " within " + json_text(*requirement.within);
+    verdict.limit = *requirement.within;
+    std::size_t seen = 0;
+    std::size_t incomplete = 0;
+    for (const ProgramResult& program : result_.programs) {
+      if (requirement.program && program.name != *requirement.program) continue;
+      for (const ReactionResult& one : program.reactions) {
+        if (one.kind != kind || one.superseded) continue;
+        ++seen;
+        if (!one.completed)
+          ++incomplete;
+        else
+          verdict.measured = std::max(verdict.measured.value_or(Duration()), *one.duration());
+      }
+    }
+    verdict.remark = fmt::format("{} reaction{}", seen, seen == 1 ? "" : "s");
+    if (verdict.measured && *verdict.measured > *verdict.limit) {
+      verdict.verdict = Verdict::fail;
+    } else if (seen == 0) {
+      verdict.remark = "no such reaction";
+      verdict.verdict = missing();
+    } else if (incomplete > 0) {
+      verdict.remark = fmt::format("{} of {} not complete at the end", incomplete, seen);
+      verdict.verdict = missing();
+    } else {
+      verdict.verdict = held();
+    }
+    add(std::move(verdict));
+  }
+
+  void stream(const scenario::Requirement& requirement) {
+    const auto found = std::find_if(result_.streams.begin(), result_.streams.end(), [&](const StreamResult& s) { return s.name == *requirement.stream; });
+    const StreamResult& stream = *found;
+    if (requirement.latency) duration_of(stream, "latency", *requirement.latency, stream.latency ? std::optional(stream.latency->max) : std::nullopt);
+    if (requirement.jitter)
+      duration_of(stream, "jitter", *requirement.jitter, stream.latency ? std::optional(stream.latency->max - stream.latency->min) : std::nullopt);
+    if (requirement.dropped) {
+      const std::uint64_t dropped = stream.dropped_in_all();
+      add({fmt::format("stream {} drops at most {}", stream.name, *requirement.dropped), dropped <= *requirement.dropped ? held() : Verdict::fail, {}, {},
+           fmt::format("{} dropped", dropped)});
+    }
+    if (requirement.delivered)
+      add({fmt::format("stream {} delivers at least {}", stream.name, *requirement.delivered),
+           stream.delivered >= *requirement.delivered ? Verdict::pass : missing(), {}, {}, fmt::format("{} delivered", stream.delivered)});
+  }
+
+  /// Every Program keeps its invariants, whether or not a requirement says so.
+  void invariants(const ProgramResult& program) {
+    RequirementResult verdict;
+    verdict.text = "program " + program.name + " keeps S1 to S5";
+    if (program.violations_allowed) verdict.text += " (reported only)";
+    verdict.remark = fmt::format("{} violation{}", program.violations.size(), program.violations.size() == 1 ? "" : "s");
+    verdict.verdict = program.violations.empty() ? held() : program.violations_allowed ? Verdict::pass : Verdict::fail;
+    add(std::move(verdict));
+  }
+
+ private:
+  static std::string json_text(Duration d) { return scenario::json::to_text(d); }
+  Verdict held() const { return result_.partial ? Verdict::undecided : Verdict::pass; }
+  Verdict missing() const { return result_.partial ? Verdict::undecided : Verdict::fail; }
+
+  void duration_of(const StreamResult& stream, const char* what, Duration limit, std::optional<Duration> measured) {
+    RequirementResult verdict;
+    verdict.text = fmt::format("stream {} {} at most {}", stream.name, what, json_text(limit));
+    verdict.limit = limit;
+    verdict.measured = measured;
+    if (!measured) {
+      verdict.remark = "nothing delivered";
+      verdict.verdict = missing();
+    } else {
+      verdict.remark = fmt::format("{} frames", stream.delivered);
+      verdict.verdict = *measured <= limit ? held() : Verdict::fail;
+    }
+    add(std::move(verdict));
+  }
+
+  void add(RequirementResult verdict) {
+    if (verdict.verdict == Verdict::fail)
+      result_.verdict = Verdict::fail;
+    else if (verdict.verdict == Verdict::undecided && result_.verdict == Verdict::pass)
+      result_.verdict = Verdict::undecided;
+    result_.requirements.push_back(std::move(verdict));
+  }
+
+  RunResult& result_;
+};
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::pass: return "pass";
+    case Verdict::fail: return "fail";
+    case Verdict::undecided: return "undecided";
+  }
+  return "?";
+}
+
+RunResult evaluate(const scenario::Run& run, bool partial) {
+  const scenario::Scenario& scenario = run.resolved().scenario;
+  RunResult result;
+  result.version = version;
+  result.scenario = scenario.name;
+  result.seed = scenario.seed;
+  result.simulated = run.simulation().now().since_start();
+  result.wanted = scenario.duration;
+  result.partial = partial;
+  result.digest = run.simulation().digest().value();
+  result.events = run.simulation().event_count();
+  result.verdict = partial ? Verdict::undecided : Verdict::pass;
+  for (std::size_t s = 0; s < run.network().traffic().streams().size(); ++s)
+    result.streams.push_back(result_of(run.network().traffic().streams()[s], run.resolved().streams[s].of_program));
+  for (std::size_t p = 0; p < run.resolved().programs.size(); ++p) result.programs.push_back(result_of(run, p));
+  result.ports = ports_of(run, result.simulated);
+
+  Judge judge(result);
+  for (const scenario::Requirement& requirement : scenario.require) {
+    if (requirement.reaction)
+      judge.reaction(requirement);
+    else
+      judge.stream(requirement);
+  }
+  for (const ProgramResult& program : result.programs) judge.invariants(program);
+  return result;
+}
+
+}  // namespace takt::results

@@ -1,0 +1,12 @@
+// From a run to its result: figures, requirements, verdict.
+#pragma once
+
+#include "results/run_result.hpp"
+#include "scenario/run.hpp"
+
+namespace takt::results {
+
+/// `partial`: the run was interrupted; what has not failed is then undecided.
+RunResult evaluate(const scenario::Run& run, bool partial);
+
+}  // namespace takt::results

@@ -1,0 +1,130 @@
+// What a run leaves behind: plain data, made once at the end, from which all reports are written.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/time.hpp"
+
+namespace takt::results {
+
+using sim::Duration;
+using sim::TrueTime;
+
+enum class Verdict : std::uint8_t {
+  pass,
+  fail,
+  undecided,  ///< the run was interrupted before it could fail
+};
+const char* name_of(Verdict verdict);
+
+struct LatencySummary {
+  Duration min;
+  Duration mean;
+  Duration p50;
+  Duration p99;
+  Duration max;
+  Duration stddev;
+};
+
+struct HistogramBucket {
+  Duration from;
+  Duration to;   ///< included
+  std::uint64_t count = 0;
+};
+
+struct StreamResult {
+  std::string name;
+  bool of_program = false;
+  std::uint32_t listeners = 1;
+  std::uint64_t sent = 0;
+  std::uint64_t copies = 0;                ///< made by bridges for several listeners
+  std::uint64_t delivered = 0;
+  std::uint64_t in_flight = 0;
+  std::vector<std::pair<std::string, std::uint64_t>> dropped;  ///< by reason, only those that occurred
+  std::optional<LatencySummary> latency;   ///< none if nothing was delivered
+  std::vector<HistogramBucket> histogram;
+  std::uint64_t dropped_in_all() const {
+    std::uint64_t sum = 0;
+    for (const auto& [reason, count] : dropped) sum += count;
+    return sum;
+  }
+};
+
+struct ReactionResult {
+  std::string kind;
+  std::string initiator;
+  std::string cause;                       ///< "command", or why it began by itself
+  TrueTime began;
+  std::optional<TrueTime> completed;
+  bool superseded = false;                 ///< something else was asked for before it was complete
+  std::optional<Duration> duration() const { return completed ? std::optional(*completed - began) : std::nullopt; }
+};
+
+struct ViolationResult {
+  TrueTime at;
+  std::string invariant;
+  std::string participant;
+  std::string text;
+};
+
+/// A row of the time line: a call, or a change of state.
+struct TimelineEntry {
+  TrueTime at;
+  std::uint8_t participant = 0;
+  std::string call;                        ///< method and status, or empty
+  std::string state;                       ///< the new state, or empty
+};
+
+struct ProgramResult {
+  std::string name;
+  std::string variant;
+  Duration cycle;
+  std::vector<std::string> participants;   ///< node names, the master first
+  std::vector<std::string> states;         ///< at the end
+  std::vector<ReactionResult> reactions;
+  std::vector<ViolationResult> violations;
+  bool violations_allowed = false;
+  std::vector<TimelineEntry> timeline;
+  std::uint64_t changes = 0;               ///< of state, in all; the time line keeps the first ones
+  std::uint64_t process_data_received = 0;
+};
+
+struct RequirementResult {
+  std::string text;
+  Verdict verdict = Verdict::pass;
+  std::optional<Duration> measured;
+  std::optional<Duration> limit;
+  std::string remark;                      ///< what was counted, or why it failed without a figure
+};
+
+struct PortResult {
+  std::string node;
+  std::uint16_t port = 0;
+  std::string peer;
+  std::uint64_t frames = 0;
+  std::uint64_t dropped = 0;
+  std::uint32_t queue_peak = 0;            ///< most frames in one queue
+  double utilisation = 0;                  ///< share of the simulated time that the medium was taken
+};
+
+struct RunResult {
+  std::string version;
+  std::string scenario;
+  std::uint64_t seed = 0;
+  Duration simulated;
+  Duration wanted;
+  bool partial = false;
+  std::uint64_t digest = 0;
+  std::uint64_t events = 0;
+  Verdict verdict = Verdict::pass;
+  std::vector<RequirementResult> requirements;
+  std::vector<StreamResult> streams;
+  std::vector<ProgramResult> programs;
+  std::vector<PortResult> ports;           ///< those that sent or dropped something
+};
+
+}  // namespace takt::results

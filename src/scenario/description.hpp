@@ -1,0 +1,301 @@
+// A scenario as its file says it: plain structs, one for each JSON object. The tables that read, write and document them
+// stand in description_tables.cpp; what they mean together is checked by resolve.hpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scenario/json/fields.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+
+namespace takt::scenario {
+
+using sim::DataRate;
+using sim::Duration;
+using sim::Length;
+using sim::Octets;
+using namespace sim::literals;  // NOLINT: units in default values
+
+/// A time that passes in a host: fixed, or drawn from a distribution.
+struct Latency {
+  struct Uniform { Duration from; Duration to; bool operator==(const Uniform&) const = default; };
+  struct Normal { Duration mean; Duration deviation; bool operator==(const Normal&) const = default; };
+  struct Exponential { Duration mean; bool operator==(const Exponential&) const = default; };
+  struct Weibull { Duration scale; double shape = 1; bool operator==(const Weibull&) const = default; };
+  struct LogNormal { Duration median; double sigma = 1; bool operator==(const LogNormal&) const = default; };
+  struct Point { Duration value; std::uint32_t weight = 1; bool operator==(const Point&) const = default; };
+
+  json::Source where;
+  std::optional<Duration> fixed;
+  std::optional<Uniform> uniform;
+  std::optional<Normal> normal;
+  std::optional<Exponential> exponential;
+  std::optional<Weibull> weibull;
+  std::optional<LogNormal> log_normal;
+  std::optional<std::vector<Point>> table;
+  Duration min;
+  std::optional<Duration> max;
+  bool operator==(const Latency&) const = default;
+};
+
+enum class OsProfile : std::uint8_t { none, preempt_rt, preempt_rt_isolated, preempt_rt_arm, general_purpose, virtual_machine, virtual_machine_rt };
+
+/// The operating system of a host: a profile, single delays of which may be replaced.
+struct OperatingSystem {
+  json::Source where;
+  OsProfile profile = OsProfile::none;
+  std::optional<Latency> transmit;
+  std::optional<Latency> receive;
+  std::optional<Latency> wake_up;
+  bool operator==(const OperatingSystem&) const = default;
+};
+
+enum class TrafficClasses : std::uint8_t { standard, identity };
+
+/// What the eight queues of a port may hold.
+struct Queues {
+  json::Source where;
+  std::optional<std::uint32_t> frames;
+  std::optional<Octets> octets;
+  /// Other limits for single classes.
+  struct PerClass {
+    json::Source where;
+    std::uint8_t traffic_class = 0;
+    std::optional<std::uint32_t> frames;
+    std::optional<Octets> octets;
+    bool operator==(const PerClass&) const = default;
+  };
+  std::vector<PerClass> classes;
+  bool operator==(const Queues&) const = default;
+};
+
+struct HostNode {
+  json::Source where;
+  OperatingSystem os;
+  TrafficClasses traffic_classes = TrafficClasses::standard;
+  Queues queues;
+  bool operator==(const HostNode&) const = default;
+};
+
+struct SwitchNode {
+  json::Source where;
+  Duration forwarding_delay;
+  TrafficClasses traffic_classes = TrafficClasses::standard;
+  Queues queues;
+  bool operator==(const SwitchNode&) const = default;
+};
+
+using Node = std::variant<HostNode, SwitchNode>;
+
+struct Link {
+  json::Source where;
+  std::vector<std::string> ends;  ///< "node" (its next free port) or "node:port"
+  DataRate rate{1'000'000'000};
+  std::optional<Length> length;
+  std::optional<Duration> delay;
+  bool operator==(const Link&) const = default;
+};
+
+enum class Shape : std::uint8_t { line, ring, star, tree, mesh };
+
+/// A topology in one line.
+struct Generator {
+  json::Source where;
+  Shape shape = Shape::line;
+  std::optional<std::uint64_t> switches;
+  std::optional<std::uint64_t> depth;
+  std::optional<std::uint64_t> fanout;
+  std::optional<std::uint64_t> rows;
+  std::optional<std::uint64_t> columns;
+  std::uint64_t hosts_per_switch = 1;
+  std::string switch_prefix = "sw";
+  std::string host_prefix = "h";
+  DataRate rate{1'000'000'000};
+  std::optional<DataRate> host_rate;
+  Length length{10'000};
+  Duration forwarding_delay;
+  OperatingSystem os;
+  Queues queues;
+  TrafficClasses traffic_classes = TrafficClasses::standard;
+  bool operator==(const Generator&) const = default;
+};
+
+struct NetworkSection {
+  json::Source where;
+  json::NameMap<Node> nodes;
+  std::vector<Link> links;
+  std::vector<Generator> generate;
+  bool operator==(const NetworkSection&) const = default;
+};
+
+enum class Encapsulation : std::uint8_t { udp, ethernet };
+
+struct ExponentialGaps {
+  Duration mean;
+  bool operator==(const ExponentialGaps&) const = default;
+};
+struct Bursts {
+  std::uint32_t frames = 1;
+  Duration every;
+  Duration spacing;
+  bool operator==(const Bursts&) const = default;
+};
+
+/// One name or several.
+struct Names {
+  std::vector<std::string> names;
+  bool operator==(const Names&) const = default;
+};
+
+struct Stream {
+  json::Source where;
+  std::string name;
+  std::string from;
+  Names to;
+  Octets payload{0};
+  Encapsulation encapsulation = Encapsulation::udp;
+  std::optional<std::uint8_t> pcp;
+  std::uint16_t vlan = 0;
+  std::optional<Duration> every;
+  std::optional<ExponentialGaps> exponential;
+  std::optional<Bursts> burst;
+  std::optional<std::string> trace;
+  Duration offset;
+  Duration jitter;
+  std::optional<std::vector<std::string>> path;
+  bool operator==(const Stream&) const = default;
+};
+
+enum class Variant : std::uint8_t { robust, paper };
+enum class Publish : std::uint8_t { cyclic, on_change };
+enum class Violations : std::uint8_t { forbidden, reported };
+enum class DataType : std::uint8_t { boolean, sbyte, byte, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
+
+struct DataField {
+  DataType type = DataType::float64;
+  std::uint16_t count = 1;
+  bool operator==(const DataField&) const = default;
+};
+
+struct ProcessData {
+  json::Source where;
+  std::string name;
+  std::string from;
+  json::NameMap<DataField> fields;
+  bool operator==(const ProcessData&) const = default;
+};
+
+struct Program {
+  json::Source where;
+  std::string name;
+  Variant variant = Variant::robust;
+  std::string master;
+  std::vector<std::string> slaves;
+  Duration cycle;
+  Duration offset;
+  Publish publish = Publish::cyclic;
+  std::optional<Duration> receive_timeout;
+  Duration initialisation = 1_ms;
+  std::uint8_t pcp = 6;
+  std::uint16_t vlan = 0;
+  Violations violations = Violations::forbidden;
+  std::vector<ProcessData> process_data;
+  bool operator==(const Program&) const = default;
+};
+
+enum class Method : std::uint8_t { start, suspend, resume, halt, reset };
+
+struct ScriptEntry {
+  json::Source where;
+  Duration at;
+  std::string program;
+  Method call = Method::start;
+  std::optional<std::string> on;
+  bool operator==(const ScriptEntry&) const = default;
+};
+
+enum class Reaction : std::uint8_t { start, halt, suspend, resume, reset };
+
+struct Requirement {
+  json::Source where;
+  std::optional<Reaction> reaction;
+  std::optional<std::string> program;
+  std::optional<Duration> within;
+  std::optional<std::string> stream;
+  std::optional<Duration> latency;
+  std::optional<Duration> jitter;
+  std::optional<std::uint64_t> dropped;
+  std::optional<std::uint64_t> delivered;
+  bool operator==(const Requirement&) const = default;
+};
+
+enum class ClockModel : std::uint8_t { ideal };
+
+struct Scenario {
+  json::Source where;
+  std::optional<std::string> schema;  ///< "$schema", for editors
+  std::string name;
+  std::optional<std::string> description;
+  std::uint64_t seed = 1;
+  Duration duration;
+  NetworkSection network;
+  ClockModel clocks = ClockModel::ideal;
+  std::vector<Program> programs;
+  std::vector<Stream> streams;
+  std::vector<ScriptEntry> script;
+  std::vector<Requirement> require;
+  bool allow_overload = false;
+  bool operator==(const Scenario&) const = default;
+};
+
+const json::Object& describe(json::Type<Latency>);
+const json::Object& describe(json::Type<Latency::Uniform>);
+const json::Object& describe(json::Type<Latency::Normal>);
+const json::Object& describe(json::Type<Latency::Exponential>);
+const json::Object& describe(json::Type<Latency::Weibull>);
+const json::Object& describe(json::Type<Latency::LogNormal>);
+const json::Object& describe(json::Type<Latency::Point>);
+const json::Enumeration& describe(json::Type<OsProfile>);
+const json::Object& describe(json::Type<OperatingSystem>);
+const json::Enumeration& describe(json::Type<TrafficClasses>);
+const json::Object& describe(json::Type<Queues>);
+const json::Object& describe(json::Type<Queues::PerClass>);
+const json::Object& describe(json::Type<HostNode>);
+const json::Object& describe(json::Type<SwitchNode>);
+const json::Tagged& describe(json::Type<Node>);
+const json::Object& describe(json::Type<Link>);
+const json::Enumeration& describe(json::Type<Shape>);
+const json::Object& describe(json::Type<Generator>);
+const json::Object& describe(json::Type<NetworkSection>);
+const json::Enumeration& describe(json::Type<Encapsulation>);
+const json::Object& describe(json::Type<ExponentialGaps>);
+const json::Object& describe(json::Type<Bursts>);
+const json::Custom& describe(json::Type<Names>);
+const json::Object& describe(json::Type<Stream>);
+const json::Enumeration& describe(json::Type<Variant>);
+const json::Enumeration& describe(json::Type<Publish>);
+const json::Enumeration& describe(json::Type<Violations>);
+const json::Enumeration& describe(json::Type<DataType>);
+const json::Object& describe(json::Type<DataField>);
+const json::Object& describe(json::Type<ProcessData>);
+const json::Object& describe(json::Type<Program>);
+const json::Enumeration& describe(json::Type<Method>);
+const json::Object& describe(json::Type<ScriptEntry>);
+const json::Enumeration& describe(json::Type<Reaction>);
+const json::Object& describe(json::Type<Requirement>);
+const json::Enumeration& describe(json::Type<ClockModel>);
+const json::Object& describe(json::Type<Scenario>);
+
+/// The name of an enum's value as the file spells it.
+template <class E>
+std::string_view spelling(E value) {
+  for (const json::EnumName& name : describe(json::Type<E>{}).names)
+    if (name.value == static_cast<std::int64_t>(value)) return name.name;
+  return "?";
+}
+
+}  // namespace takt::scenario

@@ -1,0 +1,478 @@
+// The vocabulary of scenario files: for each struct of description.hpp the table of its fields. Decoding, the resolved copy
+// and the JSON Schema are all made from these tables.
+#include "scenario/description.hpp"
+
+namespace takt::scenario {
+namespace {
+
+using json::name;
+using json::optional;
+using json::required;
+
+constexpr Duration longest = Duration::from_ps(8'640'000'000'000'000'000);  // 100 days; the clock ends at 106
+constexpr std::size_t most_names = 100'000;
+
+}  // namespace
+
+const json::Object& describe(json::Type<Latency::Uniform>) {
+  static constexpr json::Field fields[] = {
+      required<&Latency::Uniform::from>("from", "The least value.", {.max = longest}),
+      required<&Latency::Uniform::to>("to", "The greatest value.", {.max = longest}),
+  };
+  static constexpr json::Object table = json::object<Latency::Uniform>("uniform", "All values of an interval are equally likely.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Latency::Normal>) {
+  static constexpr json::Field fields[] = {
+      required<&Latency::Normal::mean>("mean", "The mean.", {.max = longest}),
+      required<&Latency::Normal::deviation>("deviation", "The standard deviation.", {.max = longest}),
+  };
+  static constexpr json::Object table = json::object<Latency::Normal>("normal", "A normal distribution, cut at min and max.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Latency::Exponential>) {
+  static constexpr json::Field fields[] = {
+      required<&Latency::Exponential::mean>("mean", "The mean.", {.max = longest}),
+  };
+  static constexpr json::Object table = json::object<Latency::Exponential>("exponential", "An exponential distribution.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Latency::Weibull>) {
+  static constexpr json::Field fields[] = {
+      required<&Latency::Weibull::scale>("scale", "The value that 63.2 % of all values stay below.", {.max = longest}),
+      required<&Latency::Weibull::shape>("shape", "The exponent: below 1 a long tail, above 1 a hump.", {.min = 0.05, .max = 1000.0}),
+  };
+  static constexpr json::Object table = json::object<Latency::Weibull>("weibull", "A Weibull distribution: P(X > x) = exp(-(x/scale)^shape).", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Latency::LogNormal>) {
+  static constexpr json::Field fields[] = {
+      required<&Latency::LogNormal::median>("median", "Half of all values are below it.", {.max = longest}),
+      required<&Latency::LogNormal::sigma>("sigma", "The standard deviation of the logarithm.", {.min = 0.0, .max = 20.0}),
+  };
+  static constexpr json::Object table = json::object<Latency::LogNormal>("log_normal", "A log-normal distribution.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Latency::Point>) {
+  static constexpr json::Field fields[] = {
+      required<&Latency::Point::value>("value", "A value that occurs.", {.max = longest}),
+      optional<&Latency::Point::weight>("weight", "How often it occurs, relative to the others."),
+  };
+  static constexpr json::Object table = json::object<Latency::Point>("table_point", "One row of an empirical table.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Latency>) {
+  static constexpr json::Field fields[] = {
+      optional<&Latency::fixed>("fixed", "Always the same.", {.max = longest}),
+      optional<&Latency::uniform>("uniform", "Uniform over an interval."),
+      optional<&Latency::normal>("normal", "Normal distribution."),
+      optional<&Latency::exponential>("exponential", "Exponential distribution."),
+      optional<&Latency::weibull>("weibull", "Weibull distribution."),
+      optional<&Latency::log_normal>("log_normal", "Log-normal distribution."),
+      optional<&Latency::table>("table", "Measured values with their frequencies.", {.min_items = 1, .max_items = most_names}),
+      optional<&Latency::min>("min", "Smaller values are raised to this one.", {.max = longest}),
+      optional<&Latency::max>("max", "Greater values are cut to this one.", {.max = longest}),
+  };
+  static constexpr std::string_view kinds[] = {"fixed", "uniform", "normal", "exponential", "weibull", "log_normal", "table"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(kinds)};
+  static constexpr json::Object table = json::object<Latency>("latency", "A delay: a duration, or a distribution of durations.", fields,
+                                                              {.groups = groups, .shorthand = "fixed"});
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<OsProfile>) {
+  static constexpr json::EnumName names[] = {
+      name(OsProfile::none, "none", "no delay at all"),
+      name(OsProfile::preempt_rt, "preempt-rt", "x86 with PREEMPT_RT, real-time thread"),
+      name(OsProfile::preempt_rt_isolated, "preempt-rt-isolated", "the same on an isolated core"),
+      name(OsProfile::preempt_rt_arm, "preempt-rt-arm", "ARM with PREEMPT_RT"),
+      name(OsProfile::general_purpose, "general-purpose", "a stock x86 kernel under load"),
+      name(OsProfile::virtual_machine, "virtual-machine", "a guest on an ordinary host"),
+      name(OsProfile::virtual_machine_rt, "virtual-machine-rt", "a guest with pinned processors on a real-time host"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<OsProfile>("an operating system", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<OperatingSystem>) {
+  static constexpr json::Field fields[] = {
+      optional<&OperatingSystem::profile>("profile", "Where the delays come from that are not given here."),
+      optional<&OperatingSystem::transmit>("transmit", "From the application's send to the network interface."),
+      optional<&OperatingSystem::receive>("receive", "From the last bit at the network interface to the application."),
+      optional<&OperatingSystem::wake_up>("wake_up", "From a timer's expiry to the application."),
+  };
+  static constexpr json::Object table =
+      json::object<OperatingSystem>("operating_system", "The operating system of a host: a profile or single delays.", fields, {.shorthand = "profile"});
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<TrafficClasses>) {
+  static constexpr json::EnumName names[] = {
+      name(TrafficClasses::standard, "standard", "IEEE 802.1Q Table 8-5: priority 1 lies below priority 0"),
+      name(TrafficClasses::identity, "identity", "priority n is sent in class n"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<TrafficClasses>("a priority to traffic class mapping", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<Queues::PerClass>) {
+  static constexpr json::Field fields[] = {
+      required<&Queues::PerClass::traffic_class>("class", "The traffic class, 7 is the most urgent.", {.max = 7}),
+      optional<&Queues::PerClass::frames>("frames", "Most frames that wait.", {.min = 1}),
+      optional<&Queues::PerClass::octets>("octets", "Most octets that wait, DA to FCS.", {.min = Octets{64}}),
+  };
+  static constexpr json::Object table = json::object<Queues::PerClass>("queue_of_class", "The limits of one queue.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Queues>) {
+  static constexpr json::Field fields[] = {
+      optional<&Queues::frames>("frames", "Most frames that wait in each queue; no limit if absent.", {.min = 1}),
+      optional<&Queues::octets>("octets", "Most octets that wait in each queue, DA to FCS; no limit if absent.", {.min = Octets{64}}),
+      optional<&Queues::classes>("classes", "Other limits for single traffic classes.", {.max_items = 8}),
+  };
+  static constexpr json::Object table = json::object<Queues>("queues", "What the eight queues of a port hold. The frame that is being sent does not count.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<HostNode>) {
+  static constexpr json::Field fields[] = {
+      optional<&HostNode::os>("os", "The operating system: a profile's name or an object."),
+      optional<&HostNode::traffic_classes>("traffic_classes", "Which priority is sent in which queue."),
+      optional<&HostNode::queues>("queues", "The queues of the network interface."),
+  };
+  static constexpr json::Object table = json::object<HostNode>("host", "An end station with one network interface.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<SwitchNode>) {
+  static constexpr json::Field fields[] = {
+      optional<&SwitchNode::forwarding_delay>("forwarding_delay", "From the last bit in to the egress queue.", {.max = 1_s}),
+      optional<&SwitchNode::traffic_classes>("traffic_classes", "Which priority is sent in which queue."),
+      optional<&SwitchNode::queues>("queues", "The queues of each port."),
+  };
+  static constexpr json::Object table = json::object<SwitchNode>("switch", "A store-and-forward bridge.", fields);
+  return table;
+}
+
+const json::Tagged& describe(json::Type<Node>) {
+  static constexpr auto kinds = json::options<Node>({"host", "switch"});
+  static constexpr json::Tagged table = json::tagged<Node>("node", "A host or a switch.", "kind", kinds);
+  return table;
+}
+
+const json::Object& describe(json::Type<Link>) {
+  static constexpr json::Field fields[] = {
+      required<&Link::ends>("ends", "The two nodes that it joins: \"sw1\" takes the next free port, \"sw1:3\" port 3.",
+                            {.min_items = 2, .max_items = 2}),
+      optional<&Link::rate>("rate", "Bits a second in each direction.", {.min = DataRate{10'000'000}, .max = DataRate{100'000'000'000}}),
+      optional<&Link::length>("length", "Length of the cable at 5 ns/m; 10 m if neither length nor delay is given.", {.max = Length{100'000'000}}),
+      optional<&Link::delay>("delay", "Propagation delay, instead of a length.", {.max = 1_s}),
+  };
+  static constexpr std::string_view either[] = {"length", "delay"};
+  static constexpr json::Group groups[] = {json::at_most_one_of(either)};
+  static constexpr json::Object table = json::object<Link>("link", "A full-duplex cable.", fields, {.groups = groups});
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Shape>) {
+  static constexpr json::EnumName names[] = {
+      name(Shape::line, "line", "switches in a row"),
+      name(Shape::ring, "ring", "switches in a circle"),
+      name(Shape::star, "star", "a central switch, the others around it"),
+      name(Shape::tree, "tree", "depth levels of switches below a root, fanout below each; hosts at the leaves"),
+      name(Shape::mesh, "mesh", "rows x columns as a grid, or every switch joined to every other"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Shape>("a topology", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<Generator>) {
+  static constexpr std::uint64_t most = 1'000'000'000'000;  // so that too many nodes are refused with their number
+  static constexpr json::Field fields[] = {
+      required<&Generator::shape>("topology", "The shape."),
+      optional<&Generator::switches>("switches", "Number of switches (line, ring, star, full mesh).", {.min = 1, .max = most}),
+      optional<&Generator::depth>("depth", "Levels of switches below the root (tree).", {.min = 0, .max = 64}),
+      optional<&Generator::fanout>("fanout", "Switches below each switch (tree).", {.min = 1, .max = most}),
+      optional<&Generator::rows>("rows", "Rows of the grid (mesh).", {.min = 1, .max = most}),
+      optional<&Generator::columns>("columns", "Columns of the grid (mesh).", {.min = 1, .max = most}),
+      optional<&Generator::hosts_per_switch>("hosts_per_switch", "Hosts at each switch (tree: at each leaf).", {.max = most}),
+      optional<&Generator::switch_prefix>("switch_prefix", "Switches are named by it and a number from 1.", {.min_length = 1, .max_length = 64}),
+      optional<&Generator::host_prefix>("host_prefix", "Hosts are named by it and a number from 1.", {.min_length = 1, .max_length = 64}),
+      optional<&Generator::rate>("rate", "Rate of the links.", {.min = DataRate{10'000'000}, .max = DataRate{100'000'000'000}}),
+      optional<&Generator::host_rate>("host_rate", "Rate of the links to hosts, if it differs.", {.min = DataRate{10'000'000}, .max = DataRate{100'000'000'000}}),
+      optional<&Generator::length>("length", "Length of each link.", {.max = Length{100'000'000}}),
+      optional<&Generator::forwarding_delay>("forwarding_delay", "Of the switches.", {.max = 1_s}),
+      optional<&Generator::os>("os", "Of the hosts."),
+      optional<&Generator::queues>("queues", "Of all ports."),
+      optional<&Generator::traffic_classes>("traffic_classes", "Of all ports."),
+  };
+  static constexpr json::Object table = json::object<Generator>("generator", "A whole topology.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<NetworkSection>) {
+  static constexpr json::Field fields[] = {
+      optional<&NetworkSection::nodes>("nodes", "Hosts and switches by name.", {.max_items = most_names}),
+      optional<&NetworkSection::links>("links", "The cables between them.", {.max_items = most_names}),
+      optional<&NetworkSection::generate>("generate", "Generated topologies; nodes and links may add to them.", {.max_items = 64}),
+  };
+  static constexpr json::Object table = json::object<NetworkSection>("network", "The network.", fields);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Encapsulation>) {
+  static constexpr json::EnumName names[] = {
+      name(Encapsulation::udp, "udp", "IPv4 and UDP headers, 28 octets, before the payload"),
+      name(Encapsulation::ethernet, "ethernet", "the payload follows the EtherType"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Encapsulation>("an encapsulation", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<ExponentialGaps>) {
+  static constexpr json::Field fields[] = {
+      required<&ExponentialGaps::mean>("mean", "Mean gap between two frames.", {.min = 1_ns, .max = longest}),
+  };
+  static constexpr json::Object table = json::object<ExponentialGaps>("exponential_gaps", "Frames at random.", fields, {.shorthand = "mean"});
+  return table;
+}
+
+const json::Object& describe(json::Type<Bursts>) {
+  static constexpr json::Field fields[] = {
+      required<&Bursts::frames>("frames", "Frames of a burst.", {.min = 1, .max = 1'000'000}),
+      required<&Bursts::every>("every", "From burst to burst.", {.min = 1_ns, .max = longest}),
+      optional<&Bursts::spacing>("spacing", "From frame to frame within a burst; 0s: all at once.", {.max = longest}),
+  };
+  static constexpr json::Object table = json::object<Bursts>("bursts", "Frames in bursts.", fields);
+  return table;
+}
+
+namespace {
+
+void decode_names(const json::Node& node, Names& value, json::Reader& reader) {
+  value.names.clear();
+  if (node.kind == json::Kind::string) {
+    value.names.push_back(node.text);
+    return;
+  }
+  if (node.kind != json::Kind::array || node.items.empty()) {
+    reader.wrong_type(node, "the name of a host or an array of names");
+    return;
+  }
+  for (const json::Node& item : node.items) {
+    if (item.kind == json::Kind::string)
+      value.names.push_back(item.text);
+    else
+      reader.wrong_type(item, "the name of a host");
+  }
+}
+
+json::Node encode_names(const Names& value) {
+  if (value.names.size() == 1) return json::Node::of_string(value.names.front());
+  return json::encode_value(value.names);
+}
+
+json::Node schema_names(json::SchemaBuilder& builder) {
+  json::Node any = json::Node::array();
+  any.items.push_back(json::schema_value<std::string>(builder));
+  any.items.push_back(json::schema_value<std::vector<std::string>>(builder, {.min_items = 1}));
+  json::Node schema = json::Node::object();
+  schema.add("anyOf", std::move(any));
+  return schema;
+}
+
+}  // namespace
+
+const json::Custom& describe(json::Type<Names>) {
+  static constexpr json::Custom table = json::custom<Names, decode_names, encode_names, schema_names>();
+  return table;
+}
+
+const json::Object& describe(json::Type<Stream>) {
+  static constexpr json::Field fields[] = {
+      required<&Stream::name>("name", "Unique among streams and programs.", {.min_length = 1, .max_length = 200}),
+      required<&Stream::from>("from", "The host that sends."),
+      required<&Stream::to>("to", "The host that receives, or several (multicast)."),
+      optional<&Stream::payload>("payload", "Octets of user data in each frame.", {.max = Octets{1500}}),
+      optional<&Stream::encapsulation>("encapsulation", "What stands before the payload."),
+      optional<&Stream::pcp>("pcp", "Priority in a VLAN tag; untagged, priority 0, if absent.", {.max = 7}),
+      optional<&Stream::vlan>("vlan", "VLAN identifier in the tag; 0 is a priority tag.", {.max = 4094}),
+      optional<&Stream::every>("every", "Period.", {.min = 1_ns, .max = longest}),
+      optional<&Stream::exponential>("exponential", "Random gaps with this mean."),
+      optional<&Stream::burst>("burst", "Bursts of frames."),
+      optional<&Stream::trace>("trace", "A CSV file with the columns time and payload (e.g. 12.5us,100B), beside the scenario."),
+      optional<&Stream::offset>("offset", "When the first period begins.", {.max = longest}),
+      optional<&Stream::jitter>("jitter", "Each frame comes up to this much later, uniformly; at most the period.", {.max = longest}),
+      optional<&Stream::path>("path", "All nodes from sender to receiver, instead of the shortest path.", {.min_items = 2, .max_items = most_names}),
+  };
+  static constexpr std::string_view schedules[] = {"every", "exponential", "burst", "trace"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(schedules)};
+  static constexpr json::Object table = json::object<Stream>("stream", "Frames from one host to others, without a protocol.", fields, {.groups = groups});
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Variant>) {
+  static constexpr json::EnumName names[] = {
+      name(Variant::robust, "robust", "state and greatest intent are published; survives loss, duplication and reordering"),
+      name(Variant::paper, "paper", "the published handshake: the state alone"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Variant>("a handshake", names);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Publish>) {
+  static constexpr json::EnumName names[] = {
+      name(Publish::cyclic, "cyclic", "once a cycle"),
+      name(Publish::on_change, "on-change", "once a cycle, and at once when the state changes"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Publish>("a publishing rule", names);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Violations>) {
+  static constexpr json::EnumName names[] = {
+      name(Violations::forbidden, "forbidden", "a violated invariant fails the run"),
+      name(Violations::reported, "reported", "violated invariants are findings, the verdict ignores them"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Violations>("a rule for violated invariants", names);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<DataType>) {
+  static constexpr json::EnumName names[] = {
+      name(DataType::boolean, "Boolean", "1 octet"), name(DataType::sbyte, "SByte", "1 octet"),   name(DataType::byte, "Byte", "1 octet"),
+      name(DataType::int16, "Int16", "2 octets"),    name(DataType::uint16, "UInt16", "2 octets"), name(DataType::int32, "Int32", "4 octets"),
+      name(DataType::uint32, "UInt32", "4 octets"),  name(DataType::int64, "Int64", "8 octets"),   name(DataType::uint64, "UInt64", "8 octets"),
+      name(DataType::float32, "Float", "4 octets"),  name(DataType::float64, "Double", "8 octets"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<DataType>("an OPC UA data type", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<DataField>) {
+  static constexpr json::Field fields[] = {
+      required<&DataField::type>("type", "OPC UA built-in type."),
+      optional<&DataField::count>("count", "Number of values.", {.min = 1, .max = 1500}),
+  };
+  static constexpr json::Object table = json::object<DataField>("data_field", "One field of a data set.", fields, {.shorthand = "type"});
+  return table;
+}
+
+const json::Object& describe(json::Type<ProcessData>) {
+  static constexpr json::Field fields[] = {
+      required<&ProcessData::name>("name", "Unique in the program.", {.min_length = 1, .max_length = 200}),
+      required<&ProcessData::from>("from", "The participant that publishes it: from the master to all slaves, from a slave to the master."),
+      required<&ProcessData::fields>("fields", "The fields of the data set.", {.min_items = 1, .max_items = 256}),
+  };
+  static constexpr json::Object table = json::object<ProcessData>("process_data", "A data set that is published every cycle while both ends are Running.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Program>) {
+  static constexpr json::Field fields[] = {
+      required<&Program::name>("name", "Unique among streams and programs.", {.min_length = 1, .max_length = 200}),
+      optional<&Program::variant>("variant", "Which handshake synchronises the participants."),
+      required<&Program::master>("master", "The host of the master."),
+      required<&Program::slaves>("slaves", "The hosts of the slaves.", {.min_items = 1, .max_items = 64}),
+      required<&Program::cycle>("cycle", "Publishing interval of state and process data.", {.min = 1_us, .max = 3600_s}),
+      optional<&Program::offset>("offset", "Phase of publishing within the cycle.", {.max = 3600_s}),
+      optional<&Program::publish>("publish", "When the state is published."),
+      optional<&Program::receive_timeout>("receive_timeout", "A peer that is silent for so long halts the group (MessageReceiveTimeout); 10 cycles if absent.",
+                                          {.min = 1_us, .max = 3600_s}),
+      optional<&Program::initialisation>("initialisation", "How long a participant stays in INIT.", {.max = 3600_s}),
+      optional<&Program::pcp>("pcp", "Priority of its messages.", {.max = 7}),
+      optional<&Program::vlan>("vlan", "VLAN of its messages.", {.max = 4094}),
+      optional<&Program::violations>("violations", "What a violated invariant means for the verdict."),
+      optional<&Program::process_data>("process_data", "Data sets that the participants exchange.", {.max_items = 256}),
+  };
+  static constexpr json::Object table = json::object<Program>("program", "A distributed OPC UA Program: one master, its slaves, their handshake.", fields);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Method>) {
+  static constexpr json::EnumName names[] = {
+      name(Method::start, "Start", "at the master"),
+      name(Method::suspend, "Suspend", "anywhere"),
+      name(Method::resume, "Resume", "anywhere"),
+      name(Method::halt, "Halt", "anywhere"),
+      name(Method::reset, "Reset", "anywhere"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Method>("a Program control method", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<ScriptEntry>) {
+  static constexpr json::Field fields[] = {
+      required<&ScriptEntry::at>("at", "When.", {.max = longest}),
+      required<&ScriptEntry::program>("program", "The program whose method is called."),
+      required<&ScriptEntry::call>("call", "The method."),
+      optional<&ScriptEntry::on>("on", "The participant on which it is called; the master if absent."),
+  };
+  static constexpr json::Object table = json::object<ScriptEntry>("script_entry", "Something that is done at a certain time.", fields);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Reaction>) {
+  static constexpr json::EnumName names[] = {
+      name(Reaction::start, "start", "until all are Running"),
+      name(Reaction::halt, "halt", "until all are Halted"),
+      name(Reaction::suspend, "suspend", "until all are Suspended"),
+      name(Reaction::resume, "resume", "until all are Running again"),
+      name(Reaction::reset, "reset", "until all are Ready"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Reaction>("a reaction", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<Requirement>) {
+  static constexpr json::Field fields[] = {
+      optional<&Requirement::reaction>("reaction", "Every such reaction ends within the time given by within, and there is at least one."),
+      optional<&Requirement::program>("program", "Only of this program."),
+      optional<&Requirement::within>("within", "Longest reaction.", {.max = longest}),
+      optional<&Requirement::stream>("stream", "The stream that is meant."),
+      optional<&Requirement::latency>("latency", "Longest time from production to delivery.", {.max = longest}),
+      optional<&Requirement::jitter>("jitter", "Largest difference between two latencies.", {.max = longest}),
+      optional<&Requirement::dropped>("dropped", "Most frames that may be dropped."),
+      optional<&Requirement::delivered>("delivered", "Fewest frames that must be delivered."),
+  };
+  static constexpr std::string_view subjects[] = {"reaction", "stream"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(subjects)};
+  static constexpr json::Object table = json::object<Requirement>("requirement", "What the run must show.", fields, {.groups = groups});
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<ClockModel>) {
+  static constexpr json::EnumName names[] = {
+      name(ClockModel::ideal, "ideal", "every node knows true time"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<ClockModel>("a clock model", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<Scenario>) {
+  static constexpr json::Field fields[] = {
+      optional<&Scenario::schema>("$schema", "The JSON Schema, for editors."),
+      required<&Scenario::name>("name", "The name of the scenario.", {.min_length = 1, .max_length = 200}),
+      optional<&Scenario::description>("description", "What it shows."),
+      optional<&Scenario::seed>("seed", "The seed of all chance."),
+      required<&Scenario::duration>("duration", "How long is simulated.", {.min = 1_ns, .max = longest}),
+      required<&Scenario::network>("network", "Nodes and links."),
+      optional<&Scenario::clocks>("clocks", "The clocks of the nodes."),
+      optional<&Scenario::programs>("programs", "Distributed OPC UA Programs.", {.max_items = 10'000}),
+      optional<&Scenario::streams>("streams", "Other traffic.", {.max_items = most_names}),
+      optional<&Scenario::script>("script", "What is done when.", {.max_items = most_names}),
+      optional<&Scenario::require>("require", "What must hold for the run to pass.", {.max_items = most_names}),
+      optional<&Scenario::allow_overload>("allow_overload", "A link that is asked for more than it can carry is an error unless this is true."),
+  };
+  static constexpr json::Object table = json::object<Scenario>("scenario", "A network, its Programs and its traffic, and what must hold.", fields);
+  return table;
+}
+
+}  // namespace takt::scenario

@@ -1,0 +1,12 @@
+// What bounds memory and time for any scenario. More is a diagnostic.
+#pragma once
+
+#include <cstdint>
+
+namespace takt::scenario {
+
+inline constexpr std::uint64_t most_nodes = 200'000;
+inline constexpr std::uint32_t most_ports = 4'096;             ///< of one node
+inline constexpr std::uint64_t most_trace_entries = 10'000'000;
+
+}  // namespace takt::scenario

@@ -1,0 +1,67 @@
+// What a run learns about one Program: reactions, states, violated invariants. Ghosts: no participant asks them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "handshake/invariants.hpp"
+#include "handshake/reaction.hpp"
+#include "sim/simulation.hpp"
+
+namespace takt::scenario {
+
+/// One change of state, for the time line.
+struct StateRecord {
+  sim::TrueTime time;
+  std::uint8_t participant = 0;
+  handshake::StateChange change;
+};
+
+/// A violated invariant and when it was seen.
+struct ViolationRecord {
+  sim::TrueTime time;
+  handshake::Violation violation;
+};
+
+/// A command of the script and what came of it.
+struct CallRecord {
+  sim::TrueTime time;
+  std::uint8_t participant = 0;
+  program::Method method = program::Method::Start;
+  program::StatusCode status = program::StatusCode::Good;
+};
+
+class ProgramMonitor {
+ public:
+  /// `number` tells programs apart in the digest. At most `most_records` changes of state are kept for the time line.
+  ProgramMonitor(sim::Simulation& simulation, std::uint32_t number, handshake::Variant variant, std::size_t participants);
+
+  void on_step(std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after);
+  void on_call(std::size_t participant, program::Method method, program::StatusCode status);
+  void on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in);
+  std::uint32_t sending_run(std::size_t participant) const { return observer_.sending_run(participant); }
+
+  std::span<const handshake::Reaction> reactions() const { return tracker_.reactions(); }
+  const std::vector<StateRecord>& history() const { return history_; }
+  std::uint64_t changes() const { return changes_; }
+  const std::vector<CallRecord>& calls() const { return calls_; }
+  const std::vector<ViolationRecord>& violations() const { return violations_; }
+  std::uint64_t process_data_received() const { return process_data_received_; }
+
+ private:
+  static constexpr std::size_t most_records = 10'000;
+  void note_violations();
+
+  sim::Simulation* simulation_;
+  std::uint32_t number_;
+  handshake::GroupObserver observer_;
+  handshake::ReactionTracker tracker_;
+  std::vector<StateRecord> history_;
+  std::uint64_t changes_ = 0;
+  std::vector<CallRecord> calls_;
+  std::vector<ViolationRecord> violations_;
+  std::uint64_t process_data_received_ = 0;
+};
+
+}  // namespace takt::scenario

@@ -1,0 +1,360 @@
+#include "scenario/resolve.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "models/ethernet/sizes.hpp"
+#include "scenario/json/override.hpp"
+#include "scenario/json/suggest.hpp"
+#include "scenario/os_profiles.hpp"
+#include "scenario/resolve_demand.hpp"
+#include "scenario/stream_builder.hpp"
+#include "scenario/trace_file.hpp"
+#include "wire/program_message.hpp"
+
+namespace takt::scenario {
+namespace {
+
+constexpr std::uint32_t octets_of(DataType type) {
+  switch (type) {
+    case DataType::boolean:
+    case DataType::sbyte:
+    case DataType::byte: return 1;
+    case DataType::int16:
+    case DataType::uint16: return 2;
+    case DataType::int32:
+    case DataType::uint32:
+    case DataType::float32: return 4;
+    case DataType::int64:
+    case DataType::uint64:
+    case DataType::float64: return 8;
+  }
+  return 0;
+}
+
+class Resolver {
+ public:
+  Resolver(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics) {}
+
+  void run() {
+    r_.topology = build_topology(r_.scenario.network, diagnostics_);
+    plan_nodes();
+    r_.plan.links = r_.topology.links;
+    StreamBuilder builder(r_, diagnostics_);
+    builder_ = &builder;
+    check_names();
+    for (const Stream& stream : r_.scenario.streams) add_stream(stream);
+    for (const Program& program : r_.scenario.programs) add_program(program);
+    resolve_demand(r_, diagnostics_);
+    for (const ScriptEntry& entry : r_.scenario.script) add_call(entry);
+    std::stable_sort(r_.script.begin(), r_.script.end(), [](const ResolvedCall& a, const ResolvedCall& b) { return a.at < b.at; });
+    for (const Requirement& requirement : r_.scenario.require) check_requirement(requirement);
+    builder_ = nullptr;
+  }
+
+ private:
+  void plan_nodes() {
+    r_.plan.port_configs.clear();
+    r_.plan.os_latencies.clear();
+    std::vector<OperatingSystem> systems;  // equal ones share their entry
+    for (const TopologyNode& node : r_.topology.nodes) {
+      models::NodePlan plan;
+      plan.name = node.name;
+      if (const auto* host = std::get_if<HostNode>(&node.description)) {
+        plan.kind = models::NodeKind::host;
+        plan.port_config = port_config_index(host->traffic_classes, host->queues);
+        auto found = std::find(systems.begin(), systems.end(), host->os);
+        if (found == systems.end()) {
+          r_.plan.os_latencies.push_back(os_latency_of(host->os, diagnostics_));
+          systems.push_back(host->os);
+          found = systems.end() - 1;
+        }
+        plan.os_latency = static_cast<std::uint32_t>(found - systems.begin());
+      } else {
+        const auto& bridge = std::get<SwitchNode>(node.description);
+        plan.kind = models::NodeKind::bridge;
+        plan.forwarding_delay = bridge.forwarding_delay;
+        plan.port_config = port_config_index(bridge.traffic_classes, bridge.queues);
+      }
+      r_.plan.nodes.push_back(std::move(plan));
+    }
+    if (r_.plan.nodes.empty()) diagnostics_.error(r_.scenario.network.where.place(), "a network without nodes", {"no nodes", "\"nodes\" or \"generate\""});
+  }
+
+  std::uint32_t port_config_index(TrafficClasses classes, const Queues& queues) {
+    models::PortConfig config;
+    if (classes == TrafficClasses::identity) config.traffic_class_of_priority = models::identity_traffic_classes;
+    for (models::QueueLimit& limit : config.queue_limits) {
+      if (queues.frames) limit.frames = *queues.frames;
+      if (queues.octets) limit.octets = queues.octets->count;
+    }
+    for (const Queues::PerClass& one : queues.classes) {
+      models::QueueLimit& limit = config.queue_limits[one.traffic_class];
+      if (one.frames) limit.frames = *one.frames;
+      if (one.octets) limit.octets = one.octets->count;
+    }
+    auto& known = r_.plan.port_configs;
+    const auto found = std::find(known.begin(), known.end(), config);
+    if (found != known.end()) return static_cast<std::uint32_t>(found - known.begin());
+    known.push_back(config);
+    return static_cast<std::uint32_t>(known.size() - 1);
+  }
+
+  void check_names() {
+    std::set<std::string, std::less<>> names;
+    const auto check = [&](const std::string& name, const json::Source& where) {
+      if (name.find('/') != std::string::npos)
+        diagnostics_.error(where.at("name"), "not a name for a stream or program", {json::quote(name), "no '/', which stands in the names of a program's streams"});
+      if (!names.insert(name).second)
+        diagnostics_.error(where.at("name"), "duplicate name", {json::quote(name) + " a second time", "a name of its own for each stream and program"});
+    };
+    for (const Stream& stream : r_.scenario.streams) check(stream.name, stream.where);
+    for (const Program& program : r_.scenario.programs) check(program.name, program.where);
+  }
+
+  void add_stream(const Stream& stream) {
+    NewStream wanted;
+    wanted.name = stream.name;
+    wanted.where = stream.where;
+    wanted.from = builder_->host(stream.from, stream.where.at("from"));
+    for (std::size_t i = 0; i < stream.to.names.size(); ++i) {
+      const json::Place place = stream.to.names.size() == 1 ? stream.where.at("to") : stream.where.at("to", i);
+      if (const auto host = builder_->host(stream.to.names[i], place)) wanted.to.push_back({*host, place});
+    }
+    wanted.priority = stream.pcp;
+    wanted.vlan = stream.vlan;
+    if (!stream.pcp && stream.vlan != 0)
+      diagnostics_.error(stream.where.at("vlan"), "a VLAN without a priority", {"\"vlan\" alone", "\"pcp\" too, since the tag carries both"});
+    wanted.headers = stream.encapsulation == Encapsulation::udp ? models::ipv4_and_udp_headers : Octets{0};
+    wanted.path = stream.path ? &*stream.path : nullptr;
+    models::TalkerSchedule schedule = schedule_of(stream);
+    wanted.payload = stream.payload;
+    if (const auto* trace = std::get_if<models::TraceSchedule>(&schedule))
+      for (const auto& entry : trace->entries) wanted.payload = std::max(wanted.payload, entry.payload);
+    const auto index = builder_->add(wanted);
+    if (!index) return;
+    r_.streams[index->value].demand = demand_of(schedule, stream, *index);
+    r_.plan.talkers.push_back({*index, stream.payload, std::move(schedule)});
+  }
+
+  models::TalkerSchedule schedule_of(const Stream& stream) {
+    if (stream.every) {
+      if (stream.jitter > *stream.every)
+        diagnostics_.error(stream.where.at("jitter"), "jitter above the period", {json::to_text(stream.jitter), "at most " + json::to_text(*stream.every)});
+      return models::PeriodicSchedule{stream.offset, *stream.every, stream.jitter};
+    }
+    if (stream.jitter > Duration())
+      diagnostics_.error(stream.where.at("jitter"), "jitter belongs to a periodic stream", {"\"jitter\" without \"every\"", "\"every\""});
+    if (stream.exponential) return models::ExponentialSchedule{stream.offset, stream.exponential->mean};
+    if (stream.burst) {
+      if (stream.burst->spacing * static_cast<std::int64_t>(stream.burst->frames - 1) > stream.burst->every)
+        diagnostics_.error(stream.where.at("burst"), "a burst longer than its period",
+                           {std::to_string(stream.burst->frames) + " frames " + json::to_text(stream.burst->spacing) + " apart",
+                            "at most " + json::to_text(stream.burst->every)});
+      return models::BurstSchedule{stream.offset, stream.burst->every, stream.burst->frames, stream.burst->spacing};
+    }
+    if (stream.trace) {
+      models::TraceSchedule schedule{read_trace(*stream.trace, stream.where.at("trace"), diagnostics_)};
+      for (auto& entry : schedule.entries) entry.time += stream.offset;
+      return schedule;
+    }
+    return models::PeriodicSchedule{{}, 1_s, {}};  // none of them: the table has reported it
+  }
+
+  StreamDemand demand_of(const models::TalkerSchedule& schedule, const Stream& stream, models::StreamIndex index) const {
+    const models::StreamPlan& plan = r_.plan.streams[index.value];
+    const auto wire_bits = [&](Octets payload) {
+      return 8.0 * models::wire_length(models::frame_length(plan.headers + payload, plan.priority.has_value())).count;
+    };
+    const auto per_second = [](double frames, Duration in) { return frames * 1e12 / static_cast<double>(in.ps()); };
+    StreamDemand demand;
+    if (const auto* periodic = std::get_if<models::PeriodicSchedule>(&schedule)) demand.frames_per_second = per_second(1, periodic->period);
+    if (const auto* random = std::get_if<models::ExponentialSchedule>(&schedule)) demand.frames_per_second = per_second(1, random->mean);
+    if (const auto* burst = std::get_if<models::BurstSchedule>(&schedule)) demand.frames_per_second = per_second(burst->frames, burst->period);
+    demand.wire_bits_per_second = demand.frames_per_second * wire_bits(stream.payload);
+    if (const auto* trace = std::get_if<models::TraceSchedule>(&schedule); trace != nullptr && trace->entries.size() > 1) {
+      const Duration span = trace->entries.back().time - trace->entries.front().time;
+      double bits = 0;
+      for (const auto& entry : trace->entries) bits += wire_bits(entry.payload);
+      if (span > Duration()) {
+        demand.frames_per_second = per_second(static_cast<double>(trace->entries.size() - 1), span);
+        demand.wire_bits_per_second = per_second(bits, span);
+      }
+    }
+    return demand;
+  }
+
+  void add_program(const Program& program) {
+    ResolvedProgram resolved;
+    resolved.name = program.name;
+    resolved.description = &program;
+    resolved.receive_timeout = program.receive_timeout.value_or(program.cycle * 10);
+    const std::size_t errors_before = diagnostics_.errors();
+    if (resolved.receive_timeout <= program.cycle)
+      diagnostics_.error(program.where.at("receive_timeout"), "a time-out within one cycle",
+                         {json::to_text(resolved.receive_timeout), "more than the cycle of " + json::to_text(program.cycle)});
+    if (program.offset >= program.cycle && program.offset > Duration())
+      diagnostics_.error(program.where.at("offset"), "an offset beyond the cycle", {json::to_text(program.offset), "less than " + json::to_text(program.cycle)});
+    std::set<std::string_view> seen;
+    const auto add_participant = [&](const std::string& name, const json::Place& place) {
+      if (!seen.insert(name).second)
+        diagnostics_.error(place, "a host twice in one program", {json::quote(name), "each participant on a host of its own"});
+      if (const auto host = builder_->host(name, place)) resolved.participants.push_back(models::NodeIndex{*host});
+    };
+    add_participant(program.master, program.where.at("master"));
+    for (std::size_t i = 0; i < program.slaves.size(); ++i) add_participant(program.slaves[i], program.where.at("slaves", i));
+    if (diagnostics_.errors() != errors_before) return;
+
+    for (std::uint8_t p = 0; p < resolved.participants.size(); ++p) {
+      const auto stream = add_program_stream(program, resolved, p, "state", Octets{wire::state_message_length}, program.where);
+      if (!stream) return;
+      resolved.state_streams.push_back(*stream);
+    }
+    for (const ProcessData& data : program.process_data) add_process_data(program, data, resolved);
+    r_.programs.push_back(std::move(resolved));
+  }
+
+  void add_process_data(const Program& program, const ProcessData& data, ResolvedProgram& resolved) {
+    ResolvedProcessData made;
+    made.name = data.name;
+    const auto participant = participant_of(program, data.from, data.where.at("from"));
+    if (std::any_of(resolved.process_data.begin(), resolved.process_data.end(), [&](const auto& other) { return other.name == data.name; }) ||
+        data.name == "state")
+      diagnostics_.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set (\"state\" is taken)"});
+    if (!participant) return;
+    made.from = *participant;
+    for (const auto& [name, field] : data.fields) made.field_octets += octets_of(field.type) * field.count;
+    const auto stream = add_program_stream(program, resolved, *participant, data.name,
+                                           Octets{static_cast<std::uint32_t>(wire::process_data_header_length) + made.field_octets}, data.where);
+    if (!stream) return;
+    made.stream = *stream;
+    resolved.process_data.push_back(std::move(made));
+  }
+
+  /// A stream of a program: from the master to all slaves, from a slave to the master.
+  std::optional<models::StreamIndex> add_program_stream(const Program& program, const ResolvedProgram& resolved, std::uint8_t from,
+                                                        const std::string& what, Octets payload, const json::Source& where) {
+    NewStream wanted;
+    wanted.name = program.name + "/" + what + (what == "state" ? "/" + r_.topology.nodes[resolved.participants[from].value].name : "");
+    wanted.where = where;
+    wanted.from = resolved.participants[from].value;
+    if (from == 0) {
+      for (std::size_t i = 1; i < resolved.participants.size(); ++i) wanted.to.push_back({resolved.participants[i].value, program.where.at("slaves", i - 1)});
+    } else {
+      wanted.to.push_back({resolved.participants[0].value, program.where.at("master")});
+    }
+    wanted.priority = program.pcp;
+    wanted.vlan = program.vlan;
+    wanted.payload = payload;
+    wanted.of_program = true;
+    const auto index = builder_->add(wanted);
+    if (!index) return std::nullopt;
+    const models::StreamPlan& plan = r_.plan.streams[index->value];
+    StreamDemand& demand = r_.streams[index->value].demand;
+    demand.frames_per_second = 1e12 / static_cast<double>(program.cycle.ps());
+    demand.wire_bits_per_second = demand.frames_per_second * 8.0 * models::wire_length(models::frame_length(plan.headers + payload, true)).count;
+    return index;
+  }
+
+  std::optional<std::uint8_t> participant_of(const Program& program, const std::string& name, const json::Place& place) {
+    if (name == program.master) return std::uint8_t{0};
+    const auto found = std::find(program.slaves.begin(), program.slaves.end(), name);
+    if (found != program.slaves.end()) return static_cast<std::uint8_t>(found - program.slaves.begin() + 1);
+    std::vector<std::string_view> names{program.master};
+    names.insert(names.end(), program.slaves.begin(), program.slaves.end());
+    diagnostics_.error(place, "not a participant of the program", {json::quote(name), "the master or a slave of " + json::quote(program.name), json::suggest(name, names)});
+    return std::nullopt;
+  }
+
+  const Program* find_program(const std::string& name, const json::Place& place) {
+    std::vector<std::string_view> names;
+    for (const Program& program : r_.scenario.programs) {
+      if (program.name == name) return &program;
+      names.push_back(program.name);
+    }
+    diagnostics_.error(place, "unknown program", {json::quote(name), "the name of a program", json::suggest(name, names)});
+    return nullptr;
+  }
+
+  void add_call(const ScriptEntry& entry) {
+    const Program* const program = find_program(entry.program, entry.where.at("program"));
+    if (program == nullptr) return;
+    const auto participant = entry.on ? participant_of(*program, *entry.on, entry.where.at("on")) : std::optional<std::uint8_t>(0);
+    if (!participant) return;
+    if (entry.call == Method::start && *participant != 0) {
+      diagnostics_.error(entry.where.at("on"), "Start at a slave", {json::quote(*entry.on), "the master, " + json::quote(program->master)});
+      return;
+    }
+    if (entry.at > r_.scenario.duration)
+      diagnostics_.warning(entry.where.at("at"), "after the end of the simulation", {json::to_text(entry.at), "at most " + json::to_text(r_.scenario.duration)});
+    const auto found = std::find_if(r_.programs.begin(), r_.programs.end(), [&](const ResolvedProgram& p) { return p.description == program; });
+    if (found == r_.programs.end()) return;  // the program itself was refused
+    r_.script.push_back({sim::TrueTime() + entry.at, static_cast<std::uint32_t>(found - r_.programs.begin()), *participant, entry.call});
+  }
+
+  void check_requirement(const Requirement& requirement) {
+    if (requirement.program) find_program(*requirement.program, requirement.where.at("program"));
+    const auto refuse = [&](bool is_there, std::string_view key, std::string_view subject) {
+      if (is_there) diagnostics_.error(requirement.where.at(key), "does not belong to this requirement", {json::quote(key), "a requirement with \"" + std::string(subject) + "\""});
+    };
+    if (requirement.reaction) {
+      if (!requirement.within) diagnostics_.error(requirement.where.place(), "missing key", {"\"reaction\" without a limit", "\"within\""});
+      if (r_.scenario.programs.empty()) diagnostics_.error(requirement.where.at("reaction"), "a reaction without a program", {"no programs", "\"programs\""});
+      refuse(requirement.latency.has_value(), "latency", "stream");
+      refuse(requirement.jitter.has_value(), "jitter", "stream");
+      refuse(requirement.dropped.has_value(), "dropped", "stream");
+      refuse(requirement.delivered.has_value(), "delivered", "stream");
+    }
+    if (!requirement.stream) return;
+    refuse(requirement.within.has_value(), "within", "reaction");
+    refuse(requirement.program.has_value(), "program", "reaction");
+    if (!requirement.latency && !requirement.jitter && !requirement.dropped && !requirement.delivered)
+      diagnostics_.error(requirement.where.place(), "missing key", {"\"stream\" without a limit", "\"latency\", \"jitter\", \"dropped\" or \"delivered\""});
+    std::vector<std::string_view> names;
+    for (const models::StreamPlan& stream : r_.plan.streams) names.push_back(stream.name);
+    if (std::find(names.begin(), names.end(), *requirement.stream) == names.end())
+      diagnostics_.error(requirement.where.at("stream"), "unknown stream", {json::quote(*requirement.stream), "the name of a stream", json::suggest(*requirement.stream, names)});
+  }
+
+  Resolved& r_;
+  json::Diagnostics& diagnostics_;
+  StreamBuilder* builder_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<Resolved> resolve(Scenario scenario, json::Diagnostics& diagnostics) {
+  auto resolved = std::make_unique<Resolved>();
+  resolved->scenario = std::move(scenario);
+  const std::size_t errors_before = diagnostics.errors();
+  Resolver(*resolved, diagnostics).run();
+  if (diagnostics.errors() != errors_before) return nullptr;
+  return resolved;
+}
+
+namespace {
+
+std::unique_ptr<Resolved> load(std::optional<json::Document> document, const std::vector<std::string>& overrides, json::Diagnostics& diagnostics) {
+  if (!document) return nullptr;
+  for (const std::string& option : overrides) json::apply(*document, option, diagnostics);
+  Scenario scenario;
+  // Checks of meaning run even if single values are wrong, so that all mistakes are seen at once; a wrong value keeps
+  // its default there. Only a scenario without a network has nothing to check.
+  json::decode(*document, scenario, diagnostics);
+  auto resolved = scenario.network.where.is_known() ? resolve(std::move(scenario), diagnostics) : nullptr;
+  return diagnostics.has_errors() ? nullptr : std::move(resolved);
+}
+
+}  // namespace
+
+std::unique_ptr<Resolved> load_text(std::string_view text, const std::string& file_name, const std::vector<std::string>& overrides,
+                                    json::Diagnostics& diagnostics) {
+  return load(json::parse(text, file_name, diagnostics), overrides, diagnostics);
+}
+
+std::unique_ptr<Resolved> load_file(const std::string& path, const std::vector<std::string>& overrides, json::Diagnostics& diagnostics) {
+  return load(json::parse_file(path, diagnostics), overrides, diagnostics);
+}
+
+}  // namespace takt::scenario

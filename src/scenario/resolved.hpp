@@ -1,0 +1,77 @@
+// What a scenario comes down to once names are found, paths are laid and everything has been checked.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/plan.hpp"
+#include "scenario/description.hpp"
+#include "scenario/routing.hpp"
+#include "scenario/topology.hpp"
+
+namespace takt::scenario {
+
+/// What a stream asks of the links: long-term averages, for check and for refusing overload.
+struct StreamDemand {
+  double wire_bits_per_second = 0;   ///< preamble and inter-packet gap included
+  double frames_per_second = 0;
+};
+
+struct ResolvedStream {
+  models::StreamIndex index;         ///< in plan.streams
+  std::vector<Path> paths;           ///< one for each listener
+  StreamDemand demand;
+  json::Source where;
+  bool of_program = false;
+};
+
+struct ResolvedProcessData {
+  std::string name;
+  std::uint8_t from = 0;             ///< participant
+  std::uint32_t field_octets = 0;
+  models::StreamIndex stream;
+};
+
+struct ResolvedProgram {
+  std::string name;
+  const Program* description = nullptr;
+  std::vector<models::NodeIndex> participants;          ///< 0 the master, then the slaves
+  std::vector<models::StreamIndex> state_streams;       ///< of each participant
+  std::vector<ResolvedProcessData> process_data;
+  Duration receive_timeout;
+};
+
+struct ResolvedCall {
+  sim::TrueTime at;
+  std::uint32_t program = 0;
+  std::uint8_t participant = 0;
+  Method method = Method::start;
+};
+
+/// The demand on one direction of a link.
+struct PortDemand {
+  models::NodeIndex node;            ///< the sending side
+  std::uint16_t port = 0;
+  models::NodeIndex peer;
+  double link_bits_per_second = 0;
+  std::array<double, models::traffic_class_count> class_bits_per_second{};
+  double share() const {
+    double sum = 0;
+    for (const double bits : class_bits_per_second) sum += bits;
+    return sum / link_bits_per_second;
+  }
+};
+
+struct Resolved {
+  Scenario scenario;
+  Topology topology;
+  models::NetworkPlan plan;
+  std::vector<ResolvedStream> streams;    ///< by stream index
+  std::vector<ResolvedProgram> programs;
+  std::vector<ResolvedCall> script;       ///< by time
+  std::vector<PortDemand> ports;          ///< those that carry something
+};
+
+}  // namespace takt::scenario

@@ -1,0 +1,54 @@
+// A live run of a resolved scenario: network, Programs, script. One object; several can live side by side.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "models/network.hpp"
+#include "scenario/program_application.hpp"
+#include "scenario/program_monitor.hpp"
+#include "scenario/resolved.hpp"
+#include "sim/simulation.hpp"
+
+namespace takt::scenario {
+
+class Run {
+ public:
+  /// Everything is built and scheduled; nothing has happened yet. `resolved` outlives the run.
+  explicit Run(const Resolved& resolved, std::uint64_t tie_shuffle = 0);
+  ~Run();
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  const Resolved& resolved() const { return *resolved_; }
+  sim::Simulation& simulation() { return simulation_; }
+  const sim::Simulation& simulation() const { return simulation_; }
+  const models::Network& network() const { return network_; }
+  const ProgramMonitor& monitor(std::size_t program) const { return *programs_[program]->monitor; }
+  handshake::PublishedState state(std::size_t program, std::size_t participant) const {
+    return programs_[program]->applications[participant]->state();
+  }
+
+  sim::TrueTime end() const { return sim::TrueTime() + resolved_->scenario.duration; }
+  /// Goes on for at most about `max_events` events. True when the scenario's duration is over.
+  bool advance(std::uint64_t max_events = ~0ULL) { return simulation_.run(end(), max_events); }
+
+ private:
+  struct LiveProgram {
+    std::unique_ptr<ProgramMonitor> monitor;
+    std::vector<models::Process*> processes;              // by participant
+    std::vector<ProgramApplication*> applications;
+  };
+  class Script;
+
+  void add_program(std::uint32_t number, const ResolvedProgram& program);
+  void connect_streams(const ResolvedProgram& program, const LiveProgram& live);
+
+  const Resolved* resolved_;
+  sim::Simulation simulation_;
+  models::Network network_;
+  std::vector<std::unique_ptr<LiveProgram>> programs_;
+  std::unique_ptr<Script> script_;
+};
+
+}  // namespace takt::scenario

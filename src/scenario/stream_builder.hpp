@@ -1,0 +1,48 @@
+// Lays one stream: its address, its paths, the filtering entries along them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenario/resolved.hpp"
+
+namespace takt::scenario {
+
+/// A stream that is wanted.
+struct NewStream {
+  std::string name;
+  json::Source where;
+  std::optional<std::uint32_t> from;                          ///< empty: unknown, already reported
+  std::vector<std::pair<std::uint32_t, json::Place>> to;
+  std::optional<models::Priority> priority;
+  models::VlanId vlan = 0;
+  Octets headers{0};
+  Octets payload{0};                                          ///< the greatest
+  const std::vector<std::string>* path = nullptr;             ///< names of all nodes, for one receiver
+  bool of_program = false;
+};
+
+class StreamBuilder {
+ public:
+  StreamBuilder(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics), router_(resolved.topology) {}
+
+  /// The host of that name; a mistake is reported at `place`.
+  std::optional<std::uint32_t> host(const std::string& name, const json::Place& place);
+  /// Adds the stream to the plan. Nothing if it cannot be (reported).
+  std::optional<models::StreamIndex> add(const NewStream& wanted);
+
+ private:
+  bool check_size(const NewStream& wanted);
+  std::vector<Path> paths_of(const NewStream& wanted);
+  std::optional<Path> explicit_path(const NewStream& wanted);
+  void add_filtering(const Path& path, models::VlanId vlan, models::AddressIndex address);
+
+  Resolved& r_;
+  json::Diagnostics& diagnostics_;
+  Router router_;
+  std::uint32_t groups_ = 0;
+};
+
+}  // namespace takt::scenario

@@ -1,0 +1,121 @@
+#include "handshake/reaction.hpp"
+
+#include <gtest/gtest.h>
+
+#include "group.hpp"
+
+namespace takt::handshake {
+namespace {
+
+using program::Method;
+using sim::TrueTime;
+
+TrueTime at(std::int64_t us) { return TrueTime::from_ps(us * 1'000'000); }
+
+void expect(const Reaction& reaction, IntentKind kind, std::uint8_t initiator, ReactionOutcome outcome, std::int64_t began_us,
+            TrueTime completed) {
+  EXPECT_EQ(reaction.kind, kind);
+  EXPECT_EQ(reaction.initiator, initiator);
+  EXPECT_EQ(reaction.outcome, outcome);
+  EXPECT_EQ(reaction.began, at(began_us));
+  EXPECT_EQ(reaction.completed, completed);
+}
+
+class Reactions : public testing::TestWithParam<Variant> {};
+INSTANTIATE_TEST_SUITE_P(Variants, Reactions, testing::Values(Variant::Paper, Variant::Robust));
+
+TEST_P(Reactions, FromTheCommandToTheLastToFollow) {
+  Group group(GetParam(), 2);
+  group.now = at(10);
+  group.call(0, Method::Start);
+  for (int us = 11; us < 16; ++us) {
+    group.now = at(us);
+    group.round();
+  }
+  // Round 11: the slaves enter INIT after the master has published, are Ready and tell it: the master is Ready and all
+  // else follows in the next rounds: 12 slaves Running, and the master with the last of their words.
+  group.now = at(20);
+  group.call(1, Method::Suspend);
+  group.now = at(21);
+  group.tell(1, 0);
+  group.now = at(25);
+  group.tell(0, 2);
+  group.now = at(30);
+  EXPECT_EQ(group.call(2, Method::Suspend).status, program::StatusCode::BadInvalidState);
+  group.call(2, Method::Halt);
+  group.rounds(2);
+  ASSERT_EQ(group.reactions.reactions().size(), 3U) << "a refused call is no reaction";
+  expect(group.reactions.reactions()[0], IntentKind::Start, 0, ReactionOutcome::Completed, 10, at(12));
+  expect(group.reactions.reactions()[1], IntentKind::Suspend, 1, ReactionOutcome::Completed, 20, at(25));
+  expect(group.reactions.reactions()[2], IntentKind::Halt, 2, ReactionOutcome::Completed, 30, at(30));
+}
+
+TEST_P(Reactions, AHaltSupersedesAStart) {
+  Group group(GetParam(), 2);
+  group.now = at(1);
+  group.call(0, Method::Start);
+  group.tell_all(0);
+  group.tell(1, 0);
+  group.now = at(2);
+  group.call(1, Method::Halt);
+  group.rounds(2);
+  ASSERT_EQ(group.reactions.reactions().size(), 2U);
+  expect(group.reactions.reactions()[0], IntentKind::Start, 0, ReactionOutcome::Superseded, 1, TrueTime::never());
+  expect(group.reactions.reactions()[1], IntentKind::Halt, 1, ReactionOutcome::Completed, 2, at(2));
+}
+
+TEST(Reaction, TwoHaltsAtOnceBothComplete) {
+  Group group = started(Variant::Robust, 2);
+  group.now = at(5);
+  group.call(1, Method::Halt);
+  group.now = at(6);
+  group.call(2, Method::Halt);
+  group.now = at(9);
+  group.rounds(2);
+  ASSERT_EQ(group.reactions.reactions().size(), 3U);
+  expect(group.reactions.reactions()[1], IntentKind::Halt, 1, ReactionOutcome::Completed, 5, at(9));
+  expect(group.reactions.reactions()[2], IntentKind::Halt, 2, ReactionOutcome::Completed, 6, at(9));
+}
+
+TEST(Reaction, TheLesserIntentIsSupersededWhicheverBeganFirst) {
+  Group group = started(Variant::Robust, 2);
+  group.call(0, Method::Suspend);
+  group.rounds(2);
+  group.now = at(5);
+  group.call(1, Method::Reset);
+  group.now = at(6);
+  group.call(2, Method::Resume);  // later, but the same number and a lesser kind
+  group.now = at(9);
+  group.rounds(2);
+  const auto reactions = group.reactions.reactions();
+  ASSERT_EQ(reactions.size(), 4U);
+  expect(reactions[2], IntentKind::Reset, 1, ReactionOutcome::Completed, 5, at(9));
+  expect(reactions[3], IntentKind::Resume, 2, ReactionOutcome::Superseded, 6, TrueTime::never());
+}
+
+TEST(Reaction, FinishAndAlarmsAreReactionsToo) {
+  Group group = started(Variant::Robust, 1);
+  group.now = at(5);
+  group.step(1, Input::finished());
+  group.round();
+  group.now = at(7);
+  group.step(0, Input::peer_silent(0));
+  group.round();
+  const auto reactions = group.reactions.reactions();
+  ASSERT_EQ(reactions.size(), 3U);
+  expect(reactions[1], IntentKind::Finish, 1, ReactionOutcome::Completed, 5, at(5));
+  expect(reactions[2], IntentKind::Halt, 0, ReactionOutcome::Completed, 7, at(7));
+  EXPECT_EQ(reactions[2].alarm, Alarm::PeerSilent);
+}
+
+TEST(Reaction, WithoutTheLastFollowerItStaysPending) {
+  Group group = started(Variant::Robust, 2);
+  group.call(0, Method::Suspend);
+  group.tell(0, 1);
+  ASSERT_EQ(group.reactions.reactions().size(), 2U);
+  EXPECT_EQ(group.reactions.reactions()[1].outcome, ReactionOutcome::Pending);
+  EXPECT_EQ(group.reactions.reactions()[1].completed, TrueTime::never());
+}
+
+}  // namespace
+}  // namespace takt::handshake

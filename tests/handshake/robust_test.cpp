@@ -1,0 +1,324 @@
+// The rules of `robust` one by one.
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+#include <limits>
+
+#include "group.hpp"
+
+namespace takt::handshake {
+namespace {
+
+using program::Method;
+using program::StatusCode;
+
+TEST(Intent, OrderIsNumberKindOrigin) {
+  const auto intent = [](std::uint32_t number, IntentKind kind, std::uint8_t origin) { return Intent{number, kind, origin, 0}; };
+  EXPECT_LT(intent(1, IntentKind::Halt, 9), intent(2, IntentKind::Start, 0));
+  EXPECT_LT(intent(2, IntentKind::Start, 9), intent(2, IntentKind::Resume, 0));
+  EXPECT_LT(intent(2, IntentKind::Resume, 9), intent(2, IntentKind::Suspend, 0));
+  EXPECT_LT(intent(2, IntentKind::Suspend, 9), intent(2, IntentKind::Finish, 0));
+  EXPECT_LT(intent(2, IntentKind::Finish, 9), intent(2, IntentKind::Reset, 0));
+  EXPECT_LT(intent(2, IntentKind::Reset, 9), intent(2, IntentKind::Halt, 0));
+  EXPECT_LT(intent(2, IntentKind::Halt, 0), intent(2, IntentKind::Halt, 1));
+  EXPECT_LT(Intent{}, intent(1, IntentKind::Start, 0));
+}
+
+TEST(Intent, RunsOfTwoIncarnationsDiffer) {
+  EXPECT_EQ(run_of(0, 1), 1U);
+  EXPECT_EQ(run_of(2, 1), 0x20001U);
+  EXPECT_EQ(run_of(0, 0xFFFF), 0xFFFFU);
+  EXPECT_EQ(run_of(0, 0x10000), 1U) << "the number's part is never 0";
+}
+
+TEST(Robust, ConcurrentSuspendAndResetEndReady) {
+  Group group = started(Variant::Robust, 3);
+  group.call(0, Method::Suspend);
+  group.rounds(2);
+  group.call(1, Method::Resume);
+  group.call(2, Method::Reset);  // same number, greater kind
+  group.rounds(3);
+  EXPECT_TRUE(group.all_in(PublishedState::Ready)) << group.describe();
+  EXPECT_TRUE(group.agreed());
+  EXPECT_EQ(group[0].intent().origin, 2);
+}
+
+TEST(Robust, SuspendAndResumeThatCrossSettle) {
+  Group group = started(Variant::Robust, 1);
+  group.call(0, Method::Suspend);
+  group.round();
+  ASSERT_TRUE(group.all_in(PublishedState::Suspended));
+  group.call(0, Method::Resume);
+  const Message resume = group.message(0, 1);
+  group.call(0, Method::Suspend);
+  const Message suspend = group.message(0, 1);
+  group.deliver(resume);
+  const Message echo = group.message(1, 0);
+  group.deliver(suspend);
+  group.deliver(echo);
+  EXPECT_TRUE(group.all_in(PublishedState::Suspended)) << group.describe();
+  EXPECT_TRUE(group.agreed());
+}
+
+TEST(Robust, AHaltSticksAgainstALaterResume) {
+  Group group = started(Variant::Robust, 2);
+  group.call(1, Method::Suspend);
+  group.rounds(2);
+  group.call(2, Method::Halt);    // number 3
+  group.call(1, Method::Resume);  // number 3, lesser
+  group.call(1, Method::Suspend);  // number 4: greater than the halt
+  const Outputs outputs = group.tell(1, 0);
+  EXPECT_EQ(group[0].state(), PublishedState::Suspended);
+  EXPECT_EQ(outputs.alarm, Alarm::None);
+  const Outputs at_two = group.tell(0, 2);
+  EXPECT_EQ(at_two.alarm, Alarm::Mismatch) << "the halted one raises the halt again";
+  group.rounds(2);
+  EXPECT_TRUE(group.all_in(PublishedState::Halted)) << group.describe();
+  EXPECT_TRUE(group.agreed());
+}
+
+TEST(Robust, StartAfterAResetTakesTheBarrierAgain) {
+  Group group = started(Variant::Robust, 2);
+  const std::uint32_t first = group[0].run();
+  group.call(0, Method::Suspend);
+  group.rounds(2);
+  group.call(0, Method::Reset);
+  group.tell(0, 1);  // slave 2 has not heard of the reset
+  group.take_journal();
+  EXPECT_EQ(group.call(0, Method::Start).status, StatusCode::Good);
+  EXPECT_EQ(group[0].run(), first) << "the master does not count as Ready in the new run yet";
+  group.tell(0, 1);
+  EXPECT_EQ(group[1].state(), PublishedState::Ready);
+  EXPECT_EQ(group[1].run(), group[0].intent().run);
+  group.tell(1, 0);
+  group.tell(0, 1);
+  EXPECT_EQ(group.take_journal(), "") << "nobody runs before slave 2 is Ready in the new run";
+  group.tell(0, 2);
+  EXPECT_EQ(group.take_journal(), "2:Halted 2:Halted.INIT ") << "the old run ends, the new one is initialised";
+  group.rounds(4);
+  EXPECT_TRUE(group.all_in(PublishedState::Running)) << group.describe();
+  EXPECT_NE(group[0].run(), first);
+  EXPECT_TRUE(group.observer.violations().empty()) << group.describe();
+}
+
+TEST(Robust, FinishEndsTheRunForAll) {
+  for (std::size_t by = 0; by < 3; ++by) {
+    Group group = started(Variant::Robust, 2);
+    const Outputs outputs = group.step(by, Input::finished());
+    EXPECT_TRUE(outputs.process_stopped);
+    EXPECT_EQ(outputs.raised_kind, IntentKind::Finish);
+    EXPECT_EQ(group[by].machine().last_transition(), 4);
+    group.rounds(2);
+    EXPECT_TRUE(group.all_in(PublishedState::Ready)) << group.describe();
+    EXPECT_TRUE(group.agreed());
+    EXPECT_FALSE(group.step(by, Input::finished()).publish) << "only a Running one finishes";
+    EXPECT_EQ(group.call(0, Method::Start).status, StatusCode::Good);
+    group.rounds(4);
+    EXPECT_TRUE(group.all_in(PublishedState::Running)) << group.describe();
+  }
+}
+
+TEST(Robust, FinishDuringTheBarrierEndsReady) {
+  Group group(Variant::Robust, 2);
+  group.to_barrier();
+  group.step(1, Input::finished());
+  group.rounds(2);
+  EXPECT_TRUE(group.all_in(PublishedState::Ready)) << group.describe();
+  EXPECT_TRUE(group.agreed());
+}
+
+TEST(Robust, FinishAndSuspendThatMeetEndReady) {
+  Group group = started(Variant::Robust, 2);
+  group.call(1, Method::Suspend);
+  group.step(2, Input::finished());
+  group.rounds(3);
+  EXPECT_TRUE(group.all_in(PublishedState::Ready)) << group.describe();
+}
+
+TEST(Robust, OlderWordsOfAnIncarnationAreIgnored) {
+  Group group = started(Variant::Robust, 1);
+  const Message old = group.message(1, 0);
+  group.call(1, Method::Suspend);
+  group.tell(1, 0);
+  const Outputs outputs = group.deliver(old);
+  EXPECT_TRUE(outputs.ignored);
+  EXPECT_EQ(outputs.arm_timeout, 0U);
+  EXPECT_EQ(group[0].state(), PublishedState::Suspended);
+}
+
+TEST(Robust, SequenceNumbersWrap) {
+  Participant<4> slave({Variant::Robust, Role::Slave, 1, 1, 1});
+  const Word word{7, PublishedState::Halted, {}, 0};
+  for (const std::uint16_t sequence : std::initializer_list<std::uint16_t>{0xFFFE, 0xFFFF, 0, 1})
+    EXPECT_FALSE(slave.step(Input::received(0, word, sequence)).ignored) << sequence;
+  EXPECT_TRUE(slave.step(Input::received(0, word, 0xFFFF)).ignored);
+  EXPECT_FALSE(slave.step(Input::received(0, word, 1)).ignored) << "a duplicate is taken again";
+  slave.step(Input::peer_silent(0));
+  EXPECT_FALSE(slave.step(Input::received(0, word, 0x9000)).ignored) << "after silence any number is the first";
+}
+
+TEST(Robust, ARestartedPeerHaltsTheGroup) {
+  for (std::size_t who = 0; who < 3; ++who) {
+    Group group = started(Variant::Robust, 2);
+    group.restart(who);
+    const std::size_t other = who == 0 ? 1 : 0;
+    const Outputs outputs = group.tell(who, other);
+    EXPECT_EQ(outputs.alarm, Alarm::PeerRestarted);
+    EXPECT_TRUE(outputs.process_stopped);
+    group.rounds(2);
+    EXPECT_TRUE(group.all_in(PublishedState::Halted)) << group.describe();
+    EXPECT_TRUE(group.agreed());
+    EXPECT_EQ(group.call(0, Method::Start).status, StatusCode::Good);
+    group.rounds(4);
+    EXPECT_TRUE(group.all_in(PublishedState::Running)) << group.describe();
+    EXPECT_TRUE(group.observer.violations().empty());
+  }
+}
+
+// Found by the random schedules: who takes the incarnation heard last for the newest, and ignores the one before, ignores
+// the living one for ever if a late word of the dead one comes in between.
+TEST(Robust, ALateWordOfAFormerIncarnationDoesNotShutOutTheNewOne) {
+  Group group(Variant::Robust, 1);
+  const Message late = group.message(1, 0);
+  group.restart(1);
+  group.tell(1, 0);
+  EXPECT_FALSE(group.deliver(late).ignored);
+  EXPECT_FALSE(group.tell(1, 0).ignored);
+  group.call(0, Method::Start);
+  group.rounds(4);
+  EXPECT_TRUE(group.all_in(PublishedState::Running)) << group.describe();
+  EXPECT_EQ(group.deliver(late).alarm, Alarm::PeerRestarted) << "and while Running it costs a halt";
+  group.rounds(3);
+  EXPECT_TRUE(group.agreed()) << group.describe();
+}
+
+// The hole in "a restarted master can adopt its own old start from a slave and wait for ever", mended at both ends.
+TEST(Robust, ARestartedMasterDoesNotAdoptItsOldStart) {
+  Group group = started(Variant::Robust, 2);
+  group.restart(0);
+  const Outputs outputs = group.tell(1, 0);
+  EXPECT_EQ(outputs.alarm, Alarm::Mismatch);
+  EXPECT_EQ(group[0].intent().kind, IntentKind::Halt);
+  group.rounds(2);
+  EXPECT_TRUE(group.all_in(PublishedState::Halted)) << group.describe();
+}
+
+// Words of the run before must not carry a restarted master, which gives the same number again, through the barrier.
+TEST(Robust, StaleWordsDoNotCountInTheRunOfANewIncarnation) {
+  Group group(Variant::Robust, 1);
+  group.call(0, Method::Start);
+  group.round();
+  group.initialised(1);
+  const Message stale_ready = group.message(1, 0);
+  group.restart(0);
+  group.call(0, Method::Start);
+  ASSERT_EQ(group[0].intent().number, stale_ready.word.intent.number);
+  group.initialised(0);
+  group.deliver(stale_ready);
+  EXPECT_EQ(group[0].state(), PublishedState::HaltedInit);
+  group.rounds(3);
+  EXPECT_TRUE(group.agreed()) << group.describe();
+  EXPECT_TRUE(group.all_in(PublishedState::Halted)) << group.describe();
+}
+
+// A slave that was restarted within a run must not slip in behind the barrier, even if nobody hears its new incarnation.
+TEST(Robust, ARestartedSlaveDoesNotJoinARunThatIsPastTheBarrier) {
+  Group group = started(Variant::Robust, 2);
+  group.restart(1);
+  const Outputs outputs = group.tell(0, 1);
+  EXPECT_EQ(outputs.alarm, Alarm::Mismatch);
+  EXPECT_EQ(outputs.change_count, 0);
+  EXPECT_EQ(group[1].intent().kind, IntentKind::Halt);
+}
+
+TEST(Robust, ASilentPeerHaltsWhoeverIsNotHalted) {
+  for (std::size_t who = 0; who < 3; ++who) {
+    Group group = started(Variant::Robust, 2);
+    const std::size_t peer = who == 0 ? 1 : 0;
+    const Outputs outputs = group.step(who, Input::peer_silent(peer));
+    EXPECT_EQ(outputs.alarm, Alarm::PeerSilent);
+    group.rounds(2);
+    EXPECT_TRUE(group.all_in(PublishedState::Halted)) << group.describe();
+    EXPECT_FALSE(group.step(who, Input::peer_silent(peer)).publish) << "in Halted silence means nothing";
+  }
+  Group group(Variant::Robust, 2);
+  EXPECT_EQ(group.call(0, Method::Start).arm_timeout, 3U) << "time-outs begin to matter with INIT";
+  EXPECT_EQ(group.step(0, Input::peer_silent(1)).alarm, Alarm::PeerSilent);
+}
+
+TEST(Robust, AnOvertakenInitialisationDoesNotCount) {
+  Group group(Variant::Robust, 1);
+  group.call(0, Method::Start);
+  const Outputs first = group.tell(0, 1);
+  group.call(0, Method::Halt);
+  group.call(0, Method::Start);
+  const Outputs second = group.tell(0, 1);  // the halt was never heard
+  EXPECT_TRUE(second.begin_initialisation);
+  EXPECT_NE(first.initialisation_run, second.initialisation_run);
+  group.step(1, Input::initialised(first.initialisation_run));
+  EXPECT_EQ(group[1].state(), PublishedState::HaltedInit);
+  group.step(1, Input::initialised(second.initialisation_run));
+  EXPECT_EQ(group[1].state(), PublishedState::Ready);
+}
+
+TEST(Robust, ProcessDataCarryingItsRunCountsInThatRunOnly) {
+  Group group = started(Variant::Robust, 1);
+  const std::uint32_t run = group[0].run();
+  EXPECT_TRUE(group[1].process_data_counts(0, run));
+  EXPECT_FALSE(group[1].process_data_counts(0, run + 1));
+  group.call(1, Method::Suspend);
+  EXPECT_FALSE(group[1].process_data_counts(0, run));
+}
+
+TEST(Robust, HostileWordsDoNoHarm) {
+  Group group = started(Variant::Robust, 1);
+  Word word = group[1].word();
+  word.state = static_cast<PublishedState>(99);
+  EXPECT_TRUE(group.step(0, Input::received(0, word, 30000)).ignored);
+  word = group[1].word();
+  word.intent.kind = static_cast<IntentKind>(6);
+  EXPECT_TRUE(group.step(0, Input::received(0, word, 30000)).ignored);
+  word.intent = {std::numeric_limits<std::uint32_t>::max(), IntentKind::Start, 200, 77};
+  const Outputs outputs = group.step(0, Input::received(0, word, 30000));
+  EXPECT_EQ(outputs.alarm, Alarm::Mismatch);
+  EXPECT_EQ(group[0].intent().number, std::numeric_limits<std::uint32_t>::max()) << "saturates";
+  EXPECT_EQ(group[0].intent().kind, IntentKind::Halt);
+  group.tell(0, 1);
+  EXPECT_TRUE(group.all_in(PublishedState::Halted));
+}
+
+TEST(Robust, ProgramErrorsAreChecked) {
+  using Small = Participant<4>;
+  EXPECT_THROW(Small({Variant::Robust, Role::Master, 0, 5, 1}), sim::InvariantBroken);
+  EXPECT_THROW(Small({Variant::Robust, Role::Master, 1, 2, 1}), sim::InvariantBroken);
+  EXPECT_THROW(Small({Variant::Robust, Role::Slave, 3, 2, 1}), sim::InvariantBroken);
+  EXPECT_THROW(Small({Variant::Robust, Role::Master, 0, 0, 1}), sim::InvariantBroken);
+  Small master({Variant::Robust, Role::Master, 0, 4, 1});
+  EXPECT_THROW(master.step(Input::peer_silent(4)), sim::InvariantBroken);
+  EXPECT_THROW(master.step(Input::received(4, Word{}, 0)), sim::InvariantBroken);
+}
+
+TEST(Participant, SixtyFourSlavesStart) {
+  Group group = started(Variant::Robust, 64);
+  EXPECT_EQ(group[0].peer_count(), 64U);
+  EXPECT_EQ(group[64].participant_of(0), 0U);
+  EXPECT_EQ(group[0].participant_of(group[0].peer_of(64)), 64U);
+  started(Variant::Paper, 64);
+}
+
+TEST(Participant, EqualValuesHaveEqualHashes) {
+  Group one = started(Variant::Robust, 3);
+  Group other = started(Variant::Robust, 3);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_TRUE(one[i] == other[i]);
+    EXPECT_EQ(one[i].hash(), other[i].hash());
+  }
+  other.call(1, Method::Suspend);
+  EXPECT_FALSE(one[1] == other[1]);
+  EXPECT_NE(one[1].hash(), other[1].hash());
+  other.tell(1, 0);
+  EXPECT_NE(one[0].hash(), other[0].hash());
+}
+
+}  // namespace
+}  // namespace takt::handshake

@@ -1,0 +1,206 @@
+// `robust` under random schedules: loss, delay, duplication, reordering, crash and restart, silence, any command at any
+// time. S1 to S5 never break; once the faults end all agree (L1); a silent peer halts all (F1).
+//
+// A schedule is a list of small actions made from its seed, so a failing one can be cut down and is printed.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "group.hpp"
+
+namespace takt::handshake {
+namespace {
+
+/// splitmix64: a seed gives the same numbers everywhere.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15ULL) {}
+  std::uint32_t below(std::uint32_t bound) {
+    std::uint64_t z = state_ += 0x9E3779B97F4A7C15ULL;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    return static_cast<std::uint32_t>((z ^ (z >> 31)) % bound);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+enum class Act : std::uint8_t { Publish, Deliver, Duplicate, Drop, Initialised, Call, Finish, Silent, Restart };
+struct Action {
+  Act act = Act::Publish;
+  std::uint32_t a = 0;  ///< a participant or a message under way
+  std::uint32_t b = 0;
+};
+
+constexpr const char* act_names[]{"publish", "deliver", "duplicate", "drop", "initialised", "call", "finish", "silent", "restart"};
+
+std::vector<Action> make_schedule(std::uint64_t seed, std::size_t participants, std::size_t length) {
+  Dice dice(seed);
+  // Faults and commands are rarer than progress, or nothing would ever run; how rare differs from schedule to schedule.
+  const auto rarity = static_cast<std::uint32_t>((1 + dice.below(10)) * participants);
+  std::vector<Action> schedule;
+  for (std::size_t i = 0; i < length; ++i) {
+    Action action;
+    const std::uint32_t face = dice.below(12 * rarity + 14);
+    if (face < 5 * rarity) action.act = Act::Publish;
+    else if (face < 10 * rarity) action.act = Act::Deliver;
+    else if (face < 12 * rarity) action.act = Act::Initialised;
+    else if (face < 12 * rarity + 7) action.act = Act::Call;
+    else action.act = std::array{Act::Duplicate, Act::Duplicate, Act::Drop, Act::Drop, Act::Finish, Act::Silent, Act::Restart}[face - 12 * rarity - 7];
+    action.a = dice.below(static_cast<std::uint32_t>(action.act == Act::Deliver ? 1000 : participants * 4));
+    action.b = dice.below(1000);
+    schedule.push_back(action);
+  }
+  return schedule;
+}
+
+/// A group with a network that keeps words under way, and delivers them in any order.
+class World {
+ public:
+  explicit World(std::size_t slaves) : group(Variant::Robust, slaves) {}
+
+  void act(const Action& action) {
+    const std::size_t who = action.a % group.size();
+    switch (action.act) {
+      case Act::Publish: publish(who); break;
+      case Act::Deliver:
+        // Mostly the oldest ones in order, sometimes any one.
+        if (action.b % 8 == 0) {
+          if (!under_way.empty()) deliver(action.a % under_way.size(), false);
+        } else {
+          for (std::uint32_t i = 0; i <= action.b % group.size() && !under_way.empty(); ++i) deliver(0, false);
+        }
+        break;
+      case Act::Duplicate:
+        if (!under_way.empty()) deliver(action.b % under_way.size(), true);
+        break;
+      case Act::Drop:
+        if (!under_way.empty()) take(action.b % under_way.size());
+        break;
+      case Act::Initialised:
+        if (group.initialising(who)) group.initialised(who);
+        break;
+      case Act::Call: call(who, action.b); break;
+      case Act::Finish: group.step(who, Input::finished()); break;
+      case Act::Silent: group.step(who, Input::peer_silent(action.b % group[who].peer_count())); break;
+      case Act::Restart: group.restart(who); break;
+    }
+  }
+
+  void publish(std::size_t from) {
+    for (std::size_t peer = 0; peer < group[from].peer_count(); ++peer) {
+      if (under_way.size() >= 40) take(0);
+      under_way.push_back(group.message(from, group[from].participant_of(peer)));
+    }
+  }
+  Message take(std::size_t position) {
+    const Message message = under_way[position];
+    under_way.erase(under_way.begin() + static_cast<std::ptrdiff_t>(position));
+    return message;
+  }
+  void deliver(std::size_t position, bool keep) { group.deliver(keep ? under_way[position] : take(position)); }
+  void call(std::size_t who, std::uint32_t b) {
+    // A start is worth trying more often than the rest, and only the master can.
+    if (b % 3 == 0) group.call(0, program::Method::Start);
+    else group.call(who, program::methods[b % 5].method);
+  }
+
+  Group group;
+  std::vector<Message> under_way;
+};
+
+/// What is wrong with a schedule; empty if nothing.
+enum class Begin : std::uint8_t { New, Running };
+std::string run(const std::vector<Action>& schedule, std::size_t slaves, Begin begin, bool* ran = nullptr) {
+  World world(slaves);
+  if (begin == Begin::Running) {
+    world.call(0, 0);
+    world.group.rounds(4);
+    if (!world.group.all_in(PublishedState::Running)) return "a fair start failed\n" + world.group.describe();
+  }
+  for (const Action& action : schedule) {
+    world.act(action);
+    if (!world.group.observer.violations().empty()) return "violation\n" + world.group.describe();
+    if (ran != nullptr && world.group.all_in(PublishedState::Running)) *ran = true;
+  }
+  // The faults end: what is under way still arrives, then words are exchanged fairly.
+  while (!world.under_way.empty()) world.deliver(0, false);
+  world.group.rounds(10);
+  if (!world.group.observer.violations().empty()) return "violation at the end\n" + world.group.describe();
+  if (!world.group.agreed()) return "L1: no agreement\n" + world.group.describe();
+
+  // F1: somebody falls silent; whoever listens to it notices, and all the others hear of it.
+  const std::size_t silent = schedule.size() % world.group.size();
+  for (std::size_t i = 0; i < world.group.size(); ++i) {
+    if (i != silent && (i == 0 || silent == 0)) world.group.step(i, Input::peer_silent(world.group[i].peer_of(silent)));
+  }
+  for (int round = 0; round < 3; ++round)
+    for (std::size_t i = 0; i < world.group.size(); ++i)
+      if (i != silent && silent != 0) {
+        if (i != 0) world.group.tell(i, 0);
+        else
+          for (std::size_t to = 1; to < world.group.size(); ++to)
+            if (to != silent) world.group.tell(0, to);
+      }
+  for (std::size_t i = 0; i < world.group.size(); ++i)
+    if (i != silent && world.group[i].state() != PublishedState::Halted) return "F1: not halted\n" + world.group.describe();
+  // The silent one comes back: it follows into Halted as well.
+  world.group.rounds(3);
+  if (!world.group.agreed()) return "L1 after silence: no agreement\n" + world.group.describe();
+  return {};
+}
+
+/// Leaves out whatever is not needed for the failure, in ever smaller pieces.
+std::vector<Action> shrink(std::vector<Action> schedule, std::size_t slaves, Begin begin) {
+  for (std::size_t piece = schedule.size() / 2; piece > 0; piece /= 2) {
+    for (std::size_t from = 0; from + piece <= schedule.size();) {
+      std::vector<Action> shorter = schedule;
+      const auto first = shorter.begin() + static_cast<std::ptrdiff_t>(from);
+      shorter.erase(first, first + static_cast<std::ptrdiff_t>(piece));
+      if (run(shorter, slaves, begin).empty()) from += piece;
+      else schedule = shorter;
+    }
+  }
+  return schedule;
+}
+
+std::string print(const std::vector<Action>& schedule) {
+  std::string text;
+  for (const Action& action : schedule)
+    text += "  " + std::string(act_names[static_cast<std::size_t>(action.act)]) + " " + std::to_string(action.a) + " " +
+            std::to_string(action.b) + "\n";
+  return text;
+}
+
+class Schedules : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Slaves, Schedules, testing::Range(1, 9));
+
+TEST_P(Schedules, NothingBreaksAndAllAgreeInTheEnd) {
+  const auto slaves = static_cast<std::size_t>(GetParam());
+#ifdef NDEBUG
+  constexpr std::uint64_t count = 4000;
+#else
+  constexpr std::uint64_t count = 400;
+#endif
+  std::uint64_t that_ran = 0;
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    const std::vector<Action> schedule = make_schedule(seed, slaves + 1, 60 + seed % 300 * slaves);
+    const Begin begin = seed % 2 == 0 ? Begin::New : Begin::Running;
+    bool ran = false;
+    const std::string wrong = run(schedule, slaves, begin, &ran);
+    if (begin == Begin::New) that_ran += ran ? 1 : 0;
+    if (wrong.empty()) continue;
+    const std::vector<Action> least = shrink(schedule, slaves, begin);
+    FAIL() << "seed " << seed << ", " << slaves << " slaves" << (begin == Begin::Running ? ", running" : "") << ": " << wrong
+           << "cut down to:\n" << print(least) << run(least, slaves, begin);
+  }
+  // A harness in which the group never gets to Running would prove nothing.
+  EXPECT_GT(that_ran * 10, count / 2) << that_ran << " of " << count / 2 << " schedules brought everybody to Running";
+  RecordProperty("that_ran", static_cast<int>(that_ran));
+}
+
+}  // namespace
+}  // namespace takt::handshake

@@ -4,7 +4,7 @@
 add_library(takt_options INTERFACE)
 target_compile_features(takt_options INTERFACE cxx_std_20)
 target_compile_options(takt_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Werror
-                                              -ffp-contract=off)
+                                              -ffp-contract=off -fno-tree-slp-vectorize)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(takt_options INTERFACE -Wno-restrict)  # GCC bug 105651: false alarms for string concatenation
 endif()

@@ -30,7 +30,21 @@ enum class Phase : std::uint8_t {
 /// What a component is told; each component type numbers its own kinds.
 using EventKind = std::uint16_t;
 
+/// Copied word by word, and takt is built without vectorising such copies: an event is read moments after it was written,
+/// and a 16-octet load cannot be served from two 8-octet stores that are still on their way to the cache.
 struct Event {
+  Event() = default;
+  Event(TrueTime time_, std::uint64_t order_, std::uint64_t serial_kind_, std::uint64_t argument_)
+      : time(time_), order(order_), serial_kind(serial_kind_), argument(argument_) {}
+  Event(const Event& other) : time(other.time), order(other.order), serial_kind(other.serial_kind), argument(other.argument) {}
+  Event& operator=(const Event& other) {
+    time = other.time;
+    order = other.order;
+    serial_kind = other.serial_kind;
+    argument = other.argument;
+    return *this;
+  }
+
   TrueTime time;
   std::uint64_t order = 0;        ///< phase (4 bits), target (30), source (30)
   std::uint64_t serial_kind = 0;  ///< serial of the source (48 bits), kind (16)

@@ -41,7 +41,7 @@ std::size_t EventQueue::next_occupied(std::size_t from) const {
 /// Moves the events of the next bucket that has any into the empty near heap.
 void EventQueue::advance() {
   TAKT_CHECK(near_.empty() && waiting_ > 0, "the calendar advances only when the heap is empty");
-  if (waiting_ < heap_only_limit / 8) {
+  if (waiting_ < near_only_limit / 4) {
     collapse();
     return;
   }
@@ -113,7 +113,7 @@ void EventQueue::spread() {
   const std::size_t half = all.size() / 2;
   const std::int64_t start = all.front().time.ps();
   const std::int64_t spacing = (all[half].time.ps() - start) / static_cast<std::int64_t>(half + 1);
-  width_log2_ = std::min(40, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(1, 2 * spacing)))));
+  width_log2_ = std::min(40, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(1, 4 * spacing)))));
   const std::int64_t width = std::int64_t{1} << width_log2_;
   near_end_ = TrueTime::from_ps((start >> width_log2_ << width_log2_) + width);
   horizon_ = near_end_ + Duration::from_ps(width * static_cast<std::int64_t>(buckets_.size() - 1));
@@ -124,7 +124,7 @@ void EventQueue::spread() {
       push_far(event);
   }
   // Many events at one instant cannot be spread; do not try again before the heap has doubled.
-  crowded_ = std::max<std::size_t>(heap_only_limit, 2 * near_.size());
+  crowded_ = std::max<std::size_t>(near_only_limit, 2 * near_.size());
 }
 
 /// Back to one heap: few events are left.
@@ -134,7 +134,7 @@ void EventQueue::collapse() {
     if (buckets_[bucket] != none) load_bucket(bucket);
   beyond_.drain([this](const Event& event) { near_.push(event); });
   waiting_ = 0;
-  crowded_ = heap_only_limit;
+  crowded_ = near_only_limit;
 }
 
 }  // namespace takt::sim

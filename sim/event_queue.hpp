@@ -1,11 +1,13 @@
 // The pending events of a simulation, smallest first in the order of Event.
 //
-// Small populations live in one 4-ary heap. From a few hundred events on, only the events of the near future stay in the
-// heap; later ones wait unsorted in a calendar of equally wide buckets, and those beyond the calendar in a second heap.
-// So the cost of an event hardly grows with the population, and the order never depends on the layout: every event
-// passes through the near heap, which holds all events before `near_end_`.
+// The events of the near future lie in a short sorted array, where a pop is a decrement and a push moves the few events
+// that come before it. From a few dozen events on, later ones wait unsorted in a calendar of equally wide buckets, and
+// those beyond the calendar in a heap; so the cost of an event hardly grows with the population. Many events at one
+// instant cannot be spread over buckets: then a heap takes the place of the array. The order never depends on the layout:
+// every event passes through the near part, which holds all events before `near_end_`.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -97,6 +99,62 @@ class EventHeap {
   bool hole_ = false;
 };
 
+/// The near part: a sorted array while it is short, a heap while it is long.
+class NearEvents {
+ public:
+  static constexpr std::uint32_t most_sorted = 40;
+
+  bool empty() const { return count_ == 0 && heap_.empty(); }
+  std::size_t size() const { return count_ + heap_.size(); }
+  TrueTime first_time() const { return count_ > 0 ? sorted_[count_ - 1].time : heap_.first_time(); }
+
+  /// The event that will be popped after `ahead` others, if that is known without work.
+  const Event* upcoming(std::uint32_t ahead) const { return ahead < count_ ? &sorted_[count_ - 1 - ahead] : nullptr; }
+
+  Event pop() {
+    if (count_ == 0) [[unlikely]] refill();
+    return sorted_[--count_];
+  }
+
+  void push(const Event& event) {
+    if (!heap_.empty() || count_ == most_sorted) [[unlikely]] {
+      push_long(event);
+      return;
+    }
+    std::uint32_t at = count_++;
+    while (at > 0 && sorted_[at - 1] < event) {
+      sorted_[at] = sorted_[at - 1];
+      --at;
+    }
+    sorted_[at] = event;
+  }
+
+  template <class Sink>
+  void drain(Sink&& sink) {
+    while (count_ > 0) sink(sorted_[--count_]);
+    heap_.drain(sink);
+  }
+
+ private:
+  /// While the heap holds events, the array holds none.
+  void push_long(const Event& event) {
+    while (count_ > 0) heap_.push(sorted_[--count_]);
+    heap_.push(event);
+  }
+  void refill() {
+    if (heap_.size() > most_sorted / 2) {
+      sorted_[count_++] = heap_.pop();
+      return;
+    }
+    std::uint32_t at = count_ = static_cast<std::uint32_t>(heap_.size());
+    while (at > 0) sorted_[--at] = heap_.pop();
+  }
+
+  std::uint32_t count_ = 0;
+  std::array<Event, most_sorted> sorted_;  ///< descending: the first event is the last one
+  EventHeap heap_;
+};
+
 class EventQueue {
  public:
   bool empty() const { return near_.empty() && waiting_ == 0; }
@@ -114,6 +172,9 @@ class EventQueue {
   /// Removes and returns the first event. Precondition: first_time() has just been asked and was not never.
   Event pop() { return near_.pop(); }
 
+  /// The event that will probably be popped after `ahead` others, or null. A hint: a push may come in between.
+  const Event* upcoming(std::uint32_t ahead) const { return near_.upcoming(ahead); }
+
   void push(const Event& event) {
     if (event.time < near_end_) [[likely]] {
       near_.push(event);
@@ -129,7 +190,7 @@ class EventQueue {
     std::uint32_t next;
   };
   static constexpr std::uint32_t none = 0xFFFF'FFFF;
-  static constexpr std::size_t heap_only_limit = 256;
+  static constexpr std::size_t near_only_limit = 64;
 
   void push_far(const Event& event);
   void put_into_bucket(const Event& event);
@@ -142,10 +203,10 @@ class EventQueue {
   }
   std::size_t next_occupied(std::size_t from) const;
 
-  EventHeap near_;
+  NearEvents near_;
   TrueTime near_end_ = TrueTime::never();   // events before it are in near_
   TrueTime horizon_ = TrueTime::never();    // events from it on are in beyond_
-  std::size_t crowded_ = heap_only_limit;   // size of near_ at which the calendar is (re)built
+  std::size_t crowded_ = near_only_limit;   // size of near_ at which the calendar is (re)built
   std::size_t waiting_ = 0;                 // events in buckets and in beyond_
   std::size_t in_buckets_ = 0;
   int width_log2_ = 0;                      // a bucket spans 2^width_log2_ ps

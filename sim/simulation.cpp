@@ -56,10 +56,18 @@ std::uint64_t Simulation::unshuffled(std::uint64_t order) const {
 }
 
 bool Simulation::run(TrueTime until, std::uint64_t max_events) {
-  return tie_shuffle_ == 0 ? loop<false>(until, max_events) : loop<true>(until, max_events);
+  if (tie_shuffle_ != 0) return loop<true, false>(until, max_events);
+  return components_.size() < many_components ? loop<false, false>(until, max_events) : loop<false, true>(until, max_events);
 }
 
-template <bool is_shuffled>
+/// Three steps: the component itself, then what it will need, then what only that leads to.
+inline void Simulation::look_ahead() const {
+  if (const Event* const event = queue_.upcoming(3)) __builtin_prefetch(components_[event->target().index]);
+  if (const Event* const event = queue_.upcoming(1)) components_[event->target().index]->prefetch(*event, Component::Ahead::two_events);
+  if (const Event* const event = queue_.upcoming(0)) components_[event->target().index]->prefetch(*event, Component::Ahead::one_event);
+}
+
+template <bool is_shuffled, bool looks_ahead>
 bool Simulation::loop(TrueTime until, std::uint64_t max_events) {
   const std::uint64_t stop_at = max_events > ~0ULL - events_ ? ~0ULL : events_ + max_events;
   Event event;
@@ -74,6 +82,7 @@ bool Simulation::loop(TrueTime until, std::uint64_t max_events) {
       if (events_ >= stop_at && next > now_) return false;
       event = queue_.pop();
       if constexpr (is_shuffled) event.order = unshuffled(event.order);
+      if constexpr (looks_ahead) look_ahead();
       now_ = event.time;
       ++events_;
       components_[event.target().index]->handle(*this, event);

@@ -20,6 +20,11 @@ class Component {
   virtual ~Component() = default;
   /// An event for this component has come due; simulation.now() is its time.
   virtual void handle(Simulation& simulation, const Event& event) = 0;
+  /// How near an event is that prefetch() is told of.
+  enum class Ahead : std::uint8_t { two_events, one_event };
+  /// `event` will soon be handled: brings what it will need towards the cache, first what is found at once, then what only
+  /// that leads to. Called in large simulations only, changes nothing.
+  virtual void prefetch(const Event& event, Ahead ahead) const { static_cast<void>(event), static_cast<void>(ahead); }
   /// The instant at which this component called settle_later() is complete: every event of it has been handled.
   virtual void settle(Simulation& simulation) { static_cast<void>(simulation); }
 };
@@ -52,6 +57,10 @@ class Simulation {
   /// Asks for component.settle() at the end of the present instant. The component remembers that it has asked.
   void settle_later(Component& component) { settling_.push_back(&component); }
 
+  /// True if nothing else happens at the present instant: no event is pending for it and nobody waits to settle. A handler
+  /// may then do as its last act what it would otherwise leave to settle().
+  bool instant_is_complete() { return settling_.empty() && queue_.first_time() > now_; }
+
   /// Handles the events up to and including `until`, at most about `max_events` of them. Returns true when `until` has been
   /// reached (now() is `until` then), false when there is more to do. It never stops in the middle of an instant.
   bool run(TrueTime until, std::uint64_t max_events = ~0ULL);
@@ -68,8 +77,11 @@ class Simulation {
   void set_tie_shuffle(std::uint64_t key);
 
  private:
-  template <bool is_shuffled>
+  /// From so many components on, their state does not stay in the nearest caches: the loop then looks ahead.
+  static constexpr std::size_t many_components = 2048;
+  template <bool is_shuffled, bool looks_ahead>
   bool loop(TrueTime until, std::uint64_t max_events);
+  void look_ahead() const;
   void settle_all();
   std::uint64_t shuffled(std::uint64_t order) const;
   std::uint64_t unshuffled(std::uint64_t order) const;

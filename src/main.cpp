@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -37,7 +39,9 @@ ExitStatus main_with(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return static_cast<int>(main_with(argc, argv));
+    const ExitStatus status = main_with(argc, argv);
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return static_cast<int>(status);
+    std::fprintf(stderr, "takt: cannot write to standard output: %s\n", std::strerror(errno));
   } catch (const takt::sim::InvariantBroken& broken) {
     std::fprintf(stderr, "takt: internal error, please report it with the scenario:\n%s\n", broken.what());
   } catch (const std::bad_alloc&) {

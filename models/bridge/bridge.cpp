@@ -7,12 +7,26 @@ void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
   if (chain_ != nullptr && !chain_->pass(simulation, arrival.frame, arrival.port)) return;
   const Frame& frame = traffic_->frame(arrival.frame);
-  const std::span<const std::uint16_t> egress = filtering_database_.find(frame.vlan, frame.destination);
-  if (egress.size() == 1 && egress[0] != arrival.port) [[likely]] {
-    ports_[egress[0]].offer(simulation, arrival.frame, arrival.port);
+  const FilteringDatabase::Entry entry = filtering_database_.find(frame.vlan, frame.destination);
+  if (entry.found() && entry.is_one_port() && entry.port() != arrival.port) [[likely]] {
+    ports_[entry.port()].offer_last(simulation, arrival.frame, arrival.port);
     return;
   }
-  forward_to_many(simulation, arrival, egress);
+  const std::uint16_t one = entry.port();
+  if (!entry.found())
+    forward_to_many(simulation, arrival, {});
+  else
+    forward_to_many(simulation, arrival, entry.is_one_port() ? std::span(&one, 1) : filtering_database_.ports_of(entry));
+}
+
+void Bridge::prefetch(const sim::Event& event, Ahead ahead) const {
+  const Frame& frame = traffic_->frame(ArrivalArgument::unpack(event.argument).frame);
+  if (ahead == Ahead::two_events) {
+    filtering_database_.prefetch(frame.vlan, frame.destination);
+    return;
+  }
+  const FilteringDatabase::Entry entry = filtering_database_.find(frame.vlan, frame.destination);
+  if (entry.found() && entry.is_one_port()) ports_[entry.port()].prefetch_hot();
 }
 
 void Bridge::forward_to_many(sim::Simulation& simulation, ArrivalArgument arrival, std::span<const std::uint16_t> egress) {

@@ -23,6 +23,7 @@ class Bridge final : public sim::Component {
   void set_ingress_chain(IngressChain* chain) { chain_ = chain; }
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
+  void prefetch(const sim::Event& event, Ahead ahead) const override;
 
  private:
   void forward_to_many(sim::Simulation& simulation, ArrivalArgument arrival, std::span<const std::uint16_t> egress);

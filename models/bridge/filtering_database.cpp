@@ -1,40 +1,42 @@
 #include "models/bridge/filtering_database.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace takt::models {
 
-FilteringDatabase::Slot& FilteringDatabase::slot_for(std::uint64_t key) {
-  for (std::size_t at = sim::mix64(key) & mask_;; at = (at + 1) & mask_)
-    if (slots_[at].key == key || slots_[at].key == no_key) return slots_[at];
+std::uint64_t& FilteringDatabase::word_for(std::uint64_t key) {
+  for (std::size_t at = home_of(key);; at = (at + 1) & mask_)
+    if ((words_[at] & key_mask) == key || words_[at] == empty_word) return words_[at];
 }
 
 void FilteringDatabase::grow() {
-  std::vector<Slot> old(std::max<std::size_t>(4, slots_.size() * 2));
-  old.swap(slots_);
-  mask_ = slots_.size() - 1;
-  for (const Slot& slot : old)
-    if (slot.key != no_key) slot_for(slot.key) = slot;
+  std::vector<std::uint64_t> old(std::max<std::size_t>(4, words_.size() * 2), empty_word);
+  old.swap(words_);
+  mask_ = words_.size() - 1;
+  for (const std::uint64_t word : old)
+    if (word != empty_word) word_for(word & key_mask) = word;
 }
 
 void FilteringDatabase::add(VlanId vlan, AddressIndex address, std::uint16_t port) {
-  if (2 * (entries_ + 1) > slots_.size()) grow();
+  TAKT_CHECK(port < (1u << 15) && !address.is_none() && vlan < 4095, "a filtering entry for a port, an address and a VLAN that exist");
+  if (2 * (entries_ + 1) > words_.size()) grow();
   const std::uint64_t key = key_of(vlan, address);
-  Slot& slot = slot_for(key);
-  if (slot.key == no_key) {
-    slot = {key, 0, 1, port};
+  std::uint64_t& word = word_for(key);
+  if (word == empty_word) {
+    word = key | port;
     ++entries_;
     return;
   }
-  const std::span<const std::uint16_t> known = find(vlan, address);
-  if (std::find(known.begin(), known.end(), port) != known.end()) return;
-  std::vector<std::uint16_t> ports(known.begin(), known.end());
-  ports.insert(std::upper_bound(ports.begin(), ports.end(), port), port);
-  // The longer list goes to the end; the old one stays unused. Sets are built once, so little is lost.
-  slot.first = static_cast<std::uint32_t>(ports_.size());
-  slot.count = static_cast<std::uint16_t>(ports.size());
-  ports_.insert(ports_.end(), ports.begin(), ports.end());
+  const Entry entry(word);
+  if (entry.is_one_port()) {
+    if (entry.port() == port) return;
+    TAKT_CHECK(sets_.size() < 0xFFFF, "at most 65535 multicast entries in a bridge");
+    sets_.push_back({entry.port()});
+    word = key | several | (sets_.size() - 1);
+  }
+  std::vector<std::uint16_t>& ports = sets_[Entry(word).port()];
+  const auto at = std::lower_bound(ports.begin(), ports.end(), port);
+  if (at == ports.end() || *at != port) ports.insert(at, port);
 }
 
 }  // namespace takt::models

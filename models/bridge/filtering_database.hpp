@@ -7,48 +7,64 @@
 
 #include "models/ethernet/frame.hpp"
 #include "sim/check.hpp"
-#include "sim/digest.hpp"
 
 namespace takt::models {
 
-/// Open addressing in one array, so that a look-up touches one cache line. Learning is off: entries come from the topology.
+/// Open addressing in one array of 8-octet words, so that a look-up touches one cache line and large networks stay in the
+/// cache. Learning is off: entries come from the topology.
 class FilteringDatabase {
  public:
-  /// Adds a port to the entry of (vlan, address); adding it twice changes nothing.
+  /// What an entry says: one port, or a set of ports in ports_of().
+  class Entry {
+   public:
+    constexpr bool found() const { return (word_ & key_mask) != key_mask; }
+    constexpr bool is_one_port() const { return (word_ & several) == 0; }
+    /// Precondition: found() and is_one_port().
+    constexpr std::uint16_t port() const { return static_cast<std::uint16_t>(word_); }
+
+   private:
+    friend FilteringDatabase;
+    constexpr explicit Entry(std::uint64_t word) : word_(word) {}
+    std::uint64_t word_;
+  };
+
+  FilteringDatabase() : words_(1, empty_word) {}
+
+  /// Adds a port, below 2^15, to the entry of (vlan, address); adding it twice changes nothing.
   void add(VlanId vlan, AddressIndex address, std::uint16_t port);
 
-  /// The ports of an entry in ascending order; empty if there is none.
-  std::span<const std::uint16_t> find(VlanId vlan, AddressIndex address) const {
-    if (slots_.empty()) return {};
+  Entry find(VlanId vlan, AddressIndex address) const {
     const std::uint64_t key = key_of(vlan, address);
-    for (std::size_t at = sim::mix64(key) & mask_;; at = (at + 1) & mask_) {
-      const Slot& slot = slots_[at];
-      if (slot.key == key) [[likely]]
-        return slot.count == 1 ? std::span(&slot.port, 1) : std::span(ports_).subspan(slot.first, slot.count);
-      if (slot.key == no_key) return {};
+    for (std::size_t at = home_of(key);; at = (at + 1) & mask_) {
+      const std::uint64_t word = words_[at];
+      if ((word & key_mask) == key || word == empty_word) return Entry(word);
     }
   }
+  /// The ports of an entry that was found, in ascending order. The span lives until the next add().
+  std::span<const std::uint16_t> ports_of(const Entry& entry) const { return sets_[entry.port()]; }
 
   std::size_t entries() const { return entries_; }
+  /// Brings the word of (vlan, address) towards the cache. Costs nothing but the instruction.
+  void prefetch(VlanId vlan, AddressIndex address) const { __builtin_prefetch(&words_[home_of(key_of(vlan, address))]); }
 
  private:
-  static constexpr std::uint64_t no_key = ~0ULL;
-  struct Slot {
-    std::uint64_t key = no_key;
-    std::uint32_t first = 0;   ///< where the ports begin in ports_, if there are several
-    std::uint16_t count = 0;
-    std::uint16_t port = 0;    ///< the port, if there is one
-  };
-  static std::uint64_t key_of(VlanId vlan, AddressIndex address) {
-    return static_cast<std::uint64_t>(vlan) << 32 | address.value;
+  // A word: address 32 bits, VLAN 12 bits, 4 bits of which one says "several ports", port or number of the set 16 bits.
+  static constexpr std::uint64_t several = 1ULL << 16;
+  static constexpr std::uint64_t key_mask = ~((1ULL << 20) - 1);
+  static constexpr std::uint64_t empty_word = ~0ULL;  // address "none" in VLAN 4095, which does not exist
+
+  static constexpr std::uint64_t key_of(VlanId vlan, AddressIndex address) {
+    return static_cast<std::uint64_t>(address.value) << 32 | static_cast<std::uint64_t>(vlan & 0xFFF) << 20;
   }
-  Slot& slot_for(std::uint64_t key);
+  /// Fibonacci hashing: the high bits of one product.
+  std::size_t home_of(std::uint64_t key) const { return static_cast<std::size_t>(((key >> 20) * 0x9E3779B97F4A7C15ULL) >> 32) & mask_; }
+  std::uint64_t& word_for(std::uint64_t key);
   void grow();
 
-  std::vector<Slot> slots_;
+  std::vector<std::uint64_t> words_;
   std::size_t mask_ = 0;
   std::size_t entries_ = 0;
-  std::vector<std::uint16_t> ports_;
+  std::vector<std::vector<std::uint16_t>> sets_;
 };
 
 }  // namespace takt::models

@@ -49,7 +49,35 @@ struct Payload {
   std::span<const std::byte> view() const { return {octets.data(), length}; }
 };
 
-using FramePool = Pool<Frame, FrameIndex>;
+/// The same in one block, so that a frame is one step away. Addresses change when the pool grows: nobody keeps a reference
+/// over an allocate().
+class FramePool {
+ public:
+  Frame& operator[](FrameIndex handle) { return frames_[handle.value]; }
+  const Frame& operator[](FrameIndex handle) const { return frames_[handle.value]; }
+
+  FrameIndex allocate() {
+    if (free_.empty()) [[unlikely]] grow();
+    const FrameIndex handle = free_.back();
+    free_.pop_back();
+    return handle;
+  }
+  void free(FrameIndex handle) { free_.push_back(handle); }
+  std::size_t live() const { return frames_.size() - free_.size(); }
+
+ private:
+  void grow() {
+    const auto base = static_cast<std::uint32_t>(frames_.size());
+    const std::uint32_t more = base < 64 ? 64 : base;
+    frames_.resize(base + more);
+    free_.reserve(base + more);
+    for (std::uint32_t i = more; i-- > 0;) free_.push_back(FrameIndex{base + i});
+  }
+
+  std::vector<Frame> frames_;
+  std::vector<FrameIndex> free_;
+};
+
 using PayloadPool = Pool<Payload, PayloadIndex>;
 
 }  // namespace takt::models

@@ -40,6 +40,11 @@ void Host::handle(sim::Simulation& simulation, const sim::Event& event) {
   simulation.schedule(source_, receive_.pass(simulation.now()), sim::Phase::arrival, id(), deliver_now, event.argument);
 }
 
+void Host::prefetch(const sim::Event& event, Ahead ahead) const {
+  if (ahead == Ahead::one_event) return;
+  traffic_->prefetch_account(traffic_->frame(ArrivalArgument::unpack(event.argument).frame).stream);
+}
+
 void Host::deliver(sim::Simulation& simulation, FrameIndex index) {
   const Frame& frame = traffic_->frame(index);
   const Listener* const listener = listener_of(frame.stream);

@@ -18,6 +18,7 @@ class Host final : public sim::Component {
   void listen(StreamIndex stream, Process* process);
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
+  void prefetch(const sim::Event& event, Ahead ahead) const override;
   sim::ComponentId id() const { return source_.id(); }
 
  private:

@@ -18,6 +18,8 @@ Process::Process(sim::Simulation& simulation, Traffic& traffic, EgressPort& port
       source_(simulation.add(*this)),
       transmit_(latency.transmit, simulation.seed(), path, "os transmit"),
       wake_up_(latency.wake_up, simulation.seed(), path, "os wake-up"),
+      transmits_at_once_(transmit_.is_none()),
+      wakes_at_once_(wake_up_.is_none()),
       application_(std::move(application)) {
   const AlarmId count = application_->alarm_count();
   TAKT_CHECK(count < transmit_now, "too many alarms");
@@ -26,7 +28,7 @@ Process::Process(sim::Simulation& simulation, Traffic& traffic, EgressPort& port
 
 void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (event.kind() == transmit_now) {
-    port_->offer(simulation, FrameIndex{static_cast<std::uint32_t>(event.argument)}, id().index);
+    port_->offer_last(simulation, FrameIndex{static_cast<std::uint32_t>(event.argument)}, id().index);
     return;
   }
   TAKT_CHECK(event.kind() < alarms_.size(), "an alarm that was never set");
@@ -35,7 +37,7 @@ void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
 
 void Process::set_alarm(AlarmId alarm, sim::LocalTime time) {
   sim::TrueTime due = std::max(clock_->true_at(time), simulation_->now());
-  if (!wake_up_.is_none()) due += wake_up_.sample();
+  if (!wakes_at_once_) due += wake_up_.sample();
   alarms_[alarm].arm(*simulation_, source_, due);
 }
 
@@ -43,7 +45,7 @@ void Process::send(StreamIndex stream, std::span<const std::byte> payload) {
   const FrameIndex frame = traffic_->produce(stream, payload, simulation_->now());
   if (sim::TraceSink* const trace = simulation_->trace()) [[unlikely]]
     trace->record({simulation_->now(), static_cast<std::uint32_t>(Occurrence::produced), id(), frame.value, stream.value});
-  if (transmit_.is_none()) {
+  if (transmits_at_once_) {
     port_->offer(*simulation_, frame, id().index);
     return;
   }

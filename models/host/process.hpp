@@ -45,6 +45,8 @@ class Process final : public sim::Component, public HostServices {
   sim::EventSource source_;
   LatencyLine transmit_;
   LatencyLine wake_up_;
+  bool transmits_at_once_;
+  bool wakes_at_once_;
   std::vector<sim::Timer> alarms_;
   std::unique_ptr<Application> application_;
 };

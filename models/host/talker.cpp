@@ -26,6 +26,7 @@ Talker::Talker(sim::Simulation& simulation, Traffic& traffic, EgressPort& port, 
       payload_(payload),
       schedule_(std::move(schedule)),
       transmit_(latency.transmit, simulation.seed(), path, "os transmit"),
+      transmits_at_once_(transmit_.is_none()),
       chance_(simulation.seed(), path, "schedule") {}
 
 sim::LocalTime Talker::time_of_next() {
@@ -61,9 +62,15 @@ void Talker::schedule_next(sim::Simulation& simulation) {
   simulation.schedule(source_, std::max(clock_->true_at(time), simulation.now()), sim::Phase::timer, source_.id(), produce_now, 0);
 }
 
+void Talker::prefetch(const sim::Event&, Ahead ahead) const {
+  if (ahead == Ahead::one_event) return;
+  traffic_->prefetch_account(stream_);
+  port_->prefetch_hot();
+}
+
 void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (event.kind() == transmit_now) {
-    port_->offer(simulation, FrameIndex{static_cast<std::uint32_t>(event.argument)}, source_.id().index);
+    port_->offer_last(simulation, FrameIndex{static_cast<std::uint32_t>(event.argument)}, source_.id().index);
     return;
   }
   const auto* const trace_schedule = std::get_if<TraceSchedule>(&schedule_);
@@ -71,12 +78,11 @@ void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
   const FrameIndex frame = traffic_->produce(stream_, payload, simulation.now());
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::produced), source_.id(), frame.value, stream_.value});
-  if (transmit_.is_none())
-    port_->offer(simulation, frame, source_.id().index);
-  else
+  if (!transmits_at_once_)
     simulation.schedule(source_, transmit_.pass(simulation.now()), sim::Phase::arrival, source_.id(), transmit_now, frame.value);
   ++count_;
   schedule_next(simulation);
+  if (transmits_at_once_) port_->offer_last(simulation, frame, source_.id().index);
 }
 
 }  // namespace takt::models

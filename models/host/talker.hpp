@@ -47,6 +47,7 @@ class Talker final : public sim::Component {
   /// Schedules the first frame.
   void start(sim::Simulation& simulation);
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
+  void prefetch(const sim::Event& event, Ahead ahead) const override;
 
  private:
   void schedule_next(sim::Simulation& simulation);
@@ -63,6 +64,7 @@ class Talker final : public sim::Component {
   sim::LocalTime last_;
   TalkerSchedule schedule_;
   LatencyLine transmit_;
+  bool transmits_at_once_;
   sim::RandomStream chance_;
 };
 

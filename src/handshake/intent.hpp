@@ -27,8 +27,8 @@ constexpr std::string_view name_of(IntentKind kind) { return intent_kind_names[i
 
 /// The intent that a called method raises.
 constexpr IntentKind kind_of(program::Method method) {
-  constexpr std::array<IntentKind, program::methods.size()> kinds{IntentKind::Start, IntentKind::Suspend,
-                                                                  IntentKind::Resume, IntentKind::Halt, IntentKind::Reset};
+  constexpr std::array<IntentKind, program::methods.size()> kinds{
+      IntentKind::Start, IntentKind::Suspend, IntentKind::Resume, IntentKind::Halt, IntentKind::Reset};
   return kinds[program::index_of(method)];
 }
 
@@ -43,8 +43,8 @@ struct Intent {
   constexpr auto operator<=>(const Intent&) const = default;
 };
 
-/// The identity of the run that a Start intent opens; never 0. It contains the master's incarnation, because a restarted
-/// master may give a number a second time, and words of its former life must not count in the new run.
+/// The identity of the run that a Start intent opens; never 0. It contains the master's incarnation, because a
+/// restarted master may give a number a second time, and words of its former life must not count in the new run.
 constexpr std::uint32_t run_of(std::uint32_t master_incarnation, std::uint32_t number) {
   return ((master_incarnation & 0xFFFFU) << 16) | ((number - 1) % 0xFFFFU + 1);
 }

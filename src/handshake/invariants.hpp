@@ -1,17 +1,20 @@
 // The ghost observer of a group: sees every participant from outside and checks S1 to S5. No protocol code asks it.
 //
-//   S1 nobody is Running in a run before all were Ready in it      S2 the master only after all slaves were Running in it
+//   S1 nobody is Running in a run before all were Ready in it
+//   S2 the master is Running only after all slaves were Running in it
 //   S3 process data counts only between two that are Running in the same run
-//   S4 from Halted to Running only through INIT                    S5 only the nine transitions (and the INIT substate)
+//   S4 from Halted to Running only through INIT
+//   S5 only the nine transitions (and INIT entered and left)
 //
 // "Were" is meant: somebody may have halted since, and nobody can know that at once.
 //
 // The run is the word's run in `robust`. `paper` has none, so there the observer judges each participant by its own
-// *round*: it begins when the participant enters INIT, or becomes Ready by a reset or a finish. Then S1 reads: since the
-// round of the one that goes to Running began, each participant has at some time been Ready (one that was Ready already
-// and stays so counts); S2: since the master's round began, each slave has become Running; S3: the data was sent by one
-// that was Running, after the receiver's round began. That is as much as the states alone can mean: it blames nobody who
-// was merely overtaken by a halt, and it does not see that somebody who has missed a halt is Ready from before.
+// *round*: it begins when the participant enters INIT, or becomes Ready by a reset or a finish. Then S1 reads: since
+// the round of the one that goes to Running began, each participant has at some time been Ready (one that was Ready
+// already and stays so counts); S2: since the master's round began, each slave has become Running; S3: the data was
+// sent by one that was Running, after the receiver's round began. That is as much as the states alone can mean: it
+// blames nobody who was merely overtaken by a halt, and it does not see that somebody who has missed a halt is Ready
+// from before.
 #pragma once
 
 #include <cstddef>
@@ -75,8 +78,8 @@ class GroupObserver {
   /// It is new: Halted, and it knows nothing.
   void on_restart(std::size_t participant);
 
-  /// The run (`paper`: the number of rounds begun so far by anybody) in which a participant that is Running sends now; 0 if
-  /// it is not Running. Goes with each process-data message.
+  /// The run (`paper`: the number of rounds begun so far by anybody) in which a participant that is Running sends now;
+  /// 0 if it is not Running. Goes with each process-data message.
   std::uint32_t sending_run(std::size_t participant) const;
   /// An application has been given process data that was sent when the sender's sending_run was `sent_in`.
   void on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in);

@@ -44,8 +44,8 @@ struct Input {
     input.word = word;
     return input;
   }
-  /// The local initialisation that Outputs::begin_initialisation asked for has ended; `run` is Outputs::initialisation_run.
-  /// One that has been overtaken by a halt or by a newer start changes nothing.
+  /// The local initialisation that Outputs::begin_initialisation asked for has ended; `run` is
+  /// Outputs::initialisation_run. One that has been overtaken by a halt or by a newer start changes nothing.
   static constexpr Input initialised(std::uint32_t run) {
     Input input;
     input.kind = Kind::Initialised;
@@ -63,8 +63,9 @@ struct Input {
   }
 };
 
-/// A change of the local state. `transition` is the number of the OPC UA transition, or 0 where only the substate changes:
-/// INIT entered (Halted to HaltedInit) or left by a halt (HaltedInit to Halted). INIT to Ready is transition 1.
+/// A change of the local state. `transition` is the number of the OPC UA transition, or 0 where only the substate
+/// changes: INIT entered (Halted to HaltedInit) or left by a halt (HaltedInit to Halted). INIT to Ready is
+/// transition 1.
 struct StateChange {
   std::uint8_t transition = 0;
   PublishedState from = PublishedState::Halted;
@@ -85,14 +86,15 @@ struct Outputs {
   static constexpr std::size_t max_changes = 3;  ///< Running to Halted to INIT are two
 
   program::StatusCode status = program::StatusCode::Good;  ///< of a command; Good for every other input
-  bool ignored = false;               ///< Received: stale or invalid. Process data of the same message must not be used either
-  bool raised = false;                ///< a new intent was raised here: its kind in `raised_kind` (`paper`: the command's)
+  bool ignored = false;  ///< Received: stale or invalid. Process data of the same message must not be used either
+  bool raised = false;   ///< a new intent was raised here: its kind in `raised_kind` (`paper`: the command's)
   IntentKind raised_kind = IntentKind::Halt;
   Alarm alarm = Alarm::None;
   bool publish = false;               ///< word() differs from before the step
   bool process_stopped = false;       ///< Running was left: stop the process and its data
   bool process_started = false;       ///< Running was entered
-  bool begin_initialisation = false;  ///< INIT was entered: initialise (abandon an older initialisation), then say Initialised
+  /// INIT was entered: initialise (abandoning an older initialisation), then say Initialised.
+  bool begin_initialisation = false;
   std::uint8_t change_count = 0;
   std::array<StateChange, max_changes> change{};
   std::uint32_t initialisation_run = 0;  ///< to hand back with Initialised

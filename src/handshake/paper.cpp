@@ -18,8 +18,9 @@ constexpr auto init = PublishedState::HaltedInit;
 using Row = std::array<PublishedState, published_state_count>;
 using Table = std::array<Row, published_state_count>;
 
-/// Where a participant in a state (row) goes when it hears that a peer has changed to a state (column). Rows and columns:
-/// Halted, Ready, Running, Suspended, INIT. INIT of a peer means Halted to whoever is beyond the start (Fig. 4).
+/// Where a participant in a state (row) goes when it hears that a peer has changed to a state (column). Rows and
+/// columns: Halted, Ready, Running, Suspended, INIT. INIT of a peer means Halted to whoever is beyond the start (Fig.
+/// 4).
 constexpr Table master_reactions{{
     //  Halted  Ready    Running  Suspended  INIT
     Row{halted, halted,  halted,  halted,    halted},
@@ -84,7 +85,8 @@ void Participant<MaxPeers>::paper_received(const Input& input, Outputs& outputs)
     outputs.ignored = true;
     return;
   }
-  // A peer that was never heard counts as Halted: its first Halted is no news, so that all can be switched on in any order.
+  // A peer that was never heard counts as Halted: its first Halted is no news, so that all can be switched on in any
+  // order.
   Peer& peer = peers_[input.peer];
   const bool news = peer.state != input.word.state;
   peer.state = input.word.state;

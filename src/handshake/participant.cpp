@@ -1,7 +1,5 @@
 #include "handshake/participant.hpp"
 
-#include <utility>
-
 #include "sim/check.hpp"
 
 namespace takt::handshake {

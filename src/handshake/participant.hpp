@@ -1,8 +1,8 @@
 // One participant of a distributed Program: step(input) -> outputs. Reads no clock, opens no socket, allocates nothing.
 //
-// Two variants of the handshake: `paper` (Fig. 3 to 6 of the paper, state only) and `robust` (agreement on intents). Their
-// rules are in README.md, their code in paper.cpp and robust.cpp. The value can be copied, compared and hashed, so the
-// simulator, the explorer and a real node host the same type.
+// Two variants of the handshake: `paper` (Fig. 3 to 6 of the paper, state only) and `robust` (agreement on intents).
+// Their rules are in README.md, their code in paper.cpp and robust.cpp. The value can be copied, compared and hashed,
+// so the simulator, the explorer and a real node host the same type.
 #pragma once
 
 #include <array>
@@ -54,9 +54,11 @@ class Participant {
   std::size_t peer_of(std::size_t participant) const { return is_master() ? participant - 1 : 0; }
 
   /// S3: process data of this peer may reach the application now, as far as is known here: both are Running, and in
-  /// `robust` in the same run. Ask after the step with the word that came in the same message, and not if it was ignored.
+  /// `robust` in the same run. Ask after the step with the word that came in the same message, and not if it was
+  /// ignored.
   bool process_data_counts(std::size_t peer) const;
-  /// The same for process data that carries the run of its sender by itself (a message without a word). Not for `paper`.
+  /// The same for process data that carries the run of its sender by itself (a message without a word). Not for
+  /// `paper`.
   bool process_data_counts(std::size_t peer, std::uint32_t sender_run) const;
 
   bool operator==(const Participant&) const = default;

@@ -21,7 +21,9 @@ void ReactionTracker::on_step(std::size_t participant, const Outputs& outputs, c
   if (outputs.raised) complete_those_reached(at);  // an alarm may be raised where all are Halted already
 }
 
-void ReactionTracker::on_restart(std::size_t participant, sim::TrueTime at) { move(participant, PublishedState::Halted, at); }
+void ReactionTracker::on_restart(std::size_t participant, sim::TrueTime at) {
+  move(participant, PublishedState::Halted, at);
+}
 
 void ReactionTracker::begin(const Reaction& reaction, const Intent& intent) {
   const std::size_t position = reactions_.size();

@@ -39,7 +39,8 @@ constexpr bool reactions_are_sound() {
     for (std::size_t from = 0; from < published_state_count; ++from) {
       const std::optional<PublishedState> to = reactions[kind][from];
       if (!to || *to == init) continue;
-      if (*to != goal_of(static_cast<IntentKind>(kind)) && static_cast<IntentKind>(kind) != IntentKind::Start) return false;
+      if (*to != goal_of(static_cast<IntentKind>(kind)) && static_cast<IntentKind>(kind) != IntentKind::Start)
+        return false;
       const program::State base = base_state(published_state_at(from));
       if (base != base_state(*to) && !program::transition_exists(base, base_state(*to))) return false;
     }

@@ -91,7 +91,8 @@ constexpr const Transition* transition_between(State from, State to) {
   return transition_with_number(detail::lookup.between[index_of(from)][index_of(to)]);
 }
 
-/// The same question as yes or no (and a constant expression for g++ 12 with sanitizers, which a compared pointer is not).
+/// The same question as yes or no (and a constant expression for g++ 12 with sanitizers, which a compared pointer is
+/// not).
 constexpr bool transition_exists(State from, State to) {
   return detail::lookup.between[index_of(from)][index_of(to)] != 0;
 }

@@ -30,8 +30,9 @@ class Checker {
       return least;
     }
     if (*value < least) {
-      diagnostics_.error(generator_.where.at(name), "too few for this topology",
-                         {std::to_string(*value), "at least " + std::to_string(least)});
+      if (*value != 0)  // 0: the table has refused the value
+        diagnostics_.error(generator_.where.at(name), "too few for this topology",
+                           {std::to_string(*value), "at least " + std::to_string(least)});
       failed_ = true;
       return least;
     }

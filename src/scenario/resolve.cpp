@@ -79,7 +79,9 @@ class Resolver {
       }
       r_.plan.nodes.push_back(std::move(plan));
     }
-    if (r_.plan.nodes.empty()) diagnostics_.error(r_.scenario.network.where.place(), "a network without nodes", {"no nodes", "\"nodes\" or \"generate\""});
+    const NetworkSection& network = r_.scenario.network;
+    if (network.nodes.empty() && network.generate.empty())
+      diagnostics_.error(network.where.place(), "a network without nodes", {"no nodes", "\"nodes\" or \"generate\""});
   }
 
   std::uint32_t port_config_index(TrafficClasses classes, const Queues& queues) {
@@ -167,7 +169,8 @@ class Resolver {
     const auto wire_bits = [&](Octets payload) {
       return 8.0 * models::wire_length(models::frame_length(plan.headers + payload, plan.priority.has_value())).count;
     };
-    const auto per_second = [](double frames, Duration in) { return frames * 1e12 / static_cast<double>(in.ps()); };
+    // A period of 0 was refused by the table.
+    const auto per_second = [](double frames, Duration in) { return in > Duration() ? frames * 1e12 / static_cast<double>(in.ps()) : 0.0; };
     StreamDemand demand;
     if (const auto* periodic = std::get_if<models::PeriodicSchedule>(&schedule)) demand.frames_per_second = per_second(1, periodic->period);
     if (const auto* random = std::get_if<models::ExponentialSchedule>(&schedule)) demand.frames_per_second = per_second(1, random->mean);
@@ -191,6 +194,7 @@ class Resolver {
     resolved.description = &program;
     resolved.receive_timeout = program.receive_timeout.value_or(program.cycle * 10);
     const std::size_t errors_before = diagnostics_.errors();
+    if (program.cycle == Duration()) return;  // refused by the table
     if (resolved.receive_timeout <= program.cycle)
       diagnostics_.error(program.where.at("receive_timeout"), "a time-out within one cycle",
                          {json::to_text(resolved.receive_timeout), "more than the cycle of " + json::to_text(program.cycle)});

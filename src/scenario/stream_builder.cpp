@@ -10,7 +10,7 @@ namespace takt::scenario {
 std::optional<std::uint32_t> StreamBuilder::host(const std::string& name, const json::Place& place) {
   const auto node = r_.topology.find(name);
   if (!node) {
-    diagnostics_.error(place, "unknown node", {json::quote(name), "the name of a host", suggest_node(r_.topology, name)});
+    diagnostics_.error(place, "unknown node", {json::quote(name), "the name of a host", suggest_node(r_.topology, name, diagnostics_)});
     return std::nullopt;
   }
   if (!r_.topology.nodes[*node].is_host()) {
@@ -91,7 +91,7 @@ std::optional<Path> StreamBuilder::explicit_path(const NewStream& wanted) {
     const json::Place place = wanted.where.at("path", i);
     const auto node = r_.topology.find(name);
     if (!node) {
-      diagnostics_.error(place, "unknown node", {json::quote(name), "the name of a node", suggest_node(r_.topology, name)});
+      diagnostics_.error(place, "unknown node", {json::quote(name), "the name of a node", suggest_node(r_.topology, name, diagnostics_)});
       continue;
     }
     if (!seen.insert(*node).second) diagnostics_.error(place, "a node twice in one path", {json::quote(name), "each node once"});

@@ -115,7 +115,7 @@ class Builder {
     const auto node = topology_.find(name);
     if (!node) {
       diagnostics_.error(link.where.at("ends", which), "unknown node",
-                         {json::quote(name), "a name under /network/nodes or of a generated node", suggest_node(topology_, name)});
+                         {json::quote(name), "a name under /network/nodes or of a generated node", suggest_node(topology_, name, diagnostics_)});
       return std::nullopt;
     }
     End end{*node, std::nullopt, which};
@@ -146,6 +146,7 @@ class Builder {
   std::uint16_t take_port(const End& end) {
     if (end.port) return *end.port;
     std::set<std::uint16_t>& used = used_ports_[end.node];
+    if (used.size() >= most_ports) return 0;  // check_hosts() reports the node
     std::uint16_t port = next_port_.size() > end.node ? next_port_[end.node] : std::uint16_t{0};
     while (used.contains(port)) ++port;
     used.insert(port);
@@ -214,7 +215,8 @@ Topology build_topology(const NetworkSection& network, json::Diagnostics& diagno
   return Builder(network, diagnostics).build();
 }
 
-std::string suggest_node(const Topology& topology, std::string_view name) {
+std::string suggest_node(const Topology& topology, std::string_view name, const json::Diagnostics& diagnostics) {
+  if (diagnostics.full()) return {};
   std::vector<std::string_view> names;
   names.reserve(topology.nodes.size());
   for (const TopologyNode& node : topology.nodes) names.push_back(node.name);

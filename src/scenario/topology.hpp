@@ -41,7 +41,7 @@ struct Topology {
 /// Builds the topology; mistakes go to `diagnostics`. What could be built is returned even then.
 Topology build_topology(const NetworkSection& network, json::Diagnostics& diagnostics);
 
-/// The known node name nearest to `name`, or "".
-std::string suggest_node(const Topology& topology, std::string_view name);
+/// The known node name nearest to `name`, or ""; not worked out for a diagnostic that would not be kept.
+std::string suggest_node(const Topology& topology, std::string_view name, const json::Diagnostics& diagnostics);
 
 }  // namespace takt::scenario

@@ -36,7 +36,8 @@ void try_input(std::string_view text, std::string_view option) {
     check_meaning(input, diagnostics);
   }
   TAKT_CHECK(diagnostics.to_text().size() <= std::size_t{1} << 22, "what is told to the user is bounded");
-  TAKT_CHECK(json::parse(json::pretty(diagnostics.to_json()), "diagnostics.json", diagnostics), "diagnostics are valid JSON");
+  TAKT_CHECK(json::parse(json::pretty(diagnostics.to_json()), "diagnostics.json", diagnostics),
+             "diagnostics are valid JSON");
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <deque>
 #include <functional>
 #include <unordered_set>
+#include <utility>
+#include <vector>
 
 #include "handshake/invariants.hpp"
 #include "handshake/participant.hpp"
@@ -13,7 +15,6 @@
 namespace takt::handshake {
 namespace {
 
-constexpr std::size_t max_members = 3;
 using Member = Participant<4>;
 
 struct Budget {
@@ -41,7 +42,8 @@ struct State {
     return {Variant::Robust, i == 0 ? Role::Master : Role::Slave, static_cast<std::uint8_t>(i),
             static_cast<std::uint8_t>(up.size()), incarnation};
   }
-  State(std::size_t slaves, Budget budget) : up(slaves), down(slaves), observer(Variant::Robust, slaves + 1), left(budget) {
+  State(std::size_t slaves, Budget budget)
+      : up(slaves), down(slaves), observer(Variant::Robust, slaves + 1), left(budget) {
     for (std::size_t i = 0; i <= slaves; ++i) members.emplace_back(config(i, 1));
   }
 
@@ -76,7 +78,10 @@ struct State {
   }
   std::uint64_t hash() const {
     std::uint64_t digest = observer.hash();
-    const auto mix = [&digest](std::uint64_t value) { digest = (digest ^ value) * 0x9E3779B97F4A7C15ULL; digest ^= digest >> 31; };
+    const auto mix = [&digest](std::uint64_t value) {
+      digest = (digest ^ value) * 0x9E3779B97F4A7C15ULL;
+      digest ^= digest >> 31;
+    };
     for (const Member& member : members) mix(member.hash());
     for (const std::vector<Channel>* channels : {&up, &down})
       for (const Channel& each : *channels) {
@@ -174,14 +179,16 @@ constexpr Bound bounds[]{{1, {5, 0, 0, 0}, 41829}, {1, {3, 1, 0, 0}, 60481}, {1,
                          {1, {3, 0, 1, 1}, 60668}, {1, {2, 1, 1, 1}, 185137}, {2, {2, 0, 0, 0}, 62122},
                          {2, {1, 0, 1, 0}, 99210}, {2, {1, 1, 0, 0}, 285901}, {2, {1, 0, 0, 1}, 11756}};
 #else
-constexpr Bound bounds[]{{1, {3, 0, 0, 0}, 3074}, {1, {2, 1, 0, 0}, 13142}, {1, {1, 0, 1, 1}, 1636}, {2, {1, 0, 0, 0}, 9292}};
+constexpr Bound bounds[]{
+    {1, {3, 0, 0, 0}, 3074}, {1, {2, 1, 0, 0}, 13142}, {1, {1, 0, 1, 1}, 1636}, {2, {1, 0, 0, 0}, 9292}};
 #endif
 
 TEST(Exhaustive, NoOrderBreaksAnInvariantAndAllSettle) {
   for (const Bound& bound : bounds) {
     const Budget& budget = bound.budget;
-    SCOPED_TRACE(testing::Message() << bound.slaves << " slaves, " << budget.commands << " commands, " << budget.restarts
-                                    << " restarts, " << budget.silences << " silences, " << budget.finishes << " finishes");
+    SCOPED_TRACE(testing::Message() << bound.slaves << " slaves, " << budget.commands << " commands, "
+                                    << budget.restarts << " restarts, " << budget.silences << " silences, "
+                                    << budget.finishes << " finishes");
     EXPECT_EQ(explore(bound.slaves, budget), bound.states);
   }
 }

@@ -149,10 +149,12 @@ TEST_P(Figures, HaltDuringTheStart) {
 }
 
 std::string name(const testing::TestParamInfo<std::tuple<Variant, int>>& info) {
-  return std::string(std::get<0>(info.param) == Variant::Paper ? "paper" : "robust") + std::to_string(std::get<1>(info.param));
+  return std::string(std::get<0>(info.param) == Variant::Paper ? "paper" : "robust") +
+         std::to_string(std::get<1>(info.param));
 }
 INSTANTIATE_TEST_SUITE_P(Groups, Figures,
-                         testing::Combine(testing::Values(Variant::Paper, Variant::Robust), testing::Range(1, 9)), name);
+                         testing::Combine(testing::Values(Variant::Paper, Variant::Robust), testing::Range(1, 9)),
+                         name);
 
 }  // namespace
 }  // namespace takt::handshake

@@ -12,8 +12,8 @@ using sim::TrueTime;
 
 TrueTime at(std::int64_t us) { return TrueTime::from_ps(us * 1'000'000); }
 
-void expect(const Reaction& reaction, IntentKind kind, std::uint8_t initiator, ReactionOutcome outcome, std::int64_t began_us,
-            TrueTime completed) {
+void expect(const Reaction& reaction, IntentKind kind, std::uint8_t initiator, ReactionOutcome outcome,
+            std::int64_t began_us, TrueTime completed) {
   EXPECT_EQ(reaction.kind, kind);
   EXPECT_EQ(reaction.initiator, initiator);
   EXPECT_EQ(reaction.outcome, outcome);

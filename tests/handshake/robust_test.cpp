@@ -13,7 +13,9 @@ using program::Method;
 using program::StatusCode;
 
 TEST(Intent, OrderIsNumberKindOrigin) {
-  const auto intent = [](std::uint32_t number, IntentKind kind, std::uint8_t origin) { return Intent{number, kind, origin, 0}; };
+  const auto intent = [](std::uint32_t number, IntentKind kind, std::uint8_t origin) {
+    return Intent{number, kind, origin, 0};
+  };
   EXPECT_LT(intent(1, IntentKind::Halt, 9), intent(2, IntentKind::Start, 0));
   EXPECT_LT(intent(2, IntentKind::Start, 9), intent(2, IntentKind::Resume, 0));
   EXPECT_LT(intent(2, IntentKind::Resume, 9), intent(2, IntentKind::Suspend, 0));
@@ -175,8 +177,8 @@ TEST(Robust, ARestartedPeerHaltsTheGroup) {
   }
 }
 
-// Found by the random schedules: who takes the incarnation heard last for the newest, and ignores the one before, ignores
-// the living one for ever if a late word of the dead one comes in between.
+// Found by the random schedules: who takes the incarnation heard last for the newest, and ignores the one before,
+// ignores the living one for ever if a late word of the dead one comes in between.
 TEST(Robust, ALateWordOfAFormerIncarnationDoesNotShutOutTheNewOne) {
   Group group(Variant::Robust, 1);
   const Message late = group.message(1, 0);
@@ -221,7 +223,8 @@ TEST(Robust, StaleWordsDoNotCountInTheRunOfANewIncarnation) {
   EXPECT_TRUE(group.all_in(PublishedState::Halted)) << group.describe();
 }
 
-// A slave that was restarted within a run must not slip in behind the barrier, even if nobody hears its new incarnation.
+// A slave that was restarted within a run must not slip in behind the barrier, even if nobody hears its new
+// incarnation.
 TEST(Robust, ARestartedSlaveDoesNotJoinARunThatIsPastTheBarrier) {
   Group group = started(Variant::Robust, 2);
   group.restart(1);
@@ -229,6 +232,18 @@ TEST(Robust, ARestartedSlaveDoesNotJoinARunThatIsPastTheBarrier) {
   EXPECT_EQ(outputs.alarm, Alarm::Mismatch);
   EXPECT_EQ(outputs.change_count, 0);
   EXPECT_EQ(group[1].intent().kind, IntentKind::Halt);
+}
+
+TEST(Robust, AnIntentOfAnotherRunIsAMismatch) {
+  for (const IntentKind kind : {IntentKind::Resume, IntentKind::Suspend, IntentKind::Finish, IntentKind::Reset}) {
+    Group group = started(Variant::Robust, 1);
+    Word word = group[0].word();
+    word.intent = {word.intent.number + 1, kind, 0, word.run + 1};
+    const Outputs outputs = group.step(1, Input::received(0, word, 1000));
+    EXPECT_EQ(outputs.alarm, Alarm::Mismatch) << name_of(kind);
+    EXPECT_EQ(group[1].state(), PublishedState::Halted);
+    EXPECT_EQ(group[1].intent().number, word.intent.number + 1);
+  }
 }
 
 TEST(Robust, ASilentPeerHaltsWhoeverIsNotHalted) {

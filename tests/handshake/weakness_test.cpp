@@ -25,7 +25,8 @@ TEST(PaperWeakness, SuspendAndResumeThatCrossChaseEachOther) {
   Message to_master = group.message(1, 0);
   group.call(0, Method::Suspend);
   group.take_journal();
-  // Both receive, then publish in each cycle, and what they publish arrives in the next one: nothing is lost, late or out of order.
+  // Both receive, then publish in each cycle, and what they publish arrives in the next one: nothing is lost, late or
+  // out of order.
   for (int cycle = 0; cycle < 100; ++cycle) {
     group.deliver(to_slave);
     group.deliver(to_master);
@@ -77,8 +78,8 @@ TEST(PaperWeakness, StartAfterAResetRunsTheMasterFirst) {
   EXPECT_TRUE(found(group, Invariant::S2)) << group.describe();
 }
 
-// States are sampled: halted and started again between two samples, slave 2 never hears of the halt. "In order to restart a
-// program, the initialisation phase must be repeated" (III.B), but slave 2 runs without.
+// States are sampled: halted and started again between two samples, slave 2 never hears of the halt. "In order to
+// restart a program, the initialisation phase must be repeated" (III.B), but slave 2 runs without.
 TEST(PaperWeakness, AMissedHaltLeavesAStaleReady) {
   Group group(Variant::Paper, 2);
   group.call(0, Method::Start);
@@ -123,7 +124,8 @@ TEST(PaperWeakness, AStaleReadyOpensTheBarrier) {
   EXPECT_TRUE(found(group, Invariant::S1)) << group.describe();
 }
 
-// A slave that is halted before its INIT was ever heard looks as if nothing had happened, and the master waits for ever.
+// A slave that is halted before its INIT was ever heard looks as if nothing had happened, and the master waits for
+// ever.
 TEST(PaperWeakness, AHaltBetweenTwoSamplesIsNotHeard) {
   Group group(Variant::Paper, 1);
   group.tell(1, 0);

@@ -24,7 +24,9 @@ struct Type {};
 /// A type that has a table: `const Object& describe(Type<T>)`, or Enumeration, Tagged or Custom. It must be declared
 /// beside the type, before the type is first used as a field.
 template <class T>
-concept Described = requires { describe(Type<T>{}); };
+concept Described = requires {
+  describe(Type<T>{});
+};
 
 /// A value and where it was written, for fields whose struct does not keep a Source (see fields.hpp).
 template <class T>
@@ -57,7 +59,9 @@ template <Described T>
 struct CodecOf<T> {
   using Limits = NoLimits;
   static constexpr Codec codec{
-      [](const Node& node, void* value, const Bounds&, Reader& reader) { decode_by(describe(Type<T>{}), node, value, reader); },
+      [](const Node& node, void* value, const Bounds&, Reader& reader) {
+        decode_by(describe(Type<T>{}), node, value, reader);
+      },
       [](const void* value) { return encode_by(describe(Type<T>{}), value); },
       [](const Bounds&, SchemaBuilder& builder) { return schema_by(describe(Type<T>{}), builder); }};
 };
@@ -65,12 +69,11 @@ struct CodecOf<T> {
 template <>
 struct CodecOf<bool> {
   using Limits = NoLimits;
-  static constexpr Codec codec{
-      [](const Node& node, void* value, const Bounds&, Reader& reader) {
-        decode_bool(node, *static_cast<bool*>(value), reader);
-      },
-      [](const void* value) { return Node::of_bool(*static_cast<const bool*>(value)); },
-      [](const Bounds&, SchemaBuilder&) { return bool_schema(); }};
+  static constexpr Codec codec{[](const Node& node, void* value, const Bounds&, Reader& reader) {
+                                 decode_bool(node, *static_cast<bool*>(value), reader);
+                               },
+                               [](const void* value) { return Node::of_bool(*static_cast<const bool*>(value)); },
+                               [](const Bounds&, SchemaBuilder&) { return bool_schema(); }};
 };
 
 template <>
@@ -105,17 +108,15 @@ struct CodecOf<double> {
       bounds.max_real = max.value_or(0);
     }
   };
-  static constexpr Codec codec{
-      [](const Node& node, void* value, const Bounds& bounds, Reader& reader) {
-        decode_double(node, *static_cast<double*>(value), bounds, reader);
-      },
-      [](const void* value) { return Node::of_double(*static_cast<const double*>(value)); },
-      [](const Bounds& bounds, SchemaBuilder&) { return double_schema(bounds); }};
+  static constexpr Codec codec{[](const Node& node, void* value, const Bounds& bounds, Reader& reader) {
+                                 decode_double(node, *static_cast<double*>(value), bounds, reader);
+                               },
+                               [](const void* value) { return Node::of_double(*static_cast<const double*>(value)); },
+                               [](const Bounds& bounds, SchemaBuilder&) { return double_schema(bounds); }};
 };
 
 template <std::integral T>
-  requires(!std::same_as<T, bool>)
-struct CodecOf<T> {
+requires(!std::same_as<T, bool>) struct CodecOf<T> {
   struct Limits {
     T min = std::numeric_limits<T>::min();
     T max = std::numeric_limits<T>::max();
@@ -125,13 +126,13 @@ struct CodecOf<T> {
       bounds.max = max;
     }
   };
-  static constexpr Codec codec{
-      [](const Node& node, void* value, const Bounds& bounds, Reader& reader) {
-        sim::int128 number = 0;
-        if (decode_integer(node, number, bounds, reader)) *static_cast<T*>(value) = static_cast<T>(number);
-      },
-      [](const void* value) { return Node::of_integer(*static_cast<const T*>(value)); },
-      [](const Bounds& bounds, SchemaBuilder&) { return integer_schema(bounds); }};
+  static constexpr Codec codec{[](const Node& node, void* value, const Bounds& bounds, Reader& reader) {
+                                 sim::int128 number = 0;
+                                 if (decode_integer(node, number, bounds, reader))
+                                   *static_cast<T*>(value) = static_cast<T>(number);
+                               },
+                               [](const void* value) { return Node::of_integer(*static_cast<const T*>(value)); },
+                               [](const Bounds& bounds, SchemaBuilder&) { return integer_schema(bounds); }};
 };
 
 /// Joins a quantity's type to its dimension: the integer member that holds its value in takt's unit.
@@ -141,7 +142,9 @@ template <>
 struct QuantityOf<sim::Duration> {
   static constexpr const Dimension& dimension = duration_dimension;
   static constexpr std::int64_t raw(sim::Duration q) { return q.ps(); }
-  static constexpr sim::Duration make(sim::int128 raw) { return sim::Duration::from_ps(static_cast<std::int64_t>(raw)); }
+  static constexpr sim::Duration make(sim::int128 raw) {
+    return sim::Duration::from_ps(static_cast<std::int64_t>(raw));
+  }
 };
 template <>
 struct QuantityOf<sim::DataRate> {
@@ -181,7 +184,9 @@ struct QuantityOf<Probability> {
 };
 
 template <class T>
-concept Quantity = requires(T q) { QuantityOf<T>::raw(q); };
+concept Quantity = requires(T q) {
+  QuantityOf<T>::raw(q);
+};
 
 template <Quantity T>
 struct CodecOf<T> {
@@ -257,8 +262,7 @@ struct CodecOf<std::vector<T>> {
   using Limits = ItemLimits<T>;
   using Vector = std::vector<T>;
   static constexpr Sequence sequence{
-      &CodecOf<T>::codec,
-      [](void* v) -> void* { return &static_cast<Vector*>(v)->emplace_back(); },
+      &CodecOf<T>::codec, [](void* v) -> void* { return &static_cast<Vector*>(v)->emplace_back(); },
       [](const void* v) { return static_cast<const Vector*>(v)->size(); },
       [](const void* v, std::size_t index) -> const void* { return &(*static_cast<const Vector*>(v))[index]; },
       [](void* v) { static_cast<Vector*>(v)->clear(); }};
@@ -277,7 +281,9 @@ struct CodecOf<std::vector<std::pair<std::string, T>>> {
   static constexpr Mapping mapping{
       &CodecOf<T>::codec,
       [](void* m, const std::string& name) -> void* {
-        return &static_cast<Map*>(m)->emplace_back(std::piecewise_construct, std::forward_as_tuple(name), std::tuple<>{}).second;
+        return &static_cast<Map*>(m)
+                    ->emplace_back(std::piecewise_construct, std::forward_as_tuple(name), std::tuple<>{})
+                    .second;
       },
       [](const void* m) { return static_cast<const Map*>(m)->size(); },
       [](const void* m, std::size_t index) -> const std::string& { return (*static_cast<const Map*>(m))[index].first; },

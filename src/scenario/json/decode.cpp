@@ -20,10 +20,12 @@ std::string items_text(const Bounds& bounds, std::string_view what) {
   const bool has_max = bounds.max_items != std::numeric_limits<std::size_t>::max();
   if (has_max && bounds.min_items == bounds.max_items) return fmt::format("exactly {} {}", bounds.min_items, what);
   if (has_max && bounds.min_items > 0) return fmt::format("{} to {} {}", bounds.min_items, bounds.max_items, what);
-  return has_max ? fmt::format("at most {} {}", bounds.max_items, what) : fmt::format("at least {} {}", bounds.min_items, what);
+  return has_max ? fmt::format("at most {} {}", bounds.max_items, what)
+                 : fmt::format("at least {} {}", bounds.min_items, what);
 }
 
-void check_number_of_items(const Node& node, std::size_t count, std::string_view what, const Bounds& bounds, Reader& reader) {
+void check_number_of_items(const Node& node, std::size_t count, std::string_view what, const Bounds& bounds,
+                           Reader& reader) {
   if (count < bounds.min_items)
     reader.error(node, fmt::format("too few {}", what), {std::to_string(count), items_text(bounds, what), ""});
   else if (count > bounds.max_items)
@@ -38,13 +40,17 @@ void check_unique(const Node& array, Reader& reader) {
   };
   std::vector<Written> all;
   for (const Node& item : array.items) all.push_back({compact(item), all.size()});
-  std::ranges::sort(all, [](const Written& a, const Written& b) { return std::tie(a.text, a.index) < std::tie(b.text, b.index); });
+  std::ranges::sort(
+      all, [](const Written& a, const Written& b) { return std::tie(a.text, a.index) < std::tie(b.text, b.index); });
   for (std::size_t i = 1; i < all.size(); ++i)
     if (all[i].text == all[i - 1].text)
-      reader.error(array.items[all[i].index], "occurs twice", {excerpt(array.items[all[i].index]), "items that differ", ""});
+      reader.error(array.items[all[i].index], "occurs twice",
+                   {excerpt(array.items[all[i].index]), "items that differ", ""});
 }
 
-std::string range_or_kind(std::string_view what, const Bounds& bounds) { return joined(what, range_text(nullptr, bounds)); }
+std::string range_or_kind(std::string_view what, const Bounds& bounds) {
+  return joined(what, range_text(nullptr, bounds));
+}
 
 bool within(sim::int128 value, const Bounds& bounds) {
   if (bounds.has_min && (value < bounds.min || (bounds.above_min && value == bounds.min))) return false;
@@ -58,10 +64,12 @@ const Field* find_field(const Object& table, std::string_view name) {
 }
 
 void report_unknown(const Object& table, const Member& member, std::string_view tag_key, Reader& reader) {
+  // Nobody will see what is near to the millionth wrong name.
+  if (reader.diagnostics().full()) return reader.error_at_key(member, "unknown field");
   std::vector<std::string_view> names;
   if (!tag_key.empty()) names.push_back(tag_key);
   for (const Field& field : table.fields) names.push_back(field.name);
-  const std::string nearest = reader.diagnostics().full() ? "" : suggest(member.key, names);
+  const std::string nearest = suggest(member.key, names);
   // A near name says enough; without one the user sees what there is.
   reader.error_at_key(member, "unknown field " + quote(member.key),
                       {"", nearest.empty() ? "one of " + list_text(names) : "", nearest});
@@ -73,13 +81,15 @@ void check_group(const Group& group, const Node& node, Reader& reader) {
     if (node.find(name) != nullptr) present.push_back(name);
   const bool too_few = present.empty() && group.rule != Group::Rule::at_most_one;
   const bool too_many = present.size() > 1 && group.rule != Group::Rule::at_least_one;
-  if (too_few)
-    reader.error(node, "a field is missing",
-                 {"", fmt::format("{} of {}", group.rule == Group::Rule::exactly_one ? "exactly one" : "at least one", list_text(group.names)), ""});
-  if (too_many)
-    reader.error(*node.find(present[1]), "fields that exclude each other",
-                 {fmt::format("\"{}\" beside \"{}\"", present[1], present[0]),
-                  fmt::format("{} of {}", group.rule == Group::Rule::exactly_one ? "exactly one" : "at most one", list_text(group.names)), ""});
+  if (!too_few && !too_many) return;
+
+  const std::string_view number = group.rule == Group::Rule::exactly_one   ? "exactly one"
+                                  : group.rule == Group::Rule::at_most_one ? "at most one"
+                                                                           : "at least one";
+  const std::string expected = fmt::format("{} of {}", number, list_text(group.names));
+  if (too_few) return reader.error(node, "a field is missing", {"", expected, ""});
+  reader.error(*node.find(present[1]), "fields that exclude each other",
+               {fmt::format("\"{}\" beside \"{}\"", present[1], present[0]), expected, ""});
 }
 
 void decode_shorthand(const Object& table, const Node& node, void* value, Reader& reader) {
@@ -179,18 +189,21 @@ bool decode_integer(const Node& node, sim::int128& value, const Bounds& bounds, 
   return true;
 }
 
-bool decode_quantity(const Node& node, sim::int128& value, const Dimension& dimension, const Bounds& bounds, Reader& reader) {
+bool decode_quantity(const Node& node, sim::int128& value, const Dimension& dimension, const Bounds& bounds,
+                     Reader& reader) {
   const bool is_plain_number = node.kind == Kind::number && &dimension == &probability_dimension;
   if (node.kind != Kind::string && !is_plain_number) {
     // The commonest mistake is to leave out quotes and unit.
-    reader.wrong_type(node, fmt::format("{} such as {}\"{}\"", dimension.what, node.kind == Kind::number ? "the string " : "", dimension.example));
+    reader.wrong_type(node, fmt::format("{} such as {}\"{}\"", dimension.what,
+                                        node.kind == Kind::number ? "the string " : "", dimension.example));
     return false;
   }
   const Sign sign = bounds.has_min && bounds.min < 0 ? Sign::any : Sign::not_negative;
   const auto number = parse_quantity(dimension, node.text, sign);
   if (!number) {
     const Reason& reason = number.reason();
-    reader.error(node, reason.message, {is_plain_number ? node.text.substr(0, 40) : quote(node.text), reason.expected, reason.suggestion});
+    reader.error(node, reason.message,
+                 {is_plain_number ? node.text.substr(0, 40) : quote(node.text), reason.expected, reason.suggestion});
     return false;
   }
   if (!within(*number, bounds)) {
@@ -228,7 +241,8 @@ void decode_mapping(const Node& node, void* value, const Mapping& mapping, const
 
 void decode_by(const Object& table, const Node& node, void* value, Reader& reader) {
   if (node.kind == Kind::object) return decode_members(table, node, "", value, reader);
-  if (table.shorthand.empty() || node.kind == Kind::null || reader.is_root(node)) return reader.wrong_type(node, "an object");
+  if (table.shorthand.empty() || node.kind == Kind::null || reader.is_root(node))
+    return reader.wrong_type(node, "an object");
   if (table.where != nullptr) *table.where(value) = reader.source(node);
   decode_shorthand(table, node, value, reader);
 }
@@ -254,10 +268,13 @@ void decode_by(const Tagged& table, const Node& node, void* value, Reader& reade
   if (tag->kind != Kind::string) return reader.wrong_type(*tag, list_text(tags));
   const auto option = std::ranges::find(table.options, std::string_view(tag->text), &Option::tag);
   if (option == table.options.end())
-    return reader.error(*tag, fmt::format("unknown {}", table.key), {quote(tag->text), list_text(tags), suggest(tag->text, tags)});
+    return reader.error(*tag, fmt::format("unknown {}", table.key),
+                        {quote(tag->text), list_text(tags), suggest(tag->text, tags)});
   decode_members(option->object(), node, table.key, option->emplace(value), reader);
 }
 
-void decode_by(const Custom& table, const Node& node, void* value, Reader& reader) { table.decode(node, value, reader); }
+void decode_by(const Custom& table, const Node& node, void* value, Reader& reader) {
+  table.decode(node, value, reader);
+}
 
 }  // namespace takt::scenario::json

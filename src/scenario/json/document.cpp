@@ -92,7 +92,8 @@ bool TreeBuilder::open(Kind kind) {
   node.kind = kind;
   node.position = cursor_.position();
   if (open_.size() == max_depth)
-    return fail(node.position, "arrays and objects are nested too deeply", {"", fmt::format("at most {} levels", max_depth), ""});
+    return fail(node.position, "arrays and objects are nested too deeply",
+                {"", fmt::format("at most {} levels", max_depth), ""});
   cursor_.take_token();
   if (!count_value(node.position)) return false;
   open_.push_back({std::move(node), {}, {}});
@@ -116,7 +117,8 @@ bool TreeBuilder::key(std::string& name) {
   cursor_.skip_to_token();
   const Position position = cursor_.position();
   if (name.size() > max_key_length)
-    return fail(position, "a name that is too long", {quote(name), fmt::format("at most {} octets", max_key_length), ""});
+    return fail(position, "a name that is too long",
+                {quote(name), fmt::format("at most {} octets", max_key_length), ""});
   cursor_.take_token();
   open_.back().key = std::move(name);
   open_.back().key_position = position;
@@ -163,9 +165,10 @@ void TreeBuilder::drop_duplicates(Node& object) {
     is_duplicate[order[i]] = true;
     const Position earlier = members[order[first]].key_position;
     open_.back().key = member.key;
-    diagnostics_.error({file_name_, member.key_position.line, member.key_position.column, pointer()},
-                       fmt::format("the name {} occurs twice", quote(member.key)),
-                       {"", fmt::format("one value (the first is in line {}, column {})", earlier.line, earlier.column), ""});
+    diagnostics_.error(
+        {file_name_, member.key_position.line, member.key_position.column, pointer()},
+        fmt::format("the name {} occurs twice", quote(member.key)),
+        {"", fmt::format("one value (the first is in line {}, column {})", earlier.line, earlier.column), ""});
   }
   std::size_t index = 0;
   std::erase_if(members, [&](const Member&) { return is_duplicate[index++]; });
@@ -278,8 +281,8 @@ std::string pointer_of(const Node& node) {
   std::string text = pointer_of(parent);
   if (parent.kind == Kind::array) return text + pointer_step(static_cast<std::size_t>(&node - parent.items.data()));
   // Parents know their members in order; a member is found by where its value lies.
-  const auto member = std::ranges::partition_point(
-      parent.members, [&node](const Member& m) { return std::less<>{}(&m.value, &node); });
+  const auto member =
+      std::ranges::partition_point(parent.members, [&node](const Member& m) { return std::less<>{}(&m.value, &node); });
   TAKT_CHECK(member != parent.members.end() && &member->value == &node, "a node is a member of its parent");
   return text + pointer_step(member->key);
 }
@@ -319,8 +322,7 @@ Place Source::item(std::size_t index) const {
 Place Source::key(std::string_view member) const {
   if (node_ != nullptr) {
     const auto found = std::ranges::find(node_->members, member, &Member::key);
-    if (found != node_->members.end())
-      return place_of(*tree_, found->key_position, pointer_of(found->value));
+    if (found != node_->members.end()) return place_of(*tree_, found->key_position, pointer_of(found->value));
   }
   return at(member);
 }

@@ -49,8 +49,9 @@ Place place_of(const Tree& tree, const Node& node);
 Place place_of(const Tree& tree, Position position, std::string pointer);
 
 /// Reads one JSON text (RFC 8259; // and /* */ comments are allowed; no byte order mark).
-/// A text that is not JSON or exceeds a limit is one diagnostic, and nothing is returned. A key that occurs twice in one
-/// object is a diagnostic too, but the document is returned (with the first value), so that the rest can be checked.
+/// A text that is not JSON or exceeds a limit is one diagnostic, and nothing is returned. A key that occurs twice in
+/// one object is a diagnostic too, but the document is returned (with the first value), so that the rest can be
+/// checked.
 std::optional<Document> parse(std::string_view text, std::string file_name, Diagnostics& diagnostics);
 
 /// Reads a whole file and parses it. A file that cannot be read is a diagnostic.

@@ -23,7 +23,8 @@ void encode_members(const Object& table, const void* value, Node& json) {
 
 Node encode_sequence(const void* value, const Sequence& sequence) {
   Node json = Node::array();
-  for (std::size_t i = 0; i < sequence.size(value); ++i) json.items.push_back(sequence.item->encode(sequence.at(value, i)));
+  for (std::size_t i = 0; i < sequence.size(value); ++i)
+    json.items.push_back(sequence.item->encode(sequence.at(value, i)));
   return json;
 }
 

@@ -75,13 +75,21 @@ struct ObjectOptions {
 
 /// The table of a struct. It must be default-constructible; a member `json::Source where` gets where it was written.
 template <class T>
-constexpr Object object(std::string_view name, std::string_view help, std::span<const Field> fields, ObjectOptions options = {}) {
-  Object table{name, help, fields, options.groups, options.shorthand, nullptr,
+constexpr Object object(std::string_view name, std::string_view help, std::span<const Field> fields,
+                        ObjectOptions options = {}) {
+  Object table{name,
+               help,
+               fields,
+               options.groups,
+               options.shorthand,
+               nullptr,
                [](void (*use)(const void*, void*), void* context) {
                  const T prototype{};
                  use(&prototype, context);
                }};
-  if constexpr (requires(T& t) { { t.where } -> std::same_as<Source&>; })
+  if constexpr (requires(T & t) {
+                  { t.where } -> std::same_as<Source&>;
+                })
     table.where = [](void* value) { return &static_cast<T*>(value)->where; };
   return table;
 }
@@ -95,8 +103,7 @@ constexpr EnumName name(E value, std::string_view text, std::string_view help) {
 /// The table of an enum: `what` says what it is ("an operating system"). Every value must have a name.
 template <class E>
 constexpr Enumeration enumeration(std::string_view what, std::span<const EnumName> names) {
-  return {what, names,
-          [](const void* value) { return static_cast<std::int64_t>(*static_cast<const E*>(value)); },
+  return {what, names, [](const void* value) { return static_cast<std::int64_t>(*static_cast<const E*>(value)); },
           [](void* value, std::int64_t number) { *static_cast<E*>(value) = static_cast<E>(number); }};
 }
 
@@ -104,8 +111,7 @@ namespace detail {
 template <class Variant, std::size_t... Is>
 constexpr std::array<Option, sizeof...(Is)> options(const std::array<std::string_view, sizeof...(Is)>& tags,
                                                     std::index_sequence<Is...>) {
-  return {Option{tags[Is],
-                 []() -> const Object& { return describe(Type<std::variant_alternative_t<Is, Variant>>{}); },
+  return {Option{tags[Is], []() -> const Object& { return describe(Type<std::variant_alternative_t<Is, Variant>>{}); },
                  [](void* value) -> void* { return &static_cast<Variant*>(value)->template emplace<Is>(); }}...};
 }
 }  // namespace detail
@@ -119,8 +125,12 @@ constexpr auto options(const std::array<std::string_view, std::variant_size_v<Va
 /// The table of a variant: an object whose member `key` is the tag of one of the options and whose other members are
 /// the fields of that option. describe(Type<std::variant<...>>) is found by the namespace of the alternatives.
 template <class Variant>
-constexpr Tagged tagged(std::string_view name, std::string_view help, std::string_view key, std::span<const Option> options) {
-  return {name, help, key, options,
+constexpr Tagged tagged(std::string_view name, std::string_view help, std::string_view key,
+                        std::span<const Option> options) {
+  return {name,
+          help,
+          key,
+          options,
           [](const void* value) { return static_cast<const Variant*>(value)->index(); },
           [](const void* value) {
             return std::visit([](const auto& alternative) -> const void* { return &alternative; },

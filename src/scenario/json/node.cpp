@@ -25,11 +25,21 @@ void append_escaped(std::string& out, std::string_view text) {
     const std::string_view character = length == 0 ? "\uFFFD" : text.substr(0, length);
     text.remove_prefix(std::max<std::size_t>(length, 1));
     switch (c) {
-      case '"': out += "\\\""; break;
-      case '\\': out += "\\\\"; break;
-      case '\n': out += "\\n"; break;
-      case '\t': out += "\\t"; break;
-      case '\r': out += "\\r"; break;
+      case '"':
+        out += "\\\"";
+        break;
+      case '\\':
+        out += "\\\\";
+        break;
+      case '\n':
+        out += "\\n";
+        break;
+      case '\t':
+        out += "\\t";
+        break;
+      case '\r':
+        out += "\\r";
+        break;
       default:
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
           out += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
@@ -47,10 +57,18 @@ void append_string(std::string& out, std::string_view text) {
 
 void append_compact(std::string& out, const Node& node) {
   switch (node.kind) {
-    case Kind::null: out += "null"; break;
-    case Kind::boolean: out += node.boolean ? "true" : "false"; break;
-    case Kind::number: out += node.text; break;
-    case Kind::string: append_string(out, node.text); break;
+    case Kind::null:
+      out += "null";
+      break;
+    case Kind::boolean:
+      out += node.boolean ? "true" : "false";
+      break;
+    case Kind::number:
+      out += node.text;
+      break;
+    case Kind::string:
+      append_string(out, node.text);
+      break;
     case Kind::array:
       out += '[';
       for (const Node& item : node.items) {
@@ -75,7 +93,8 @@ void append_compact(std::string& out, const Node& node) {
 bool is_scalar(const Node& node) { return node.kind != Kind::array && node.kind != Kind::object; }
 
 void append_pretty(std::string& out, const Node& node, std::size_t indentation) {
-  const bool is_open = node.kind == Kind::object ? !node.members.empty() : node.kind == Kind::array && !node.items.empty();
+  const bool is_open =
+      node.kind == Kind::object ? !node.members.empty() : node.kind == Kind::array && !node.items.empty();
   if (!is_open) return append_compact(out, node);
   if (node.kind == Kind::array && std::ranges::all_of(node.items, is_scalar)) {
     const std::string line = compact(node);
@@ -107,12 +126,18 @@ void append_pretty(std::string& out, const Node& node, std::size_t indentation) 
 
 std::string_view with_article(Kind kind) {
   switch (kind) {
-    case Kind::null: return "null";
-    case Kind::boolean: return "a boolean";
-    case Kind::number: return "a number";
-    case Kind::string: return "a string";
-    case Kind::array: return "an array";
-    case Kind::object: return "an object";
+    case Kind::null:
+      return "null";
+    case Kind::boolean:
+      return "a boolean";
+    case Kind::number:
+      return "a number";
+    case Kind::string:
+      return "a string";
+    case Kind::array:
+      return "an array";
+    case Kind::object:
+      return "an object";
   }
   return "a value";
 }
@@ -205,7 +230,8 @@ std::string to_text(sim::int128 value) {
 }
 
 bool equal(const Node& a, const Node& b) {
-  return a.kind == b.kind && a.boolean == b.boolean && a.text == b.text && std::ranges::equal(a.items, b.items, equal) &&
+  return a.kind == b.kind && a.boolean == b.boolean && a.text == b.text &&
+         std::ranges::equal(a.items, b.items, equal) &&
          std::ranges::equal(a.members, b.members,
                             [](const Member& x, const Member& y) { return x.key == y.key && equal(x.value, y.value); });
 }
@@ -219,12 +245,18 @@ std::string quote(std::string_view text) {
 
 std::string excerpt(const Node& node) {
   switch (node.kind) {
-    case Kind::null: return "null";
-    case Kind::boolean: return node.boolean ? "true" : "false";
-    case Kind::number: return "the number " + node.text.substr(0, longest_excerpt);
-    case Kind::string: return "the string " + quote(node.text);
-    case Kind::array: return node.items.empty() ? "an empty array" : fmt::format("an array of {}", node.items.size());
-    case Kind::object: return "an object";
+    case Kind::null:
+      return "null";
+    case Kind::boolean:
+      return node.boolean ? "true" : "false";
+    case Kind::number:
+      return "the number " + node.text.substr(0, longest_excerpt);
+    case Kind::string:
+      return "the string " + quote(node.text);
+    case Kind::array:
+      return node.items.empty() ? "an empty array" : fmt::format("an array of {}", node.items.size());
+    case Kind::object:
+      return "an object";
   }
   return "a value";
 }

@@ -32,9 +32,9 @@ struct Node {
   Kind kind = Kind::null;
   bool boolean = false;
   Position position;
-  std::string text;             ///< string: its value; number: its literal, as written
-  std::vector<Node> items;      ///< array
-  std::vector<Member> members;  ///< object, in the order of the file; keys are unique
+  std::string text;              ///< string: its value; number: its literal, as written
+  std::vector<Node> items;       ///< array
+  std::vector<Member> members;   ///< object, in the order of the file; keys are unique
   const Node* parent = nullptr;  ///< set within a Document only
 
   static Node of_bool(bool value);

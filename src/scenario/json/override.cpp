@@ -56,7 +56,8 @@ Parts split(std::string_view text) {
     const auto key = is_rfc ? unescape(step) : std::string(step);
     if (!key) return option.error = "a ~ that is neither ~0 nor ~1", option;
     if (key->empty()) return option.error = "an empty step in the pointer", option;
-    if (key->size() > max_key_length || option.steps.size() == max_depth) return option.error = "a pointer that is too long", option;
+    if (key->size() > max_key_length || option.steps.size() == max_depth)
+      return option.error = "a pointer that is too long", option;
     option.steps.push_back(*key);
     if (!is_last) pointer.remove_prefix(end + 1);
   }
@@ -82,7 +83,8 @@ void set_position(Node& node, Position position) {
 /// The index that a step names in an array of this size; the size itself means the next item, as does "-".
 std::optional<std::size_t> index_of(std::string_view step, std::size_t size) {
   if (step == "-") return size;
-  const bool is_index = !step.empty() && step.size() <= 9 && std::ranges::all_of(step, [](char c) { return c >= '0' && c <= '9'; });
+  const bool is_index =
+      !step.empty() && step.size() <= 9 && std::ranges::all_of(step, [](char c) { return c >= '0' && c <= '9'; });
   if (!is_index || (step.size() > 1 && step.front() == '0')) return std::nullopt;
   std::size_t index = 0;
   for (const char c : step) index = index * 10 + static_cast<std::size_t>(c - '0');
@@ -165,7 +167,8 @@ Node* Override::enter(Node& node, const std::string& step) {
   if (node.kind == Kind::array) {
     const auto index = index_of(step, node.items.size());
     if (!index) {
-      fail("no such item", {quote(step), fmt::format("an index from 0 to {} ({} appends)", node.items.size(), node.items.size()), ""});
+      fail("no such item",
+           {quote(step), fmt::format("an index from 0 to {} ({} appends)", node.items.size(), node.items.size()), ""});
       return nullptr;
     }
     pointer_ += pointer_step(*index);

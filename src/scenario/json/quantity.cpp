@@ -19,13 +19,15 @@ constexpr std::int64_t m = k * k;
 constexpr std::int64_t g = k * m;
 constexpr std::int64_t t = k * g;
 constexpr std::int64_t ki = 1'024;
+constexpr std::int64_t mi = ki * ki;
+constexpr std::int64_t gi = ki * mi;
 
-constexpr Unit duration_units[] = {{"ps", 1}, {"ns", k}, {"us", m}, {"ms", g}, {"s", t},
-                                   {"min", 60 * t, true}, {"h", 3600 * t, true}};
+constexpr Unit duration_units[] = {
+    {"ps", 1}, {"ns", k}, {"us", m}, {"ms", g}, {"s", t}, {"min", 60 * t, true}, {"h", 3600 * t, true}};
 constexpr Unit data_rate_units[] = {{"bps", 1}, {"kbps", k}, {"Mbps", m}, {"Gbps", g}, {"Tbps", t}};
 constexpr Unit length_units[] = {{"mm", 1}, {"cm", 10}, {"m", k}, {"km", m}};
-constexpr Unit octets_units[] = {{"B", 1}, {"kB", k, true, true}, {"KiB", ki, true}, {"MB", m, true},
-                                 {"MiB", ki * ki, true}, {"GB", g, true}, {"GiB", ki * ki * ki, true}};
+constexpr Unit octets_units[] = {{"B", 1},          {"kB", k, true, true}, {"KiB", ki, true}, {"MB", m, true},
+                                 {"MiB", mi, true}, {"GB", g, true},       {"GiB", gi, true}};
 constexpr Unit frequency_offset_units[] = {{"ppt", 1}, {"ppb", k}, {"ppm", m}, {"%", 10 * g, true, true}};
 constexpr Unit frequency_drift_units[] = {{"ppt/s", 1}, {"ppb/s", k}, {"ppm/s", m}};
 constexpr Unit probability_units[] = {{"%", Probability::certain / 100}, {"", Probability::certain}};
@@ -97,7 +99,8 @@ std::string such_as(const Dimension& dimension) {
 }
 
 bool starts_exponent(std::string_view unit) {
-  return unit.size() > 1 && (unit[0] == 'e' || unit[0] == 'E') && (is_digit(unit[1]) || unit[1] == '-' || unit[1] == '+');
+  return unit.size() > 1 && (unit[0] == 'e' || unit[0] == 'E') &&
+         (is_digit(unit[1]) || unit[1] == '-' || unit[1] == '+');
 }
 
 /// The micro sign and the Greek letter mean u.
@@ -168,14 +171,14 @@ const Dimension duration_dimension{"a duration", "200us", "1ps", "0s", duration_
 const Dimension data_rate_dimension{
     "a data rate", "1Gbps", "1bps", "0bps", data_rate_units, std::numeric_limits<std::uint64_t>::max(), false};
 const Dimension length_dimension{"a length", "10m", "1mm", "0m", length_units, max_int64, false};
-const Dimension octets_dimension{
-    "a size", "1000B", "1B", "0B", octets_units, std::numeric_limits<std::uint32_t>::max(), false};
-const Dimension frequency_offset_dimension{
-    "a frequency offset", "50ppm", "1ppt", "0ppm", frequency_offset_units, max_int64, true};
-const Dimension frequency_drift_dimension{
-    "a frequency drift", "1ppm/s", "1ppt/s", "0ppm/s", frequency_drift_units, max_int64, true};
-const Dimension probability_dimension{
-    "a probability from 0 to 1", "0.1%", "1e-18", "0", probability_units, Probability::certain, false};
+const Dimension octets_dimension{"a size", "1000B", "1B", "0B", octets_units, std::numeric_limits<std::uint32_t>::max(),
+                                 false};
+const Dimension frequency_offset_dimension{"a frequency offset",   "50ppm",   "1ppt", "0ppm",
+                                           frequency_offset_units, max_int64, true};
+const Dimension frequency_drift_dimension{"a frequency drift",   "1ppm/s",  "1ppt/s", "0ppm/s",
+                                          frequency_drift_units, max_int64, true};
+const Dimension probability_dimension{"a probability from 0 to 1", "0.1%", "1e-18", "0", probability_units,
+                                      Probability::certain,        false};
 
 Parsed<sim::int128> parse_quantity(const Dimension& dimension, std::string_view text, Sign sign) {
   const bool is_plain_number_allowed = &dimension == &probability_dimension;
@@ -247,8 +250,9 @@ Parsed<sim::Octets> parse_octets(std::string_view text) {
                               [](sim::int128 raw) { return sim::Octets{static_cast<std::uint32_t>(raw)}; });
 }
 Parsed<sim::FrequencyOffset> parse_frequency_offset(std::string_view text) {
-  return convert<sim::FrequencyOffset>(parse_quantity(frequency_offset_dimension, text, Sign::any),
-                                       [](sim::int128 raw) { return sim::FrequencyOffset{static_cast<std::int64_t>(raw)}; });
+  return convert<sim::FrequencyOffset>(
+      parse_quantity(frequency_offset_dimension, text, Sign::any),
+      [](sim::int128 raw) { return sim::FrequencyOffset{static_cast<std::int64_t>(raw)}; });
 }
 Parsed<FrequencyDrift> parse_frequency_drift(std::string_view text) {
   return convert<FrequencyDrift>(parse_quantity(frequency_drift_dimension, text, Sign::any),

@@ -1,7 +1,7 @@
 // Quantities as people write them, "200us" or "2.5Gbps", to exact integers of takt's units and back.
 //
-// A quantity is decimal digits, an optional fraction and a unit, without space or exponent. It is read exactly or not at
-// all: a fraction finer than the unit that takt counts in is refused, never rounded.
+// A quantity is decimal digits, an optional fraction and a unit, without space or exponent. It is read exactly or not
+// at all: a fraction finer than the unit that takt counts in is refused, never rounded.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,9 @@ struct Probability {
   static constexpr std::int64_t certain = 1'000'000'000'000'000'000;
   std::int64_t parts_per_quintillion = 0;
   constexpr auto operator<=>(const Probability&) const = default;
-  constexpr double as_double() const { return static_cast<double>(parts_per_quintillion) / static_cast<double>(certain); }
+  constexpr double as_double() const {
+    return static_cast<double>(parts_per_quintillion) / static_cast<double>(certain);
+  }
 };
 
 /// A change of frequency offset in parts per 10^12 a second ("1ppm/s" = 1'000'000).
@@ -41,8 +43,8 @@ struct Reason {
 template <class T>
 class Parsed {
  public:
-  Parsed(T value) : value_(std::move(value)) {}           // NOLINT: both are meant to convert
-  Parsed(Reason reason) : reason_(std::move(reason)) {}   // NOLINT
+  Parsed(T value) : value_(std::move(value)) {}          // NOLINT: both are meant to convert
+  Parsed(Reason reason) : reason_(std::move(reason)) {}  // NOLINT
   explicit operator bool() const { return value_.has_value(); }
   const T& operator*() const { return *value_; }
   const Reason& reason() const { return reason_; }
@@ -82,9 +84,9 @@ std::string to_text(Probability value);  ///< a JSON number, "0.001" or "1e-12"
 /// One kind of quantity as a table, for code that treats all of them alike (see fields.hpp).
 struct Unit {
   std::string_view name;
-  std::int64_t factor;        ///< in the unit that takt counts in
-  bool only_whole = false;    ///< to_text() uses it for whole multiples only
-  bool never_shown = false;   ///< to_text() does not use it
+  std::int64_t factor;       ///< in the unit that takt counts in
+  bool only_whole = false;   ///< to_text() uses it for whole multiples only
+  bool never_shown = false;  ///< to_text() does not use it
 };
 
 struct Dimension {

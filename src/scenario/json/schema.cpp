@@ -176,7 +176,8 @@ Node string_schema(const Bounds& bounds) {
   // Lengths are in octets here and in characters in a schema: a schema that must accept all that decoding does can
   // promise a character for four octets, and one octet at least for a character.
   if (bounds.min_length > 0) schema.add("minLength", of_count((bounds.min_length + 3) / 4));
-  if (bounds.max_length != std::numeric_limits<std::size_t>::max()) schema.add("maxLength", of_count(bounds.max_length));
+  if (bounds.max_length != std::numeric_limits<std::size_t>::max())
+    schema.add("maxLength", of_count(bounds.max_length));
   return schema;
 }
 
@@ -238,7 +239,8 @@ Node mapping_schema(const Codec& value, const Bounds& bounds, SchemaBuilder& bui
   schema.add("propertyNames", std::move(names));
   schema.add("additionalProperties", value.schema(item_bounds, builder));
   if (bounds.min_items > 0) schema.add("minProperties", of_count(bounds.min_items));
-  if (bounds.max_items != std::numeric_limits<std::size_t>::max()) schema.add("maxProperties", of_count(bounds.max_items));
+  if (bounds.max_items != std::numeric_limits<std::size_t>::max())
+    schema.add("maxProperties", of_count(bounds.max_items));
   return schema;
 }
 

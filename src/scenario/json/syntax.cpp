@@ -15,8 +15,8 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_hex(char c) { return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
 /// Of numbers and of words without quotes, right or wrong. Octets beyond ASCII count as letters.
 bool is_word(char c) {
-  return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '+' || c == '-' || c == '.' ||
-         static_cast<unsigned char>(c) >= 0x80;
+  return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '+' || c == '-' ||
+         c == '.' || static_cast<unsigned char>(c) >= 0x80;
 }
 
 std::size_t word_length(std::string_view text) {
@@ -81,11 +81,14 @@ std::optional<SyntaxError> string_error(Cursor cursor) {
   while (!cursor.at_end() && cursor.peek() != '"') {
     const char c = cursor.peek();
     if (c == '\n' || c == '\r')
-      return SyntaxError{start, "a string that is not closed on its line",
+      return SyntaxError{start,
+                         "a string that is not closed on its line",
                          {"the end of the line", "\" at the end of the string (a line break in a text is \\n)", ""}};
     if (static_cast<unsigned char>(c) < 0x20)
-      return SyntaxError{cursor.position(), "a control character in a string",
-                         {fmt::format("U+{:04X}", static_cast<unsigned>(c)), fmt::format("\\u{:04x}", static_cast<unsigned>(c)), ""}};
+      return SyntaxError{
+          cursor.position(),
+          "a control character in a string",
+          {fmt::format("U+{:04X}", static_cast<unsigned>(c)), fmt::format("\\u{:04x}", static_cast<unsigned>(c)), ""}};
     if (c != '\\') {
       cursor.advance(1);
       continue;
@@ -95,24 +98,31 @@ std::optional<SyntaxError> string_error(Cursor cursor) {
       const int unit = hex4(cursor.rest().substr(2));
       const bool is_high = unit >= 0xD800 && unit < 0xDC00;
       if (unit < 0)
-        return SyntaxError{cursor.position(), "an incomplete escape in a string",
+        return SyntaxError{cursor.position(),
+                           "an incomplete escape in a string",
                            {quote(first_octets(cursor.rest(), 6)), "\\u and four hexadecimal digits", ""}};
       const std::string_view next = cursor.rest().substr(6);
       const int low = is_high && next.starts_with("\\u") ? hex4(next.substr(2)) : 0;
       if ((is_high && (low < 0xDC00 || low > 0xDFFF)) || (unit >= 0xDC00 && unit < 0xE000))
-        return SyntaxError{cursor.position(), "half of a surrogate pair in a string",
-                           {quote(first_octets(cursor.rest(), 6)), "both halves, \\ud800-\\udbff and \\udc00-\\udfff, or the character itself", ""}};
+        return SyntaxError{cursor.position(),
+                           "half of a surrogate pair in a string",
+                           {quote(first_octets(cursor.rest(), 6)),
+                            "both halves, \\ud800-\\udbff and \\udc00-\\udfff, or the character itself", ""}};
       cursor.advance(is_high ? 12 : 6);
     } else if (std::string_view("\"\\/bfnrt").find(escaped) != std::string_view::npos && escaped != '\0') {
       cursor.advance(2);
     } else {
-      const std::string found = cursor.rest().size() < 2 ? "the end of the text" : quote(first_octets(cursor.rest(), 1 + character_length(cursor.rest().substr(1))));
-      return SyntaxError{cursor.position(), "an unknown escape in a string",
+      const std::string found = cursor.rest().size() < 2
+                                    ? "the end of the text"
+                                    : quote(first_octets(cursor.rest(), 1 + character_length(cursor.rest().substr(1))));
+      return SyntaxError{cursor.position(),
+                         "an unknown escape in a string",
                          {found, R"(one of \" \\ \/ \b \f \n \r \t \uXXXX (a backslash itself is \\))", ""}};
     }
   }
   if (cursor.at_end())
-    return SyntaxError{start, "a string that is not closed", {"the end of the text", "\" at the end of the string", ""}};
+    return SyntaxError{
+        start, "a string that is not closed", {"the end of the text", "\" at the end of the string", ""}};
   return std::nullopt;
 }
 
@@ -122,10 +132,10 @@ std::optional<SyntaxError> token_error(const Cursor& cursor, std::string_view ex
   const char c = cursor.peek();
   if (cursor.at_end()) return std::nullopt;
   if (c == '"') return string_error(cursor);
-  if (c == '\'')
-    return SyntaxError{here, "a string in single quotes", {"'", "double quotes, \"...\"", ""}};
+  if (c == '\'') return SyntaxError{here, "a string in single quotes", {"'", "double quotes, \"...\"", ""}};
   if (c == '/' && cursor.peek(1) == '*')
-    return SyntaxError{here, "a comment that is not closed", {"the end of the text", "*/ at the end of the comment", ""}};
+    return SyntaxError{
+        here, "a comment that is not closed", {"the end of the text", "*/ at the end of the comment", ""}};
   if (c == '/' || c == '#')
     return SyntaxError{here, "not a comment", {quote(std::string_view(&c, 1)), "// or /* */ around a comment", ""}};
   if (!is_word(c)) return std::nullopt;
@@ -136,16 +146,21 @@ std::optional<SyntaxError> token_error(const Cursor& cursor, std::string_view ex
   if (word == "NaN" || word == "Infinity" || word == "-Infinity" || word == "nan" || word == "inf")
     return SyntaxError{here, "not a JSON number", {std::string(word), "a finite number", ""}};
   if (is_number(word)) {
-    if (double_of(Node::of_literal(std::string(word))) == 0.0 && word.find_first_of("123456789") != std::string_view::npos)
+    if (double_of(Node::of_literal(std::string(word))) == 0.0 &&
+        word.find_first_of("123456789") != std::string_view::npos)
       return SyntaxError{here, "a number that is too large", {quote(word), "a number of at most about 1.8e308", ""}};
     return std::nullopt;
   }
   if (looks_like_number)
-    return SyntaxError{here, "not a JSON number",
-                       {quote(word), "a number such as 12, -0.5 or 1e6 (a quantity with a unit is a string: \"10ms\")", ""}};
+    return SyntaxError{
+        here,
+        "not a JSON number",
+        {quote(word), "a number such as 12, -0.5 or 1e6 (a quantity with a unit is a string: \"10ms\")", ""}};
   if (word == "True" || word == "False" || word == "None" || word == "Null" || word == "TRUE" || word == "FALSE")
-    return SyntaxError{here, "a word that JSON does not have", {quote(word), "true, false or null in small letters", ""}};
-  return SyntaxError{here, "a word without quotes", {quote(word), std::string(expected) + " (texts stand in double quotes)", ""}};
+    return SyntaxError{
+        here, "a word that JSON does not have", {quote(word), "true, false or null in small letters", ""}};
+  return SyntaxError{
+      here, "a word without quotes", {quote(word), std::string(expected) + " (texts stand in double quotes)", ""}};
 }
 
 /// What the token at the cursor is, for "found".
@@ -210,19 +225,29 @@ SyntaxError explain(Cursor cursor, Before before) {
     return true;
   };
   switch (before) {
-    case Before::nothing: expected = "a JSON value"; break;
-    case Before::key: expected = take(':') ? "a value" : "\":\" after the name"; break;
-    case Before::array_start: expected = "a value or \"]\""; break;
+    case Before::nothing:
+      expected = "a JSON value";
+      break;
+    case Before::key:
+      expected = take(':') ? "a value" : "\":\" after the name";
+      break;
+    case Before::array_start:
+      expected = "a value or \"]\"";
+      break;
     case Before::array_item:
       is_after_comma = take(',');
       expected = is_after_comma ? "a value" : "\",\" or \"]\"";
       break;
-    case Before::object_start: expected = "a name in double quotes or \"}\""; break;
+    case Before::object_start:
+      expected = "a name in double quotes or \"}\"";
+      break;
     case Before::object_member:
       is_after_comma = take(',');
       expected = is_after_comma ? "a name in double quotes" : "\",\" or \"}\"";
       break;
-    case Before::whole_value: expected = "the end of the text"; break;
+    case Before::whole_value:
+      expected = "the end of the text";
+      break;
   }
 
   if (before != Before::whole_value)
@@ -244,13 +269,13 @@ std::optional<SyntaxError> find_bad_octet(std::string_view text) {
   const auto error_at = [text](std::size_t offset, std::string message, std::string expected) {
     Cursor cursor(text);
     cursor.advance(offset);
-    return SyntaxError{cursor.position(), std::move(message),
-                       {fmt::format("the octet 0x{:02X}", static_cast<unsigned char>(text[offset])), std::move(expected), ""}};
+    return SyntaxError{
+        cursor.position(),
+        std::move(message),
+        {fmt::format("the octet 0x{:02X}", static_cast<unsigned char>(text[offset])), std::move(expected), ""}};
   };
-  if (text.starts_with("\xEF\xBB\xBF"))
-    return error_at(0, "a byte order mark", "UTF-8 without one (RFC 8259, 8.1)");
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-    return error_at(0, "a text in UTF-16", "UTF-8");
+  if (text.starts_with("\xEF\xBB\xBF")) return error_at(0, "a byte order mark", "UTF-8 without one (RFC 8259, 8.1)");
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return error_at(0, "a text in UTF-16", "UTF-8");
 
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = character_length(text.substr(i));

@@ -50,7 +50,8 @@ struct SyntaxError {
   Details details;
 };
 
-/// Says what is wrong after the last good token, at whose end the cursor stands. The text must be known to be wrong there.
+/// Says what is wrong after the last good token, at whose end the cursor stands. The text must be known to be wrong
+/// there.
 SyntaxError explain(Cursor cursor, Before before);
 
 /// A NUL, an octet that is not UTF-8, or a byte order mark, if the text has one.

@@ -66,8 +66,9 @@ struct Object {
   std::string_view help;
   std::span<const Field> fields;
   std::span<const Group> groups;
-  std::string_view shorthand;          ///< a value that is no object stands for an object with only this field (not at the root)
-  Source* (*where)(void* object);      ///< the member that keeps where it was read; may be null
+  std::string_view
+      shorthand;  ///< a value that is no object stands for an object with only this field (not at the root)
+  Source* (*where)(void* object);  ///< the member that keeps where it was read; may be null
   void (*with_prototype)(void (*use)(const void* object, void* context), void* context);  ///< calls with all defaults
 };
 
@@ -149,7 +150,8 @@ void decode_string(const Node& node, std::string& value, const Bounds& bounds, R
 void decode_double(const Node& node, double& value, const Bounds& bounds, Reader& reader);
 /// False if there is no integer within the bounds, which must have min and max.
 bool decode_integer(const Node& node, sim::int128& value, const Bounds& bounds, Reader& reader);
-bool decode_quantity(const Node& node, sim::int128& value, const Dimension& dimension, const Bounds& bounds, Reader& reader);
+bool decode_quantity(const Node& node, sim::int128& value, const Dimension& dimension, const Bounds& bounds,
+                     Reader& reader);
 void decode_sequence(const Node& node, void* value, const Sequence& sequence, const Bounds& bounds, Reader& reader);
 void decode_mapping(const Node& node, void* value, const Mapping& mapping, const Bounds& bounds, Reader& reader);
 void decode_by(const Object& table, const Node& node, void* value, Reader& reader);

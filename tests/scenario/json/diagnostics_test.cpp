@@ -13,12 +13,14 @@ TEST(Diagnostic, ReadsAsOneLine) {
   EXPECT_EQ(to_text(Diagnostic{Severity::error, {"a.json", 3, 7, "/x/0"}, "unknown unit", {"\"5 m\"", "ms", "5m"}}),
             "a.json:3:7: error at /x/0: unknown unit: found \"5 m\", expected ms (did you mean \"5m\"?)");
   EXPECT_EQ(to_text(Diagnostic{Severity::warning, {"a.json", 0, 0, ""}, "empty", {}}), "a.json: warning: empty");
-  EXPECT_EQ(to_text(Diagnostic{Severity::error, {"a.json", 1, 1, ""}, "m", {"", "e", ""}}), "a.json:1:1: error: m: expected e");
+  EXPECT_EQ(to_text(Diagnostic{Severity::error, {"a.json", 1, 1, ""}, "m", {"", "e", ""}}),
+            "a.json:1:1: error: m: expected e");
   EXPECT_EQ(to_text(Diagnostic{Severity::error, {}, "m", {"f", "", ""}}), "error: m: found f");
 }
 
 TEST(Diagnostic, IsHarmlessForTerminals) {
-  EXPECT_EQ(to_text(Diagnostic{Severity::error, {"a\n.json", 1, 1, "/\x1b[2J"}, "m", {}}), "a\\u000a.json:1:1: error at /\\u001b[2J: m");
+  EXPECT_EQ(to_text(Diagnostic{Severity::error, {"a\n.json", 1, 1, "/\x1b[2J"}, "m", {}}),
+            "a\\u000a.json:1:1: error at /\\u001b[2J: m");
 }
 
 TEST(Diagnostics, AreSortedByPlaceButFilesStayInOrder) {
@@ -26,7 +28,8 @@ TEST(Diagnostics, AreSortedByPlaceButFilesStayInOrder) {
   diagnostics.error({"b.json", 2, 1, ""}, "second");
   diagnostics.warning({"a.json", 1, 1, ""}, "other file");
   diagnostics.error({"b.json", 1, 9, ""}, "first");
-  EXPECT_EQ(diagnostics.to_text(), "b.json:1:9: error: first\nb.json:2:1: error: second\na.json:1:1: warning: other file\n");
+  EXPECT_EQ(diagnostics.to_text(),
+            "b.json:1:9: error: first\nb.json:2:1: error: second\na.json:1:1: warning: other file\n");
   EXPECT_EQ(diagnostics.errors(), 2U);
   EXPECT_EQ(diagnostics.warnings(), 1U);
 }
@@ -58,9 +61,9 @@ TEST(Quote, CutsAndEscapes) {
 TEST(EditDistance, CountsEditsAndSwaps) {
   EXPECT_EQ(edit_distance("", "", 3), 0U);
   EXPECT_EQ(edit_distance("rate", "rate", 3), 0U);
-  EXPECT_EQ(edit_distance("rate", "rtae", 3), 1U);     // a swap of neighbours
+  EXPECT_EQ(edit_distance("rate", "rtae", 3), 1U);       // a swap of neighbours
   EXPECT_EQ(edit_distance("kitten", "sitting", 3), 3U);  // the textbook's example
-  EXPECT_EQ(edit_distance("ca", "abc", 3), 3U);        // optimal string alignment: no edit between the swapped
+  EXPECT_EQ(edit_distance("ca", "abc", 3), 3U);          // optimal string alignment: no edit between the swapped
   EXPECT_EQ(edit_distance("abcdef", "uvwxyz", 3), 4U);   // more than the limit
   EXPECT_EQ(edit_distance(std::string(65, 'a'), std::string(65, 'a'), 3), 4U);  // too long to look at
 }

@@ -45,7 +45,8 @@ class Writer {
 
  private:
   void put_noise() {
-    static constexpr std::string_view pieces[] = {"", "", "", " ", "\n", "\t", "\r\n", "/* , : \" { */", "// ] \"\u00e4\n", "/*\n*/", " \u002f* \u20ac *\u002f "};
+    static constexpr std::string_view pieces[] = {
+        "", "", "", " ", "\n", "\t", "\r\n", "/* , : \" { */", "// ] \"\u00e4\n", "/*\n*/", " \u002f* \u20ac *\u002f "};
     if (!noise_.empty()) put(pieces[noise_[next_++ % noise_.size()] % std::size(pieces)]);
   }
   void put(std::string_view text) {
@@ -65,7 +66,8 @@ class Writer {
 };
 
 std::string random_text() {
-  static constexpr std::string_view pieces[] = {"a", "\"", "\\", "/", "\n", "\u00e4", "\u20ac", "\U0001F600", "~", ",", "]", "\x01", "//"};
+  static constexpr std::string_view pieces[] = {"a",          "\"", "\\", "/", "\n",   "\u00e4", "\u20ac",
+                                                "\U0001F600", "~",  ",",  "]", "\x01", "//"};
   std::string text;
   for (const int piece : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 13))) text += pieces[piece];
   return text;
@@ -73,11 +75,16 @@ std::string random_text() {
 
 Node random_value(int depth) {
   switch (*rc::gen::inRange(0, depth > 0 ? 7 : 5)) {
-    case 0: return {};
-    case 1: return Node::of_bool(*rc::gen::arbitrary<bool>());
-    case 2: return Node::of_integer(*rc::gen::arbitrary<std::int64_t>());
-    case 3: return Node::of_double(*rc::gen::arbitrary<std::int16_t>() / 64.0);
-    case 4: return Node::of_string(random_text());
+    case 0:
+      return {};
+    case 1:
+      return Node::of_bool(*rc::gen::arbitrary<bool>());
+    case 2:
+      return Node::of_integer(*rc::gen::arbitrary<std::int64_t>());
+    case 3:
+      return Node::of_double(*rc::gen::arbitrary<std::int16_t>() / 64.0);
+    case 4:
+      return Node::of_string(random_text());
     case 5: {
       Node node = Node::array();
       for (int count = *rc::gen::inRange(0, 4); count > 0; --count) node.items.push_back(random_value(depth - 1));

@@ -28,10 +28,10 @@ Position at(std::uint32_t line, std::uint32_t column) { return {0, line, column}
 
 TEST(Positions, EveryTokenHasItsOwn) {
   const Document document = must_parse(
-      "{ \"a\" : 1,\n"                       // 1: { at 1, "a" at 3, 1 at 9
-      "  /* b, : \"x\" */ \"b\":[true,\n"    // 2: "b" at 18, [ at 22, true at 23
+      "{ \"a\" : 1,\n"                        // 1: { at 1, "a" at 3, 1 at 9
+      "  /* b, : \"x\" */ \"b\":[true,\n"     // 2: "b" at 18, [ at 22, true at 23
       "    null , -1.5e+3 // last, really\n"  // 3: null at 5, the number at 12
-      "  ], \"c\": {\"d\": \"x\\\"y\"}\n"    // 4: "c" at 6, { at 11, "d" at 12, the string at 17
+      "  ], \"c\": {\"d\": \"x\\\"y\"}\n"     // 4: "c" at 6, { at 11, "d" at 12, the string at 17
       "}");
   const Node& root = document.root();
   EXPECT_EQ(root.position, at(1, 1));
@@ -104,31 +104,59 @@ TEST(Syntax, SaysWhereWhatAndWhatElse) {
       {"{\"a\" 1}", "a.json:1:6: error: not valid JSON: found \"1\", expected \":\" after the name\n"},
       {"{\"a\":}", "a.json:1:6: error: not valid JSON: found \"}\", expected a value\n"},
       {"{\"a\":1 \"b\":2}", "a.json:1:8: error: a missing comma: found the string \"b\", expected \",\" or \"}\"\n"},
-      {"{\"a\":1,}", "a.json:1:8: error: a comma after the last element: found \"}\", expected a name in double quotes\n"},
+      {"{\"a\":1,}",
+       "a.json:1:8: error: a comma after the last element: found \"}\", expected a name in double quotes\n"},
       {"{1:2}", "a.json:1:2: error: not valid JSON: found \"1\", expected a name in double quotes or \"}\"\n"},
-      {"{a:1}", "a.json:1:2: error: a word without quotes: found \"a\", expected a name in double quotes or \"}\" (texts stand in double quotes)\n"},
+      {"{a:1}",
+       "a.json:1:2: error: a word without quotes: found \"a\", expected a name in double quotes or \"}\" (texts stand "
+       "in double quotes)\n"},
       {"]", "a.json:1:1: error: not valid JSON: found \"]\", expected a JSON value\n"},
       {"[NaN]", "a.json:1:2: error: not a JSON number: found NaN, expected a finite number\n"},
       {"{\"a\": -Infinity}", "a.json:1:7: error: not a JSON number: found -Infinity, expected a finite number\n"},
-      {"[True]", "a.json:1:2: error: a word that JSON does not have: found \"True\", expected true, false or null in small letters\n"},
+      {"[True]",
+       "a.json:1:2: error: a word that JSON does not have: found \"True\", expected true, false or null in small "
+       "letters\n"},
       {"['a']", "a.json:1:2: error: a string in single quotes: found ', expected double quotes, \"...\"\n"},
-      {"[1, 01]", "a.json:1:5: error: not a JSON number: found \"01\", expected a number such as 12, -0.5 or 1e6 (a quantity with a unit is a string: \"10ms\")\n"},
-      {"{\"a\": 10ms}", "a.json:1:7: error: not a JSON number: found \"10ms\", expected a number such as 12, -0.5 or 1e6 (a quantity with a unit is a string: \"10ms\")\n"},
-      {"[1e999]", "a.json:1:2: error: a number that is too large: found \"1e999\", expected a number of at most about 1.8e308\n"},
-      {"[\"abc", "a.json:1:2: error: a string that is not closed: found the end of the text, expected \" at the end of the string\n"},
-      {"[\"a\nb\"]", "a.json:1:2: error: a string that is not closed on its line: found the end of the line, expected \" at the end of the string (a line break in a text is \\n)\n"},
+      {"[1, 01]",
+       "a.json:1:5: error: not a JSON number: found \"01\", expected a number such as 12, -0.5 or 1e6 (a quantity with "
+       "a unit is a string: \"10ms\")\n"},
+      {"{\"a\": 10ms}",
+       "a.json:1:7: error: not a JSON number: found \"10ms\", expected a number such as 12, -0.5 or 1e6 (a quantity "
+       "with a unit is a string: \"10ms\")\n"},
+      {"[1e999]",
+       "a.json:1:2: error: a number that is too large: found \"1e999\", expected a number of at most about 1.8e308\n"},
+      {"[\"abc",
+       "a.json:1:2: error: a string that is not closed: found the end of the text, expected \" at the end of the "
+       "string\n"},
+      {"[\"a\nb\"]",
+       "a.json:1:2: error: a string that is not closed on its line: found the end of the line, expected \" at the end "
+       "of the string (a line break in a text is \\n)\n"},
       {"[\"a\tb\"]", "a.json:1:4: error: a control character in a string: found U+0009, expected \\u0009\n"},
-      {"[\"C:\\dir\"]", "a.json:1:5: error: an unknown escape in a string: found \"\\\\d\", expected one of \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\uXXXX (a backslash itself is \\\\)\n"},
-      {"[\"\\u12g4\"]", "a.json:1:3: error: an incomplete escape in a string: found \"\\\\u12g4\", expected \\u and four hexadecimal digits\n"},
-      {"[\"\\ud800x\"]", "a.json:1:3: error: half of a surrogate pair in a string: found \"\\\\ud800\", expected both halves, \\ud800-\\udbff and \\udc00-\\udfff, or the character itself\n"},
-      {"[\"\\u00e\u0320x\"]", "a.json:1:3: error: an incomplete escape in a string: found \"\\\\u00e\", expected \\u and four hexadecimal digits\n"},
-      {"[\"\\\u00e4\"]", "a.json:1:3: error: an unknown escape in a string: found \"\\\\\u00e4\", expected one of \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\uXXXX (a backslash itself is \\\\)\n"},
-      {"[1, /* open", "a.json:1:5: error: a comment that is not closed: found the end of the text, expected */ at the end of the comment\n"},
+      {"[\"C:\\dir\"]",
+       "a.json:1:5: error: an unknown escape in a string: found \"\\\\d\", expected one of \\\" \\\\ \\/ \\b \\f \\n "
+       "\\r \\t \\uXXXX (a backslash itself is \\\\)\n"},
+      {"[\"\\u12g4\"]",
+       "a.json:1:3: error: an incomplete escape in a string: found \"\\\\u12g4\", expected \\u and four hexadecimal "
+       "digits\n"},
+      {"[\"\\ud800x\"]",
+       "a.json:1:3: error: half of a surrogate pair in a string: found \"\\\\ud800\", expected both halves, "
+       "\\ud800-\\udbff and \\udc00-\\udfff, or the character itself\n"},
+      {"[\"\\u00e\u0320x\"]",
+       "a.json:1:3: error: an incomplete escape in a string: found \"\\\\u00e\", expected \\u and four hexadecimal "
+       "digits\n"},
+      {"[\"\\\u00e4\"]",
+       "a.json:1:3: error: an unknown escape in a string: found \"\\\\\u00e4\", expected one of \\\" \\\\ \\/ \\b \\f "
+       "\\n \\r \\t \\uXXXX (a backslash itself is \\\\)\n"},
+      {"[1, /* open",
+       "a.json:1:5: error: a comment that is not closed: found the end of the text, expected */ at the end of the "
+       "comment\n"},
       {"# no\n1", "a.json:1:1: error: not a comment: found \"#\", expected // or /* */ around a comment\n"},
-      {"\xEF\xBB\xBF{}", "a.json:1:1: error: a byte order mark: found the octet 0xEF, expected UTF-8 without one (RFC 8259, 8.1)\n"},
+      {"\xEF\xBB\xBF{}",
+       "a.json:1:1: error: a byte order mark: found the octet 0xEF, expected UTF-8 without one (RFC 8259, 8.1)\n"},
       {"[\"a\",\n\"b\xC0\xAF\"]", "a.json:2:3: error: not UTF-8: found the octet 0xC0, expected text in UTF-8\n"},
       {"[\"\xED\xA0\x80\"]", "a.json:1:3: error: not UTF-8: found the octet 0xED, expected text in UTF-8\n"},
-      {std::string("{}\0{", 4), "a.json:1:3: error: a NUL in the text: found the octet 0x00, expected text without NUL\n"},
+      {std::string("{}\0{", 4),
+       "a.json:1:3: error: a NUL in the text: found the octet 0x00, expected text without NUL\n"},
   };
   for (const auto& [text, expected] : cases) EXPECT_EQ(refusal(text), expected) << text;
 }
@@ -140,9 +168,11 @@ TEST(Syntax, CommentsAreAllowedEverywhere) {
 TEST(Duplicates, AreAllReportedAndTheFirstIsKept) {
   Diagnostics diagnostics;
   const auto document = parse("{\"x\": {\"a\": 1, \"b\": 2,\n \"a\": 3, \"a\": 4}}", "a.json", diagnostics);
-  EXPECT_EQ(diagnostics.to_text(),
-            "a.json:2:2: error at /x/a: the name \"a\" occurs twice: expected one value (the first is in line 1, column 8)\n"
-            "a.json:2:10: error at /x/a: the name \"a\" occurs twice: expected one value (the first is in line 1, column 8)\n");
+  EXPECT_EQ(
+      diagnostics.to_text(),
+      "a.json:2:2: error at /x/a: the name \"a\" occurs twice: expected one value (the first is in line 1, column 8)\n"
+      "a.json:2:10: error at /x/a: the name \"a\" occurs twice: expected one value (the first is in line 1, column "
+      "8)\n");
   ASSERT_TRUE(document.has_value());
   EXPECT_EQ(compact(document->root()), R"({"x": {"a": 1, "b": 2}})");
 }
@@ -156,7 +186,8 @@ TEST(Limits, DepthIsLimited) {
                                   ": arrays and objects are nested too deeply: expected at most 64 levels\n");
   std::string objects;
   for (int i = 0; i < 10'000; ++i) objects += "{\"a\":";
-  EXPECT_NE(refusal(objects).find("a.json:1:321: error at /a/a/"), std::string::npos);  // 64 levels of 5 octets before it
+  EXPECT_NE(refusal(objects).find("a.json:1:321: error at /a/a/"),
+            std::string::npos);  // 64 levels of 5 octets before it
 }
 
 TEST(Limits, SizeIsLimited) {

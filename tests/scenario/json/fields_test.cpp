@@ -76,7 +76,8 @@ TEST(Decode, ShorthandStandsForOneField) {
 }
 
 TEST(Decode, AllMistakesAreToldAtOnce) {
-  EXPECT_EQ(mistakes(R"({
+  EXPECT_EQ(
+      mistakes(R"({
   "nmae": "x",
   "level": 6,
   "duration": "10 s",
@@ -88,52 +89,76 @@ TEST(Decode, AllMistakesAreToldAtOnce) {
   "traced": "yes",
   "seed": -1, "seed": 2
 })"),
-            "s.json:1:1: error: the field \"name\" is missing\n"
-            "s.json:2:3: error at /nmae: unknown field \"nmae\" (did you mean \"name\"?)\n"
-            "s.json:3:12: error at /level: out of range: found the number 6, expected an integer from -5 to 5\n"
-            "s.json:4:15: error at /duration: a space in a quantity: found \"10 s\", expected a duration such as \"200us\" (did you mean \"10s\"?)\n"
-            "s.json:6:14: error at /links/0/ends: too few items: found 1, expected exactly 2 items\n"
-            "s.json:6:29: error at /links/0/rate: unknown unit \"gbps\": found \"1gbps\", expected one of the units bps, kbps, Mbps, Gbps, Tbps (did you mean \"1Gbps\"?)\n"
-            "s.json:6:38: error at /links/0/lenght: unknown field \"lenght\" (did you mean \"length\"?)\n"
-            "s.json:7:5: error at /links/1: the field \"ends\" is missing\n"
-            "s.json:7:14: error at /links/1/rate: wrong type: found the number 1000000000, expected a data rate such as the string \"1Gbps\"\n"
-            "s.json:7:34: error at /links/1/loss: too large: found 1.5, expected a probability from 0 to 1 of at most 1\n"
-            "s.json:9:27: error at /nodes/a/kind: unknown kind: found \"hots\", expected \"host\" or \"switch\" (did you mean \"host\"?)\n"
-            "s.json:9:41: error at /nodes/b: the field \"kind\" is missing: expected \"host\" or \"switch\"\n"
-            "s.json:9:69: error at /nodes/c/os: unknown field \"os\": expected one of \"kind\", \"queues\" or \"delay\"\n"
-            "s.json:9:113: error at /nodes/d/os: unknown name for an operating system: found \"rt\", expected \"preempt-rt\", \"general-purpose\" or \"guest\"\n"
-            "s.json:10:13: error at /traced: wrong type: found the string \"yes\", expected true or false\n"
-            "s.json:11:11: error at /seed: out of range: found the number -1, expected an integer from 0 to 18446744073709551615\n"
-            "s.json:11:15: error at /seed: the name \"seed\" occurs twice: expected one value (the first is in line 11, column 3)\n");
+      "s.json:1:1: error: the field \"name\" is missing\n"
+      "s.json:2:3: error at /nmae: unknown field \"nmae\" (did you mean \"name\"?)\n"
+      "s.json:3:12: error at /level: out of range: found the number 6, expected an integer from -5 to 5\n"
+      "s.json:4:15: error at /duration: a space in a quantity: found \"10 s\", expected a duration such as \"200us\" "
+      "(did you mean \"10s\"?)\n"
+      "s.json:6:14: error at /links/0/ends: too few items: found 1, expected exactly 2 items\n"
+      "s.json:6:29: error at /links/0/rate: unknown unit \"gbps\": found \"1gbps\", expected one of the units bps, "
+      "kbps, Mbps, Gbps, Tbps (did you mean \"1Gbps\"?)\n"
+      "s.json:6:38: error at /links/0/lenght: unknown field \"lenght\" (did you mean \"length\"?)\n"
+      "s.json:7:5: error at /links/1: the field \"ends\" is missing\n"
+      "s.json:7:14: error at /links/1/rate: wrong type: found the number 1000000000, expected a data rate such as the "
+      "string \"1Gbps\"\n"
+      "s.json:7:34: error at /links/1/loss: too large: found 1.5, expected a probability from 0 to 1 of at most 1\n"
+      "s.json:9:27: error at /nodes/a/kind: unknown kind: found \"hots\", expected \"host\" or \"switch\" (did you "
+      "mean \"host\"?)\n"
+      "s.json:9:41: error at /nodes/b: the field \"kind\" is missing: expected \"host\" or \"switch\"\n"
+      "s.json:9:69: error at /nodes/c/os: unknown field \"os\": expected one of \"kind\", \"queues\" or \"delay\"\n"
+      "s.json:9:113: error at /nodes/d/os: unknown name for an operating system: found \"rt\", expected "
+      "\"preempt-rt\", \"general-purpose\" or \"guest\"\n"
+      "s.json:10:13: error at /traced: wrong type: found the string \"yes\", expected true or false\n"
+      "s.json:11:11: error at /seed: out of range: found the number -1, expected an integer from 0 to "
+      "18446744073709551615\n"
+      "s.json:11:15: error at /seed: the name \"seed\" occurs twice: expected one value (the first is in line 11, "
+      "column 3)\n");
 }
 
 TEST(Decode, WrongTypes) {
   EXPECT_EQ(mistakes("[]"), "s.json:1:1: error: wrong type: found an empty array, expected an object\n");
   EXPECT_EQ(mistake_in(R"("links": {})"), "error at /links: wrong type: found an object, expected an array");
-  EXPECT_EQ(mistake_in(R"("nodes": [1, 2])"), "error at /nodes: wrong type: found an array of 2, expected an object whose members are named freely");
-  EXPECT_EQ(mistake_in(R"("level": 1.5)"), "error at /level: not an integer: found the number 1.5, expected an integer from -5 to 5");
-  EXPECT_EQ(mistake_in(R"("level": 1e0)"), "error at /level: not an integer: found the number 1e0, expected an integer from -5 to 5");
-  EXPECT_EQ(mistake_in(R"("level": "1")"), "error at /level: wrong type: found the string \"1\", expected an integer from -5 to 5");
-  EXPECT_EQ(mistake_in(R"("weight": null)"), "error at /weight: wrong type: found null, expected a number above 0 and up to 1");
+  EXPECT_EQ(mistake_in(R"("nodes": [1, 2])"),
+            "error at /nodes: wrong type: found an array of 2, expected an object whose members are named freely");
+  EXPECT_EQ(mistake_in(R"("level": 1.5)"),
+            "error at /level: not an integer: found the number 1.5, expected an integer from -5 to 5");
+  EXPECT_EQ(mistake_in(R"("level": 1e0)"),
+            "error at /level: not an integer: found the number 1e0, expected an integer from -5 to 5");
+  EXPECT_EQ(mistake_in(R"("level": "1")"),
+            "error at /level: wrong type: found the string \"1\", expected an integer from -5 to 5");
+  EXPECT_EQ(mistake_in(R"("weight": null)"),
+            "error at /weight: wrong type: found null, expected a number above 0 and up to 1");
   EXPECT_EQ(mistake_in(R"("master": 7)"), "error at /master: wrong type: found the number 7, expected a string");
-  EXPECT_EQ(mistake_in(R"("duration": true)"), "error at /duration: wrong type: found true, expected a duration such as \"200us\"");
+  EXPECT_EQ(mistake_in(R"("duration": true)"),
+            "error at /duration: wrong type: found true, expected a duration such as \"200us\"");
   EXPECT_EQ(mistake_in(R"("oscillator": null)"), "error at /oscillator: wrong type: found null, expected an object");
-  EXPECT_EQ(mistake_in(R"("oscillator": "1")"), "error at /oscillator: missing unit: found \"1\", expected one of the units ppt, ppb, ppm, %");
-  EXPECT_EQ(mistake_in(R"("captured": "none")"), "error at /captured: not a selection: found \"none\", expected \"all\" or an array of names");
-  EXPECT_EQ(mistake_in(R"("nodes": {"a": {"kind": 1}})"), "error at /nodes/a/kind: wrong type: found the number 1, expected \"host\" or \"switch\"");
-  EXPECT_EQ(mistake_in(R"("$schema": 1)"), "error at /$schema: wrong type: found the number 1, expected a string that names a JSON Schema");
+  EXPECT_EQ(mistake_in(R"("oscillator": "1")"),
+            "error at /oscillator: missing unit: found \"1\", expected one of the units ppt, ppb, ppm, %");
+  EXPECT_EQ(mistake_in(R"("captured": "none")"),
+            "error at /captured: not a selection: found \"none\", expected \"all\" or an array of names");
+  EXPECT_EQ(mistake_in(R"("nodes": {"a": {"kind": 1}})"),
+            "error at /nodes/a/kind: wrong type: found the number 1, expected \"host\" or \"switch\"");
+  EXPECT_EQ(mistake_in(R"("$schema": 1)"),
+            "error at /$schema: wrong type: found the number 1, expected a string that names a JSON Schema");
 }
 
 TEST(Decode, Ranges) {
   EXPECT_EQ(mistake_in(R"("seed": 18446744073709551616)"),
-            "error at /seed: out of range: found the number 18446744073709551616, expected an integer from 0 to 18446744073709551615");
+            "error at /seed: out of range: found the number 18446744073709551616, expected an integer from 0 to "
+            "18446744073709551615");
   EXPECT_EQ(mistake_in(R"("seed": 99999999999999999999999999999999999999999999)"),
-            "error at /seed: out of range: found the number 9999999999999999999999999999999999999999, expected an integer from 0 to 18446744073709551615");
-  EXPECT_EQ(mistake_in(R"("weight": 0)"), "error at /weight: out of range: found 0, expected a number above 0 and up to 1");
-  EXPECT_EQ(mistake_in(R"("duration": "0s")"), "error at /duration: out of range: found \"0s\", expected a duration above 0s and up to 1h");
-  EXPECT_EQ(mistake_in(R"("duration": "-1s")"), "error at /duration: negative: found \"-1s\", expected a duration that is not negative");
-  EXPECT_EQ(mistake_in(R"("phase": "-2s")"), "error at /phase: out of range: found \"-2s\", expected a duration from -1s to 1s");
-  EXPECT_EQ(mistake_in(R"("payload": "2KiB")"), "error at /payload: out of range: found \"2KiB\", expected a size from 46B to 1500B");
+            "error at /seed: out of range: found the number 9999999999999999999999999999999999999999, expected an "
+            "integer from 0 to 18446744073709551615");
+  EXPECT_EQ(mistake_in(R"("weight": 0)"),
+            "error at /weight: out of range: found 0, expected a number above 0 and up to 1");
+  EXPECT_EQ(mistake_in(R"("duration": "0s")"),
+            "error at /duration: out of range: found \"0s\", expected a duration above 0s and up to 1h");
+  EXPECT_EQ(mistake_in(R"("duration": "-1s")"),
+            "error at /duration: negative: found \"-1s\", expected a duration that is not negative");
+  EXPECT_EQ(mistake_in(R"("phase": "-2s")"),
+            "error at /phase: out of range: found \"-2s\", expected a duration from -1s to 1s");
+  EXPECT_EQ(mistake_in(R"("payload": "2KiB")"),
+            "error at /payload: out of range: found \"2KiB\", expected a size from 46B to 1500B");
   EXPECT_EQ(mistake_in(R"("links": [{"ends": ["a", "b"], "rate": "1kbps"}])"),
             "error at /links/0/rate: out of range: found \"1kbps\", expected a data rate of at least 10Mbps");
   EXPECT_EQ(mistake_in(R"("links": [{"ends": ["a", ""]}])"),
@@ -153,7 +178,8 @@ TEST(Decode, Groups) {
   EXPECT_EQ(mistake_in(R"("faults": [{"at": "1s"}])"),
             "error at /faults/0: a field is missing: expected exactly one of \"link_down\" or \"crash\"");
   EXPECT_EQ(mistake_in(R"("faults": [{"at": "1s", "crash": "a", "link_down": ["a", "b"]}])"),
-            "error at /faults/0/crash: fields that exclude each other: found \"crash\" beside \"link_down\", expected exactly one of \"link_down\" or \"crash\"");
+            "error at /faults/0/crash: fields that exclude each other: found \"crash\" beside \"link_down\", expected "
+            "exactly one of \"link_down\" or \"crash\"");
 }
 
 TEST(Decode, MistakesBeyondTheLimitAreCounted) {
@@ -168,18 +194,22 @@ TEST(Source, ChecksOfMeaningReportPlaces) {
   const auto document = json::parse(R"({"name": "x",
     "nodes": {"a": {"kind": "host"}},
     "links": [{"ends": ["a",
-                        "b"]}]})", "s.json", diagnostics);
+                        "b"]}]})",
+                                    "s.json", diagnostics);
   Sample sample;
   ASSERT_TRUE(json::decode(*document, sample, diagnostics));
   check(sample, diagnostics);
-  EXPECT_EQ(diagnostics.to_text(), "s.json:4:25: error at /links/0/ends/1: no such node: found \"b\", expected the name of a node\n");
+  EXPECT_EQ(diagnostics.to_text(),
+            "s.json:4:25: error at /links/0/ends/1: no such node: found \"b\", expected the name of a node\n");
 }
 
 TEST(Source, PlacesOfPartsAndDefaults) {
   Sample s;
   {
     Diagnostics diagnostics;
-    const auto document = json::parse("{\"name\": \"x\", \"master\": \"m\",\n \"links\": [{\"ends\": [\"a\", \"b\"]}],\n \"oscillator\": \"1ppm\"}", "s.json", diagnostics);
+    const auto document = json::parse(
+        "{\"name\": \"x\", \"master\": \"m\",\n \"links\": [{\"ends\": [\"a\", \"b\"]}],\n \"oscillator\": \"1ppm\"}",
+        "s.json", diagnostics);
     ASSERT_TRUE(json::decode(*document, s, diagnostics));
   }  // the document is gone, the places stay
   const Link& link = s.links.at(0);

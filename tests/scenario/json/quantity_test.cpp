@@ -34,9 +34,9 @@ TEST(Duration, IsExact) {
   EXPECT_EQ(ps("10s"), 10'000'000'000'000);
   EXPECT_EQ(ps("3min"), 180'000'000'000'000);
   EXPECT_EQ(ps("1h"), 3'600'000'000'000'000);
-  EXPECT_EQ(ps("0.1s"), 100'000'000'000);                    // 0.1 has no double
+  EXPECT_EQ(ps("0.1s"), 100'000'000'000);  // 0.1 has no double
   EXPECT_EQ(ps("0.000000000001s"), 1);
-  EXPECT_EQ(ps("9223372.036854775807s"), max_int64);         // 2^63 - 1 ps
+  EXPECT_EQ(ps("9223372.036854775807s"), max_int64);  // 2^63 - 1 ps
   EXPECT_EQ(ps("007.500us"), 7'500'000);
   EXPECT_EQ(ps("0.000000000000000000000000000000000000000000000000us"), 0);
   EXPECT_EQ(ps("0.5min"), 30'000'000'000'000);
@@ -47,9 +47,11 @@ TEST(Duration, IsRefusedWithAReason) {
   const auto of = [](std::string_view text) { return reason(parse_duration(text)); };
   EXPECT_EQ(of("0.1ps"), "too fine; a duration in whole multiples of 1ps");
   EXPECT_EQ(of("0.0000000000001s"), "too fine; a duration in whole multiples of 1ps");
-  EXPECT_EQ(of("0.00000000000000000000000000000000000000000000000001s"), "too fine; a duration in whole multiples of 1ps");
+  EXPECT_EQ(of("0.00000000000000000000000000000000000000000000000001s"),
+            "too fine; a duration in whole multiples of 1ps");
   EXPECT_EQ(of("9223372.036854775808s"), "too large; a duration of at most 9223372.036854775807s");
-  EXPECT_EQ(of("99999999999999999999999999999999999999999999h"), "too large; a duration of at most 9223372.036854775807s");
+  EXPECT_EQ(of("99999999999999999999999999999999999999999999h"),
+            "too large; a duration of at most 9223372.036854775807s");
   EXPECT_EQ(of("1" + std::string(60, '0') + "s"), "too large; a duration of at most 9223372.036854775807s");
   EXPECT_EQ(of("200"), "missing unit; one of the units ps, ns, us, ms, s, min, h");
   EXPECT_EQ(of("200sec"), "unknown unit \"sec\"; one of the units ps, ns, us, ms, s, min, h");
@@ -74,7 +76,8 @@ TEST(DataRate, Units) {
   EXPECT_EQ((*parse_data_rate("64kbps")).bits_per_second, 64'000U);
   EXPECT_EQ((*parse_data_rate("9600bps")).bits_per_second, 9'600U);
   EXPECT_EQ((*parse_data_rate("18446744073709551615bps")).bits_per_second, std::numeric_limits<std::uint64_t>::max());
-  EXPECT_EQ(reason(parse_data_rate("1gbps")), "unknown unit \"gbps\"; one of the units bps, kbps, Mbps, Gbps, Tbps; 1Gbps");
+  EXPECT_EQ(reason(parse_data_rate("1gbps")),
+            "unknown unit \"gbps\"; one of the units bps, kbps, Mbps, Gbps, Tbps; 1Gbps");
   EXPECT_EQ(reason(parse_data_rate("0.5bps")), "too fine; a data rate in whole multiples of 1bps");
   EXPECT_EQ(reason(parse_data_rate("-1bps")), "negative; a data rate that is not negative");
 }
@@ -103,7 +106,8 @@ TEST(FrequencyOffset, Units) {
   EXPECT_EQ((*parse_frequency_offset("+0.5ppb")).parts_per_trillion, 500);
   EXPECT_EQ((*parse_frequency_offset("0.01%")).parts_per_trillion, 100'000'000);
   EXPECT_EQ((*parse_frequency_drift("1ppm/s")).parts_per_trillion_per_second, 1'000'000);
-  EXPECT_EQ(reason(parse_frequency_drift("1ppm")), "unknown unit \"ppm\"; one of the units ppt/s, ppb/s, ppm/s; 1ppm/s");
+  EXPECT_EQ(reason(parse_frequency_drift("1ppm")),
+            "unknown unit \"ppm\"; one of the units ppt/s, ppb/s, ppm/s; 1ppm/s");
 }
 
 TEST(Probability, PercentOrNumber) {
@@ -160,7 +164,9 @@ TEST(Text, ChoosesTheBestUnit) {
 template <class T>
 rc::Gen<T> of_all_magnitudes() {
   return rc::gen::map(rc::gen::pair(rc::gen::arbitrary<std::uint64_t>(), rc::gen::inRange(0, 64)),
-                      [](const std::pair<std::uint64_t, int>& p) { return static_cast<T>((p.first * 0x9E3779B97F4A7C15ULL) >> p.second); });
+                      [](const std::pair<std::uint64_t, int>& p) {
+                        return static_cast<T>((p.first * 0x9E3779B97F4A7C15ULL) >> p.second);
+                      });
 }
 
 RC_GTEST_PROP(RoundTrip, Duration, ()) {

@@ -22,7 +22,8 @@ const json::Enumeration& describe(json::Type<Os>) {
 const json::Object& describe(json::Type<Host>) {
   static constexpr json::Field fields[] = {
       optional<&Host::os>("os", "What it runs."),
-      optional<&Host::ports>("ports", "The UDP ports that are open.", {.max_items = 3, .unique = true, .items = {.min = 1024}}),
+      optional<&Host::ports>("ports", "The UDP ports that are open.",
+                             {.max_items = 3, .unique = true, .items = {.min = 1024}}),
   };
   static constexpr json::Object table = json::object<Host>("host", "A computer.", fields);
   return table;
@@ -39,13 +40,15 @@ const json::Object& describe(json::Type<Switch>) {
 
 const json::Tagged& describe(json::Type<NetworkNode>) {
   static constexpr auto options = json::options<NetworkNode>({"host", "switch"});
-  static constexpr json::Tagged table = json::tagged<NetworkNode>("node", "What stands at the end of a link.", "kind", options);
+  static constexpr json::Tagged table =
+      json::tagged<NetworkNode>("node", "What stands at the end of a link.", "kind", options);
   return table;
 }
 
 const json::Object& describe(json::Type<Link>) {
   static constexpr json::Field fields[] = {
-      required<&Link::ends>("ends", "The two nodes that it joins.", {.min_items = 2, .max_items = 2, .items = {.min_length = 1}}),
+      required<&Link::ends>("ends", "The two nodes that it joins.",
+                            {.min_items = 2, .max_items = 2, .items = {.min_length = 1}}),
       optional<&Link::rate>("rate", "Bits a second in each direction.", {.min = 10_Mbps}),
       optional<&Link::length>("length", "Of the cable."),
       optional<&Link::loss>("loss", "How likely a frame is lost."),
@@ -72,7 +75,8 @@ const json::Object& describe(json::Type<Fault>) {
   };
   static constexpr std::string_view kinds[] = {"link_down", "crash"};
   static constexpr json::Group groups[] = {json::exactly_one_of(kinds)};
-  static constexpr json::Object table = json::object<Fault>("fault", "Something that breaks.", fields, {.groups = groups});
+  static constexpr json::Object table =
+      json::object<Fault>("fault", "Something that breaks.", fields, {.groups = groups});
   return table;
 }
 
@@ -81,7 +85,8 @@ namespace {
 void decode_selection(const json::Node& node, Selection& selection, json::Reader& reader) {
   if (node.kind != json::Kind::string) return json::decode_value(node, selection.names, reader);
   selection.all = node.text == "all";
-  if (!selection.all) reader.error(node, "not a selection", {json::quote(node.text), "\"all\" or an array of names", ""});
+  if (!selection.all)
+    reader.error(node, "not a selection", {json::quote(node.text), "\"all\" or an array of names", ""});
 }
 
 json::Node encode_selection(const Selection& selection) {
@@ -122,7 +127,8 @@ const json::Object& describe(json::Type<Sample>) {
       optional<&Sample::level>("level", "Any integer will do.", {.min = -5, .max = 5}),
       optional<&Sample::weight>("weight", "A share.", {.min = 0, .max = 1, .above_min = true}),
       optional<&Sample::traced>("traced", "Whether events are recorded."),
-      optional<&Sample::duration>("duration", "How long it runs.", {.min = sim::Duration{}, .max = 3600_s, .above_min = true}),
+      optional<&Sample::duration>("duration", "How long it runs.",
+                                  {.min = sim::Duration{}, .max = 3600_s, .above_min = true}),
       optional<&Sample::phase>("phase", "Where it starts.", {.min = -(1_s), .max = 1_s}),
       optional<&Sample::payload>("payload", "Of a frame.", {.min = 46_B, .max = 1500_B}),
       optional<&Sample::master>("master", "The node that leads."),
@@ -144,7 +150,8 @@ void check(const Sample& sample, json::Diagnostics& diagnostics) {
   for (const Link& link : sample.links)
     for (std::size_t end = 0; end < link.ends.size(); ++end)
       if (!is_node(link.ends[end]))
-        diagnostics.error(link.where.at("ends", end), "no such node", {json::quote(link.ends[end]), "the name of a node", ""});
+        diagnostics.error(link.where.at("ends", end), "no such node",
+                          {json::quote(link.ends[end]), "the name of a node", ""});
 }
 
 const std::string_view full_text = R"({

@@ -153,9 +153,11 @@ TEST(Schema, TellsEditorsWhatTheyShow) {
 }
 
 TEST(Table, ContradictionsAreBroken) {
-  static constexpr json::Field twice[] = {json::optional<&Switch::queues>("a", "x."), json::optional<&Switch::delay>("a", "x.")};
+  static constexpr json::Field twice[] = {json::optional<&Switch::queues>("a", "x."),
+                                          json::optional<&Switch::delay>("a", "x.")};
   EXPECT_THROW(json::check_table(json::object<Switch>("s", "x.", twice)), sim::InvariantBroken);
-  static constexpr json::Field needed[] = {json::required<&Switch::queues>("a", "x."), json::optional<&Switch::delay>("b", "x.")};
+  static constexpr json::Field needed[] = {json::required<&Switch::queues>("a", "x."),
+                                           json::optional<&Switch::delay>("b", "x.")};
   EXPECT_THROW(json::check_table(json::object<Switch>("s", "x.", needed, {.shorthand = "b"})), sim::InvariantBroken);
   EXPECT_THROW(json::check_table(json::object<Switch>("s", "x.", needed, {.shorthand = "c"})), sim::InvariantBroken);
   static constexpr std::string_view names[] = {"b", "c"};

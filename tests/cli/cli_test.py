@@ -1,0 +1,333 @@
+#!/usr/bin/env python3
+"""Runs the takt binary as a user does: exit statuses, options, files, signals.
+
+usage: cli_test.py TAKT SOURCE_FOLDER [unittest options]
+"""
+import csv
+import io
+import json
+import os
+import pathlib
+import pty
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+TAKT = ""
+SCENARIOS = pathlib.Path()
+
+SMALL = """{"name": "small", "duration": "10ms", "network": {
+  "nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]},
+  "streams": [{"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms"}],
+  "require": [{"stream": "s", "latency": "%s"}]}
+"""
+
+
+def takt(*arguments, cwd=None, timeout=120):
+    """Status, standard output and standard error of one run."""
+    done = subprocess.run([TAKT, *map(str, arguments)], capture_output=True, text=True, cwd=cwd, timeout=timeout, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+def shipped(name="robot-arm"):
+    return SCENARIOS / f"{name}.json"
+
+
+class CliTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="takt-cli-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, text, name="s.json"):
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+
+class Help(CliTest):
+    def test_help_teaches_by_example(self):
+        status, out, err = takt("--help")
+        self.assertEqual((status, err), (0, ""))
+        for word in ("run", "check", "schema", "Examples:", "takt run scenarios/robot-arm.json"):
+            self.assertIn(word, out)
+
+    def test_help_of_run(self):
+        status, out, _ = takt("run", "--help")
+        self.assertEqual(status, 0)
+        for word in ("SCENARIO", "--seed", "--duration", "--set", "--out", "--format", "--quiet", "Examples:", "Exit status"):
+            self.assertIn(word, out)
+
+    def test_help_of_check(self):
+        status, out, _ = takt("check", "--help")
+        self.assertEqual(status, 0)
+        self.assertIn("Examples:", out)
+
+    def test_version(self):
+        status, out, err = takt("--version")
+        self.assertEqual((status, err), (0, ""))
+        self.assertRegex(out, r"^takt \d+\.\d+\.\d+\n$")
+
+    def test_wrong_usage_is_bad_input(self):
+        for arguments in ((), ("simulate",), ("run",), ("run", shipped(), "--colour"), ("run", shipped(), "--format", "xml"),
+                          ("run", shipped(), shipped())):
+            with self.subTest(arguments=arguments):
+                status, out, err = takt(*arguments)
+                self.assertEqual((status, out), (2, ""))
+                self.assertNotEqual(err, "")
+
+
+class Status(CliTest):
+    def test_pass(self):
+        self.assertEqual(takt("run", self.write(SMALL % "1ms"), "--quiet")[0], 0)
+
+    def test_requirement_failed(self):
+        status, out, _ = takt("run", self.write(SMALL % "1ns"), "--quiet")
+        self.assertEqual(status, 1)
+        self.assertRegex(out, r"^small: fail \(1 of 1 requirements\), digest [0-9a-f]{16}\n$")
+
+    def test_bad_input(self):
+        status, out, err = takt("run", self.write('{"name": "x"}'))
+        self.assertEqual((status, out), (2, ""))
+        self.assertIn('s.json:1:1: error: the field "network" is missing', err)
+
+    def test_missing_file(self):
+        status, out, err = takt("run", self.folder / "none.json")
+        self.assertEqual((status, out), (2, ""))
+        self.assertIn("none.json: error: the file cannot be opened", err)
+
+    def test_bad_input_as_json(self):
+        for command in ("run", "check"):
+            status, out, err = takt(command, self.write(SMALL.replace('"seed"', '"x"') % "1ps2"), "--format", "json")
+            self.assertEqual((status, err), (2, ""))
+            report = json.loads(out)
+            self.assertEqual(report["errors"], 1)
+            diagnostic = report["diagnostics"][0]
+            self.assertEqual((diagnostic["severity"], diagnostic["line"], diagnostic["pointer"]), ("error", 4, "/require/0/latency"))
+
+    def test_check_of_sound_scenarios(self):
+        for file in sorted(SCENARIOS.glob("*.json")):
+            if file.name == "takt.schema.json":
+                continue
+            with self.subTest(file=file.name):
+                status, out, err = takt("check", file)
+                self.assertEqual((status, err), (0, ""))
+                self.assertIn("Streams and their paths", out)
+
+    def test_the_resolved_scenario_of_check_runs_the_same(self):
+        status, out, _ = takt("check", shipped(), "--format", "json", "--duration", "1.5s")
+        self.assertEqual(status, 0)
+        self.assertEqual(takt("run", self.write(out), "--quiet"), takt("run", shipped(), "--quiet", "--duration", "1.5s"))
+
+
+class Report(CliTest):
+    def run_json(self, *arguments):
+        status, out, err = takt("run", *arguments, "--format", "json")
+        self.assertEqual((status, err), (0, ""))
+        return json.loads(out)
+
+    def test_json_holds_what_it_must(self):
+        report = self.run_json(shipped())
+        self.assertEqual((report["scenario"], report["seed"], report["simulated_ps"], report["verdict"]), ("robot-arm", 1, 10**13, "pass"))
+        self.assertRegex(report["digest"], "^[0-9a-f]{16}$")
+        self.assertIs(report["partial"], False)
+        self.assertGreater(report["events"], 0)
+        for requirement in report["requirements"]:
+            self.assertLessEqual({"text", "verdict", "measured_ps", "limit_ps"}, requirement.keys())
+        for stream in report["streams"].values():
+            self.assertLessEqual({"sent", "delivered", "dropped", "latency_ps"}, stream.keys())
+            self.assertEqual({"min", "mean", "p50", "p99", "max", "stddev"}, stream["latency_ps"].keys())
+            latency = stream["latency_ps"]
+            self.assertTrue(latency["min"] <= latency["p50"] <= latency["p99"] <= latency["max"], latency)
+            self.assertEqual(stream["sent"], stream["delivered"] + sum(stream["dropped"].values()) + stream["in_flight"])
+        program = report["programs"]["trajectory"]
+        self.assertEqual([r["kind"] for r in program["reactions"]], ["start", "suspend", "resume", "halt"])
+        for reaction in program["reactions"]:
+            self.assertLessEqual({"kind", "initiator", "began_ps", "completed_ps", "duration_ps"}, reaction.keys())
+            self.assertEqual(reaction["completed_ps"] - reaction["began_ps"], reaction["duration_ps"])
+        self.assertEqual(program["states"], {"generator": "Halted", "robot": "Halted"})
+        self.assertEqual(program["violations"], [])
+
+    def test_text_shows_the_time_line(self):
+        status, out, err = takt("run", shipped())
+        self.assertEqual((status, err), (0, ""))
+        rows = out.splitlines()
+        start = next(i for i, row in enumerate(rows) if row.endswith("Start on generator"))
+        self.assertIn("Halted.INIT", rows[start + 1])
+        for text in ("Program trajectory: robust handshake, master generator, 1 slave, cycle 200 us", "Suspend on robot", "Requirements",
+                     "Streams, slowest first", "Busiest ports"):
+            self.assertIn(text, out)
+        self.assertRegex(rows[-1], r"^robot-arm: pass, digest [0-9a-f]{16}$")
+
+    def test_runs_are_reproducible(self):
+        first = takt("run", shipped(), "--format", "json")
+        self.assertEqual(first, takt("run", shipped(), "--format", "json"))
+
+    def test_another_seed_is_another_run(self):
+        one, two = (self.run_json(shipped("direct-link"), "--seed", seed) for seed in ("1", "2"))
+        self.assertEqual((one["seed"], two["seed"]), (1, 2))
+        self.assertNotEqual(one["digest"], two["digest"])
+
+    def test_duration(self):
+        path = self.write(SMALL % "1ms")
+        self.assertEqual(self.run_json(path, "--duration", "3500us")["streams"]["s"]["sent"], 4)  # at 0, 1, 2 and 3 ms
+        self.assertEqual(self.run_json(path, "--duration", "3500us")["simulated_ps"], 3_500_000_000)
+
+    def test_set(self):
+        path = self.write(SMALL % "1ms")
+        report = self.run_json(path, "--set", "streams.0.every=2ms", "--set", "/name=other", "--set", "streams.0.payload=1B")
+        self.assertEqual((report["scenario"], report["streams"]["s"]["sent"]), ("other", 6))  # at 0, 2 .. 10 ms
+
+    def test_what_options_get_wrong_is_bad_input(self):
+        path = self.write(SMALL % "1ms")
+        cases = ((("--seed", "x"), "/seed"), (("--seed", "-1"), "/seed"), (("--duration", "5"), "/duration"),
+                 (("--set", "streams.1.every=2ms", "--set", "streams.7.every=1ms"), "streams.7"), (("--set", "nonsense"), "nonsense"),
+                 (("--set", "streams.0.evry=2ms"), "/streams/0/evry"))
+        for options, word in cases:
+            with self.subTest(options=options):
+                status, out, err = takt("run", path, *options)
+                self.assertEqual((status, out), (2, ""))
+                self.assertIn(word, err)
+
+    def test_from_another_folder(self):
+        self.write(SMALL.replace('"every": "1ms"', '"trace": "t.csv"') % "1ms")
+        self.write("time,payload\n1us,10B\n20us,20B\n", "t.csv")
+        inside = takt("run", "s.json", "--format", "json", cwd=self.folder)
+        outside = takt("run", self.folder / "s.json", "--format", "json", cwd="/")
+        self.assertEqual(inside, outside)
+        self.assertEqual(json.loads(inside[1])["streams"]["s"]["sent"], 2)
+
+    def test_no_bar_and_no_escapes_without_a_terminal(self):
+        _, out, err = takt("run", shipped("line-of-switches"))
+        self.assertEqual(err, "")
+        self.assertNotIn("\033", out)
+
+
+class Folder(CliTest):
+    FILES = {"result.json", "scenario.json", "streams.csv", "reactions.csv", "ports.csv", "histograms.csv"}
+
+    def test_files_are_complete(self):
+        out_folder = self.folder / "deep" / "out"
+        status, out, err = takt("run", shipped(), "--duration", "2s", "--out", out_folder, "--format", "json")
+        self.assertEqual(status, 1)  # some reactions are missing after 2 s
+        self.assertEqual(err.count("after the end of the simulation"), 3)
+        self.assertEqual({p.name for p in out_folder.iterdir()}, self.FILES)
+        self.assertEqual((out_folder / "result.json").read_text(encoding="utf-8"), out)
+        report = json.loads(out)
+        table = list(csv.DictReader(io.StringIO((out_folder / "streams.csv").read_text(encoding="utf-8"))))
+        self.assertEqual([row["stream"] for row in table], list(report["streams"]))
+        for row in table:
+            self.assertEqual(int(row["max_ps"]), report["streams"][row["stream"]]["latency_ps"]["max"])
+        reactions = list(csv.DictReader(io.StringIO((out_folder / "reactions.csv").read_text(encoding="utf-8"))))
+        self.assertEqual([row["kind"] for row in reactions], ["start"])
+        counts = {}
+        for row in csv.DictReader(io.StringIO((out_folder / "histograms.csv").read_text(encoding="utf-8"))):
+            counts[row["stream"]] = counts.get(row["stream"], 0) + int(row["count"])
+        self.assertEqual(counts, {name: stream["delivered"] for name, stream in report["streams"].items()})
+
+    def test_the_resolved_copy_runs_the_same(self):
+        takt("run", shipped(), "--duration", "1.5s", "--seed", "9", "--out", self.folder / "out")
+        _, again, _ = takt("run", self.folder / "out" / "scenario.json", "--format", "json")
+        self.assertEqual(again, (self.folder / "out" / "result.json").read_text(encoding="utf-8"))
+
+    def test_an_earlier_result_is_replaced(self):
+        path = self.write(SMALL % "1ms")
+        for seed in ("1", "2"):
+            self.assertEqual(takt("run", path, "--seed", seed, "--out", self.folder / "out", "--quiet")[0], 0)
+        self.assertEqual(json.loads((self.folder / "out" / "result.json").read_text(encoding="utf-8"))["seed"], 2)
+
+    def test_an_impossible_place(self):
+        path = self.write(SMALL % "1ms")
+        for place in (path, path / "below", "/proc/takt/out"):
+            with self.subTest(place=str(place)):
+                status, _, err = takt("run", path, "--out", place)
+                self.assertEqual(status, 3)
+                self.assertRegex(err, r"^takt: cannot write results: .*\n$")
+        self.assertEqual({p.name for p in self.folder.iterdir()}, {"s.json"})
+
+    def test_bad_input_writes_nothing(self):
+        path = self.write('{"name": "x", "duration": "1ms", "network": {}}')
+        status, _, _ = takt("run", path, "--out", self.folder / "out")
+        self.assertEqual(status, 2)
+        self.assertEqual({p.name for p in self.folder.iterdir()}, {"s.json"})
+
+
+class Signals(CliTest):
+    def start(self, *arguments, **keywords):
+        process = subprocess.Popen([TAKT, "run", str(shipped()), "--duration", "100h", *map(str, arguments)], text=True, **keywords)
+        self.addCleanup(lambda: process.poll() is None and process.kill())
+        return process
+
+    def interrupt(self, number, *arguments):
+        process = self.start(*arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(0.7)
+        process.send_signal(number)
+        out, err = process.communicate(timeout=60)
+        return process.returncode, out, err
+
+    def test_interrupt_ends_cleanly(self):
+        folder = self.folder / "out"
+        status, out, err = self.interrupt(signal.SIGINT, "--format", "json", "--out", folder)
+        self.assertEqual((status, err), (130, ""))
+        report = json.loads(out)
+        self.assertIs(report["partial"], True)
+        self.assertIn(report["verdict"], ("undecided",))
+        self.assertTrue(0 < report["simulated_ps"] < 360_000 * 10**12)
+        self.assertEqual((folder / "result.json").read_text(encoding="utf-8"), out)
+        self.assertEqual({p.name for p in folder.iterdir()}, Folder.FILES)
+
+    def test_interrupt_is_marked_in_the_text(self):
+        status, out, _ = self.interrupt(signal.SIGTERM)
+        self.assertEqual(status, 130)
+        self.assertRegex(out, r"PARTIAL: interrupted after \S+ m?s of 360000 s\n")
+        self.assertRegex(out, r"robot-arm: undecided, digest [0-9a-f]{16}, partial\n$")
+
+    def test_a_failure_outweighs_an_interrupt(self):
+        status, out, _ = self.interrupt(signal.SIGINT, "--quiet", "--set", "require.6.dropped=0", "--set", "require.5.latency=1ns")
+        self.assertEqual(status, 1)
+        self.assertIn("partial", out)
+
+    def test_a_closed_reader(self):
+        """takt run ... | head -1: ends, by SIGPIPE or with a status, and reports no internal error."""
+        read_end, write_end = os.pipe()
+        os.close(read_end)
+        done = subprocess.run([TAKT, "run", str(shipped()), "--duration", "1.5s"], stdout=write_end, stderr=subprocess.PIPE, text=True,
+                              timeout=60, check=False)
+        os.close(write_end)
+        self.assertIn(done.returncode, (-signal.SIGPIPE, 1, 3))
+        self.assertNotIn("internal error", done.stderr)
+
+    def test_no_standard_output(self):
+        """A full disk below standard output is not a success."""
+        if not os.path.exists("/dev/full"):
+            self.skipTest("no /dev/full")
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([TAKT, "run", str(self.write(SMALL % "1ms"))], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60, check=False)
+        self.assertEqual(done.returncode, 3, done.stderr)
+
+    def test_a_bar_on_a_terminal(self):
+        controller, terminal = pty.openpty()
+        process = self.start(stdout=subprocess.DEVNULL, stderr=terminal)
+        os.close(terminal)
+        time.sleep(2.0)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=60), 130)
+        drawn = b""
+        try:
+            while chunk := os.read(controller, 65536):
+                drawn += chunk
+        except OSError:
+            pass  # the terminal's other end is closed
+        os.close(controller)
+        self.assertRegex(drawn.decode(), re.compile(r"\[.{30}\] +\d+\.\d % "))
+        self.assertTrue(drawn.endswith(b"\r\033[K"), "the bar removes itself")
+
+
+if __name__ == "__main__":
+    TAKT = sys.argv[1]
+    SCENARIOS = pathlib.Path(sys.argv[2]) / "scenarios"
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

@@ -1,0 +1,60 @@
+#include <string>
+
+#include "measure.hpp"
+#include "models/ethernet/sizes.hpp"
+#include "models/network.hpp"
+#include "workloads.hpp"
+
+namespace takt::benchmark {
+namespace {
+
+using namespace models;  // NOLINT
+using namespace sim::literals;  // NOLINT
+
+NetworkPlan line_plan() {
+  constexpr std::uint32_t switches = 5;
+  constexpr std::uint32_t last = switches + 1;
+  NetworkPlan plan;
+  for (std::uint32_t n = 0; n <= last; ++n) {
+    NodePlan node;
+    node.name = "n" + std::to_string(n);
+    node.kind = n == 0 || n == last ? NodeKind::host : NodeKind::bridge;
+    plan.nodes.push_back(node);
+  }
+  for (std::uint32_t n = 0; n < last; ++n)
+    plan.links.push_back({{NodeIndex{n}, static_cast<std::uint16_t>(n == 0 ? 0 : 1)}, {NodeIndex{n + 1}, 0}, sim::DataRate{1'000'000'000}, 50_ns});
+  for (std::uint32_t n = 1; n < last; ++n) plan.filtering.push_back({NodeIndex{n}, 0, AddressIndex{last}, 1});
+  const auto add_stream = [&](const char* name, Octets payload, sim::Duration period) {
+    StreamPlan stream;
+    stream.name = name;
+    stream.talker = NodeIndex{0};
+    stream.destination = AddressIndex{last};
+    stream.headers = ipv4_and_udp_headers;
+    stream.listeners = {NodeIndex{last}};
+    const StreamIndex index{static_cast<std::uint32_t>(plan.streams.size())};
+    plan.streams.push_back(stream);
+    plan.talkers.push_back({index, payload, PeriodicSchedule{{}, period, {}}});
+  };
+  add_stream("small", Octets{100}, 200_us);
+  add_stream("large", Octets{1000}, 20_us);
+  return plan;
+}
+
+}  // namespace
+
+LineFigures run_line(double simulated_seconds) {
+  sim::Simulation simulation(1);
+  Network network(simulation, line_plan());
+  network.start();
+  LineFigures figures;
+  const double before = cpu_seconds();
+  simulation.run(sim::TrueTime() + sim::Duration::from_ps(static_cast<std::int64_t>(simulated_seconds * 1e12)));
+  figures.cpu_seconds = cpu_seconds() - before;
+  figures.events = simulation.event_count();
+  figures.population = simulation.pending_peak();
+  for (std::uint32_t n = 0; n < network.plan().nodes.size(); ++n)
+    for (const EgressPort& port : network.ports(NodeIndex{n})) figures.frame_hops += port.frames_sent();
+  return figures;
+}
+
+}  // namespace takt::benchmark

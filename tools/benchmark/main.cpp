@@ -1,0 +1,47 @@
+// One measured run of one workload, as a line of JSON; tools/bench calls it again and again, in turn with others.
+//
+//   takt_bench line SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION
+//            | tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair SECONDS
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#include "workloads.hpp"
+
+namespace {
+
+using namespace takt::benchmark;  // NOLINT
+
+int usage() {
+  std::fputs("usage: takt_bench line SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION |\n"
+             "       tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair SECONDS\n", stderr);
+  return 2;
+}
+
+unsigned number(const char* text) { return static_cast<unsigned>(std::strtoul(text, nullptr, 10)); }
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string_view workload = argc > 1 ? argv[1] : "";
+  if (workload == "line" && argc == 3) {
+    const LineFigures f = run_line(std::atof(argv[2]));
+    std::printf(R"({"cpu_s": %.9f, "frame_hops": %llu, "events": %llu, "population": %zu})" "\n", f.cpu_seconds,
+                static_cast<unsigned long long>(f.frame_hops), static_cast<unsigned long long>(f.events), f.population);
+  } else if ((workload == "queue-own" || workload == "queue-plain") && argc == 4) {
+    const std::uint64_t events = std::strtoull(argv[2], nullptr, 10);
+    const std::size_t population = number(argv[3]);
+    const double seconds = workload == "queue-own" ? bare_loop_own_queue(events, population) : bare_loop_plain_heap(events, population);
+    std::printf(R"({"cpu_s": %.9f})" "\n", seconds);
+  } else if (workload == "tree" && argc == 6) {
+    const TreeFigures f = run_tree(number(argv[2]), number(argv[3]), number(argv[4]), std::atof(argv[5]));
+    std::printf(R"({"cpu_s": %.9f, "frame_hops": %llu, "setup_cpu_s": %.9f, "setup_octets": %zu, "hosts": %zu})" "\n", f.cpu_seconds,
+                static_cast<unsigned long long>(f.frame_hops), f.setup_cpu_seconds, f.setup_octets, f.hosts);
+  } else if (workload == "pair" && argc == 3) {
+    const PairFigures f = run_pair(std::atof(argv[2]));
+    std::printf(R"({"cpu_s": %.9f, "simulated_s": %.9f})" "\n", f.cpu_seconds, f.simulated_seconds);
+  } else {
+    return usage();
+  }
+  return 0;
+}

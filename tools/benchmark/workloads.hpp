@@ -1,0 +1,41 @@
+// The workloads that tools/bench measures; each runs once and says what it cost.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace takt::benchmark {
+
+struct LineFigures {
+  double cpu_seconds = 0;          ///< of the event loop
+  std::uint64_t frame_hops = 0;
+  std::uint64_t events = 0;
+  std::size_t population = 0;      ///< most pending events
+};
+/// host - 5 switches - host at 1 Gb/s: 100 octets of UDP payload every 200 us and 1000 octets every 20 us.
+LineFigures run_line(double simulated_seconds);
+
+/// CPU seconds of a bare loop that pops an event and pushes one, `events` times at that population: takt's own queue, and a
+/// plain 4-ary heap of records of 32 octets.
+double bare_loop_own_queue(std::uint64_t events, std::size_t population);
+double bare_loop_plain_heap(std::uint64_t events, std::size_t population);
+
+struct TreeFigures {
+  double cpu_seconds = 0;
+  std::uint64_t frame_hops = 0;
+  double setup_cpu_seconds = 0;    ///< from the text of the scenario to a run that can begin
+  std::size_t setup_octets = 0;    ///< what the run keeps allocated
+  std::size_t hosts = 0;
+};
+/// A tree of switches with that fanout and depth and `hosts_per_leaf` hosts at each leaf; every host sends 200 octets each
+/// millisecond to another one that lies elsewhere in the tree.
+TreeFigures run_tree(unsigned depth, unsigned fanout, unsigned hosts_per_leaf, double simulated_seconds);
+
+struct PairFigures {
+  double cpu_seconds = 0;
+  double simulated_seconds = 0;
+};
+/// scenarios/direct-link.json, started once and left running.
+PairFigures run_pair(double simulated_seconds);
+
+}  // namespace takt::benchmark

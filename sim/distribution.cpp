@@ -74,9 +74,10 @@ Distribution Distribution::log_normal(Duration median, double sigma) {
 
 Distribution Distribution::empirical(std::vector<Point> points) {
   std::uint64_t total = 0;
+  Distribution d;
+  d.equal_weights_ = std::all_of(points.begin(), points.end(), [](const Point& point) { return point.weight == 1; });
   for (Point& point : points) point.weight = total += point.weight;
   TAKT_CHECK(total > 0, "an empirical table needs a positive weight");
-  Distribution d;
   d.kind_ = Kind::empirical;
   d.points_ = std::move(points);
   return d;
@@ -122,6 +123,7 @@ Duration Distribution::draw_raw(RandomStream& stream) const {
       return rounded(as_double(location_) * exact_exp(shape_ * normal_quantile(stream.unit())));
     case Kind::empirical: {
       const std::uint64_t pick = stream.below(points_.back().weight);
+      if (equal_weights_) return points_[pick].value;
       const auto found = std::upper_bound(points_.begin(), points_.end(), pick,
                                           [](std::uint64_t value, const Point& point) { return value < point.weight; });
       return found->value;

@@ -56,6 +56,7 @@ class Distribution {
   double shape_ = 1.0;
   Duration floor_ = Duration::from_ps(0);
   Duration ceiling_ = Duration::max();
+  bool equal_weights_ = false;          // empirical: every weight is 1, so the draw is the index
   std::vector<Point> points_;           // empirical: weights made cumulative
   std::vector<Distribution> parts_;     // mixture: body, tail
 };

@@ -60,10 +60,8 @@ struct Event {
   constexpr ComponentId source() const { return {static_cast<std::uint32_t>(order) & (max_components - 1)}; }
 
   friend constexpr bool operator<(const Event& a, const Event& b) {
-    // Time is never negative in the queue, so both words compare as one unsigned number of 128 bits.
-    const uint128 left = static_cast<uint128>(static_cast<std::uint64_t>(a.time.ps())) << 64 | a.order;
-    const uint128 right = static_cast<uint128>(static_cast<std::uint64_t>(b.time.ps())) << 64 | b.order;
-    if (left != right) [[likely]] return left < right;
+    if (a.time != b.time) [[likely]] return a.time < b.time;
+    if (a.order != b.order) return a.order < b.order;
     return a.serial_kind < b.serial_kind;
   }
 };
@@ -75,6 +73,8 @@ class EventSource {
   EventSource() = default;
   explicit EventSource(ComponentId id) : id_(id) {}
   ComponentId id() const { return id_; }
+  /// How many events it has scheduled.
+  std::uint64_t count() const { return serial_; }
   /// The serial of the next event, moved to where Event keeps it. 2^48 events of one source do not occur.
   std::uint64_t next_serial_word() { return serial_++ << 16; }
 

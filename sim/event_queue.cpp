@@ -81,8 +81,9 @@ void EventQueue::load_bucket(std::size_t bucket) {
   occupied_[bucket / 64] &= ~(1ULL << (bucket % 64));
   while (slot != none) {
     Waiting& waiting = pool_[slot];
-    near_.push(waiting.event);
     const std::uint32_t next = waiting.next;
+    if (next != none) __builtin_prefetch(&pool_[next]);  // while this one is sorted in
+    near_.push(waiting.event);
     waiting.next = free_;
     free_ = slot;
     slot = next;
@@ -113,7 +114,7 @@ void EventQueue::spread() {
   const std::size_t half = all.size() / 2;
   const std::int64_t start = all.front().time.ps();
   const std::int64_t spacing = (all[half].time.ps() - start) / static_cast<std::int64_t>(half + 1);
-  width_log2_ = std::min(40, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(1, 4 * spacing)))));
+  width_log2_ = std::min(40, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(1, 8 * spacing)))));
   const std::int64_t width = std::int64_t{1} << width_log2_;
   near_end_ = TrueTime::from_ps((start >> width_log2_ << width_log2_) + width);
   horizon_ = near_end_ + Duration::from_ps(width * static_cast<std::int64_t>(buckets_.size() - 1));

@@ -102,7 +102,7 @@ class EventHeap {
 /// The near part: a sorted array while it is short, a heap while it is long.
 class NearEvents {
  public:
-  static constexpr std::uint32_t most_sorted = 40;
+  static constexpr std::uint32_t most_sorted = 64;
 
   bool empty() const { return count_ == 0 && heap_.empty(); }
   std::size_t size() const { return count_ + heap_.size(); }

@@ -26,8 +26,11 @@ class Histogram {
     if (ps > greatest_) greatest_ = ps;
     const Place place = place_of(static_cast<std::uint64_t>(ps));
     if (!octaves_[place.octave]) [[unlikely]] octaves_[place.octave] = std::make_unique<Octave>();
-    ++(*octaves_[place.octave])[place.bucket];
+    recent_ = &(*octaves_[place.octave])[place.bucket];
+    ++*recent_;
   }
+  /// Brings what add() will probably touch towards the cache.
+  void prefetch() const { __builtin_prefetch(recent_, 1); }
 
   std::uint64_t count() const { return count_; }
   bool empty() const { return count_ == 0; }
@@ -72,6 +75,7 @@ class Histogram {
   std::int64_t greatest_ = 0;
   int128 sum_ = 0;
   uint128 sum_of_squares_ = 0;
+  std::uint64_t* recent_ = nullptr;  // the bucket that was counted last
   std::array<std::unique_ptr<Octave>, 64 - sub_bits + 1> octaves_;
 };
 

@@ -1,10 +1,7 @@
 #include "sim/random.hpp"
 
-#include <bit>
-
 #include "sim/check.hpp"
 #include "sim/digest.hpp"
-#include "sim/time.hpp"
 
 namespace takt::sim {
 namespace {
@@ -24,26 +21,10 @@ RandomStream::RandomStream(std::uint64_t seed, std::string_view path, std::strin
   }
 }
 
-std::uint64_t RandomStream::next() {
-  const std::uint64_t result = std::rotl(state_[0] + state_[3], 23) + state_[0];
-  const std::uint64_t shifted = state_[1] << 17;
-  state_[2] ^= state_[0];
-  state_[3] ^= state_[1];
-  state_[1] ^= state_[2];
-  state_[0] ^= state_[3];
-  state_[2] ^= shifted;
-  state_[3] = std::rotl(state_[3], 45);
-  return result;
-}
-
-std::uint64_t RandomStream::below(std::uint64_t bound) {
+std::uint64_t RandomStream::below_rejecting(uint128 product, std::uint64_t bound) {
   TAKT_CHECK(bound > 0, "a draw below zero");
-  // Lemire's method: the high half of a product is uniform once the few biased low halves are rejected.
-  uint128 product = static_cast<uint128>(next()) * bound;
-  if (static_cast<std::uint64_t>(product) < bound) {
-    const std::uint64_t threshold = (0 - bound) % bound;
-    while (static_cast<std::uint64_t>(product) < threshold) product = static_cast<uint128>(next()) * bound;
-  }
+  const std::uint64_t threshold = (0 - bound) % bound;
+  while (static_cast<std::uint64_t>(product) < threshold) product = static_cast<uint128>(next()) * bound;
   return static_cast<std::uint64_t>(product >> 64);
 }
 

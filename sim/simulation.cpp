@@ -62,9 +62,9 @@ bool Simulation::run(TrueTime until, std::uint64_t max_events) {
 
 /// Three steps: the component itself, then what it will need, then what only that leads to.
 inline void Simulation::look_ahead() const {
-  if (const Event* const event = queue_.upcoming(3)) __builtin_prefetch(components_[event->target().index]);
-  if (const Event* const event = queue_.upcoming(1)) components_[event->target().index]->prefetch(*event, Component::Ahead::two_events);
-  if (const Event* const event = queue_.upcoming(0)) components_[event->target().index]->prefetch(*event, Component::Ahead::one_event);
+  if (const Event* const event = queue_.upcoming(7)) __builtin_prefetch(components_[event->target().index]);
+  if (const Event* const event = queue_.upcoming(4)) components_[event->target().index]->prefetch(*event, Component::Ahead::two_events);
+  if (const Event* const event = queue_.upcoming(2)) components_[event->target().index]->prefetch(*event, Component::Ahead::one_event);
 }
 
 template <bool is_shuffled, bool looks_ahead>

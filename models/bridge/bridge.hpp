@@ -12,7 +12,7 @@ namespace takt::models {
 
 /// Takes a frame when its last bit has come and the forwarding delay is over (both are in the event's time), looks its
 /// address up and hands it to the egress ports. It never sends a frame back through the port by which it came.
-class Bridge final : public sim::Component {
+class alignas(64) Bridge final : public sim::Component {
  public:
   Bridge(Traffic& traffic, std::span<EgressPort> ports) : traffic_(&traffic), ports_(ports.data()), port_count_(ports.size()) {}
 
@@ -28,11 +28,12 @@ class Bridge final : public sim::Component {
  private:
   void forward_to_many(sim::Simulation& simulation, ArrivalArgument arrival, std::span<const std::uint16_t> egress);
 
-  FilteringDatabase filtering_database_;
+  // What every frame touches lies in the first cache line.
   Traffic* traffic_;
   EgressPort* ports_;
-  std::size_t port_count_;
   IngressChain* chain_ = nullptr;
+  FilteringDatabase filtering_database_;
+  std::size_t port_count_;
   sim::ComponentId id_;
 };
 

@@ -21,14 +21,15 @@ void sort_by_rank(Arrivals& arrivals) {
 void EgressPort::connect(sim::Simulation& simulation, Shared& shared, const PortConfig& config, sim::Duration octet_time,
                          LinkEnd far_end) {
   TAKT_CHECK(shared_ == nullptr, "a port has one link");
-  TAKT_CHECK(octet_time.ps() > 0 && octet_time.ps() <= UINT32_MAX, "an octet lasts between 1 ps and 4 ms");
+  TAKT_CHECK(octet_time.ps() > 0 && octet_time.ps() < (1 << 20), "an octet lasts between 1 ps and 1 us");
+  TAKT_CHECK(far_end.delay.ps() >= 0 && far_end.delay.ps() < (std::int64_t{1} << 44), "a link and its far node delay a frame by at most 17 s");
   source_ = sim::EventSource(simulation.add(*this));
   shared_ = &shared;
   config_ = &config;
-  octet_time_ps_ = static_cast<std::uint32_t>(octet_time.ps());
+  octet_time_ps_ = static_cast<std::uint64_t>(octet_time.ps()) & 0xFFFFF;
   peer_node_ = far_end.node;
   peer_port_ = far_end.port;
-  peer_delay_ = far_end.delay;
+  peer_delay_ps_ = static_cast<std::uint64_t>(far_end.delay.ps()) & 0xFFF'FFFF'FFFF;
 }
 
 void EgressPort::handle(sim::Simulation& simulation, const sim::Event& event) {
@@ -43,7 +44,7 @@ void EgressPort::handle(sim::Simulation& simulation, const sim::Event& event) {
 void EgressPort::settle(sim::Simulation& simulation) {
   settling_ = false;
   // The common case: one frame, nothing waits, the medium is free.
-  if (has_arrival_ && more_arrivals_.empty() && queues_.empty() && simulation.now() >= busy_until_) [[likely]] {
+  if (has_arrival_ && !waits_ && more_arrivals_.empty() && simulation.now() >= busy_until_) [[likely]] {
     has_arrival_ = false;
     start(simulation, arrival_.frame);
     return;
@@ -75,7 +76,8 @@ void EgressPort::settle_many(sim::Simulation& simulation) {
   }
   for (const Arrival& arrival : more_arrivals_) admit(simulation, arrival.frame);
   more_arrivals_.clear();
-  if (!queues_.empty()) wake_at(simulation, busy_until_);
+  waits_ = !queues_.empty();
+  if (waits_) wake_at(simulation, busy_until_);
 }
 
 void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
@@ -94,13 +96,12 @@ void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
 
 void EgressPort::start(sim::Simulation& simulation, FrameIndex frame) {
   const Frame& record = shared_->traffic->frame(frame);
-  const std::int64_t octet = octet_time_ps_;
+  const auto octet = static_cast<std::int64_t>(octet_time_ps_);
   const std::int64_t until_last_bit = octet * (preamble_and_sfd.count + record.length);
   const sim::TrueTime now = simulation.now();
   busy_until_ = now + sim::Duration::from_ps(until_last_bit + octet * inter_packet_gap.count);
-  ++frames_sent_;
   wire_octets_sent_ += wire_length(Octets{record.length}).count;
-  simulation.schedule(source_, now + sim::Duration::from_ps(until_last_bit) + peer_delay_, sim::Phase::arrival, peer_node_,
+  simulation.schedule(source_, now + sim::Duration::from_ps(until_last_bit + static_cast<std::int64_t>(peer_delay_ps_)), sim::Phase::arrival, peer_node_,
                       static_cast<sim::EventKind>(NodeEvent::frame_arrived), ArrivalArgument::pack(frame, peer_port_));
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({now, static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, record.length});
@@ -109,6 +110,7 @@ void EgressPort::start(sim::Simulation& simulation, FrameIndex frame) {
 void EgressPort::wake_at(sim::Simulation& simulation, sim::TrueTime time) {
   if (time >= wake_at_) return;
   wake_at_ = time;
+  ++wake_ups_;
   simulation.schedule(source_, time, sim::Phase::arrival, id(), wake_up, 0);
 }
 

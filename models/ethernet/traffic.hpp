@@ -101,6 +101,9 @@ class Traffic {
     for (std::size_t line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line, 1);
   }
 
+  /// The same for what only that leads to.
+  void prefetch_latency(StreamIndex index) const { streams_[index.value].latency.prefetch(); }
+
   std::size_t live_frames() const { return frames_.live(); }
 
  private:

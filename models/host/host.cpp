@@ -41,8 +41,11 @@ void Host::handle(sim::Simulation& simulation, const sim::Event& event) {
 }
 
 void Host::prefetch(const sim::Event& event, Ahead ahead) const {
-  if (ahead == Ahead::one_event) return;
-  traffic_->prefetch_account(traffic_->frame(ArrivalArgument::unpack(event.argument).frame).stream);
+  const StreamIndex stream = traffic_->frame(ArrivalArgument::unpack(event.argument).frame).stream;
+  if (ahead == Ahead::two_events)
+    traffic_->prefetch_account(stream);
+  else
+    traffic_->prefetch_latency(stream);
 }
 
 void Host::deliver(sim::Simulation& simulation, FrameIndex index) {

@@ -23,7 +23,7 @@ Process::Process(sim::Simulation& simulation, Traffic& traffic, EgressPort& port
       application_(std::move(application)) {
   const AlarmId count = application_->alarm_count();
   TAKT_CHECK(count < transmit_now, "too many alarms");
-  for (AlarmId alarm = 0; alarm < count; ++alarm) alarms_.emplace_back(source_.id(), sim::Phase::timer, alarm);
+  for (AlarmId alarm = 0; alarm < count; ++alarm) alarms_.push_back({sim::Timer(source_.id(), sim::Phase::timer, alarm), {}, false});
 }
 
 void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
@@ -32,13 +32,19 @@ void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
     return;
   }
   TAKT_CHECK(event.kind() < alarms_.size(), "an alarm that was never set");
-  if (alarms_[event.kind()].fired(simulation, source_, event)) application_->wake(*this, event.kind());
+  Alarm& alarm = alarms_[event.kind()];
+  if (!alarm.timer.fired(simulation, source_, event)) return;
+  alarm.has_latency = false;
+  application_->wake(*this, event.kind());
 }
 
-void Process::set_alarm(AlarmId alarm, sim::LocalTime time) {
-  sim::TrueTime due = std::max(clock_->true_at(time), simulation_->now());
-  if (!wakes_at_once_) due += wake_up_.sample();
-  alarms_[alarm].arm(*simulation_, source_, due);
+void Process::set_alarm(AlarmId id, sim::LocalTime time) {
+  Alarm& alarm = alarms_[id];
+  if (!wakes_at_once_ && !alarm.has_latency) {
+    alarm.latency = wake_up_.sample();
+    alarm.has_latency = true;
+  }
+  alarm.timer.arm(*simulation_, source_, std::max(clock_->true_at(time), simulation_->now()) + alarm.latency);
 }
 
 void Process::send(StreamIndex stream, std::span<const std::byte> payload) {

@@ -32,7 +32,7 @@ class Process final : public sim::Component, public HostServices {
 
   sim::LocalTime now() const override { return clock_->local_at(simulation_->now()); }
   void set_alarm(AlarmId alarm, sim::LocalTime time) override;
-  void cancel_alarm(AlarmId alarm) override { alarms_[alarm].cancel(); }
+  void cancel_alarm(AlarmId alarm) override { alarms_[alarm].timer.cancel(); }
   void send(StreamIndex stream, std::span<const std::byte> payload) override;
 
   sim::ComponentId id() const { return source_.id(); }
@@ -47,7 +47,12 @@ class Process final : public sim::Component, public HostServices {
   LatencyLine wake_up_;
   bool transmits_at_once_;
   bool wakes_at_once_;
-  std::vector<sim::Timer> alarms_;
+  struct Alarm {
+    sim::Timer timer;
+    sim::Duration latency;        // of its next wake-up; drawn once, however often the alarm is moved before
+    bool has_latency = false;
+  };
+  std::vector<Alarm> alarms_;
   std::unique_ptr<Application> application_;
 };
 

@@ -20,13 +20,17 @@ using sim::Length;
 using sim::Octets;
 using namespace sim::literals;  // NOLINT: units in default values
 
+// Not within Latency: clang takes a class with default values for complete only behind the class around it.
+struct WeibullLatency { Duration scale; double shape = 1; bool operator==(const WeibullLatency&) const = default; };
+struct LogNormalLatency { Duration median; double sigma = 1; bool operator==(const LogNormalLatency&) const = default; };
+
 /// A time that passes in a host: fixed, or drawn from a distribution.
 struct Latency {
   struct Uniform { Duration from; Duration to; bool operator==(const Uniform&) const = default; };
   struct Normal { Duration mean; Duration deviation; bool operator==(const Normal&) const = default; };
   struct Exponential { Duration mean; bool operator==(const Exponential&) const = default; };
-  struct Weibull { Duration scale; double shape = 1; bool operator==(const Weibull&) const = default; };
-  struct LogNormal { Duration median; double sigma = 1; bool operator==(const LogNormal&) const = default; };
+  using Weibull = WeibullLatency;
+  using LogNormal = LogNormalLatency;
   struct Point { Duration value; std::uint32_t weight = 1; bool operator==(const Point&) const = default; };
 
   json::Source where;

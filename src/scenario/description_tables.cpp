@@ -10,14 +10,17 @@ using json::optional;
 using json::required;
 
 constexpr Duration longest = Duration::from_ps(8'640'000'000'000'000'000);  // 100 days; the clock ends at 106
+// What is added to an instant of the run, so that no sum passes the end of the clock; random gaps may be 44 times their mean.
+constexpr Duration longest_step = 24 * 3600_s;
+constexpr Duration longest_mean_gap = 3600_s;
 constexpr std::size_t most_names = 100'000;
 
 }  // namespace
 
 const json::Object& describe(json::Type<Latency::Uniform>) {
   static constexpr json::Field fields[] = {
-      required<&Latency::Uniform::from>("from", "The least value.", {.max = longest}),
-      required<&Latency::Uniform::to>("to", "The greatest value.", {.max = longest}),
+      required<&Latency::Uniform::from>("from", "The least value.", {.max = longest_step}),
+      required<&Latency::Uniform::to>("to", "The greatest value.", {.max = longest_step}),
   };
   static constexpr json::Object table = json::object<Latency::Uniform>("uniform", "All values of an interval are equally likely.", fields);
   return table;
@@ -25,8 +28,8 @@ const json::Object& describe(json::Type<Latency::Uniform>) {
 
 const json::Object& describe(json::Type<Latency::Normal>) {
   static constexpr json::Field fields[] = {
-      required<&Latency::Normal::mean>("mean", "The mean.", {.max = longest}),
-      required<&Latency::Normal::deviation>("deviation", "The standard deviation.", {.max = longest}),
+      required<&Latency::Normal::mean>("mean", "The mean.", {.max = longest_step}),
+      required<&Latency::Normal::deviation>("deviation", "The standard deviation.", {.max = longest_step}),
   };
   static constexpr json::Object table = json::object<Latency::Normal>("normal", "A normal distribution, cut at min and max.", fields);
   return table;
@@ -34,7 +37,7 @@ const json::Object& describe(json::Type<Latency::Normal>) {
 
 const json::Object& describe(json::Type<Latency::Exponential>) {
   static constexpr json::Field fields[] = {
-      required<&Latency::Exponential::mean>("mean", "The mean.", {.max = longest}),
+      required<&Latency::Exponential::mean>("mean", "The mean.", {.max = longest_step}),
   };
   static constexpr json::Object table = json::object<Latency::Exponential>("exponential", "An exponential distribution.", fields);
   return table;
@@ -42,7 +45,7 @@ const json::Object& describe(json::Type<Latency::Exponential>) {
 
 const json::Object& describe(json::Type<Latency::Weibull>) {
   static constexpr json::Field fields[] = {
-      required<&Latency::Weibull::scale>("scale", "The value that 63.2 % of all values stay below.", {.max = longest}),
+      required<&Latency::Weibull::scale>("scale", "The value that 63.2 % of all values stay below.", {.max = longest_step}),
       required<&Latency::Weibull::shape>("shape", "The exponent: below 1 a long tail, above 1 a hump.", {.min = 0.05, .max = 1000.0}),
   };
   static constexpr json::Object table = json::object<Latency::Weibull>("weibull", "A Weibull distribution: P(X > x) = exp(-(x/scale)^shape).", fields);
@@ -51,7 +54,7 @@ const json::Object& describe(json::Type<Latency::Weibull>) {
 
 const json::Object& describe(json::Type<Latency::LogNormal>) {
   static constexpr json::Field fields[] = {
-      required<&Latency::LogNormal::median>("median", "Half of all values are below it.", {.max = longest}),
+      required<&Latency::LogNormal::median>("median", "Half of all values are below it.", {.max = longest_step}),
       required<&Latency::LogNormal::sigma>("sigma", "The standard deviation of the logarithm.", {.min = 0.0, .max = 20.0}),
   };
   static constexpr json::Object table = json::object<Latency::LogNormal>("log_normal", "A log-normal distribution.", fields);
@@ -60,7 +63,7 @@ const json::Object& describe(json::Type<Latency::LogNormal>) {
 
 const json::Object& describe(json::Type<Latency::Point>) {
   static constexpr json::Field fields[] = {
-      required<&Latency::Point::value>("value", "A value that occurs.", {.max = longest}),
+      required<&Latency::Point::value>("value", "A value that occurs.", {.max = longest_step}),
       optional<&Latency::Point::weight>("weight", "How often it occurs, relative to the others."),
   };
   static constexpr json::Object table = json::object<Latency::Point>("table_point", "One row of an empirical table.", fields);
@@ -69,15 +72,15 @@ const json::Object& describe(json::Type<Latency::Point>) {
 
 const json::Object& describe(json::Type<Latency>) {
   static constexpr json::Field fields[] = {
-      optional<&Latency::fixed>("fixed", "Always the same.", {.max = longest}),
+      optional<&Latency::fixed>("fixed", "Always the same.", {.max = longest_step}),
       optional<&Latency::uniform>("uniform", "Uniform over an interval."),
       optional<&Latency::normal>("normal", "Normal distribution."),
       optional<&Latency::exponential>("exponential", "Exponential distribution."),
       optional<&Latency::weibull>("weibull", "Weibull distribution."),
       optional<&Latency::log_normal>("log_normal", "Log-normal distribution."),
       optional<&Latency::table>("table", "Measured values with their frequencies.", {.min_items = 1, .max_items = most_names}),
-      optional<&Latency::min>("min", "Smaller values are raised to this one.", {.max = longest}),
-      optional<&Latency::max>("max", "Greater values are cut to this one.", {.max = longest}),
+      optional<&Latency::min>("min", "Smaller values are raised to this one.", {.max = longest_step}),
+      optional<&Latency::max>("max", "Greater values are cut to this one.", {.max = longest_step}),
   };
   static constexpr std::string_view kinds[] = {"fixed", "uniform", "normal", "exponential", "weibull", "log_normal", "table"};
   static constexpr json::Group groups[] = {json::exactly_one_of(kinds)};
@@ -238,7 +241,7 @@ const json::Enumeration& describe(json::Type<Encapsulation>) {
 
 const json::Object& describe(json::Type<ExponentialGaps>) {
   static constexpr json::Field fields[] = {
-      required<&ExponentialGaps::mean>("mean", "Mean gap between two frames.", {.min = 1_ns, .max = longest}),
+      required<&ExponentialGaps::mean>("mean", "Mean gap between two frames.", {.min = 1_ns, .max = longest_mean_gap}),
   };
   static constexpr json::Object table = json::object<ExponentialGaps>("exponential_gaps", "Frames at random.", fields, {.shorthand = "mean"});
   return table;
@@ -247,8 +250,8 @@ const json::Object& describe(json::Type<ExponentialGaps>) {
 const json::Object& describe(json::Type<Bursts>) {
   static constexpr json::Field fields[] = {
       required<&Bursts::frames>("frames", "Frames of a burst.", {.min = 1, .max = 1'000'000}),
-      required<&Bursts::every>("every", "From burst to burst.", {.min = 1_ns, .max = longest}),
-      optional<&Bursts::spacing>("spacing", "From frame to frame within a burst; 0s: all at once.", {.max = longest}),
+      required<&Bursts::every>("every", "From burst to burst.", {.min = 1_ns, .max = longest_step}),
+      optional<&Bursts::spacing>("spacing", "From frame to frame within a burst; 0s: all at once.", {.max = longest_step}),
   };
   static constexpr json::Object table = json::object<Bursts>("bursts", "Frames in bursts.", fields);
   return table;
@@ -304,12 +307,12 @@ const json::Object& describe(json::Type<Stream>) {
       optional<&Stream::encapsulation>("encapsulation", "What stands before the payload."),
       optional<&Stream::pcp>("pcp", "Priority in a VLAN tag; untagged, priority 0, if absent.", {.max = 7}),
       optional<&Stream::vlan>("vlan", "VLAN identifier in the tag; 0 is a priority tag.", {.max = 4094}),
-      optional<&Stream::every>("every", "Period.", {.min = 1_ns, .max = longest}),
+      optional<&Stream::every>("every", "Period.", {.min = 1_ns, .max = longest_step}),
       optional<&Stream::exponential>("exponential", "Random gaps with this mean."),
       optional<&Stream::burst>("burst", "Bursts of frames."),
       optional<&Stream::trace>("trace", "A CSV file with the columns time and payload (e.g. 12.5us,100B), beside the scenario."),
-      optional<&Stream::offset>("offset", "When the first period begins.", {.max = longest}),
-      optional<&Stream::jitter>("jitter", "Each frame comes up to this much later, uniformly; at most the period.", {.max = longest}),
+      optional<&Stream::offset>("offset", "When the first period begins.", {.max = longest_step}),
+      optional<&Stream::jitter>("jitter", "Each frame comes up to this much later, uniformly; at most the period.", {.max = longest_step}),
       optional<&Stream::path>("path", "All nodes from sender to receiver, instead of the shortest path.", {.min_items = 2, .max_items = most_names}),
   };
   static constexpr std::string_view schedules[] = {"every", "exponential", "burst", "trace"};

@@ -9,6 +9,9 @@ namespace {
 
 using sim::Distribution;
 
+// Distributions without an end are cut here, as the table of fields cuts what is written.
+constexpr Duration longest_latency = 24 * 3600_s;
+
 /// A delay with a body and a rare, bounded tail. The body is a shifted exponential with this least value and average, cut
 /// where the tail begins; the tail is uniform from there to the greatest value. Bounded, so that worst cases exist.
 struct BodyAndTail {
@@ -66,7 +69,7 @@ Distribution distribution_of(const BodyAndTail& d) {
 }  // namespace
 
 sim::Distribution distribution_of(const Latency& latency, json::Diagnostics& diagnostics) {
-  const Duration greatest = latency.max.value_or(Duration::max());
+  const Duration greatest = latency.max.value_or(longest_latency);
   if (latency.min > greatest) {
     diagnostics.error(latency.where.at("min"), "min above max", {json::to_text(latency.min), "at most " + json::to_text(greatest)});
     return Distribution::constant({});

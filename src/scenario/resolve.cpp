@@ -150,7 +150,7 @@ class Resolver {
       diagnostics_.error(stream.where.at("jitter"), "jitter belongs to a periodic stream", {"\"jitter\" without \"every\"", "\"every\""});
     if (stream.exponential) return models::ExponentialSchedule{stream.offset, stream.exponential->mean};
     if (stream.burst) {
-      if (stream.burst->spacing * static_cast<std::int64_t>(stream.burst->frames - 1) > stream.burst->every)
+      if (stream.burst->frames > 1 && stream.burst->spacing > stream.burst->every / static_cast<std::int64_t>(stream.burst->frames - 1))
         diagnostics_.error(stream.where.at("burst"), "a burst longer than its period",
                            {std::to_string(stream.burst->frames) + " frames " + json::to_text(stream.burst->spacing) + " apart",
                             "at most " + json::to_text(stream.burst->every)});

@@ -11,6 +11,8 @@
 namespace takt::scenario {
 namespace {
 
+constexpr sim::Duration longest_trace = sim::Duration::from_ps(8'640'000'000'000'000'000);  // 100 days, as long as the longest run
+
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return {};
@@ -40,6 +42,10 @@ std::vector<models::TraceSchedule::Entry> parse_trace(std::string_view text, con
       diagnostics.error({file, line_number, static_cast<std::uint32_t>(comma + 2), ""}, payload.reason().message,
                         {json::quote(line.substr(comma + 1)), payload.reason().expected});
     if (!time || !payload) continue;
+    if (*time > longest_trace) {
+      diagnostics.error({file, line_number, 1, ""}, "out of range", {json::to_text(*time), "a time of at most " + json::to_text(longest_trace)});
+      continue;
+    }
     if (!entries.empty() && sim::LocalTime() + *time < entries.back().time) {
       diagnostics.error({file, line_number, 1, ""}, "times must ascend", {json::to_text(*time), "at least " + json::to_text(entries.back().time.since_start())});
       continue;

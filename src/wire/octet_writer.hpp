@@ -1,6 +1,7 @@
 // The one bounded writer: little-endian, as OPC UA encodes numbers, into octets that somebody else owns.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,12 @@ class OctetWriter {
     used_ += sizeof(T);
   }
   void put_zeros(std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) put(std::uint8_t{0});
+    if (target_.size() - used_ < count) {
+      overflowed_ = true;
+      return;
+    }
+    std::fill_n(target_.begin() + static_cast<std::ptrdiff_t>(used_), count, std::byte{0});
+    used_ += count;
   }
 
   bool overflowed() const { return overflowed_; }

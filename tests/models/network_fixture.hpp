@@ -72,8 +72,9 @@ class PlanBuilder {
                             options.headers, std::move(listeners)});
     return {static_cast<std::uint32_t>(plan.streams.size() - 1)};
   }
-  void talk(StreamIndex stream, Octets payload, TalkerSchedule schedule) {
-    plan.talkers.push_back({stream, payload, std::move(schedule)});
+  // Not inlined: GCC 12 then sees uninitialised members in the variant that are not there.
+  [[gnu::noinline]] void talk(StreamIndex stream, Octets payload, const TalkerSchedule& schedule) {
+    plan.talkers.push_back({stream, payload, schedule});
   }
   /// One frame at each of these times.
   void send_at(StreamIndex stream, Octets payload, const std::vector<Duration>& times) {

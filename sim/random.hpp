@@ -36,7 +36,7 @@ class RandomStream {
   std::uint64_t below(std::uint64_t bound) {
     // Lemire's method: the high half of a product is uniform once the few biased low halves are rejected.
     const uint128 product = static_cast<uint128>(next()) * bound;
-    if (static_cast<std::uint64_t>(product) >= bound) [[likely]] return static_cast<std::uint64_t>(product >> 64);
+    if (static_cast<std::uint64_t>(product) > bound) [[likely]] return static_cast<std::uint64_t>(product >> 64);
     return below_rejecting(product, bound);
   }
 

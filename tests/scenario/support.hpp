@@ -44,6 +44,8 @@ inline std::unique_ptr<Resolved> shipped(const std::string& name, const std::str
   return resolved;
 }
 
+using LiveRun = Run;  // within a test, Run is a function of GoogleTest
+
 /// The digest after the whole duration.
 inline std::uint64_t digest_of(const Resolved& resolved, std::uint64_t tie_shuffle = 0) {
   Run run(resolved, tie_shuffle);

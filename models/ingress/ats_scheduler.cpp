@@ -1,0 +1,48 @@
+#include "models/ingress/ats_scheduler.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace takt::models {
+
+AtsScheduler::AtsScheduler(sim::DataRate committed_information_rate, std::uint64_t committed_burst_size_bits,
+                           sim::LocalTime start)
+    : rate_(static_cast<std::int64_t>(committed_information_rate.bits_per_second)) {
+  TAKT_CHECK(committed_information_rate.bits_per_second >= 1, "an ATS scheduler has a rate");
+  TAKT_CHECK(committed_information_rate.bits_per_second <= 1'000'000'000'000, "an ATS scheduler has at most 1 Tb/s");
+  TAKT_CHECK(committed_burst_size_bits <= std::uint64_t{1} << 56, "a committed burst size is at most 2^56 bits");
+  empty_to_full_ = units_in_a_bit * static_cast<FineTime>(committed_burst_size_bits);
+  bucket_empty_time_ = fine(start) - empty_to_full_;
+}
+
+std::optional<sim::LocalTime> AtsScheduler::process(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) {
+  const FineTime length_recovery = units_in_a_bit * 8 * length.count;
+  const FineTime scheduler_eligibility = bucket_empty_time_ + length_recovery;
+  const FineTime bucket_full = bucket_empty_time_ + empty_to_full_;
+
+  FineTime eligibility_ps = std::max(arrival, group.group_eligibility_time).ps();
+  // Rounded up for either sign: division truncates, so only a quotient below the true value is raised.
+  if (scheduler_eligibility > eligibility_ps * rate_) {
+    const FineTime quotient = scheduler_eligibility / rate_;
+    eligibility_ps = quotient + (quotient * rate_ < scheduler_eligibility ? 1 : 0);
+  }
+  if (eligibility_ps - arrival.ps() > group.maximum_residence_time.ps() ||
+      eligibility_ps >= std::numeric_limits<std::int64_t>::max()) {
+    ++group.discarded_frames;
+    return std::nullopt;
+  }
+
+  const auto eligibility = sim::LocalTime::from_ps(static_cast<std::int64_t>(eligibility_ps));
+  group.group_eligibility_time = eligibility;
+  bucket_empty_time_ = scheduler_eligibility;
+  if (fine(eligibility) >= bucket_full) bucket_empty_time_ += fine(eligibility) - bucket_full;
+  return eligibility;
+}
+
+sim::LocalTime AtsScheduler::bucket_empty_time() const {
+  const FineTime quotient = bucket_empty_time_ / rate_;
+  const FineTime floor = quotient - (quotient * rate_ > bucket_empty_time_ ? 1 : 0);
+  return sim::LocalTime::from_ps(static_cast<std::int64_t>(floor));
+}
+
+}  // namespace takt::models

@@ -1,0 +1,54 @@
+// Asynchronous traffic shaping (IEEE 802.1Q clauses 8.6.5.6 and 8.6.11, formerly Qcr): from when may a frame be sent?
+//
+// Arithmetic is exact. A bit of the committed information rate rarely lasts a whole number of picoseconds, so the scheduler
+// counts time in units of 1 ps / CIR, in which the bucket's times are integers whatever the rate. Only the eligibility time
+// that a frame is given is a whole picosecond: it is rounded *up*, so no frame is eligible too early, and what was rounded
+// is not lost for the frames after it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "sim/check.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+
+namespace takt::models {
+
+/// A scheduler group (8.6.5.6): all schedulers of one reception port and one upstream traffic class. Eligibility times
+/// ascend within a group, which keeps its frames in order.
+struct AtsGroup {
+  sim::Duration maximum_residence_time = sim::Duration::max();
+  sim::LocalTime group_eligibility_time;  ///< the latest eligibility time given so far
+  std::uint64_t discarded_frames = 0;     ///< frames that would have stayed longer than the maximum residence time
+};
+
+/// One ATS scheduler instance. Its clock is that of the arrivals it is told; it has none of its own.
+class AtsScheduler {
+ public:
+  /// 1 b/s to 1 Tb/s; the burst in *bits*, at least that of the longest frame (the caller's to see to), at most 2^56.
+  /// The bucket is full at `start`.
+  AtsScheduler(sim::DataRate committed_information_rate, std::uint64_t committed_burst_size_bits, sim::LocalTime start = {});
+
+  /// ProcessFrame (8.6.11.3): the eligibility time of a frame whose last bit came at `arrival`, or nothing if it is to be
+  /// discarded, which changes nothing but the group's count. `length` counts what the configuration counts, media
+  /// overhead included if it is to be shaped too. Not before `arrival`, not before the group's last eligibility time.
+  std::optional<sim::LocalTime> process(sim::Octets length, sim::LocalTime arrival, AtsGroup& group);
+
+  sim::DataRate committed_information_rate() const { return {static_cast<std::uint64_t>(rate_)}; }
+  std::uint64_t committed_burst_size_bits() const { return static_cast<std::uint64_t>(empty_to_full_ / units_in_a_bit); }
+  /// When the bucket was or will be empty (BucketEmptyTime), rounded down to a picosecond; for tests and displays.
+  sim::LocalTime bucket_empty_time() const;
+
+ private:
+  /// Time in units of 1 ps / CIR: one bit at CIR lasts 10^12 of them, whatever CIR is.
+  using FineTime = sim::int128;
+  static constexpr FineTime units_in_a_bit = 1'000'000'000'000;
+  FineTime fine(sim::LocalTime time) const { return static_cast<FineTime>(time.ps()) * rate_; }
+
+  FineTime bucket_empty_time_;
+  FineTime empty_to_full_;  // EmptyToFullDuration: committed burst size / committed information rate
+  std::int64_t rate_;       // b/s
+};
+
+}  // namespace takt::models

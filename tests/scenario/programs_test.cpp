@@ -1,0 +1,147 @@
+// Whole Programs on simulated hosts: both handshakes, every method, one to eight slaves.
+#include <fmt/format.h>
+
+#include "results/evaluate.hpp"
+#include "support.hpp"
+
+namespace takt::scenario::test {
+namespace {
+
+using results::ProgramResult;
+using results::RunResult;
+
+/// A star of `slaves` and a master h1, one script entry for each of `calls` ("Method participant"), 20 ms apart from 10 ms.
+std::string group(std::size_t slaves, const std::string& variant, const std::vector<std::pair<std::string, std::string>>& calls,
+                  const std::string& more = {}) {
+  std::string names;
+  for (std::size_t i = 2; i <= slaves + 1; ++i) names += (i == 2 ? "\"h" : ", \"h") + std::to_string(i) + "\"";
+  std::string script;
+  std::size_t at_us = 10'137;
+  for (const auto& [method, on] : calls) {
+    script += fmt::format(R"({}{{"at": "{}us", "program": "p", "call": "{}", "on": "{}"}})", script.empty() ? "" : ",\n", at_us, method, on);
+    at_us += 20'000;
+  }
+  return fmt::format(R"({{"name": "g", "duration": "{}us",
+ "network": {{"generate": [{{"topology": "line", "switches": 1, "hosts_per_switch": {}, "os": "preempt-rt", "forwarding_delay": "1us"}}]}},
+ "programs": [{{"name": "p", "variant": "{}", "master": "h1", "slaves": [{}], "cycle": "500us",
+   "process_data": [{{"name": "down", "from": "h1", "fields": {{"x": "Double"}}}}, {{"name": "up", "from": "h2", "fields": {{"x": "Double"}}}}]{}}}],
+ "script": [{}]}})",
+                     at_us, slaves + 1, variant, names, more, script);
+}
+
+const std::vector<std::pair<std::string, std::string>> every_method = {{"Start", "h1"},  {"Suspend", "h2"}, {"Resume", "h1"}, {"Suspend", "h1"}, {"Reset", "h2"},
+                                                                      {"Start", "h1"},  {"Halt", "h2"}};
+const std::vector<std::string> every_reaction = {"start", "suspend", "resume", "suspend", "reset", "start", "halt"};
+
+RunResult run(const std::string& text) {
+  const auto resolved = sound(text);
+  LiveRun live(*resolved);
+  live.advance();
+  return results::evaluate(live, false);
+}
+
+std::vector<std::string> kinds(const ProgramResult& program) {
+  std::vector<std::string> result;
+  for (const results::ReactionResult& reaction : program.reactions) result.push_back(reaction.kind);
+  return result;
+}
+
+void expect_all_reactions_complete(const ProgramResult& program) {
+  EXPECT_EQ(kinds(program), every_reaction);
+  for (const results::ReactionResult& reaction : program.reactions) {
+    EXPECT_TRUE(reaction.completed) << reaction.kind;
+    EXPECT_EQ(reaction.cause, "command");
+  }
+  for (const results::ViolationResult& violation : program.violations) ADD_FAILURE() << violation.invariant << " " << violation.text;
+  for (const results::TimelineEntry& entry : program.timeline) EXPECT_EQ(entry.call.find("refused"), std::string::npos) << entry.call;
+  for (const std::string& state : program.states) EXPECT_EQ(state, "Halted");
+}
+
+TEST(Programs, PaperOnTwoHosts) { expect_all_reactions_complete(run(group(1, "paper", every_method)).programs[0]); }
+TEST(Programs, PaperWithThreeSlaves) { expect_all_reactions_complete(run(group(3, "paper", every_method)).programs[0]); }
+
+TEST(Programs, RobustWithOneToEightSlaves) {
+  for (std::size_t slaves = 1; slaves <= 8; ++slaves) {
+    SCOPED_TRACE(slaves);
+    expect_all_reactions_complete(run(group(slaves, "robust", every_method)).programs[0]);
+  }
+}
+
+TEST(Programs, RobustOnChangeWithOneToEightSlaves) {
+  for (std::size_t slaves = 1; slaves <= 8; ++slaves) {
+    SCOPED_TRACE(slaves);
+    expect_all_reactions_complete(run(group(slaves, "robust", every_method, R"(, "publish": "on-change")")).programs[0]);
+  }
+}
+
+TEST(Programs, StatesAfterEachMethod) {
+  const std::vector<std::string> goals = {"Running", "Suspended", "Running", "Suspended", "Ready", "Running", "Halted"};
+  for (const char* variant : {"paper", "robust"}) {
+    for (std::size_t calls = 1; calls <= every_method.size(); ++calls) {
+      const RunResult result = run(group(3, variant, {every_method.begin(), every_method.begin() + static_cast<std::ptrdiff_t>(calls)}));
+      EXPECT_EQ(result.programs[0].states, std::vector<std::string>(4, goals[calls - 1])) << variant << " after " << calls;
+    }
+  }
+}
+
+TEST(Programs, AMethodThatDoesNotFitIsRefused) {
+  for (const char* variant : {"paper", "robust"}) {
+    const ProgramResult program = run(group(1, variant, {{"Suspend", "h2"}})).programs[0];
+    ASSERT_EQ(program.timeline.size(), 1u);
+    EXPECT_EQ(program.timeline[0].call, "Suspend refused: Bad_InvalidState");
+    EXPECT_TRUE(program.reactions.empty());
+  }
+}
+
+// Process data reaches an application only while both ends are Running: between the last to run and the first to suspend.
+TEST(Programs, ProcessDataOnlyWhileRunning) {
+  for (const char* variant : {"paper", "robust"}) {
+    EXPECT_EQ(run(group(2, variant, {})).programs[0].process_data_received, 0u);
+    const std::uint64_t with_start_alone = run(group(2, variant, {{"Start", "h1"}})).programs[0].process_data_received;
+    EXPECT_GT(with_start_alone, 50u);
+    const ProgramResult suspended = run(group(2, variant, {{"Start", "h1"}, {"Suspend", "h3"}, {"Halt", "h1"}})).programs[0];
+    // Running for less than 20 ms of the 60: at most 40 cycles of 1 + 2 messages, a cycle more at each end.
+    EXPECT_GE(suspended.process_data_received, with_start_alone);
+    EXPECT_LE(suspended.process_data_received, 3u * 42);
+    EXPECT_TRUE(suspended.violations.empty());
+  }
+}
+
+// A change is seen a cycle's rest sooner: reactions of suspend and halt take less than a cycle, cyclic ones up to one more.
+TEST(Programs, PublishingOnChangeIsFaster) {
+  const ProgramResult cyclic = run(group(3, "robust", every_method)).programs[0];
+  const ProgramResult on_change = run(group(3, "robust", every_method, R"(, "publish": "on-change")")).programs[0];
+  ASSERT_EQ(kinds(cyclic), kinds(on_change));
+  for (std::size_t i = 0; i < cyclic.reactions.size(); ++i) {
+    EXPECT_LT(*on_change.reactions[i].duration(), *cyclic.reactions[i].duration()) << cyclic.reactions[i].kind << " " << i;
+    if (cyclic.reactions[i].kind != "start") EXPECT_LT(on_change.reactions[i].duration()->ps(), 200'000'000) << cyclic.reactions[i].kind;
+  }
+}
+
+// A port that a flood of more urgent frames holds for good lets no state through: the peer is silent and the group halts.
+TEST(Programs, ASilentPeerHaltsTheGroup) {
+  std::string text = group(2, "robust", {{"Start", "h1"}});
+  const std::string flood = R"(, "allow_overload": true, "streams": [{"name": "flood", "from": "h2", "to": "h1", "payload": "1400B", "every": "5us", "pcp": 7, "offset": "20ms"}])";
+  text.insert(text.rfind('}'), flood);
+  const RunResult result = run(text);
+  const ProgramResult& program = result.programs[0];
+  ASSERT_EQ(kinds(program), (std::vector<std::string>{"start", "halt"}));
+  EXPECT_EQ(program.reactions[1].cause, "silent peer");
+  EXPECT_EQ(program.states, std::vector<std::string>(3, "Halted"));
+  // MessageReceiveTimeout is 10 cycles = 5 ms after the last state before 20 ms; the halt itself takes at most a cycle or two.
+  EXPECT_GT(program.reactions[1].began.ps(), 24'000'000'000);
+  EXPECT_LT(program.reactions[1].began.ps(), 26'000'000'000);
+  EXPECT_TRUE(program.violations.empty());
+}
+
+TEST(Programs, TwoOnTheSameHostsDoNotMix) {
+  std::string text = group(1, "robust", every_method);
+  const std::string second = R"({"name": "q", "variant": "paper", "master": "h2", "slaves": ["h1"], "cycle": "1ms"}, )";
+  text.insert(text.find(R"({"name": "p")"), second);
+  const RunResult result = run(text);
+  EXPECT_TRUE(result.programs[0].timeline.empty());
+  expect_all_reactions_complete(result.programs[1]);
+}
+
+}  // namespace
+}  // namespace takt::scenario::test

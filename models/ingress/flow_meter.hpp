@@ -5,6 +5,7 @@
 // picosecond, so nothing is lost between frames at any rate.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "sim/check.hpp"

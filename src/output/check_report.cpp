@@ -25,6 +25,10 @@ std::string path_text(const Resolved& r, const scenario::Path& path) {
   return text;
 }
 
+std::string counted(std::size_t n, std::string_view what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : what.ends_with("ch") ? "es" : "s");
+}
+
 std::string more(std::size_t all) { return all > most_rows ? fmt::format("  ... {} more\n", all - most_rows) : std::string(); }
 
 }  // namespace
@@ -32,9 +36,10 @@ std::string more(std::size_t all) { return all > most_rows ? fmt::format("  ... 
 std::string check_report(const Resolved& r) {
   std::size_t hosts = 0;
   for (const scenario::TopologyNode& node : r.topology.nodes) hosts += node.is_host() ? 1 : 0;
-  std::string out = fmt::format("{}: {} hosts, {} switches, {} links, {} streams, {} programs, {} requirements, {} to simulate\n", r.scenario.name, hosts,
-                                r.topology.nodes.size() - hosts, r.topology.links.size(), r.plan.streams.size(), r.programs.size(), r.scenario.require.size(),
-                                readable(r.scenario.duration));
+  std::string out = fmt::format("{}: {}, {}, {}, {}, {}, {}, {} to simulate\n", r.scenario.name, counted(hosts, "host"),
+                                counted(r.topology.nodes.size() - hosts, "switch"), counted(r.topology.links.size(), "link"),
+                                counted(r.plan.streams.size(), "stream"), counted(r.programs.size(), "program"),
+                                counted(r.scenario.require.size(), "requirement"), readable(r.scenario.duration));
 
   out += "\nNodes\n";
   for (std::size_t n = 0; n < std::min(most_rows, r.topology.nodes.size()); ++n) {

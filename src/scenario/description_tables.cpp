@@ -401,7 +401,7 @@ const json::Object& describe(json::Type<Program>) {
 
 const json::Enumeration& describe(json::Type<Method>) {
   static constexpr json::EnumName names[] = {
-      name(Method::start, "Start", "at the master"),
+      name(Method::start, "Start", "at the master (paper: anywhere)"),
       name(Method::suspend, "Suspend", "anywhere"),
       name(Method::resume, "Resume", "anywhere"),
       name(Method::halt, "Halt", "anywhere"),

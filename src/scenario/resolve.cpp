@@ -286,7 +286,8 @@ class Resolver {
     if (program == nullptr) return;
     const auto participant = entry.on ? participant_of(*program, *entry.on, entry.where.at("on")) : std::optional<std::uint8_t>(0);
     if (!participant) return;
-    if (entry.call == Method::start && *participant != 0) {
+    // In the paper's handshake all participants may be started from outside; `robust` begins a run at the master.
+    if (entry.call == Method::start && *participant != 0 && program->variant == Variant::robust) {
       diagnostics_.error(entry.where.at("on"), "Start at a slave", {json::quote(*entry.on), "the master, " + json::quote(program->master)});
       return;
     }

@@ -114,7 +114,8 @@ TEST(Programs, PublishingOnChangeIsFaster) {
   ASSERT_EQ(kinds(cyclic), kinds(on_change));
   for (std::size_t i = 0; i < cyclic.reactions.size(); ++i) {
     EXPECT_LT(*on_change.reactions[i].duration(), *cyclic.reactions[i].duration()) << cyclic.reactions[i].kind << " " << i;
-    if (cyclic.reactions[i].kind != "start") EXPECT_LT(on_change.reactions[i].duration()->ps(), 200'000'000) << cyclic.reactions[i].kind;
+    const std::int64_t most_ps = cyclic.reactions[i].kind == "start" ? 2'000'000'000 : 200'000'000;  // INIT alone takes 1 ms
+    EXPECT_LT(on_change.reactions[i].duration()->ps(), most_ps) << cyclic.reactions[i].kind;
   }
 }
 

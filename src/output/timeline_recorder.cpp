@@ -1,0 +1,118 @@
+#include "output/timeline_recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "models/ethernet/sizes.hpp"
+
+namespace takt::output {
+namespace {
+
+/// A JSON string (RFC 8259, clause 7), quotes included.
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out += {'\\', c};
+    else if (static_cast<unsigned char>(c) < 0x20)
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      out += c;
+  }
+  return out + '"';
+}
+
+/// The format counts microseconds, with a fraction: exact.
+std::string microseconds(sim::Duration duration) {
+  return fmt::format("{}.{:06}", duration.ps() / 1'000'000, duration.ps() % 1'000'000);
+}
+
+}  // namespace
+
+TimelineRecorder::TimelineRecorder(const models::Network& network, std::string path)
+    : network_(&network), directory_(network), file_(std::move(path)) {
+  file_.write("{\"displayTimeUnit\":\"ns\",\"traceEvents\":[\n");
+  name_ports();
+  for (const models::Stream& stream : network.traffic().streams()) stream_names_.push_back(quoted(stream.name));
+}
+
+void TimelineRecorder::name_ports() {
+  const std::vector<models::NodePlan>& nodes = network_->plan().nodes;
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) name_process(n + 1, nodes[n].name);
+  for (const PortDirectory::Port& port : directory_.ports()) {
+    const std::string_view peer = port.peer.is_none() ? std::string_view("nothing") : nodes[port.peer.value].name;
+    name_thread(port.id.node.value + 1, port.id.port + 1u, fmt::format("port {} to {}", port.id.port, peer));
+  }
+}
+
+void TimelineRecorder::name_process(std::uint32_t process, std::string_view name) {
+  event(fmt::format(R"({{"ph":"M","name":"process_name","pid":{},"args":{{"name":{}}}}})", process, quoted(name)));
+  event(fmt::format(R"({{"ph":"M","name":"process_sort_index","pid":{0},"args":{{"sort_index":{0}}}}})", process));
+}
+
+void TimelineRecorder::name_thread(std::uint32_t process, std::uint32_t thread, std::string_view name) {
+  event(fmt::format(R"({{"ph":"M","name":"thread_name","pid":{},"tid":{},"args":{{"name":{}}}}})", process, thread, quoted(name)));
+}
+
+void TimelineRecorder::event(std::string_view text) {
+  file_.write(first_ ? "" : ",\n");
+  file_.write(text);
+  first_ = false;
+}
+
+TimelineRecorder::TrackId TimelineRecorder::add_state_track(std::string_view group, std::string_view name) {
+  const auto found = std::find(groups_.begin(), groups_.end(), group);
+  const auto number = static_cast<std::uint32_t>(found - groups_.begin());
+  const std::uint32_t process = static_cast<std::uint32_t>(network_->plan().nodes.size()) + 1 + number;
+  if (found == groups_.end()) {
+    groups_.emplace_back(group);
+    tracks_of_group_.push_back(0);
+    name_process(process, group);
+  }
+  Track track;
+  track.process = process;
+  track.thread = ++tracks_of_group_[number];
+  name_thread(process, track.thread, name);
+  tracks_.push_back(std::move(track));
+  return static_cast<TrackId>(tracks_.size() - 1);
+}
+
+void TimelineRecorder::change_state(TrackId id, sim::TrueTime time, std::string_view state) {
+  Track& track = tracks_[id];
+  TAKT_CHECK(time >= track.since, "the states of a track follow each other");
+  if (!track.state.empty())
+    event(fmt::format(R"({{"ph":"X","pid":{},"tid":{},"ts":{},"dur":{},"name":{}}})", track.process, track.thread,
+                      microseconds(track.since.since_start()), microseconds(time - track.since), quoted(track.state)));
+  track.since = time;
+  track.state = state;
+}
+
+void TimelineRecorder::record(const sim::TraceRecord& record) {
+  const bool started = record.kind == static_cast<std::uint32_t>(models::Occurrence::started);
+  if (!started && record.kind != static_cast<std::uint32_t>(models::Occurrence::drop)) return;
+  const std::uint32_t position = directory_.find(record.where);
+  if (position == PortDirectory::none) return;
+  const PortDirectory::Port& port = directory_.ports()[position];
+  const models::Frame& frame = network_->traffic().frame({static_cast<std::uint32_t>(record.what)});
+  const std::string place = fmt::format(R"("pid":{},"tid":{},"ts":{})", port.id.node.value + 1, port.id.port + 1u,
+                                        microseconds(record.time.since_start()));
+  const std::string& stream = stream_names_[frame.stream.value];
+  if (started) {
+    const auto octets = static_cast<std::int64_t>(models::preamble_and_sfd.count + record.detail);
+    event(fmt::format(R"({{"ph":"X",{},"dur":{},"name":{},"args":{{"sequence":{},"octets":{},"priority":{}}}}})", place,
+                      microseconds(port.octet_time * octets), stream, frame.sequence, record.detail, frame.priority));
+  } else {
+    event(fmt::format(R"({{"ph":"i","s":"t",{},"name":"drop","args":{{"stream":{},"sequence":{},"reason":"{}"}}}})", place, stream,
+                      frame.sequence, models::name_of(static_cast<models::DropReason>(record.detail))));
+  }
+}
+
+std::string TimelineRecorder::close(sim::TrueTime end) {
+  for (TrackId track = 0; track < tracks_.size(); ++track) change_state(track, std::max(end, tracks_[track].since), "");
+  file_.write("\n]}\n");
+  return file_.close();
+}
+
+}  // namespace takt::output

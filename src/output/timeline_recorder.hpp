@@ -1,0 +1,56 @@
+// Writes a time line in the Chrome trace event format, which ui.perfetto.dev opens: a process for each node with a thread for each
+// port, on which every frame is a slice from the first bit of its preamble to its last bit; drops are marks; and a track for
+// whatever has a state, such as the participants of a Program.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "output/port_directory.hpp"
+#include "output/streaming_file.hpp"
+#include "sim/trace.hpp"
+
+namespace takt::output {
+
+class TimelineRecorder final : public sim::TraceSink {
+ public:
+  using TrackId = std::uint32_t;
+
+  /// Writes as it records. The network outlives the recorder.
+  TimelineRecorder(const models::Network& network, std::string path);
+
+  /// A track that shows states; tracks of one group stand together.
+  TrackId add_state_track(std::string_view group, std::string_view name);
+  /// From that time on the track is in that state; an empty text: in none. The times of a track ascend, but it may be told its past at
+  /// any time before close().
+  void change_state(TrackId track, sim::TrueTime time, std::string_view state);
+
+  void record(const sim::TraceRecord& record) override;
+
+  /// Ends all states at `end` and gives the file its name. Returns an empty text, or what went wrong.
+  [[nodiscard]] std::string close(sim::TrueTime end);
+
+ private:
+  struct Track {
+    std::uint32_t process = 0;
+    std::uint32_t thread = 0;
+    sim::TrueTime since;
+    std::string state;
+  };
+  void name_ports();
+  void name_process(std::uint32_t process, std::string_view name);
+  void name_thread(std::uint32_t process, std::uint32_t thread, std::string_view name);
+  void event(std::string_view text);
+
+  const models::Network* network_;
+  PortDirectory directory_;
+  StreamingFile file_;
+  bool first_ = true;
+  std::vector<std::string> groups_;
+  std::vector<std::uint32_t> tracks_of_group_;
+  std::vector<Track> tracks_;
+  std::vector<std::string> stream_names_;  // escaped
+};
+
+}  // namespace takt::output

@@ -1,0 +1,71 @@
+// Writes a value change dump (IEEE 1364 clause 18), which GTKWave opens: for each port whether it sends, how many frames wait, which
+// of its gates are open; and whatever other signals are added. One tick is a picosecond.
+#pragma once
+
+#include <cstdint>
+#include <queue>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "output/port_directory.hpp"
+#include "output/streaming_file.hpp"
+#include "sim/trace.hpp"
+
+namespace takt::output {
+
+class VcdRecorder final : public sim::TraceSink {
+ public:
+  using SignalId = std::uint32_t;
+
+  /// Writes as it records. The network outlives the recorder. Signals of a port, in the scope node.portN_to_peer:
+  ///   busy           1 from the first bit of a preamble to the last bit of the frame
+  ///   queued_frames  frames that wait in all its queues
+  ///   gates          bit q: the gate of class q is open; all open until set() says otherwise
+  VcdRecorder(const models::Network& network, std::string path);
+
+  /// A signal of 1 to 64 bits, before anything is recorded.
+  SignalId add_signal(std::string_view scope, std::string_view name, unsigned bits, std::uint64_t initial);
+  /// The gates of a port, by its component.
+  SignalId gates_of(sim::ComponentId port) const;
+  /// The signal has that value from that time on, which is not before any recorded so far.
+  void set(SignalId signal, sim::TrueTime time, std::uint64_t value);
+
+  void record(const sim::TraceRecord& record) override;
+
+  /// Writes what comes until `end` and gives the file its name. Returns an empty text, or what went wrong.
+  [[nodiscard]] std::string close(sim::TrueTime end);
+
+ private:
+  struct Signal {
+    std::string scope;  // parts separated by a line break
+    std::string name;
+    std::string code;   // the short identifier in the file
+    unsigned bits = 1;
+    std::uint64_t value = 0;
+  };
+  /// The last bit of a frame leaves.
+  struct Fall {
+    sim::TrueTime time;
+    SignalId signal = 0;
+    friend bool operator>(const Fall& a, const Fall& b) {
+      return a.time != b.time ? a.time > b.time : a.signal > b.signal;
+    }
+  };
+  enum PortSignal : std::uint32_t { busy, queued_frames, gates, signals_of_a_port };
+
+  void declare();
+  void advance_to(sim::TrueTime time);
+  void change(SignalId signal, sim::TrueTime time, std::uint64_t value);
+  void write_value(const Signal& signal);
+
+  const models::Network* network_;
+  PortDirectory directory_;
+  StreamingFile file_;
+  std::vector<Signal> signals_;  // signals_of_a_port for each port, then the added ones
+  std::priority_queue<Fall, std::vector<Fall>, std::greater<>> falls_;
+  sim::TrueTime time_;           // of the last time stamp in the file
+  bool declared_ = false;
+};
+
+}  // namespace takt::output

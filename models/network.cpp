@@ -75,9 +75,17 @@ sim::ComponentId Network::component_of(NodeIndex node) const {
 
 void Network::connect(const LinkPlan::End& from, const LinkPlan::End& to, const LinkPlan& link) {
   TAKT_CHECK(link.rate.has_exact_octet_time(), "a link's octet lasts a whole number of picoseconds");
-  mutable_ports(from.node)[from.port].connect(*simulation_, shared_, plan_.port_configs[plan_.nodes[from.node.value].port_config],
+  mutable_ports(from.node)[from.port].connect(*simulation_, shared_, port_config_of(from), ideal_clock_,
                                               link.rate.octet_time(),
                                               {component_of(to.node), to.port, link.delay + fixed_delay_of(to.node)});
+}
+
+const PortConfig& Network::port_config_of(const LinkPlan::End& end) const {
+  return plan_.port_configs[end.port_config.value_or(plan_.nodes[end.node.value].port_config)];
+}
+
+ConfigChange Network::request_gates(NodeIndex node, std::uint16_t port, const GateConfig& gates) {
+  return mutable_ports(node)[port].request_gates(*simulation_, gates);
 }
 
 EgressPort& Network::port_of_host(NodeIndex host) {

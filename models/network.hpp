@@ -29,6 +29,9 @@ class Network {
   /// Schedules the first events of talkers and starts the processes. Call once, at time zero.
   void start();
 
+  /// Management sets ConfigChange at a port, at the present instant.
+  ConfigChange request_gates(NodeIndex node, std::uint16_t port, const GateConfig& gates);
+
   sim::Simulation& simulation() { return *simulation_; }
   Traffic& traffic() { return traffic_; }
   const Traffic& traffic() const { return traffic_; }
@@ -47,6 +50,7 @@ class Network {
   void number_ports();
   void make_nodes();
   void connect(const LinkPlan::End& from, const LinkPlan::End& to, const LinkPlan& link);
+  const PortConfig& port_config_of(const LinkPlan::End& end) const;
   sim::Duration fixed_delay_of(NodeIndex node) const;
   sim::ComponentId component_of(NodeIndex node) const;
   EgressPort& port_of_host(NodeIndex host);

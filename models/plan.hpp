@@ -27,7 +27,8 @@ struct NodePlan {
 struct LinkPlan {
   struct End {
     NodeIndex node;
-    std::uint16_t port = 0;         ///< port number within the node; the ports of a node are numbered from 0 without gaps
+    std::uint16_t port = 0;         ///< port number within the node, from 0
+    std::optional<std::uint32_t> port_config = {};  ///< index into NetworkPlan::port_configs, if not that of the node
   };
   End a;
   End b;

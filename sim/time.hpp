@@ -50,6 +50,11 @@ class Instant {
   constexpr std::int64_t ps() const { return ps_; }
   constexpr Duration since_start() const { return Duration::from_ps(ps_); }
 
+  /// This instant plus a duration that is not negative; never() where the sum would be beyond all instants.
+  constexpr Instant plus_saturated(Duration d) const {
+    return d.ps() >= never().ps_ - ps_ ? never() : Instant(ps_ + d.ps());
+  }
+
   constexpr auto operator<=>(const Instant&) const = default;
   constexpr Instant& operator+=(Duration d) { ps_ += d.ps(); return *this; }
   friend constexpr Instant operator+(Instant t, Duration d) { return Instant(t.ps_ + d.ps()); }

@@ -6,6 +6,7 @@
 // Transmission gates and stream gates share this file; what an entry of a list means is theirs.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -189,7 +190,7 @@ class CyclicSchedule {
   sim::LocalTime oper_base_time() const { return oper_base_time_; }
   sim::Duration oper_cycle_time_extension() const { return oper_cycle_time_extension_; }
   bool config_pending() const { return span_count_ > 1; }
-  /// Of the pending change, or of the last one.
+  /// Of the pending change, or of the last one; means nothing before the first request.
   sim::LocalTime config_change_time() const { return spans_[span_count_ - 1].from; }
   std::uint64_t config_change_error() const { return config_change_error_; }
 
@@ -290,17 +291,15 @@ class CyclicSchedule {
 
   /// The next entry is the usual one when time goes on slowly.
   void step_to_next_entry(sim::LocalTime now) {
-    if (now < here_until_ || !next_entry(here_)) return;
+    if (now < here_until_ || here_from_ > here_until_ || !next_entry(here_)) return;
     here_from_ = here_until_;
     here_until_ = end_of(here_);
   }
 
   void forget_place() {
     here_ = place_in(0, spans_[0].from);
-    here_from_ = sim::LocalTime::never();
+    here_from_ = sim::LocalTime::never();  // an interval that holds no instant
     here_until_ = sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min());
-    // An empty interval: is_at() is false for every instant.
-    here_stale_ = true;
   }
 
   Place here_;
@@ -308,7 +307,6 @@ class CyclicSchedule {
   sim::LocalTime here_until_ = sim::LocalTime::never();
   std::array<Span, span_limit> spans_{};
   std::uint32_t span_count_ = 1;
-  bool here_stale_ = false;
   sim::LocalTime oper_base_time_;
   sim::Duration oper_cycle_time_extension_;
   sim::LocalTime pending_since_;       // when the pending change was requested

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "models/egress/frame_queue.hpp"
 #include "models/egress/port_config.hpp"
+#include "models/egress/port_shaping.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "models/ethernet/traffic.hpp"
 #include "sim/simulation.hpp"
@@ -49,8 +51,9 @@ class alignas(64) EgressPort final : public sim::Component {
 
   EgressPort() = default;
 
-  /// Connects the port. `octet_time` is that of the link; `config` outlives the port.
-  void connect(sim::Simulation& simulation, Shared& shared, const PortConfig& config, sim::Duration octet_time, LinkEnd far_end);
+  /// Connects the port. `octet_time` is that of the link; `config` and `clock` outlive the port.
+  void connect(sim::Simulation& simulation, Shared& shared, const PortConfig& config, const LocalClock& clock, sim::Duration octet_time,
+               LinkEnd far_end);
 
   /// Hands the port a frame at the present instant. Frames that come at one instant are put into a canonical order, by
   /// `rank` (the ingress port in a bridge, the talker in a host), so that it does not matter which was handed over first.
@@ -73,7 +76,7 @@ class alignas(64) EgressPort final : public sim::Component {
       offer(simulation, frame, rank);
       return;
     }
-    if (!waits_ && simulation.now() >= busy_until_) [[likely]] {
+    if (!detours_ && simulation.now() >= busy_until_) [[likely]] {
       start(simulation, frame);
       return;
     }
@@ -90,6 +93,11 @@ class alignas(64) EgressPort final : public sim::Component {
   /// Brings what a frame touches at a free port towards the cache.
   void prefetch_hot() const { __builtin_prefetch(this, 1); }
 
+  /// Management sets ConfigChange: another gate list (IEEE 802.1Q 8.6.9.3).
+  ConfigChange request_gates(sim::Simulation& simulation, const GateConfig& gates);
+  /// What the port has beyond strict priority, or null.
+  PortShaping* shaping() const { return shaping_.get(); }
+
   sim::ComponentId id() const { return source_.id(); }
   const PortQueues& queues() const { return queues_; }
   /// Each frame is one event of the port; its other events are wake-ups.
@@ -105,6 +113,10 @@ class alignas(64) EgressPort final : public sim::Component {
   };
 
   void settle_many(sim::Simulation& simulation);
+  void settle_one(sim::Simulation& simulation, FrameIndex frame);
+  Selection select(sim::TrueTime now, ClassSet candidates);
+  void start_selected(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, bool queue_is_empty);
+  bool passes_max_sdu(sim::Simulation& simulation, FrameIndex frame);
   void start(sim::Simulation& simulation, FrameIndex frame);
   void admit(sim::Simulation& simulation, FrameIndex frame);
   void wake_at(sim::Simulation& simulation, sim::TrueTime time);
@@ -115,7 +127,7 @@ class alignas(64) EgressPort final : public sim::Component {
   // One cache line holds all that a frame touches at a port that is free.
   bool settling_ = false;
   bool has_arrival_ = false;
-  bool waits_ = false;                       // a queue holds a frame
+  bool detours_ = false;                     // a queue holds a frame, or there is more than strict priority
   std::uint16_t peer_port_ = 0;
   sim::ComponentId peer_node_;
   std::uint64_t octet_time_ps_ : 20 = 0;
@@ -130,6 +142,8 @@ class alignas(64) EgressPort final : public sim::Component {
   std::uint64_t wake_ups_ = 0;
   std::uint64_t frames_dropped_ = 0;
   const PortConfig* config_ = nullptr;
+  const LocalClock* clock_ = nullptr;
+  std::unique_ptr<PortShaping> shaping_;
   PortQueues queues_;
   std::vector<Arrival> more_arrivals_;
 };

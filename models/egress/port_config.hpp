@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "models/egress/shaping_config.hpp"
 #include "models/ethernet/frame.hpp"
 #include "sim/units.hpp"
 
@@ -24,6 +25,7 @@ struct QueueLimit {
 struct PortConfig {
   std::array<TrafficClass, 8> traffic_class_of_priority = standard_traffic_classes;
   std::array<QueueLimit, traffic_class_count> queue_limits{};
+  ShapingConfig shaping;
   bool operator==(const PortConfig&) const = default;
 };
 

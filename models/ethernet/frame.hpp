@@ -54,6 +54,7 @@ enum class DropReason : std::uint8_t {
   queue_frames,         ///< the queue held its greatest number of frames
   queue_octets,         ///< the queue held its greatest number of octets
   no_filtering_entry,   ///< the filtering database knows no port for its address
+  queue_max_sdu,        ///< longer than its queue allows (IEEE 802.1Q 8.6.8.4)
   count
 };
 constexpr const char* name_of(DropReason reason) {
@@ -61,6 +62,7 @@ constexpr const char* name_of(DropReason reason) {
     case DropReason::queue_frames: return "queue_frames";
     case DropReason::queue_octets: return "queue_octets";
     case DropReason::no_filtering_entry: return "no_filtering_entry";
+    case DropReason::queue_max_sdu: return "queue_max_sdu";
     case DropReason::count: break;
   }
   return "?";

@@ -26,7 +26,7 @@ class LatencyLine {
 
   /// When something that begins at `start` is through.
   sim::TrueTime pass(sim::TrueTime start) {
-    const sim::TrueTime end = start + distribution_->draw(stream_);
+    const sim::TrueTime end = start.plus_saturated(distribution_->draw(stream_));
     last_ = end > last_ ? end : last_;
     return last_;
   }

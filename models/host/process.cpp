@@ -44,7 +44,7 @@ void Process::set_alarm(AlarmId id, sim::LocalTime time) {
     alarm.latency = wake_up_.sample();
     alarm.has_latency = true;
   }
-  alarm.timer.arm(*simulation_, source_, std::max(clock_->true_at(time), simulation_->now()) + alarm.latency);
+  alarm.timer.arm(*simulation_, source_, std::max(clock_->true_at(time), simulation_->now()).plus_saturated(alarm.latency));
 }
 
 void Process::send(StreamIndex stream, std::span<const std::byte> payload) {

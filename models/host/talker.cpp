@@ -9,6 +9,12 @@ namespace {
 constexpr sim::EventKind produce_now = 0;
 constexpr sim::EventKind transmit_now = 1;
 
+/// offset + period * count; never() if that is beyond all instants.
+sim::LocalTime instant(sim::Duration offset, sim::Duration period, std::int64_t count) {
+  const sim::int128 ps = offset.ps() + static_cast<sim::int128>(period.ps()) * count;
+  return ps >= sim::LocalTime::never().ps() ? sim::LocalTime::never() : sim::LocalTime::from_ps(static_cast<std::int64_t>(ps));
+}
+
 template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
@@ -37,17 +43,18 @@ sim::LocalTime Talker::time_of_next() {
   const auto count = static_cast<std::int64_t>(count_);
   return std::visit(
       Overloaded{[&](const PeriodicSchedule& s) {
-                   LocalTime time = LocalTime() + s.offset + s.period * count;
+                   LocalTime time = instant(s.offset, s.period, count);
                    if (s.jitter > Duration())
-                     time += Duration::from_ps(static_cast<std::int64_t>(chance_.below(static_cast<std::uint64_t>(s.jitter.ps()) + 1)));
+                     time = time.plus_saturated(
+                         Duration::from_ps(static_cast<std::int64_t>(chance_.below(static_cast<std::uint64_t>(s.jitter.ps()) + 1))));
                    return time;
                  },
                  [&](const ExponentialSchedule& s) {
                    const LocalTime from = count == 0 ? LocalTime() + s.offset : last_;
-                   return from + sim::Distribution::exponential(s.mean).draw(chance_);
+                   return from.plus_saturated(sim::Distribution::exponential(s.mean).draw(chance_));
                  },
                  [&](const BurstSchedule& s) {
-                   return LocalTime() + s.offset + s.period * (count / s.frames) + s.spacing * (count % s.frames);
+                   return instant(s.offset, s.period, count / s.frames).plus_saturated(s.spacing * (count % s.frames));
                  },
                  [&](const TraceSchedule& s) {
                    return count_ < s.entries.size() ? s.entries[count_].time : LocalTime::never();

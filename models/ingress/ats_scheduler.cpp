@@ -20,11 +20,14 @@ std::optional<sim::LocalTime> AtsScheduler::process(sim::Octets length, sim::Loc
   const FineTime scheduler_eligibility = bucket_empty_time_ + length_recovery;
   const FineTime bucket_full = bucket_empty_time_ + empty_to_full_;
 
-  FineTime eligibility_ps = std::max(arrival, group.group_eligibility_time).ps();
-  // Rounded up for either sign: division truncates, so only a quotient below the true value is raised.
-  if (scheduler_eligibility > eligibility_ps * rate_) {
-    const FineTime quotient = scheduler_eligibility / rate_;
-    eligibility_ps = quotient + (quotient * rate_ < scheduler_eligibility ? 1 : 0);
+  const sim::LocalTime not_before = std::max(arrival, group.group_eligibility_time);
+  FineTime eligibility = fine(not_before);
+  FineTime eligibility_ps = not_before.ps();
+  if (scheduler_eligibility > eligibility) {
+    eligibility = scheduler_eligibility;
+    // Division truncates, which rounds up what is negative; only a quotient below the true value is raised.
+    eligibility_ps = eligibility / rate_;
+    if (eligibility_ps * rate_ < eligibility) ++eligibility_ps;
   }
   if (eligibility_ps - arrival.ps() > group.maximum_residence_time.ps() ||
       eligibility_ps >= std::numeric_limits<std::int64_t>::max()) {
@@ -32,11 +35,10 @@ std::optional<sim::LocalTime> AtsScheduler::process(sim::Octets length, sim::Loc
     return std::nullopt;
   }
 
-  const auto eligibility = sim::LocalTime::from_ps(static_cast<std::int64_t>(eligibility_ps));
-  group.group_eligibility_time = eligibility;
+  group.group_eligibility_time = sim::LocalTime::from_ps(static_cast<std::int64_t>(eligibility_ps));
   bucket_empty_time_ = scheduler_eligibility;
-  if (fine(eligibility) >= bucket_full) bucket_empty_time_ += fine(eligibility) - bucket_full;
-  return eligibility;
+  if (eligibility >= bucket_full) bucket_empty_time_ += eligibility - bucket_full;
+  return group.group_eligibility_time;
 }
 
 sim::LocalTime AtsScheduler::bucket_empty_time() const {

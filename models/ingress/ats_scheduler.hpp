@@ -2,8 +2,9 @@
 //
 // Arithmetic is exact. A bit of the committed information rate rarely lasts a whole number of picoseconds, so the scheduler
 // counts time in units of 1 ps / CIR, in which the bucket's times are integers whatever the rate. Only the eligibility time
-// that a frame is given is a whole picosecond: it is rounded *up*, so no frame is eligible too early, and what was rounded
-// is not lost for the frames after it.
+// that a frame is given is a whole picosecond: that of the standard rounded *up*, so no frame is eligible too early. The
+// bucket goes on with the time before rounding: the frames after it lose nothing, and a stream that keeps its rate is
+// never delayed by a picosecond or more.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 #include <string>
+#include <utility>
 
 #include "measure.hpp"
 #include "models/ethernet/sizes.hpp"
@@ -42,9 +43,18 @@ NetworkPlan line_plan() {
 
 }  // namespace
 
-LineFigures run_line(double simulated_seconds) {
+LineFigures run_line(double simulated_seconds, bool with_gates) {
   sim::Simulation simulation(1);
-  Network network(simulation, line_plan());
+  NetworkPlan plan = line_plan();
+  if (with_gates) {
+    GateConfig gates;
+    gates.admin_cycle_time = 20_us;
+    // The frames are of class 1 (priority 0); the other gates take turns.
+    for (int entry = 0; entry < 8; ++entry)
+      gates.admin_control_list.push_back({GateOperation::set_gate_states, static_cast<GateStates>(entry == 7 ? 0xFC : 0x02 | 1u << entry), 2500_ns});
+    plan.port_configs[0].shaping.gates = gates;
+  }
+  Network network(simulation, std::move(plan));
   network.start();
   LineFigures figures;
   const double before = cpu_seconds();

@@ -13,7 +13,8 @@ struct LineFigures {
   std::size_t population = 0;      ///< most pending events
 };
 /// host - 5 switches - host at 1 Gb/s: 100 octets of UDP payload every 200 us and 1000 octets every 20 us.
-LineFigures run_line(double simulated_seconds);
+/// `with_gates`: a gate list of eight entries on every port, laid so that it delays but starves nobody.
+LineFigures run_line(double simulated_seconds, bool with_gates = false);
 
 /// CPU seconds of a bare loop that pops an event and pushes one, `events` times at that population: takt's own queue, and a
 /// plain 4-ary heap of records of 32 octets.

@@ -1,0 +1,85 @@
+// What the transmission gates of a port do in one cycle (IEEE 802.1Q clauses 8.6.8.4 and 8.6.9.2, Table 8-7).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "models/egress/cyclic_schedule.hpp"
+#include "models/ethernet/frame.hpp"
+
+namespace takt::models {
+
+/// Operation names, with the numbers of IEEE8021-ST-MIB.
+enum class GateOperation : std::uint8_t {
+  set_gate_states = 0,
+  set_and_hold_mac = 1,     ///< the same, and from this entry on the MAC holds preemptable frames
+  set_and_release_mac = 2,  ///< the same, and from this entry on it does not
+};
+
+/// Bit q is 1 if the gate of traffic class q is open.
+using GateStates = std::uint8_t;
+inline constexpr GateStates all_gates_open = 0xFF;
+
+struct GateControlEntry {
+  GateOperation operation = GateOperation::set_gate_states;
+  GateStates gate_states = all_gates_open;
+  sim::Duration interval;  ///< zero counts as one tick of 1 ns
+  bool operator==(const GateControlEntry&) const = default;
+};
+
+/// The part of the cycle in which a gate is open, as an exact ratio.
+struct OpenShare {
+  sim::Duration open;
+  sim::Duration cycle;
+  bool operator==(const OpenShare&) const = default;
+};
+
+/// A list with its cycle time, laid out so that a question about a gate costs one look at one entry. Immutable; ports share it.
+class GateControlList {
+ public:
+  /// Says of a gate that it keeps its state for ever.
+  static constexpr std::int64_t no_toggle_ps = std::numeric_limits<std::int64_t>::max();
+
+  /// An entry as it acts in a regular cycle.
+  struct Executed {
+    /// For each gate, when it next takes its other state: ps after the start of the cycle in which this entry lies. An instant
+    /// after the end of the cycle lies in the next one; later it can't be.
+    std::array<std::int64_t, traffic_class_count> toggle_ps;
+    /// The entry that sets the gate then.
+    std::array<std::uint16_t, traffic_class_count> toggled_by;
+    GateStates gate_states;
+    bool hold;  ///< the MAC holds, if the cycle is not the first one or an entry up to this one has said so
+  };
+
+  /// The list has 1 to 1024 entries, and intervals and cycle time are in range (see CyclicIntervals): checked by the scenario.
+  GateControlList(std::span<const GateControlEntry> entries, sim::Duration cycle_time);
+
+  const CyclicIntervals& intervals() const { return intervals_; }
+  sim::Duration cycle_time() const { return intervals_.cycle_time(); }
+  /// The entries as given, with those that a regular cycle cuts off.
+  std::span<const GateControlEntry> entries() const { return entries_; }
+  const Executed& executed(std::uint32_t entry) const { return executed_[entry]; }
+
+  /// How long the gate is open in a regular cycle.
+  OpenShare open_share(TrafficClass q) const { return {open_[q], cycle_time()}; }
+  /// The longest time for which the gate is open without a break while the list repeats; zero if it never opens,
+  /// Duration::max() if it never closes. A guard for queue_max_sdu: a longer frame can never be sent.
+  sim::Duration longest_window(TrafficClass q) const { return longest_window_[q]; }
+  /// The first executed entry that holds or releases the MAC; intervals().executed() if none does.
+  std::uint32_t first_hold_or_release() const { return first_hold_or_release_; }
+
+ private:
+  void lay_out_gate(TrafficClass q);
+  void lay_out_hold();
+
+  std::vector<Executed> executed_;
+  CyclicIntervals intervals_;
+  std::vector<GateControlEntry> entries_;
+  std::array<sim::Duration, traffic_class_count> open_{};
+  std::array<sim::Duration, traffic_class_count> longest_window_{};
+  std::uint32_t first_hold_or_release_ = 0;
+};
+
+}  // namespace takt::models

@@ -1,0 +1,116 @@
+// The transmission gates of a port as a function of the node's own synchronised time (IEEE 802.1Q clauses 8.6.8.4, 8.6.9).
+#pragma once
+
+#include "models/egress/cyclic_schedule.hpp"
+#include "models/egress/gate_control_list.hpp"
+
+namespace takt::models {
+
+/// May a frame start now, and if not, when can that become true?
+struct StartAnswer {
+  bool may_start = false;
+  /// If not: the earliest instant after now at which the same question is answered by yes, unless the configuration changes
+  /// before; never() if there is none.
+  sim::LocalTime ask_again = sim::LocalTime::never();
+  bool operator==(const StartAnswer&) const = default;
+};
+
+/// A stretch of time, [from, until), in which a gate is open.
+struct GateWindow {
+  sim::LocalTime from;
+  sim::LocalTime until;
+  bool operator==(const GateWindow&) const = default;
+};
+
+/// Whether the MAC Merge sublayer is asked to hold preemptable frames (MM_CTL.request), and until when that stays so.
+struct HoldRequest {
+  bool hold = false;
+  sim::LocalTime until = sim::LocalTime::never();
+  bool operator==(const HoldRequest&) const = default;
+};
+
+/// The gates of one port. Before the first list runs they are in `admin_gate_states`; the MAC does not hold then.
+///
+/// All queries take the node's time, which does not decrease from call to call; the list is exchanged by the first call at or
+/// after ConfigChangeTime. Answers about the future assume that no other change is requested; a caller that keeps one asks
+/// again after request_change(). A window is open up to its end and not at it: a frame may end exactly when its gate closes.
+class GateSchedule {
+ public:
+  using AdminConfig = CyclicSchedule<GateControlList>::AdminConfig;
+
+  explicit GateSchedule(GateStates admin_gate_states = all_gates_open) : admin_gate_states_(admin_gate_states) {}
+
+  /// Management sets ConfigChange. The list outlives the schedule. A request while a change is pending takes its place.
+  ConfigChange request_change(sim::LocalTime now, const AdminConfig& admin);
+
+  GateStates gate_states(sim::LocalTime now) { return states_in(here(now)); }
+  bool is_open(TrafficClass q, sim::LocalTime now) { return is_open_in(here(now), q); }
+  /// The first instant at or after `now` at which gate q is closed, looking through consecutive open entries, over the ends of
+  /// cycles and a pending change; never() if it stays open.
+  sim::LocalTime close_time(TrafficClass q, sim::LocalTime now);
+  /// The first instant at or after `now` at which gate q is open; never() if it stays closed.
+  sim::LocalTime open_time(TrafficClass q, sim::LocalTime now);
+  /// From `now` on, or from the next opening, to the close; {never, never} if gate q stays closed.
+  GateWindow window(TrafficClass q, sim::LocalTime now);
+  /// The first instant after `now` at which any gate changes its state.
+  sim::LocalTime next_change(sim::LocalTime now);
+
+  /// May a frame of class q that lasts for `duration` (not negative) start now and end before its gate closes (8.6.8.4)?
+  /// Which octets are part of the duration is the caller's choice.
+  StartAnswer may_start(TrafficClass q, sim::LocalTime now, sim::Duration duration) {
+    const Place& place = here(now);
+    const Schedule::Span& span = schedule_.present();
+    if (span.repeats) [[likely]] {
+      const GateControlList::Executed& entry = span.list->executed(place.entry);
+      const sim::Duration left = sim::Duration::from_ps(entry.toggle_ps[q]) - (now - place.cycle_start);
+      if ((entry.gate_states >> q & 1) != 0 && duration <= left && now <= span.until - duration) return {true, now};
+    }
+    return may_start_by_search(place, q, now, duration);
+  }
+
+  /// An entry Set-And-Hold-MAC is in force, and no Set-And-Release-MAC has come after it.
+  bool holds(sim::LocalTime now) { return holds_in(here(now)); }
+  /// The first instant after `now` at which holds() changes.
+  sim::LocalTime next_hold_change(sim::LocalTime now);
+  /// What the MAC is asked for: hold from hold_advance before the entry that holds to release_advance before the entry that
+  /// releases; periods that meet by that are one. Costs a walk along the list: the caller keeps the answer until `until`.
+  HoldRequest hold_request(sim::LocalTime now, sim::Duration hold_advance, sim::Duration release_advance);
+
+  /// The part of the running list's cycle in which gate q is open; {1, 1} or {0, 1} before the first list.
+  OpenShare open_share(TrafficClass q, sim::LocalTime now);
+
+  const GateControlList* oper_control_list(sim::LocalTime now) { here(now); return schedule_.oper_control_list(); }
+  sim::LocalTime oper_base_time(sim::LocalTime now) { here(now); return schedule_.oper_base_time(); }
+  sim::Duration oper_cycle_time_extension(sim::LocalTime now) { here(now); return schedule_.oper_cycle_time_extension(); }
+  bool config_pending(sim::LocalTime now) { here(now); return schedule_.config_pending(); }
+  sim::LocalTime config_change_time() const { return schedule_.config_change_time(); }
+  std::uint64_t config_change_error() const { return schedule_.config_change_error(); }
+
+ private:
+  using Schedule = CyclicSchedule<GateControlList>;
+  using Place = Schedule::Place;
+
+  const Place& here(sim::LocalTime now) {
+    if (!schedule_.is_at(now)) [[unlikely]] move_to(now);
+    return schedule_.here();
+  }
+  void move_to(sim::LocalTime now);
+
+  GateStates states_in(const Place& place) const {
+    const GateControlList* const list = schedule_.span_of(place).list;
+    return list == nullptr ? admin_gate_states_ : list->entries()[place.entry].gate_states;
+  }
+  bool is_open_in(const Place& place, TrafficClass q) const { return (states_in(place) >> q & 1) != 0; }
+  sim::LocalTime walk_to_toggle(Place& place, TrafficClass q) const;
+  sim::LocalTime toggle_in_span(Place& place, TrafficClass q) const;
+  StartAnswer may_start_by_search(const Place& place, TrafficClass q, sim::LocalTime now, sim::Duration duration) const;
+  bool holds_in(const Place& place) const;
+  bool inherited_hold(std::uint32_t span) const;
+  sim::LocalTime walk_to_hold_change(Place& place) const;
+
+  Schedule schedule_;
+  GateStates admin_gate_states_;
+  bool hold_before_present_ = false;  // whether the MAC held when the present span began
+};
+
+}  // namespace takt::models

@@ -77,11 +77,58 @@ struct Queues {
   bool operator==(const Queues&) const = default;
 };
 
+/// One entry of a gate control list.
+struct GateEntry {
+  json::Source where;
+  std::vector<std::uint8_t> open;
+  Duration interval;
+  bool operator==(const GateEntry&) const = default;
+};
+
+/// The transmission gates of a port.
+struct Gates {
+  json::Source where;
+  std::optional<Duration> cycle;
+  Duration base_time;
+  Duration extension;
+  std::vector<GateEntry> entries;
+  bool operator==(const Gates&) const = default;
+};
+
+enum class SlopeOf : std::uint8_t { cycle, window };
+
+/// The credit-based shaper of a class.
+struct Shaper {
+  json::Source where;
+  std::uint8_t traffic_class = 0;
+  DataRate idle_slope;
+  SlopeOf of = SlopeOf::cycle;
+  bool operator==(const Shaper&) const = default;
+};
+
+struct MaxSdu {
+  json::Source where;
+  std::uint8_t traffic_class = 0;
+  Octets size{0};
+  bool operator==(const MaxSdu&) const = default;
+};
+
+/// What ports do beyond strict priority: all of a node, or the one to a certain neighbour.
+struct Egress {
+  json::Source where;
+  std::optional<std::string> to;
+  std::optional<Gates> gates;
+  std::vector<Shaper> shapers;
+  std::vector<MaxSdu> max_sdu;
+  bool operator==(const Egress&) const = default;
+};
+
 struct HostNode {
   json::Source where;
   OperatingSystem os;
   TrafficClasses traffic_classes = TrafficClasses::standard;
   Queues queues;
+  std::vector<Egress> egress;
   bool operator==(const HostNode&) const = default;
 };
 
@@ -90,6 +137,7 @@ struct SwitchNode {
   Duration forwarding_delay;
   TrafficClasses traffic_classes = TrafficClasses::standard;
   Queues queues;
+  std::vector<Egress> egress;
   bool operator==(const SwitchNode&) const = default;
 };
 
@@ -125,6 +173,7 @@ struct Generator {
   OperatingSystem os;
   Queues queues;
   TrafficClasses traffic_classes = TrafficClasses::standard;
+  std::vector<Egress> egress;
   bool operator==(const Generator&) const = default;
 };
 
@@ -213,12 +262,22 @@ struct Program {
 
 enum class Method : std::uint8_t { start, suspend, resume, halt, reset };
 
+/// Another gate list for a port.
+struct SetGates {
+  json::Source where;
+  std::string node;
+  std::optional<std::string> to;
+  Gates gates;
+  bool operator==(const SetGates&) const = default;
+};
+
 struct ScriptEntry {
   json::Source where;
   Duration at;
-  std::string program;
-  Method call = Method::start;
+  std::optional<std::string> program;
+  std::optional<Method> call;
   std::optional<std::string> on;
+  std::optional<SetGates> set_gates;
   bool operator==(const ScriptEntry&) const = default;
 };
 
@@ -268,6 +327,12 @@ const json::Object& describe(json::Type<OperatingSystem>);
 const json::Enumeration& describe(json::Type<TrafficClasses>);
 const json::Object& describe(json::Type<Queues>);
 const json::Object& describe(json::Type<Queues::PerClass>);
+const json::Object& describe(json::Type<GateEntry>);
+const json::Object& describe(json::Type<Gates>);
+const json::Enumeration& describe(json::Type<SlopeOf>);
+const json::Object& describe(json::Type<Shaper>);
+const json::Object& describe(json::Type<MaxSdu>);
+const json::Object& describe(json::Type<Egress>);
 const json::Object& describe(json::Type<HostNode>);
 const json::Object& describe(json::Type<SwitchNode>);
 const json::Tagged& describe(json::Type<Node>);
@@ -288,6 +353,7 @@ const json::Object& describe(json::Type<DataField>);
 const json::Object& describe(json::Type<ProcessData>);
 const json::Object& describe(json::Type<Program>);
 const json::Enumeration& describe(json::Type<Method>);
+const json::Object& describe(json::Type<SetGates>);
 const json::Object& describe(json::Type<ScriptEntry>);
 const json::Enumeration& describe(json::Type<Reaction>);
 const json::Object& describe(json::Type<Requirement>);

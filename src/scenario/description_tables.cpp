@@ -144,11 +144,72 @@ const json::Object& describe(json::Type<Queues>) {
   return table;
 }
 
+const json::Object& describe(json::Type<GateEntry>) {
+  static constexpr json::Field fields[] = {
+      required<&GateEntry::open>("open", "The traffic classes whose gates are open.", {.max_items = 8, .unique = true, .items = {.max = 7}}),
+      required<&GateEntry::interval>("for", "How long the entry lasts.", {.min = 1_ns, .max = 3600_s}),
+  };
+  static constexpr json::Object table = json::object<GateEntry>("gate_entry", "One entry of a gate control list.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Gates>) {
+  static constexpr json::Field fields[] = {
+      optional<&Gates::cycle>("cycle", "AdminCycleTime; the sum of the entries if absent.", {.min = 1_ns, .max = 3600_s}),
+      optional<&Gates::base_time>("base_time", "AdminBaseTime, when the first cycle begins; may lie in the past.", {.min = -(3600_s), .max = 3600_s}),
+      optional<&Gates::extension>("extension", "AdminCycleTimeExtension: how much the last cycle before a change may be longer.", {.max = 3600_s}),
+      required<&Gates::entries>("entries", "The gate control list.", {.min_items = 1, .max_items = 1024}),
+  };
+  static constexpr json::Object table = json::object<Gates>("gates", "Transmission gates (IEEE 802.1Q 8.6.8.4, Qbv).", fields);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<SlopeOf>) {
+  static constexpr json::EnumName names[] = {
+      name(SlopeOf::cycle, "cycle", "over the whole gate cycle: credit grows faster while the gate is open"),
+      name(SlopeOf::window, "window", "while the gate is open"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<SlopeOf>("what an idle slope refers to", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<Shaper>) {
+  static constexpr json::Field fields[] = {
+      required<&Shaper::traffic_class>("class", "The traffic class.", {.max = 7}),
+      required<&Shaper::idle_slope>("idle_slope", "Bandwidth of the class, preamble and gap counted; at most the link's rate.",
+                                    {.min = DataRate{1}, .max = DataRate{100'000'000'000}}),
+      optional<&Shaper::of>("of", "Whether that is the bandwidth of the whole gate cycle or of the open window."),
+  };
+  static constexpr json::Object table = json::object<Shaper>("shaper", "A credit-based shaper (IEEE 802.1Q 8.6.8.2, Qav).", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<MaxSdu>) {
+  static constexpr json::Field fields[] = {
+      required<&MaxSdu::traffic_class>("class", "The traffic class.", {.max = 7}),
+      required<&MaxSdu::size>("size", "Most octets after the EtherType; longer frames are dropped.", {.min = Octets{1}, .max = Octets{1500}}),
+  };
+  static constexpr json::Object table = json::object<MaxSdu>("max_sdu", "queueMaxSDU of a class.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Egress>) {
+  static constexpr json::Field fields[] = {
+      optional<&Egress::to>("to", "Only the port to this neighbour; all ports of the node if absent."),
+      optional<&Egress::gates>("gates", "Transmission gates."),
+      optional<&Egress::shapers>("shapers", "Credit-based shapers.", {.max_items = 8}),
+      optional<&Egress::max_sdu>("max_sdu", "Longest SDU of single classes.", {.max_items = 8}),
+  };
+  static constexpr json::Object table = json::object<Egress>("egress", "What ports do beyond strict priority.", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<HostNode>) {
   static constexpr json::Field fields[] = {
       optional<&HostNode::os>("os", "The operating system: a profile's name or an object."),
       optional<&HostNode::traffic_classes>("traffic_classes", "Which priority is sent in which queue."),
       optional<&HostNode::queues>("queues", "The queues of the network interface."),
+      optional<&HostNode::egress>("egress", "Gates and shapers of the network interface.", {.max_items = 1}),
   };
   static constexpr json::Object table = json::object<HostNode>("host", "An end station with one network interface.", fields);
   return table;
@@ -159,6 +220,7 @@ const json::Object& describe(json::Type<SwitchNode>) {
       optional<&SwitchNode::forwarding_delay>("forwarding_delay", "From the last bit in to the egress queue.", {.max = 1_s}),
       optional<&SwitchNode::traffic_classes>("traffic_classes", "Which priority is sent in which queue."),
       optional<&SwitchNode::queues>("queues", "The queues of each port."),
+      optional<&SwitchNode::egress>("egress", "Gates and shapers of ports; an entry for a neighbour takes the place of one for all.", {.max_items = 4096}),
   };
   static constexpr json::Object table = json::object<SwitchNode>("switch", "A store-and-forward bridge.", fields);
   return table;
@@ -215,6 +277,7 @@ const json::Object& describe(json::Type<Generator>) {
       optional<&Generator::os>("os", "Of the hosts."),
       optional<&Generator::queues>("queues", "Of all ports."),
       optional<&Generator::traffic_classes>("traffic_classes", "Of all ports."),
+      optional<&Generator::egress>("egress", "Gates and shapers of all ports of the switches.", {.max_items = 1}),
   };
   static constexpr json::Object table = json::object<Generator>("generator", "A whole topology.", fields);
   return table;
@@ -411,14 +474,27 @@ const json::Enumeration& describe(json::Type<Method>) {
   return table;
 }
 
+const json::Object& describe(json::Type<SetGates>) {
+  static constexpr json::Field fields[] = {
+      required<&SetGates::node>("node", "The node whose gates are set."),
+      optional<&SetGates::to>("to", "Only the port to this neighbour; all ports of the node if absent."),
+      required<&SetGates::gates>("gates", "The new gates; they run from their base time on, as IEEE 802.1Q 8.6.9.3 says."),
+  };
+  static constexpr json::Object table = json::object<SetGates>("set_gates", "Another gate list at run time.", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<ScriptEntry>) {
   static constexpr json::Field fields[] = {
       required<&ScriptEntry::at>("at", "When.", {.max = longest}),
-      required<&ScriptEntry::program>("program", "The program whose method is called."),
-      required<&ScriptEntry::call>("call", "The method."),
+      optional<&ScriptEntry::program>("program", "The program whose method is called."),
+      optional<&ScriptEntry::call>("call", "The method."),
       optional<&ScriptEntry::on>("on", "The participant on which it is called; the master if absent."),
+      optional<&ScriptEntry::set_gates>("set_gates", "Another gate list for ports."),
   };
-  static constexpr json::Object table = json::object<ScriptEntry>("script_entry", "Something that is done at a certain time.", fields);
+  static constexpr std::string_view actions[] = {"call", "set_gates"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(actions)};
+  static constexpr json::Object table = json::object<ScriptEntry>("script_entry", "Something that is done at a certain time.", fields, {.groups = groups});
   return table;
 }
 

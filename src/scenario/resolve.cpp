@@ -9,6 +9,7 @@
 #include "scenario/json/suggest.hpp"
 #include "scenario/os_profiles.hpp"
 #include "scenario/resolve_demand.hpp"
+#include "scenario/resolve_egress.hpp"
 #include "scenario/stream_builder.hpp"
 #include "scenario/trace_file.hpp"
 #include "wire/program_message.hpp"
@@ -41,14 +42,16 @@ class Resolver {
     r_.topology = build_topology(r_.scenario.network, diagnostics_);
     plan_nodes();
     r_.plan.links = r_.topology.links;
+    resolve_egress(r_, diagnostics_);
     StreamBuilder builder(r_, diagnostics_);
     builder_ = &builder;
     check_names();
     for (const Stream& stream : r_.scenario.streams) add_stream(stream);
     for (const Program& program : r_.scenario.programs) add_program(program);
     resolve_demand(r_, diagnostics_);
-    for (const ScriptEntry& entry : r_.scenario.script) add_call(entry);
-    std::stable_sort(r_.script.begin(), r_.script.end(), [](const ResolvedCall& a, const ResolvedCall& b) { return a.at < b.at; });
+    check_windows(r_, diagnostics_);
+    for (const ScriptEntry& entry : r_.scenario.script) add_action(entry);
+    std::stable_sort(r_.script.begin(), r_.script.end(), [](const ResolvedAction& a, const ResolvedAction& b) { return a.at < b.at; });
     for (const Requirement& requirement : r_.scenario.require) check_requirement(requirement);
     builder_ = nullptr;
   }
@@ -281,21 +284,51 @@ class Resolver {
     return nullptr;
   }
 
+  void add_action(const ScriptEntry& entry) {
+    if (entry.at > r_.scenario.duration)
+      diagnostics_.warning(entry.where.at("at"), "after the end of the simulation", {json::to_text(entry.at), "at most " + json::to_text(r_.scenario.duration)});
+    if (entry.call) add_call(entry);
+    if (!entry.set_gates) return;
+    for (const auto& [present, name] : {std::pair(entry.program.has_value(), "program"), std::pair(entry.on.has_value(), "on")})
+      if (present) diagnostics_.error(entry.where.at(name), "does not belong to this action", {json::quote(name), "\"call\" with it"});
+    add_gates(entry);
+  }
+
+  void add_gates(const ScriptEntry& entry) {
+    const SetGates& set = *entry.set_gates;
+    const auto node = r_.topology.find(set.node);
+    if (!node) {
+      diagnostics_.error(set.where.at("node"), "unknown node", {json::quote(set.node), "the name of a node", suggest_node(r_.topology, set.node, diagnostics_)});
+      return;
+    }
+    const models::GateConfig gates = gate_config_of(set.gates, diagnostics_);
+    bool found = false;
+    for (const Neighbour& neighbour : r_.topology.neighbours[*node]) {
+      if (set.to && r_.topology.nodes[neighbour.node].name != *set.to) continue;
+      found = true;
+      r_.script.push_back({sim::TrueTime() + entry.at, ResolvedGates{models::NodeIndex{*node}, neighbour.port, gates}});
+    }
+    if (!found)
+      diagnostics_.error(set.where.at(set.to ? "to" : "node"), "not a neighbour", {json::quote(set.to.value_or(set.node)), "a node that a link joins to " + json::quote(set.node)});
+  }
+
   void add_call(const ScriptEntry& entry) {
-    const Program* const program = find_program(entry.program, entry.where.at("program"));
+    if (!entry.program) {
+      diagnostics_.error(entry.where.place(), "missing key", {"\"call\" without a program", "\"program\""});
+      return;
+    }
+    const Program* const program = find_program(*entry.program, entry.where.at("program"));
     if (program == nullptr) return;
     const auto participant = entry.on ? participant_of(*program, *entry.on, entry.where.at("on")) : std::optional<std::uint8_t>(0);
     if (!participant) return;
     // In the paper's handshake all participants may be started from outside; `robust` begins a run at the master.
-    if (entry.call == Method::start && *participant != 0 && program->variant == Variant::robust) {
+    if (*entry.call == Method::start && *participant != 0 && program->variant == Variant::robust) {
       diagnostics_.error(entry.where.at("on"), "Start at a slave", {json::quote(*entry.on), "the master, " + json::quote(program->master)});
       return;
     }
-    if (entry.at > r_.scenario.duration)
-      diagnostics_.warning(entry.where.at("at"), "after the end of the simulation", {json::to_text(entry.at), "at most " + json::to_text(r_.scenario.duration)});
     const auto found = std::find_if(r_.programs.begin(), r_.programs.end(), [&](const ResolvedProgram& p) { return p.description == program; });
     if (found == r_.programs.end()) return;  // the program itself was refused
-    r_.script.push_back({sim::TrueTime() + entry.at, static_cast<std::uint32_t>(found - r_.programs.begin()), *participant, entry.call});
+    r_.script.push_back({sim::TrueTime() + entry.at, ResolvedCall{static_cast<std::uint32_t>(found - r_.programs.begin()), *participant, *entry.call}});
   }
 
   void check_requirement(const Requirement& requirement) {

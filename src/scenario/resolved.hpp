@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "models/plan.hpp"
@@ -25,6 +26,7 @@ struct ResolvedStream {
   StreamDemand demand;
   json::Source where;
   bool of_program = false;
+  Octets largest_payload{0};
 };
 
 struct ResolvedProcessData {
@@ -44,10 +46,21 @@ struct ResolvedProgram {
 };
 
 struct ResolvedCall {
-  sim::TrueTime at;
   std::uint32_t program = 0;
   std::uint8_t participant = 0;
   Method method = Method::start;
+};
+
+/// Another gate list for a port.
+struct ResolvedGates {
+  models::NodeIndex node;
+  std::uint16_t port = 0;
+  models::GateConfig gates;
+};
+
+struct ResolvedAction {
+  sim::TrueTime at;
+  std::variant<ResolvedCall, ResolvedGates> what;
 };
 
 /// The demand on one direction of a link.
@@ -70,7 +83,7 @@ struct Resolved {
   models::NetworkPlan plan;
   std::vector<ResolvedStream> streams;    ///< by stream index
   std::vector<ResolvedProgram> programs;
-  std::vector<ResolvedCall> script;       ///< by time
+  std::vector<ResolvedAction> script;     ///< by time
   std::vector<PortDemand> ports;          ///< those that carry something
 };
 

@@ -15,20 +15,24 @@ constexpr std::array<program::Method, 5> method_of = {program::Method::Start, pr
 class Run::Script final : public sim::Component {
  public:
   Script(Run& run, sim::Simulation& simulation) : run_(&run), source_(simulation.add(*this)) {
-    const std::vector<ResolvedCall>& calls = run.resolved_->script;
-    for (std::size_t i = 0; i < calls.size(); ++i)
-      simulation.schedule(source_, calls[i].at, sim::Phase::control, source_.id(), 0, i);
+    const std::vector<ResolvedAction>& actions = run.resolved_->script;
+    for (std::size_t i = 0; i < actions.size(); ++i)
+      simulation.schedule(source_, actions[i].at, sim::Phase::control, source_.id(), 0, i);
   }
 
   void handle(sim::Simulation&, const sim::Event& event) override {
-    const ResolvedCall& call = run_->resolved_->script[event.argument];
+    std::visit([this](const auto& action) { act(action); }, run_->resolved_->script[event.argument].what);
+  }
+
+ private:
+  void act(const ResolvedCall& call) {
     models::Process& process = *run_->programs_[call.program]->processes[call.participant];
     process.call([&](models::Application& application, models::HostServices& host) {
       static_cast<ProgramApplication&>(application).call(host, method_of[static_cast<std::size_t>(call.method)]);
     });
   }
+  void act(const ResolvedGates& change) { run_->network_.request_gates(change.node, change.port, change.gates); }
 
- private:
   Run* run_;
   sim::EventSource source_;
 };

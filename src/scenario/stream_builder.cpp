@@ -49,7 +49,7 @@ std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
 
   const models::StreamIndex index{static_cast<std::uint32_t>(r_.plan.streams.size())};
   r_.plan.streams.push_back(std::move(plan));
-  r_.streams.push_back({index, std::move(paths), {}, wanted.where, wanted.of_program});
+  r_.streams.push_back({index, std::move(paths), {}, wanted.where, wanted.of_program, wanted.payload});
   return index;
 }
 

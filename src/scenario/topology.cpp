@@ -70,10 +70,10 @@ class Builder {
     indices.reserve(made.nodes.size());
     for (const Generated::Node& node : made.nodes) {
       if (node.is_host)
-        indices.push_back(add(node.name, HostNode{generator.where, generator.os, generator.traffic_classes, generator.queues},
+        indices.push_back(add(node.name, HostNode{generator.where, generator.os, generator.traffic_classes, generator.queues, {}},
                               generator.where, generator.where.place()));
       else
-        indices.push_back(add(node.name, SwitchNode{generator.where, generator.forwarding_delay, generator.traffic_classes, generator.queues},
+        indices.push_back(add(node.name, SwitchNode{generator.where, generator.forwarding_delay, generator.traffic_classes, generator.queues, generator.egress},
                               generator.where, generator.where.place()));
     }
     const Duration delay = Duration::from_ps(generator.length.millimetres * ps_per_millimetre);

@@ -1,0 +1,19 @@
+// Gates, shapers and maximum SDU sizes of ports: from the description to the configuration of each port.
+#pragma once
+
+#include "scenario/resolved.hpp"
+
+namespace takt::scenario {
+
+/// The gates as management sets them. A list whose cycle is shorter than a tick or whose entries are all beyond it is a diagnostic.
+models::GateConfig gate_config_of(const Gates& gates, json::Diagnostics& diagnostics);
+
+/// Gives every end of a link in resolved.plan its port configuration, on top of those of the nodes. A shaper faster than its
+/// link, a neighbour that is none and a class configured twice are diagnostics.
+void resolve_egress(Resolved& resolved, json::Diagnostics& diagnostics);
+
+/// Frames that can never be sent, because no window of their class is long enough, are errors. To be called when the streams
+/// are there.
+void check_windows(const Resolved& resolved, json::Diagnostics& diagnostics);
+
+}  // namespace takt::scenario

@@ -57,7 +57,7 @@ class CreditBasedShaper {
   /// The first instant at or after `now` at which may_start() is true while the gate stays as it is, rounded up to the next
   /// picosecond; never() with a closed gate, or if the credit can't grow.
   sim::TrueTime eligible_time(sim::TrueTime now) const;
-  /// How long credit must grow, not counting the transmission under way and closed gates, to reach 0; Duration::max() if it can't.
+  /// How long credit must grow to reach 0, not counting the transmission under way and closed gates; Duration::max() if it can't.
   sim::Duration growth_needed(sim::TrueTime now) const;
 
   /// A frame waits in the queue.

@@ -29,8 +29,9 @@ constexpr std::int64_t ceil_quotient(sim::Duration a, sim::Duration b) { return 
 /// next CycleStart, and if all intervals together are shorter than the cycle the last entry stays (8.6.9.2). A cycle that is
 /// stretched before a change of lists goes on through all entries. An interval of zero counts as one tick of 1 ns.
 ///
-/// Cycle times are whole picoseconds. A rational cycle time that is not joins here and in CyclicSchedule::next_regular_start:
-/// the start of cycle k becomes floor(k * numerator * 10^12 / denominator), and cycles_in() its inverse; nothing else counts cycles.
+/// Cycle times are whole picoseconds. A rational cycle time that is not would join where cycles are counted, in cycles_in() and in
+/// the few lines of CyclicSchedule that multiply a cycle time: the start of cycle k becomes
+/// base + floor(k * numerator * 10^12 / denominator), so that nothing accumulates.
 class CyclicIntervals {
  public:
   static constexpr std::size_t entry_limit = 1024;
@@ -93,8 +94,9 @@ struct ConfigChange {
 /// Which list is in force when. List is a type with `const CyclicIntervals& intervals() const`.
 ///
 /// Time is that of the node's own synchronised clock. `now` does not decrease from call to call; if a clock is set back all the
-/// same, the span in force then is continued backwards. What has its place at one instant happens in the order List Config,
-/// Cycle Timer, List Execute; a list whose time has come is installed before a request of that instant is looked at.
+/// same, the span in force is continued backwards. Within one instant the order is List Config, Cycle Timer, List Execute. A list
+/// whose time has come is installed before a request of that instant is looked at; if the request's own time has come too, its
+/// list takes over at once and no entry of the former one is executed in that instant.
 template <class List>
 class CyclicSchedule {
  public:
@@ -125,7 +127,8 @@ class CyclicSchedule {
   ConfigChange request_change(sim::LocalTime now, const AdminConfig& admin) {
     TAKT_CHECK(admin.admin_control_list != nullptr, "a configuration has a list");
     TAKT_CHECK(magnitude_is_fine(admin.admin_base_time), "a base time lies within 26 days of the clock's zero");
-    TAKT_CHECK(admin.admin_cycle_time_extension >= sim::Duration() && admin.admin_cycle_time_extension <= CyclicIntervals::longest,
+    const sim::Duration extension = admin.admin_cycle_time_extension;
+    TAKT_CHECK(extension >= sim::Duration() && extension <= CyclicIntervals::longest,
                "a cycle time extension is not negative and at most 13 days");
     const bool running = spans_[0].list != nullptr;
     const sim::Duration cycle = admin.admin_control_list->intervals().cycle_time();
@@ -142,8 +145,7 @@ class CyclicSchedule {
       spans_[0].until = change.config_change_time;
     }
     append({admin.admin_control_list, change.config_change_time, sim::LocalTime::never(), change.config_change_time, true});
-    pending_since_ = now;
-    pending_extension_ = admin.admin_cycle_time_extension;
+    pending_extension_ = extension;
     pending_base_time_ = admin.admin_base_time;
     forget_place();
     return change;
@@ -171,11 +173,22 @@ class CyclicSchedule {
   }
   /// Makes here() the place of `now`, which lies in the present span.
   void seek(sim::LocalTime now) {
-    step_to_next_entry(now);
-    if (is_at(now)) return;
-    here_ = place_in(0, now);
-    here_from_ = start_of(here_);
-    here_until_ = end_of(here_);
+    const Span& present = spans_[0];
+    if (!present.repeats) [[unlikely]] {
+      here_ = place_in(0, now);
+      here_from_ = start_of(here_);
+      here_until_ = end_of(here_);
+      return;
+    }
+    const CyclicIntervals& intervals = present.list->intervals();
+    sim::Duration offset = now - here_.cycle_start;
+    if (offset < sim::Duration() || offset >= intervals.cycle_time()) {
+      here_.cycle_start += intervals.cycle_time() * intervals.cycles_in(offset);
+      offset = now - here_.cycle_start;
+    }
+    here_.entry = intervals.entry_at(offset, intervals.executed());
+    here_from_ = here_.cycle_start + intervals.start(here_.entry);
+    here_until_ = std::min(here_.cycle_start + intervals.end_in_cycle(here_.entry), present.until);
   }
   void move_to(sim::LocalTime now) {
     while (present_is_over(now)) drop_present();
@@ -263,9 +276,9 @@ class CyclicSchedule {
     const sim::LocalTime present_start = place_in(0, now).cycle_start;
     sim::LocalTime start = present_start;  // the first start that takes the change into account
     if (now != present_start) {
-      if (latched_for_ != present_start) {
+      if (latched_for_ != present_start) {  // no request in this cycle yet: what is pending was so when it started
         const sim::LocalTime former = config_change_time();
-        const bool former_counts = config_pending() && pending_since_ <= present_start && former <= present_start + reach;
+        const bool former_counts = config_pending() && former <= present_start + reach;
         latched_start_ = former_counts ? former : next_regular_start(present_start);
         latched_for_ = present_start;
       }
@@ -289,15 +302,8 @@ class CyclicSchedule {
     }
   }
 
-  /// The next entry is the usual one when time goes on slowly.
-  void step_to_next_entry(sim::LocalTime now) {
-    if (now < here_until_ || here_from_ > here_until_ || !next_entry(here_)) return;
-    here_from_ = here_until_;
-    here_until_ = end_of(here_);
-  }
-
   void forget_place() {
-    here_ = place_in(0, spans_[0].from);
+    here_ = {spans_[0].anchor, 0, 0};
     here_from_ = sim::LocalTime::never();  // an interval that holds no instant
     here_until_ = sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min());
   }
@@ -309,7 +315,6 @@ class CyclicSchedule {
   std::uint32_t span_count_ = 1;
   sim::LocalTime oper_base_time_;
   sim::Duration oper_cycle_time_extension_;
-  sim::LocalTime pending_since_;       // when the pending change was requested
   sim::LocalTime pending_base_time_;
   sim::Duration pending_extension_;
   sim::LocalTime latched_for_ = sim::LocalTime::never();  // the cycle in which a request came

@@ -42,15 +42,14 @@ class GateControlList {
   /// Says of a gate that it keeps its state for ever.
   static constexpr std::int64_t no_toggle_ps = std::numeric_limits<std::int64_t>::max();
 
-  /// An entry as it acts in a regular cycle.
-  struct Executed {
-    /// For each gate, when it next takes its other state: ps after the start of the cycle in which this entry lies. An instant
-    /// after the end of the cycle lies in the next one; later it can't be.
-    std::array<std::int64_t, traffic_class_count> toggle_ps;
-    /// The entry that sets the gate then.
-    std::array<std::uint16_t, traffic_class_count> toggled_by;
-    GateStates gate_states;
-    bool hold;  ///< the MAC holds, if the cycle is not the first one or an entry up to this one has said so
+  /// What a gate does during and after one entry of a regular cycle. Instants count from the start of the cycle in which the
+  /// entry lies; those after its end lie in one of the next two.
+  struct Ahead {
+    std::int64_t toggle_ps = no_toggle_ps;  ///< when the gate next takes its other state
+    std::int64_t next_open_ps = 0;          ///< when it next opens; nothing if next_window_ps < 0
+    std::int64_t next_window_ps = -1;       ///< for how long it is open then; negative if it never opens again
+    std::uint16_t toggled_by = 0;           ///< the entry that makes the toggle
+    bool open = false;
   };
 
   /// The list has 1 to 1024 entries, and intervals and cycle time are in range (see CyclicIntervals): checked by the scenario.
@@ -60,7 +59,9 @@ class GateControlList {
   sim::Duration cycle_time() const { return intervals_.cycle_time(); }
   /// The entries as given, with those that a regular cycle cuts off.
   std::span<const GateControlEntry> entries() const { return entries_; }
-  const Executed& executed(std::uint32_t entry) const { return executed_[entry]; }
+  const Ahead& ahead(std::uint32_t entry, TrafficClass q) const { return ahead_[entry * traffic_class_count + q]; }
+  /// In an executed entry the MAC holds, if the cycle is not the first one or an entry up to this one has said so.
+  bool holds(std::uint32_t entry) const { return holds_[entry]; }
 
   /// How long the gate is open in a regular cycle.
   OpenShare open_share(TrafficClass q) const { return {open_[q], cycle_time()}; }
@@ -74,9 +75,10 @@ class GateControlList {
   void lay_out_gate(TrafficClass q);
   void lay_out_hold();
 
-  std::vector<Executed> executed_;
+  std::vector<Ahead> ahead_;  // for each executed entry, each gate
   CyclicIntervals intervals_;
   std::vector<GateControlEntry> entries_;
+  std::vector<bool> holds_;
   std::array<sim::Duration, traffic_class_count> open_{};
   std::array<sim::Duration, traffic_class_count> longest_window_{};
   std::uint32_t first_hold_or_release_ = 0;

@@ -94,10 +94,10 @@ LocalTime GateSchedule::toggle_in_span(Place& place, TrafficClass q) const {
   if (span.list == nullptr) return LocalTime::never();
   const CyclicIntervals& intervals = span.list->intervals();
   if (span.repeats) {
-    const GateControlList::Executed& entry = span.list->executed(place.entry);
-    if (entry.toggle_ps[q] == GateControlList::no_toggle_ps) return LocalTime::never();
-    const LocalTime toggle = place.cycle_start + Duration::from_ps(entry.toggle_ps[q]);
-    place.entry = entry.toggled_by[q];
+    const GateControlList::Ahead& ahead = span.list->ahead(place.entry, q);
+    if (ahead.toggle_ps == GateControlList::no_toggle_ps) return LocalTime::never();
+    const LocalTime toggle = place.cycle_start + Duration::from_ps(ahead.toggle_ps);
+    place.entry = ahead.toggled_by;
     place.cycle_start = toggle - intervals.start(place.entry);
     return toggle;
   }
@@ -151,7 +151,7 @@ bool GateSchedule::holds_in(const Place& place) const {
     const std::uint32_t first = list.first_hold_or_release();
     const bool first_cycle = place.cycle_start <= span.from;
     if (first == list.intervals().executed() || (first_cycle && place.entry < first)) return inherited_hold(place.span);
-    return list.executed(place.entry).hold;
+    return list.holds(place.entry);
   }
   for (std::uint32_t entry = place.entry + 1; entry-- > 0;) {
     const GateOperation operation = list.entries()[entry].operation;

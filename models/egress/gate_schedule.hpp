@@ -61,9 +61,12 @@ class GateSchedule {
     const Place& place = here(now);
     const Schedule::Span& span = schedule_.present();
     if (span.repeats) [[likely]] {
-      const GateControlList::Executed& entry = span.list->executed(place.entry);
-      const sim::Duration left = sim::Duration::from_ps(entry.toggle_ps[q]) - (now - place.cycle_start);
-      if ((entry.gate_states >> q & 1) != 0 && duration <= left && now <= span.until - duration) return {true, now};
+      const GateControlList::Ahead& ahead = span.list->ahead(place.entry, q);
+      const std::int64_t left_ps = ahead.toggle_ps - (now - place.cycle_start).ps();
+      const sim::LocalTime latest_start = span.until - duration;  // of what ends before the list does
+      if (ahead.open && duration.ps() <= left_ps && now <= latest_start) return {true, now};
+      const sim::LocalTime open = place.cycle_start + sim::Duration::from_ps(ahead.next_open_ps);
+      if (duration.ps() <= ahead.next_window_ps && open <= latest_start) return {false, open};
     }
     return may_start_by_search(place, q, now, duration);
   }

@@ -7,6 +7,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/load.hpp"
 #include "cli/progress.hpp"
+#include "cli/recording.hpp"
 #include "output/json_report.hpp"
 #include "output/result_folder.hpp"
 #include "output/text_report.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 struct RunOptions {
   ScenarioOptions scenario;
+  RecordingOptions recording;
   std::string out;
   bool quiet = false;
 };
@@ -38,17 +40,30 @@ ExitStatus status_of(const results::RunResult& result) {
   return result.partial ? ExitStatus::interrupted : ExitStatus::pass;
 }
 
+ExitStatus cannot_write(const std::string& problem) {
+  std::fprintf(stderr, "takt: cannot write results: %s\n", problem.c_str());
+  return ExitStatus::internal_error;
+}
+
 ExitStatus run(const RunOptions& options) {
   const auto resolved = load(options.scenario, options.quiet);
   if (!resolved) return ExitStatus::bad_input;
   scenario::Run live(*resolved);
+  scenario::json::Diagnostics diagnostics;
+  if (options.recording.is_wanted() && options.out.empty())
+    diagnostics.error({"command line", 0, 0, ""}, "a recording without a folder", {"--pcap or --timeline", "--out DIR"});
+  Recording recording(options.recording, options.out, live, diagnostics);
+  if (diagnostics.has_errors()) {
+    std::fputs(diagnostics.to_text().c_str(), stderr);
+    return ExitStatus::bad_input;
+  }
+  if (const std::string problem = recording.open(); !problem.empty()) return cannot_write(problem);
   const bool complete = simulate(live, !options.quiet && !options.scenario.is_json());
   const results::RunResult result = results::evaluate(live, !complete);
+  if (const std::string problem = recording.close(); !problem.empty()) return cannot_write(problem);
   if (!options.out.empty()) {
-    if (const std::string problem = output::write_result_folder(options.out, result, scenario::json::encode(resolved->scenario)); !problem.empty()) {
-      std::fprintf(stderr, "takt: cannot write results: %s\n", problem.c_str());
-      return ExitStatus::internal_error;
-    }
+    if (const std::string problem = output::write_result_folder(options.out, result, scenario::json::encode(resolved->scenario)); !problem.empty())
+      return cannot_write(problem);
   }
   const std::string page = options.scenario.is_json() ? output::run_json(result) : options.quiet ? output::run_line(result) : output::run_report(result);
   std::fputs(page.c_str(), stdout);
@@ -62,12 +77,17 @@ void add_run_command(CLI::App& app, ExitStatus& status) {
   const auto options = std::make_shared<RunOptions>();
   add_scenario_options(command, options->scenario);
   command.add_option("--out", options->out, "Write result.json, tables and the resolved scenario into this folder")->type_name("DIR");
+  command.add_option("--pcap", options->recording.pcap, "Capture what these ports send, into DIR: all, NODE or NODE:PORT (repeatable)")
+      ->type_name("PORT")
+      ->allow_extra_args(false);
+  command.add_flag("--timeline", options->recording.timeline, "Write frames and states as DIR/timeline.json, for ui.perfetto.dev");
   command.add_flag("--quiet", options->quiet, "Print one line");
   command.footer(
       "Examples:\n"
       "  takt run scenarios/robot-arm.json\n"
       "  takt run scenarios/robot-arm.json --seed 7 --duration 1min --quiet\n"
       "  takt run scenarios/robot-arm.json --set programs.0.cycle=1ms --out out/slow\n"
+      "  takt run scenarios/robot-arm.json --duration 1100ms --out out/look --pcap all --timeline\n"
       "  takt run scenarios/robot-arm.json --format json | jq .programs.trajectory.reactions\n"
       "Exit status: 0 pass, 1 a requirement failed, 2 bad input, 3 internal error, 130 interrupted.");
   command.callback([options, &status] { status = run(*options); });

@@ -1,0 +1,79 @@
+#include "cli/recording.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace takt::cli {
+
+Recording::Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, scenario::json::Diagnostics& diagnostics)
+    : options_(options), folder_(folder), run_(&run) {
+  for (const std::string& text : options.pcap) select_ports(text, diagnostics);
+}
+
+void Recording::select_ports(const std::string& text, scenario::json::Diagnostics& diagnostics) {
+  if (text == "all") {
+    captures_.push_back({"all.pcap", {}});
+    return;
+  }
+  const scenario::Topology& topology = run_->resolved().topology;
+  const std::size_t colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  const auto node = topology.find(name);
+  Capture capture{text + ".pcap", {}};
+  std::replace(capture.file.begin(), capture.file.end(), ':', '-');
+  if (node) {
+    for (const scenario::Neighbour& neighbour : topology.neighbours[*node])
+      if (colon == std::string::npos || text.substr(colon + 1) == std::to_string(neighbour.port))
+        capture.ports.push_back({models::NodeIndex{*node}, neighbour.port});
+  }
+  if (capture.ports.empty())
+    diagnostics.error({"--pcap " + text, 0, 0, ""}, "no such port",
+                      {scenario::json::quote(text), "all, a node (all its ports) or node:port", node ? "" : suggest_node(topology, name, diagnostics)});
+  else
+    captures_.push_back(std::move(capture));
+}
+
+std::string Recording::open() {
+  if (!options_.is_wanted()) return {};
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) return folder_ + ": " + error.message();
+  const std::filesystem::path folder(folder_);
+  if (!captures_.empty()) {
+    pcap_ = std::make_unique<output::PcapRecorder>(run_->network());
+    for (const Capture& capture : captures_)
+      if (std::string problem = pcap_->add((folder / capture.file).string(), capture.ports); !problem.empty()) return problem;
+    sinks_.add(*pcap_);
+  }
+  if (options_.timeline) {
+    timeline_ = std::make_unique<output::TimelineRecorder>(run_->network(), (folder / "timeline.json").string());
+    sinks_.add(*timeline_);
+  }
+  run_->simulation().set_trace(&sinks_);
+  return {};
+}
+
+std::string Recording::close() {
+  run_->simulation().set_trace(nullptr);
+  std::string problem;
+  if (pcap_) problem = pcap_->close();
+  if (timeline_) {
+    write_states();
+    if (std::string other = timeline_->close(run_->simulation().now()); problem.empty()) problem = std::move(other);
+  }
+  return problem;
+}
+
+void Recording::write_states() {
+  for (std::size_t p = 0; p < run_->resolved().programs.size(); ++p) {
+    const scenario::ResolvedProgram& program = run_->resolved().programs[p];
+    for (std::size_t i = 0; i < program.participants.size(); ++i) {
+      const auto track = timeline_->add_state_track("program " + program.name, run_->resolved().topology.nodes[program.participants[i].value].name);
+      timeline_->change_state(track, sim::TrueTime(), handshake::name_of(handshake::PublishedState::Halted));
+      for (const scenario::StateRecord& record : run_->monitor(p).history())
+        if (record.participant == i) timeline_->change_state(track, record.time, handshake::name_of(record.change.to));
+    }
+  }
+}
+
+}  // namespace takt::cli

@@ -1,0 +1,52 @@
+// What `takt run` records on request: captures and a time line, into the result folder.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "output/fan_out.hpp"
+#include "output/pcap_recorder.hpp"
+#include "output/timeline_recorder.hpp"
+#include "scenario/run.hpp"
+
+namespace takt::cli {
+
+struct RecordingOptions {
+  std::vector<std::string> pcap;   ///< "all", "node" (all its ports) or "node:port"
+  bool timeline = false;
+  bool is_wanted() const { return !pcap.empty() || timeline; }
+};
+
+/// Hangs on a run from before its first event to its end. Recording changes no digest.
+class Recording {
+ public:
+  /// Reports unknown ports to `diagnostics`; then nothing is recorded and nothing was written.
+  Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, scenario::json::Diagnostics& diagnostics);
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+  ~Recording() { run_->simulation().set_trace(nullptr); }
+
+  /// Opens the files, whose folder is made if it is not there. An empty text, or what went wrong.
+  [[nodiscard]] std::string open();
+  /// Writes the states of Programs into the time line and closes the files. An empty text, or what went wrong.
+  [[nodiscard]] std::string close();
+
+ private:
+  struct Capture {
+    std::string file;
+    std::vector<output::PortId> ports;  ///< none: all
+  };
+  void select_ports(const std::string& text, scenario::json::Diagnostics& diagnostics);
+  void write_states();
+
+  RecordingOptions options_;
+  std::string folder_;
+  scenario::Run* run_;
+  std::vector<Capture> captures_;
+  output::FanOut sinks_;
+  std::unique_ptr<output::PcapRecorder> pcap_;
+  std::unique_ptr<output::TimelineRecorder> timeline_;
+};
+
+}  // namespace takt::cli

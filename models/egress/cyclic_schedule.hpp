@@ -29,8 +29,8 @@ constexpr std::int64_t ceil_quotient(sim::Duration a, sim::Duration b) { return 
 /// next CycleStart, and if all intervals together are shorter than the cycle the last entry stays (8.6.9.2). A cycle that is
 /// stretched before a change of lists goes on through all entries. An interval of zero counts as one tick of 1 ns.
 ///
-/// Cycle times are whole picoseconds. A rational cycle time that is not would join where cycles are counted, in cycles_in() and in
-/// the few lines of CyclicSchedule that multiply a cycle time: the start of cycle k becomes
+/// Cycle times are whole picoseconds. One that is not would join where cycles are counted, in cycles_in() and in the
+/// few lines of CyclicSchedule that multiply a cycle time: the start of cycle k becomes
 /// base + floor(k * numerator * 10^12 / denominator), so that nothing accumulates.
 class CyclicIntervals {
  public:

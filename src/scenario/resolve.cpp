@@ -285,7 +285,7 @@ class Resolver {
   }
 
   void add_action(const ScriptEntry& entry) {
-    if (entry.at > r_.scenario.duration)
+    if (r_.scenario.duration > Duration() && entry.at > r_.scenario.duration)  // 0: refused by the table
       diagnostics_.warning(entry.where.at("at"), "after the end of the simulation", {json::to_text(entry.at), "at most " + json::to_text(r_.scenario.duration)});
     if (entry.call) add_call(entry);
     if (!entry.set_gates) return;
@@ -301,6 +301,7 @@ class Resolver {
       diagnostics_.error(set.where.at("node"), "unknown node", {json::quote(set.node), "the name of a node", suggest_node(r_.topology, set.node, diagnostics_)});
       return;
     }
+    warn_if_late(entry);
     const models::GateConfig gates = gate_config_of(set.gates, diagnostics_);
     bool found = false;
     for (const Neighbour& neighbour : r_.topology.neighbours[*node]) {
@@ -310,6 +311,11 @@ class Resolver {
     }
     if (!found)
       diagnostics_.error(set.where.at(set.to ? "to" : "node"), "not a neighbour", {json::quote(set.to.value_or(set.node)), "a node that a link joins to " + json::quote(set.node)});
+  }
+
+  void warn_if_late(const ScriptEntry& entry) {
+    if (entry.at > r_.scenario.duration)
+      diagnostics_.warning(entry.where.at("at"), "after the end of the simulation", {json::to_text(entry.at), "at most " + json::to_text(r_.scenario.duration)});
   }
 
   void add_call(const ScriptEntry& entry) {
@@ -326,6 +332,7 @@ class Resolver {
       diagnostics_.error(entry.where.at("on"), "Start at a slave", {json::quote(*entry.on), "the master, " + json::quote(program->master)});
       return;
     }
+    warn_if_late(entry);
     const auto found = std::find_if(r_.programs.begin(), r_.programs.end(), [&](const ResolvedProgram& p) { return p.description == program; });
     if (found == r_.programs.end()) return;  // the program itself was refused
     r_.script.push_back({sim::TrueTime() + entry.at, ResolvedCall{static_cast<std::uint32_t>(found - r_.programs.begin()), *participant, *entry.call}});

@@ -110,7 +110,7 @@ class Status(CliTest):
             self.assertEqual((diagnostic["severity"], diagnostic["line"], diagnostic["pointer"]), ("error", 4, "/require/0/latency"))
 
     def test_check_of_sound_scenarios(self):
-        for file in sorted(SCENARIOS.glob("*.json")):
+        for file in sorted(SCENARIOS.rglob("*.json")):
             if file.name == "takt.schema.json":
                 continue
             with self.subTest(file=file.name):
@@ -328,6 +328,6 @@ class Signals(CliTest):
 
 
 if __name__ == "__main__":
-    TAKT = sys.argv[1]
+    TAKT = os.path.abspath(sys.argv[1])
     SCENARIOS = pathlib.Path(sys.argv[2]) / "scenarios"
     unittest.main(argv=sys.argv[:1] + sys.argv[3:])

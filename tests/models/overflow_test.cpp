@@ -17,7 +17,19 @@ struct Outcome {
   std::uint64_t counted_by_port = 0;
   std::uint32_t peak = 0;
   std::vector<sim::TraceRecord> drops;
+  std::uint64_t digest = 0;
 };
+
+/// The digest of a run over the direct link: frames with these numbers delivered one after the other from 576 ns on, every 672 ns, and
+/// then these dropped at the start for that reason.
+std::uint64_t digest_of(const std::vector<std::uint64_t>& delivered, const std::vector<std::uint64_t>& dropped, DropReason reason,
+                        sim::ComponentId port) {
+  sim::Digest digest;
+  for (std::size_t i = 0; i < delivered.size(); ++i)
+    digest.add(1, 1, at(576_ns + 672_ns * static_cast<std::int64_t>(i)), delivered[i]);  // stream 0 at node 1
+  for (const std::uint64_t sequence : dropped) digest.add(2, port.index, at(0_ns), sequence << 8 | static_cast<std::uint64_t>(reason));
+  return digest.value();
+}
 
 /// Sends frames with these payloads at these times over a direct link whose queues have that limit.
 Outcome send(QueueLimit limit, const std::vector<std::pair<Duration, std::size_t>>& frames) {
@@ -40,6 +52,8 @@ Outcome send(QueueLimit limit, const std::vector<std::pair<Duration, std::size_t
   outcome.counted_by_port = run.port(line.talker, 0).frames_dropped();
   outcome.peak = run.port(line.talker, 0).queues().peak_frames();
   outcome.drops = trace.of(Occurrence::drop);
+  outcome.digest = run.digest();
+  for (const sim::TraceRecord& drop : outcome.drops) EXPECT_EQ(drop.where, run.port(line.talker, 0).id());
   EXPECT_EQ(account.sent, frames.size());
   EXPECT_EQ(account.dropped_in_all(), outcome.for_frames + outcome.for_octets);
   EXPECT_EQ(account.in_flight(), 0u);
@@ -63,6 +77,7 @@ TEST(Overflow, ByFrames) {
     EXPECT_EQ(drop.time, at(0_ns));
     EXPECT_EQ(drop.detail, static_cast<std::uint64_t>(DropReason::queue_frames));
   }
+  EXPECT_EQ(outcome.digest, digest_of({0, 1, 2}, {3, 4, 5}, DropReason::queue_frames, outcome.drops[0].where));
 }
 
 // Room for 200 octets: three frames of 64 wait (192), the fifth (256) does not fit.
@@ -73,6 +88,8 @@ TEST(Overflow, ByOctets) {
   EXPECT_EQ(outcome.for_octets, 2u);
   EXPECT_EQ(outcome.counted_by_port, 2u);
   EXPECT_EQ(outcome.peak, 3u);
+  ASSERT_EQ(outcome.drops.size(), 2u);
+  EXPECT_EQ(outcome.digest, digest_of({0, 1, 2, 3}, {4, 5}, DropReason::queue_octets, outcome.drops[0].where));
 }
 
 // The limit itself still fits: 192 = 3 * 64; with 191 only two.

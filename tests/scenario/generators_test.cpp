@@ -70,8 +70,8 @@ Facts facts_of(const Generator& generator) {
 }
 
 TEST(Generators, Line) {
-  for (const std::uint64_t n : {1, 2, 3, 7, 1000}) {
-    for (const std::uint64_t hosts : {0, 1, 3}) {
+  for (const std::uint64_t n : {1u, 2u, 3u, 7u, 1000u}) {
+    for (const std::uint64_t hosts : {0u, 1u, 3u}) {
       const Facts facts = facts_of(sized(Shape::line, n, hosts));
       EXPECT_EQ(facts.switches, n);
       EXPECT_EQ(facts.hosts, n * hosts);
@@ -83,7 +83,7 @@ TEST(Generators, Line) {
 }
 
 TEST(Generators, Ring) {
-  for (const std::uint64_t n : {3, 4, 1000}) {
+  for (const std::uint64_t n : {3u, 4u, 1000u}) {
     const Facts facts = facts_of(sized(Shape::ring, n, 2));
     EXPECT_EQ(facts.hosts, 2 * n);
     EXPECT_EQ(facts.links, 3 * n);
@@ -96,7 +96,7 @@ TEST(Generators, Ring) {
 TEST(Generators, Star) {
   const Facts alone = facts_of(sized(Shape::star, 1, 2));
   EXPECT_EQ(alone.hosts, 2u);
-  for (const std::uint64_t n : {2, 3, 100}) {
+  for (const std::uint64_t n : {2u, 3u, 100u}) {
     const Facts facts = facts_of(sized(Shape::star, n));
     EXPECT_EQ(facts.hosts, n - 1);
     EXPECT_EQ(facts.links, 2 * (n - 1));
@@ -108,7 +108,7 @@ TEST(Generators, Star) {
 
 // depth levels below the root: 1 + f + f^2 + ... + f^depth switches, hosts at the f^depth leaves.
 TEST(Generators, Tree) {
-  for (const std::uint64_t fanout : {1, 2, 3, 10}) {
+  for (const std::uint64_t fanout : {1u, 2u, 3u, 10u}) {
     std::uint64_t leaves = 1;
     std::uint64_t switches = 1;
     for (std::uint64_t depth = 0; depth <= 4; ++depth) {
@@ -129,7 +129,7 @@ TEST(Generators, Tree) {
 }
 
 TEST(Generators, FullMesh) {
-  for (const std::uint64_t n : {1, 2, 5, 60}) {
+  for (const std::uint64_t n : {1u, 2u, 5u, 60u}) {
     const Facts facts = facts_of(sized(Shape::mesh, n));
     EXPECT_EQ(facts.links, n * (n - 1) / 2 + n);
     EXPECT_TRUE(facts.is_connected);
@@ -138,8 +138,8 @@ TEST(Generators, FullMesh) {
 }
 
 TEST(Generators, Grid) {
-  for (const std::uint64_t rows : {1, 2, 5}) {
-    for (const std::uint64_t columns : {1, 3, 8}) {
+  for (const std::uint64_t rows : {1u, 2u, 5u}) {
+    for (const std::uint64_t columns : {1u, 3u, 8u}) {
       Generator generator = of(Shape::mesh, 1);
       generator.rows = rows;
       generator.columns = columns;

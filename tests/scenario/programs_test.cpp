@@ -1,6 +1,8 @@
 // Whole Programs on simulated hosts: both handshakes, every method, one to eight slaves.
 #include <fmt/format.h>
 
+#include <map>
+
 #include "results/evaluate.hpp"
 #include "support.hpp"
 
@@ -29,9 +31,20 @@ std::string group(std::size_t slaves, const std::string& variant, const std::vec
                      at_us, slaves + 1, variant, names, more, script);
 }
 
-const std::vector<std::pair<std::string, std::string>> every_method = {{"Start", "h1"},  {"Suspend", "h2"}, {"Resume", "h1"}, {"Suspend", "h1"}, {"Reset", "h2"},
-                                                                      {"Start", "h1"},  {"Halt", "h2"}};
-const std::vector<std::string> every_reaction = {"start", "suspend", "resume", "suspend", "reset", "start", "halt"};
+using Calls = std::vector<std::pair<std::string, std::string>>;
+
+const Calls every_method = {{"Start", "h1"}, {"Suspend", "h2"}, {"Resume", "h1"}, {"Suspend", "h1"}, {"Reset", "h2"}, {"Start", "h1"}, {"Halt", "h2"}};
+/// `paper` starts from Halted only, and its reset is sound only from the master (see ResetOfPaper).
+const Calls every_method_of_paper = {{"Start", "h1"}, {"Suspend", "h2"}, {"Resume", "h1"}, {"Suspend", "h1"}, {"Reset", "h1"}, {"Halt", "h2"}, {"Start", "h1"}, {"Halt", "h1"}};
+
+std::vector<std::string> kinds(const Calls& calls) {
+  std::vector<std::string> result;
+  for (const auto& [method, on] : calls) {
+    result.push_back(method);
+    result.back()[0] = static_cast<char>(method[0] + ('a' - 'A'));
+  }
+  return result;
+}
 
 RunResult run(const std::string& text) {
   const auto resolved = sound(text);
@@ -46,8 +59,8 @@ std::vector<std::string> kinds(const ProgramResult& program) {
   return result;
 }
 
-void expect_all_reactions_complete(const ProgramResult& program) {
-  EXPECT_EQ(kinds(program), every_reaction);
+void expect_all_complete(const ProgramResult& program, const Calls& calls = every_method) {
+  EXPECT_EQ(kinds(program), kinds(calls));
   for (const results::ReactionResult& reaction : program.reactions) {
     EXPECT_TRUE(reaction.completed) << reaction.kind;
     EXPECT_EQ(reaction.cause, "command");
@@ -57,31 +70,44 @@ void expect_all_reactions_complete(const ProgramResult& program) {
   for (const std::string& state : program.states) EXPECT_EQ(state, "Halted");
 }
 
-TEST(Programs, PaperOnTwoHosts) { expect_all_reactions_complete(run(group(1, "paper", every_method)).programs[0]); }
-TEST(Programs, PaperWithThreeSlaves) { expect_all_reactions_complete(run(group(3, "paper", every_method)).programs[0]); }
+TEST(Programs, PaperOnTwoHosts) { expect_all_complete(run(group(1, "paper", every_method_of_paper)).programs[0], every_method_of_paper); }
+TEST(Programs, PaperWithThreeSlaves) { expect_all_complete(run(group(3, "paper", every_method_of_paper)).programs[0], every_method_of_paper); }
 
 TEST(Programs, RobustWithOneToEightSlaves) {
   for (std::size_t slaves = 1; slaves <= 8; ++slaves) {
     SCOPED_TRACE(slaves);
-    expect_all_reactions_complete(run(group(slaves, "robust", every_method)).programs[0]);
+    expect_all_complete(run(group(slaves, "robust", every_method)).programs[0]);
   }
 }
 
 TEST(Programs, RobustOnChangeWithOneToEightSlaves) {
   for (std::size_t slaves = 1; slaves <= 8; ++slaves) {
     SCOPED_TRACE(slaves);
-    expect_all_reactions_complete(run(group(slaves, "robust", every_method, R"(, "publish": "on-change")")).programs[0]);
+    expect_all_complete(run(group(slaves, "robust", every_method, R"(, "publish": "on-change")")).programs[0]);
   }
 }
 
 TEST(Programs, StatesAfterEachMethod) {
-  const std::vector<std::string> goals = {"Running", "Suspended", "Running", "Suspended", "Ready", "Running", "Halted"};
-  for (const char* variant : {"paper", "robust"}) {
-    for (std::size_t calls = 1; calls <= every_method.size(); ++calls) {
-      const RunResult result = run(group(3, variant, {every_method.begin(), every_method.begin() + static_cast<std::ptrdiff_t>(calls)}));
-      EXPECT_EQ(result.programs[0].states, std::vector<std::string>(4, goals[calls - 1])) << variant << " after " << calls;
+  const std::map<std::string, std::string> goals = {{"Start", "Running"}, {"Suspend", "Suspended"}, {"Resume", "Running"}, {"Reset", "Ready"}, {"Halt", "Halted"}};
+  for (const auto& [variant, all] : {std::pair{"paper", every_method_of_paper}, {"robust", every_method}}) {
+    for (std::size_t count = 1; count <= all.size(); ++count) {
+      const RunResult result = run(group(3, variant, {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)}));
+      EXPECT_EQ(result.programs[0].states, std::vector<std::string>(4, goals.at(all[count - 1].first))) << variant << " after " << count;
     }
   }
+}
+
+// A finding that takt shows: in `paper` Ready after a reset looks like Ready before a start, so that a slave's reset among
+// several can set others running. Reported, not hidden; `robust` does not do it.
+TEST(Programs, ResetOfPaperByASlaveIsAFinding) {
+  const Calls calls = {{"Start", "h1"}, {"Suspend", "h1"}, {"Reset", "h2"}};
+  const ProgramResult paper = run(group(3, "paper", calls)).programs[0];
+  EXPECT_FALSE(paper.violations.empty());
+  const ProgramResult reported = run(group(3, "paper", calls, R"(, "violations": "reported")")).programs[0];
+  EXPECT_EQ(reported.violations.size(), paper.violations.size());
+  EXPECT_EQ(run(group(3, "paper", calls)).verdict, results::Verdict::fail);
+  EXPECT_EQ(run(group(3, "paper", calls, R"(, "violations": "reported")")).verdict, results::Verdict::pass);
+  EXPECT_TRUE(run(group(3, "robust", calls)).programs[0].violations.empty());
 }
 
 TEST(Programs, AMethodThatDoesNotFitIsRefused) {
@@ -141,7 +167,7 @@ TEST(Programs, TwoOnTheSameHostsDoNotMix) {
   text.insert(text.find(R"({"name": "p")"), second);
   const RunResult result = run(text);
   EXPECT_TRUE(result.programs[0].timeline.empty());
-  expect_all_reactions_complete(result.programs[1]);
+  expect_all_complete(result.programs[1]);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ void expect_same_again(const Resolved& resolved) {
 }
 
 TEST(ResolvedCopy, OfEveryShippedScenario) {
-  for (const char* name : shipped_names) {
+  for (const std::string& name : shipped_names()) {
     SCOPED_TRACE(name);
     expect_same_again(*shipped(name, "60ms"));
   }

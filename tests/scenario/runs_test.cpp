@@ -1,9 +1,10 @@
 // Runs of the shipped scenarios: pinned digests, and everything that must not change a digest.
 //
-// tests/golden/scenario_digests.txt holds a line `name duration digest` for each. After a change that is meant to change
+// tests/golden/scenario_digests.txt holds a line `name duration digest` for each (the duration is short, for the test's sake). After a change that is meant to change
 // what happens: TAKT_UPDATE_GOLDEN=1 build/release/takt_runs_test --gtest_filter=Runs.Digests*
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -39,7 +40,7 @@ std::vector<Golden> golden() {
 std::string hex(std::uint64_t digest) { return fmt::format("{:016x}", digest); }
 
 TEST(Runs, EveryShippedScenarioPasses) {
-  for (const char* name : shipped_names) {
+  for (const std::string& name : shipped_names()) {
     const auto resolved = shipped(name);
     LiveRun run(*resolved);
     ASSERT_TRUE(run.advance());
@@ -50,14 +51,16 @@ TEST(Runs, EveryShippedScenarioPasses) {
 }
 
 TEST(Runs, DigestsAreThePinnedOnes) {
-  const std::vector<Golden> lines = golden();
-  ASSERT_EQ(lines.size(), std::size(shipped_names));
   const bool is_update = std::getenv("TAKT_UPDATE_GOLDEN") != nullptr;
+  const std::vector<Golden> lines = golden();
   std::string now = "# name, duration, digest; how to renew it: tests/scenario/runs_test.cpp\n";
-  for (const Golden& one : lines) {
-    const std::string digest = hex(digest_of(*shipped(one.name, one.duration)));
-    now += one.name + " " + one.duration + " " + digest + "\n";
-    EXPECT_TRUE(is_update || digest == one.digest) << one.name << ": " << digest << " instead of " << one.digest;
+  for (const std::string& name : shipped_names()) {
+    const auto found = std::find_if(lines.begin(), lines.end(), [&](const Golden& one) { return one.name == name; });
+    EXPECT_TRUE(is_update || found != lines.end()) << name << " has no pinned digest";
+    const std::string duration = found != lines.end() ? found->duration : json::to_text(shipped(name)->scenario.duration);
+    const std::string digest = hex(digest_of(*shipped(name, duration)));
+    now += name + " " + duration + " " + digest + "\n";
+    EXPECT_TRUE(is_update || found == lines.end() || digest == found->digest) << name << ": " << digest << " instead of " << found->digest;
   }
   if (is_update) std::ofstream(golden_file) << now;
 }
@@ -73,7 +76,7 @@ TEST(Runs, TieShuffleChangesNothing) {
 
 // Nor may it matter in which slices a run is advanced (the progress bar, Ctrl-C).
 TEST(Runs, SlicesChangeNothing) {
-  for (const char* name : shipped_names) {
+  for (const std::string& name : shipped_names()) {
     const auto resolved = shipped(name, "55ms");
     const std::uint64_t whole = digest_of(*resolved);
     for (const std::uint64_t slice : {1ULL, 1000ULL}) {

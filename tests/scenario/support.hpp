@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,7 +37,19 @@ inline std::unique_ptr<Resolved> sound(std::string_view text, const std::vector<
 
 inline std::string shipped_path(const std::string& name) { return std::string(TAKT_SOURCE_DIR) + "/scenarios/" + name + ".json"; }
 
-inline constexpr const char* shipped_names[] = {"direct-link", "line-of-switches", "ring-1000", "robot-arm", "three-slaves-star"};
+/// Every scenario of the folder and of those below, such as "robot-arm", by name.
+inline std::vector<std::string> shipped_names() {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(TAKT_SOURCE_DIR) / "scenarios";
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    if (path.extension() != ".json" || path.filename() == "takt.schema.json") continue;
+    names.push_back(path.lexically_relative(folder).replace_extension().generic_string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 /// A shipped scenario, cut to `duration` unless that is empty.
 inline std::unique_ptr<Resolved> shipped(const std::string& name, const std::string& duration = {}) {

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "sim/digest.hpp"
 #include "sim/random.hpp"
 
 namespace takt::sim {
@@ -26,7 +27,7 @@ class Pair {
     queue_.push(event);
     oracle_.insert(event);
   }
-  void push_after(std::uint64_t delay) { push_at(now_ + static_cast<std::int64_t>(delay), static_cast<std::uint32_t>(delay % 5)); }
+  void push_after(std::uint64_t delay) { push_at(now_ + static_cast<std::int64_t>(delay), static_cast<std::uint32_t>(mix64(serial_) % 5)); }
 
   /// False at the first difference.
   bool pop() {
@@ -58,6 +59,8 @@ std::uint64_t near(RandomStream& chance) { return chance.below(1'000); }
 std::uint64_t wide(RandomStream& chance) { return chance.below(1'000'000'000); }
 std::uint64_t at_once(RandomStream&) { return 0; }
 std::uint64_t clusters(RandomStream& chance) { return 1'000'000 * chance.below(3); }
+/// Many events at times that are edges of buckets, whatever the width of the buckets.
+std::uint64_t edges(RandomStream& chance) { return chance.below(256) << 24; }
 /// Mostly packets, sometimes a time-out of seconds, rarely one of weeks.
 std::uint64_t mixed(RandomStream& chance) {
   const std::uint64_t pick = chance.below(1'000);
@@ -93,9 +96,11 @@ TEST_P(EventQueueLoad, HoldsTheOrder) {
 
 INSTANTIATE_TEST_SUITE_P(Loads, EventQueueLoad,
                          testing::Values(Load{"one", wide, 1}, Load{"array", wide, 30}, Load{"array_limit", wide, 41},
-                                         Load{"near_only_limit", wide, 65}, Load{"hundreds", wide, 257}, Load{"calendar", wide, 1'000}, Load{"large_calendar", wide, 50'000},
+                                         Load{"near_only_limit", wide, 65}, Load{"hundreds", wide, 257},
+                                         Load{"calendar", wide, 1'000}, Load{"large_calendar", wide, 50'000},
                                          Load{"dense", near, 5'000}, Load{"one_instant", at_once, 3'000}, Load{"small_instant", at_once, 50},
-                                         Load{"clusters", clusters, 3'000}, Load{"mixed_small", mixed, 300},
+                                         Load{"clusters", clusters, 3'000}, Load{"edges", edges, 1'000}, Load{"many_edges", edges, 20'000},
+                                         Load{"mixed_small", mixed, 300},
                                          Load{"mixed_large", mixed, 20'000}, Load{"logarithmic_small", logarithmic, 100},
                                          Load{"logarithmic_large", logarithmic, 3'000}),
                          [](const auto& param_info) { return std::string(param_info.param.name); });
@@ -119,6 +124,27 @@ TEST(EventQueue, CrossesLongSilence) {
   for (std::uint64_t i = 0; i < 600; ++i) pair.push_after(3'000'000'000'000'000 + i * 40'000'000'000'000);
   ASSERT_TRUE(pair.drain_to(300));
   for (std::uint64_t i = 0; i < 600; ++i) pair.push_after(i * 1'000);
+  EXPECT_TRUE(pair.drain_to(0));
+}
+
+// Far events in pairs, one on the edge of a bucket (a high power of two is an edge at every width) and one right before it. When the
+// first of a pair is popped, an event comes that belongs between the two. The many near events make the buckets so narrow that
+// each pair lies beyond the horizon until its time has come.
+TEST(EventQueue, FarEventsOnTheEdgesOfBuckets) {
+  Pair pair;
+  for (std::uint64_t i = 0; i < 2'000; ++i) pair.push_after(i);
+  for (std::int64_t k = 1; k <= 300; ++k) {
+    pair.push_at((k << 43) - 1, 4);
+    pair.push_at(k << 43, 4);
+  }
+  ASSERT_TRUE(pair.drain_to(600));
+  for (std::int64_t k = 1; k <= 300; ++k) {
+    ASSERT_TRUE(pair.pop());
+    ASSERT_EQ(pair.now(), (k << 43) - 1);
+    pair.push_at(k << 43, 2);
+    ASSERT_TRUE(pair.pop()) << k;
+    ASSERT_TRUE(pair.pop()) << k;
+  }
   EXPECT_TRUE(pair.drain_to(0));
 }
 

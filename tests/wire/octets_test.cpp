@@ -25,7 +25,7 @@ TEST(OctetWriter, WritesLittleEndian) {
 
 TEST(OctetWriter, WritesNothingBeyondItsTarget) {
   std::array<std::byte, 4> buffer{};
-  OctetWriter writer(std::span(buffer).first(3));
+  OctetWriter writer(std::span<std::byte>(buffer).first(3));
   writer.put(std::uint16_t{0xFFFF});
   writer.put(std::uint16_t{0xFFFF});  // one octet is left
   EXPECT_TRUE(writer.overflowed());
@@ -38,7 +38,7 @@ TEST(OctetWriter, WritesNothingBeyondItsTarget) {
 
 TEST(OctetWriter, ZerosStopAtTheEnd) {
   std::array<std::byte, 4> buffer{octet(9), octet(9), octet(9), octet(9)};
-  OctetWriter writer(std::span(buffer).first(3));
+  OctetWriter writer(std::span<std::byte>(buffer).first(3));
   writer.put_zeros(2);
   EXPECT_FALSE(writer.overflowed());
   writer.put_zeros(2);

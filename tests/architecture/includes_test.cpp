@@ -1,0 +1,167 @@
+// Dependencies point one way (ARCHITECTURE.md, "The house"): who may include whom, heavy headers, and what the deterministic
+// layers must not use.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "source_tree.hpp"
+
+namespace takt::architecture {
+namespace {
+
+using Prefixes = std::vector<std::string>;
+
+/// Headers of the repository, as they are written in an #include: from the root, or from src/.
+const Prefixes kernel = {"sim/"};
+const Prefixes base = {"sim/time.hpp", "sim/units.hpp", "sim/check.hpp"};
+const Prefixes models = {"models/"};
+const Prefixes protocol = {"wire/", "uadp/", "pubsub/", "program/", "handshake/", "dds/", "gateway/"};
+const Prefixes scenario = {"scenario/"};
+const Prefixes json = {"scenario/json/"};
+const Prefixes questions = {"analysis/", "explore/", "synthesis/", "study/"};
+const Prefixes results = {"results/"};
+const Prefixes output = {"output/"};
+const Prefixes cli = {"cli/"};
+const Prefixes node = {"node/"};
+
+Prefixes all_of(std::initializer_list<Prefixes> parts) {
+  Prefixes sum;
+  for (const Prefixes& part : parts) sum.insert(sum.end(), part.begin(), part.end());
+  return sum;
+}
+
+struct Layer {
+  std::string folder;
+  Prefixes may_include;
+};
+
+/// The first folder that fits a file is its layer.
+const std::vector<Layer>& layers() {
+  static const std::vector<Layer> all = [] {
+    std::vector<Layer> list = {{"sim/", kernel}, {"models/", all_of({kernel, models})}};
+    for (const std::string& folder : protocol) list.push_back({"src/" + folder, all_of({base, protocol})});
+    list.push_back({"src/node/", all_of({base, protocol, node, json})});
+    list.push_back({"src/scenario/json/", all_of({base, json})});
+    const Prefixes below = all_of({kernel, models, protocol, scenario});
+    list.push_back({"src/scenario/", below});
+    for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, results})});
+    list.push_back({"src/results/", all_of({below, results})});
+    list.push_back({"src/output/", all_of({below, questions, results, output})});
+    list.push_back({"src/cli/", all_of({below, questions, results, output, node, cli})});
+    list.push_back({"src/main.cpp", all_of({below, questions, results, output, node, cli})});
+    return list;
+  }();
+  return all;
+}
+
+const Layer* layer_of(const std::string& path) {
+  const auto found = std::find_if(layers().begin(), layers().end(), [&](const Layer& layer) { return is_below(path, layer.folder); });
+  return found == layers().end() ? nullptr : &*found;
+}
+
+bool starts_with_any(const std::string& text, const Prefixes& prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) { return text.starts_with(prefix); });
+}
+
+bool is_protocol(const SourceFile& file) { return file.path.starts_with("src/") && starts_with_any(file.path.substr(4), protocol); }
+bool is_deterministic(const SourceFile& file) { return is_below(file.path, "sim/") || is_below(file.path, "models/") || is_protocol(file); }
+
+std::vector<SourceFile> product() {
+  std::vector<SourceFile> files = files_below({"sim", "models", "src"});
+  std::erase_if(files, [](const SourceFile& file) { return !file.is_cpp(); });
+  return files;
+}
+
+const std::vector<std::string>& our_roots() {
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node});
+  return roots;
+}
+
+TEST(Includes, EveryFileBelongsToALayer) {
+  for (const SourceFile& file : product())
+    EXPECT_NE(layer_of(file.path), nullptr) << file.path << ": say in includes_test.cpp what this folder may include";
+}
+
+TEST(Includes, PointOneWay) {
+  std::size_t seen = 0;
+  for (const SourceFile& file : product()) {
+    const Layer* const layer = layer_of(file.path);
+    if (layer == nullptr) continue;
+    for (const Include& include : includes_of(file)) {
+      if (!starts_with_any(include.target, our_roots())) continue;
+      ++seen;
+      EXPECT_TRUE(starts_with_any(include.target, layer->may_include))
+          << file.path << ":" << include.line << ": " << layer->folder << " must not include " << include.target;
+    }
+  }
+  EXPECT_GT(seen, 200u) << "the test no longer finds the includes";
+}
+
+// Without a path nobody knows whose header it is.
+TEST(Includes, OurHeadersAreNamedFromTheRootOrFromSrc) {
+  const std::regex quoted(R"(^#include "([^"]+)\")");
+  for (const SourceFile& file : product()) {
+    for (std::size_t i = 0; i < file.lines.size(); ++i) {
+      std::smatch match;
+      if (!std::regex_search(file.lines[i], match, quoted)) continue;
+      EXPECT_TRUE(starts_with_any(match[1], our_roots())) << file.path << ":" << i + 1 << ": " << match[1];
+    }
+  }
+}
+
+TEST(Includes, HeavyHeadersStayInCppFiles) {
+  const Prefixes heavy = {"nlohmann/", "boost/", "Eigen/", "sqlite3", "pcap", "CLI/", "valijson/", "fmt/"};
+  for (const SourceFile& file : product()) {
+    if (!file.is_header()) continue;
+    for (const Include& include : includes_of(file))
+      EXPECT_FALSE(starts_with_any(include.target, heavy)) << file.path << ":" << include.line << ": " << include.target;
+  }
+}
+
+struct Forbidden {
+  const char* pattern;
+  const char* why;
+};
+
+void expect_free_of(const SourceFile& file, const std::vector<Forbidden>& forbidden) {
+  for (const Forbidden& one : forbidden) {
+    const std::regex pattern(one.pattern);
+    for (std::size_t i = 0; i < file.code.size(); ++i)
+      EXPECT_FALSE(std::regex_search(file.code[i], pattern)) << file.path << ":" << i + 1 << ": " << one.why << "\n  " << file.lines[i];
+  }
+}
+
+// The same scenario and seed give the same run on every machine.
+TEST(Determinism, NothingBelowReadsTheWorld) {
+  const std::vector<Forbidden> forbidden = {
+      {R"(<chrono>|std::chrono|clock_gettime|gettimeofday|\btime\s*\(\s*(nullptr|NULL|0)\s*\))", "a wall clock"},
+      {R"(\bgetenv\b|\bsetlocale\b|std::locale)", "the environment"},
+      {R"(<random>|std::mt19937|std::\w+_distribution\b|random_device|\bs?rand\s*\()", "chance that is not takt's own"},
+      {R"(unordered_(map|set|multimap|multiset))", "a container without an order"},
+      {R"(std::hash\b|uintptr_t)", "the value of a pointer"},
+      {R"(std::(this_)?j?thread|std::mutex|std::atomic)", "threads"},
+      {R"(\bstatic\s+(?!constexpr|const\b|inline|_)[A-Za-z_:<>0-9]+\s+\w+\s*(=|;|\{))", "state that outlives a simulation"},
+  };
+  for (const SourceFile& file : product())
+    if (is_deterministic(file)) expect_free_of(file, forbidden);
+}
+
+// Events are decided without libm: its results differ between machines.
+TEST(Determinism, NoLibmBelow) {
+  const std::vector<Forbidden> forbidden = {{R"(std::(exp|log|log1p|expm1|pow|sin|cos|tan|atan2?|cbrt|erfc?|tgamma|lgamma)\s*\()", "libm"}};
+  for (const SourceFile& file : product())
+    if (is_deterministic(file)) expect_free_of(file, forbidden);
+}
+
+// Protocol code is sans-IO: it runs on a real node as it stands.
+TEST(Protocol, HasNoInputOrOutput) {
+  const std::regex io(R"(<(iostream|fstream|cstdio|filesystem|sys/.*|netinet/.*|arpa/.*|unistd\.h|thread|mutex)>)");
+  for (const SourceFile& file : product()) {
+    if (!is_protocol(file)) continue;
+    for (std::size_t i = 0; i < file.lines.size(); ++i) EXPECT_FALSE(std::regex_search(file.lines[i], io)) << file.path << ":" << i + 1;
+  }
+}
+
+}  // namespace
+}  // namespace takt::architecture

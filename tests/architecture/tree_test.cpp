@@ -1,0 +1,74 @@
+// What every file and folder of the tree looks like.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "source_tree.hpp"
+
+namespace takt::architecture {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = TAKT_SOURCE_DIR;
+constexpr std::size_t most_lines = 500;
+
+std::vector<SourceFile> everything() { return files_below({"sim", "models", "src", "tests", "tools", "cmake"}); }
+
+// A reader finds the entry of each folder by its own short README.md.
+TEST(Tree, EveryFolderHasAReadme) {
+  std::vector<fs::path> folders = {root / "sim", root / "models"};
+  for (const fs::directory_entry& entry : fs::directory_iterator(root / "src"))
+    if (entry.is_directory()) folders.push_back(entry.path());
+  for (const fs::path& folder : folders) {
+    const fs::path readme = folder / "README.md";
+    ASSERT_TRUE(fs::is_regular_file(readme)) << readme;
+    std::ifstream file(readme);
+    std::string first;
+    std::getline(file, first);
+    EXPECT_TRUE(first.starts_with("# ")) << readme << " begins with its title";
+  }
+}
+
+TEST(Tree, NoFileHoldsTooMuch) {
+  for (const SourceFile& file : everything()) EXPECT_LE(file.lines.size(), most_lines) << file.path << ": a file of this length holds two concepts";
+}
+
+TEST(Tree, NoTabsAndNoSpacesAtTheEnds) {
+  for (const SourceFile& file : everything()) {
+    for (std::size_t i = 0; i < file.lines.size(); ++i) {
+      const std::string& line = file.lines[i];
+      EXPECT_EQ(line.find('\t'), std::string::npos) << file.path << ":" << i + 1 << ": a tab";
+      EXPECT_FALSE(line.ends_with(' ') || line.ends_with('\r')) << file.path << ":" << i + 1 << ": space at the end of the line";
+    }
+  }
+}
+
+TEST(Tree, HeadersAreIncludedOnce) {
+  for (const SourceFile& file : everything()) {
+    if (!file.is_header()) continue;
+    bool found = false;
+    for (const std::string& line : file.code) found = found || line.starts_with("#pragma once");
+    EXPECT_TRUE(found) << file.path;
+  }
+}
+
+TEST(Tree, EveryFileOfTheProductSaysWhatItIs) {
+  for (const SourceFile& file : files_below({"sim", "models", "src"})) {
+    const bool says_it = !file.is_header() || file.lines.front().starts_with("//");
+    EXPECT_TRUE(says_it) << file.path;
+  }
+}
+
+// The tree stands for itself: nothing names a place on the machine on which it was written.
+TEST(Tree, NoPlacesOutsideTheTree) {
+  const std::vector<std::string> outside = {std::string("/wo") + "rk/", std::string("../sha") + "red", std::string("/ro") + "ot/", std::string("/ho") + "me/"};
+  for (const SourceFile& file : files_below({"sim", "models", "src", "tests", "tools", "cmake", "docs"}))
+    for (std::size_t i = 0; i < file.lines.size(); ++i)
+      for (const std::string& place : outside)
+        EXPECT_EQ(file.lines[i].find(place), std::string::npos) << file.path << ":" << i + 1 << ": " << place;
+}
+
+}  // namespace
+}  // namespace takt::architecture

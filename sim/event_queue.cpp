@@ -49,7 +49,6 @@ void EventQueue::advance() {
     spread();
     if (!near_.empty()) return;
   }
-  const std::int64_t width = std::int64_t{1} << width_log2_;
   if (in_buckets_ == 0) {
     // Everything lies beyond the horizon: go straight to the bucket of the first such event.
     const std::int64_t start = beyond_.first_time().ps() >> width_log2_ << width_log2_;
@@ -57,11 +56,11 @@ void EventQueue::advance() {
   } else {
     const std::size_t here = bucket_of(near_end_);
     const std::size_t ahead = (next_occupied(here) - here) & (buckets_.size() - 1);
-    near_end_ += Duration::from_ps(width * static_cast<std::int64_t>(ahead));
+    near_end_ = buckets_after(near_end_, ahead);
   }
   const std::size_t bucket = bucket_of(near_end_);
-  near_end_ += Duration::from_ps(width);
-  horizon_ = near_end_ + Duration::from_ps(width * static_cast<std::int64_t>(buckets_.size() - 1));
+  near_end_ = buckets_after(near_end_, 1);
+  horizon_ = buckets_after(near_end_, buckets_.size() - 1);
   load_bucket(bucket);
   while (!beyond_.empty() && beyond_.first_time() < horizon_) {
     const Event event = beyond_.pop();
@@ -94,8 +93,8 @@ void EventQueue::load_bucket(std::size_t bucket) {
 
 /// Lays the events out anew with buckets so narrow that the near heap stays small. Called when the near heap is crowded.
 void EventQueue::spread() {
-  std::vector<Event> all;
-  all.reserve(size());
+  std::vector<Event>& all = scratch_;
+  all.clear();
   const auto keep = [&all](const Event& event) { all.push_back(event); };
   near_.drain(keep);
   beyond_.drain(keep);
@@ -115,9 +114,8 @@ void EventQueue::spread() {
   const std::int64_t start = all.front().time.ps();
   const std::int64_t spacing = (all[half].time.ps() - start) / static_cast<std::int64_t>(half + 1);
   width_log2_ = std::min(40, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(1, 8 * spacing)))));
-  const std::int64_t width = std::int64_t{1} << width_log2_;
-  near_end_ = TrueTime::from_ps((start >> width_log2_ << width_log2_) + width);
-  horizon_ = near_end_ + Duration::from_ps(width * static_cast<std::int64_t>(buckets_.size() - 1));
+  near_end_ = buckets_after(TrueTime::from_ps(start >> width_log2_ << width_log2_), 1);
+  horizon_ = buckets_after(near_end_, buckets_.size() - 1);
   for (const Event& event : all) {
     if (event.time < near_end_)
       near_.push(event);

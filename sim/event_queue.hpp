@@ -202,6 +202,11 @@ class EventQueue {
     return static_cast<std::size_t>(time.ps() >> width_log2_) & (buckets_.size() - 1);
   }
   std::size_t next_occupied(std::size_t from) const;
+  /// The start of the bucket that lies so many buckets after `start`; never() beyond the end of time.
+  TrueTime buckets_after(TrueTime start, std::size_t buckets) const {
+    const int128 ps = start.ps() + (static_cast<int128>(buckets) << width_log2_);
+    return ps >= TrueTime::never().ps() ? TrueTime::never() : TrueTime::from_ps(static_cast<std::int64_t>(ps));
+  }
 
   NearEvents near_;
   TrueTime near_end_ = TrueTime::never();   // events before it are in near_
@@ -216,6 +221,7 @@ class EventQueue {
   std::vector<Waiting> pool_;
   std::uint32_t free_ = none;
   EventHeap beyond_;
+  std::vector<Event> scratch_;  // of spread(), kept so that it allocates once
 };
 
 }  // namespace takt::sim

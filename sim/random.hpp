@@ -29,7 +29,7 @@ class RandomStream {
     return result;
   }
 
-  /// A number in (0, 1): 53 bits, never 0 and never 1, so that its logarithm is finite.
+  /// A number in (0, 1): 52 bits and a half, never 0 and never 1, so that its logarithm is finite.
   double unit() { return (static_cast<double>(next() >> 12) + 0.5) * 0x1p-52; }
 
   /// An integer in [0, bound), without bias. Precondition: bound > 0.

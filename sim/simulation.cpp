@@ -78,7 +78,7 @@ bool Simulation::loop(TrueTime until, std::uint64_t max_events) {
         settle_all();
         continue;
       }
-      if (next > until) break;
+      if (next > until || next == TrueTime::never()) break;
       if (events_ >= stop_at && next > now_) return false;
       event = queue_.pop();
       if constexpr (is_shuffled) event.order = unshuffled(event.order);
@@ -91,7 +91,7 @@ bool Simulation::loop(TrueTime until, std::uint64_t max_events) {
   } catch (const InvariantBroken& broken) {
     rethrow_with_context(broken, event);
   }
-  now_ = until;
+  now_ = std::max(now_, until);
   return true;
 }
 

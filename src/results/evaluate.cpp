@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "results/version.hpp"
 
@@ -143,8 +144,9 @@ class Judge {
   }
 
   void stream(const scenario::Requirement& requirement) {
-    const auto found = std::find_if(result_.streams.begin(), result_.streams.end(), [&](const StreamResult& s) { return s.name == *requirement.stream; });
-    const StreamResult& stream = *found;
+    if (by_name_.empty())
+      for (const StreamResult& each : result_.streams) by_name_.emplace(each.name, &each);
+    const StreamResult& stream = *by_name_.at(*requirement.stream);
     if (requirement.latency) duration_of(stream, "latency", *requirement.latency, stream.latency ? std::optional(stream.latency->max) : std::nullopt);
     if (requirement.jitter)
       duration_of(stream, "jitter", *requirement.jitter, stream.latency ? std::optional(stream.latency->max - stream.latency->min) : std::nullopt);
@@ -197,6 +199,7 @@ class Judge {
   }
 
   RunResult& result_;
+  std::map<std::string_view, const StreamResult*> by_name_;
 };
 
 }  // namespace

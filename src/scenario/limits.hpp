@@ -9,4 +9,6 @@ inline constexpr std::uint64_t most_nodes = 200'000;
 inline constexpr std::uint32_t most_ports = 4'096;             ///< of one node
 inline constexpr std::uint64_t most_trace_entries = 10'000'000;
 
+inline constexpr std::uint64_t most_path_nodes = 20'000'000;       ///< of all streams together
+
 }  // namespace takt::scenario

@@ -179,12 +179,14 @@ class Resolver {
     if (const auto* random = std::get_if<models::ExponentialSchedule>(&schedule)) demand.frames_per_second = per_second(1, random->mean);
     if (const auto* burst = std::get_if<models::BurstSchedule>(&schedule)) demand.frames_per_second = per_second(burst->frames, burst->period);
     demand.wire_bits_per_second = demand.frames_per_second * wire_bits(stream.payload);
-    if (const auto* trace = std::get_if<models::TraceSchedule>(&schedule); trace != nullptr && trace->entries.size() > 1) {
-      const Duration span = trace->entries.back().time - trace->entries.front().time;
+    if (const auto* trace = std::get_if<models::TraceSchedule>(&schedule); trace != nullptr) {
+      // Averaged over the whole run, or over the trace where that is longer: a short trace is a burst, not a load.
+      Duration span = r_.scenario.duration;
+      if (!trace->entries.empty()) span = std::max(span, trace->entries.back().time.since_start());
       double bits = 0;
       for (const auto& entry : trace->entries) bits += wire_bits(entry.payload);
       if (span > Duration()) {
-        demand.frames_per_second = per_second(static_cast<double>(trace->entries.size() - 1), span);
+        demand.frames_per_second = per_second(static_cast<double>(trace->entries.size()), span);
         demand.wire_bits_per_second = per_second(bits, span);
       }
     }
@@ -301,7 +303,6 @@ class Resolver {
       diagnostics_.error(set.where.at("node"), "unknown node", {json::quote(set.node), "the name of a node", suggest_node(r_.topology, set.node, diagnostics_)});
       return;
     }
-    warn_if_late(entry);
     const models::GateConfig gates = gate_config_of(set.gates, diagnostics_);
     bool found = false;
     for (const Neighbour& neighbour : r_.topology.neighbours[*node]) {
@@ -311,11 +312,6 @@ class Resolver {
     }
     if (!found)
       diagnostics_.error(set.where.at(set.to ? "to" : "node"), "not a neighbour", {json::quote(set.to.value_or(set.node)), "a node that a link joins to " + json::quote(set.node)});
-  }
-
-  void warn_if_late(const ScriptEntry& entry) {
-    if (entry.at > r_.scenario.duration)
-      diagnostics_.warning(entry.where.at("at"), "after the end of the simulation", {json::to_text(entry.at), "at most " + json::to_text(r_.scenario.duration)});
   }
 
   void add_call(const ScriptEntry& entry) {
@@ -332,7 +328,6 @@ class Resolver {
       diagnostics_.error(entry.where.at("on"), "Start at a slave", {json::quote(*entry.on), "the master, " + json::quote(program->master)});
       return;
     }
-    warn_if_late(entry);
     const auto found = std::find_if(r_.programs.begin(), r_.programs.end(), [&](const ResolvedProgram& p) { return p.description == program; });
     if (found == r_.programs.end()) return;  // the program itself was refused
     r_.script.push_back({sim::TrueTime() + entry.at, ResolvedCall{static_cast<std::uint32_t>(found - r_.programs.begin()), *participant, *entry.call}});
@@ -356,15 +351,17 @@ class Resolver {
     refuse(requirement.program.has_value(), "program", "reaction");
     if (!requirement.latency && !requirement.jitter && !requirement.dropped && !requirement.delivered)
       diagnostics_.error(requirement.where.place(), "missing key", {"\"stream\" without a limit", "\"latency\", \"jitter\", \"dropped\" or \"delivered\""});
-    std::vector<std::string_view> names;
-    for (const models::StreamPlan& stream : r_.plan.streams) names.push_back(stream.name);
-    if (std::find(names.begin(), names.end(), *requirement.stream) == names.end())
-      diagnostics_.error(requirement.where.at("stream"), "unknown stream", {json::quote(*requirement.stream), "the name of a stream", json::suggest(*requirement.stream, names)});
+    if (stream_names_.empty())
+      for (const models::StreamPlan& stream : r_.plan.streams) stream_names_.insert(stream.name);
+    if (stream_names_.contains(*requirement.stream)) return;
+    const std::vector<std::string_view> names(stream_names_.begin(), stream_names_.end());
+    diagnostics_.error(requirement.where.at("stream"), "unknown stream", {json::quote(*requirement.stream), "the name of a stream", json::suggest(*requirement.stream, names)});
   }
 
   Resolved& r_;
   json::Diagnostics& diagnostics_;
   StreamBuilder* builder_ = nullptr;
+  std::set<std::string_view> stream_names_;  // of the plan, once it is complete
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 namespace takt::scenario {
 namespace {
 constexpr std::uint32_t nowhere = 0xFFFF'FFFF;
+constexpr std::size_t most_tree_entries = 50'000'000;
 }
 
 // Only the switches are vertices; the edges of a vertex stand in the order of the links.
@@ -35,6 +36,8 @@ Router::Router(const Topology& topology) : topology_(topology), graph_(std::make
 Router::~Router() = default;
 
 const std::vector<std::uint32_t>& Router::tree_of(std::uint32_t root) {
+  // Trees are kept for the next stream with the same root, but not without bound.
+  if (trees_.size() * graph_->node_of_vertex.size() > most_tree_entries) trees_.clear();
   auto [at, is_new] = trees_.try_emplace(root);
   std::vector<std::uint32_t>& parents = at->second;
   if (!is_new) return parents;

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/limits.hpp"
 
 namespace takt::scenario {
 
@@ -34,6 +35,12 @@ std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
   if (diagnostics_.errors() != errors_before) return std::nullopt;
   std::vector<Path> paths = paths_of(wanted);
   if (diagnostics_.errors() != errors_before) return std::nullopt;
+
+  for (const Path& path : paths) path_nodes_ += path.size();
+  if (path_nodes_ > most_path_nodes) {
+    diagnostics_.error(wanted.where.place(), "too many nodes on all paths together", {"more with this stream", "at most " + std::to_string(most_path_nodes)});
+    return std::nullopt;
+  }
 
   const bool is_group = wanted.to.size() > 1 || wanted.path != nullptr;
   const models::AddressIndex address{is_group ? static_cast<std::uint32_t>(r_.plan.nodes.size()) + groups_++ : wanted.to.front().first};

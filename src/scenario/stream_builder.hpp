@@ -43,6 +43,7 @@ class StreamBuilder {
   json::Diagnostics& diagnostics_;
   Router router_;
   std::uint32_t groups_ = 0;
+  std::uint64_t path_nodes_ = 0;
 };
 
 }  // namespace takt::scenario

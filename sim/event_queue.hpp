@@ -111,12 +111,12 @@ class NearEvents {
   /// The event that will be popped after `ahead` others, if that is known without work.
   const Event* upcoming(std::uint32_t ahead) const { return ahead < count_ ? &sorted_[count_ - 1 - ahead] : nullptr; }
 
-  Event pop() {
+  [[gnu::always_inline]] Event pop() {
     if (count_ == 0) [[unlikely]] refill();
     return sorted_[--count_];
   }
 
-  void push(const Event& event) {
+  [[gnu::always_inline]] void push(const Event& event) {
     if (!heap_.empty() || count_ == most_sorted) [[unlikely]] {
       push_long(event);
       return;
@@ -137,11 +137,11 @@ class NearEvents {
 
  private:
   /// While the heap holds events, the array holds none.
-  void push_long(const Event& event) {
+  [[gnu::noinline]] void push_long(const Event& event) {
     while (count_ > 0) heap_.push(sorted_[--count_]);
     heap_.push(event);
   }
-  void refill() {
+  [[gnu::noinline]] void refill() {
     if (heap_.size() > most_sorted / 2) {
       sorted_[count_++] = heap_.pop();
       return;

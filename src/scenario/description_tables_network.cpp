@@ -8,10 +8,8 @@ using json::name;
 using json::optional;
 using json::required;
 
-constexpr Duration longest = Duration::from_ps(8'640'000'000'000'000'000);  // 100 days; the clock ends at 106
-// What is added to an instant of the run, so that no sum passes the end of the clock; random gaps may be 44 times their mean.
+// What is added to an instant of the run, so that no sum passes the end of the clock.
 constexpr Duration longest_step = 24 * 3600_s;
-constexpr Duration longest_mean_gap = 3600_s;
 constexpr std::size_t most_names = 100'000;
 
 }  // namespace

@@ -60,7 +60,7 @@ sim::TrueTime PortShaping::ready_time(sim::TrueTime now, TrafficClass q, std::ui
   return now;
 }
 
-/// Tells the credit when the gate opened and closed up to `now`. An idle shaper without credit needs no history.
+/// Tells the credit when the gate opened and closed up to `now`: one step for each change since it was last asked.
 void PortShaping::follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now) {
   if (!has_gates_) return;
   const sim::LocalTime local = clock_->local_at(now);

@@ -13,11 +13,9 @@ struct Selection {
   sim::TrueTime ask_again = sim::TrueTime::never();  ///< meaningful if nothing was found
 };
 
-/// Among `candidates`, the classes with a frame at their head, the most urgent one that may start at this instant.
-///
-/// Strict priority alone lets every class start. Gates, shapers and the MAC's hold request join here as pure pieces: each
-/// takes away from `candidates` the classes that may not start now and lowers `ask_again` to the instant at which one of
-/// them may. No lower class is blocked by a higher one that may not start (8.6.8.4).
+/// Strict priority alone: of `candidates`, the classes with a frame at their head, the most urgent one. Ports with gates or
+/// shapers ask PortShaping::select instead, which passes over the classes that may not start now; no lower class is blocked by
+/// such a higher one (8.6.8.4).
 inline Selection select_transmission(ClassSet candidates) {
   if (candidates == 0) return {};
   return {true, highest_class(candidates), sim::TrueTime::never()};

@@ -1,16 +1,99 @@
 // The clock of a node: what maps true time to the node's own time and back.
+//
+// The map is piecewise linear: a segment begins at each change of rate and at each step. Within a segment
+//   local_at(t) = floor(local(start) + rate * (t - start))     exact, in 128 bits, with 62 bits below the picosecond
+//   true_at(l)  = the first instant t of the segment at which local_at(t) >= l
+// so that, without a step in between:
+//   local_at(true_at(l)) >= l and local_at(true_at(l) - 1 ps) < l      equal to l where the rate is at most 1
+//   true_at(local_at(t)) <= t and local_at(true_at(local_at(t))) == local_at(t)
+// A change of rate carries the fraction of a picosecond over; nothing is lost however often a servo moves.
+//
+// What lies before the present segment is answered by the one before it (no further back). After a step forwards the local
+// times that were passed over map to the instant of the step; after a step backwards those that come twice map to the present
+// segment, the second time. never() maps to never(), as does what lies beyond the last instant.
 #pragma once
 
+#include <vector>
+
+#include "models/clock/clock_rate.hpp"
 #include "sim/time.hpp"
 
 namespace takt::models {
 
-/// A clock that shows true time. Oscillators, servos and steps join here: everything that a node does at a certain time of its
-/// own asks this class, so that nothing else changes when clocks begin to drift.
+class LocalClock;
+
+/// Who must know when the map of a clock changes: what has asked true_at() of a time to come has to ask again.
+class ClockListener {
+ public:
+  virtual ~ClockListener() = default;
+  /// The clock has changed its rate or was stepped, at `now`; it answers with the new map already.
+  virtual void clock_changed(const LocalClock& clock, sim::TrueTime now) = 0;
+};
+
+/// A clock that shows true time until it is told otherwise. Everything that a node does at a time of its own asks this class.
+/// Its rate is the product of the oscillator's (hardware_rate) and of what a servo makes of it (1 + adjustment).
+/// Changes come in the order of true time. Listeners are called in the order in which they were added.
 class LocalClock {
  public:
-  sim::LocalTime local_at(sim::TrueTime time) const { return sim::LocalTime::from_ps(time.ps()); }
-  sim::TrueTime true_at(sim::LocalTime time) const { return sim::TrueTime::from_ps(time.ps()); }
+  LocalClock() = default;
+  LocalClock(const LocalClock&) = delete;  // its listeners and those who ask it keep its address
+  LocalClock& operator=(const LocalClock&) = delete;
+
+  sim::LocalTime local_at(sim::TrueTime time) const {
+    if (ideal_) [[likely]] return sim::LocalTime::from_ps(time.ps());
+    return local_in_segments(time);
+  }
+  sim::TrueTime true_at(sim::LocalTime time) const {
+    if (ideal_) [[likely]] return sim::TrueTime::from_ps(time.ps());
+    return true_in_segments(time);
+  }
+
+  /// The time of this clock as if it had never been stepped: follows the rate, never goes back, never jumps. Local intervals
+  /// are measured on it. Equal to local_at() until the first step.
+  sim::LocalTime unstepped_at(sim::TrueTime time) const;
+  /// The first instant at which unstepped_at() is at least `time`.
+  sim::TrueTime true_at_unstepped(sim::LocalTime time) const;
+
+  bool is_ideal() const { return ideal_; }
+  ClockRate rate() const { return present_.rate; }
+  ClockRate hardware_rate() const { return hardware_rate_; }
+  RateOffset adjustment() const { return adjustment_; }
+  /// The sum of all steps.
+  sim::Duration stepped() const { return present_.stepped; }
+
+  /// The oscillator changes its frequency.
+  void set_hardware_rate(sim::TrueTime now, ClockRate rate);
+  /// A servo trims the frequency: positive makes the clock faster.
+  void set_adjustment(sim::TrueTime now, RateOffset adjustment);
+  /// Jumps by `by`, either way.
+  void step(sim::TrueTime now, sim::Duration by);
+  /// A step and a trim at once, as a servo makes them: the listeners hear of it once.
+  void step_and_adjust(sim::TrueTime now, sim::Duration by, RateOffset adjustment);
+
+  void add_listener(ClockListener& listener) { listeners_.push_back(&listener); }
+  void remove_listener(ClockListener& listener) { std::erase(listeners_, &listener); }
+
+ private:
+  struct Segment {
+    sim::TrueTime start;
+    sim::int128 local = 0;    // at the start, in 2^-62 ps
+    ClockRate rate;
+    sim::Duration stepped;    // how much of it is due to steps
+
+    sim::LocalTime local_at(sim::TrueTime time) const;
+    sim::TrueTime true_at(sim::LocalTime time) const;  // may lie before the start
+  };
+
+  sim::LocalTime local_in_segments(sim::TrueTime time) const;
+  sim::TrueTime true_in_segments(sim::LocalTime time) const;
+  void begin_segment(sim::TrueTime now, sim::Duration step);
+
+  bool ideal_ = true;
+  Segment present_;
+  Segment previous_;
+  ClockRate hardware_rate_;
+  RateOffset adjustment_;
+  std::vector<ClockListener*> listeners_;
 };
 
 }  // namespace takt::models

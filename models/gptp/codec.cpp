@@ -1,0 +1,325 @@
+#include "models/gptp/codec.hpp"
+
+#include <concepts>
+#include <type_traits>
+
+#include "sim/check.hpp"
+
+namespace takt::models::gptp {
+namespace {
+
+constexpr std::size_t header_length = 34;
+constexpr std::uint8_t two_step_flag = 0x02;          // first flag octet
+constexpr std::uint8_t ptp_time_scale_flag = 0x08;    // second flag octet
+constexpr std::uint16_t tlv_organization_extension = 0x0003;
+constexpr std::uint16_t tlv_path_trace = 0x0008;
+constexpr std::uint16_t follow_up_information_length = 28;
+constexpr std::uint32_t organization_802_1 = 0x0080C2;
+
+/// Writes big-endian numbers at the end.
+class Writer {
+ public:
+  explicit Writer(std::vector<std::byte>& octets) : octets_(octets) {}
+  template <std::integral T>
+  void put(T value, std::size_t length = sizeof(T)) {
+    const auto bits = static_cast<std::uint64_t>(value);
+    for (std::size_t i = length; i-- > 0;) octets_.push_back(static_cast<std::byte>(bits >> (8 * i) & 0xFF));
+  }
+  void put(const ClockIdentity& identity) {
+    for (const std::uint8_t octet : identity.octets) put(octet);
+  }
+  void put(const PortIdentity& identity) {
+    put(identity.clock);
+    put(identity.port);
+  }
+  void put(const Timestamp& time) {
+    put(time.seconds, 6);
+    put(time.nanoseconds);
+  }
+  void zeros(std::size_t count) { octets_.resize(octets_.size() + count); }
+
+ private:
+  std::vector<std::byte>& octets_;
+};
+
+/// Reads big-endian numbers from the front. A read past the end gives 0 and makes failed() true for good.
+class Reader {
+ public:
+  explicit Reader(std::span<const std::byte> octets) : octets_(octets) {}
+  template <std::integral T>
+  T get(std::size_t length = sizeof(T)) {
+    if (octets_.size() < length) {
+      failed_ = true;
+      return 0;
+    }
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < length; ++i) bits = bits << 8 | static_cast<std::uint64_t>(octets_[i]);
+    octets_ = octets_.subspan(length);
+    return static_cast<T>(bits);
+  }
+  void get(ClockIdentity& identity) {
+    for (std::uint8_t& octet : identity.octets) octet = get<std::uint8_t>();
+  }
+  void get(PortIdentity& identity) {
+    get(identity.clock);
+    identity.port = get<std::uint16_t>();
+  }
+  void get(Timestamp& time) {
+    time.seconds = get<std::uint64_t>(6);
+    time.nanoseconds = get<std::uint32_t>();
+    if (time.nanoseconds >= 1'000'000'000) failed_ = true;
+  }
+  /// The next `length` octets, as a reader of their own.
+  Reader part(std::size_t length) {
+    if (octets_.size() < length) {
+      failed_ = true;
+      return Reader({});
+    }
+    const Reader front(octets_.first(length));
+    octets_ = octets_.subspan(length);
+    return front;
+  }
+  void skip(std::size_t length) { part(length); }
+  std::size_t left() const { return octets_.size(); }
+  bool failed() const { return failed_; }
+
+ private:
+  std::span<const std::byte> octets_;
+  bool failed_ = false;
+};
+
+template <class Body>
+constexpr MessageType type_of() {
+  if constexpr (std::is_same_v<Body, Sync>) return MessageType::sync;
+  if constexpr (std::is_same_v<Body, FollowUp>) return MessageType::follow_up;
+  if constexpr (std::is_same_v<Body, PdelayReq>) return MessageType::pdelay_req;
+  if constexpr (std::is_same_v<Body, PdelayResp>) return MessageType::pdelay_resp;
+  if constexpr (std::is_same_v<Body, PdelayRespFollowUp>) return MessageType::pdelay_resp_follow_up;
+  if constexpr (std::is_same_v<Body, Announce>) return MessageType::announce;
+}
+
+/// The obsolete field that IEEE 1588-2008 derived from the type; 802.1AS-2020 still fills it in.
+std::uint8_t control_of(MessageType type) {
+  if (type == MessageType::sync) return 0;
+  return type == MessageType::follow_up ? 2 : 5;
+}
+
+std::size_t length_of(const Sync& sync) { return sync.one_step ? 76 : 44; }
+std::size_t length_of(const FollowUp&) { return 76; }
+std::size_t length_of(const PdelayReq&) { return 54; }
+std::size_t length_of(const PdelayResp&) { return 54; }
+std::size_t length_of(const PdelayRespFollowUp&) { return 54; }
+std::size_t length_of(const Announce& announce) { return 64 + 4 + 8 * announce.path_trace.size(); }
+
+// The first flag octet: twoStepFlag for a Sync without contents and for every Pdelay_Resp.
+std::uint8_t flags_of(const Message& message) {
+  const Sync* const sync = std::get_if<Sync>(&message);
+  const bool two_step = (sync != nullptr && !sync->one_step) || std::holds_alternative<PdelayResp>(message);
+  return two_step ? two_step_flag : 0;
+}
+
+void put_information(Writer& out, const FollowUpInformation& information) {
+  out.put(tlv_organization_extension);
+  out.put(follow_up_information_length);
+  out.put(organization_802_1, 3);
+  out.put(std::uint32_t{1}, 3);  // organizationSubType
+  out.put(information.cumulative_scaled_rate_offset);
+  out.put(information.gm_time_base_indicator);
+  for (const std::uint8_t octet : information.last_gm_phase_change) out.put(octet);
+  out.put(information.scaled_last_gm_freq_change);
+}
+
+void put_body(Writer& out, const Sync& sync) {
+  if (!sync.one_step) return out.zeros(10);
+  out.put(sync.one_step->origin);
+  put_information(out, sync.one_step->information);
+}
+void put_body(Writer& out, const FollowUp& follow_up) {
+  out.put(follow_up.precise_origin);
+  put_information(out, follow_up.information);
+}
+void put_body(Writer& out, const PdelayReq&) { out.zeros(20); }
+void put_body(Writer& out, const PdelayResp& response) {
+  out.put(response.request_receipt);
+  out.put(response.requesting_port);
+}
+void put_body(Writer& out, const PdelayRespFollowUp& follow_up) {
+  out.put(follow_up.response_origin);
+  out.put(follow_up.requesting_port);
+}
+void put_body(Writer& out, const Announce& announce) {
+  TAKT_CHECK(announce.path_trace.size() <= Announce::longest_path_trace, "a path trace that fits a frame");
+  out.zeros(10);
+  out.put(announce.current_utc_offset);
+  out.zeros(1);
+  out.put(announce.grandmaster_priority1);
+  out.put(announce.grandmaster_quality.clock_class);
+  out.put(announce.grandmaster_quality.clock_accuracy);
+  out.put(announce.grandmaster_quality.offset_scaled_log_variance);
+  out.put(announce.grandmaster_priority2);
+  out.put(announce.grandmaster);
+  out.put(announce.steps_removed);
+  out.put(announce.time_source);
+  out.put(tlv_path_trace);
+  out.put(static_cast<std::uint16_t>(8 * announce.path_trace.size()));
+  for (const ClockIdentity& identity : announce.path_trace) out.put(identity);
+}
+
+struct RawHeader {
+  MessageType type{};
+  std::uint16_t length = 0;
+  std::uint8_t flags[2] = {};
+  Header header;
+};
+
+std::optional<RawHeader> get_header(Reader& in) {
+  RawHeader raw;
+  const auto first = in.get<std::uint8_t>();
+  const auto version = in.get<std::uint8_t>();
+  raw.type = static_cast<MessageType>(first & 0xF);
+  raw.header.major_sdo_id = static_cast<MajorSdoId>(first >> 4);
+  raw.header.minor_version = version >> 4;
+  raw.length = in.get<std::uint16_t>();
+  raw.header.domain = in.get<std::uint8_t>();
+  raw.header.minor_sdo_id = in.get<std::uint8_t>();
+  for (std::uint8_t& octet : raw.flags) octet = in.get<std::uint8_t>();
+  raw.header.correction.scaled_ns = in.get<std::int64_t>();
+  in.skip(4);
+  in.get(raw.header.source);
+  raw.header.sequence_id = in.get<std::uint16_t>();
+  in.skip(1);
+  raw.header.log_message_interval = in.get<std::int8_t>();
+  const bool known = (first >> 4 == 1 || first >> 4 == 2) && (version & 0xF) == 2;
+  if (in.failed() || !known || raw.length < header_length) return std::nullopt;
+  return raw;
+}
+
+/// Looks through the TLVs that are left for the one that is wanted: calls found(contents) -> bool until it gives true.
+template <class Found>
+bool find_tlv(Reader& in, std::uint16_t wanted, Found&& found) {
+  bool is_found = false;
+  while (in.left() >= 4) {
+    const auto type = in.get<std::uint16_t>();
+    Reader contents = in.part(in.get<std::uint16_t>());
+    if (in.failed()) return false;
+    if (type == wanted && !is_found) is_found = found(contents);
+  }
+  return is_found && in.left() == 0;
+}
+
+bool get_information(Reader& in, FollowUpInformation& information) {
+  return find_tlv(in, tlv_organization_extension, [&](Reader contents) {
+    if (contents.left() != follow_up_information_length) return false;
+    if (contents.get<std::uint32_t>(3) != organization_802_1 || contents.get<std::uint32_t>(3) != 1) return false;
+    information.cumulative_scaled_rate_offset = contents.get<std::int32_t>();
+    information.gm_time_base_indicator = contents.get<std::uint16_t>();
+    for (std::uint8_t& octet : information.last_gm_phase_change) octet = contents.get<std::uint8_t>();
+    information.scaled_last_gm_freq_change = contents.get<std::int32_t>();
+    return true;
+  });
+}
+
+bool get_body(Reader& in, const RawHeader& raw, Sync& sync) {
+  if ((raw.flags[0] & two_step_flag) != 0) {
+    in.skip(10);
+    return true;
+  }
+  Sync::OneStep contents;
+  in.get(contents.origin);
+  const bool complete = get_information(in, contents.information);
+  sync.one_step = contents;
+  return complete;
+}
+bool get_body(Reader& in, const RawHeader&, FollowUp& follow_up) {
+  in.get(follow_up.precise_origin);
+  return get_information(in, follow_up.information);
+}
+bool get_body(Reader& in, const RawHeader&, PdelayReq&) {
+  in.skip(20);
+  return true;
+}
+bool get_body(Reader& in, const RawHeader&, PdelayResp& response) {
+  in.get(response.request_receipt);
+  in.get(response.requesting_port);
+  return true;
+}
+bool get_body(Reader& in, const RawHeader&, PdelayRespFollowUp& follow_up) {
+  in.get(follow_up.response_origin);
+  in.get(follow_up.requesting_port);
+  return true;
+}
+bool get_body(Reader& in, const RawHeader& raw, Announce& announce) {
+  announce.time_flags = raw.flags[1];
+  in.skip(10);
+  announce.current_utc_offset = in.get<std::int16_t>();
+  in.skip(1);
+  announce.grandmaster_priority1 = in.get<std::uint8_t>();
+  announce.grandmaster_quality.clock_class = in.get<std::uint8_t>();
+  announce.grandmaster_quality.clock_accuracy = in.get<std::uint8_t>();
+  announce.grandmaster_quality.offset_scaled_log_variance = in.get<std::uint16_t>();
+  announce.grandmaster_priority2 = in.get<std::uint8_t>();
+  in.get(announce.grandmaster);
+  announce.steps_removed = in.get<std::uint16_t>();
+  announce.time_source = in.get<std::uint8_t>();
+  return find_tlv(in, tlv_path_trace, [&](Reader contents) {
+    if (contents.left() % 8 != 0 || contents.left() / 8 > Announce::longest_path_trace) return false;
+    announce.path_trace.resize(contents.left() / 8);
+    for (ClockIdentity& identity : announce.path_trace) contents.get(identity);
+    return true;
+  });
+}
+
+template <class Body>
+std::optional<Message> decoded(Reader& in, const RawHeader& raw) {
+  Body body;
+  body.header = raw.header;
+  if (!get_body(in, raw, body) || in.failed()) return std::nullopt;
+  return body;
+}
+
+}  // namespace
+
+std::size_t encoded_length(const Message& message) {
+  return std::visit([](const auto& each) { return length_of(each); }, message);
+}
+
+void encode(const Message& message, std::vector<std::byte>& octets) {
+  octets.clear();
+  Writer out(octets);
+  const Header& header = header_of(message);
+  const MessageType type = std::visit([](const auto& each) { return type_of<std::decay_t<decltype(each)>>(); }, message);
+  const Announce* const announce = std::get_if<Announce>(&message);
+  out.put(static_cast<std::uint8_t>(static_cast<unsigned>(header.major_sdo_id) << 4 | static_cast<unsigned>(type)));
+  out.put(static_cast<std::uint8_t>(header.minor_version << 4 | 2));
+  out.put(static_cast<std::uint16_t>(encoded_length(message)));
+  out.put(header.domain);
+  out.put(header.minor_sdo_id);
+  out.put(flags_of(message));
+  out.put(announce != nullptr ? announce->time_flags : ptp_time_scale_flag);
+  out.put(header.correction.scaled_ns);
+  out.zeros(4);
+  out.put(header.source);
+  out.put(header.sequence_id);
+  out.put(control_of(type));
+  out.put(header.log_message_interval);
+  std::visit([&](const auto& each) { put_body(out, each); }, message);
+  TAKT_CHECK(octets.size() == encoded_length(message), "a message of its length");
+}
+
+std::optional<Message> decode(std::span<const std::byte> octets) {
+  Reader whole(octets);
+  const std::optional<RawHeader> raw = get_header(whole);
+  if (!raw || raw->length > octets.size()) return std::nullopt;
+  Reader in = whole.part(raw->length - header_length);
+  switch (raw->type) {
+    case MessageType::sync: return decoded<Sync>(in, *raw);
+    case MessageType::follow_up: return decoded<FollowUp>(in, *raw);
+    case MessageType::pdelay_req: return decoded<PdelayReq>(in, *raw);
+    case MessageType::pdelay_resp: return decoded<PdelayResp>(in, *raw);
+    case MessageType::pdelay_resp_follow_up: return decoded<PdelayRespFollowUp>(in, *raw);
+    case MessageType::announce: return decoded<Announce>(in, *raw);
+  }
+  return std::nullopt;
+}
+
+}  // namespace takt::models::gptp

@@ -1,0 +1,115 @@
+// How time passes through an instance: Sync in, Sync out, and what happens without it.
+#include <algorithm>
+
+#include "models/gptp/ptp_instance.hpp"
+#include "sim/check.hpp"
+
+namespace takt::models::gptp {
+
+bool PtpInstance::is_from_transmitter(const Header& header, PortNumber port) const {
+  if (at(port).role != PortRole::time_receiver) return false;
+  return external() || header.source == information_[port - 1u].priority.source;
+}
+
+void PtpInstance::received(const Sync& sync, PortNumber port, sim::LocalTime ingress, const LinkMeasure& link, sim::LocalTime now, Outputs& outputs) {
+  if (!is_from_transmitter(sync.header, port)) return;
+  const SyncWaiting waiting{sync.header, ingress, link};
+  at(port).waiting.reset();
+  if (sync.one_step)
+    sync_complete(waiting, sync.one_step->origin, sync.header.correction, sync.one_step->information, port, now, outputs);
+  else
+    at(port).waiting = waiting;
+}
+
+void PtpInstance::received(const FollowUp& follow_up, PortNumber port, sim::LocalTime now, Outputs& outputs) {
+  std::optional<SyncWaiting>& waiting = at(port).waiting;
+  if (!waiting || waiting->header.source != follow_up.header.source || waiting->header.sequence_id != follow_up.header.sequence_id) return;
+  const SyncWaiting complete = *waiting;
+  waiting.reset();
+  if (!complete.header.correction.in_range() || !follow_up.header.correction.in_range()) return;
+  sync_complete(complete, follow_up.precise_origin, complete.header.correction + follow_up.header.correction, follow_up.information, port, now, outputs);
+}
+
+void PtpInstance::sync_complete(const SyncWaiting& waiting, const Timestamp& origin, Correction correction,
+                                const FollowUpInformation& information, PortNumber port, sim::LocalTime now, Outputs& outputs) {
+  if (!origin.in_range() || !correction.in_range()) return;
+  sync_ = SyncInformation::received(origin, correction, information, waiting.ingress, waiting.link);
+  sync_->log_interval = waiting.header.log_message_interval;
+  drift_.add(sync_->since, sync_->rate_ratio);
+  sync_->drift = drift_.per_second();
+  arm_sync_receipt(port, sync_->log_interval, now, outputs);
+  outputs.push_back(SyncSample{index_, waiting.ingress, sync_->grandmaster_time_at(waiting.ingress), sync_->rate_ratio, sync_->log_interval,
+                               selection_.grandmaster.root.clock});
+  for (PortNumber each = 1; each <= ports(); ++each) {
+    if (at(each).role != PortRole::time_transmitter) continue;
+    if (config_.sync_locked)
+      send_sync(each, *sync_, outputs);
+    else if (!at(each).has_own_interval)
+      sync_interval_elapsed(each, now, outputs);
+  }
+}
+
+void PtpInstance::arm_sync_receipt(PortNumber port, int log_interval, sim::LocalTime now, Outputs& outputs) {
+  outputs.push_back(ArmTimer{timer(port, TimerPurpose::sync_receipt), now + config_.sync_receipt_timeout * interval_of(log_interval)});
+}
+
+void PtpInstance::sync_receipt_expired(PortNumber port, sim::LocalTime now, Outputs& outputs) {
+  if (at(port).role != PortRole::time_receiver) return;
+  if (!external()) return age(port, now, outputs);  // the port becomes something else: SyncLost, perhaps holdover as grandmaster
+  if (sync_) outputs.push_back(SyncLost{index_});
+  sync_.reset();
+}
+
+/// Port 0: the grandmaster sends at all its ports. Others: a relay that is not sync-locked sends at its own interval.
+void PtpInstance::sync_interval_elapsed(PortNumber port, sim::LocalTime now, Outputs& outputs) {
+  const sim::Duration interval = interval_of(config_.log_sync_interval);
+  if (port == 0) {
+    if (!is_grandmaster()) return;
+    next_sync_ = std::max(next_sync_ + interval, now);
+    outputs.push_back(ArmTimer{timer(0, TimerPurpose::sync_interval), next_sync_});
+    if (!grandmaster_present()) return;
+    SyncInformation sync = source_.information_at(now);
+    sync.log_interval = static_cast<std::int8_t>(config_.log_sync_interval);
+    for (PortNumber each = 1; each <= ports(); ++each)
+      if (at(each).role == PortRole::time_transmitter) send_sync(each, sync, outputs);
+    return;
+  }
+  at(port).has_own_interval = at(port).role == PortRole::time_transmitter && !is_grandmaster() && sync_.has_value();
+  if (!at(port).has_own_interval) return;
+  outputs.push_back(ArmTimer{timer(port, TimerPurpose::sync_interval), now + interval});
+  SyncInformation sync = *sync_;
+  sync.log_interval = static_cast<std::int8_t>(config_.log_sync_interval);
+  send_sync(port, sync, outputs);
+}
+
+void PtpInstance::send_sync(PortNumber number, const SyncInformation& sync, Outputs& outputs) {
+  Port& port = at(number);
+  Sync message{header(number, port.next_sync++, sync.log_interval)};
+  if (config_.two_step) {
+    port.leaving = SyncLeaving{message.header.sequence_id, sync};
+    outputs.push_back(SendMessage{number, message});
+    return;
+  }
+  message.header.correction = sync.correction;
+  message.one_step = Sync::OneStep{sync.origin, sync.handed_on(sync.since)};
+  outputs.push_back(SendMessage{number, message, OneStepPatch{sync.since, sync.running()}});
+}
+
+void PtpInstance::transmitted(const EgressReport& report, Outputs& outputs) {
+  Port& port = at(report.port);
+  if (report.type != MessageType::sync || !port.leaving || port.leaving->sequence_id != report.sequence_id) return;
+  SyncInformation sync = port.leaving->sync;
+  port.leaving.reset();
+  if (is_grandmaster()) {  // the whole nanoseconds at which the Sync left, not at which it was made
+    const sim::PtpTime left = sync.grandmaster_time_at(report.egress);
+    sync.origin = Timestamp::floor_of(left);
+    sync.correction = Correction::of(left - sync.origin.time());
+    sync.rate_ratio = sync.rate_ratio_at(report.egress);
+    sync.since = report.egress;
+  }
+  FollowUp follow_up{header(report.port, report.sequence_id, sync.log_interval), sync.origin, sync.handed_on(report.egress)};
+  follow_up.header.correction = sync.correction_at(report.egress);
+  outputs.push_back(SendMessage{report.port, follow_up});
+}
+
+}  // namespace takt::models::gptp

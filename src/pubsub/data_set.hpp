@@ -1,0 +1,126 @@
+// DataSet<T>: data that a Program publishes or subscribes to, as the application sees it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <tuple>
+
+#include "pubsub/field_type.hpp"
+
+namespace takt::pubsub {
+
+/// A DataSet as writers and readers see it: fields with types, in and out as Variants.
+class AnyDataSet {
+ public:
+  virtual ~AnyDataSet() = default;
+  virtual std::size_t field_count() const = 0;
+  virtual uadp::RawField field(std::size_t index) const = 0;
+  /// Writes a field as a Variant.
+  virtual void put(uadp::Writer& writer, std::size_t index) const = 0;
+  /// True if `take` would take it.
+  virtual bool can_take(std::size_t index, const uadp::Variant& value) const = 0;
+  virtual bool take(std::size_t index, const uadp::Variant& value) = 0;
+  /// All fields of a message have been taken: tells the application.
+  virtual void notify() = 0;
+
+  /// Counts what the application has set; publishing on change looks at it.
+  std::uint64_t version() const { return version_; }
+
+ protected:
+  void changed() { ++version_; }
+
+ private:
+  std::uint64_t version_ = 0;
+};
+
+/// The fixed layout of a DataSet as RawData; nothing if a field has no fixed length.
+std::optional<uadp::RawLayout> raw_layout_of(const AnyDataSet& data_set);
+
+namespace detail {
+template <class T>
+struct FieldsOf {
+  using Types = std::tuple<T>;
+  static std::tuple<T&> in(T& value) { return std::tie(value); }
+  static std::tuple<const T&> in(const T& value) { return std::tie(value); }
+};
+template <class... Ts>
+struct FieldsOf<std::tuple<Ts...>> {
+  using Types = std::tuple<Ts...>;
+  static std::tuple<Ts&...> in(std::tuple<Ts...>& value) {
+    return std::apply([](Ts&... each) { return std::tie(each...); }, value);
+  }
+  static std::tuple<const Ts&...> in(const std::tuple<Ts...>& value) {
+    return std::apply([](const Ts&... each) { return std::tie(each...); }, value);
+  }
+};
+}  // namespace detail
+
+/// T is a scalar type of UADP (bool, the integers, float, double, DateTime, Guid, Status, std::string, BoundedString,
+/// ByteString), a std::array or std::vector of one, or a std::tuple of all these: then each element is a field.
+/// The object must live as long as the Publishers and Subscribers to which it was added.
+template <class T>
+class DataSet final : public AnyDataSet {
+ public:
+  using Fields = typename detail::FieldsOf<T>::Types;
+  static constexpr std::size_t fields = std::tuple_size_v<Fields>;
+
+  DataSet() = default;
+  explicit DataSet(T value) : value_(std::move(value)) {}
+  DataSet(const DataSet&) = delete;
+  DataSet& operator=(const DataSet&) = delete;
+
+  const T& get() const { return value_; }
+  /// The value that goes out with the next message.
+  void set(T value) {
+    value_ = std::move(value);
+    changed();
+  }
+  /// Called after each message that was taken. One call-back; a later one replaces it.
+  void on_received(std::function<void(const T&)> call_back) { call_back_ = std::move(call_back); }
+
+  std::size_t field_count() const override { return fields; }
+  uadp::RawField field(std::size_t index) const override {
+    uadp::RawField result;
+    at<0>(index, [&]<std::size_t I>() { result = describe_field<std::tuple_element_t<I, Fields>>(); });
+    return result;
+  }
+  void put(uadp::Writer& writer, std::size_t index) const override {
+    const auto all = detail::FieldsOf<T>::in(value_);
+    at<0>(index, [&]<std::size_t I>() { put_field(writer, std::get<I>(all)); });
+  }
+  bool can_take(std::size_t index, const uadp::Variant& value) const override {
+    const auto all = detail::FieldsOf<T>::in(value_);
+    bool fits = false;
+    at<0>(index, [&]<std::size_t I>() {
+      auto copy = std::get<I>(all);
+      fits = take_field(value, copy);
+    });
+    return fits;
+  }
+  bool take(std::size_t index, const uadp::Variant& value) override {
+    auto all = detail::FieldsOf<T>::in(value_);
+    bool taken = false;
+    at<0>(index, [&]<std::size_t I>() { taken = take_field(value, std::get<I>(all)); });
+    return taken;
+  }
+  void notify() override {
+    if (call_back_) call_back_(value_);
+  }
+
+ private:
+  /// Calls `f` for the field with this index, which is known at run time only.
+  template <std::size_t I, class F>
+  static void at(std::size_t index, F&& f) {
+    if constexpr (I < fields) {
+      if (index == I)
+        f.template operator()<I>();
+      else
+        at<I + 1>(index, f);
+    }
+  }
+
+  T value_{};
+  std::function<void(const T&)> call_back_;
+};
+
+}  // namespace takt::pubsub

@@ -1,0 +1,169 @@
+#include "pubsub/data_set_reader.hpp"
+
+namespace takt::pubsub {
+
+using uadp::DataSetMessageType;
+using uadp::FieldEncoding;
+
+DataSetReader::DataSetReader(std::string name, AnyDataSet& data_set, const DataSetReaderSettings& settings)
+    : name_(std::move(name)), data_set_(data_set), settings_(settings), raw_layout_(raw_layout_of(data_set)) {}
+
+StatusCode DataSetReader::enable() {
+  const PubSubState before = state();
+  const StatusCode status = component_.enable();
+  tell(before);
+  return status;
+}
+
+StatusCode DataSetReader::disable() {
+  const PubSubState before = state();
+  const StatusCode status = component_.disable();
+  deadline_ = sim::LocalTime::never();
+  tell(before);
+  return status;
+}
+
+void DataSetReader::set_parent(PubSubState parent) {
+  const PubSubState before = state();
+  component_.set_parent(parent);
+  tell(before);
+}
+
+void DataSetReader::tell(PubSubState before) {
+  const PubSubState now = state();
+  if (!component_.active()) {
+    deadline_ = sim::LocalTime::never();
+    has_key_ = false;
+    window_.forget();
+  }
+  if (call_back_ && before != now) call_back_(before, now);
+}
+
+std::optional<std::size_t> DataSetReader::take(uadp::Octets octets, sim::LocalTime now) {
+  uadp::DataSetMessage message;
+  if (decode(octets, message) != uadp::Verdict::ok) {
+    ++counts_.mismatched;
+    return std::nullopt;
+  }
+  const std::optional<std::size_t> length = length_of(message);
+  if (component_.active()) take_message(message, now);
+  return length;
+}
+
+/// Where the next DataSetMessage begins if the NetworkMessage does not say so.
+std::optional<std::size_t> DataSetReader::length_of(const uadp::DataSetMessage& message) const {
+  if (settings_.configured_size != 0) return settings_.configured_size;
+  if (!message.header.valid) return message.body_offset;
+  if (message.header.type == DataSetMessageType::KeepAlive) return message.body_offset;
+  if (message.header.encoding == FieldEncoding::RawData) {
+    if (!raw_layout_) return std::nullopt;
+    return message.body_offset + raw_layout_->size();
+  }
+  uadp::FieldReader fields(message);
+  while (fields.next()) {
+  }
+  if (fields.failed()) return std::nullopt;
+  return message.body_offset + fields.position();
+}
+
+void DataSetReader::take_message(const uadp::DataSetMessage& message, sim::LocalTime now) {
+  const uadp::DataSetMessageHeader& header = message.header;
+  if (!header.valid) {
+    ++counts_.not_valid;
+    return;
+  }
+  if (settings_.major_version && header.major_version && *header.major_version != *settings_.major_version) {
+    ++counts_.other_version;
+    return;
+  }
+  // A message that will not be taken must not move the window either.
+  if (header.type == DataSetMessageType::DeltaFrame && !has_key_) {
+    ++counts_.without_key;
+    return;
+  }
+  if (header.type != DataSetMessageType::KeepAlive && !fits(message)) {
+    ++counts_.mismatched;
+    return;
+  }
+  if (!is_new(header)) {
+    ++counts_.not_newer;
+    return;
+  }
+  if (header.type == DataSetMessageType::KeepAlive) {
+    ++counts_.keep_alives;
+    return alive(now, false);
+  }
+  ++counts_.taken;
+  const bool taken = take_fields(message);
+  TAKT_CHECK(taken, "fields that fit are taken");
+  has_key_ = has_key_ || header.type == DataSetMessageType::KeyFrame;
+  alive(now, true);
+  data_set_.notify();
+}
+
+/// A keep-alive carries the number that the next message will have, so it must not use it up.
+bool DataSetReader::is_new(const uadp::DataSetMessageHeader& header) {
+  if (!header.sequence_number) return true;
+  if (header.type != DataSetMessageType::KeepAlive) return window_.take(*header.sequence_number) == uadp::Sequence::newer;
+  return !window_.last() || uadp::compare_sequence(*header.sequence_number, *window_.last()) == uadp::Sequence::newer;
+}
+
+/// All fields are there and of the types of the DataSet; so a message is taken whole or not at all. A Null field, as some
+/// stacks pad delta frames with, is no value and is passed over.
+bool DataSetReader::fits(const uadp::DataSetMessage& message) const {
+  if (message.header.encoding == FieldEncoding::RawData) {
+    if (!raw_layout_) return false;
+    for (std::size_t i = 0; i < raw_layout_->count(); ++i) {
+      const auto value = raw_layout_->at(message.body, i);
+      if (!value || !data_set_.can_take(i, *value)) return false;
+    }
+    return true;
+  }
+  uadp::FieldReader fields(message);
+  const bool all = message.header.type != DataSetMessageType::DeltaFrame;
+  const bool heartbeat = fields.count() == 0;
+  if (all && !heartbeat && fields.count() != data_set_.field_count()) return false;
+  while (const auto field = fields.next()) {
+    if (!field->value.value || field->value.value->is_null()) continue;
+    if (field->index >= data_set_.field_count() || !data_set_.can_take(field->index, *field->value.value)) return false;
+  }
+  return !fields.failed();
+}
+
+bool DataSetReader::take_fields(const uadp::DataSetMessage& message) {
+  if (message.header.encoding == FieldEncoding::RawData) return take_raw(message.body);
+  uadp::FieldReader fields(message);
+  bool taken = true;
+  while (const auto field = fields.next()) {
+    if (!field->value.value || field->value.value->is_null()) continue;
+    taken = data_set_.take(field->index, *field->value.value) && taken;
+  }
+  return taken;
+}
+
+bool DataSetReader::take_raw(uadp::Octets body) {
+  bool taken = true;
+  for (std::size_t i = 0; i < raw_layout_->count(); ++i) taken = data_set_.take(i, *raw_layout_->at(body, i)) && taken;
+  return taken;
+}
+
+/// A new message, keep-alives included, restarts the time-out and ends an Error (OPC 10000-14, 6.2.9.6).
+void DataSetReader::alive(sim::LocalTime now, bool starts) {
+  const PubSubState before = state();
+  if (starts) component_.start();
+  component_.recover();
+  const bool runs = state() == PubSubState::Operational && settings_.message_receive_timeout > sim::Duration();
+  deadline_ = runs ? now.plus_saturated(settings_.message_receive_timeout) : sim::LocalTime::never();
+  tell(before);
+}
+
+void DataSetReader::advance(sim::LocalTime now) {
+  if (now < deadline_) return;
+  const PubSubState before = state();
+  deadline_ = sim::LocalTime::never();
+  component_.fail(StatusCode::BadTimeout);
+  window_.forget();
+  tell(before);
+}
+
+}  // namespace takt::pubsub

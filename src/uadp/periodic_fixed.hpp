@@ -1,0 +1,70 @@
+// The header layout UADP-Periodic-Fixed (OPC 10000-14, A.2.1): every octet at an offset that is known beforehand.
+//
+// The hot path: a NetworkMessage is a prototype with numbers stored into it, and the receiver compares the constant
+// octets and loads. Byte for byte what NetworkMessageEncoder writes.
+#pragma once
+
+#include <cstring>
+#include <vector>
+
+#include "uadp/publisher_id.hpp"
+#include "uadp/raw_layout.hpp"
+
+namespace takt::uadp {
+
+class PeriodicFixedLayout {
+ public:
+  struct Settings {
+    PublisherId publisher_id;                 ///< UInt16 or UInt64 by A.2.1; any numeric type is accepted
+    std::uint16_t writer_group_id = 1;
+    std::uint32_t group_version = 0;          ///< VersionTime; 0 is "none yet"
+    std::uint16_t network_message_number = 1;
+    std::vector<RawLayout> data_sets;         ///< in ascending order of the DataSetWriterIds
+    std::vector<std::size_t> configured_sizes = {};  ///< of the DataSetMessages, 0: as long as they are; may be shorter
+  };
+
+  /// Allocates; nothing after does.
+  explicit PeriodicFixedLayout(const Settings& settings);
+
+  /// Octets of the NetworkMessage.
+  std::size_t size() const { return prototype_.size(); }
+  /// DataSetOffset: octets from the begin of the NetworkMessage to a DataSetMessage.
+  std::size_t data_set_offset(std::size_t data_set) const { return data_sets_[data_set].begin; }
+  /// Octets from the begin of the NetworkMessage to a field.
+  std::size_t field_offset(std::size_t data_set, std::size_t field) const {
+    return data_sets_[data_set].begin + header_octets + data_sets_[data_set].layout.offset(field);
+  }
+
+  /// Puts the constant octets and the sequence number of the group; the fields are zeros. `target` must have size() octets.
+  void start(std::span<std::byte> target, std::uint16_t sequence_number) const;
+  /// Puts the header of a DataSetMessage; `status` is the upper half of a StatusCode.
+  void set_header(std::span<std::byte> target, std::size_t data_set, std::uint16_t sequence_number,
+                  std::uint16_t status = 0) const;
+
+  /// True if these octets are a message of this layout: long enough, and all constant octets as they should be.
+  /// A DataSetMessage that is not valid makes it false.
+  bool matches(Octets octets) const;
+  std::uint16_t group_sequence_number(Octets octets) const {
+    return load_little_endian<std::uint16_t>(octets.data() + sequence_at_);
+  }
+  std::uint16_t sequence_number(Octets octets, std::size_t data_set) const {
+    return load_little_endian<std::uint16_t>(octets.data() + data_sets_[data_set].begin + 1);
+  }
+  std::uint16_t status(Octets octets, std::size_t data_set) const {
+    return load_little_endian<std::uint16_t>(octets.data() + data_sets_[data_set].begin + 3);
+  }
+
+  /// DataSetFlags1, sequence number, status.
+  static constexpr std::size_t header_octets = 5;
+
+ private:
+  struct DataSet {
+    std::size_t begin = 0;
+    RawLayout layout;
+  };
+  std::vector<std::byte> prototype_;
+  std::size_t sequence_at_ = 0;  ///< the last two octets of the header
+  std::vector<DataSet> data_sets_;
+};
+
+}  // namespace takt::uadp

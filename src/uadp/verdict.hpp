@@ -1,0 +1,43 @@
+// What the decoder says about octets, and how often it said so: what is not understood is counted and dropped.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace takt::uadp {
+
+enum class Verdict : std::uint8_t {
+  ok,
+  truncated,    ///< the octets end before the message does
+  version,      ///< not UADPVersion 1
+  reserved,     ///< a bit or a code that the standard keeps for later; the message is to be skipped
+  malformed,    ///< contradicts itself
+  secured,      ///< signed or encrypted, or says so: not supported yet
+  chunked,      ///< part of a message that is too long for one
+  discovery,    ///< a probe or an announcement
+  action,       ///< has an ActionHeader (v1.05.04)
+};
+
+inline constexpr std::size_t verdict_count = 9;
+inline constexpr std::array<std::string_view, verdict_count> verdict_names{
+    "ok", "truncated", "version", "reserved", "malformed", "secured", "chunked", "discovery", "action"};
+
+constexpr std::size_t index_of(Verdict verdict) { return static_cast<std::size_t>(verdict); }
+constexpr std::string_view name_of(Verdict verdict) { return verdict_names[index_of(verdict)]; }
+static_assert(index_of(Verdict::action) + 1 == verdict_count);
+
+/// How many messages got which verdict.
+struct VerdictCounts {
+  std::array<std::uint64_t, verdict_count> of{};
+  void count(Verdict verdict) { ++of[index_of(verdict)]; }
+  std::uint64_t operator[](Verdict verdict) const { return of[index_of(verdict)]; }
+  std::uint64_t dropped() const {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 1; i < verdict_count; ++i) sum += of[i];
+    return sum;
+  }
+};
+
+}  // namespace takt::uadp

@@ -24,24 +24,30 @@ struct Transition {
   MethodSet causes;
   /// The HasCause references of the nodeset; they differ from `causes` in transition 7 only.
   MethodSet nodeset_causes;
+  /// The Program itself may cause it (Part 10, Table 1; 1 by 4.2.10: a resource has arrived).
+  bool internal;
 };
 
 /// Reset in Suspended causes 8, as the nodeset and v1.05 Table 7 say; Part 10 Table 1 calls 8 internal only.
 /// Transition 4 has no method: a Program that ends by itself and is ready at once.
 inline constexpr std::array<Transition, 9> transitions{{
-    {1, "HaltedToReady", 2408, 2409, State::Halted, State::Ready, MethodSet{Method::Reset}, MethodSet{Method::Reset}},
-    {2, "ReadyToRunning", 2410, 2411, State::Ready, State::Running, MethodSet{Method::Start}, MethodSet{Method::Start}},
-    {3, "RunningToHalted", 2412, 2413, State::Running, State::Halted, MethodSet{Method::Halt}, MethodSet{Method::Halt}},
-    {4, "RunningToReady", 2414, 2415, State::Running, State::Ready, MethodSet{}, MethodSet{}},
+    {1, "HaltedToReady", 2408, 2409, State::Halted, State::Ready, MethodSet{Method::Reset}, MethodSet{Method::Reset},
+     true},
+    {2, "ReadyToRunning", 2410, 2411, State::Ready, State::Running, MethodSet{Method::Start}, MethodSet{Method::Start},
+     false},
+    {3, "RunningToHalted", 2412, 2413, State::Running, State::Halted, MethodSet{Method::Halt}, MethodSet{Method::Halt},
+     true},
+    {4, "RunningToReady", 2414, 2415, State::Running, State::Ready, MethodSet{}, MethodSet{}, true},
     {5, "RunningToSuspended", 2416, 2417, State::Running, State::Suspended, MethodSet{Method::Suspend},
-     MethodSet{Method::Suspend}},
+     MethodSet{Method::Suspend}, false},
     {6, "SuspendedToRunning", 2418, 2419, State::Suspended, State::Running, MethodSet{Method::Resume},
-     MethodSet{Method::Resume}},
+     MethodSet{Method::Resume}, false},
     {7, "SuspendedToHalted", 2420, 2421, State::Suspended, State::Halted, MethodSet{Method::Halt},
-     MethodSet{Method::Halt, Method::Reset}},
+     MethodSet{Method::Halt, Method::Reset}, false},
     {8, "SuspendedToReady", 2422, 2423, State::Suspended, State::Ready, MethodSet{Method::Reset},
-     MethodSet{Method::Reset}},
-    {9, "ReadyToHalted", 2424, 2425, State::Ready, State::Halted, MethodSet{Method::Halt}, MethodSet{Method::Halt}},
+     MethodSet{Method::Reset}, true},
+    {9, "ReadyToHalted", 2424, 2425, State::Ready, State::Halted, MethodSet{Method::Halt}, MethodSet{Method::Halt},
+     false},
 }};
 
 /// The transition with this number; nullptr if there is none.

@@ -3,18 +3,31 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "models/ethernet/traffic.hpp"
 #include "sim/simulation.hpp"
 
 namespace takt::models {
 
-/// A port without a chain costs one predictable branch. A chain decides at the instant at which the node takes the frame.
+/// A frame that a node has taken from the medium.
+struct Ingress {
+  FrameIndex frame;
+  std::uint16_t port = 0;   ///< of the node
+  /// When its last bit was in (where it is cut through: when its header was). The fixed forwarding delay comes after that, so
+  /// this lies before the simulation's present instant by as much. Does not decrease from call to call for one port.
+  sim::TrueTime on_wire;
+};
+
+/// A bridge without a chain spends one predictable branch on it.
 class IngressChain {
  public:
   virtual ~IngressChain() = default;
-  /// True if the frame goes on (possibly with another priority); false if the chain has taken it out and accounted for it.
-  virtual bool pass(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port) = 0;
+  /// The frames that go on: none if the chain has taken the frame out (and accounted for it, see Traffic::drop), one, or
+  /// several where a stream is split. A chain that changes a frame first makes the record its own (Traffic::own); queue_priority
+  /// and eligible are set together with `marked`. The frame comes unmarked, with queue_priority == priority.
+  /// The span lives until the next call.
+  virtual std::span<const FrameIndex> pass(sim::Simulation& simulation, const Ingress& ingress) = 0;
 };
 
 }  // namespace takt::models

@@ -1,0 +1,55 @@
+#include "models/frer/host_redundancy.hpp"
+
+#include <algorithm>
+
+namespace takt::models {
+namespace {
+
+template <class Entries>
+auto place_of(Entries& entries, StreamIndex stream) {
+  return std::lower_bound(entries.begin(), entries.end(), stream, [](const auto& entry, StreamIndex s) { return entry.stream < s; });
+}
+
+}  // namespace
+
+void TalkerRedundancy::add(StreamIndex stream, const StreamSplitConfig& config) {
+  TAKT_CHECK(find(stream) == nullptr, "a stream is split once");
+  streams_.insert(place_of(streams_, stream), {stream, StreamSplit(config)});
+  outgoing_.resize(std::max(outgoing_.size(), std::max<std::size_t>(1, config.members.size())));
+}
+
+StreamSplit* TalkerRedundancy::find(StreamIndex stream) {
+  const auto at = place_of(streams_, stream);
+  return at != streams_.end() && at->stream == stream ? &at->split : nullptr;
+}
+
+std::span<const TalkerRedundancy::Outgoing> TalkerRedundancy::send(Traffic& traffic, FrameIndex frame) {
+  if (outgoing_.empty()) outgoing_.resize(1);
+  StreamSplit* const split = find(traffic.frame(frame).stream);
+  if (split == nullptr) {
+    outgoing_[0] = {frame, 0};
+    return {outgoing_.data(), 1};
+  }
+  const std::span<const FrameIndex> frames = split->split(traffic, frame);
+  for (std::size_t i = 0; i < frames.size(); ++i) outgoing_[i] = {frames[i], split->config().members[i].port};
+  return {outgoing_.data(), frames.size()};
+}
+
+void ListenerRedundancy::add(StreamIndex stream, const StreamRecoveryConfig& config) {
+  TAKT_CHECK(find(stream) == nullptr, "a stream is recovered once");
+  streams_.insert(place_of(streams_, stream), {stream, StreamRecovery(config)});
+}
+
+StreamRecovery* ListenerRedundancy::find(StreamIndex stream) {
+  const auto at = place_of(streams_, stream);
+  return at != streams_.end() && at->stream == stream ? &at->recovery : nullptr;
+}
+
+std::optional<FrameIndex> ListenerRedundancy::receive(Traffic& traffic, FrameIndex index, std::uint16_t port, sim::LocalTime now) {
+  const Frame& frame = traffic.frame(index);
+  StreamRecovery* const recovery = find(frame.stream);
+  if (recovery == nullptr) return index;
+  return recovery->receive(traffic, index, recovery->member_of(frame.destination, frame.vlan), port, now);
+}
+
+}  // namespace takt::models

@@ -1,0 +1,60 @@
+// Splits a compound stream: numbers its frames and makes one frame of each for every member (IEEE 802.1CB clauses 7.4.1, 7.7).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "models/ethernet/traffic.hpp"
+#include "models/frer/redundancy_config.hpp"
+#include "models/frer/sequence_generation.hpp"
+
+namespace takt::models {
+
+class StreamSplit {
+ public:
+  explicit StreamSplit(const StreamSplitConfig& config) : config_(config), frames_(config.members.size()) {
+    TAKT_CHECK(!config_.members.empty(), "a stream is split into members");
+  }
+
+  /// One frame for each member, in their order; the caller's copy of the frame is one of them. They differ in destination and
+  /// VLAN, carry the same R-TAG, and are 6 octets longer than the frame was unless it had one. Each further one counts among
+  /// the stream's copies. The span lives until the next call.
+  std::span<const FrameIndex> split(Traffic& traffic, FrameIndex frame) {
+    ++counters_.frames;
+    const Frame& original = traffic.frame(frame);
+    const SequenceNumber number = original.r_tagged ? original.r_tag_sequence : generation_.next();
+    const std::size_t last = config_.members.size() - 1;
+    for (std::size_t i = 0; i <= last; ++i) {
+      frames_[i] = i < last ? traffic.duplicate(frame) : traffic.own(frame);
+      address(traffic, frames_[i], config_.members[i], number);
+    }
+    counters_.copies += last;
+    return frames_;
+  }
+
+  struct Counters {
+    std::uint64_t frames = 0;   ///< of the compound stream
+    std::uint64_t copies = 0;   ///< made beyond them
+    bool operator==(const Counters&) const = default;
+  };
+  const Counters& counters() const { return counters_; }
+  const StreamSplitConfig& config() const { return config_; }
+  SequenceGeneration& sequence_generation() { return generation_; }
+
+ private:
+  static void address(Traffic& traffic, FrameIndex index, const StreamMember& member, SequenceNumber number) {
+    Frame& frame = traffic.frame(index);
+    frame.destination = member.destination;
+    frame.vlan = member.vlan;
+    frame.r_tag_sequence = number;
+    traffic.set_tags(index, frame.tagged, true);
+  }
+
+  StreamSplitConfig config_;
+  SequenceGeneration generation_;
+  Counters counters_;
+  std::vector<FrameIndex> frames_;
+};
+
+}  // namespace takt::models

@@ -1,0 +1,144 @@
+#include "models/ingress/ingress_pipeline.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "models/ethernet/sizes.hpp"
+
+namespace takt::models {
+
+IngressPipeline::IngressPipeline(Traffic& traffic, const IngressConfig& config, const LocalClock& clock, sim::ComponentId where,
+                                 std::uint32_t first_group)
+    : traffic_(&traffic), config_(&config), clock_(&clock), where_(where), streams_(config.stream_identity_table, first_group) {
+  for (const StreamFilterConfig& filter : config.stream_filters) filters_.add(filter);
+  gates_.reserve(config.stream_gates.size());
+  for (const StreamGateConfig& gate : config.stream_gates) gates_.emplace_back(gate);
+  for (const NamedFlowMeterConfig& meter : config.flow_meters) meters_.push_back({meter, FlowMeter(meter.meter), {}, 0});
+  for (const AtsSchedulerConfig& scheduler : config.ats_schedulers)
+    schedulers_.push_back({scheduler,
+                           AtsScheduler(scheduler.committed_information_rate, std::uint64_t{8} * scheduler.committed_burst_size.count), 0, 0, {}});
+  for (const AtsGroupConfig& group : config.ats_groups) groups_.push_back({group.maximum_residence_time, {}, 0});
+  for (const IngressSplit& split : config.splits) splits_.push_back({split.stream, StreamSplit(split.split)});
+  for (const IngressRecovery& recovery : config.recoveries) recoveries_.push_back({recovery.stream, StreamRecovery(recovery.recovery)});
+  lay_out_functions();
+}
+
+void IngressPipeline::lay_out_functions() {
+  functions_.resize(config_->streams.size() + 1);
+  for (std::size_t i = 0; i < functions_.size(); ++i) {
+    const StreamHandle handle = i < config_->streams.size() ? StreamHandle{static_cast<std::uint32_t>(i)} : StreamHandle{};
+    for (Priority priority = 0; priority < 8; ++priority) {
+      std::uint32_t filter = 0;
+      while (filter < filters_.size() && !filters_[StreamFilterIndex{filter}].matches(handle, priority)) ++filter;
+      functions_[i].filter_of_priority[priority] = filter < filters_.size() ? filter : none;
+    }
+  }
+  const auto functions_of = [&](StreamHandle stream) -> Functions& {
+    TAKT_CHECK(stream.value < config_->streams.size(), "a function belongs to a stream of the bridge");
+    return functions_[stream.value];
+  };
+  for (std::uint32_t i = 0; i < splits_.size(); ++i) functions_of(splits_[i].stream).split = i;
+  for (std::uint32_t i = 0; i < recoveries_.size(); ++i) functions_of(recoveries_[i].stream).recovery = i;
+  for (const StreamIdentityEntry& entry : config_->stream_identity_table) functions_of(entry.stream);
+}
+
+std::span<const FrameIndex> IngressPipeline::pass(sim::Simulation& simulation, const Ingress& ingress) {
+  FrameIndex frame = ingress.frame;
+  const StreamTable::Found found = streams_.identify(traffic_->frame(frame));
+  if (found.stream.is_none()) ++unidentified_frames_;
+  const Functions& functions = found.stream.is_none() ? functions_.back() : functions_[found.stream.value];
+  const bool is_member = found.member != StreamTable::no_member;
+
+  if (functions.recovery != none && (is_member || traffic_->frame(frame).r_tagged)) {
+    const std::size_t member = is_member ? found.member : StreamRecovery::no_member;
+    const std::optional<FrameIndex> passed =
+        recoveries_[functions.recovery].recovery.receive(*traffic_, frame, member, ingress.port, clock_->unstepped_at(ingress.on_wire));
+    if (!passed) {
+      traffic_->drop(frame, DropReason::duplicate, where_, simulation);
+      return {};
+    }
+    frame = *passed;
+  }
+  if (!police(simulation, frame, ingress, functions)) return {};
+  if (functions.split != none && !is_member) return splits_[functions.split].split.split(*traffic_, frame);
+  out_ = frame;
+  return {&out_, 1};
+}
+
+/// Per-stream filtering, policing and shaping. False: the frame was discarded. `frame` is the record that goes on otherwise.
+bool IngressPipeline::police(sim::Simulation& simulation, FrameIndex& index, const Ingress& ingress, const Functions& functions) {
+  const Frame& frame = traffic_->frame(index);
+  const std::uint32_t number = functions.filter_of_priority[frame.priority];
+  if (number == none) return true;
+  const auto discard = [&](DropReason reason) {
+    traffic_->drop(index, reason, where_, simulation);
+    return false;
+  };
+  StreamFilter& filter = filters_[StreamFilterIndex{number}];
+  const Octets msdu = Octets{frame.msdu} + (frame.r_tagged ? r_tag : Octets{0});  // an R-TAG is part of what the VLAN tag carries
+  if (!filter.accept(msdu)) return discard(DropReason::stream_max_sdu);
+
+  const sim::LocalTime arrival = clock_->local_at(ingress.on_wire);
+  std::optional<Priority> ipv;
+  if (const StreamGateIndex gate = filter.config().stream_gate; !gate.is_none()) {
+    const StreamGate::Verdict verdict = gates_[gate.value].admit(msdu, arrival);
+    if (verdict.outcome != StreamGate::Outcome::passed) {
+      filter.count_gate(false);
+      return discard(DropReason::stream_gate);
+    }
+    ipv = verdict.ipv;
+  }
+  filter.count_gate(true);
+
+  bool drop_eligible = frame.drop_eligible;
+  if (const FlowMeterIndex number_of_meter = filter.config().flow_meter; !number_of_meter.is_none()) {
+    Meter& meter = meters_[number_of_meter.value];
+    const FlowMeter::Verdict verdict = meter.meter.meter(Octets{frame.length}, drop_eligible, clock_->unstepped_at(ingress.on_wire));
+    ++meter.frames[static_cast<std::size_t>(verdict.color)];
+    if (!verdict.pass) {
+      ++meter.discarded;
+      filter.count_red();
+      return discard(DropReason::flow_meter);
+    }
+    drop_eligible = verdict.drop_eligible;
+  }
+
+  std::optional<sim::LocalTime> eligible;
+  if (const AtsSchedulerIndex scheduler = filter.config().ats_scheduler; !scheduler.is_none()) {
+    eligible = shape(schedulers_[scheduler.value], frame, ingress.port, arrival);
+    if (!eligible) return discard(DropReason::residence_time);
+  }
+
+  if (!ipv && !eligible && drop_eligible == frame.drop_eligible) return true;
+  index = traffic_->own(index);
+  Frame& own = traffic_->frame(index);
+  own.drop_eligible = drop_eligible;
+  if (ipv || eligible) {
+    own.queue_priority = ipv.value_or(own.priority);
+    own.eligible = eligible.value_or(arrival);
+    own.marked = true;
+  }
+  return true;
+}
+
+std::optional<sim::LocalTime> IngressPipeline::shape(Scheduler& scheduler, const Frame& frame, std::uint16_t port, sim::LocalTime arrival) {
+  const Octets length = scheduler.config.media_overhead ? wire_length(Octets{frame.length}) : Octets{frame.length};
+  const std::optional<sim::LocalTime> eligible = scheduler.scheduler.process(length, arrival, group_of(scheduler, frame, port));
+  ++(eligible ? scheduler.passed : scheduler.discarded);
+  if (eligible) scheduler.longest_hold = std::max(scheduler.longest_hold, *eligible - arrival);
+  return eligible;
+}
+
+AtsGroup& IngressPipeline::group_of(const Scheduler& scheduler, const Frame& frame, std::uint16_t port) {
+  if (!scheduler.config.group.is_none()) return groups_[scheduler.config.group.value];
+  const std::size_t at = port * std::size_t{traffic_class_count} + config_->traffic_class_of_priority[frame.priority];
+  if (port_groups_.size() <= at) port_groups_.resize((port + std::size_t{1}) * traffic_class_count, {config_->maximum_residence_time, {}, 0});
+  return port_groups_[at];
+}
+
+const std::vector<IngressPipeline::Recovery>& IngressPipeline::recoveries(sim::TrueTime now) {
+  for (Recovery& recovery : recoveries_) recovery.recovery.catch_up(clock_->unstepped_at(now));
+  return recoveries_;
+}
+
+}  // namespace takt::models

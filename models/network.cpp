@@ -13,6 +13,17 @@ Network::Network(sim::Simulation& simulation, NetworkPlan plan) : simulation_(&s
     connect(link.a, link.b, link);
     connect(link.b, link.a, link);
   }
+  add_streams();
+  for (const FilteringPlan& entry : plan_.filtering)
+    bridges_[entry.bridge.value]->filtering_database().add(entry.vlan, entry.address, entry.port);
+  set_up_ingress();
+  set_up_redundancy();
+  set_up_faults();
+  announce_cut_through();
+  add_talkers();
+}
+
+void Network::add_streams() {
   for (const StreamPlan& stream : plan_.streams) {
     Stream record;
     record.name = stream.name;
@@ -27,15 +38,115 @@ Network::Network(sim::Simulation& simulation, NetworkPlan plan) : simulation_(&s
     const StreamIndex index = traffic_.add_stream(std::move(record));
     for (const NodeIndex listener : stream.listeners) listen(listener, index, nullptr);
   }
-  for (const FilteringPlan& entry : plan_.filtering)
-    bridges_[entry.bridge.value]->filtering_database().add(entry.vlan, entry.address, entry.port);
+}
+
+void Network::add_talkers() {
   for (const TalkerPlan& talker : plan_.talkers) {
     const StreamPlan& stream = plan_.streams[talker.stream.value];
     const NodePlan& node = plan_.nodes[stream.talker.value];
-    talkers_.push_back(std::make_unique<Talker>(simulation, traffic_, port_of_host(stream.talker), ideal_clock_,
-                                                plan_.os_latencies[node.os_latency], node.name + "/" + stream.name, talker.stream,
-                                                talker.payload, talker.schedule));
+    HostOutput& output = output_of_host(stream.talker);
+    talkers_.push_back(std::make_unique<Talker>(*simulation_, traffic_, output, ideal_clock_, plan_.os_latencies[node.os_latency],
+                                                node.name + "/" + (talker.name.empty() ? stream.name : talker.name), talker.stream, talker.payload,
+                                                talker.schedule));
+    talkers_.back()->set_until(talker.until);
+    if (!talker.launch) continue;
+    talkers_.back()->set_launch(*talker.launch);
+    output.look_closer();
+    for (EgressPort& port : mutable_ports(stream.talker)) port.make_conditional();
   }
+}
+
+void Network::set_up_ingress() {
+  ingress_.resize(plan_.nodes.size());
+  for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
+    const NodeIndex node{n};
+    if (bridges_[n] == nullptr) continue;
+    for (EgressPort& port : mutable_ports(node))
+      if (port.is_connected() && port.untags()) bridges_[n]->set_untags();
+    if (!plan_.nodes[n].ingress) continue;
+    ingress_[n] = std::make_unique<IngressPipeline>(traffic_, plan_.ingress_configs[*plan_.nodes[n].ingress], ideal_clock_, bridges_[n]->id(),
+                                                    static_cast<std::uint32_t>(plan_.nodes.size()));
+    bridges_[n]->set_ingress_chain(ingress_[n].get());
+    for (EgressPort& port : mutable_ports(node))
+      if (port.is_connected()) port.make_conditional();
+  }
+}
+
+void Network::set_up_redundancy() {
+  for (const HostSplitPlan& split : plan_.host_splits)
+    output_of_host(plan_.streams[split.stream.value].talker).split(split.stream, split.split);
+  for (const HostRecoveryPlan& recovery : plan_.host_recoveries) hosts_[recovery.host.value]->recover(recovery.stream, recovery.recovery);
+}
+
+void Network::set_up_faults() {
+  reasons_down_.assign(plan_.links.size(), 0);
+  for (const LinkPlan& link : plan_.links) {
+    if (!link.may_fail) continue;
+    for (const auto& [from, to] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
+      const std::string path = plan_.nodes[from->node.value].name + " to " + plan_.nodes[to->node.value].name + ":" + std::to_string(to->port);
+      mutable_ports(from->node)[from->port].expect_faults(*simulation_, path);
+      if (outputs_[from->node.value]) outputs_[from->node.value]->look_closer();
+    }
+  }
+  for (const ImpairmentPlan& impairment : plan_.impairments) {
+    const LinkPlan& link = plan_.links[impairment.link];
+    const LinkPlan::End& from = impairment.from_a_to_b ? link.a : link.b;
+    mutable_ports(from.node)[from.port].add_impairment(impairment.impairment);
+  }
+}
+
+/// Tells the ports that send to a bridge of which priorities it wants to know the headers: those that another port of it cuts
+/// through, and no port of it sends by eligibility times, which are counted from the last bit.
+void Network::announce_cut_through() {
+  for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
+    if (bridges_[n] == nullptr) continue;
+    const std::span<EgressPort> ports = mutable_ports(NodeIndex{n});
+    std::uint8_t timed = 0;
+    for (const EgressPort& port : ports)
+      for (unsigned p = 0; port.is_connected() && p < 8; ++p)
+        if (contains(port.config().shaping.timed, port.config().traffic_class_of_priority[p])) timed = static_cast<std::uint8_t>(timed | 1u << p);
+    for (EgressPort& port : ports) {
+      std::uint8_t priorities = 0;
+      for (const EgressPort& other : ports)
+        for (unsigned p = 0; p < 8; ++p)
+          if (&other != &port && other.is_connected() && contains(other.config().cut_through, other.config().traffic_class_of_priority[p])) priorities = static_cast<std::uint8_t>(priorities | 1u << p);
+      priorities = static_cast<std::uint8_t>(priorities & ~timed);
+      if (priorities != 0 && port.is_connected() && port.opposite() != nullptr) port.opposite()->notice_headers(priorities, plan_.nodes[n].cut_through_header);
+    }
+  }
+}
+
+void Network::set_link(std::uint32_t link, bool up) {
+  const LinkPlan& plan = plan_.links[link];
+  TAKT_CHECK(plan.may_fail, "a link that fails is known to");
+  std::uint32_t& reasons = reasons_down_[link];
+  const bool was_up = reasons == 0;
+  reasons = up ? reasons - 1 : reasons + 1;
+  if (was_up == (reasons == 0)) return;
+  for (const LinkPlan::End& end : {plan.a, plan.b}) mutable_ports(end.node)[end.port].set_up(*simulation_, reasons == 0);
+}
+
+void Network::set_node(NodeIndex node, bool up) {
+  for (std::uint32_t l = 0; l < plan_.links.size(); ++l)
+    if (plan_.links[l].a.node == node || plan_.links[l].b.node == node) set_link(l, up);
+  if (hosts_[node.value] == nullptr) return;
+  hosts_[node.value]->set_up(up);
+  if (outputs_[node.value]) outputs_[node.value]->set_up(up);
+  for (std::size_t i = 0; i < processes_.size(); ++i) {
+    if (host_of_process_[i] != node) continue;
+    if (up)
+      processes_[i]->restart();
+    else
+      processes_[i]->crash();
+  }
+}
+
+void Network::force_gate(NodeIndex node, std::uint16_t port, TrafficClass q, std::optional<bool> open) {
+  mutable_ports(node)[port].force_gate(*simulation_, q, open);
+}
+
+void Network::reroute(NodeIndex bridge, VlanId vlan, AddressIndex address, std::span<const std::uint16_t> ports) {
+  bridges_[bridge.value]->filtering_database().assign(vlan, address, ports);
 }
 
 void Network::number_ports() {
@@ -51,12 +162,15 @@ void Network::number_ports() {
 void Network::make_nodes() {
   hosts_.resize(plan_.nodes.size());
   bridges_.resize(plan_.nodes.size());
+  outputs_.resize(plan_.nodes.size());
   for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
     const NodePlan& node = plan_.nodes[n];
     if (node.kind == NodeKind::host) {
-      hosts_[n] = std::make_unique<Host>(*simulation_, traffic_, NodeIndex{n}, plan_.os_latencies[node.os_latency], node.name);
+      hosts_[n] = std::make_unique<Host>(*simulation_, traffic_, NodeIndex{n}, plan_.os_latencies[node.os_latency], node.name,
+                                         mutable_ports(NodeIndex{n}), ideal_clock_);
+      if (!mutable_ports(NodeIndex{n}).empty()) outputs_[n] = std::make_unique<HostOutput>(traffic_, mutable_ports(NodeIndex{n}));
     } else {
-      bridges_[n] = std::make_unique<Bridge>(traffic_, mutable_ports(NodeIndex{n}));
+      bridges_[n] = std::make_unique<Bridge>(traffic_, mutable_ports(NodeIndex{n}), node.forwarding_delay);
       bridges_[n]->set_id(simulation_->add(*bridges_[n]));
     }
   }
@@ -77,7 +191,8 @@ void Network::connect(const LinkPlan::End& from, const LinkPlan::End& to, const 
   TAKT_CHECK(link.rate.has_exact_octet_time(), "a link's octet lasts a whole number of picoseconds");
   mutable_ports(from.node)[from.port].connect(*simulation_, shared_, port_config_of(from), ideal_clock_,
                                               link.rate.octet_time(),
-                                              {component_of(to.node), to.port, link.delay + fixed_delay_of(to.node)});
+                                              {component_of(to.node), to.port, link.delay + fixed_delay_of(to.node), fixed_delay_of(to.node)},
+                                              &mutable_ports(to.node)[to.port]);
 }
 
 const PortConfig& Network::port_config_of(const LinkPlan::End& end) const {
@@ -88,17 +203,17 @@ ConfigChange Network::request_gates(NodeIndex node, std::uint16_t port, const Ga
   return mutable_ports(node)[port].request_gates(*simulation_, gates);
 }
 
-EgressPort& Network::port_of_host(NodeIndex host) {
-  const std::span<EgressPort> ports = mutable_ports(host);
-  TAKT_CHECK(!ports.empty(), "a host that sends has a link");
-  return ports[0];
+HostOutput& Network::output_of_host(NodeIndex host) {
+  TAKT_CHECK(outputs_[host.value] != nullptr, "a host that sends has a link");
+  return *outputs_[host.value];
 }
 
 Process& Network::add_process(NodeIndex host, std::string_view name, std::unique_ptr<Application> application) {
   const NodePlan& node = plan_.nodes[host.value];
-  processes_.push_back(std::make_unique<Process>(*simulation_, traffic_, port_of_host(host), ideal_clock_,
+  processes_.push_back(std::make_unique<Process>(*simulation_, traffic_, output_of_host(host), ideal_clock_,
                                                  plan_.os_latencies[node.os_latency], node.name + "/" + std::string(name),
                                                  std::move(application)));
+  host_of_process_.push_back(host);
   return *processes_.back();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "models/host/host.hpp"
 #include "models/host/process.hpp"
 #include "models/host/talker.hpp"
+#include "models/ingress/ingress_pipeline.hpp"
 #include "models/plan.hpp"
 
 namespace takt::models {
@@ -32,6 +34,16 @@ class Network {
   /// Management sets ConfigChange at a port, at the present instant.
   ConfigChange request_gates(NodeIndex node, std::uint16_t port, const GateConfig& gates);
 
+  // Faults, at the present instant.
+  /// A link goes down or comes back. What is down for several reasons is up when the last one ends. Precondition: it may_fail.
+  void set_link(std::uint32_t link, bool up);
+  /// A node crashes, or starts again: with empty queues, its programs without memory. Its links, which may_fail, go with it.
+  void set_node(NodeIndex node, bool up);
+  /// See PortShaping::force_gate.
+  void force_gate(NodeIndex node, std::uint16_t port, TrafficClass q, std::optional<bool> open);
+  /// Another static filtering entry: frames to the address leave `bridge` through these ports.
+  void reroute(NodeIndex bridge, VlanId vlan, AddressIndex address, std::span<const std::uint16_t> ports);
+
   sim::Simulation& simulation() { return *simulation_; }
   Traffic& traffic() { return traffic_; }
   const Traffic& traffic() const { return traffic_; }
@@ -42,6 +54,12 @@ class Network {
     return {ports_.get() + first_port_[node.value], first_port_[node.value + 1] - first_port_[node.value]};
   }
   const Bridge& bridge(NodeIndex node) const { return *bridges_[node.value]; }
+  /// The ingress chain of a bridge, or null.
+  IngressPipeline* ingress(NodeIndex node) const { return ingress_[node.value].get(); }
+  /// Null for bridges.
+  Host* host(NodeIndex node) const { return hosts_[node.value].get(); }
+  /// Null for hosts that are not connected, and for bridges.
+  HostOutput* output(NodeIndex node) const { return outputs_[node.value].get(); }
 
  private:
   std::span<EgressPort> mutable_ports(NodeIndex node) {
@@ -50,10 +68,16 @@ class Network {
   void number_ports();
   void make_nodes();
   void connect(const LinkPlan::End& from, const LinkPlan::End& to, const LinkPlan& link);
+  void add_streams();
+  void add_talkers();
+  void set_up_ingress();
+  void set_up_redundancy();
+  void set_up_faults();
+  void announce_cut_through();
   const PortConfig& port_config_of(const LinkPlan::End& end) const;
   sim::Duration fixed_delay_of(NodeIndex node) const;
   sim::ComponentId component_of(NodeIndex node) const;
-  EgressPort& port_of_host(NodeIndex host);
+  HostOutput& output_of_host(NodeIndex host);
 
   sim::Simulation* simulation_;
   NetworkPlan plan_;
@@ -64,8 +88,12 @@ class Network {
   std::unique_ptr<EgressPort[]> ports_;
   std::vector<std::unique_ptr<Host>> hosts_;          // by node; null for bridges
   std::vector<std::unique_ptr<Bridge>> bridges_;      // by node; null for hosts
+  std::vector<std::unique_ptr<HostOutput>> outputs_;  // by node; null for bridges
+  std::vector<std::unique_ptr<IngressPipeline>> ingress_;  // by node; null where there is none
+  std::vector<std::uint32_t> reasons_down_;           // by link: how many reasons it has to be down
   std::vector<std::unique_ptr<Talker>> talkers_;
   std::vector<std::unique_ptr<Process>> processes_;
+  std::vector<NodeIndex> host_of_process_;
 };
 
 }  // namespace takt::models

@@ -8,8 +8,11 @@
 
 #include "models/egress/port_config.hpp"
 #include "models/ethernet/frame.hpp"
+#include "models/fault/link_fault.hpp"
+#include "models/frer/redundancy_config.hpp"
 #include "models/host/os_latency.hpp"
 #include "models/host/talker.hpp"
+#include "models/ingress/ingress_config.hpp"
 #include "sim/units.hpp"
 
 namespace takt::models {
@@ -22,6 +25,8 @@ struct NodePlan {
   sim::Duration forwarding_delay;   ///< bridges: last bit in to the egress queue
   std::uint32_t port_config = 0;    ///< index into NetworkPlan::port_configs
   std::uint32_t os_latency = 0;     ///< hosts: index into NetworkPlan::os_latencies
+  std::optional<std::uint32_t> ingress = {};  ///< bridges: index into NetworkPlan::ingress_configs
+  Octets cut_through_header{22};    ///< bridges: octets, preamble included, of an untagged frame that must be in before it is cut through
 };
 
 struct LinkPlan {
@@ -34,6 +39,14 @@ struct LinkPlan {
   End b;
   sim::DataRate rate;
   sim::Duration delay;              ///< propagation, the same both ways
+  bool may_fail = false;            ///< something may go wrong on it, or at a node at its ends
+};
+
+/// Chance on one direction of a link.
+struct ImpairmentPlan {
+  std::uint32_t link = 0;           ///< index into NetworkPlan::links, with may_fail
+  bool from_a_to_b = true;
+  Impairment impairment;
 };
 
 struct StreamPlan {
@@ -58,6 +71,9 @@ struct TalkerPlan {
   StreamIndex stream;
   Octets payload;
   TalkerSchedule schedule;
+  std::optional<sim::Duration> launch = {};              ///< see Talker::set_launch
+  sim::LocalTime until = sim::LocalTime::never();        ///< see Talker::set_until
+  std::string name = {};                                 ///< in the random streams, if not that of the stream
 };
 
 /// Addresses 0 .. nodes-1 are the unicast addresses of the nodes; further ones are groups.
@@ -69,6 +85,10 @@ struct NetworkPlan {
   std::vector<TalkerPlan> talkers;
   std::vector<PortConfig> port_configs = {PortConfig{}};
   std::vector<OsLatency> os_latencies = {OsLatency{}};
+  std::vector<IngressConfig> ingress_configs;
+  std::vector<HostSplitPlan> host_splits;
+  std::vector<HostRecoveryPlan> host_recoveries;
+  std::vector<ImpairmentPlan> impairments;
 };
 
 }  // namespace takt::models

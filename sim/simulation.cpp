@@ -99,6 +99,7 @@ void Simulation::settle_all() {
   // A component may ask again while it settles (never for itself twice); the list may therefore grow.
   for (std::size_t i = 0; i < settling_.size(); ++i) settling_[i]->settle(*this);
   settling_.clear();
+  settling_first_ = 0;
 }
 
 void Simulation::rethrow_with_context(const InvariantBroken& broken, const Event& event) const {

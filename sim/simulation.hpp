@@ -1,6 +1,7 @@
 // The kernel: virtual time, the event loop, settling, digest and trace. It knows no network.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -57,6 +58,9 @@ class Simulation {
   /// Asks for component.settle() at the end of the present instant. The component remembers that it has asked.
   void settle_later(Component& component) { settling_.push_back(&component); }
 
+  /// The same for a component whose settling is what others wait for: it settles before all who asked by settle_later().
+  void settle_first(Component& component) { settling_.insert(settling_.begin() + settling_first_++, &component); }
+
   /// True if nothing else happens at the present instant: no event is pending for it and nobody waits to settle. A handler
   /// may then do as its last act what it would otherwise leave to settle().
   bool instant_is_complete() { return settling_.empty() && queue_.first_time() > now_; }
@@ -90,6 +94,7 @@ class Simulation {
   TrueTime now_;
   std::vector<Component*> components_;
   std::vector<Component*> settling_;
+  std::ptrdiff_t settling_first_ = 0;  // so many at the front of settling_ asked by settle_first()
   EventQueue queue_;
   std::uint64_t events_ = 0;
   std::size_t pending_peak_ = 0;

@@ -1,22 +1,23 @@
 #include "models/bridge/bridge.hpp"
 
+#include <algorithm>
+
 namespace takt::models {
 
 void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
   TAKT_CHECK(event.kind() == static_cast<sim::EventKind>(NodeEvent::frame_arrived), "a bridge receives frames only");
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
-  if (chain_ != nullptr && !chain_->pass(simulation, arrival.frame, arrival.port)) return;
+  if (looks_closer_ || arrival.notes != 0) [[unlikely]] {
+    look_closer(simulation, arrival);
+    return;
+  }
   const Frame& frame = traffic_->frame(arrival.frame);
   const FilteringDatabase::Entry entry = filtering_database_.find(frame.vlan, frame.destination);
   if (entry.found() && entry.is_one_port() && entry.port() != arrival.port) [[likely]] {
     ports_[entry.port()].offer_last(simulation, arrival.frame, arrival.port);
     return;
   }
-  const std::uint16_t one = entry.port();
-  if (!entry.found())
-    forward_to_many(simulation, arrival, {});
-  else
-    forward_to_many(simulation, arrival, entry.is_one_port() ? std::span(&one, 1) : filtering_database_.ports_of(entry));
+  forward(simulation, arrival.frame, arrival.port, nullptr);
 }
 
 void Bridge::prefetch(const sim::Event& event, Ahead ahead) const {
@@ -29,16 +30,83 @@ void Bridge::prefetch(const sim::Event& event, Ahead ahead) const {
   if (entry.found() && entry.is_one_port()) ports_[entry.port()].prefetch_hot();
 }
 
-void Bridge::forward_to_many(sim::Simulation& simulation, ArrivalArgument arrival, std::span<const std::uint16_t> egress) {
-  bool used = false;
+/// A frame in a condition of its own, or a bridge that does more than forward.
+void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
+  FrameIndex frame = arrival.frame;
+  EgressPort* const sender = ports_[arrival.port].opposite();
+  if ((arrival.notes & conditional) != 0 && sender != nullptr && !sender->confirm(simulation, frame, arrival.notes)) return;
+  const bool only_header = (arrival.notes & header_only) != 0;
+  Header header;
+  if (only_header) {
+    const Frame& record = traffic_->frame(frame);
+    header.sender = sender;
+    header.stored = simulation.now() + sender->octet_time() * (std::int64_t{preamble_and_sfd.count} + record.length - sender->header_notice(record).count);
+  } else if (traffic_->frame(frame).bad_fcs) {
+    traffic_->drop(frame, DropReason::bad_fcs, id_, simulation);
+    return;
+  }
+  if (traffic_->frame(frame).marked) {
+    frame = traffic_->own(frame);
+    Frame& record = traffic_->frame(frame);
+    record.marked = false;
+    record.queue_priority = record.priority;
+  }
+  if (chain_ == nullptr) {
+    forward(simulation, frame, arrival.port, only_header ? &header : nullptr);
+    return;
+  }
+  if (arrived_.empty()) simulation.settle_first(*this);
+  arrived_.push_back({frame, arrival.port, only_header, header});
+}
+
+void Bridge::settle(sim::Simulation& simulation) {
+  std::stable_sort(arrived_.begin(), arrived_.end(), [](const Arrived& a, const Arrived& b) { return a.port < b.port; });
+  for (const Arrived& arrived : arrived_)
+    for (const FrameIndex passed : chain_->pass(simulation, {arrived.frame, arrived.port, simulation.now() - forwarding_delay_}))
+      forward(simulation, passed, arrived.port, arrived.only_header ? &arrived.header : nullptr);
+  arrived_.clear();
+}
+
+void Bridge::forward(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header) {
+  const Frame& record = traffic_->frame(frame);
+  const FilteringDatabase::Entry entry = filtering_database_.find(record.vlan, record.destination);
+  const std::uint16_t one = entry.port();
+  if (!entry.found())
+    forward_to_many(simulation, frame, from, {}, header);
+  else
+    forward_to_many(simulation, frame, from, entry.is_one_port() ? std::span(&one, 1) : filtering_database_.ports_of(entry), header);
+}
+
+void Bridge::forward_to_many(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, std::span<const std::uint16_t> egress,
+                             const Header* header) {
+  // The last port gets the frame itself, so that nobody looks at a record that has been released.
+  std::uint16_t last = 0;
+  bool found = false;
   for (const std::uint16_t port : egress) {
     TAKT_CHECK(port < port_count_, "a filtering entry names a port of its bridge");
-    if (port == arrival.port) continue;
-    if (used) traffic_->copy(arrival.frame);
-    used = true;
-    ports_[port].offer(simulation, arrival.frame, arrival.port);
+    if (port == from) continue;
+    if (found) {
+      traffic_->copy(frame);
+      hand_over(simulation, frame, from, ports_[last], header);
+    }
+    last = port;
+    found = true;
   }
-  if (!used) traffic_->drop(arrival.frame, DropReason::no_filtering_entry, id_, simulation);
+  if (found)
+    hand_over(simulation, frame, from, ports_[last], header);
+  else
+    traffic_->drop(frame, DropReason::no_filtering_entry, id_, simulation);
+}
+
+void Bridge::hand_over(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, EgressPort& port, const Header* header) {
+  if (port.untags() && traffic_->frame(frame).tagged) {
+    frame = traffic_->own(frame);
+    traffic_->set_tags(frame, false, traffic_->frame(frame).r_tagged);
+  }
+  if (header != nullptr)
+    port.offer_header(simulation, frame, from, header->stored, *header->sender);
+  else
+    port.offer(simulation, frame, from);
 }
 
 }  // namespace takt::models

@@ -39,4 +39,18 @@ void FilteringDatabase::add(VlanId vlan, AddressIndex address, std::uint16_t por
   if (at == ports.end() || *at != port) ports.insert(at, port);
 }
 
+void FilteringDatabase::assign(VlanId vlan, AddressIndex address, std::span<const std::uint16_t> ports) {
+  if (find(vlan, address).found()) {
+    const std::uint64_t key = key_of(vlan, address);
+    std::uint64_t& word = word_for(key);
+    if (Entry(word).is_one_port()) {
+      TAKT_CHECK(sets_.size() < 0xFFFF, "at most 65535 multicast entries in a bridge");
+      sets_.emplace_back();
+      word = key | several | (sets_.size() - 1);
+    }
+    sets_[Entry(word).port()].clear();
+  }
+  for (const std::uint16_t port : ports) add(vlan, address, port);
+}
+
 }  // namespace takt::models

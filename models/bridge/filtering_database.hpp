@@ -33,6 +33,9 @@ class FilteringDatabase {
   /// Adds a port, below 2^15, to the entry of (vlan, address); adding it twice changes nothing.
   void add(VlanId vlan, AddressIndex address, std::uint16_t port);
 
+  /// Replaces the entry of (vlan, address): frames leave through these ports from now on; through none: they are dropped.
+  void assign(VlanId vlan, AddressIndex address, std::span<const std::uint16_t> ports);
+
   Entry find(VlanId vlan, AddressIndex address) const {
     const std::uint64_t key = key_of(vlan, address);
     for (std::size_t at = home_of(key);; at = (at + 1) & mask_) {

@@ -7,7 +7,6 @@
 
 namespace takt::models {
 namespace {
-constexpr sim::EventKind wake_up = 0;
 
 /// Stable, in place and without allocation; the frames of one instant are few.
 template <class Arrivals>
@@ -19,7 +18,7 @@ void sort_by_rank(Arrivals& arrivals) {
 }  // namespace
 
 void EgressPort::connect(sim::Simulation& simulation, Shared& shared, const PortConfig& config, const LocalClock& clock,
-                         sim::Duration octet_time, LinkEnd far_end) {
+                         sim::Duration octet_time, LinkEnd far_end, EgressPort* opposite) {
   TAKT_CHECK(shared_ == nullptr, "a port has one link");
   TAKT_CHECK(octet_time.ps() > 0 && octet_time.ps() < (1 << 20), "an octet lasts between 1 ps and 1 us");
   TAKT_CHECK(far_end.delay.ps() >= 0 && far_end.delay.ps() < (std::int64_t{1} << 44), "a link and its far node delay a frame by at most 17 s");
@@ -27,62 +26,161 @@ void EgressPort::connect(sim::Simulation& simulation, Shared& shared, const Port
   shared_ = &shared;
   config_ = &config;
   clock_ = &clock;
-  if (!config.shaping.is_plain()) shaping_ = std::make_unique<PortShaping>(config.shaping, clock, octet_time);
-  detours_ = shaping_ != nullptr;
+  opposite_ = opposite;
   octet_time_ps_ = static_cast<std::uint64_t>(octet_time.ps()) & 0xFFFFF;
   peer_node_ = far_end.node;
   peer_port_ = far_end.port;
   peer_delay_ps_ = static_cast<std::uint64_t>(far_end.delay.ps()) & 0xFFF'FFFF'FFFF;
+  if (!config.shaping.is_plain()) make_shaping();
+  // Extras of the link or the node may come at any time, and need to know the peer's share of the delay.
+  if (config.preemption || config.cut_through != 0 || config.untagged) make_extras();
+  if (config.preemption) extras_->merge = std::make_unique<MacMerge>(*config.preemption, octet_time);
+  if (config.cut_through != 0) extras_->conditional = true;
+  node_delay_ = far_end.node_delay;
 }
 
+inline void EgressPort::find_way() {
+  way_ = !queues_.empty() || extras_ ? Way::detour : !shaping_ ? Way::straight : only_gates_ != nullptr ? Way::gated : Way::detour;
+}
+
+/// To be called when the port gets other features.
+void EgressPort::find_gates() {
+  only_gates_ = shaping_ && !extras_ && shaping_->has_only_gates() ? &shaping_->gates() : nullptr;
+  find_way();
+}
+
+PortShaping& EgressPort::make_shaping() {
+  if (!shaping_) shaping_ = std::make_unique<PortShaping>(config_->shaping, *clock_, octet_time());
+  find_gates();
+  return *shaping_;
+}
+
+EgressPort::Extras& EgressPort::make_extras() {
+  if (!extras_) extras_ = std::make_unique<Extras>();
+  find_gates();
+  return *extras_;
+}
+
+void EgressPort::notice_headers(std::uint8_t priorities, Octets header) {
+  make_extras().noticed_priorities = priorities;
+  extras_->noticed_header = header;
+}
+
+void EgressPort::make_conditional() { make_extras().conditional = true; }
+
 void EgressPort::handle(sim::Simulation& simulation, const sim::Event& event) {
-  TAKT_CHECK(event.kind() == wake_up, "a port knows one kind of event");
+  if (event.kind() == stored_frame) {
+    take_stored(simulation, event.argument);
+    return;
+  }
+  TAKT_CHECK(event.kind() == wake_up, "an event of another component");
   if (event.time != wake_at_) return;  // an earlier wake-up took its place
   wake_at_ = sim::TrueTime::never();
-  if (settling_) return;
-  settling_ = true;
-  simulation.settle_later(*this);
+  if (!settling_ && simulation.instant_is_complete()) [[likely]]
+    settle_many(simulation);
+  else
+    settle_later(simulation);
 }
 
 void EgressPort::settle(sim::Simulation& simulation) {
   settling_ = false;
   // The common case: one frame, nothing waits, the medium is free.
-  if (has_arrival_ && !detours_ && more_arrivals_.empty() && simulation.now() >= busy_until_) [[likely]] {
+  if (has_arrival_ && way_ != Way::detour && more_arrivals_.empty() && simulation.now() >= busy_until_) [[likely]] {
     has_arrival_ = false;
-    start(simulation, arrival_.frame);
+    if (way_ == Way::straight)
+      start(simulation, arrival_.frame);
+    else
+      pass_gate(simulation, arrival_.frame);
     return;
   }
   settle_many(simulation);
 }
 
-/// The common case of a port with gates or shapers: one frame, nothing waits.
-void EgressPort::settle_one(sim::Simulation& simulation, FrameIndex frame) {
-  if (!passes_max_sdu(simulation, frame)) return;
+/// A frame comes alone to a free medium at a port that has gates and nothing else.
+void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame) {
   const sim::TrueTime now = simulation.now();
-  const TrafficClass q = class_of(frame);
+  const Frame& record = shared_->traffic->frame(frame);
+  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
+  const StartAnswer answer = only_gates_->may_start(q, clock_->local_at(now), octet_time() * (preamble_and_sfd.count + std::int64_t{record.length}));
+  if (answer.may_start) [[likely]] {
+    sending_ = q;
+    start(simulation, frame);
+    return;
+  }
+  admit(simulation, frame);
+  way_ = Way::detour;
+  promised_ = answer.ask_again == sim::LocalTime::never() ? sim::TrueTime::never() : std::max(clock_->true_at(answer.ask_again), now + sim::Duration::from_ps(1));
+  wake_at(simulation, promised_);
+}
+
+/// The common case of a port with gates or shapers: one frame, nothing waits.
+inline void EgressPort::settle_one(sim::Simulation& simulation, FrameIndex frame) {
+  if (shaping_->limits_sdu() && !passes_max_sdu(simulation, frame)) return;
+  const sim::TrueTime now = simulation.now();
+  const Frame& record = shared_->traffic->frame(frame);
+  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
   shaping_->frame_waits(now, q);
   if (now < busy_until_) {
     admit(simulation, frame);
     wake_at(simulation, busy_until_);
     return;
   }
-  const sim::TrueTime ready = shaping_->ready_time(now, q, shared_->traffic->frame(frame).length);
+  const sim::TrueTime ready = shaping_->ready_time(now, q, {record.length, eligible_of(frame)});
   if (ready == now) {
-    start_selected(simulation, frame, q, true);
+    shaping_->started(now, q, record.length, true);
+    sending_ = q;
+    start(simulation, frame);
     return;
   }
   admit(simulation, frame);
+  promised_ = shaping_->is_gated_only(q) ? ready : sim::TrueTime::never();
   wake_at(simulation, ready);
 }
 
-void EgressPort::settle_many(sim::Simulation& simulation) {
-  if (has_arrival_ && more_arrivals_.empty() && queues_.empty() && shaping_) {
-    has_arrival_ = false;
-    settle_one(simulation, arrival_.frame);
-    return;
+/// The common case of a port that wakes up: frames of one class wait.
+inline void EgressPort::settle_waiting(sim::Simulation& simulation) {
+  const sim::TrueTime now = simulation.now();
+  const TrafficClass q = highest_class(queues_.waiting());
+  const FrameIndex frame = queues_.head(q, shared_->entries);
+  sim::TrueTime ready = busy_until_;
+  if (now >= busy_until_) {
+    ready = shaping_ && promised_ != now ? shaping_->ready_time(now, q, {shared_->traffic->frame(frame).length, eligible_of(frame)}) : now;
+    if (ready == now) {
+      pop(simulation, q);
+      if (shaping_) {
+        shaping_->started(now, q, shared_->traffic->frame(frame).length, queues_.empty());
+        sending_ = q;
+      }
+      start(simulation, frame);
+      find_way();
+      ready = busy_until_;
+    }
   }
+  if (!queues_.empty()) wake_at(simulation, ready);
+}
+
+void EgressPort::settle_many(sim::Simulation& simulation) {
+  if (!extras_ && more_arrivals_.empty()) [[likely]] {
+    if (has_arrival_ && queues_.empty() && shaping_) {
+      has_arrival_ = false;
+      settle_one(simulation, arrival_.frame);
+      find_way();
+      return;
+    }
+    if (!has_arrival_ && is_one_class(queues_.waiting())) {
+      settle_waiting(simulation);
+      return;
+    }
+  }
+  if (extras_ && !extras_->headers.empty() && settle_headers(simulation)) return;
+  promised_ = sim::TrueTime::never();
   if (has_arrival_) more_arrivals_.insert(more_arrivals_.begin(), arrival_);
   has_arrival_ = false;
+  if (is_down()) {
+    for (const Arrival& arrival : more_arrivals_) give_up(simulation, arrival.frame, DropReason::link_down);
+    more_arrivals_.clear();
+    return;
+  }
   sort_by_rank(more_arrivals_);
   const sim::TrueTime now = simulation.now();
   if (shaping_) {
@@ -90,90 +188,200 @@ void EgressPort::settle_many(sim::Simulation& simulation) {
     for (const Arrival& arrival : more_arrivals_) shaping_->frame_waits(now, class_of(arrival.frame));
   }
 
+  // Selection looks at the head of each class; a frame that has just come is the head of a class that had none.
+  Heads heads;
+  std::array<First, traffic_class_count> firsts;
   sim::TrueTime next = busy_until_;
   if (now >= busy_until_) {
-    // Selection looks at the head of each class; a frame that has just come is the head of a class that had none.
-    ClassSet candidates = queues_.waiting();
-    for (const Arrival& arrival : more_arrivals_) candidates = static_cast<ClassSet>(candidates | 1u << class_of(arrival.frame));
-    const Selection selection = select(now, candidates);
-    next = selection.ask_again;
-    if (selection.found) {
-      const TrafficClass q = selection.traffic_class;
-      const auto is_of_class = [&](const Arrival& arrival) { return class_of(arrival.frame) == q; };
-      if ((queues_.waiting() >> q & 1) != 0) {
-        const FrameIndex frame = queues_.pop(q, shared_->entries);
-        const bool is_last = queues_.frames(q) == 0 && std::none_of(more_arrivals_.begin(), more_arrivals_.end(), is_of_class);
-        start_selected(simulation, frame, q, is_last);
-      } else {
-        const auto first = std::find_if(more_arrivals_.begin(), more_arrivals_.end(), is_of_class);
-        const FrameIndex frame = first->frame;
-        more_arrivals_.erase(first);
-        start_selected(simulation, frame, q, std::none_of(more_arrivals_.begin(), more_arrivals_.end(), is_of_class));
-      }
-      next = busy_until_;
+    const ClassSet candidates = find_heads(heads, firsts);
+    const Choice choice = choose(now, candidates, heads);
+    next = choice.selection.ask_again;
+    if (choice.selection.found) {
+      if (choice.rest)
+        resume(simulation);
+      else
+        start_first(simulation, firsts[choice.selection.traffic_class], choice.selection.traffic_class);
+      next = when_to_look(now);
     }
+  } else if (extras_ && extras_->merge) {
+    const ClassSet candidates = find_heads(heads, firsts);
+    next = look_while_busy(simulation, candidates, heads);
   }
   for (const Arrival& arrival : more_arrivals_) admit(simulation, arrival.frame);
   more_arrivals_.clear();
-  detours_ = !queues_.empty() || shaping_;
-  if (!queues_.empty()) wake_at(simulation, next);
+  find_way();
+  if (!queues_.empty() || (extras_ && extras_->merge)) wake_at(simulation, next);
 }
 
-Selection EgressPort::select(sim::TrueTime now, ClassSet candidates) {
-  if (!shaping_) return select_transmission(candidates);
-  HeadLengths heads{};
-  for (const Arrival& arrival : more_arrivals_) {
-    const Frame& frame = shared_->traffic->frame(arrival.frame);
-    std::uint16_t& head = heads[config_->traffic_class_of_priority[frame.priority]];
-    if (head == 0) head = frame.length;  // the first of its class
-  }
-  for (ClassSet waiting = queues_.waiting(); waiting != 0;) {
+/// The head of each class that has one: of its queue, or the first of this instant. In a timed class the one with the earliest time.
+ClassSet EgressPort::find_heads(Heads& heads, std::array<First, traffic_class_count>& firsts) const {
+  ClassSet candidates = queues_.waiting();
+  for (ClassSet waiting = candidates; waiting != 0; waiting = without(waiting, highest_class(waiting))) {
     const TrafficClass q = highest_class(waiting);
-    heads[q] = shared_->traffic->frame(queues_.head(q, shared_->entries)).length;
-    waiting = static_cast<ClassSet>(waiting & ~(1u << q));
+    const FrameIndex frame = queues_.head(q, shared_->entries);
+    firsts[q] = {frame, First::in_queue};
+    heads[q] = {shared_->traffic->frame(frame).length, eligible_of(frame)};
   }
-  return shaping_->select(now, candidates, heads);
+  for (std::uint32_t i = 0; i < more_arrivals_.size(); ++i) {
+    const FrameIndex frame = more_arrivals_[i].frame;
+    const TrafficClass q = class_of(frame);
+    const sim::LocalTime eligible = eligible_of(frame);
+    if (contains(candidates, q) && !(shaping_ && shaping_->is_timed(q) && eligible < heads[q].eligible)) continue;
+    candidates = with(candidates, q);
+    firsts[q] = {frame, i};
+    heads[q] = {shared_->traffic->frame(frame).length, eligible};
+  }
+  return candidates;
+}
+
+Selection EgressPort::select(sim::TrueTime now, ClassSet candidates, const Heads& heads, sim::Duration delay) {
+  return shaping_ ? shaping_->select(now, candidates, heads, delay) : select_transmission(candidates);
+}
+
+/// At a free medium: express frames come first; then the rest of a frame that was cut, before any other preemptable one.
+EgressPort::Choice EgressPort::choose(sim::TrueTime now, ClassSet candidates, const Heads& heads) {
+  if (!extras_ || !extras_->merge) return {select(now, candidates, heads)};
+  const MacMerge& merge = *extras_->merge;
+  const Selection express = select(now, candidates & static_cast<ClassSet>(~merge.preemptable()), heads);
+  if (express.found) return {express};
+  const std::optional<MacMerge::Rest>& rest = merge.rest();
+  Selection other;
+  if (const ClassSet preemptable = candidates & merge.preemptable(); rest || preemptable != 0) {
+    if (const HoldRequest hold = hold_request(now); hold.hold) {
+      other.ask_again = hold.until == sim::LocalTime::never() ? sim::TrueTime::never() : clock_->true_at(hold.until);
+    } else if (rest) {
+      other.traffic_class = rest->traffic_class;
+      const sim::TrueTime ready = shaping_ ? shaping_->rest_ready_time(now, rest->traffic_class, rest->remaining.count) : now;
+      other.found = ready == now;
+      other.ask_again = ready;
+    } else {
+      other = select(now, preemptable, heads);
+    }
+  }
+  if (other.found) return {other, rest.has_value()};
+  other.ask_again = std::min(other.ask_again, express.ask_again);
+  return {other};
+}
+
+HoldRequest EgressPort::hold_request(sim::TrueTime now) {
+  if (!shaping_) return {};
+  return extras_->merge->hold_request(shaping_->gates(), clock_->local_at(now));
+}
+
+/// While the medium is busy at a port that preempts: cuts the frame under way if an express frame may start, or if the MAC is
+/// asked to hold. Says when to look again.
+sim::TrueTime EgressPort::look_while_busy(sim::Simulation& simulation, ClassSet candidates, const Heads& heads) {
+  MacMerge& merge = *extras_->merge;
+  const sim::TrueTime now = simulation.now();
+  if (!merge.under_way()) return when_to_look(now);
+  const std::optional<MacMerge::Cut> earliest = merge.earliest_cut(now);
+  if (!earliest) return when_to_look(now);
+  const HoldRequest hold = hold_request(now);
+  sim::TrueTime next = busy_until_;
+  bool wanted = hold.hold;
+  if (!wanted) {
+    const Selection express = select(now, candidates & static_cast<ClassSet>(~merge.preemptable()), heads, earliest->free_at - now);
+    wanted = express.found;
+    next = std::min({next, express.ask_again, when_to_look(now)});
+  }
+  if (!wanted) return next;
+  cut(simulation, *earliest);
+  return busy_until_;
+}
+
+/// When to look again after a frame has started: at its end, or at a port that preempts when the MAC will be asked to hold.
+sim::TrueTime EgressPort::when_to_look(sim::TrueTime now) {
+  if (!extras_ || !extras_->merge) return busy_until_;
+  const MacMerge& merge = *extras_->merge;
+  sim::TrueTime next = queues_.empty() && more_arrivals_.empty() && !merge.rest() ? sim::TrueTime::never() : busy_until_;
+  if (merge.under_way() && now < busy_until_) {
+    const HoldRequest hold = hold_request(now);
+    if (!hold.hold && hold.until != sim::LocalTime::never())
+      if (const sim::TrueTime begin = clock_->true_at(hold.until); begin < busy_until_) next = std::min(next, begin);
+  }
+  return next;
+}
+
+void EgressPort::start_first(sim::Simulation& simulation, const First& first, TrafficClass q) {
+  const auto is_of_class = [&](const Arrival& arrival) { return class_of(arrival.frame) == q; };
+  if (first.arrival == First::in_queue)
+    pop(simulation, q);
+  else
+    more_arrivals_.erase(more_arrivals_.begin() + first.arrival);
+  const bool is_last = queues_.frames(q) == 0 && std::none_of(more_arrivals_.begin(), more_arrivals_.end(), is_of_class);
+  start_selected(simulation, first.frame, q, is_last);
+}
+
+FrameIndex EgressPort::pop(sim::Simulation& simulation, TrafficClass q) {
+  const FrameIndex frame = queues_.pop(q, shared_->entries);
+  if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
+    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::dequeued), id(), frame.value, q});
+  return frame;
 }
 
 void EgressPort::start_selected(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, bool queue_is_empty) {
-  if (shaping_) shaping_->started(simulation.now(), q, shared_->traffic->frame(frame).length, queue_is_empty);
-  start(simulation, frame);
+  if (shaping_) {
+    shaping_->started(simulation.now(), q, shared_->traffic->frame(frame).length, queue_is_empty);
+    sending_ = q;
+  }
+  if (extras_)
+    start_with_extras(simulation, frame, q);
+  else
+    start(simulation, frame);
 }
 
 bool EgressPort::passes_max_sdu(sim::Simulation& simulation, FrameIndex frame) {
   const Frame& record = shared_->traffic->frame(frame);
-  const Octets overhead = mac_header + frame_check_sequence + (record.tagged ? vlan_tag : Octets{0});
-  if (shaping_->fits_max_sdu(config_->traffic_class_of_priority[record.priority], record.length - overhead.count)) return true;
-  ++frames_dropped_;
-  shared_->traffic->drop(frame, DropReason::queue_max_sdu, id(), simulation);
+  const std::uint32_t msdu = record.msdu + (record.r_tagged ? r_tag.count : 0);
+  if (shaping_->fits_max_sdu(config_->traffic_class_of_priority[record.queue_priority], msdu)) return true;
+  give_up(simulation, frame, DropReason::queue_max_sdu);
   return false;
 }
 
 ConfigChange EgressPort::request_gates(sim::Simulation& simulation, const GateConfig& gates) {
-  if (!shaping_) shaping_ = std::make_unique<PortShaping>(config_->shaping, *clock_, sim::Duration::from_ps(static_cast<std::int64_t>(octet_time_ps_)));
-  detours_ = true;
+  make_shaping();
   const ConfigChange change = shaping_->request_gates(simulation.now(), gates);
-  // What waits may become ready earlier or later than was thought.
-  if (!queues_.empty() && !settling_) {
-    settling_ = true;
-    simulation.settle_later(*this);
-  }
+  gates_changed(simulation);
   return change;
+}
+
+void EgressPort::force_gate(sim::Simulation& simulation, TrafficClass q, std::optional<bool> open) {
+  make_shaping().force_gate(simulation.now(), q, open);
+  gates_changed(simulation);
+}
+
+/// What waits may become ready earlier or later than was thought.
+void EgressPort::gates_changed(sim::Simulation& simulation) {
+  const sim::TrueTime last_bit = busy_until_ - octet_time() * inter_packet_gap.count;
+  if (last_bit > simulation.now()) shaping_->check_overrun(simulation.now(), sending_, last_bit);
+  promised_ = sim::TrueTime::never();
+  find_gates();
+  if (extras_ && extras_->merge) extras_->merge->gates_changed();
+  if (!queues_.empty() || (extras_ && extras_->merge)) settle_later(simulation);
+  if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
+    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::gates_changed), id(), 0, 0});
 }
 
 void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
   const Frame& record = shared_->traffic->frame(frame);
-  const TrafficClass q = config_->traffic_class_of_priority[record.priority];
+  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
   DropReason reason{};
   if (!queues_.has_room(q, record.length, config_->queue_limits[q], reason)) {
-    ++frames_dropped_;
-    shared_->traffic->drop(frame, reason, id(), simulation);
+    give_up(simulation, frame, reason);
     if (shaping_ && queues_.frames(q) == 0) shaping_->none_waits(simulation.now(), q);
     return;
   }
-  queues_.push(q, frame, record.length, shared_->entries);
+  if (shaping_ && shaping_->is_timed(q))
+    queues_.push_in_order(q, frame, record.length, shared_->entries, [this](FrameIndex f) { return eligible_of(f); });
+  else
+    queues_.push(q, frame, record.length, shared_->entries);
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::enqueued), id(), frame.value, q});
+}
+
+void EgressPort::give_up(sim::Simulation& simulation, FrameIndex frame, DropReason reason) {
+  ++frames_dropped_;
+  shared_->traffic->drop(frame, reason, id(), simulation);
 }
 
 void EgressPort::start(sim::Simulation& simulation, FrameIndex frame) {
@@ -186,13 +394,13 @@ void EgressPort::start(sim::Simulation& simulation, FrameIndex frame) {
   simulation.schedule(source_, now + sim::Duration::from_ps(until_last_bit + static_cast<std::int64_t>(peer_delay_ps_)), sim::Phase::arrival, peer_node_,
                       static_cast<sim::EventKind>(NodeEvent::frame_arrived), ArrivalArgument::pack(frame, peer_port_));
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
-    trace->record({now, static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, record.length});
+    trace->record({now, static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, TransmissionDetail{record.length, class_of(frame)}.pack()});
 }
 
 void EgressPort::wake_at(sim::Simulation& simulation, sim::TrueTime time) {
   if (time >= wake_at_) return;
   wake_at_ = time;
-  ++wake_ups_;
+  ++other_events_;
   simulation.schedule(source_, time, sim::Phase::arrival, id(), wake_up, 0);
 }
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "models/egress/class_set.hpp"
 #include "models/egress/port_config.hpp"
 #include "models/ethernet/frame_pool.hpp"
 
@@ -17,9 +18,6 @@ struct QueueEntry {
 };
 using QueueEntryIndex = Index<struct QueueEntryTag>;
 using QueueEntryPool = Pool<QueueEntry, QueueEntryIndex>;
-
-/// Which traffic classes have a frame: bit q for class q.
-using ClassSet = std::uint8_t;
 
 class PortQueues {
  public:
@@ -57,6 +55,34 @@ class PortQueues {
     if (queue.frames > peak_frames_) peak_frames_ = queue.frames;
   }
 
+  /// The same into a queue that is in ascending order of eligibility times, behind those of the same time.
+  template <class EligibleOf>
+  void push_in_order(TrafficClass q, FrameIndex frame, std::uint32_t length, QueueEntryPool& pool, const EligibleOf& eligible_of) {
+    Queue& queue = queues_[q];
+    const auto time = eligible_of(frame);
+    if (queue.frames == 0 || eligible_of(pool[queue.tail].frame) <= time) {
+      push(q, frame, length, pool);
+      return;
+    }
+    const QueueEntryIndex entry = pool.allocate();
+    pool[entry] = {frame, 0, length};
+    QueueEntryIndex* link = nullptr;
+    QueueEntryIndex before = queue.head;
+    if (eligible_of(pool[queue.head].frame) > time) {
+      link = &queue.head;
+    } else {
+      while (eligible_of(pool[QueueEntryIndex{pool[before].next}].frame) <= time) before.value = pool[before].next;
+    }
+    pool[entry].next = link != nullptr ? link->value : pool[before].next;
+    if (link != nullptr)
+      *link = entry;
+    else
+      pool[before].next = entry.value;
+    ++queue.frames;
+    queue.octets += length;
+    if (queue.frames > peak_frames_) peak_frames_ = queue.frames;
+  }
+
   FrameIndex pop(TrafficClass q, QueueEntryPool& pool) {
     Queue& queue = queues_[q];
     const QueueEntryIndex entry = queue.head;
@@ -83,7 +109,5 @@ class PortQueues {
   std::uint32_t peak_frames_ = 0;
   std::array<Queue, traffic_class_count> queues_;
 };
-
-inline TrafficClass highest_class(ClassSet set) { return static_cast<TrafficClass>(std::bit_width(set) - 1); }
 
 }  // namespace takt::models

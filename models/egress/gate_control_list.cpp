@@ -1,6 +1,7 @@
 #include "models/egress/gate_control_list.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace takt::models {
 namespace {
@@ -20,6 +21,7 @@ GateControlList::GateControlList(std::span<const GateControlEntry> entries, Dura
     : intervals_(intervals_of(entries, cycle_time)), entries_(entries.begin(), entries.end()) {
   ahead_.resize(std::size_t{intervals_.executed()} * traffic_class_count);
   for (TrafficClass q = 0; q < traffic_class_count; ++q) lay_out_gate(q);
+  for (TrafficClass q = 0; q < traffic_class_count; ++q) lay_out_windows(q);
   lay_out_hold();
 }
 
@@ -52,6 +54,22 @@ void GateControlList::lay_out_gate(TrafficClass q) {
         ahead.toggle_ps == no_toggle_ps ? Duration::max() : Duration::from_ps(ahead.toggle_ps) - intervals_.start(i);
     longest_window_[q] = std::max(longest_window_[q], window);
   }
+}
+
+void GateControlList::lay_out_windows(TrafficClass q) {
+  const std::uint32_t count = intervals_.executed();
+  first_window_[q] = windows_.size();
+  if (longest_window_[q] == Duration::max()) {
+    windows_.push_back({std::numeric_limits<std::int64_t>::min() / 4, std::numeric_limits<std::int64_t>::max() / 4});
+  } else {
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (ahead(i, q).open && !ahead((i + count - 1) % count, q).open) windows_.push_back({intervals_.start(i).ps(), ahead(i, q).toggle_ps});
+    if (windows_.size() > first_window_[q] && windows_.back().until_ps > cycle_time().ps()) {
+      const Window before{windows_.back().from_ps - cycle_time().ps(), windows_.back().until_ps - cycle_time().ps()};
+      windows_.insert(windows_.begin() + static_cast<std::ptrdiff_t>(first_window_[q]), before);
+    }
+  }
+  first_window_[q + 1u] = windows_.size();
 }
 
 void GateControlList::lay_out_hold() {

@@ -63,6 +63,15 @@ class GateControlList {
   /// In an executed entry the MAC holds, if the cycle is not the first one or an entry up to this one has said so.
   bool holds(std::uint32_t entry) const { return holds_[entry]; }
 
+  /// A stretch in which a gate is open without a break; instants count from the start of a regular cycle.
+  struct Window {
+    std::int64_t from_ps = 0;
+    std::int64_t until_ps = 0;
+  };
+  /// The windows of a gate that begin in a cycle, ascending; before them the one that goes on from the cycle before, if there is one. A gate
+  /// that is always open has one window that holds everything.
+  std::span<const Window> windows(TrafficClass q) const { return {windows_.data() + first_window_[q], first_window_[q + 1u] - first_window_[q]}; }
+
   /// How long the gate is open in a regular cycle.
   OpenShare open_share(TrafficClass q) const { return {open_[q], cycle_time()}; }
   /// The longest time for which the gate is open without a break while the list repeats; zero if it never opens,
@@ -73,9 +82,12 @@ class GateControlList {
 
  private:
   void lay_out_gate(TrafficClass q);
+  void lay_out_windows(TrafficClass q);
   void lay_out_hold();
 
   std::vector<Ahead> ahead_;  // for each executed entry, each gate
+  std::vector<Window> windows_;
+  std::array<std::size_t, traffic_class_count + 1> first_window_{};
   CyclicIntervals intervals_;
   std::vector<GateControlEntry> entries_;
   std::vector<bool> holds_;

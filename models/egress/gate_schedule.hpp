@@ -1,6 +1,8 @@
 // The transmission gates of a port as a function of the node's own synchronised time (IEEE 802.1Q clauses 8.6.8.4, 8.6.9).
 #pragma once
 
+#include <algorithm>
+
 #include "models/egress/cyclic_schedule.hpp"
 #include "models/egress/gate_control_list.hpp"
 
@@ -58,9 +60,11 @@ class GateSchedule {
   /// May a frame of class q that lasts for `duration` (not negative) start now and end before its gate closes (8.6.8.4)?
   /// Which octets are part of the duration is the caller's choice.
   StartAnswer may_start(TrafficClass q, sim::LocalTime now, sim::Duration duration) {
+    const Schedule::Span& present = schedule_.present();
+    if (present.repeats && present.until == sim::LocalTime::never()) [[likely]] return may_start_in_list(present, q, now, duration);
     const Place& place = here(now);
     const Schedule::Span& span = schedule_.present();
-    if (span.repeats) [[likely]] {
+    if (span.repeats) {
       const GateControlList::Ahead& ahead = span.list->ahead(place.entry, q);
       const std::int64_t left_ps = ahead.toggle_ps - (now - place.cycle_start).ps();
       const sim::LocalTime latest_start = span.until - duration;  // of what ends before the list does
@@ -106,6 +110,32 @@ class GateSchedule {
   bool is_open_in(const Place& place, TrafficClass q) const { return (states_in(place) >> q & 1) != 0; }
   sim::LocalTime walk_to_toggle(Place& place, TrafficClass q) const;
   sim::LocalTime toggle_in_span(Place& place, TrafficClass q) const;
+  /// The same under a list that runs for ever: one look at the windows of the class.
+  StartAnswer may_start_in_list(const Schedule::Span& span, TrafficClass q, sim::LocalTime now, sim::Duration duration) {
+    const GateControlList& list = *span.list;
+    if (cursor_list_ != &list || cursor_anchor_ != span.anchor) [[unlikely]] {
+      cursor_list_ = &list;
+      cursor_anchor_ = cursor_ = span.anchor;
+    }
+    const std::int64_t cycle_ps = list.cycle_time().ps();
+    std::int64_t at_ps = (now - cursor_).ps();
+    if (at_ps < 0 || at_ps >= cycle_ps) {
+      cursor_ += at_ps >= 0 && at_ps < 2 * cycle_ps ? list.cycle_time() : list.cycle_time() * list.intervals().cycles_in(sim::Duration::from_ps(at_ps));
+      at_ps = (now - cursor_).ps();
+    }
+    const std::span<const GateControlList::Window> windows = list.windows(q);
+    const std::int64_t duration_ps = duration.ps();
+    for (const GateControlList::Window& window : windows) {
+      if (at_ps >= window.from_ps) {
+        if (at_ps < window.until_ps && at_ps + duration_ps <= window.until_ps) return {true, now};
+      } else if (window.from_ps + duration_ps <= window.until_ps) {
+        return {false, cursor_ + sim::Duration::from_ps(window.from_ps)};
+      }
+    }
+    for (const GateControlList::Window& window : windows)
+      if (window.from_ps + cycle_ps > at_ps && window.from_ps + duration_ps <= window.until_ps) return {false, cursor_ + sim::Duration::from_ps(window.from_ps + cycle_ps)};
+    return {false, sim::LocalTime::never()};
+  }
   StartAnswer may_start_by_search(const Place& place, TrafficClass q, sim::LocalTime now, sim::Duration duration) const;
   bool holds_in(const Place& place) const;
   bool inherited_hold(std::uint32_t span) const;
@@ -113,6 +143,10 @@ class GateSchedule {
 
   Schedule schedule_;
   GateStates admin_gate_states_;
+  // Where may_start_in_list() looked last: the start of a cycle of that list.
+  const GateControlList* cursor_list_ = nullptr;
+  sim::LocalTime cursor_anchor_;
+  sim::LocalTime cursor_;
   bool hold_before_present_ = false;  // whether the MAC held when the present span began
 };
 

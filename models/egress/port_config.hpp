@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "models/egress/shaping_config.hpp"
 #include "models/ethernet/frame.hpp"
@@ -26,6 +27,11 @@ struct PortConfig {
   std::array<TrafficClass, 8> traffic_class_of_priority = standard_traffic_classes;
   std::array<QueueLimit, traffic_class_count> queue_limits{};
   ShapingConfig shaping;
+  std::optional<PreemptionConfig> preemption;
+  /// Classes whose frames may begin to leave through this port before they have come wholly.
+  ClassSet cut_through = 0;
+  /// Frames leave without a VLAN tag. For ports towards hosts.
+  bool untagged = false;
   bool operator==(const PortConfig&) const = default;
 };
 

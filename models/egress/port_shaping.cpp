@@ -12,7 +12,9 @@ sim::DataRate rate_of(sim::Duration octet_time) {
 }  // namespace
 
 PortShaping::PortShaping(const ShapingConfig& config, const LocalClock& clock, sim::Duration octet_time)
-    : config_(&config), clock_(&clock), octet_time_(octet_time), has_gates_(config.admin_gate_states != all_gates_open), gates_(config.admin_gate_states) {
+    : config_(&config), clock_(&clock), octet_time_(octet_time), has_gates_(config.admin_gate_states != all_gates_open),
+      limits_sdu_(std::any_of(config.queue_max_sdu.begin(), config.queue_max_sdu.end(), [](Octets most) { return most.count != 0; })),
+      gates_(config.admin_gate_states) {
   for (TrafficClass q = 0; q < traffic_class_count; ++q) {
     if (!config.shapers[q]) continue;
     const CreditSlope slope{static_cast<std::int64_t>(config.shapers[q]->idle_slope.bits_per_second), 1};
@@ -35,24 +37,31 @@ ConfigChange PortShaping::request_gates(sim::TrueTime now, const GateConfig& gat
   return gates_.request_change(local, admin);
 }
 
-Selection PortShaping::select(sim::TrueTime now, ClassSet candidates, const HeadLengths& heads) {
+Selection PortShaping::select(sim::TrueTime now, ClassSet candidates, const Heads& heads, sim::Duration delay) {
   Selection selection;
   while (candidates != 0) {
     const TrafficClass q = highest_class(candidates);
-    const sim::TrueTime ready = ready_time(now, q, heads[q]);
+    const sim::TrueTime ready = ready_time(now, q, heads[q], delay);
     if (ready == now) return {true, q, sim::TrueTime::never()};
     selection.ask_again = std::min(selection.ask_again, ready);
-    candidates = static_cast<ClassSet>(candidates & ~(1u << q));
+    candidates = without(candidates, q);
   }
   return selection;
 }
 
-/// `now` if the frame may start, otherwise the earliest instant at which it is worth asking again.
-sim::TrueTime PortShaping::ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t length) {
-  if (has_gates_) {
-    const StartAnswer answer = gates_.may_start(q, clock_->local_at(now), octet_time_ * (preamble_and_sfd.count + std::int64_t{length}));
-    if (!answer.may_start) return answer.ask_again == sim::LocalTime::never() ? sim::TrueTime::never() : clock_->true_at(answer.ask_again);
-  }
+/// `now` if the gate lets the frame pass, otherwise the earliest instant at which it is worth asking again.
+[[gnu::always_inline]] inline sim::TrueTime PortShaping::gate_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t length, sim::Duration delay) {
+  if (!has_gates_) return now;
+  if (((forced_open_ | forced_closed_) >> q & 1u) != 0) [[unlikely]] return contains(forced_open_, q) ? now : sim::TrueTime::never();
+  const StartAnswer answer = gates_.may_start(q, clock_->local_at(now), delay + octet_time_ * (preamble_and_sfd.count + std::int64_t{length}));
+  if (answer.may_start) return now;
+  return answer.ask_again == sim::LocalTime::never() ? sim::TrueTime::never() : std::max(clock_->true_at(answer.ask_again), now + sim::Duration::from_ps(1));
+}
+
+sim::TrueTime PortShaping::ready_time(sim::TrueTime now, TrafficClass q, const Head& head, sim::Duration delay) {
+  if (config_->timed != 0 && is_timed(q) && head.eligible > clock_->local_at(now)) return std::max(clock_->true_at(head.eligible), now + sim::Duration::from_ps(1));
+  const sim::TrueTime gate = gate_ready_time(now, q, head.length, delay);
+  if (gate != now) return gate;
   if (Shaper* const shaper = shapers_[q].get()) {
     follow_gate(*shaper, q, now);
     return shaper->credit.eligible_time(now);
@@ -60,10 +69,40 @@ sim::TrueTime PortShaping::ready_time(sim::TrueTime now, TrafficClass q, std::ui
   return now;
 }
 
+sim::TrueTime PortShaping::rest_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t remaining) { return gate_ready_time(now, q, remaining, {}); }
+
+void PortShaping::force_gate(sim::TrueTime now, TrafficClass q, std::optional<bool> open) {
+  has_gates_ = true;
+  Shaper* const shaper = shapers_[q].get();
+  if (shaper != nullptr) follow_gate(*shaper, q, now);
+  forced_open_ = without(forced_open_, q);
+  forced_closed_ = without(forced_closed_, q);
+  if (open) {
+    ClassSet& set = *open ? forced_open_ : forced_closed_;
+    set = with(set, q);
+  }
+  if (shaper == nullptr) return;
+  if (open.value_or(shaper->gates.is_open(q, clock_->local_at(now))))
+    shaper->credit.gate_opened(now);
+  else
+    shaper->credit.gate_closed(now);
+}
+
+void PortShaping::check_overrun(sim::TrueTime now, TrafficClass q, sim::TrueTime last_bit) {
+  if (contains(forced_open_, q)) return;
+  const sim::LocalTime close = gates_.close_time(q, clock_->local_at(now));
+  if (contains(forced_closed_, q) || (close != sim::LocalTime::never() && clock_->true_at(close) < last_bit)) ++transmission_overrun_[q];
+}
+
 /// Tells the credit when the gate opened and closed up to `now`: one step for each change since it was last asked.
 void PortShaping::follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now) {
   if (!has_gates_) return;
   const sim::LocalTime local = clock_->local_at(now);
+  if (((forced_open_ | forced_closed_) >> q & 1u) != 0) {  // it stays as it is; the list goes on behind it
+    shaper.followed = local;
+    static_cast<void>(shaper.gates.is_open(q, local));
+    return;
+  }
   for (;;) {
     const sim::LocalTime at = shaper.followed;
     const bool open = shaper.gates.is_open(q, at);

@@ -1,6 +1,7 @@
 // What a port has besides strict priority: transmission gates, credit-based shapers, maximum SDU sizes (IEEE 802.1Q 8.6.8).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -16,8 +17,13 @@
 
 namespace takt::models {
 
-/// Lengths (DA to FCS) of the frames at the heads of the queues; only those of candidate classes count.
-using HeadLengths = std::array<std::uint16_t, traffic_class_count>;
+/// The frame at the head of a queue, as far as shaping asks.
+struct Head {
+  std::uint32_t length = 0;   ///< DA to FCS; of a frame that was cut what is left of it
+  sim::LocalTime eligible;    ///< counts in timed classes
+};
+/// By class; only those of candidate classes count.
+using Heads = std::array<Head, traffic_class_count>;
 
 class PortShaping {
  public:
@@ -31,10 +37,15 @@ class PortShaping {
   /// at which one of them may become ready.
   ///
   /// A frame may start if its last bit leaves before or when the gate closes: preamble and SFD count, the gap after it does not.
-  Selection select(sim::TrueTime now, ClassSet candidates, const HeadLengths& heads);
+  /// `delay`: the medium becomes free only so much later; a frame must end before its gate closes all the same.
+  Selection select(sim::TrueTime now, ClassSet candidates, const Heads& heads, sim::Duration delay = {});
 
-  /// The same for one class whose first frame has that length: `now` if it may start, otherwise when to ask again.
-  sim::TrueTime ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t length);
+  /// The same for one class with that first frame: `now` if it may start, otherwise when to ask again.
+  sim::TrueTime ready_time(sim::TrueTime now, TrafficClass q, const Head& head, sim::Duration delay = {});
+  /// For the rest of a frame that was cut: its gate must let it end, its credit does not matter.
+  sim::TrueTime rest_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t remaining);
+  /// No shaper has a say in this class: when its gate lets a frame pass the frame may start.
+  bool is_gated_only(TrafficClass q) const { return shapers_[q] == nullptr; }
 
   /// A frame of the class waits, or stands at the port to be selected.
   void frame_waits(sim::TrueTime now, TrafficClass q) {
@@ -58,11 +69,51 @@ class PortShaping {
     }
   }
 
+  /// The frame under way is cut; the medium is free at `free_at`.
+  void cut(sim::TrueTime now, TrafficClass q, sim::TrueTime free_at) {
+    if (Shaper* const shaper = shapers_[q].get()) {
+      follow_gate(*shaper, q, now);
+      shaper->credit.transmission_cut(now, free_at);
+    }
+  }
+  /// What is left of it goes on.
+  void resumed(sim::TrueTime now, TrafficClass q, std::uint32_t remaining) {
+    if (Shaper* const shaper = shapers_[q].get()) {
+      follow_gate(*shaper, q, now);
+      shaper->credit.transmission_resumed(now, occupancy(remaining));
+    }
+  }
+
+  /// A broken gate: from now on it is open, or closed, whatever the list says; nothing: it works again.
+  void force_gate(sim::TrueTime now, TrafficClass q, std::optional<bool> open);
+
+  bool is_timed(TrafficClass q) const { return contains(config_->timed, q); }
+  bool has_timed() const { return config_->timed != 0; }
+
+  /// Nothing but gates, none of them stuck.
+  bool has_only_gates() const {
+    return has_gates_ && !limits_sdu_ && config_->timed == 0 && (forced_open_ | forced_closed_) == 0 &&
+           std::none_of(shapers_.begin(), shapers_.end(), [](const auto& shaper) { return shaper != nullptr; });
+  }
+  bool limits_sdu() const { return limits_sdu_; }
   bool fits_max_sdu(TrafficClass q, std::uint32_t msdu) const {
     return config_->queue_max_sdu[q].count == 0 || msdu <= config_->queue_max_sdu[q].count;
   }
 
   GateSchedule& gates() { return gates_; }
+  const GateSchedule& gates() const { return gates_; }
+  bool has_gates() const { return has_gates_; }
+  /// The states of the gates with broken ones as they are stuck.
+  GateStates with_forced(GateStates states) const { return static_cast<GateStates>((states & ~(forced_open_ | forced_closed_)) | forced_open_); }
+  /// What the gates are at `now`, broken ones as they are stuck.
+  GateStates gate_states(sim::TrueTime now) {
+    return with_forced(gates_.gate_states(clock_->local_at(now)));
+  }
+  /// Frames that were still being sent when their gate closed, by class (TransmissionOverrun): only a change of lists or a broken
+  /// gate does that.
+  std::uint64_t transmission_overrun(TrafficClass q) const { return transmission_overrun_[q]; }
+  /// The frame under way ends at `last_bit`: counts it if the gates that are now in force close before.
+  void check_overrun(sim::TrueTime now, TrafficClass q, sim::TrueTime last_bit);
   /// Credit of a class in bits, rounded down; for displays. Precondition: the class has a shaper.
   std::int64_t credit_bits(sim::TrueTime now, TrafficClass q);
 
@@ -75,6 +126,7 @@ class PortShaping {
   };
 
   sim::Duration occupancy(std::uint32_t length) const { return octet_time_ * wire_length(Octets{length}).count; }
+  sim::TrueTime gate_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t length, sim::Duration delay);
   void follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now);
   void set_slope(Shaper& shaper, TrafficClass q, sim::TrueTime now);
 
@@ -82,9 +134,13 @@ class PortShaping {
   const LocalClock* clock_;
   sim::Duration octet_time_;
   bool has_gates_;
+  bool limits_sdu_;
+  ClassSet forced_open_ = 0;
+  ClassSet forced_closed_ = 0;
   GateSchedule gates_;
   std::vector<std::unique_ptr<GateControlList>> lists_;  // all that were ever requested; spans point to them
   std::array<std::unique_ptr<Shaper>, traffic_class_count> shapers_;
+  std::array<std::uint64_t, traffic_class_count> transmission_overrun_{};
 };
 
 }  // namespace takt::models

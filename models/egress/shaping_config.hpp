@@ -5,7 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "models/egress/class_set.hpp"
 #include "models/egress/gate_control_list.hpp"
+#include "models/egress/preemption.hpp"
 #include "models/ethernet/frame.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -30,11 +32,24 @@ struct ShaperConfig {
   bool operator==(const ShaperConfig&) const = default;
 };
 
+/// Frame preemption of a port (IEEE 802.1Q 6.7.2, 12.30; IEEE 802.3 clause 99).
+struct PreemptionConfig {
+  ClassSet preemptable = 0;                         ///< the classes with frame preemption status preemptable; the others are express
+  AddFragSize add_frag_size;
+  /// How long before an entry that holds the MAC is asked to; as long as an express frame waits at most if absent.
+  std::optional<sim::Duration> hold_advance;
+  sim::Duration release_advance;
+  bool operator==(const PreemptionConfig&) const = default;
+};
+
 struct ShapingConfig {
   GateStates admin_gate_states = all_gates_open;
   std::optional<GateConfig> gates;
   std::array<std::optional<ShaperConfig>, traffic_class_count> shapers{};
   std::array<Octets, traffic_class_count> queue_max_sdu{};  ///< octets after the EtherType; 0: any
+  /// Classes whose frames wait for their eligibility time and are sent in its order: those with ATS (8.6.8.5), and those that
+  /// a network interface sends at a launch time.
+  ClassSet timed = 0;
   bool operator==(const ShapingConfig&) const = default;
   bool is_plain() const { return *this == ShapingConfig{}; }
 };

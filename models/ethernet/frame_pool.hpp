@@ -44,8 +44,9 @@ class Pool {
 
 /// The octets of an MSDU that protocol code wrote; at most 1500.
 struct Payload {
+  std::uint32_t references = 0;  ///< frames that carry it
   std::uint16_t length = 0;
-  std::array<std::byte, 1502> octets;
+  std::array<std::byte, 1500> octets;
   std::span<const std::byte> view() const { return {octets.data(), length}; }
 };
 

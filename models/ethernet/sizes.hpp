@@ -18,8 +18,9 @@ inline constexpr Octets maximum_msdu{1500};  // the octets after the EtherType
 inline constexpr Octets ipv4_and_udp_headers{28};
 
 /// The length from DA to FCS of a frame with an MSDU of that many octets; padded to the minimum.
-constexpr Octets frame_length(Octets msdu, bool tagged) {
-  const Octets length = mac_header + (tagged ? vlan_tag : Octets{0}) + msdu + frame_check_sequence;
+constexpr Octets frame_length(Octets msdu, bool tagged, bool r_tagged = false) {
+  const Octets length =
+      mac_header + (tagged ? vlan_tag : Octets{0}) + (r_tagged ? r_tag : Octets{0}) + msdu + frame_check_sequence;
   return std::max(length, minimum_frame);
 }
 

@@ -18,9 +18,15 @@ FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::TrueTime now
   frame.payload = PayloadIndex{};
   frame.references = 1;
   frame.length = static_cast<std::uint16_t>(frame_length(stream.headers + payload, stream.tagged).count);
+  frame.msdu = static_cast<std::uint16_t>((stream.headers + payload).count);
   frame.vlan = stream.vlan;
   frame.priority = stream.priority;
+  frame.queue_priority = stream.priority;
   frame.tagged = stream.tagged;
+  frame.r_tagged = false;
+  frame.bad_fcs = false;
+  frame.drop_eligible = false;
+  frame.marked = false;
   return handle;
 }
 
@@ -29,10 +35,28 @@ FrameIndex Traffic::produce(StreamIndex index, std::span<const std::byte> octets
   const PayloadIndex payload = payloads_.allocate();
   Payload& copy = payloads_[payload];
   TAKT_CHECK(octets.size() <= copy.octets.size(), "a payload fits into one frame");
+  copy.references = 1;
   copy.length = static_cast<std::uint16_t>(octets.size());
   std::copy(octets.begin(), octets.end(), copy.octets.begin());
   frames_[handle].payload = payload;
   return handle;
+}
+
+FrameIndex Traffic::separate(FrameIndex index) {
+  const FrameIndex made = frames_.allocate();
+  Frame& original = frames_[index];
+  frames_[made] = original;
+  frames_[made].references = 1;
+  if (!original.payload.is_none()) ++payloads_[original.payload].references;
+  --original.references;
+  return made;
+}
+
+void Traffic::set_tags(FrameIndex index, bool tagged, bool r_tagged) {
+  Frame& frame = frames_[index];
+  frame.tagged = tagged;
+  frame.r_tagged = r_tagged;
+  frame.length = static_cast<std::uint16_t>(frame_length(Octets{frame.msdu}, tagged, r_tagged).count);
 }
 
 void Traffic::drop(FrameIndex index, DropReason reason, sim::ComponentId where, sim::Simulation& simulation) {

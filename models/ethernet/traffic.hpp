@@ -17,8 +17,23 @@ enum class Occurrence : std::uint32_t {
   delivery = 1,  ///< a frame reached a listener; what = sequence
   drop = 2,      ///< a frame ended early; what = sequence and reason
   produced = 3,  ///< an application handed a frame over (trace only)
-  started = 4,   ///< the first bit of the preamble leaves a port (trace only)
+  started = 4,   ///< the first bit of the preamble leaves a port; see TransmissionDetail (trace only)
   enqueued = 5,  ///< a frame waits in a queue (trace only)
+  cut = 6,       ///< the fragment under way ends after so many octets of the frame; its mCRC follows; see TransmissionDetail (trace only)
+  resumed = 7,   ///< the first bit of the preamble of a continuation leaves a port; see TransmissionDetail (trace only)
+  gates_changed = 9,  ///< a port was told of other gates, or one of its gates breaks (trace only)
+  dequeued = 8,  ///< a frame leaves a queue, to be sent or because it is given up (trace only)
+};
+
+/// The detail of a trace record of started, cut or resumed: octets (of the frame; of the fragment that ends; of the rest, FCS
+/// included) and traffic class.
+struct TransmissionDetail {
+  std::uint32_t octets = 0;
+  TrafficClass traffic_class = 0;
+  constexpr std::uint64_t pack() const { return static_cast<std::uint64_t>(traffic_class) << 32 | octets; }
+  static constexpr TransmissionDetail unpack(std::uint64_t detail) {
+    return {static_cast<std::uint32_t>(detail), static_cast<TrafficClass>(detail >> 32)};
+  }
 };
 
 /// One stream: its addressing and its account.
@@ -74,6 +89,17 @@ class Traffic {
     ++streams_[frame.stream.value].copies;
   }
 
+  /// A record that may be changed, because no other copy of the frame shares it: the same one if that is so already, a new one
+  /// otherwise. The caller's copy goes on as the record that is returned. References to frames end here.
+  FrameIndex own(FrameIndex index) { return frames_[index].references == 1 ? index : separate(index); }
+  /// One more copy of the frame, with a record of its own.
+  FrameIndex duplicate(FrameIndex index) {
+    copy(index);
+    return separate(index);
+  }
+  /// Puts tags on or takes them off. Precondition: the record is not shared.
+  void set_tags(FrameIndex index, bool tagged, bool r_tagged);
+
   /// The frame has reached a listener. It stays alive until released.
   void count_delivery(const Frame& frame, NodeIndex listener, sim::Simulation& simulation) {
     Stream& stream = streams_[frame.stream.value];
@@ -88,7 +114,7 @@ class Traffic {
   void release(FrameIndex index) {
     Frame& frame = frames_[index];
     if (--frame.references > 0) return;
-    if (!frame.payload.is_none()) payloads_.free(frame.payload);
+    if (!frame.payload.is_none() && --payloads_[frame.payload].references == 0) payloads_.free(frame.payload);
     frames_.free(index);
   }
 
@@ -107,6 +133,8 @@ class Traffic {
   std::size_t live_frames() const { return frames_.live(); }
 
  private:
+  FrameIndex separate(FrameIndex index);
+
   std::vector<Stream> streams_;
   FramePool frames_;
   PayloadPool payloads_;

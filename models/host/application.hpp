@@ -32,6 +32,8 @@ class Application {
   /// How many alarms it uses.
   virtual AlarmId alarm_count() const = 0;
   virtual void start(HostServices& host) = 0;
+  /// The host has come back after a crash: the application begins anew, without its memory. Its alarms were cancelled.
+  virtual void restart(HostServices& host) { start(host); }
   virtual void receive(HostServices& host, StreamIndex stream, std::span<const std::byte> payload) = 0;
   virtual void wake(HostServices& host, AlarmId alarm) = 0;
 };

@@ -7,12 +7,16 @@ namespace {
 constexpr auto deliver_now = static_cast<sim::EventKind>(NodeEvent::first_free);
 }
 
-Host::Host(sim::Simulation& simulation, Traffic& traffic, NodeIndex node, const OsLatency& latency, std::string_view path)
+Host::Host(sim::Simulation& simulation, Traffic& traffic, NodeIndex node, const OsLatency& latency, std::string_view path,
+           std::span<EgressPort> ports, const LocalClock& clock)
     : traffic_(&traffic),
       source_(simulation.add(*this)),
       node_(node),
       receives_at_once_(latency.receive.is_constant()),
-      receive_(latency.receive, simulation.seed(), path, "os receive") {}
+      receive_(latency.receive, simulation.seed(), path, "os receive"),
+      ports_(ports),
+      clock_(&clock),
+      fixed_receive_(receives_at_once_ ? latency.receive.greatest() : sim::Duration()) {}
 
 void Host::listen(StreamIndex stream, Process* process) {
   const auto at = std::lower_bound(listeners_.begin(), listeners_.end(), stream,
@@ -32,12 +36,37 @@ const Host::Listener* Host::listener_of(StreamIndex stream) const {
 }
 
 void Host::handle(sim::Simulation& simulation, const sim::Event& event) {
-  const FrameIndex frame = ArrivalArgument::unpack(event.argument).frame;
+  ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
+  if (looks_closer_ || arrival.notes != 0) [[unlikely]] {
+    if (event.kind() != deliver_now) {
+      const std::optional<FrameIndex> frame = look_closer(simulation, arrival);
+      if (!frame) return;
+      arrival.frame = *frame;
+    } else if (!up_) {
+      traffic_->drop(arrival.frame, DropReason::node_down, id(), simulation);
+      return;
+    }
+  }
   if (event.kind() == deliver_now || receives_at_once_) {
-    deliver(simulation, frame);
+    deliver(simulation, arrival.frame);
     return;
   }
-  simulation.schedule(source_, receive_.pass(simulation.now()), sim::Phase::arrival, id(), deliver_now, event.argument);
+  simulation.schedule(source_, receive_.pass(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(arrival.frame, arrival.port));
+}
+
+/// A frame in a condition of its own, or a host that does more than deliver: what goes on, if anything.
+std::optional<FrameIndex> Host::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
+  FrameIndex frame = arrival.frame;
+  EgressPort* const sender = arrival.port < ports_.size() ? ports_[arrival.port].opposite() : nullptr;
+  if ((arrival.notes & conditional) != 0 && sender != nullptr && !sender->confirm(simulation, frame, arrival.notes)) return std::nullopt;
+  if (!up_ || traffic_->frame(frame).bad_fcs) {
+    traffic_->drop(frame, up_ ? DropReason::bad_fcs : DropReason::node_down, id(), simulation);
+    return std::nullopt;
+  }
+  if (redundancy_.is_empty()) return frame;
+  const std::optional<FrameIndex> passed = redundancy_.receive(*traffic_, frame, arrival.port, clock_->unstepped_at(simulation.now() - fixed_receive_));
+  if (!passed) traffic_->drop(frame, DropReason::duplicate, id(), simulation);
+  return passed;
 }
 
 void Host::prefetch(const sim::Event& event, Ahead ahead) const {

@@ -1,9 +1,12 @@
 // The receiving side of a host: from the network interface to listeners and applications.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "models/egress/egress_port.hpp"
+#include "models/frer/host_redundancy.hpp"
 #include "models/host/os_latency.hpp"
 #include "models/host/process.hpp"
 
@@ -11,11 +14,25 @@ namespace takt::models {
 
 class Host final : public sim::Component {
  public:
-  Host(sim::Simulation& simulation, Traffic& traffic, NodeIndex node, const OsLatency& latency, std::string_view path);
+  /// `ports` are its network interfaces.
+  Host(sim::Simulation& simulation, Traffic& traffic, NodeIndex node, const OsLatency& latency, std::string_view path, std::span<EgressPort> ports,
+       const LocalClock& clock);
 
   /// This host takes frames of the stream; `process`, if any, gets their octets. Frames of other streams are dropped.
   /// A second call for a stream replaces the process.
   void listen(StreamIndex stream, Process* process);
+
+  /// The host takes copies of the stream that come more than once out (IEEE 802.1CB).
+  void recover(StreamIndex stream, const StreamRecoveryConfig& config) {
+    redundancy_.add(stream, config);
+    looks_closer_ = true;
+  }
+  ListenerRedundancy& redundancy() { return redundancy_; }
+  /// A host that is down takes no frames.
+  void set_up(bool up) {
+    up_ = up;
+    looks_closer_ = true;
+  }
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
   void prefetch(const sim::Event& event, Ahead ahead) const override;
@@ -26,6 +43,7 @@ class Host final : public sim::Component {
     StreamIndex stream;
     Process* process = nullptr;
   };
+  std::optional<FrameIndex> look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
   void deliver(sim::Simulation& simulation, FrameIndex frame);
   const Listener* listener_of(StreamIndex stream) const;
 
@@ -34,7 +52,13 @@ class Host final : public sim::Component {
   sim::EventSource source_;
   NodeIndex node_;
   bool receives_at_once_;            // a fixed latency lies in the events' times already
+  bool looks_closer_ = false;
+  bool up_ = true;
   LatencyLine receive_;
+  std::span<EgressPort> ports_;
+  const LocalClock* clock_;
+  sim::Duration fixed_receive_;      // that latency
+  ListenerRedundancy redundancy_;
 };
 
 }  // namespace takt::models

@@ -9,11 +9,11 @@ namespace {
 constexpr sim::EventKind transmit_now = 0xFFFF;
 }  // namespace
 
-Process::Process(sim::Simulation& simulation, Traffic& traffic, EgressPort& port, const LocalClock& clock,
+Process::Process(sim::Simulation& simulation, Traffic& traffic, HostOutput& output, const LocalClock& clock,
                  const OsLatency& latency, std::string_view path, std::unique_ptr<Application> application)
     : simulation_(&simulation),
       traffic_(&traffic),
-      port_(&port),
+      output_(&output),
       clock_(&clock),
       source_(simulation.add(*this)),
       transmit_(latency.transmit, simulation.seed(), path, "os transmit"),
@@ -28,7 +28,7 @@ Process::Process(sim::Simulation& simulation, Traffic& traffic, EgressPort& port
 
 void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (event.kind() == transmit_now) {
-    port_->offer_last(simulation, FrameIndex{static_cast<std::uint32_t>(event.argument)}, id().index);
+    hand_over(FrameIndex{static_cast<std::uint32_t>(event.argument)}, true);
     return;
   }
   TAKT_CHECK(event.kind() < alarms_.size(), "an alarm that was never set");
@@ -36,6 +36,15 @@ void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (!alarm.timer.fired(simulation, source_, event)) return;
   alarm.has_latency = false;
   application_->wake(*this, event.kind());
+}
+
+void Process::hand_over(FrameIndex frame, bool last) {
+  if (!output_->is_plain()) [[unlikely]]
+    output_->offer(*simulation_, frame, id().index, now());
+  else if (last)
+    output_->port().offer_last(*simulation_, frame, id().index);
+  else
+    output_->port().offer(*simulation_, frame, id().index);
 }
 
 void Process::set_alarm(AlarmId id, sim::LocalTime time) {
@@ -52,7 +61,7 @@ void Process::send(StreamIndex stream, std::span<const std::byte> payload) {
   if (sim::TraceSink* const trace = simulation_->trace()) [[unlikely]]
     trace->record({simulation_->now(), static_cast<std::uint32_t>(Occurrence::produced), id(), frame.value, stream.value});
   if (transmits_at_once_) {
-    port_->offer(*simulation_, frame, id().index);
+    hand_over(frame, false);
     return;
   }
   simulation_->schedule(source_, transmit_.pass(simulation_->now()), sim::Phase::arrival, id(), transmit_now, frame.value);

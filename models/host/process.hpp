@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "models/clock/local_clock.hpp"
-#include "models/egress/egress_port.hpp"
 #include "models/host/application.hpp"
+#include "models/host/host_output.hpp"
 #include "models/host/os_latency.hpp"
 #include "sim/timer.hpp"
 
@@ -16,7 +16,7 @@ namespace takt::models {
 class Process final : public sim::Component, public HostServices {
  public:
   /// `path` names the process in the random streams, e.g. "robot/trajectory". All references outlive the process.
-  Process(sim::Simulation& simulation, Traffic& traffic, EgressPort& port, const LocalClock& clock, const OsLatency& latency,
+  Process(sim::Simulation& simulation, Traffic& traffic, HostOutput& output, const LocalClock& clock, const OsLatency& latency,
           std::string_view path, std::unique_ptr<Application> application);
 
   /// Starts the application at the present instant.
@@ -24,9 +24,19 @@ class Process final : public sim::Component, public HostServices {
   Application& application() { return *application_; }
 
   void receive(StreamIndex stream, std::span<const std::byte> payload) { application_->receive(*this, stream, payload); }
-  /// Runs `action(application, services)` as the script's hand on the program.
+  /// Runs `action(application, services)` as the script's hand on the program; nobody hears it on a host that is down.
   template <class Action>
-  void call(Action&& action) { action(*application_, *this); }
+  void call(Action&& action) {
+    if (output_->is_up()) action(*application_, *this);
+  }
+  /// The host crashes: alarms are forgotten.
+  void crash() {
+    for (Alarm& alarm : alarms_) {
+      alarm.timer.cancel();
+      alarm.has_latency = false;
+    }
+  }
+  void restart() { application_->restart(*this); }
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
 
@@ -38,9 +48,11 @@ class Process final : public sim::Component, public HostServices {
   sim::ComponentId id() const { return source_.id(); }
 
  private:
+  void hand_over(FrameIndex frame, bool last);
+
   sim::Simulation* simulation_;
   Traffic* traffic_;
-  EgressPort* port_;
+  HostOutput* output_;
   const LocalClock* clock_;
   sim::EventSource source_;
   LatencyLine transmit_;

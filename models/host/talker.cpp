@@ -24,10 +24,10 @@ Overloaded(Cases...) -> Overloaded<Cases...>;  // clang 14 needs to be told
 
 }  // namespace
 
-Talker::Talker(sim::Simulation& simulation, Traffic& traffic, EgressPort& port, const LocalClock& clock, const OsLatency& latency,
+Talker::Talker(sim::Simulation& simulation, Traffic& traffic, HostOutput& output, const LocalClock& clock, const OsLatency& latency,
                std::string_view path, StreamIndex stream, Octets payload, TalkerSchedule schedule)
     : traffic_(&traffic),
-      port_(&port),
+      output_(&output),
       clock_(&clock),
       source_(simulation.add(*this)),
       stream_(stream),
@@ -66,7 +66,7 @@ void Talker::start(sim::Simulation& simulation) { schedule_next(simulation); }
 
 void Talker::schedule_next(sim::Simulation& simulation) {
   const sim::LocalTime time = time_of_next();
-  if (time == sim::LocalTime::never()) return;
+  if (time >= until_) return;
   last_ = time;
   simulation.schedule(source_, std::max(clock_->true_at(time), simulation.now()), sim::Phase::timer, source_.id(), produce_now, 0);
 }
@@ -74,24 +74,41 @@ void Talker::schedule_next(sim::Simulation& simulation) {
 void Talker::prefetch(const sim::Event&, Ahead ahead) const {
   if (ahead == Ahead::one_event) return;
   traffic_->prefetch_account(stream_);
-  port_->prefetch_hot();
+  output_->port().prefetch_hot();
 }
 
 void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (event.kind() == transmit_now) {
-    port_->offer_last(simulation, FrameIndex{static_cast<std::uint32_t>(event.argument)}, source_.id().index);
+    hand_over(simulation, FrameIndex{static_cast<std::uint32_t>(event.argument)});
+    return;
+  }
+  if (!output_->is_up()) [[unlikely]] {  // a host that is down produces nothing; its schedule goes on
+    ++count_;
+    schedule_next(simulation);
     return;
   }
   const auto* const trace_schedule = std::get_if<TraceSchedule>(&schedule_);
   const Octets payload = trace_schedule != nullptr ? trace_schedule->entries[count_].payload : payload_;
   const FrameIndex frame = traffic_->produce(stream_, payload, simulation.now());
+  if (launch_) {
+    Frame& record = traffic_->frame(frame);
+    record.marked = true;
+    record.eligible = last_ + *launch_;
+  }
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::produced), source_.id(), frame.value, stream_.value});
   if (!transmits_at_once_)
     simulation.schedule(source_, transmit_.pass(simulation.now()), sim::Phase::arrival, source_.id(), transmit_now, frame.value);
   ++count_;
   schedule_next(simulation);
-  if (transmits_at_once_) port_->offer_last(simulation, frame, source_.id().index);
+  if (transmits_at_once_) hand_over(simulation, frame);
+}
+
+void Talker::hand_over(sim::Simulation& simulation, FrameIndex frame) {
+  if (output_->is_plain()) [[likely]]
+    output_->port().offer_last(simulation, frame, source_.id().index);
+  else
+    output_->offer(simulation, frame, source_.id().index, clock_->local_at(simulation.now()));
 }
 
 }  // namespace takt::models

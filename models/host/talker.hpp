@@ -1,11 +1,12 @@
 // A source of frames without protocol: periodic, random, in bursts or from a table of times.
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "models/clock/local_clock.hpp"
-#include "models/egress/egress_port.hpp"
+#include "models/host/host_output.hpp"
 #include "models/host/os_latency.hpp"
 
 namespace takt::models {
@@ -41,8 +42,14 @@ using TalkerSchedule = std::variant<PeriodicSchedule, ExponentialSchedule, Burst
 class Talker final : public sim::Component {
  public:
   /// Times are those of `clock`. `path` names the talker in the random streams. All references outlive the talker.
-  Talker(sim::Simulation& simulation, Traffic& traffic, EgressPort& port, const LocalClock& clock, const OsLatency& latency,
+  Talker(sim::Simulation& simulation, Traffic& traffic, HostOutput& output, const LocalClock& clock, const OsLatency& latency,
          std::string_view path, StreamIndex stream, Octets payload, TalkerSchedule schedule);
+
+  /// Each frame bears the launch time at which it was due, plus this (IEEE 802.1Q 8.6.8.5 does it for ATS, the ETF queueing
+  /// discipline for hosts): the network interface keeps it until then, and drops it if it comes later.
+  void set_launch(sim::Duration after_due) { launch_ = after_due; }
+  /// Only frames that are due before then are produced.
+  void set_until(sim::LocalTime until) { until_ = until; }
 
   /// Schedules the first frame.
   void start(sim::Simulation& simulation);
@@ -51,17 +58,20 @@ class Talker final : public sim::Component {
 
  private:
   void schedule_next(sim::Simulation& simulation);
+  void hand_over(sim::Simulation& simulation, FrameIndex frame);
   /// The local time of frame number `count_`, or never.
   sim::LocalTime time_of_next();
 
   Traffic* traffic_;
-  EgressPort* port_;
+  HostOutput* output_;
   const LocalClock* clock_;
   sim::EventSource source_;
   StreamIndex stream_;
   Octets payload_;
   std::uint64_t count_ = 0;
   sim::LocalTime last_;
+  sim::LocalTime until_ = sim::LocalTime::never();
+  std::optional<sim::Duration> launch_;
   TalkerSchedule schedule_;
   LatencyLine transmit_;
   bool transmits_at_once_;

@@ -1,0 +1,21 @@
+#include "models/host/host_output.hpp"
+
+namespace takt::models {
+
+void HostOutput::offer(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, sim::LocalTime local_now) {
+  const Frame& record = traffic_->frame(frame);
+  if (!up_ || (record.marked && record.eligible < local_now)) {
+    traffic_->drop(frame, up_ ? DropReason::late_launch : DropReason::node_down, port().id(), simulation);
+    return;
+  }
+  if (redundancy_.is_empty()) {
+    port().offer(simulation, frame, rank);
+    return;
+  }
+  for (const TalkerRedundancy::Outgoing& outgoing : redundancy_.send(*traffic_, frame)) {
+    TAKT_CHECK(outgoing.port < ports_.size(), "a member stream leaves by an interface that exists");
+    ports_[outgoing.port].offer(simulation, outgoing.frame, rank);
+  }
+}
+
+}  // namespace takt::models

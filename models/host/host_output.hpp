@@ -1,0 +1,45 @@
+// The way from the programs of a host to its network interfaces.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "models/egress/egress_port.hpp"
+#include "models/frer/host_redundancy.hpp"
+
+namespace takt::models {
+
+/// Most hosts have one interface and send each frame as it is: those who send check is_plain() and use port() themselves.
+class HostOutput {
+ public:
+  HostOutput(Traffic& traffic, std::span<EgressPort> ports) : traffic_(&traffic), ports_(ports) {
+    TAKT_CHECK(!ports.empty(), "a host that sends has a link");
+  }
+
+  bool is_plain() const { return plain_; }
+  EgressPort& port() const { return ports_[0]; }
+
+  /// Hands a frame to the interfaces that it leaves by, at the present instant. A frame with a launch time that has passed by
+  /// `local_now` is dropped, as is every frame of a host that is down.
+  void offer(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, sim::LocalTime local_now);
+
+  /// A stream of this host is split into member streams (IEEE 802.1CB).
+  void split(StreamIndex stream, const StreamSplitConfig& config) {
+    redundancy_.add(stream, config);
+    plain_ = false;
+  }
+  TalkerRedundancy& redundancy() { return redundancy_; }
+  /// Some frames carry a launch time, or the host may go down.
+  void look_closer() { plain_ = false; }
+  void set_up(bool up) { up_ = up; }
+  bool is_up() const { return up_; }
+
+ private:
+  Traffic* traffic_;
+  std::span<EgressPort> ports_;
+  bool plain_ = true;
+  bool up_ = true;
+  TalkerRedundancy redundancy_;
+};
+
+}  // namespace takt::models

@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "scenario/description_faults.hpp"
+#include "scenario/description_ingress.hpp"
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -77,11 +79,14 @@ struct Queues {
   bool operator==(const Queues&) const = default;
 };
 
+enum class MacOperation : std::uint8_t { none, hold, release };
+
 /// One entry of a gate control list.
 struct GateEntry {
   json::Source where;
   std::vector<std::uint8_t> open;
   Duration interval;
+  MacOperation mac = MacOperation::none;
   bool operator==(const GateEntry&) const = default;
 };
 
@@ -113,6 +118,16 @@ struct MaxSdu {
   bool operator==(const MaxSdu&) const = default;
 };
 
+/// Frame preemption.
+struct Preemption {
+  json::Source where;
+  std::vector<std::uint8_t> preemptable;
+  std::uint8_t add_frag_size = 0;
+  std::optional<Duration> hold_advance;
+  Duration release_advance;
+  bool operator==(const Preemption&) const = default;
+};
+
 /// What ports do beyond strict priority: all of a node, or the one to a certain neighbour.
 struct Egress {
   json::Source where;
@@ -120,6 +135,10 @@ struct Egress {
   std::optional<Gates> gates;
   std::vector<Shaper> shapers;
   std::vector<MaxSdu> max_sdu;
+  std::vector<std::uint8_t> ats;
+  std::optional<Preemption> preemption;
+  std::vector<std::uint8_t> cut_through;
+  bool untagged = false;
   bool operator==(const Egress&) const = default;
 };
 
@@ -135,9 +154,11 @@ struct HostNode {
 struct SwitchNode {
   json::Source where;
   Duration forwarding_delay;
+  Octets cut_through_header{22};
   TrafficClasses traffic_classes = TrafficClasses::standard;
   Queues queues;
   std::vector<Egress> egress;
+  std::optional<Ingress> ingress = {};
   bool operator==(const SwitchNode&) const = default;
 };
 
@@ -174,6 +195,7 @@ struct Generator {
   Queues queues;
   TrafficClasses traffic_classes = TrafficClasses::standard;
   std::vector<Egress> egress;
+  std::optional<Ingress> ingress = {};
   bool operator==(const Generator&) const = default;
 };
 
@@ -219,7 +241,9 @@ struct Stream {
   std::optional<std::string> trace;
   Duration offset;
   Duration jitter;
+  std::optional<Duration> launch;
   std::optional<std::vector<std::string>> path;
+  std::optional<Redundancy> redundancy;
   bool operator==(const Stream&) const = default;
 };
 
@@ -310,6 +334,8 @@ struct Scenario {
   std::vector<Program> programs;
   std::vector<Stream> streams;
   std::vector<ScriptEntry> script;
+  std::vector<Fault> faults;
+  std::optional<Rerouting> rerouting;
   std::vector<Requirement> require;
   bool allow_overload = false;
   bool operator==(const Scenario&) const = default;
@@ -327,11 +353,13 @@ const json::Object& describe(json::Type<OperatingSystem>);
 const json::Enumeration& describe(json::Type<TrafficClasses>);
 const json::Object& describe(json::Type<Queues>);
 const json::Object& describe(json::Type<Queues::PerClass>);
+const json::Enumeration& describe(json::Type<MacOperation>);
 const json::Object& describe(json::Type<GateEntry>);
 const json::Object& describe(json::Type<Gates>);
 const json::Enumeration& describe(json::Type<SlopeOf>);
 const json::Object& describe(json::Type<Shaper>);
 const json::Object& describe(json::Type<MaxSdu>);
+const json::Object& describe(json::Type<Preemption>);
 const json::Object& describe(json::Type<Egress>);
 const json::Object& describe(json::Type<HostNode>);
 const json::Object& describe(json::Type<SwitchNode>);

@@ -100,7 +100,10 @@ const json::Object& describe(json::Type<Stream>) {
       optional<&Stream::trace>("trace", "A CSV file with the columns time and payload (e.g. 12.5us,100B), beside the scenario."),
       optional<&Stream::offset>("offset", "When the first period begins.", {.max = longest_step}),
       optional<&Stream::jitter>("jitter", "Each frame comes up to this much later, uniformly; at most the period.", {.max = longest_step}),
+      optional<&Stream::launch>("launch", "Launch time of each frame, this long after it was due: the network interface sends it then, or drops it if it comes later.",
+                                {.max = longest_step}),
       optional<&Stream::path>("path", "All nodes from sender to receiver, instead of the shortest path.", {.min_items = 2, .max_items = most_names}),
+      optional<&Stream::redundancy>("redundancy", "Every frame takes several paths (IEEE 802.1CB): their number, or an object."),
   };
   static constexpr std::string_view schedules[] = {"every", "exponential", "burst", "trace"};
   static constexpr json::Group groups[] = {json::exactly_one_of(schedules)};
@@ -271,6 +274,8 @@ const json::Object& describe(json::Type<Scenario>) {
       optional<&Scenario::programs>("programs", "Distributed OPC UA Programs.", {.max_items = 10'000}),
       optional<&Scenario::streams>("streams", "Other traffic.", {.max_items = most_names}),
       optional<&Scenario::script>("script", "What is done when.", {.max_items = most_names}),
+      optional<&Scenario::faults>("faults", "What goes wrong.", {.max_items = most_names}),
+      optional<&Scenario::rerouting>("rerouting", "How long the switches take to forward around what is down; they do not if absent."),
       optional<&Scenario::require>("require", "What must hold for the run to pass.", {.max_items = most_names}),
       optional<&Scenario::allow_overload>("allow_overload", "A link that is asked for more than it can carry is an error unless this is true."),
   };

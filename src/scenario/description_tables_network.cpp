@@ -141,10 +141,21 @@ const json::Object& describe(json::Type<Queues>) {
   return table;
 }
 
+const json::Enumeration& describe(json::Type<MacOperation>) {
+  static constexpr json::EnumName names[] = {
+      name(MacOperation::none, "none", "the MAC goes on as it is (SetGateStates)"),
+      name(MacOperation::hold, "hold", "preemptable frames are held from the beginning of the entry on (Set-And-Hold-MAC)"),
+      name(MacOperation::release, "release", "they are no longer held (Set-And-Release-MAC)"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<MacOperation>("what an entry asks of the MAC", names);
+  return table;
+}
+
 const json::Object& describe(json::Type<GateEntry>) {
   static constexpr json::Field fields[] = {
       required<&GateEntry::open>("open", "The traffic classes whose gates are open.", {.max_items = 8, .unique = true, .items = {.max = 7}}),
       required<&GateEntry::interval>("for", "How long the entry lasts.", {.min = 1_ns, .max = 3600_s}),
+      optional<&GateEntry::mac>("mac", "Whether preemptable frames are held; without preemption it means nothing."),
   };
   static constexpr json::Object table = json::object<GateEntry>("gate_entry", "One entry of a gate control list.", fields);
   return table;
@@ -190,12 +201,30 @@ const json::Object& describe(json::Type<MaxSdu>) {
   return table;
 }
 
+const json::Object& describe(json::Type<Preemption>) {
+  static constexpr json::Field fields[] = {
+      required<&Preemption::preemptable>("preemptable", "The traffic classes whose frames may be cut; the others are express.",
+                                         {.min_items = 1, .max_items = 8, .unique = true, .items = {.max = 7}}),
+      optional<&Preemption::add_frag_size>("add_frag_size", "addFragSize: a fragment that is not the last has at least 64 * (1 + this) octets.", {.max = 3}),
+      optional<&Preemption::hold_advance>("hold_advance", "How long before an entry that holds the MAC is told; as long as an express frame waits at most if absent.", {.max = 1_s}),
+      optional<&Preemption::release_advance>("release_advance", "How long before an entry that releases the MAC is told.", {.max = 1_s}),
+  };
+  static constexpr json::Object table = json::object<Preemption>("preemption", "Frame preemption (IEEE 802.3 clause 99, IEEE 802.1Q 6.7.2, Qbu).", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<Egress>) {
   static constexpr json::Field fields[] = {
       optional<&Egress::to>("to", "Only the port to this neighbour; all ports of the node if absent."),
       optional<&Egress::gates>("gates", "Transmission gates."),
       optional<&Egress::shapers>("shapers", "Credit-based shapers.", {.max_items = 8}),
       optional<&Egress::max_sdu>("max_sdu", "Longest SDU of single classes.", {.max_items = 8}),
+      optional<&Egress::ats>("ats", "The traffic classes that send by the eligibility times of ATS schedulers (Qcr).",
+                             {.max_items = 8, .unique = true, .items = {.max = 7}}),
+      optional<&Egress::preemption>("preemption", "Which frames may be cut for others."),
+      optional<&Egress::cut_through>("cut_through", "The traffic classes whose frames begin to leave before they have wholly come, where the port is free and the link they come from as fast.",
+                                     {.max_items = 8, .unique = true, .items = {.max = 7}}),
+      optional<&Egress::untagged>("untagged", "Frames leave without their VLAN tag; for ports to hosts."),
   };
   static constexpr json::Object table = json::object<Egress>("egress", "What ports do beyond strict priority.", fields);
   return table;
@@ -206,20 +235,23 @@ const json::Object& describe(json::Type<HostNode>) {
       optional<&HostNode::os>("os", "The operating system: a profile's name or an object."),
       optional<&HostNode::traffic_classes>("traffic_classes", "Which priority is sent in which queue."),
       optional<&HostNode::queues>("queues", "The queues of the network interface."),
-      optional<&HostNode::egress>("egress", "Gates and shapers of the network interface.", {.max_items = 1}),
+      optional<&HostNode::egress>("egress", "Gates and shapers of the network interfaces.", {.max_items = 16}),
   };
-  static constexpr json::Object table = json::object<HostNode>("host", "An end station with one network interface.", fields);
+  static constexpr json::Object table = json::object<HostNode>("host", "An end station.", fields);
   return table;
 }
 
 const json::Object& describe(json::Type<SwitchNode>) {
   static constexpr json::Field fields[] = {
-      optional<&SwitchNode::forwarding_delay>("forwarding_delay", "From the last bit in to the egress queue.", {.max = 1_s}),
+      optional<&SwitchNode::forwarding_delay>("forwarding_delay", "From the last bit in (cut through: the header) to the egress queue.", {.max = 1_s}),
+      optional<&SwitchNode::cut_through_header>("cut_through_header", "What must be in of an untagged frame before it is cut through, preamble included; tags add to it.",
+                                                {.min = Octets{14}, .max = Octets{72}}),
       optional<&SwitchNode::traffic_classes>("traffic_classes", "Which priority is sent in which queue."),
       optional<&SwitchNode::queues>("queues", "The queues of each port."),
       optional<&SwitchNode::egress>("egress", "Gates and shapers of ports; an entry for a neighbour takes the place of one for all.", {.max_items = 4096}),
+      optional<&SwitchNode::ingress>("ingress", "Policing, ATS and CQF of frames that come in."),
   };
-  static constexpr json::Object table = json::object<SwitchNode>("switch", "A store-and-forward bridge.", fields);
+  static constexpr json::Object table = json::object<SwitchNode>("switch", "A bridge: stores and forwards, or cuts through.", fields);
   return table;
 }
 
@@ -275,6 +307,7 @@ const json::Object& describe(json::Type<Generator>) {
       optional<&Generator::queues>("queues", "Of all ports."),
       optional<&Generator::traffic_classes>("traffic_classes", "Of all ports."),
       optional<&Generator::egress>("egress", "Gates and shapers of all ports of the switches.", {.max_items = 1}),
+      optional<&Generator::ingress>("ingress", "Policing, ATS and CQF of the switches."),
   };
   static constexpr json::Object table = json::object<Generator>("generator", "A whole topology.", fields);
   return table;

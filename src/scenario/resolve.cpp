@@ -10,6 +10,8 @@
 #include "scenario/os_profiles.hpp"
 #include "scenario/resolve_demand.hpp"
 #include "scenario/resolve_egress.hpp"
+#include "scenario/resolve_ingress.hpp"
+#include "scenario/resolve_faults.hpp"
 #include "scenario/stream_builder.hpp"
 #include "scenario/trace_file.hpp"
 #include "wire/program_message.hpp"
@@ -49,8 +51,12 @@ class Resolver {
     for (const Stream& stream : r_.scenario.streams) add_stream(stream);
     for (const Program& program : r_.scenario.programs) add_program(program);
     resolve_demand(r_, diagnostics_);
+    resolve_ingress(r_, diagnostics_);
+    check_cut_through(r_, diagnostics_);
     check_windows(r_, diagnostics_);
+    add_launch_classes(r_);
     for (const ScriptEntry& entry : r_.scenario.script) add_action(entry);
+    resolve_faults(r_, diagnostics_);
     std::stable_sort(r_.script.begin(), r_.script.end(), [](const ResolvedAction& a, const ResolvedAction& b) { return a.at < b.at; });
     for (const Requirement& requirement : r_.scenario.require) check_requirement(requirement);
     builder_ = nullptr;
@@ -78,6 +84,7 @@ class Resolver {
         const auto& bridge = std::get<SwitchNode>(node.description);
         plan.kind = models::NodeKind::bridge;
         plan.forwarding_delay = bridge.forwarding_delay;
+        plan.cut_through_header = bridge.cut_through_header;
         plan.port_config = port_config_index(bridge.traffic_classes, bridge.queues);
       }
       r_.plan.nodes.push_back(std::move(plan));
@@ -133,6 +140,7 @@ class Resolver {
       diagnostics_.error(stream.where.at("vlan"), "a VLAN without a priority", {"\"vlan\" alone", "\"pcp\" too, since the tag carries both"});
     wanted.headers = stream.encapsulation == Encapsulation::udp ? models::ipv4_and_udp_headers : Octets{0};
     wanted.path = stream.path ? &*stream.path : nullptr;
+    wanted.redundancy = stream.redundancy ? &*stream.redundancy : nullptr;
     models::TalkerSchedule schedule = schedule_of(stream);
     wanted.payload = stream.payload;
     if (const auto* trace = std::get_if<models::TraceSchedule>(&schedule))
@@ -140,7 +148,7 @@ class Resolver {
     const auto index = builder_->add(wanted);
     if (!index) return;
     r_.streams[index->value].demand = demand_of(schedule, stream, *index);
-    r_.plan.talkers.push_back({*index, stream.payload, std::move(schedule)});
+    r_.plan.talkers.push_back({*index, stream.payload, std::move(schedule), stream.launch});
   }
 
   models::TalkerSchedule schedule_of(const Stream& stream) {

@@ -47,10 +47,57 @@ class EgressResolver {
     if (chosen == nullptr) return;
     models::PortConfig config = r_.plan.port_configs[r_.plan.nodes[end.node.value].port_config];
     config.shaping = shaping_of(*chosen, rate);
+    if (chosen->preemption) config.preemption = preemption_of(*chosen->preemption);
+    config.cut_through = set_of(chosen->cut_through);
+    config.untagged = chosen->untagged;
+    check_combinations(*chosen, config, node, r_.topology.nodes[peer.node.value]);
     auto& known = r_.plan.port_configs;
     const auto found = std::find(known.begin(), known.end(), config);
     end.port_config = static_cast<std::uint32_t>(found - known.begin());
     if (found == known.end()) known.push_back(std::move(config));
+  }
+
+  static models::ClassSet set_of(const std::vector<std::uint8_t>& classes) {
+    models::ClassSet set = 0;
+    for (const std::uint8_t q : classes) set = models::with(set, q & 7u);
+    return set;
+  }
+
+  static models::PreemptionConfig preemption_of(const Preemption& preemption) {
+    return {set_of(preemption.preemptable), models::AddFragSize(static_cast<std::uint8_t>(preemption.add_frag_size & 3u)), preemption.hold_advance, preemption.release_advance};
+  }
+
+  /// What cannot be, with the reason.
+  void check_combinations(const Egress& egress, const models::PortConfig& config, const TopologyNode& node, const TopologyNode& peer) {
+    if (!reported_.insert(&egress).second && !egress.untagged) return;  // once for all ports that it configures
+    const auto refuse = [&](std::string_view key, const std::string& what, const std::string& found, const std::string& expected) {
+      diagnostics_.error(egress.where.at(key), what, {found, expected});
+    };
+    const auto classes = [](models::ClassSet set) {
+      std::string text = "class";
+      for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
+        if (models::contains(set, q)) text += " " + std::to_string(q);
+      return text;
+    };
+    if (egress.untagged && !peer.is_host())
+      refuse("untagged", "tags taken off before a switch", "a port to the switch " + json::quote(peer.name) + ", which would forget the priorities", "ports to hosts");
+    if (node.is_host() && config.cut_through != 0) refuse("cut_through", "cut-through in a host", "a host, which forwards nothing", "a switch");
+    if (node.is_host() && !egress.ats.empty()) refuse("ats", "ATS in a host", "a host, whose frames meet no ATS scheduler", "a switch; \"launch\" of a stream for a host");
+    if (const models::ClassSet both = config.preemption ? static_cast<models::ClassSet>(config.preemption->preemptable & config.cut_through) : models::ClassSet{0}; both != 0)
+      refuse("cut_through", "cut-through of a preemptable class", classes(both) + ", whose frames may be cut while they come", "express classes");
+    if (const auto both = static_cast<models::ClassSet>(config.shaping.timed & config.cut_through); both != 0)
+      refuse("cut_through", "cut-through of a class with ATS", classes(both) + ", whose eligibility times count from the last bit", "classes without ATS");
+    models::ClassSet shaped = 0;
+    for (const Shaper& shaper : egress.shapers) shaped = models::with(shaped, shaper.traffic_class & 7u);
+    if (const auto both = static_cast<models::ClassSet>(config.shaping.timed & shaped); both != 0)
+      refuse("ats", "two transmission selection algorithms", classes(both) + " with a credit-based shaper and ATS", "one for a class");
+    if (!config.shaping.gates || config.shaping.gates->admin_control_list.empty() || config.shaping.gates->admin_cycle_time <= Duration()) return;
+    const models::GateControlList list(config.shaping.gates->admin_control_list, config.shaping.gates->admin_cycle_time);
+    for (std::size_t i = 0; i < egress.shapers.size(); ++i) {
+      const models::TrafficClass q = egress.shapers[i].traffic_class & 7u;
+      if (list.open_share(q).open == Duration())
+        diagnostics_.error(egress.shapers[i].where.at("class"), "a shaper behind a gate that never opens", {"class " + std::to_string(q), "a gate list that opens the class"});
+    }
   }
 
   models::ShapingConfig shaping_of(const Egress& egress, DataRate rate) {
@@ -65,12 +112,14 @@ class EgressResolver {
       else
         config.shapers[shaper.traffic_class] = models::ShaperConfig{shaper.idle_slope, shaper.of == SlopeOf::cycle};
     }
+    config.timed = set_of(egress.ats);
     for (const MaxSdu& max_sdu : egress.max_sdu) config.queue_max_sdu[max_sdu.traffic_class] = max_sdu.size;
     return config;
   }
 
   Resolved& r_;
   json::Diagnostics& diagnostics_;
+  std::set<const Egress*> reported_;
 };
 
 }  // namespace
@@ -81,7 +130,9 @@ models::GateConfig gate_config_of(const Gates& gates, json::Diagnostics& diagnos
   for (const GateEntry& entry : gates.entries) {
     models::GateStates open = 0;
     for (const std::uint8_t q : entry.open) open = static_cast<models::GateStates>(open | 1u << (q & 7u));
-    config.admin_control_list.push_back({models::GateOperation::set_gate_states, open, entry.interval});
+    constexpr models::GateOperation operations[] = {models::GateOperation::set_gate_states, models::GateOperation::set_and_hold_mac,
+                                                    models::GateOperation::set_and_release_mac};
+    config.admin_control_list.push_back({operations[static_cast<std::size_t>(entry.mac)], open, entry.interval});
     sum += entry.interval;
   }
   config.admin_cycle_time = gates.cycle.value_or(sum);
@@ -94,6 +145,32 @@ models::GateConfig gate_config_of(const Gates& gates, json::Diagnostics& diagnos
 }
 
 void resolve_egress(Resolved& resolved, json::Diagnostics& diagnostics) { EgressResolver(resolved, diagnostics).run(); }
+
+void add_launch_classes(Resolved& r) {
+  for (const models::TalkerPlan& talker : r.plan.talkers) {
+    if (!talker.launch) continue;
+    const models::StreamPlan& stream = r.plan.streams[talker.stream.value];
+    for (models::LinkPlan& link : r.plan.links) {
+      for (models::LinkPlan::End* end : {&link.a, &link.b}) {
+        if (end->node != stream.talker) continue;
+        models::PortConfig config = r.plan.port_configs[end->port_config.value_or(r.plan.nodes[end->node.value].port_config)];
+        config.shaping.timed = models::with(config.shaping.timed, config.traffic_class_of_priority[stream.priority.value_or(0)]);
+        end->port_config = static_cast<std::uint32_t>(r.plan.port_configs.size());
+        r.plan.port_configs.push_back(std::move(config));
+      }
+    }
+  }
+}
+
+void check_cut_through(const Resolved& r, json::Diagnostics& diagnostics) {
+  for (const ResolvedRedundancy& redundancy : r.redundancies) {
+    const TopologyNode& merge = r.topology.nodes[redundancy.merge];
+    for (const Egress& egress : egress_of(merge))
+      if (!egress.cut_through.empty())
+        diagnostics.error(egress.where.at("cut_through"), "cut-through where a redundant stream is merged",
+                          {json::quote(merge.name) + ", where a damaged frame would take the place of its good copy", "a switch that merges nothing"});
+  }
+}
 
 void check_windows(const Resolved& r, json::Diagnostics& diagnostics) {
   for (const models::LinkPlan& link : r.plan.links) {
@@ -111,7 +188,8 @@ void check_windows(const Resolved& r, json::Diagnostics& diagnostics) {
         if (!crosses) continue;
         const models::StreamPlan& plan = r.plan.streams[stream.index.value];
         const models::TrafficClass q = config.traffic_class_of_priority[plan.priority.value_or(0)];
-        const Octets frame = models::frame_length(plan.headers + stream.largest_payload, plan.priority.has_value());
+        const bool numbered = std::any_of(r.redundancies.begin(), r.redundancies.end(), [&](const ResolvedRedundancy& other) { return other.stream == stream.index; });
+        const Octets frame = models::frame_length(plan.headers + stream.largest_payload, plan.priority.has_value() || numbered, numbered);
         const Duration needed = link.rate.octet_time() * (models::preamble_and_sfd + frame).count;
         if (list.longest_window(q) >= needed) continue;
         diagnostics.error(stream.where.place(), "a frame that no gate window lets pass",

@@ -12,6 +12,12 @@ models::GateConfig gate_config_of(const Gates& gates, json::Diagnostics& diagnos
 /// link, a neighbour that is none and a class configured twice are diagnostics.
 void resolve_egress(Resolved& resolved, json::Diagnostics& diagnostics);
 
+/// The classes of streams with a launch time wait for it at their talkers. To be called when the talkers are there.
+void add_launch_classes(Resolved& resolved);
+
+/// Cut-through and sequence recovery do not go together at one switch. To be called when the streams are there.
+void check_cut_through(const Resolved& resolved, json::Diagnostics& diagnostics);
+
 /// Frames that can never be sent, because no window of their class is long enough, are errors. To be called when the streams
 /// are there.
 void check_windows(const Resolved& resolved, json::Diagnostics& diagnostics);

@@ -58,9 +58,40 @@ struct ResolvedGates {
   models::GateConfig gates;
 };
 
+/// A link goes down or comes back.
+struct ResolvedLink {
+  std::uint32_t link = 0;            ///< in plan.links
+  bool up = false;
+};
+
+/// A node crashes or starts again.
+struct ResolvedNode {
+  models::NodeIndex node;
+  bool up = false;
+};
+
+/// A gate is stuck, or works again.
+struct ResolvedStuckGate {
+  models::NodeIndex node;
+  std::uint16_t port = 0;
+  models::TrafficClass traffic_class = 0;
+  std::optional<bool> open;
+};
+
+/// Other entries of filtering databases.
+struct ResolvedRoutes {
+  struct Entry {
+    models::NodeIndex bridge;
+    models::VlanId vlan = 0;
+    models::AddressIndex address;
+    std::vector<std::uint16_t> ports;
+  };
+  std::vector<Entry> entries;
+};
+
 struct ResolvedAction {
   sim::TrueTime at;
-  std::variant<ResolvedCall, ResolvedGates> what;
+  std::variant<ResolvedCall, ResolvedGates, ResolvedLink, ResolvedNode, ResolvedStuckGate, ResolvedRoutes> what;
 };
 
 /// The demand on one direction of a link.
@@ -77,11 +108,21 @@ struct PortDemand {
   }
 };
 
+/// A stream that is split into members and made one again. Its ResolvedStream has a path for each member.
+struct ResolvedRedundancy {
+  models::StreamIndex stream;
+  const Redundancy* description = nullptr;
+  std::uint32_t split = 0;                     ///< node
+  std::uint32_t merge = 0;                     ///< node
+  std::vector<models::StreamMember> members;   ///< by path
+};
+
 struct Resolved {
   Scenario scenario;
   Topology topology;
   models::NetworkPlan plan;
   std::vector<ResolvedStream> streams;    ///< by stream index
+  std::vector<ResolvedRedundancy> redundancies;  ///< ascending streams
   std::vector<ResolvedProgram> programs;
   std::vector<ResolvedAction> script;     ///< by time
   std::vector<PortDemand> ports;          ///< those that carry something

@@ -32,6 +32,12 @@ class Run::Script final : public sim::Component {
     });
   }
   void act(const ResolvedGates& change) { run_->network_.request_gates(change.node, change.port, change.gates); }
+  void act(const ResolvedLink& change) { run_->network_.set_link(change.link, change.up); }
+  void act(const ResolvedNode& change) { run_->network_.set_node(change.node, change.up); }
+  void act(const ResolvedStuckGate& change) { run_->network_.force_gate(change.node, change.port, change.traffic_class, change.open); }
+  void act(const ResolvedRoutes& change) {
+    for (const ResolvedRoutes::Entry& entry : change.entries) run_->network_.reroute(entry.bridge, entry.vlan, entry.address, entry.ports);
+  }
 
   Run* run_;
   sim::EventSource source_;

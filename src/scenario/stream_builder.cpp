@@ -5,6 +5,7 @@
 
 #include "models/ethernet/sizes.hpp"
 #include "scenario/limits.hpp"
+#include "scenario/named_path.hpp"
 
 namespace takt::scenario {
 
@@ -33,7 +34,9 @@ std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
       diagnostics_.error(place, "a receiver twice", {json::quote(r_.topology.nodes[to].name), "each receiver once"});
   }
   if (diagnostics_.errors() != errors_before) return std::nullopt;
-  std::vector<Path> paths = paths_of(wanted);
+  std::optional<MemberPaths> members;
+  if (wanted.redundancy != nullptr) members = member_paths(wanted);
+  std::vector<Path> paths = members ? members->paths : wanted.redundancy != nullptr ? std::vector<Path>{} : paths_of(wanted);
   if (diagnostics_.errors() != errors_before) return std::nullopt;
 
   for (const Path& path : paths) path_nodes_ += path.size();
@@ -42,8 +45,8 @@ std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
     return std::nullopt;
   }
 
-  const bool is_group = wanted.to.size() > 1 || wanted.path != nullptr;
-  const models::AddressIndex address{is_group ? static_cast<std::uint32_t>(r_.plan.nodes.size()) + groups_++ : wanted.to.front().first};
+  const bool is_group = wanted.to.size() > 1 || wanted.path != nullptr || members || identified_.contains(wanted.name);
+  const models::AddressIndex address = is_group ? new_group() : models::AddressIndex{wanted.to.front().first};
   models::StreamPlan plan;
   plan.name = wanted.name;
   plan.talker = models::NodeIndex{*wanted.from};
@@ -52,11 +55,13 @@ std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
   plan.priority = wanted.priority;
   plan.headers = wanted.headers;
   for (const auto& [to, place] : wanted.to) plan.listeners.push_back(models::NodeIndex{to});
-  for (const Path& path : paths) add_filtering(path, wanted.vlan, address);
+  if (!members)
+    for (const Path& path : paths) add_filtering(path, wanted.vlan, address);
 
   const models::StreamIndex index{static_cast<std::uint32_t>(r_.plan.streams.size())};
   r_.plan.streams.push_back(std::move(plan));
   r_.streams.push_back({index, std::move(paths), {}, wanted.where, wanted.of_program, wanted.payload});
+  if (members) add_members(wanted, *members, index);
   return index;
 }
 
@@ -86,42 +91,73 @@ std::vector<Path> StreamBuilder::paths_of(const NewStream& wanted) {
 }
 
 std::optional<Path> StreamBuilder::explicit_path(const NewStream& wanted) {
-  Path path;
-  const std::size_t errors_before = diagnostics_.errors();
   if (wanted.to.size() != 1) {
     diagnostics_.error(wanted.where.at("path"), "a path for several receivers", {std::to_string(wanted.to.size()) + " receivers", "one receiver"});
     return std::nullopt;
   }
-  std::set<std::uint32_t> seen;
-  for (std::size_t i = 0; i < wanted.path->size(); ++i) {
-    const std::string& name = (*wanted.path)[i];
-    const json::Place place = wanted.where.at("path", i);
-    const auto node = r_.topology.find(name);
-    if (!node) {
-      diagnostics_.error(place, "unknown node", {json::quote(name), "the name of a node", suggest_node(r_.topology, name, diagnostics_)});
-      continue;
+  return named_path(r_.topology, *wanted.path, *wanted.from, wanted.to.front().first, wanted.where.at("path"),
+                    [&](std::size_t i) { return wanted.where.at("path", i); }, diagnostics_);
+}
+
+std::optional<MemberPaths> StreamBuilder::member_paths(const NewStream& wanted) {
+  const Redundancy& redundancy = *wanted.redundancy;
+  if (wanted.to.size() != 1)
+    diagnostics_.error(redundancy.where.place(), "redundancy for several receivers", {std::to_string(wanted.to.size()) + " receivers", "one receiver"});
+  if (wanted.path != nullptr)
+    diagnostics_.error(wanted.where.at("path"), "a path of a redundant stream", {"\"path\" beside \"redundancy\"", "\"paths\" in \"redundancy\""});
+  if (!redundancy.vlans.empty() && !wanted.priority)
+    diagnostics_.error(redundancy.where.at("vlans"), "a VLAN without a priority", {"\"vlans\" of an untagged stream", "\"pcp\" too, since the tag carries both"});
+  if (wanted.to.size() != 1 || wanted.path != nullptr) return std::nullopt;
+  std::optional<MemberPaths> members = lay_members(r_, redundancy, *wanted.from, wanted.to.front().first, diagnostics_);
+  if (members && !redundancy.vlans.empty() && redundancy.vlans.size() != members->paths.size())
+    diagnostics_.error(redundancy.where.at("vlans"), "not a VLAN for each path", {std::to_string(redundancy.vlans.size()), std::to_string(members->paths.size())});
+  return members;
+}
+
+models::AddressIndex StreamBuilder::new_group() { return {static_cast<std::uint32_t>(r_.plan.nodes.size()) + groups_++}; }
+
+void StreamBuilder::add_members(const NewStream& wanted, const MemberPaths& members, models::StreamIndex index) {
+  ResolvedRedundancy made;
+  made.stream = index;
+  made.description = wanted.redundancy;
+  made.split = members.paths.front()[members.split];
+  made.merge = members.paths.front()[members.merge(members.paths.front())];
+  const models::AddressIndex compound = r_.plan.streams[index.value].destination;
+  for (std::size_t i = 0; i < members.paths.size(); ++i) {
+    const Path& path = members.paths[i];
+    models::StreamMember member;
+    member.destination = new_group();
+    member.vlan = wanted.redundancy->vlans.empty() ? wanted.vlan : wanted.redundancy->vlans[i];
+    member.port = *r_.topology.port_towards(path[0], path[1]);
+    // Before the split and behind the merge there is one stream; the node that splits forwards members already, the one that
+    // merges the stream.
+    for (std::size_t at = 1; at + 1 < path.size(); ++at) {
+      const bool is_member = at >= members.split && at < members.merge(path);
+      add_hop(path, at, is_member ? member.vlan : wanted.vlan, is_member ? member.destination : compound);
     }
-    if (!seen.insert(*node).second) diagnostics_.error(place, "a node twice in one path", {json::quote(name), "each node once"});
-    const bool inner = i > 0 && i + 1 < wanted.path->size();
-    if (inner && r_.topology.nodes[*node].is_host())
-      diagnostics_.error(place, "a host inside a path", {json::quote(name), "a switch, since hosts do not forward"});
-    if (!path.empty() && !r_.topology.port_towards(path.back(), *node))
-      diagnostics_.error(place, "no link", {"none between " + json::quote(r_.topology.nodes[path.back()].name) + " and " + json::quote(name), "neighbours along the path"});
-    path.push_back(*node);
+    made.members.push_back(member);
   }
-  if (diagnostics_.errors() != errors_before) return std::nullopt;
-  if (path.front() != *wanted.from || path.back() != wanted.to.front().first) {
-    diagnostics_.error(wanted.where.at("path"), "a path between other nodes",
-                       {json::quote(wanted.path->front()) + " to " + json::quote(wanted.path->back()),
-                        json::quote(r_.topology.nodes[*wanted.from].name) + " to " + json::quote(r_.topology.nodes[wanted.to.front().first].name)});
-    return std::nullopt;
-  }
-  return path;
+  r_.redundancies.push_back(std::move(made));
+}
+
+void StreamBuilder::add_hop(const Path& path, std::size_t at, models::VlanId vlan, models::AddressIndex address) {
+  r_.plan.filtering.push_back({models::NodeIndex{path[at]}, vlan, address, *r_.topology.port_towards(path[at], path[at + 1])});
 }
 
 void StreamBuilder::add_filtering(const Path& path, models::VlanId vlan, models::AddressIndex address) {
-  for (std::size_t i = 1; i + 1 < path.size(); ++i)
-    r_.plan.filtering.push_back({models::NodeIndex{path[i]}, vlan, address, *r_.topology.port_towards(path[i], path[i + 1])});
+  for (std::size_t at = 1; at + 1 < path.size(); ++at) add_hop(path, at, vlan, address);
+}
+
+/// Streams that an ingress names are told apart by their addresses, so each has one of its own.
+void StreamBuilder::note_identified_streams() {
+  for (const TopologyNode& node : r_.topology.nodes) {
+    const auto* const bridge = std::get_if<SwitchNode>(&node.description);
+    if (bridge == nullptr || !bridge->ingress) continue;
+    for (const StreamFilterEntry& filter : bridge->ingress->filters)
+      if (filter.stream) identified_.insert(*filter.stream);
+    for (const IdentifiedStream& stream : bridge->ingress->streams)
+      if (stream.null && stream.null->stream) identified_.insert(*stream.null->stream);
+  }
 }
 
 }  // namespace takt::scenario

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "scenario/resolve_redundancy.hpp"
 #include "scenario/resolved.hpp"
 
 namespace takt::scenario {
@@ -21,12 +23,15 @@ struct NewStream {
   Octets headers{0};
   Octets payload{0};                                          ///< the greatest
   const std::vector<std::string>* path = nullptr;             ///< names of all nodes, for one receiver
+  const Redundancy* redundancy = nullptr;                     ///< or null
   bool of_program = false;
 };
 
 class StreamBuilder {
  public:
-  StreamBuilder(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics), router_(resolved.topology) {}
+  StreamBuilder(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics), router_(resolved.topology) {
+    note_identified_streams();
+  }
 
   /// The host of that name; a mistake is reported at `place`.
   std::optional<std::uint32_t> host(const std::string& name, const json::Place& place);
@@ -37,11 +42,17 @@ class StreamBuilder {
   bool check_size(const NewStream& wanted);
   std::vector<Path> paths_of(const NewStream& wanted);
   std::optional<Path> explicit_path(const NewStream& wanted);
+  std::optional<MemberPaths> member_paths(const NewStream& wanted);
+  models::AddressIndex new_group();
+  void add_members(const NewStream& wanted, const MemberPaths& members, models::StreamIndex index);
+  void add_hop(const Path& path, std::size_t at, models::VlanId vlan, models::AddressIndex address);
+  void note_identified_streams();
   void add_filtering(const Path& path, models::VlanId vlan, models::AddressIndex address);
 
   Resolved& r_;
   json::Diagnostics& diagnostics_;
   Router router_;
+  std::set<std::string, std::less<>> identified_;  // streams that some ingress names
   std::uint32_t groups_ = 0;
   std::uint64_t path_nodes_ = 0;
 };

@@ -73,8 +73,7 @@ class Builder {
         indices.push_back(add(node.name, HostNode{generator.where, generator.os, generator.traffic_classes, generator.queues, {}},
                               generator.where, generator.where.place()));
       else
-        indices.push_back(add(node.name, SwitchNode{generator.where, generator.forwarding_delay, generator.traffic_classes, generator.queues, generator.egress},
-                              generator.where, generator.where.place()));
+        indices.push_back(add(node.name, switch_of(generator), generator.where, generator.where.place()));
     }
     const Duration delay = Duration::from_ps(generator.length.millimetres * ps_per_millimetre);
     for (const Generated::Link& link : made.links) {
@@ -83,6 +82,17 @@ class Builder {
       check_rate(rate, generator.where.at(link.to_host && generator.host_rate ? "host_rate" : "rate"));
       generated_links_.push_back({*indices[link.a], *indices[link.b], rate, delay});
     }
+  }
+
+  static SwitchNode switch_of(const Generator& generator) {
+    SwitchNode made;
+    made.where = generator.where;
+    made.forwarding_delay = generator.forwarding_delay;
+    made.traffic_classes = generator.traffic_classes;
+    made.queues = generator.queues;
+    made.egress = generator.egress;
+    made.ingress = generator.ingress;
+    return made;
   }
 
   void add_written(const std::string& name, const Node& node) {

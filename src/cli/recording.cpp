@@ -49,6 +49,10 @@ std::string Recording::open() {
     timeline_ = std::make_unique<output::TimelineRecorder>(run_->network(), (folder / "timeline.json").string());
     sinks_.add(*timeline_);
   }
+  if (options_.waves) {
+    waves_ = std::make_unique<output::VcdRecorder>(run_->network(), (folder / "waves.vcd").string());
+    sinks_.add(*waves_);
+  }
   run_->simulation().set_trace(&sinks_);
   return {};
 }
@@ -61,6 +65,8 @@ std::string Recording::close() {
     write_states();
     if (std::string other = timeline_->close(run_->simulation().now()); problem.empty()) problem = std::move(other);
   }
+  if (waves_)
+    if (std::string other = waves_->close(run_->simulation().now()); problem.empty()) problem = std::move(other);
   return problem;
 }
 

@@ -1,4 +1,4 @@
-// What `takt run` records on request: captures and a time line, into the result folder.
+// What `takt run` records on request: captures, a time line, waveforms, into the result folder.
 #pragma once
 
 #include <memory>
@@ -8,6 +8,7 @@
 #include "output/fan_out.hpp"
 #include "output/pcap_recorder.hpp"
 #include "output/timeline_recorder.hpp"
+#include "output/vcd_recorder.hpp"
 #include "scenario/run.hpp"
 
 namespace takt::cli {
@@ -15,7 +16,8 @@ namespace takt::cli {
 struct RecordingOptions {
   std::vector<std::string> pcap;   ///< "all", "node" (all its ports) or "node:port"
   bool timeline = false;
-  bool is_wanted() const { return !pcap.empty() || timeline; }
+  bool waves = false;
+  bool is_wanted() const { return !pcap.empty() || timeline || waves; }
 };
 
 /// Hangs on a run from before its first event to its end. Recording changes no digest.
@@ -47,6 +49,7 @@ class Recording {
   output::FanOut sinks_;
   std::unique_ptr<output::PcapRecorder> pcap_;
   std::unique_ptr<output::TimelineRecorder> timeline_;
+  std::unique_ptr<output::VcdRecorder> waves_;
 };
 
 }  // namespace takt::cli

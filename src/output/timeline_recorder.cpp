@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "models/egress/preemption.hpp"
 #include "models/ethernet/sizes.hpp"
 
 namespace takt::output {
@@ -35,6 +36,7 @@ TimelineRecorder::TimelineRecorder(const models::Network& network, std::string p
     : network_(&network), directory_(network), file_(std::move(path)) {
   file_.write("{\"displayTimeUnit\":\"ns\",\"traceEvents\":[\n");
   name_ports();
+  slices_.resize(directory_.ports().size());
   for (const models::Stream& stream : network.traffic().streams()) stream_names_.push_back(quoted(stream.name));
 }
 
@@ -90,26 +92,47 @@ void TimelineRecorder::change_state(TrackId id, sim::TrueTime time, std::string_
 }
 
 void TimelineRecorder::record(const sim::TraceRecord& record) {
-  const bool started = record.kind == static_cast<std::uint32_t>(models::Occurrence::started);
-  if (!started && record.kind != static_cast<std::uint32_t>(models::Occurrence::drop)) return;
+  const auto kind = static_cast<models::Occurrence>(record.kind);
+  const bool begins = kind == models::Occurrence::started || kind == models::Occurrence::resumed;
+  if (!begins && kind != models::Occurrence::cut && kind != models::Occurrence::drop) return;
   const std::uint32_t position = directory_.find(record.where);
   if (position == PortDirectory::none) return;
   const PortDirectory::Port& port = directory_.ports()[position];
-  const models::Frame& frame = network_->traffic().frame({static_cast<std::uint32_t>(record.what)});
-  const std::string place = fmt::format(R"("pid":{},"tid":{},"ts":{})", port.id.node.value + 1, port.id.port + 1u,
-                                        microseconds(record.time.since_start()));
-  const std::string& stream = stream_names_[frame.stream.value];
-  if (started) {
-    const auto octets = static_cast<std::int64_t>(models::preamble_and_sfd.count + record.detail);
-    event(fmt::format(R"({{"ph":"X",{},"dur":{},"name":{},"args":{{"sequence":{},"octets":{},"priority":{}}}}})", place,
-                      microseconds(port.octet_time * octets), stream, frame.sequence, record.detail, frame.priority));
-  } else {
-    event(fmt::format(R"({{"ph":"i","s":"t",{},"name":"drop","args":{{"stream":{},"sequence":{},"reason":"{}"}}}})", place, stream,
-                      frame.sequence, models::name_of(static_cast<models::DropReason>(record.detail))));
+  Slice& slice = slices_[position];
+  const auto octets = models::TransmissionDetail::unpack(record.detail).octets;
+  if (kind == models::Occurrence::cut) {
+    slice.octets = octets;
+    slice.is_cut = true;
+    return;
   }
+  const models::Frame& frame = network_->traffic().frame({static_cast<std::uint32_t>(record.what)});
+  const std::string& stream = stream_names_[frame.stream.value];
+  if (begins) {
+    write_slice(position);
+    slice = {record.time, octets, frame.sequence, frame.stream, frame.priority, true, kind == models::Occurrence::resumed, false};
+    return;
+  }
+  event(fmt::format(R"({{"ph":"i","s":"t","pid":{},"tid":{},"ts":{},"name":"drop","args":{{"stream":{},"sequence":{},"reason":"{}"}}}})",
+                    port.id.node.value + 1, port.id.port + 1u, microseconds(record.time.since_start()), stream, frame.sequence,
+                    models::name_of(static_cast<models::DropReason>(record.detail))));
+}
+
+/// What a port sends is written when it is known how it ended.
+void TimelineRecorder::write_slice(std::uint32_t position) {
+  Slice& slice = slices_[position];
+  if (!slice.is_open) return;
+  slice.is_open = false;
+  const PortDirectory::Port& port = directory_.ports()[position];
+  const std::uint32_t mcrc = slice.is_cut ? models::mcrc.count : 0;
+  const auto wire = std::int64_t{models::preamble_and_sfd.count} + slice.octets + mcrc;
+  const char* const part = slice.is_continued ? (slice.is_cut ? R"(,"fragment":"middle")" : R"(,"fragment":"last")") : (slice.is_cut ? R"(,"fragment":"first")" : "");
+  event(fmt::format(R"({{"ph":"X","pid":{},"tid":{},"ts":{},"dur":{},"name":{},"args":{{"sequence":{},"octets":{},"priority":{}{}}}}})",
+                    port.id.node.value + 1, port.id.port + 1u, microseconds(slice.start.since_start()), microseconds(port.octet_time * wire),
+                    stream_names_[slice.stream.value], slice.sequence, slice.octets + mcrc, slice.priority, part));
 }
 
 std::string TimelineRecorder::close(sim::TrueTime end) {
+  for (std::uint32_t position = 0; position < slices_.size(); ++position) write_slice(position);
   for (TrackId track = 0; track < tracks_.size(); ++track) change_state(track, std::max(end, tracks_[track].since), "");
   file_.write("\n]}\n");
   return file_.close();

@@ -38,6 +38,18 @@ class TimelineRecorder final : public sim::TraceSink {
     sim::TrueTime since;
     std::string state;
   };
+  /// What a port sends, a whole frame or a fragment.
+  struct Slice {
+    sim::TrueTime start;
+    std::uint32_t octets = 0;
+    std::uint64_t sequence = 0;
+    models::StreamIndex stream;
+    models::Priority priority = 0;
+    bool is_open = false;
+    bool is_continued = false;   // of a frame that was cut before
+    bool is_cut = false;
+  };
+  void write_slice(std::uint32_t position);
   void name_ports();
   void name_process(std::uint32_t process, std::string_view name);
   void name_thread(std::uint32_t process, std::uint32_t thread, std::string_view name);
@@ -50,6 +62,7 @@ class TimelineRecorder final : public sim::TraceSink {
   std::vector<std::string> groups_;
   std::vector<std::uint32_t> tracks_of_group_;
   std::vector<Track> tracks_;
+  std::vector<Slice> slices_;              // by position of the port in the directory
   std::vector<std::string> stream_names_;  // escaped
 };
 

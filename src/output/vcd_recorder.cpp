@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "models/egress/preemption.hpp"
 #include "models/ethernet/sizes.hpp"
 
 namespace takt::output {
@@ -40,6 +41,40 @@ VcdRecorder::VcdRecorder(const models::Network& network, std::string path)
     add_signal(scope, "queued_frames", 32, 0);
     add_signal(scope, "gates", models::traffic_class_count, 0xFF);
   }
+  begun_.resize(directory_.ports().size());
+  free_at_.resize(directory_.ports().size());
+  gates_.resize(directory_.ports().size());
+  for (std::uint32_t position = 0; position < gates_.size(); ++position) {
+    look_at_gates(position, sim::TrueTime());
+    signals_[position * signals_of_a_port + gates].value = states(position, sim::TrueTime());
+  }
+}
+
+/// The gates of the port are others from now on.
+void VcdRecorder::look_at_gates(std::uint32_t position, sim::TrueTime now) {
+  const PortDirectory::Port& port = directory_.ports()[position];
+  const models::EgressPort& live = network_->ports(port.id.node)[port.id.port];
+  if (live.shaping() == nullptr || !live.shaping()->has_gates()) return;
+  gates_[position].schedule = std::as_const(*live.shaping()).gates();
+  gates_[position].next = now;
+  follow_gates(position);
+}
+
+/// Notes when they next change.
+void VcdRecorder::follow_gates(std::uint32_t position) {
+  const PortDirectory::Port& port = directory_.ports()[position];
+  const models::LocalClock& clock = network_->ports(port.id.node)[port.id.port].clock();
+  Gates& followed = gates_[position];
+  const sim::LocalTime change = followed.schedule.next_change(clock.local_at(followed.next));
+  followed.next = change == sim::LocalTime::never() ? sim::TrueTime::never() : clock.true_at(change);
+  if (followed.next != sim::TrueTime::never()) gate_changes_.push({followed.next, position});
+}
+
+std::uint64_t VcdRecorder::states(std::uint32_t position, sim::TrueTime at) {
+  const PortDirectory::Port& port = directory_.ports()[position];
+  const models::EgressPort& live = network_->ports(port.id.node)[port.id.port];
+  if (live.shaping() == nullptr || !live.shaping()->has_gates()) return 0xFF;
+  return live.shaping()->with_forced(gates_[position].schedule.gate_states(live.clock().local_at(at)));
 }
 
 VcdRecorder::SignalId VcdRecorder::add_signal(std::string_view scope, std::string_view name, unsigned bits, std::uint64_t initial) {
@@ -47,12 +82,6 @@ VcdRecorder::SignalId VcdRecorder::add_signal(std::string_view scope, std::strin
   TAKT_CHECK(bits >= 1 && bits <= 64, "a signal has 1 to 64 bits");
   signals_.push_back({std::string(scope), identifier(name), code_of(signals_.size()), bits, initial});
   return static_cast<SignalId>(signals_.size() - 1);
-}
-
-VcdRecorder::SignalId VcdRecorder::gates_of(sim::ComponentId port) const {
-  const std::uint32_t position = directory_.find(port);
-  TAKT_CHECK(position != PortDirectory::none, "gates belong to a port of the network");
-  return position * signals_of_a_port + gates;
 }
 
 void VcdRecorder::set(SignalId signal, sim::TrueTime time, std::uint64_t value) {
@@ -72,10 +101,25 @@ void VcdRecorder::record(const sim::TraceRecord& record) {
   for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q) waiting += queues.frames(q);
   change(first + queued_frames, record.time, waiting);
 
-  if (record.kind != static_cast<std::uint32_t>(models::Occurrence::started)) return;
-  change(first + busy, record.time, 1);
-  const auto octets = static_cast<std::int64_t>(models::preamble_and_sfd.count + record.detail);
-  falls_.push({record.time + port.octet_time * octets, first + busy});
+  const auto octets = std::int64_t{models::TransmissionDetail::unpack(record.detail).octets};
+  switch (static_cast<models::Occurrence>(record.kind)) {
+    case models::Occurrence::started:
+    case models::Occurrence::resumed:
+      begun_[position] = record.time;
+      change(first + busy, record.time, 1);
+      free_at_[position] = record.time + port.octet_time * (models::preamble_and_sfd.count + octets);
+      falls_.push({free_at_[position], first + busy});
+      break;
+    case models::Occurrence::cut:
+      free_at_[position] = begun_[position] + port.octet_time * (models::preamble_and_sfd.count + octets + models::mcrc.count);
+      falls_.push({free_at_[position], first + busy});
+      break;
+    case models::Occurrence::gates_changed:
+      look_at_gates(position, record.time);
+      change(first + gates, record.time, states(position, record.time));
+      break;
+    default: break;
+  }
 }
 
 std::string VcdRecorder::close(sim::TrueTime end) {
@@ -125,10 +169,21 @@ void VcdRecorder::declare() {
 void VcdRecorder::advance_to(sim::TrueTime time) {
   if (!declared_) declare();
   TAKT_CHECK(time >= time_, "a wave form is recorded in the order of time");
-  while (!falls_.empty() && falls_.top().time <= time) {
-    const Fall fall = falls_.top();
-    falls_.pop();
-    change(fall.signal, fall.time, 0);
+  for (;;) {
+    const sim::TrueTime fall = falls_.empty() ? sim::TrueTime::never() : falls_.top().time;
+    const sim::TrueTime gate = gate_changes_.empty() ? sim::TrueTime::never() : gate_changes_.top().time;
+    if (std::min(fall, gate) > time) return;
+    if (fall <= gate) {
+      const Fall next = falls_.top();
+      falls_.pop();
+      if (free_at_[next.signal / signals_of_a_port] == next.time) change(next.signal, next.time, 0);  // else it was cut
+    } else {
+      const Fall next = gate_changes_.top();
+      gate_changes_.pop();
+      if (gates_[next.signal].next != next.time) continue;  // of a list that was replaced
+      change(next.signal * signals_of_a_port + gates, next.time, states(next.signal, next.time));
+      follow_gates(next.signal);
+    }
   }
 }
 

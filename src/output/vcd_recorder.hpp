@@ -21,13 +21,11 @@ class VcdRecorder final : public sim::TraceSink {
   /// Writes as it records. The network outlives the recorder. Signals of a port, in the scope node.portN_to_peer:
   ///   busy           1 from the first bit of a preamble to the last bit of the frame
   ///   queued_frames  frames that wait in all its queues
-  ///   gates          bit q: the gate of class q is open; all open until set() says otherwise
+  ///   gates          bit q: the gate of class q is open, by the port's own clock
   VcdRecorder(const models::Network& network, std::string path);
 
   /// A signal of 1 to 64 bits, before anything is recorded.
   SignalId add_signal(std::string_view scope, std::string_view name, unsigned bits, std::uint64_t initial);
-  /// The gates of a port, by its component.
-  SignalId gates_of(sim::ComponentId port) const;
   /// The signal has that value from that time on, which is not before any recorded so far.
   void set(SignalId signal, sim::TrueTime time, std::uint64_t value);
 
@@ -52,9 +50,17 @@ class VcdRecorder final : public sim::TraceSink {
       return a.time != b.time ? a.time > b.time : a.signal > b.signal;
     }
   };
+  /// The gates of a port, followed along its list; a copy, so that the port does not notice.
+  struct Gates {
+    models::GateSchedule schedule;
+    sim::TrueTime next = sim::TrueTime::never();   // when they next change
+  };
   enum PortSignal : std::uint32_t { busy, queued_frames, gates, signals_of_a_port };
 
   void declare();
+  void look_at_gates(std::uint32_t position, sim::TrueTime now);
+  void follow_gates(std::uint32_t position);
+  std::uint64_t states(std::uint32_t position, sim::TrueTime at);
   void advance_to(sim::TrueTime time);
   void change(SignalId signal, sim::TrueTime time, std::uint64_t value);
   void write_value(const Signal& signal);
@@ -64,6 +70,10 @@ class VcdRecorder final : public sim::TraceSink {
   StreamingFile file_;
   std::vector<Signal> signals_;  // signals_of_a_port for each port, then the added ones
   std::priority_queue<Fall, std::vector<Fall>, std::greater<>> falls_;
+  std::vector<sim::TrueTime> begun_;     // by port: when the first bit of what it sends left
+  std::vector<sim::TrueTime> free_at_;   // by port: when the last bit of what it sends leaves
+  std::vector<Gates> gates_;             // by port
+  std::priority_queue<Fall, std::vector<Fall>, std::greater<>> gate_changes_;  // signal: the port's position
   sim::TrueTime time_;           // of the last time stamp in the file
   bool declared_ = false;
 };

@@ -36,7 +36,7 @@ Outcome run(const TalkerSchedule& schedule, Duration end, std::uint64_t seed = 1
     EXPECT_EQ(record.detail, stream.value);
     outcome.produced.push_back(record.time.ps());
   }
-  for (const sim::TraceRecord& record : trace.of(Occurrence::started)) outcome.lengths.push_back(record.detail);
+  for (const sim::TraceRecord& record : trace.of(Occurrence::started)) outcome.lengths.push_back(TransmissionDetail::unpack(record.detail).octets);
   EXPECT_EQ(outcome.produced.size(), run.stream(stream).sent);
   outcome.digest = run.digest();
   outcome.delivered = run.stream(stream).delivered;

@@ -132,18 +132,21 @@ TEST(VcdRecorder, FurtherSignalsAndGates) {
   NetworkRun run(plant.plan);
   VcdRecorder recorder(*run.network, folder / "waves.vcd");
   const auto state = recorder.add_signal("programs\ntrajectory", "robot state", 4, 11);
-  const auto gates = recorder.gates_of(run.port(plant.sw, 1).id());
-  recorder.set(gates, at(20_us), 0x7F);
+  run.simulation.set_trace(&recorder);
+  models::GateConfig gates;
+  gates.admin_control_list = {{models::GateOperation::set_gate_states, 0x7F, 20_us}, {models::GateOperation::set_gate_states, 0x80, 20_us}};
+  gates.admin_cycle_time = 40_us;
+  run.network->request_gates(plant.sw, 1, gates);
   EXPECT_THROW(recorder.add_signal("late", "x", 1, 0), sim::InvariantBroken);
   recorder.set(state, at(20_us), 12);
   recorder.set(state, at(30_us), 12);  // no change
-  recorder.set(gates, at(40_us), 0x80);
-  EXPECT_THROW(recorder.set(gates, at(39_us), 0x81), sim::InvariantBroken);
-  ASSERT_EQ(recorder.close(at(40_us)), "");
+  recorder.set(state, at(40_us), 13);
+  EXPECT_THROW(recorder.set(state, at(39_us), 14), sim::InvariantBroken);
+  ASSERT_EQ(recorder.close(at(60_us)), "");
   const Dump dump = parse(content_of(folder / "waves.vcd"));
   using Changes = std::vector<std::pair<std::int64_t, std::uint64_t>>;
-  EXPECT_EQ(dump.waves.at("sw.port1_to_b.gates").changes, (Changes{{0, 0xFF}, {20'000'000, 0x7F}, {40'000'000, 0x80}}));
-  EXPECT_EQ(dump.waves.at("programs.trajectory.robot_state").changes, (Changes{{0, 11}, {20'000'000, 12}}));
+  EXPECT_EQ(dump.waves.at("sw.port1_to_b.gates").changes, (Changes{{0, 0xFF}, {0, 0x7F}, {20'000'000, 0x80}, {40'000'000, 0x7F}, {60'000'000, 0x80}}));
+  EXPECT_EQ(dump.waves.at("programs.trajectory.robot_state").changes, (Changes{{0, 11}, {20'000'000, 12}, {40'000'000, 13}}));
 }
 
 // More than 94 signals: codes of two characters, none used twice.

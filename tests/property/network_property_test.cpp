@@ -136,7 +136,7 @@ TEST(NetworkProperty, TheWire) {
           priority_of[record.what] = plan.streams[record.detail].priority.value_or(0);
           break;
         case Occurrence::started:
-          ports.at(record.where.index).started(record.time, record.what, record.detail, priority_of.at(record.what));
+          ports.at(record.where.index).started(record.time, record.what, models::TransmissionDetail::unpack(record.detail).octets, priority_of.at(record.what));
           ++started;
           break;
         case Occurrence::enqueued:

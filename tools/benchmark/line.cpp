@@ -48,10 +48,10 @@ LineFigures run_line(double simulated_seconds, bool with_gates) {
   NetworkPlan plan = line_plan();
   if (with_gates) {
     GateConfig gates;
-    gates.admin_cycle_time = 20_us;
+    gates.admin_cycle_time = 250_us;
     // The frames are of class 1 (priority 0); the other gates take turns.
     for (int entry = 0; entry < 8; ++entry)
-      gates.admin_control_list.push_back({GateOperation::set_gate_states, static_cast<GateStates>(entry == 7 ? 0xFC : 0x02 | 1u << entry), 2500_ns});
+      gates.admin_control_list.push_back({GateOperation::set_gate_states, static_cast<GateStates>(entry == 7 ? 0xFC : 0x02 | 1u << entry), 31'250_ns});
     plan.port_configs[0].shaping.gates = gates;
   }
   Network network(simulation, std::move(plan));

@@ -8,8 +8,11 @@ void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
   TAKT_CHECK(event.kind() == static_cast<sim::EventKind>(NodeEvent::frame_arrived), "a bridge receives frames only");
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
   if (looks_closer_ || arrival.notes != 0) [[unlikely]] {
-    look_closer(simulation, arrival);
-    return;
+    if (looks_closer_ || arrival.notes != withdrawable) {
+      look_closer(simulation, arrival);
+      return;
+    }
+    if (!ports_[arrival.port].opposite()->has_come(simulation.now(), arrival.frame)) return;
   }
   const Frame& frame = traffic_->frame(arrival.frame);
   const FilteringDatabase::Entry entry = filtering_database_.find(frame.vlan, frame.destination);
@@ -34,7 +37,7 @@ void Bridge::prefetch(const sim::Event& event, Ahead ahead) const {
 void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
   FrameIndex frame = arrival.frame;
   EgressPort* const sender = ports_[arrival.port].opposite();
-  if ((arrival.notes & conditional) != 0 && sender != nullptr && !sender->confirm(simulation, frame, arrival.notes)) return;
+  if ((arrival.notes & (conditional | withdrawable)) != 0 && sender != nullptr && !sender->confirm(simulation, frame, arrival.notes)) return;
   const bool only_header = (arrival.notes & header_only) != 0;
   Header header;
   if (only_header) {

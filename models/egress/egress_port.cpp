@@ -36,11 +36,16 @@ void EgressPort::connect(sim::Simulation& simulation, Shared& shared, const Port
   if (config.preemption || config.cut_through != 0 || config.untagged) make_extras();
   if (config.preemption) extras_->merge = std::make_unique<MacMerge>(*config.preemption, octet_time);
   if (config.cut_through != 0) extras_->conditional = true;
+  find_gates();
   node_delay_ = far_end.node_delay;
 }
 
 inline void EgressPort::find_way() {
-  way_ = !queues_.empty() || extras_ ? Way::detour : !shaping_ ? Way::straight : only_gates_ != nullptr ? Way::gated : Way::detour;
+  if (extras_ && !shaping_ && queues_.empty() && extras_->merge && !extras_->merge->rest() && !extras_->fault && !extras_->conditional &&
+      extras_->noticed_priorities == 0)
+    way_ = Way::merging;
+  else
+    way_ = !queues_.empty() || extras_ ? Way::detour : !shaping_ ? Way::straight : only_gates_ != nullptr ? Way::gated : Way::detour;
 }
 
 /// To be called when the port gets other features.
@@ -64,9 +69,13 @@ EgressPort::Extras& EgressPort::make_extras() {
 void EgressPort::notice_headers(std::uint8_t priorities, Octets header) {
   make_extras().noticed_priorities = priorities;
   extras_->noticed_header = header;
+  find_gates();
 }
 
-void EgressPort::make_conditional() { make_extras().conditional = true; }
+void EgressPort::make_conditional() {
+  make_extras().conditional = true;
+  find_gates();
+}
 
 void EgressPort::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (event.kind() == stored_frame) {
@@ -89,6 +98,8 @@ void EgressPort::settle(sim::Simulation& simulation) {
     has_arrival_ = false;
     if (way_ == Way::straight)
       start(simulation, arrival_.frame);
+    else if (way_ == Way::merging)
+      start_with_extras(simulation, arrival_.frame, class_of(arrival_.frame));
     else
       pass_gate(simulation, arrival_.frame);
     return;

@@ -30,6 +30,7 @@ enum class NodeEvent : sim::EventKind {
 enum ArrivalNote : std::uint16_t {
   conditional = 1,   ///< ask the sending port whether it stands (EgressPort::confirm), and look at the frame's condition
   header_only = 2,   ///< only the header has come: the frame may be cut through
+  withdrawable = 8,  ///< the frame may be cut on its way: ask the sending port whether it has come (EgressPort::has_come)
   confirmed = 4,     ///< what chance does to the frame on the link has been done
 };
 
@@ -108,6 +109,10 @@ class alignas(64) EgressPort final : public sim::Component {
         pass_gate(simulation, frame);
         return;
       }
+      if (way_ == Way::merging) {
+        start_with_extras(simulation, frame, class_of(frame));
+        return;
+      }
     }
     has_arrival_ = true;
     arrival_ = {frame, rank};
@@ -134,6 +139,8 @@ class alignas(64) EgressPort final : public sim::Component {
   /// (it was cut and comes later, or it is lost and accounted for). Chance may damage it: then the index is that of a record of
   /// its own.
   bool confirm(sim::Simulation& simulation, FrameIndex& frame, std::uint16_t notes);
+  /// The same for a note `withdrawable` alone: false if the frame was cut and comes later.
+  bool has_come(sim::TrueTime now, FrameIndex frame) { return !extras_ || extras_->withdrawn.empty() || !take_withdrawn(now, frame); }
   /// Faults (precondition: expect_faults). A link that goes down loses what is on it and what waits for it; while it is down, what is offered.
   void set_up(sim::Simulation& simulation, bool up);
   /// Precondition: expect_faults.
@@ -182,6 +189,7 @@ class alignas(64) EgressPort final : public sim::Component {
   enum class Way : std::uint8_t {
     straight,  ///< it starts
     gated,     ///< it starts when its gate lets it; nothing else has a say, and nothing waits
+    merging,   ///< it starts; it may be cut later, or is express; nothing else has a say, nothing waits
     detour,    ///< frames wait already, or there is more to consider
   };
   /// What few ports have besides shaping.
@@ -223,6 +231,7 @@ class alignas(64) EgressPort final : public sim::Component {
   void settle_waiting(sim::Simulation& simulation);
   void pass_gate(sim::Simulation& simulation, FrameIndex frame);
   void find_way();
+  bool take_withdrawn(sim::TrueTime now, FrameIndex frame);
   void find_gates();
   void settle_later(sim::Simulation& simulation) {
     if (settling_) return;

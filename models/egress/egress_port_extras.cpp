@@ -12,7 +12,7 @@ void EgressPort::start_with_extras(sim::Simulation& simulation, FrameIndex frame
   sim::TrueTime arrival = last_bit + peer_delay();
   MacMerge* const merge = extras_->merge.get();
   const bool preemptable = merge != nullptr && merge->is_preemptable(q);
-  unsigned notes = extras_->conditional || preemptable || record.marked || record.bad_fcs ? unsigned{conditional} : 0u;
+  unsigned notes = extras_->conditional || record.marked || record.bad_fcs ? unsigned{conditional} : preemptable ? unsigned{withdrawable} : 0u;
   if (!preemptable && (extras_->noticed_priorities >> record.priority & 1) != 0) {
     arrival = now + octet_time() * header_notice(record).count + peer_delay();
     notes |= header_only | conditional;
@@ -56,22 +56,25 @@ void EgressPort::resume(sim::Simulation& simulation) {
   }
   ++other_events_;
   simulation.schedule(source_, arrival, sim::Phase::arrival, peer_node_, static_cast<sim::EventKind>(NodeEvent::frame_arrived),
-                      ArrivalArgument::pack(rest.frame, peer_port_, conditional));
+                      ArrivalArgument::pack(rest.frame, peer_port_, extras_->conditional || shared_->traffic->frame(rest.frame).marked ? conditional : withdrawable));
   merge.started({rest.frame, rest.traffic_class, now, rest.remaining, arrival});
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({now, static_cast<std::uint32_t>(Occurrence::resumed), id(), rest.frame.value,
                    TransmissionDetail{rest.remaining.count, rest.traffic_class}.pack()});
 }
 
+bool EgressPort::take_withdrawn(sim::TrueTime now, FrameIndex frame) {
+  auto& withdrawn = extras_->withdrawn;
+  const auto found = std::find_if(withdrawn.begin(), withdrawn.end(), [&](const Extras::Withdrawn& w) { return w.time == now && w.frame == frame; });
+  if (found == withdrawn.end()) return false;
+  withdrawn.erase(found);
+  return true;
+}
+
 bool EgressPort::confirm(sim::Simulation& simulation, FrameIndex& frame, std::uint16_t notes) {
   if (!extras_) return true;
   const sim::TrueTime now = simulation.now();
-  auto& withdrawn = extras_->withdrawn;
-  const auto found = std::find_if(withdrawn.begin(), withdrawn.end(), [&](const Extras::Withdrawn& w) { return w.time == now && w.frame == frame; });
-  if (found != withdrawn.end()) {
-    withdrawn.erase(found);
-    return false;
-  }
+  if (take_withdrawn(now, frame)) return false;
   LinkFault* const fault = extras_->fault.get();
   if (fault == nullptr) return true;
   const Frame& record = shared_->traffic->frame(frame);
@@ -149,6 +152,7 @@ bool EgressPort::may_cut_through(sim::Simulation& simulation, const Extras::Head
 void EgressPort::expect_faults(const sim::Simulation& simulation, std::string_view path) {
   Extras& extras = make_extras();
   extras.conditional = true;
+  find_gates();
   if (!extras.fault) extras.fault = std::make_unique<LinkFault>(simulation.seed(), path);
 }
 

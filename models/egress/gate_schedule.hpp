@@ -70,7 +70,7 @@ class GateSchedule {
       const sim::LocalTime latest_start = span.until - duration;  // of what ends before the list does
       if (ahead.open && duration.ps() <= left_ps && now <= latest_start) return {true, now};
       const sim::LocalTime open = place.cycle_start + sim::Duration::from_ps(ahead.next_open_ps);
-      if (duration.ps() <= ahead.next_window_ps && open <= latest_start) return {false, open};
+      if (duration.ps() <= ahead.next_window_ps && open <= latest_start && open < span.until) return {false, open};
     }
     return may_start_by_search(place, q, now, duration);
   }

@@ -94,7 +94,8 @@ void PortShaping::check_overrun(sim::TrueTime now, TrafficClass q, sim::TrueTime
   if (contains(forced_closed_, q) || (close != sim::LocalTime::never() && clock_->true_at(close) < last_bit)) ++transmission_overrun_[q];
 }
 
-/// Tells the credit when the gate opened and closed up to `now`: one step for each change since it was last asked.
+/// Tells the credit when the gate opened and closed up to `now`: one step for each change since it was last asked, but for those
+/// that find it at rest.
 void PortShaping::follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now) {
   if (!has_gates_) return;
   const sim::LocalTime local = clock_->local_at(now);
@@ -105,6 +106,13 @@ void PortShaping::follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now)
   }
   for (;;) {
     const sim::LocalTime at = shaper.followed;
+    if (shaper.credit.is_at_rest(clock_->true_at(at))) {
+      if (shaper.gates.is_open(q, local))
+        shaper.credit.gate_opened(now);
+      else
+        shaper.credit.gate_closed(now);
+      break;
+    }
     const bool open = shaper.gates.is_open(q, at);
     set_slope(shaper, q, clock_->true_at(at));
     const sim::LocalTime toggle = open ? shaper.gates.close_time(q, at) : shaper.gates.open_time(q, at);

@@ -58,7 +58,7 @@ void Host::handle(sim::Simulation& simulation, const sim::Event& event) {
 std::optional<FrameIndex> Host::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
   FrameIndex frame = arrival.frame;
   EgressPort* const sender = arrival.port < ports_.size() ? ports_[arrival.port].opposite() : nullptr;
-  if ((arrival.notes & conditional) != 0 && sender != nullptr && !sender->confirm(simulation, frame, arrival.notes)) return std::nullopt;
+  if ((arrival.notes & (conditional | withdrawable)) != 0 && sender != nullptr && !sender->confirm(simulation, frame, arrival.notes)) return std::nullopt;
   if (!up_ || traffic_->frame(frame).bad_fcs) {
     traffic_->drop(frame, up_ ? DropReason::bad_fcs : DropReason::node_down, id(), simulation);
     return std::nullopt;

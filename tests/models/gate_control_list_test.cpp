@@ -331,6 +331,17 @@ void compare_with_future(GateSchedule& gates, const Future& future, Ns duration,
   if (until < in_sight && hold_advance + release_advance == 0) RC_ASSERT(asked[static_cast<std::size_t>(until)] != request.hold);
 }
 
+// Found by the property below: a window that would begin when the next list, which is closed, takes over.
+TEST(GateSchedule, AWindowThatBeginsWithTheNextListIsNone) {
+  const std::vector<GateControlEntry> first = {{GateOperation::set_gate_states, 0, 6_ns}, {GateOperation::set_gate_states, 1, 1_ns}, {GateOperation::set_gate_states, 0, 1_ns}};
+  const std::vector<GateControlEntry> second = {{GateOperation::set_gate_states, 0, 1_ns}};
+  const GateControlList old_list(first, 10_ns), new_list(second, 6_ns);
+  GateSchedule gates(0);
+  gates.request_change(at_ns(0), {&old_list, at_ns(-32), {}});
+  gates.request_change(at_ns(11), {&new_list, at_ns(14), {}});
+  EXPECT_EQ(gates.may_start(0, at_ns(11), {}).ask_again, never);
+}
+
 TEST(GateSchedule, AnswersAsTheStateMachinesDo) {
   const bool passed = rc::check("gates against the executor", [] {
     struct Request {

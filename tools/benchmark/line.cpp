@@ -43,16 +43,22 @@ NetworkPlan line_plan() {
 
 }  // namespace
 
-LineFigures run_line(double simulated_seconds, bool with_gates) {
+LineFigures run_line(double simulated_seconds, LineVariant variant) {
   sim::Simulation simulation(1);
   NetworkPlan plan = line_plan();
-  if (with_gates) {
+  if (variant == LineVariant::gates || variant == LineVariant::short_gates) {
     GateConfig gates;
-    gates.admin_cycle_time = 250_us;
+    const sim::Duration entry_time = variant == LineVariant::gates ? 31'250_ns : 2'500_ns;
+    gates.admin_cycle_time = entry_time * 8;
     // The frames are of class 1 (priority 0); the other gates take turns.
     for (int entry = 0; entry < 8; ++entry)
-      gates.admin_control_list.push_back({GateOperation::set_gate_states, static_cast<GateStates>(entry == 7 ? 0xFC : 0x02 | 1u << entry), 31'250_ns});
+      gates.admin_control_list.push_back({GateOperation::set_gate_states, static_cast<GateStates>(entry == 7 ? 0xFC : 0x02 | 1u << entry), entry_time});
     plan.port_configs[0].shaping.gates = gates;
+  }
+  if (variant == LineVariant::preemption) {
+    plan.port_configs[0].preemption = PreemptionConfig{0x03, AddFragSize(0), std::nullopt, {}};
+    plan.streams[0].priority = 7;
+    std::get<PeriodicSchedule>(plan.talkers[0].schedule).offset = 3_us;
   }
   Network network(simulation, std::move(plan));
   network.start();

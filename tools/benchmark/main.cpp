@@ -1,9 +1,10 @@
 // One measured run of one workload, as a line of JSON; tools/bench calls it again and again, in turn with others.
 //
-//   takt_bench line|line-gates SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION
+//   takt_bench line|line-gates|line-short-gates|line-preemption SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION
 //            | tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair SECONDS
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 
 #include "workloads.hpp"
@@ -13,9 +14,17 @@ namespace {
 using namespace takt::benchmark;  // NOLINT
 
 int usage() {
-  std::fputs("usage: takt_bench line|line-gates SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION |\n"
+  std::fputs("usage: takt_bench line|line-gates|line-short-gates|line-preemption SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION |\n"
              "       tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair SECONDS\n", stderr);
   return 2;
+}
+
+std::optional<LineVariant> line_variant(std::string_view workload) {
+  if (workload == "line") return LineVariant::plain;
+  if (workload == "line-gates") return LineVariant::gates;
+  if (workload == "line-short-gates") return LineVariant::short_gates;
+  if (workload == "line-preemption") return LineVariant::preemption;
+  return std::nullopt;
 }
 
 unsigned number(const char* text) { return static_cast<unsigned>(std::strtoul(text, nullptr, 10)); }
@@ -24,8 +33,8 @@ unsigned number(const char* text) { return static_cast<unsigned>(std::strtoul(te
 
 int main(int argc, char** argv) {
   const std::string_view workload = argc > 1 ? argv[1] : "";
-  if ((workload == "line" || workload == "line-gates") && argc == 3) {
-    const LineFigures f = run_line(std::atof(argv[2]), workload == "line-gates");
+  if (const std::optional<LineVariant> line = line_variant(workload); line && argc == 3) {
+    const LineFigures f = run_line(std::atof(argv[2]), *line);
     std::printf(R"({"cpu_s": %.9f, "frame_hops": %llu, "events": %llu, "population": %zu})" "\n", f.cpu_seconds,
                 static_cast<unsigned long long>(f.frame_hops), static_cast<unsigned long long>(f.events), f.population);
   } else if ((workload == "queue-own" || workload == "queue-plain") && argc == 4) {

@@ -12,9 +12,15 @@ struct LineFigures {
   std::uint64_t events = 0;
   std::size_t population = 0;      ///< most pending events
 };
+/// What every port of the line has besides strict priority.
+enum class LineVariant {
+  plain,
+  gates,        ///< a gate list of eight entries of 31.25 us, one of which closes the class of the frames
+  short_gates,  ///< the same with entries of 2.5 us: every second frame finds its gate closed
+  preemption,   ///< the large frames may be cut; the small ones are express and come while a large one is being sent
+};
 /// host - 5 switches - host at 1 Gb/s: 100 octets of UDP payload every 200 us and 1000 octets every 20 us.
-/// `with_gates`: a gate list of eight entries on every port, laid so that it delays but starves nobody.
-LineFigures run_line(double simulated_seconds, bool with_gates = false);
+LineFigures run_line(double simulated_seconds, LineVariant variant = LineVariant::plain);
 
 /// CPU seconds of a bare loop that pops an event and pushes one, `events` times at that population: takt's own queue, and a
 /// plain 4-ary heap of records of 32 octets.

@@ -8,6 +8,7 @@ namespace takt::models {
 Network::Network(sim::Simulation& simulation, NetworkPlan plan) : simulation_(&simulation), plan_(std::move(plan)) {
   shared_.traffic = &traffic_;
   number_ports();
+  make_clocks();
   make_nodes();
   for (const LinkPlan& link : plan_.links) {
     connect(link.a, link.b, link);
@@ -20,8 +21,65 @@ Network::Network(sim::Simulation& simulation, NetworkPlan plan) : simulation_(&s
   set_up_redundancy();
   set_up_faults();
   announce_cut_through();
+  set_up_gptp();
   add_talkers();
 }
+
+void Network::make_clocks() {
+  clocks_.resize(plan_.nodes.size());
+  followers_.resize(plan_.nodes.size());
+  stations_.resize(plan_.nodes.size());
+  for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
+    if (!plan_.nodes[n].clock) continue;
+    clocks_[n] = std::make_unique<NodeClock>(*simulation_, *plan_.nodes[n].clock, plan_.nodes[n].name);
+    followers_[n] = std::make_unique<Followers>();
+    followers_[n]->network = this;
+    followers_[n]->node = NodeIndex{n};
+    clocks_[n]->disciplined().add_listener(*followers_[n]);
+  }
+}
+
+void Network::Followers::clock_changed(const LocalClock&, sim::TrueTime) {
+  for (EgressPort& port : network->mutable_ports(node))
+    if (port.is_connected()) port.clock_changed(*network->simulation_);
+  for (Talker* const talker : talkers) talker->clock_changed(*network->simulation_);
+  for (Process* const process : processes) process->clock_changed();
+}
+
+void Network::set_up_gptp() {
+  if (plan_.gptp.empty()) return;
+  Stream record;
+  record.name = "gPTP";
+  record.destination = gptp_address;
+  record.priority = 7;
+  record.link_local = true;
+  record.ether_type = 0x88F7;
+  gptp_stream_ = traffic_.add_stream(std::move(record));
+  shared_.link_local = this;
+  for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
+    if (!plan_.gptp[n]) continue;
+    TAKT_CHECK(clocks_[n] != nullptr, "a node with gPTP has a clock of its own");
+    const std::span<EgressPort> ports = mutable_ports(NodeIndex{n});
+    stations_[n] = std::make_unique<gptp::Station>(*simulation_, traffic_, ports, *clocks_[n], plan_.nodes[n].clock->timestamps,
+                                                   plan_.gptp_stations[*plan_.gptp[n]], NodeIndex{n}, *gptp_stream_, plan_.nodes[n].name);
+    if (bridges_[n]) bridges_[n]->set_link_local_receiver(stations_[n].get());
+    if (hosts_[n]) hosts_[n]->set_link_local_receiver(stations_[n].get());
+    for (std::uint16_t p = 0; p < ports.size(); ++p) {
+      if (!ports[p].is_connected()) continue;
+      if (port_of_component_.size() <= ports[p].id().index) port_of_component_.resize(ports[p].id().index + std::size_t{1});
+      port_of_component_[ports[p].id().index] = {NodeIndex{n}, p};
+    }
+  }
+}
+
+void Network::transmission_starts(sim::Simulation&, sim::ComponentId port, FrameIndex frame) {
+  const auto [node, number] = port_of_component_[port.index];
+  stations_[node.value]->transmission_starts(number, frame);
+}
+
+void Network::step_clock(NodeIndex node, sim::Duration by) { clocks_[node.value]->step(*simulation_, by); }
+
+void Network::set_frequency_offset(NodeIndex node, sim::FrequencyOffset offset) { clocks_[node.value]->set_frequency_offset(*simulation_, offset); }
 
 void Network::add_streams() {
   for (const StreamPlan& stream : plan_.streams) {
@@ -34,6 +92,7 @@ void Network::add_streams() {
     record.priority = stream.priority.value_or(0);
     record.tagged = stream.priority.has_value();
     record.headers = stream.headers;
+    record.ether_type = stream.ether_type;
     record.listeners = static_cast<std::uint32_t>(stream.listeners.size());
     const StreamIndex index = traffic_.add_stream(std::move(record));
     for (const NodeIndex listener : stream.listeners) listen(listener, index, nullptr);
@@ -41,19 +100,26 @@ void Network::add_streams() {
 }
 
 void Network::add_talkers() {
-  for (const TalkerPlan& talker : plan_.talkers) {
-    const StreamPlan& stream = plan_.streams[talker.stream.value];
-    const NodePlan& node = plan_.nodes[stream.talker.value];
-    HostOutput& output = output_of_host(stream.talker);
-    talkers_.push_back(std::make_unique<Talker>(*simulation_, traffic_, output, ideal_clock_, plan_.os_latencies[node.os_latency],
-                                                node.name + "/" + (talker.name.empty() ? stream.name : talker.name), talker.stream, talker.payload,
-                                                talker.schedule));
-    talkers_.back()->set_until(talker.until);
-    if (!talker.launch) continue;
-    talkers_.back()->set_launch(*talker.launch);
-    output.look_closer();
-    for (EgressPort& port : mutable_ports(stream.talker)) port.make_conditional();
-  }
+  // Those that babble come first in the order of components, as they do at one instant.
+  for (const bool babbles : {true, false})
+    for (const TalkerPlan& talker : plan_.talkers)
+      if (talker.babbles == babbles) add_talker(talker);
+}
+
+void Network::add_talker(const TalkerPlan& talker) {
+  const StreamPlan& stream = plan_.streams[talker.stream.value];
+  const NodePlan& node = plan_.nodes[stream.talker.value];
+  HostOutput& output = output_of_host(stream.talker);
+  talkers_.push_back(std::make_unique<Talker>(*simulation_, traffic_, output, clock_of(stream.talker), plan_.os_latencies[node.os_latency],
+                                              node.name + "/" + (talker.name.empty() ? stream.name : talker.name), talker.stream, talker.payload,
+                                              talker.schedule));
+  talkers_.back()->set_until(talker.until);
+  if (talker.babbles) talkers_.back()->set_babbling();
+  if (followers_[stream.talker.value]) followers_[stream.talker.value]->talkers.push_back(talkers_.back().get());
+  if (!talker.launch) return;
+  talkers_.back()->set_launch(*talker.launch);
+  output.look_closer();
+  for (EgressPort& port : mutable_ports(stream.talker)) port.make_conditional();
 }
 
 void Network::set_up_ingress() {
@@ -64,7 +130,7 @@ void Network::set_up_ingress() {
     for (EgressPort& port : mutable_ports(node))
       if (port.is_connected() && port.untags()) bridges_[n]->set_untags();
     if (!plan_.nodes[n].ingress) continue;
-    ingress_[n] = std::make_unique<IngressPipeline>(traffic_, plan_.ingress_configs[*plan_.nodes[n].ingress], ideal_clock_, bridges_[n]->id(),
+    ingress_[n] = std::make_unique<IngressPipeline>(traffic_, plan_.ingress_configs[*plan_.nodes[n].ingress], clock_of(node), bridges_[n]->id(),
                                                     static_cast<std::uint32_t>(plan_.nodes.size()));
     bridges_[n]->set_ingress_chain(ingress_[n].get());
     for (EgressPort& port : mutable_ports(node))
@@ -80,6 +146,7 @@ void Network::set_up_redundancy() {
 
 void Network::set_up_faults() {
   reasons_down_.assign(plan_.links.size(), 0);
+  crashes_.assign(plan_.nodes.size(), 0);
   for (const LinkPlan& link : plan_.links) {
     if (!link.may_fail) continue;
     for (const auto& [from, to] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
@@ -124,11 +191,17 @@ void Network::set_link(std::uint32_t link, bool up) {
   reasons = up ? reasons - 1 : reasons + 1;
   if (was_up == (reasons == 0)) return;
   for (const LinkPlan::End& end : {plan.a, plan.b}) mutable_ports(end.node)[end.port].set_up(*simulation_, reasons == 0);
+  for (const LinkPlan::End& end : {plan.a, plan.b})
+    if (stations_[end.node.value]) stations_[end.node.value]->set_link(end.port, reasons == 0);
 }
 
 void Network::set_node(NodeIndex node, bool up) {
   for (std::uint32_t l = 0; l < plan_.links.size(); ++l)
     if (plan_.links[l].a.node == node || plan_.links[l].b.node == node) set_link(l, up);
+  std::uint32_t& crashes = crashes_[node.value];
+  crashes = up ? crashes - 1 : crashes + 1;
+  if (crashes != (up ? 0u : 1u)) return;  // it crashed once more, or is not back from another crash
+  if (stations_[node.value]) stations_[node.value]->set_up(up);
   if (hosts_[node.value] == nullptr) return;
   hosts_[node.value]->set_up(up);
   if (outputs_[node.value]) outputs_[node.value]->set_up(up);
@@ -167,7 +240,7 @@ void Network::make_nodes() {
     const NodePlan& node = plan_.nodes[n];
     if (node.kind == NodeKind::host) {
       hosts_[n] = std::make_unique<Host>(*simulation_, traffic_, NodeIndex{n}, plan_.os_latencies[node.os_latency], node.name,
-                                         mutable_ports(NodeIndex{n}), ideal_clock_);
+                                         mutable_ports(NodeIndex{n}), clock_of(NodeIndex{n}));
       if (!mutable_ports(NodeIndex{n}).empty()) outputs_[n] = std::make_unique<HostOutput>(traffic_, mutable_ports(NodeIndex{n}));
     } else {
       bridges_[n] = std::make_unique<Bridge>(traffic_, mutable_ports(NodeIndex{n}), node.forwarding_delay);
@@ -189,10 +262,11 @@ sim::ComponentId Network::component_of(NodeIndex node) const {
 
 void Network::connect(const LinkPlan::End& from, const LinkPlan::End& to, const LinkPlan& link) {
   TAKT_CHECK(link.rate.has_exact_octet_time(), "a link's octet lasts a whole number of picoseconds");
-  mutable_ports(from.node)[from.port].connect(*simulation_, shared_, port_config_of(from), ideal_clock_,
+  mutable_ports(from.node)[from.port].connect(*simulation_, shared_, port_config_of(from), clock_of(from.node),
                                               link.rate.octet_time(),
                                               {component_of(to.node), to.port, link.delay + fixed_delay_of(to.node), fixed_delay_of(to.node)},
                                               &mutable_ports(to.node)[to.port]);
+  if (from.gates_may_stick) mutable_ports(from.node)[from.port].expect_stuck_gates();
 }
 
 const PortConfig& Network::port_config_of(const LinkPlan::End& end) const {
@@ -210,10 +284,11 @@ HostOutput& Network::output_of_host(NodeIndex host) {
 
 Process& Network::add_process(NodeIndex host, std::string_view name, std::unique_ptr<Application> application) {
   const NodePlan& node = plan_.nodes[host.value];
-  processes_.push_back(std::make_unique<Process>(*simulation_, traffic_, output_of_host(host), ideal_clock_,
+  processes_.push_back(std::make_unique<Process>(*simulation_, traffic_, output_of_host(host), clock_of(host),
                                                  plan_.os_latencies[node.os_latency], node.name + "/" + std::string(name),
                                                  std::move(application)));
   host_of_process_.push_back(host);
+  if (followers_[host.value]) followers_[host.value]->processes.push_back(processes_.back().get());
   return *processes_.back();
 }
 
@@ -223,6 +298,10 @@ void Network::listen(NodeIndex host, StreamIndex stream, Process* process) {
 }
 
 void Network::start() {
+  for (const auto& clock : clocks_)
+    if (clock) clock->start(*simulation_);
+  for (const auto& station : stations_)
+    if (station) station->start();
   for (const auto& talker : talkers_) talker->start(*simulation_);
   for (const auto& process : processes_) process->start();
 }

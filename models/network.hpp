@@ -9,6 +9,7 @@
 
 #include "models/bridge/bridge.hpp"
 #include "models/host/host.hpp"
+#include "models/gptp/station.hpp"
 #include "models/host/process.hpp"
 #include "models/host/talker.hpp"
 #include "models/ingress/ingress_pipeline.hpp"
@@ -16,7 +17,7 @@
 
 namespace takt::models {
 
-class Network {
+class Network final : private LinkLocalSender {
  public:
   /// The plan is taken by value: latencies and port configurations stay alive with the network.
   Network(sim::Simulation& simulation, NetworkPlan plan);
@@ -41,6 +42,9 @@ class Network {
   void set_node(NodeIndex node, bool up);
   /// See PortShaping::force_gate.
   void force_gate(NodeIndex node, std::uint16_t port, TrafficClass q, std::optional<bool> open);
+  /// A node's clock jumps, or its oscillator gets another offset. Precondition: the node has a clock of its own.
+  void step_clock(NodeIndex node, sim::Duration by);
+  void set_frequency_offset(NodeIndex node, sim::FrequencyOffset offset);
   /// Another static filtering entry: frames to the address leave `bridge` through these ports.
   void reroute(NodeIndex bridge, VlanId vlan, AddressIndex address, std::span<const std::uint16_t> ports);
 
@@ -54,6 +58,14 @@ class Network {
     return {ports_.get() + first_port_[node.value], first_port_[node.value + 1] - first_port_[node.value]};
   }
   const Bridge& bridge(NodeIndex node) const { return *bridges_[node.value]; }
+  /// What the node shows as time.
+  const LocalClock& clock(NodeIndex node) const { return clocks_[node.value] ? clocks_[node.value]->disciplined() : ideal_clock_; }
+  /// Null where the node knows true time.
+  const NodeClock* node_clock(NodeIndex node) const { return clocks_[node.value].get(); }
+  /// Null where there is no gPTP.
+  const gptp::Station* station(NodeIndex node) const { return stations_[node.value].get(); }
+  /// The stream in which all gPTP messages are counted, if there is gPTP.
+  std::optional<StreamIndex> gptp_stream() const { return gptp_stream_; }
   /// The ingress chain of a bridge, or null.
   IngressPipeline* ingress(NodeIndex node) const { return ingress_[node.value].get(); }
   /// Null for bridges.
@@ -68,8 +80,14 @@ class Network {
   void number_ports();
   void make_nodes();
   void connect(const LinkPlan::End& from, const LinkPlan::End& to, const LinkPlan& link);
+  void transmission_starts(sim::Simulation& simulation, sim::ComponentId port, FrameIndex frame) override;
+  void make_clocks();
+  void follow_clocks();
+  void set_up_gptp();
+  const LocalClock& clock_of(NodeIndex node) const { return clock(node); }
   void add_streams();
   void add_talkers();
+  void add_talker(const TalkerPlan& talker);
   void set_up_ingress();
   void set_up_redundancy();
   void set_up_faults();
@@ -83,7 +101,20 @@ class Network {
   NetworkPlan plan_;
   Traffic traffic_;
   EgressPort::Shared shared_;
+  /// Tells who waits for a time of a node's clock when the clock changes.
+  struct Followers final : ClockListener {
+    void clock_changed(const LocalClock& clock, sim::TrueTime now) override;
+    Network* network = nullptr;
+    NodeIndex node;
+    std::vector<Talker*> talkers;
+    std::vector<Process*> processes;
+  };
   LocalClock ideal_clock_;
+  std::vector<std::unique_ptr<NodeClock>> clocks_;        // by node; null: ideal
+  std::vector<std::unique_ptr<Followers>> followers_;     // by node; null: ideal
+  std::vector<std::unique_ptr<gptp::Station>> stations_;  // by node; null: no gPTP
+  std::vector<std::pair<NodeIndex, std::uint16_t>> port_of_component_;   // for stations
+  std::optional<StreamIndex> gptp_stream_;
   std::vector<std::size_t> first_port_;               // ports of node n: first_port_[n] .. first_port_[n + 1]
   std::unique_ptr<EgressPort[]> ports_;
   std::vector<std::unique_ptr<Host>> hosts_;          // by node; null for bridges
@@ -91,6 +122,7 @@ class Network {
   std::vector<std::unique_ptr<HostOutput>> outputs_;  // by node; null for bridges
   std::vector<std::unique_ptr<IngressPipeline>> ingress_;  // by node; null where there is none
   std::vector<std::uint32_t> reasons_down_;           // by link: how many reasons it has to be down
+  std::vector<std::uint32_t> crashes_;                // by node: how many crashes it has not come back from
   std::vector<std::unique_ptr<Talker>> talkers_;
   std::vector<std::unique_ptr<Process>> processes_;
   std::vector<NodeIndex> host_of_process_;

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "models/clock/node_clock.hpp"
 #include "models/egress/port_config.hpp"
 #include "models/ethernet/frame.hpp"
 #include "models/fault/link_fault.hpp"
 #include "models/frer/redundancy_config.hpp"
+#include "models/gptp/station.hpp"
 #include "models/host/os_latency.hpp"
 #include "models/host/talker.hpp"
 #include "models/ingress/ingress_config.hpp"
@@ -25,6 +27,7 @@ struct NodePlan {
   sim::Duration forwarding_delay;   ///< bridges: last bit in to the egress queue
   std::uint32_t port_config = 0;    ///< index into NetworkPlan::port_configs
   std::uint32_t os_latency = 0;     ///< hosts: index into NetworkPlan::os_latencies
+  std::optional<NodeClockPlan> clock = {};    ///< its own clock; true time if absent
   std::optional<std::uint32_t> ingress = {};  ///< bridges: index into NetworkPlan::ingress_configs
   Octets cut_through_header{22};    ///< bridges: octets, preamble included, of an untagged frame that must be in before it is cut through
 };
@@ -33,6 +36,7 @@ struct LinkPlan {
   struct End {
     NodeIndex node;
     std::uint16_t port = 0;         ///< port number within the node, from 0
+    bool gates_may_stick = false;   ///< a fault of its gates is planned
     std::optional<std::uint32_t> port_config = {};  ///< index into NetworkPlan::port_configs, if not that of the node
   };
   End a;
@@ -57,6 +61,7 @@ struct StreamPlan {
   std::optional<Priority> priority; ///< with a priority the frames carry a VLAN tag; without one they are untagged
   Octets headers{0};
   std::vector<NodeIndex> listeners;
+  std::uint16_t ether_type = 0;     ///< of frames without headers; 0: takt's choice
 };
 
 /// Static filtering entries: at `bridge`, frames of (vlan, address) leave through `port`.
@@ -73,6 +78,7 @@ struct TalkerPlan {
   TalkerSchedule schedule;
   std::optional<sim::Duration> launch = {};              ///< see Talker::set_launch
   sim::LocalTime until = sim::LocalTime::never();        ///< see Talker::set_until
+  bool babbles = false;                                  ///< see Talker::set_babbling; at most one of a stream at a time
   std::string name = {};                                 ///< in the random streams, if not that of the stream
 };
 
@@ -89,6 +95,9 @@ struct NetworkPlan {
   std::vector<HostSplitPlan> host_splits;
   std::vector<HostRecoveryPlan> host_recoveries;
   std::vector<ImpairmentPlan> impairments;
+  /// gPTP, by node: index into gptp_stations; empty: none. Nodes with gPTP have a clock of their own.
+  std::vector<std::optional<std::uint32_t>> gptp;
+  std::vector<gptp::StationPlan> gptp_stations;
 };
 
 }  // namespace takt::models

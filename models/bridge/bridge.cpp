@@ -48,6 +48,10 @@ void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
     traffic_->drop(frame, DropReason::bad_fcs, id_, simulation);
     return;
   }
+  if (traffic_->frame(frame).link_local) {
+    forward(simulation, frame, arrival.port, nullptr);
+    return;
+  }
   if (traffic_->frame(frame).marked) {
     frame = traffic_->own(frame);
     Frame& record = traffic_->frame(frame);
@@ -72,6 +76,10 @@ void Bridge::settle(sim::Simulation& simulation) {
 
 void Bridge::forward(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header) {
   const Frame& record = traffic_->frame(frame);
+  if (record.link_local && link_local_ != nullptr) {
+    link_local_->receive(simulation, frame, from, simulation.now() - forwarding_delay_);
+    return;
+  }
   const FilteringDatabase::Entry entry = filtering_database_.find(record.vlan, record.destination);
   const std::uint16_t one = entry.port();
   if (!entry.found())

@@ -27,6 +27,8 @@ class alignas(64) Bridge final : public sim::Component {
     chain_ = chain;
     looks_closer_ = true;
   }
+  /// Takes the link-local frames.
+  void set_link_local_receiver(LinkLocalReceiver* receiver) { link_local_ = receiver; }
   /// Some port takes tags off.
   void set_untags() { looks_closer_ = true; }
 
@@ -59,6 +61,7 @@ class alignas(64) Bridge final : public sim::Component {
   FilteringDatabase filtering_database_;
   std::size_t port_count_;
   IngressChain* chain_ = nullptr;
+  LinkLocalReceiver* link_local_ = nullptr;
   sim::Duration forwarding_delay_;
   sim::ComponentId id_;
   std::vector<Arrived> arrived_;          // at this instant; waits for the chain

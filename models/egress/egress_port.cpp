@@ -212,9 +212,13 @@ void EgressPort::settle_many(sim::Simulation& simulation) {
         resume(simulation);
       else
         start_first(simulation, firsts[choice.selection.traffic_class], choice.selection.traffic_class);
-      next = when_to_look(now);
+      // An express frame that waits for its gate or its credit may want to cut what has just started.
+      next = extras_ && extras_->merge && extras_->merge->under_way() ? look_while_busy(simulation, candidates, heads) : when_to_look(now);
     }
   } else if (extras_ && extras_->merge) {
+    // A frame that finds no room is no reason to cut another one.
+    for (const Arrival& arrival : more_arrivals_) admit(simulation, arrival.frame);
+    more_arrivals_.clear();
     const ClassSet candidates = find_heads(heads, firsts);
     next = look_while_busy(simulation, candidates, heads);
   }
@@ -373,6 +377,15 @@ void EgressPort::gates_changed(sim::Simulation& simulation) {
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::gates_changed), id(), 0, 0});
 }
 
+void EgressPort::clock_changed(sim::Simulation& simulation) {
+  if (!shaping_) return;
+  promised_ = sim::TrueTime::never();
+  if (extras_ && extras_->merge) extras_->merge->gates_changed();
+  if (!queues_.empty() || (extras_ && extras_->merge)) settle_later(simulation);
+  if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
+    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::gates_changed), id(), 0, 0});
+}
+
 void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
   const Frame& record = shared_->traffic->frame(frame);
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
@@ -400,6 +413,7 @@ void EgressPort::start(sim::Simulation& simulation, FrameIndex frame) {
   const auto octet = static_cast<std::int64_t>(octet_time_ps_);
   const std::int64_t until_last_bit = octet * (preamble_and_sfd.count + record.length);
   const sim::TrueTime now = simulation.now();
+  if (record.link_local) [[unlikely]] shared_->link_local->transmission_starts(simulation, id(), frame);
   busy_until_ = now + sim::Duration::from_ps(until_last_bit + octet * inter_packet_gap.count);
   wire_octets_sent_ += wire_length(Octets{record.length}).count;
   simulation.schedule(source_, now + sim::Duration::from_ps(until_last_bit + static_cast<std::int64_t>(peer_delay_ps_)), sim::Phase::arrival, peer_node_,

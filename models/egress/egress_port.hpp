@@ -13,6 +13,7 @@
 #include "models/egress/mac_merge.hpp"
 #include "models/egress/port_config.hpp"
 #include "models/egress/port_shaping.hpp"
+#include "models/ethernet/link_local.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "models/ethernet/traffic.hpp"
 #include "models/fault/link_fault.hpp"
@@ -62,6 +63,7 @@ class alignas(64) EgressPort final : public sim::Component {
   /// What all ports of a network share.
   struct Shared {
     Traffic* traffic = nullptr;
+    LinkLocalSender* link_local = nullptr;
     QueueEntryPool entries;
   };
 
@@ -132,6 +134,9 @@ class alignas(64) EgressPort final : public sim::Component {
   /// All frames of this instant are here: selects, starts, queues.
   void settle(sim::Simulation& simulation) override;
 
+  /// The clock has changed its rate or was stepped: what waits for a local time asks again.
+  void clock_changed(sim::Simulation& simulation);
+
   /// Brings what a frame touches at a free port towards the cache.
   void prefetch_hot() const { __builtin_prefetch(this, 1); }
 
@@ -141,6 +146,8 @@ class alignas(64) EgressPort final : public sim::Component {
   bool confirm(sim::Simulation& simulation, FrameIndex& frame, std::uint16_t notes);
   /// The same for a note `withdrawable` alone: false if the frame was cut and comes later.
   bool has_come(sim::TrueTime now, FrameIndex frame) { return !extras_ || extras_->withdrawn.empty() || !take_withdrawn(now, frame); }
+  /// force_gate() will be called.
+  void expect_stuck_gates() { make_shaping(); }
   /// Faults (precondition: expect_faults). A link that goes down loses what is on it and what waits for it; while it is down, what is offered.
   void set_up(sim::Simulation& simulation, bool up);
   /// Precondition: expect_faults.

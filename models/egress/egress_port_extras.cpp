@@ -10,6 +10,7 @@ void EgressPort::start_with_extras(sim::Simulation& simulation, FrameIndex frame
   const sim::TrueTime now = simulation.now();
   const sim::TrueTime last_bit = now + octet_time() * (preamble_and_sfd.count + std::int64_t{record.length});
   sim::TrueTime arrival = last_bit + peer_delay();
+  if (record.link_local) [[unlikely]] shared_->link_local->transmission_starts(simulation, id(), frame);
   MacMerge* const merge = extras_->merge.get();
   const bool preemptable = merge != nullptr && merge->is_preemptable(q);
   unsigned notes = extras_->conditional || record.marked || record.bad_fcs ? unsigned{conditional} : preemptable ? unsigned{withdrawable} : 0u;
@@ -95,7 +96,9 @@ bool EgressPort::confirm(sim::Simulation& simulation, FrameIndex& frame, std::ui
   if (fate.doubled) {
     const FrameIndex twin = shared_->traffic->duplicate(frame);
     ++other_events_;
-    simulation.schedule(source_, now, sim::Phase::arrival, peer_node_, static_cast<sim::EventKind>(NodeEvent::frame_arrived),
+    // The double is stored, so of a header it comes when the frame is complete.
+    const sim::TrueTime complete = now + octet_time() * (preamble_and_sfd.count + std::int64_t{length} - octets.count);
+    simulation.schedule(source_, complete, sim::Phase::arrival, peer_node_, static_cast<sim::EventKind>(NodeEvent::frame_arrived),
                         ArrivalArgument::pack(twin, peer_port_, static_cast<unsigned>(notes & ~header_only) | confirmed));
   }
   if (fate.damaged) {

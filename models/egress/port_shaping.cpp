@@ -64,7 +64,11 @@ sim::TrueTime PortShaping::ready_time(sim::TrueTime now, TrafficClass q, const H
   if (gate != now) return gate;
   if (Shaper* const shaper = shapers_[q].get()) {
     follow_gate(*shaper, q, now);
-    return shaper->credit.eligible_time(now);
+    const sim::TrueTime eligible = shaper->credit.eligible_time(now);
+    if (eligible == now || !has_gates_) return eligible;
+    // Another list brings another slope.
+    const sim::LocalTime change = pending_change(*shaper, clock_->local_at(now));
+    return change == sim::LocalTime::never() ? eligible : std::min(eligible, std::max(clock_->true_at(change), now + sim::Duration::from_ps(1)));
   }
   return now;
 }
@@ -116,6 +120,10 @@ void PortShaping::follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now)
     const bool open = shaper.gates.is_open(q, at);
     set_slope(shaper, q, clock_->true_at(at));
     const sim::LocalTime toggle = open ? shaper.gates.close_time(q, at) : shaper.gates.open_time(q, at);
+    if (const sim::LocalTime change = pending_change(shaper, at); change < toggle && change <= local) {
+      shaper.followed = change;  // the slope belongs to the list, whether or not the gate moves
+      continue;
+    }
     if (toggle > local) break;
     shaper.followed = toggle;
     if (open)
@@ -125,6 +133,13 @@ void PortShaping::follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now)
   }
   shaper.followed = local;
   set_slope(shaper, q, now);
+}
+
+/// When another list begins to run after `at`; never() if none is pending.
+sim::LocalTime PortShaping::pending_change(Shaper& shaper, sim::LocalTime at) {
+  if (!shaper.gates.config_pending(at)) return sim::LocalTime::never();
+  const sim::LocalTime change = shaper.gates.config_change_time();
+  return change > at ? change : sim::LocalTime::never();
 }
 
 /// The operational idle slope belongs to the list that is running.

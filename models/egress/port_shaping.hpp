@@ -128,6 +128,7 @@ class PortShaping {
   sim::Duration occupancy(std::uint32_t length) const { return octet_time_ * wire_length(Octets{length}).count; }
   sim::TrueTime gate_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t length, sim::Duration delay);
   void follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now);
+  sim::LocalTime pending_change(Shaper& shaper, sim::LocalTime at);
   void set_slope(Shaper& shaper, TrafficClass q, sim::TrueTime now);
 
   const ShapingConfig* config_;

@@ -57,6 +57,7 @@ struct alignas(64) Frame {
   bool r_tagged : 1 = false;       ///< carries an R-TAG with r_tag_sequence (IEEE 802.1CB 7.8)
   bool bad_fcs : 1 = false;        ///< damaged on its way
   bool drop_eligible : 1 = false;  ///< DEI
+  bool link_local : 1 = false;     ///< ends at the next node, see link_local.hpp
   bool marked : 1 = false;         ///< eligible and queue_priority belong to the node where the frame is and end with it
 };
 static_assert(sizeof(Frame) == 64);

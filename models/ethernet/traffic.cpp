@@ -26,6 +26,7 @@ FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::TrueTime now
   frame.r_tagged = false;
   frame.bad_fcs = false;
   frame.drop_eligible = false;
+  frame.link_local = stream.link_local;
   frame.marked = false;
   return handle;
 }

@@ -21,6 +21,7 @@ enum class Occurrence : std::uint32_t {
   enqueued = 5,  ///< a frame waits in a queue (trace only)
   cut = 6,       ///< the fragment under way ends after so many octets of the frame; its mCRC follows; see TransmissionDetail (trace only)
   resumed = 7,   ///< the first bit of the preamble of a continuation leaves a port; see TransmissionDetail (trace only)
+  clock_step = 10,    ///< a servo has stepped a node's clock; what = the step (digest only)
   gates_changed = 9,  ///< a port was told of other gates, or one of its gates breaks (trace only)
   dequeued = 8,  ///< a frame leaves a queue, to be sent or because it is given up (trace only)
 };
@@ -47,6 +48,8 @@ struct alignas(64) Stream {
   VlanId vlan = 0;
   Priority priority = 0;
   bool tagged = false;
+  bool link_local = false;
+  std::uint16_t ether_type = 0;    ///< of what is neither IP nor without meaning; 0: takt's choice
   sim::Histogram latency;          ///< from production to delivery, all listeners
   std::array<std::uint64_t, static_cast<std::size_t>(DropReason::count)> dropped{};
   std::string name;

@@ -47,6 +47,10 @@ void Host::handle(sim::Simulation& simulation, const sim::Event& event) {
       return;
     }
   }
+  if (traffic_->frame(arrival.frame).link_local && link_local_ != nullptr) [[unlikely]] {
+    link_local_->receive(simulation, arrival.frame, arrival.port, simulation.now() - fixed_receive_);
+    return;
+  }
   if (event.kind() == deliver_now || receives_at_once_) {
     deliver(simulation, arrival.frame);
     return;

@@ -27,6 +27,8 @@ class Host final : public sim::Component {
     redundancy_.add(stream, config);
     looks_closer_ = true;
   }
+  /// Takes the link-local frames.
+  void set_link_local_receiver(LinkLocalReceiver* receiver) { link_local_ = receiver; }
   ListenerRedundancy& redundancy() { return redundancy_; }
   /// A host that is down takes no frames.
   void set_up(bool up) {
@@ -57,6 +59,7 @@ class Host final : public sim::Component {
   LatencyLine receive_;
   std::span<EgressPort> ports_;
   const LocalClock* clock_;
+  LinkLocalReceiver* link_local_ = nullptr;
   sim::Duration fixed_receive_;      // that latency
   ListenerRedundancy redundancy_;
 };

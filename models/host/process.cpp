@@ -23,7 +23,7 @@ Process::Process(sim::Simulation& simulation, Traffic& traffic, HostOutput& outp
       application_(std::move(application)) {
   const AlarmId count = application_->alarm_count();
   TAKT_CHECK(count < transmit_now, "too many alarms");
-  for (AlarmId alarm = 0; alarm < count; ++alarm) alarms_.push_back({sim::Timer(source_.id(), sim::Phase::timer, alarm), {}, false});
+  for (AlarmId alarm = 0; alarm < count; ++alarm) alarms_.push_back({sim::Timer(source_.id(), sim::Phase::timer, alarm), {}, false, sim::LocalTime::never()});
 }
 
 void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
@@ -53,7 +53,16 @@ void Process::set_alarm(AlarmId id, sim::LocalTime time) {
     alarm.latency = wake_up_.sample();
     alarm.has_latency = true;
   }
+  alarm.time = time;
   alarm.timer.arm(*simulation_, source_, std::max(clock_->true_at(time), simulation_->now()).plus_saturated(alarm.latency));
+}
+
+void Process::clock_changed() {
+  for (Alarm& alarm : alarms_) {
+    // One that has expired and waits for the operating system only is past the clock.
+    if (!alarm.timer.armed() || clock_->local_at(simulation_->now()) >= alarm.time) continue;
+    alarm.timer.arm(*simulation_, source_, std::max(clock_->true_at(alarm.time), simulation_->now()).plus_saturated(alarm.latency));
+  }
 }
 
 void Process::send(StreamIndex stream, std::span<const std::byte> payload) {

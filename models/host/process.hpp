@@ -29,6 +29,8 @@ class Process final : public sim::Component, public HostServices {
   void call(Action&& action) {
     if (output_->is_up()) action(*application_, *this);
   }
+  /// The clock has changed its rate or was stepped: alarms come earlier or later.
+  void clock_changed();
   /// The host crashes: alarms are forgotten.
   void crash() {
     for (Alarm& alarm : alarms_) {
@@ -63,6 +65,7 @@ class Process final : public sim::Component, public HostServices {
     sim::Timer timer;
     sim::Duration latency;        // of its next wake-up; drawn once, however often the alarm is moved before
     bool has_latency = false;
+    sim::LocalTime time = sim::LocalTime::never();   // when it is to expire
   };
   std::vector<Alarm> alarms_;
   std::unique_ptr<Application> application_;

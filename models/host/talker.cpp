@@ -64,11 +64,22 @@ sim::LocalTime Talker::time_of_next() {
 
 void Talker::start(sim::Simulation& simulation) { schedule_next(simulation); }
 
+inline void Talker::schedule_event(sim::Simulation& simulation) {
+  simulation.schedule(source_, std::max(clock_->true_at(last_), simulation.now()), phase_, source_.id(), produce_now, generation_);
+}
+
 void Talker::schedule_next(sim::Simulation& simulation) {
   const sim::LocalTime time = time_of_next();
-  if (time >= until_) return;
+  is_over_ = time >= until_;
+  if (is_over_) return;
   last_ = time;
-  simulation.schedule(source_, std::max(clock_->true_at(time), simulation.now()), sim::Phase::timer, source_.id(), produce_now, 0);
+  schedule_event(simulation);
+}
+
+void Talker::clock_changed(sim::Simulation& simulation) {
+  if (is_over_) return;
+  ++generation_;
+  schedule_event(simulation);
 }
 
 void Talker::prefetch(const sim::Event&, Ahead ahead) const {
@@ -82,6 +93,7 @@ void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
     hand_over(simulation, FrameIndex{static_cast<std::uint32_t>(event.argument)});
     return;
   }
+  if (event.argument != generation_) return;  // the clock has changed since
   if (!output_->is_up()) [[unlikely]] {  // a host that is down produces nothing; its schedule goes on
     ++count_;
     schedule_next(simulation);

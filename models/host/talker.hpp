@@ -48,16 +48,21 @@ class Talker final : public sim::Component {
   /// Each frame bears the launch time at which it was due, plus this (IEEE 802.1Q 8.6.8.5 does it for ATS, the ETF queueing
   /// discipline for hosts): the network interface keeps it until then, and drops it if it comes later.
   void set_launch(sim::Duration after_due) { launch_ = after_due; }
+  /// A second talker of its stream, which speaks first where both do at one instant; it is made before the other one.
+  void set_babbling() { phase_ = sim::Phase::arrival; }
   /// Only frames that are due before then are produced.
   void set_until(sim::LocalTime until) { until_ = until; }
 
   /// Schedules the first frame.
   void start(sim::Simulation& simulation);
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
+  /// The clock has changed its rate or was stepped: the next frame comes earlier or later.
+  void clock_changed(sim::Simulation& simulation);
   void prefetch(const sim::Event& event, Ahead ahead) const override;
 
  private:
   void schedule_next(sim::Simulation& simulation);
+  void schedule_event(sim::Simulation& simulation);
   void hand_over(sim::Simulation& simulation, FrameIndex frame);
   /// The local time of frame number `count_`, or never.
   sim::LocalTime time_of_next();
@@ -69,7 +74,10 @@ class Talker final : public sim::Component {
   StreamIndex stream_;
   Octets payload_;
   std::uint64_t count_ = 0;
+  sim::Phase phase_ = sim::Phase::timer;
   sim::LocalTime last_;
+  std::uint64_t generation_ = 0;   // of the event that produces the next frame
+  bool is_over_ = false;           // there is no next frame
   sim::LocalTime until_ = sim::LocalTime::never();
   std::optional<sim::Duration> launch_;
   TalkerSchedule schedule_;

@@ -1,0 +1,133 @@
+// gPTP in a simulated node: gives the machines of node.hpp their timers, their frames and their timestamps, and disciplines the node's
+// clock with what they find out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "models/clock/node_clock.hpp"
+#include "models/egress/egress_port.hpp"
+#include "models/ethernet/link_local.hpp"
+#include "models/gptp/clock_target.hpp"
+#include "models/gptp/hot_standby.hpp"
+#include "models/gptp/node.hpp"
+#include "sim/timer.hpp"
+
+namespace takt::models::gptp {
+
+struct StationPlan {
+  std::vector<InstanceConfig> instances = {InstanceConfig{}};
+  LinkDelayConfig link = {};
+  ClockTargetConfig target = {};
+  std::optional<HotStandbyConfig> standby = {};   ///< instances 0 and 1 are primary and secondary
+  sim::Duration processing = sim::Duration::from_ps(5'000'000);   ///< from a decision to send to the egress queue
+};
+
+class Station final : public sim::Component, public ClockListener, public LinkLocalReceiver {
+ public:
+  /// `ports` are those of the node; `stream` is the one of all gPTP frames. All references outlive the station.
+  Station(sim::Simulation& simulation, Traffic& traffic, std::span<EgressPort> ports, NodeClock& clock, const TimestampUnit& timestamps,
+          const StationPlan& plan, NodeIndex node, StreamIndex stream, std::string_view path);
+
+  static ClockIdentity identity_of(NodeIndex node) { return ClockIdentity::from_number(0x0200'5EFF'FE00'0000 + node.value); }
+  static std::optional<NodeIndex> node_of(const ClockIdentity& identity);
+
+  /// The machines begin; links are up. Call once, at time zero.
+  void start();
+  void handle(sim::Simulation& simulation, const sim::Event& event) override;
+  void receive(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port, sim::TrueTime last_bit) override;
+  /// An event message begins to leave that port of the node.
+  void transmission_starts(std::uint16_t port, FrameIndex frame);
+  void clock_changed(const LocalClock& clock, sim::TrueTime now) override;
+
+  void set_link(std::uint16_t port, bool up);
+  /// A node that crashes forgets everything; its clock runs on.
+  void set_up(bool up);
+
+  // For reports.
+  NodeIndex node() const { return node_; }
+  TargetState state() const { return active_is_grandmaster() ? TargetState::locked : target_.state(); }
+  bool active_is_grandmaster() const { return machine_.instance(active()).is_grandmaster(); }
+  /// Whom the node takes its time from, itself if it is grandmaster.
+  NodeIndex grandmaster() const;
+  const Node& machine() const { return machine_; }
+  const ClockTarget& target() const { return target_; }
+  const std::optional<HotStandby>& standby() const { return standby_; }
+  const LocalClock& disciplined() const { return clock_->disciplined(); }
+  bool is_up() const { return up_; }
+  std::uint64_t messages_sent() const { return messages_sent_; }
+  std::uint64_t steps() const { return steps_; }
+
+  /// What changed, for histories.
+  struct Change {
+    sim::TrueTime time;
+    NodeIndex grandmaster;
+    TargetState state = TargetState::free_running;
+  };
+  const std::vector<Change>& changes() const { return changes_; }
+
+ private:
+  struct Waiting {             // a message between decision and egress queue, or between queue and egress
+    SendMessage send;
+    FrameIndex frame;
+  };
+  struct Armed {
+    TimerId timer;
+    sim::LocalTime at;
+  };
+  struct Arrived {
+    FrameIndex frame;
+    std::uint16_t port = 0;
+    sim::TrueTime last_bit;
+  };
+  void take_in_all();
+  void take_in(const Arrived& arrived);
+  std::size_t active() const { return standby_ ? static_cast<std::size_t>(standby_->active()) : 0; }
+  sim::LocalTime local() const { return clock_->free_running().local_at(simulation_->now()); }
+  void carry_out();
+  void send(const SendMessage& message);
+  void hand_over(std::uint32_t slot);
+  void report_egress(std::uint64_t argument);
+  void discipline(const SyncSample& sample);
+  void give_time();
+  void expire();
+  void rearm();
+  void note_change();
+  std::uint32_t keep(const SendMessage& message);
+
+  sim::Simulation* simulation_;
+  Traffic* traffic_;
+  std::span<EgressPort> ports_;
+  NodeClock* clock_;
+  TimestampUnit timestamps_;
+  StationPlan plan_;
+  NodeConfig config_;
+  NodeIndex node_;
+  StreamIndex stream_;
+  sim::EventSource source_;
+  std::vector<sim::RandomStream> egress_chance_;   // of each port
+  std::vector<sim::RandomStream> ingress_chance_;
+  Node machine_;
+  ClockTarget target_;
+  std::optional<HotStandby> standby_;
+  sim::Timer timer_;
+  std::vector<Armed> armed_;
+  std::vector<Waiting> waiting_;           // by slot
+  std::vector<std::uint32_t> free_slots_;
+  std::vector<sim::LocalTime> egress_of_slot_;
+  std::vector<Arrived> arrived_;           // and not yet taken in
+  std::vector<bool> link_is_up_;           // by port
+  std::vector<Output> outputs_;
+  std::vector<std::byte> octets_;
+  std::vector<Change> changes_;
+  std::vector<std::uint64_t> sent_by_port_;
+  std::uint64_t messages_sent_ = 0;
+  std::uint64_t steps_ = 0;
+  std::uint32_t epoch_ = 0;                // of the machines; a crash begins another one
+  bool up_ = true;
+};
+
+}  // namespace takt::models::gptp

@@ -37,6 +37,15 @@ constexpr Table slave_reactions{{
     Row{halted, ready,   running, suspended, halted},   // Fig. 5 and 6 (3a)
     Row{halted, init,    init,    init,      init},
 }};
+/// The same for a slave that hears another slave: the barrier is the master's alone, so its steps mean nothing here.
+constexpr Table sibling_reactions{{
+    //  Halted  Ready    Running  Suspended  INIT
+    Row{halted, halted,  halted,  halted,    halted},
+    Row{halted, ready,   ready,   ready,     ready},
+    Row{halted, running, running, suspended, halted},
+    Row{halted, ready,   running, suspended, halted},
+    Row{halted, init,    init,    init,      init},
+}};
 
 /// What a method does where it is called (row: the method; column: the state); the same state means: not allowed.
 /// The machine of Part 10, but Halted is left through INIT only. Fig. 4 to 6, (1a) and (1b).
@@ -55,7 +64,7 @@ constexpr bool move_exists(std::size_t from_index, PublishedState to) {
 }
 constexpr bool tables_are_sound() {
   for (std::size_t from = 0; from < published_state_count; ++from) {
-    for (const Table* table : {&master_reactions, &slave_reactions})
+    for (const Table* table : {&master_reactions, &slave_reactions, &sibling_reactions})
       for (const PublishedState to : (*table)[from])
         if (!move_exists(from, to)) return false;
     for (const Row& row : commands)
@@ -92,7 +101,7 @@ void Participant<MaxPeers>::paper_received(const Input& input, Outputs& outputs)
   peer.state = input.word.state;
   sort_peer(input.peer);
   if (news) {
-    const Table& reactions = is_master() ? master_reactions : slave_reactions;
+    const Table& reactions = is_master() ? master_reactions : input.peer == 0 ? slave_reactions : sibling_reactions;
     const PublishedState target = reactions[index_of(state())][index_of(input.word.state)];
     if (target != state()) {
       move_to(target, outputs);

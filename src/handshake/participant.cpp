@@ -141,7 +141,7 @@ std::uint64_t Participant<MaxPeers>::hash() const {
   };
   const auto byte = [](auto value) { return static_cast<std::uint64_t>(static_cast<std::uint8_t>(value)); };
   mix(byte(config_.variant) | byte(config_.role) << 8 | byte(config_.index) << 16 | byte(config_.slaves) << 24 |
-      std::uint64_t{config_.incarnation} << 32);
+      byte(config_.subscription) << 31 | std::uint64_t{config_.incarnation} << 32);
   mix(byte(state()) | byte(machine_.last_transition()) << 8 | byte(initialised_) << 16 | byte(intent_.kind) << 24 |
       std::uint64_t{intent_.number} << 32);
   mix(byte(intent_.origin) | std::uint64_t{intent_.run} << 8);

@@ -18,6 +18,8 @@ namespace takt::handshake {
 
 enum class Variant : std::uint8_t { Paper, Robust };
 enum class Role : std::uint8_t { Master, Slave };
+/// Who hears whom: the master all slaves and a slave the master, or everybody all others.
+enum class Subscription : std::uint8_t { Star, AllToAll };
 
 struct Config {
   Variant variant = Variant::Robust;
@@ -25,10 +27,12 @@ struct Config {
   std::uint8_t index = 0;         ///< among the participants: 0 the master, 1..slaves
   std::uint8_t slaves = 1;        ///< of the group, at least 1
   std::uint32_t incarnation = 0;  ///< another one after each restart; `paper` does not publish it
+  Subscription subscription = Subscription::Star;  ///< the same for all of the group
   constexpr bool operator==(const Config&) const = default;
 };
 
-/// MaxPeers bounds the peers, whose words it listens to: in a star all slaves for the master, the master for a slave.
+/// MaxPeers bounds the peers, whose words it listens to: in a star all slaves for the master, the master for a slave;
+/// else all others.
 template <std::size_t MaxPeers>
 class Participant {
   static_assert(MaxPeers >= 1 && MaxPeers <= 64, "a PeerSet has 64 bits");
@@ -48,10 +52,10 @@ class Participant {
   /// What it publishes now.
   Word word() const;
 
-  std::size_t peer_count() const { return is_master() ? config_.slaves : 1; }
-  /// The participant that a peer index stands for, and back. Only here does the star show.
-  std::size_t participant_of(std::size_t peer) const { return is_master() ? peer + 1 : 0; }
-  std::size_t peer_of(std::size_t participant) const { return is_master() ? participant - 1 : 0; }
+  std::size_t peer_count() const { return is_master() || config_.subscription == Subscription::AllToAll ? config_.slaves : 1; }
+  /// The participant that a peer index stands for, and back: they are in the same order. Peer 0 of a slave is the master.
+  std::size_t participant_of(std::size_t peer) const { return peer < config_.index ? peer : peer + 1; }
+  std::size_t peer_of(std::size_t participant) const { return participant < config_.index ? participant : participant - 1; }
 
   /// S3: process data of this peer may reach the application now, as far as is known here: both are Running, and in
   /// `robust` in the same run. Ask after the step with the word that came in the same message, and not if it was
@@ -98,7 +102,7 @@ class Participant {
   void raise(IntentKind kind, std::uint32_t above, Outputs& outputs);
   void raise_alarm(Alarm alarm, std::uint32_t above, Outputs& outputs);
   void adopt(const Intent& intent, Outputs& outputs);
-  bool counted_without_me(const Word& word) const;
+  bool counted_without_me(std::size_t peer, const Word& word) const;
   void robust_barrier(Outputs& outputs);
 
   // paper.cpp

@@ -101,7 +101,7 @@ void Participant<MaxPeers>::robust_received(const Input& input, Outputs& outputs
   sort_peer(input.peer);
   if (freshness == Freshness::Restarted && state() != halted) {
     raise_alarm(Alarm::PeerRestarted, word.intent.number, outputs);
-  } else if (counted_without_me(word)) {
+  } else if (counted_without_me(input.peer, word)) {
     raise_alarm(Alarm::Mismatch, word.intent.number, outputs);
   } else if (word.intent > intent_) {
     adopt(word.intent, outputs);
@@ -132,8 +132,8 @@ auto Participant<MaxPeers>::note_word(Peer& peer, const Word& word, std::uint16_
 
 /// The master has taken me into the barrier of a run in which I have never been: I must have lost my memory since.
 template <std::size_t MaxPeers>
-bool Participant<MaxPeers>::counted_without_me(const Word& word) const {
-  return !is_master() && word.intent.kind == IntentKind::Start && word.intent >= intent_ &&
+bool Participant<MaxPeers>::counted_without_me(std::size_t peer, const Word& word) const {
+  return !is_master() && peer == 0 && word.intent.kind == IntentKind::Start && word.intent >= intent_ &&
          word.run == word.intent.run && word.run != run_;
 }
 

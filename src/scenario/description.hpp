@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "scenario/description_clocks.hpp"
 #include "scenario/description_faults.hpp"
 #include "scenario/description_ingress.hpp"
 #include "scenario/json/fields.hpp"
@@ -250,6 +251,7 @@ struct Stream {
 enum class Variant : std::uint8_t { robust, paper };
 enum class Publish : std::uint8_t { cyclic, on_change };
 enum class Violations : std::uint8_t { forbidden, reported };
+enum class Subscription : std::uint8_t { star, all_to_all };
 enum class DataType : std::uint8_t { boolean, sbyte, byte, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 struct DataField {
@@ -275,6 +277,7 @@ struct Program {
   Duration cycle;
   Duration offset;
   Publish publish = Publish::cyclic;
+  Subscription subscription = Subscription::star;
   std::optional<Duration> receive_timeout;
   Duration initialisation = 1_ms;
   std::uint8_t pcp = 6;
@@ -317,10 +320,11 @@ struct Requirement {
   std::optional<Duration> jitter;
   std::optional<std::uint64_t> dropped;
   std::optional<std::uint64_t> delivered;
+  std::optional<Duration> sync;
+  std::optional<std::string> node;
+  Duration after;
   bool operator==(const Requirement&) const = default;
 };
-
-enum class ClockModel : std::uint8_t { ideal };
 
 struct Scenario {
   json::Source where;
@@ -330,7 +334,7 @@ struct Scenario {
   std::uint64_t seed = 1;
   Duration duration;
   NetworkSection network;
-  ClockModel clocks = ClockModel::ideal;
+  Clocks clocks;
   std::vector<Program> programs;
   std::vector<Stream> streams;
   std::vector<ScriptEntry> script;
@@ -376,6 +380,7 @@ const json::Object& describe(json::Type<Stream>);
 const json::Enumeration& describe(json::Type<Variant>);
 const json::Enumeration& describe(json::Type<Publish>);
 const json::Enumeration& describe(json::Type<Violations>);
+const json::Enumeration& describe(json::Type<Subscription>);
 const json::Enumeration& describe(json::Type<DataType>);
 const json::Object& describe(json::Type<DataField>);
 const json::Object& describe(json::Type<ProcessData>);
@@ -385,7 +390,6 @@ const json::Object& describe(json::Type<SetGates>);
 const json::Object& describe(json::Type<ScriptEntry>);
 const json::Enumeration& describe(json::Type<Reaction>);
 const json::Object& describe(json::Type<Requirement>);
-const json::Enumeration& describe(json::Type<ClockModel>);
 const json::Object& describe(json::Type<Scenario>);
 
 /// The name of an enum's value as the file spells it.

@@ -79,7 +79,17 @@ struct StuckGate {
   bool operator==(const StuckGate&) const = default;
 };
 
-using Fault = std::variant<LinkDown, FrameErrors, Crash, Babble, StuckGate>;
+/// A clock jumps, or its oscillator gets another frequency.
+struct ClockFault {
+  json::Source where;
+  std::string node;
+  sim::Duration at;
+  std::optional<sim::Duration> step;
+  std::optional<sim::FrequencyOffset> offset;
+  bool operator==(const ClockFault&) const = default;
+};
+
+using Fault = std::variant<LinkDown, FrameErrors, Crash, Babble, StuckGate, ClockFault>;
 
 /// What the network does about links that are down.
 struct Rerouting {
@@ -95,6 +105,7 @@ const json::Object& describe(json::Type<Crash>);
 const json::Object& describe(json::Type<Babble>);
 const json::Enumeration& describe(json::Type<GateFault>);
 const json::Object& describe(json::Type<StuckGate>);
+const json::Object& describe(json::Type<ClockFault>);
 const json::Tagged& describe(json::Type<Fault>);
 const json::Object& describe(json::Type<Rerouting>);
 

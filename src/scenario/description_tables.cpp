@@ -129,6 +129,15 @@ const json::Enumeration& describe(json::Type<Publish>) {
   return table;
 }
 
+const json::Enumeration& describe(json::Type<Subscription>) {
+  static constexpr json::EnumName names[] = {
+      name(Subscription::star, "star", "the master hears all slaves, a slave the master"),
+      name(Subscription::all_to_all, "all-to-all", "everybody hears everybody"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Subscription>("a subscription", names);
+  return table;
+}
+
 const json::Enumeration& describe(json::Type<Violations>) {
   static constexpr json::EnumName names[] = {
       name(Violations::forbidden, "forbidden", "a violated invariant fails the run"),
@@ -161,7 +170,7 @@ const json::Object& describe(json::Type<DataField>) {
 const json::Object& describe(json::Type<ProcessData>) {
   static constexpr json::Field fields[] = {
       required<&ProcessData::name>("name", "Unique in the program.", {.min_length = 1, .max_length = 200}),
-      required<&ProcessData::from>("from", "The participant that publishes it: from the master to all slaves, from a slave to the master."),
+      required<&ProcessData::from>("from", "The participant that publishes it, to all that subscribe to it."),
       required<&ProcessData::fields>("fields", "The fields of the data set.", {.min_items = 1, .max_items = 256}),
   };
   static constexpr json::Object table = json::object<ProcessData>("process_data", "A data set that is published every cycle while both ends are Running.", fields);
@@ -177,6 +186,7 @@ const json::Object& describe(json::Type<Program>) {
       required<&Program::cycle>("cycle", "Publishing interval of state and process data.", {.min = 1_us, .max = 3600_s}),
       optional<&Program::offset>("offset", "Phase of publishing within the cycle.", {.max = 3600_s}),
       optional<&Program::publish>("publish", "When the state is published."),
+      optional<&Program::subscription>("subscription", "Who hears whom."),
       optional<&Program::receive_timeout>("receive_timeout", "A peer that is silent for so long halts the group (MessageReceiveTimeout); 10 cycles if absent.",
                                           {.min = 1_us, .max = 3600_s}),
       optional<&Program::initialisation>("initialisation", "How long a participant stays in INIT.", {.max = 3600_s}),
@@ -247,18 +257,13 @@ const json::Object& describe(json::Type<Requirement>) {
       optional<&Requirement::jitter>("jitter", "Largest difference between two latencies.", {.max = longest}),
       optional<&Requirement::dropped>("dropped", "Most frames that may be dropped."),
       optional<&Requirement::delivered>("delivered", "Fewest frames that must be delivered."),
+      optional<&Requirement::sync>("sync", "Greatest difference between a node's clock and that of its grandmaster, either way.", {.max = longest}),
+      optional<&Requirement::node>("node", "Only of this node; of all if absent."),
+      optional<&Requirement::after>("after", "From this instant on.", {.max = longest}),
   };
-  static constexpr std::string_view subjects[] = {"reaction", "stream"};
+  static constexpr std::string_view subjects[] = {"reaction", "stream", "sync"};
   static constexpr json::Group groups[] = {json::exactly_one_of(subjects)};
   static constexpr json::Object table = json::object<Requirement>("requirement", "What the run must show.", fields, {.groups = groups});
-  return table;
-}
-
-const json::Enumeration& describe(json::Type<ClockModel>) {
-  static constexpr json::EnumName names[] = {
-      name(ClockModel::ideal, "ideal", "every node knows true time"),
-  };
-  static constexpr json::Enumeration table = json::enumeration<ClockModel>("a clock model", names);
   return table;
 }
 

@@ -96,8 +96,21 @@ const json::Object& describe(json::Type<StuckGate>) {
   return table;
 }
 
+const json::Object& describe(json::Type<ClockFault>) {
+  static constexpr json::Field fields[] = {
+      required<&ClockFault::node>("node", "The node, which has a clock of its own."),
+      required<&ClockFault::at>("at", "When.", {.max = longest_run}),
+      optional<&ClockFault::step>("step", "The clock jumps by this.", {.min = -(3600_s), .max = 3600_s}),
+      optional<&ClockFault::offset>("offset", "The frequency offset of the oscillator from then on.", {.min = sim::FrequencyOffset{-1'000'000'000}, .max = sim::FrequencyOffset{1'000'000'000}}),
+  };
+  static constexpr std::string_view kinds[] = {"step", "offset"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(kinds)};
+  static constexpr json::Object table = json::object<ClockFault>("clock", "A clock jumps, or its frequency does.", fields, {.groups = groups});
+  return table;
+}
+
 const json::Tagged& describe(json::Type<Fault>) {
-  static constexpr auto kinds = json::options<Fault>({"link-down", "frame-errors", "crash", "babble", "stuck-gate"});
+  static constexpr auto kinds = json::options<Fault>({"link-down", "frame-errors", "crash", "babble", "stuck-gate", "clock"});
   static constexpr json::Tagged table = json::tagged<Fault>("fault", "Something that goes wrong.", "kind", kinds);
   return table;
 }

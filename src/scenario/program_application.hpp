@@ -1,65 +1,54 @@
-// A participant of a Program on a simulated host: adapts the sans-IO handshake to the application interface of a host.
+// A participant of a Program on a simulated host: a wire::ProgramEndpoint behind the application interface of a host.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
-#include "handshake/participant.hpp"
 #include "models/host/application.hpp"
 #include "scenario/program_monitor.hpp"
-#include "wire/program_message.hpp"
+#include "wire/program_endpoint.hpp"
 
 namespace takt::scenario {
 
-class ProgramApplication final : public models::Application {
+class ProgramApplication final : public models::Application, private wire::EndpointHost {
  public:
-  /// A data set that this participant publishes.
-  struct DataSet {
-    std::uint8_t number = 0;            ///< index in the Program
-    std::uint32_t field_octets = 0;
-    models::StreamIndex stream;
-    std::uint16_t sequence = 0;
-  };
   struct Settings {
-    handshake::Config handshake;
-    sim::Duration cycle;
-    sim::Duration offset;
-    sim::Duration receive_timeout;
-    sim::Duration initialisation;
-    bool publish_on_change = false;
+    wire::EndpointSettings endpoint;
     models::StreamIndex state_stream;
-    std::vector<DataSet> data_sets;
+    std::vector<models::StreamIndex> data_streams;  ///< by data set of the Program
   };
 
   ProgramApplication(Settings settings, ProgramMonitor& monitor);
 
   /// A method call by a client or the user of this node.
   void call(models::HostServices& host, program::Method method);
-  handshake::PublishedState state() const { return participant_.state(); }
+  /// The host has crashed: the participant is gone, with its memory. It comes back with `restart`, as another incarnation.
+  void crash();
+  handshake::PublishedState state() const { return endpoint_.participant().state(); }
+  const wire::ProgramEndpoint& endpoint() const { return endpoint_; }
 
-  models::AlarmId alarm_count() const override { return static_cast<models::AlarmId>(first_peer_alarm + participant_.peer_count()); }
+  models::AlarmId alarm_count() const override { return static_cast<models::AlarmId>(endpoint_.alarm_count()); }
   void start(models::HostServices& host) override;
+  void restart(models::HostServices& host) override;
   void receive(models::HostServices& host, models::StreamIndex stream, std::span<const std::byte> payload) override;
   void wake(models::HostServices& host, models::AlarmId alarm) override;
 
  private:
-  static constexpr models::AlarmId cycle_alarm = 0;
-  static constexpr models::AlarmId initialised_alarm = 1;
-  static constexpr models::AlarmId first_peer_alarm = 2;  // one for each peer: its MessageReceiveTimeout
+  // As an endpoint's host, within a call of the simulated one.
+  sim::LocalTime now() const override { return host_->now(); }
+  void set_alarm(std::size_t alarm, sim::LocalTime time) override { host_->set_alarm(static_cast<models::AlarmId>(alarm), time); }
+  void publish(uadp::Octets network_message, const pubsub::Destination& destination) override;
+  void stepped(const handshake::Outputs& outputs, const handshake::Word& after) override;
+  void process_data(const wire::ProcessDataMessage& message) override;
+  std::uint32_t run_of_paper() const override { return monitor_->sending_run(index()); }
 
-  handshake::Outputs step(models::HostServices& host, const handshake::Input& input);
-  void publish_state(models::HostServices& host);
-  void publish_process_data(models::HostServices& host);
-  void cycle(models::HostServices& host);
+  std::uint8_t index() const { return endpoint_.settings().handshake.index; }
 
-  Settings settings_;
+  models::StreamIndex state_stream_;
+  std::vector<models::StreamIndex> data_streams_;
   ProgramMonitor* monitor_;
-  handshake::Participant<64> participant_;
-  std::uint16_t state_sequence_ = 0;
-  std::uint32_t initialisation_run_ = 0;
-  std::int64_t cycles_ = 0;
-  std::array<std::byte, 1500> buffer_;
+  wire::ProgramEndpoint endpoint_;
+  models::HostServices* host_ = nullptr;
+  bool has_crashed_ = false;
 };
 
 }  // namespace takt::scenario

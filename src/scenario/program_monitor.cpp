@@ -6,6 +6,7 @@ namespace {
 constexpr std::uint32_t state_changed = 100;
 constexpr std::uint32_t method_called = 101;
 constexpr std::uint32_t data_received = 102;
+constexpr std::uint32_t crashed = 103;
 }  // namespace
 
 ProgramMonitor::ProgramMonitor(sim::Simulation& simulation, std::uint32_t number, handshake::Variant variant, std::size_t participants)
@@ -29,6 +30,16 @@ void ProgramMonitor::on_call(std::size_t participant, program::Method method, pr
   calls_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), method, status});
   simulation_->digest().add(method_called, static_cast<std::uint64_t>(number_) << 32 | participant, simulation_->now(),
                             static_cast<std::uint64_t>(method) << 32 | static_cast<std::uint32_t>(status));
+}
+
+void ProgramMonitor::on_crash(std::size_t participant, handshake::PublishedState before) {
+  observer_.on_restart(participant);
+  tracker_.on_restart(participant, simulation_->now());
+  simulation_->digest().add(crashed, static_cast<std::uint64_t>(number_) << 32 | participant, simulation_->now(), static_cast<std::uint64_t>(before));
+  if (before == handshake::PublishedState::Halted) return;
+  ++changes_;
+  if (history_.size() < most_records)
+    history_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), {0, before, handshake::PublishedState::Halted}});
 }
 
 void ProgramMonitor::on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in) {

@@ -11,7 +11,7 @@
 
 namespace takt::scenario {
 
-/// One change of state, for the time line.
+/// One change of state, for the time line. A crash is one without a transition.
 struct StateRecord {
   sim::TrueTime time;
   std::uint8_t participant = 0;
@@ -39,6 +39,8 @@ class ProgramMonitor {
 
   void on_step(std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after);
   void on_call(std::size_t participant, program::Method method, program::StatusCode status);
+  /// A participant that was in this state is gone: it counts as Halted, and knows nothing when it comes back.
+  void on_crash(std::size_t participant, handshake::PublishedState before);
   void on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in);
   std::uint32_t sending_run(std::size_t participant) const { return observer_.sending_run(participant); }
 

@@ -8,33 +8,20 @@
 #include "scenario/json/override.hpp"
 #include "scenario/json/suggest.hpp"
 #include "scenario/os_profiles.hpp"
+#include "scenario/program_shape.hpp"
+#include "scenario/resolve_clocks.hpp"
 #include "scenario/resolve_demand.hpp"
 #include "scenario/resolve_egress.hpp"
 #include "scenario/resolve_ingress.hpp"
 #include "scenario/resolve_faults.hpp"
 #include "scenario/stream_builder.hpp"
 #include "scenario/trace_file.hpp"
-#include "wire/program_message.hpp"
+#include "wire/program_format.hpp"
 
 namespace takt::scenario {
 namespace {
 
-constexpr std::uint32_t octets_of(DataType type) {
-  switch (type) {
-    case DataType::boolean:
-    case DataType::sbyte:
-    case DataType::byte: return 1;
-    case DataType::int16:
-    case DataType::uint16: return 2;
-    case DataType::int32:
-    case DataType::uint32:
-    case DataType::float32: return 4;
-    case DataType::int64:
-    case DataType::uint64:
-    case DataType::float64: return 8;
-  }
-  return 0;
-}
+constexpr std::size_t most_publishers = 0xFFFF;  // PublisherIds are UInt16
 
 class Resolver {
  public:
@@ -45,6 +32,7 @@ class Resolver {
     plan_nodes();
     r_.plan.links = r_.topology.links;
     resolve_egress(r_, diagnostics_);
+    resolve_clocks(r_, diagnostics_);
     StreamBuilder builder(r_, diagnostics_);
     builder_ = &builder;
     check_names();
@@ -53,6 +41,7 @@ class Resolver {
     resolve_demand(r_, diagnostics_);
     resolve_ingress(r_, diagnostics_);
     check_cut_through(r_, diagnostics_);
+    check_slopes(r_, diagnostics_);
     check_windows(r_, diagnostics_);
     add_launch_classes(r_);
     for (const ScriptEntry& entry : r_.scenario.script) add_action(entry);
@@ -221,10 +210,16 @@ class Resolver {
     };
     add_participant(program.master, program.where.at("master"));
     for (std::size_t i = 0; i < program.slaves.size(); ++i) add_participant(program.slaves[i], program.where.at("slaves", i));
+    if (publishers_ + resolved.participants.size() > most_publishers)
+      diagnostics_.error(program.where.place(), "too many participants of all programs together",
+                         {std::to_string(publishers_ + resolved.participants.size()) + " with this program", "at most " + std::to_string(most_publishers)});
     if (diagnostics_.errors() != errors_before) return;
+    resolved.first_publisher_id = static_cast<std::uint16_t>(publishers_ + 1);
+    publishers_ += resolved.participants.size();
 
+    const Octets state_octets{wire::state_octets(program.variant == Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper)};
     for (std::uint8_t p = 0; p < resolved.participants.size(); ++p) {
-      const auto stream = add_program_stream(program, resolved, p, "state", Octets{wire::state_message_length}, program.where);
+      const auto stream = add_program_stream(program, resolved, p, "state", state_octets, program.where);
       if (!stream) return;
       resolved.state_streams.push_back(*stream);
     }
@@ -241,30 +236,30 @@ class Resolver {
       diagnostics_.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set (\"state\" is taken)"});
     if (!participant) return;
     made.from = *participant;
-    for (const auto& [name, field] : data.fields) made.field_octets += octets_of(field.type) * field.count;
+    for (const auto& [name, field] : data.fields) made.field_octets += static_cast<std::uint32_t>(uadp::fixed_octets(built_in_type_of(field.type))) * field.count;
     const auto stream = add_program_stream(program, resolved, *participant, data.name,
-                                           Octets{static_cast<std::uint32_t>(wire::process_data_header_length) + made.field_octets}, data.where);
+                                           Octets{wire::process_data_octets(made.field_octets)}, data.where);
     if (!stream) return;
     made.stream = *stream;
     resolved.process_data.push_back(std::move(made));
   }
 
-  /// A stream of a program: from the master to all slaves, from a slave to the master.
+  /// A stream of a program: from the master to all slaves; from a slave to the master, or to all others.
   std::optional<models::StreamIndex> add_program_stream(const Program& program, const ResolvedProgram& resolved, std::uint8_t from,
                                                         const std::string& what, Octets payload, const json::Source& where) {
     NewStream wanted;
     wanted.name = program.name + "/" + what + (what == "state" ? "/" + r_.topology.nodes[resolved.participants[from].value].name : "");
     wanted.where = where;
     wanted.from = resolved.participants[from].value;
-    if (from == 0) {
-      for (std::size_t i = 1; i < resolved.participants.size(); ++i) wanted.to.push_back({resolved.participants[i].value, program.where.at("slaves", i - 1)});
-    } else {
-      wanted.to.push_back({resolved.participants[0].value, program.where.at("master")});
-    }
+    if (from != 0) wanted.to.push_back({resolved.participants[0].value, program.where.at("master")});
+    if (from == 0 || program.subscription == Subscription::all_to_all)
+      for (std::size_t i = 1; i < resolved.participants.size(); ++i)
+        if (i != from) wanted.to.push_back({resolved.participants[i].value, program.where.at("slaves", i - 1)});
     wanted.priority = program.pcp;
     wanted.vlan = program.vlan;
     wanted.payload = payload;
     wanted.of_program = true;
+    wanted.ether_type = wire::uadp_ether_type;
     const auto index = builder_->add(wanted);
     if (!index) return std::nullopt;
     const models::StreamPlan& plan = r_.plan.streams[index->value];
@@ -316,10 +311,26 @@ class Resolver {
     for (const Neighbour& neighbour : r_.topology.neighbours[*node]) {
       if (set.to && r_.topology.nodes[neighbour.node].name != *set.to) continue;
       found = true;
+      check_slopes_of(set, *node, neighbour.port, gates);
       r_.script.push_back({sim::TrueTime() + entry.at, ResolvedGates{models::NodeIndex{*node}, neighbour.port, gates}});
     }
     if (!found)
       diagnostics_.error(set.where.at(set.to ? "to" : "node"), "not a neighbour", {json::quote(set.to.value_or(set.node)), "a node that a link joins to " + json::quote(set.node)});
+  }
+
+  /// New gates must leave the shapers of the port a slope that its link can give.
+  void check_slopes_of(const SetGates& set, std::uint32_t node, std::uint16_t port, const models::GateConfig& gates) {
+    for (const models::LinkPlan& link : r_.plan.links) {
+      for (const models::LinkPlan::End* end : {&link.a, &link.b}) {
+        if (end->node.value != node || end->port != port || !end->port_config) continue;
+        const auto& shapers = r_.plan.port_configs[*end->port_config].shaping.shapers;
+        for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
+          if (shapers[q] && !slope_is_possible(*shapers[q], q, gates, link.rate))
+            diagnostics_.error(set.where.at("gates"), "a shaper faster than its link while its gate is open",
+                               {json::to_text(shapers[q]->idle_slope) + " of the whole cycle in the part of it for which the gate of class " + std::to_string(q) + " is open",
+                                "at most " + json::to_text(link.rate) + " then"});
+      }
+    }
   }
 
   void add_call(const ScriptEntry& entry) {
@@ -354,6 +365,19 @@ class Resolver {
       refuse(requirement.dropped.has_value(), "dropped", "stream");
       refuse(requirement.delivered.has_value(), "delivered", "stream");
     }
+    if (requirement.sync) {
+      if (!r_.scenario.clocks.gptp) diagnostics_.error(requirement.where.at("sync"), "synchronisation without gPTP", {"no \"gptp\" in \"clocks\"", "\"gptp\""});
+      if (requirement.node && !r_.topology.find(*requirement.node))
+        diagnostics_.error(requirement.where.at("node"), "unknown node", {json::quote(*requirement.node), "the name of a node", suggest_node(r_.topology, *requirement.node, diagnostics_)});
+      refuse(requirement.latency.has_value(), "latency", "stream");
+      refuse(requirement.jitter.has_value(), "jitter", "stream");
+      refuse(requirement.dropped.has_value(), "dropped", "stream");
+      refuse(requirement.delivered.has_value(), "delivered", "stream");
+      refuse(requirement.within.has_value(), "within", "reaction");
+    } else {
+      refuse(requirement.node.has_value(), "node", "sync");
+      refuse(requirement.after > Duration(), "after", "sync");
+    }
     if (!requirement.stream) return;
     refuse(requirement.within.has_value(), "within", "reaction");
     refuse(requirement.program.has_value(), "program", "reaction");
@@ -369,6 +393,7 @@ class Resolver {
   Resolved& r_;
   json::Diagnostics& diagnostics_;
   StreamBuilder* builder_ = nullptr;
+  std::size_t publishers_ = 0;  // PublisherIds that are taken, from 1 on
   std::set<std::string_view> stream_names_;  // of the plan, once it is complete
 };
 

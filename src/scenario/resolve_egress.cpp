@@ -59,7 +59,8 @@ class EgressResolver {
 
   static models::ClassSet set_of(const std::vector<std::uint8_t>& classes) {
     models::ClassSet set = 0;
-    for (const std::uint8_t q : classes) set = models::with(set, q & 7u);
+    for (const std::uint8_t q : classes)
+      if (q < models::traffic_class_count) set = models::with(set, q);  // the table has refused others
     return set;
   }
 
@@ -81,6 +82,8 @@ class EgressResolver {
     };
     if (egress.untagged && !peer.is_host())
       refuse("untagged", "tags taken off before a switch", "a port to the switch " + json::quote(peer.name) + ", which would forget the priorities", "ports to hosts");
+    if (egress.untagged && config.cut_through != 0)
+      refuse("cut_through", "cut-through where tags are taken off", "\"untagged\" too: such frames are stored", "one of them");
     if (node.is_host() && config.cut_through != 0) refuse("cut_through", "cut-through in a host", "a host, which forwards nothing", "a switch");
     if (node.is_host() && !egress.ats.empty()) refuse("ats", "ATS in a host", "a host, whose frames meet no ATS scheduler", "a switch; \"launch\" of a stream for a host");
     if (const models::ClassSet both = config.preemption ? static_cast<models::ClassSet>(config.preemption->preemptable & config.cut_through) : models::ClassSet{0}; both != 0)
@@ -93,6 +96,11 @@ class EgressResolver {
       refuse("ats", "two transmission selection algorithms", classes(both) + " with a credit-based shaper and ATS", "one for a class");
     if (!config.shaping.gates || config.shaping.gates->admin_control_list.empty() || config.shaping.gates->admin_cycle_time <= Duration()) return;
     const models::GateControlList list(config.shaping.gates->admin_control_list, config.shaping.gates->admin_cycle_time);
+    const auto asks_for = [&](MacOperation operation) {
+      return std::any_of(egress.gates->entries.begin(), egress.gates->entries.end(), [&](const GateEntry& entry) { return entry.mac == operation; });
+    };
+    if (config.preemption && egress.gates && asks_for(MacOperation::hold) && !asks_for(MacOperation::release))
+      refuse("gates", "preemptable frames that are never released", "an entry that holds and none that releases", "an entry with \"mac\": \"release\"");
     for (std::size_t i = 0; i < egress.shapers.size(); ++i) {
       const models::TrafficClass q = egress.shapers[i].traffic_class & 7u;
       if (list.open_share(q).open == Duration())
@@ -157,6 +165,33 @@ void add_launch_classes(Resolved& r) {
         config.shaping.timed = models::with(config.shaping.timed, config.traffic_class_of_priority[stream.priority.value_or(0)]);
         end->port_config = static_cast<std::uint32_t>(r.plan.port_configs.size());
         r.plan.port_configs.push_back(std::move(config));
+      }
+    }
+  }
+}
+
+bool slope_is_possible(const models::ShaperConfig& shaper, models::TrafficClass q, const models::GateConfig& gates, DataRate rate) {
+  if (!shaper.of_whole_cycle || gates.admin_control_list.empty() || gates.admin_cycle_time <= Duration()) return true;
+  const models::OpenShare share = models::GateControlList(gates.admin_control_list, gates.admin_cycle_time).open_share(q);
+  return static_cast<sim::int128>(shaper.idle_slope.bits_per_second) * share.cycle.ps() <= static_cast<sim::int128>(rate.bits_per_second) * share.open.ps();
+}
+
+void check_slopes(const Resolved& r, json::Diagnostics& diagnostics) {
+  std::set<std::pair<const Shaper*, std::uint64_t>> reported;
+  for (const models::LinkPlan& link : r.plan.links) {
+    for (const auto& [end, peer] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
+      if (!end->port_config) continue;
+      const models::ShapingConfig& config = r.plan.port_configs[*end->port_config].shaping;
+      if (!config.gates) continue;
+      for (const Egress& egress : egress_of(r.topology.nodes[end->node.value])) {
+        if (egress.to && *egress.to != r.topology.nodes[peer->node.value].name) continue;
+        for (const Shaper& shaper : egress.shapers) {
+          const models::TrafficClass q = shaper.traffic_class & 7u;
+          if (!config.shapers[q] || slope_is_possible(*config.shapers[q], q, *config.gates, link.rate) || !reported.insert({&shaper, link.rate.bits_per_second}).second) continue;
+          diagnostics.error(shaper.where.at("idle_slope"), "a shaper faster than its link while its gate is open",
+                            {json::to_text(shaper.idle_slope) + " of the whole cycle in the part of it for which the gate of class " + std::to_string(q) + " is open",
+                             "at most " + json::to_text(link.rate) + " then"});
+        }
       }
     }
   }

@@ -15,6 +15,11 @@ void resolve_egress(Resolved& resolved, json::Diagnostics& diagnostics);
 /// The classes of streams with a launch time wait for it at their talkers. To be called when the talkers are there.
 void add_launch_classes(Resolved& resolved);
 
+/// Whether credit can grow as fast as an idle slope of the whole cycle asks for while the gate is open.
+bool slope_is_possible(const models::ShaperConfig& shaper, models::TrafficClass q, const models::GateConfig& gates, DataRate rate);
+/// The same of all ports. To be called when all gates are there, those of CQF too.
+void check_slopes(const Resolved& resolved, json::Diagnostics& diagnostics);
+
 /// Cut-through and sequence recovery do not go together at one switch. To be called when the streams are there.
 void check_cut_through(const Resolved& resolved, json::Diagnostics& diagnostics);
 

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "models/ethernet/sizes.hpp"
@@ -173,6 +174,12 @@ class FaultResolver {
     }
     models::TalkerPlan talker{found->index, found->largest_payload, models::PeriodicSchedule{begin.since_start(), every, {}}};
     if (const auto end = end_of(fault)) talker.until = sim::LocalTime() + end->since_start();
+    talker.babbles = true;
+    const sim::TrueTime over = end_of(fault).value_or(sim::TrueTime::never());
+    for (const Babbling& other : babbling_)
+      if (other.stream == fault.stream && begin < other.end && other.begin < over)
+        diagnostics_.error(fault.where.place(), "a talker that babbles twice at a time", {json::quote(fault.stream) + ", which babbles from " + json::to_text(other.begin.since_start()) + " on already", "times that do not overlap"});
+    babbling_.push_back({fault.stream, begin, over});
     talker.name = plan.name + "/babble";
     r_.plan.talkers.push_back(std::move(talker));
   }
@@ -186,6 +193,10 @@ class FaultResolver {
       if (fault.to && r_.topology.nodes[neighbour.node].name != *fault.to) continue;
       found = true;
       const models::NodeIndex index{*node};
+      for (models::LinkPlan& link : r_.plan.links)
+        for (models::LinkPlan::End* end : {&link.a, &link.b})
+          if (end->node == index && end->port == neighbour.port) end->gates_may_stick = true;
+      refuse_overlap(fault, {*node, neighbour.port, fault.traffic_class}, begin);
       r_.script.push_back({begin, ResolvedStuckGate{index, neighbour.port, fault.traffic_class, fault.state == GateFault::open}});
       if (const auto end = end_of(fault)) r_.script.push_back({*end, ResolvedStuckGate{index, neighbour.port, fault.traffic_class, std::nullopt}});
     }
@@ -193,8 +204,42 @@ class FaultResolver {
       diagnostics_.error(fault.where.at(fault.to ? "to" : "node"), "not a neighbour", {json::quote(fault.to.value_or(fault.node)), "a node that a link joins to " + json::quote(fault.node)});
   }
 
+  void add(const ClockFault& fault) {
+    const auto node = node_named(fault.node, fault.where.at("node"));
+    const sim::TrueTime begin = begin_of(fault);
+    if (!node) return;
+    if (!r_.plan.nodes[*node].clock) {
+      diagnostics_.error(fault.where.at("node"), "a clock fault without a clock", {json::quote(fault.node) + ", which knows true time", "a node with a clock of its own, see \"clocks\""});
+      return;
+    }
+    r_.script.push_back({begin, ResolvedClockFault{models::NodeIndex{*node}, fault.step, fault.offset}});
+  }
+
+  /// A gate is stuck in one way at a time.
+  void refuse_overlap(const StuckGate& fault, const std::tuple<std::uint32_t, std::uint16_t, std::uint8_t>& gate, sim::TrueTime begin) {
+    const sim::TrueTime end = end_of(fault).value_or(sim::TrueTime::never());
+    for (const Stuck& other : stuck_)
+      if (other.gate == gate && begin < other.end && other.begin < end)
+        diagnostics_.error(fault.where.place(), "a gate stuck twice at a time",
+                           {"class " + std::to_string(fault.traffic_class) + " of " + json::quote(fault.node) + ", stuck from " + json::to_text(other.begin.since_start()) + " on already",
+                            "times that do not overlap"});
+    stuck_.push_back({gate, begin, end});
+  }
+
+  struct Stuck {
+    std::tuple<std::uint32_t, std::uint16_t, std::uint8_t> gate;   // node, port, class
+    sim::TrueTime begin;
+    sim::TrueTime end;
+  };
   Resolved& r_;
   json::Diagnostics& diagnostics_;
+  struct Babbling {
+    std::string stream;
+    sim::TrueTime begin;
+    sim::TrueTime end;
+  };
+  std::vector<Babbling> babbling_;
+  std::vector<Stuck> stuck_;
   std::vector<Outage> outages_;
 };
 

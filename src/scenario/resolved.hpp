@@ -43,6 +43,7 @@ struct ResolvedProgram {
   std::vector<models::StreamIndex> state_streams;       ///< of each participant
   std::vector<ResolvedProcessData> process_data;
   Duration receive_timeout;
+  std::uint16_t first_publisher_id = 1;                 ///< of the master
 };
 
 struct ResolvedCall {
@@ -89,9 +90,16 @@ struct ResolvedRoutes {
   std::vector<Entry> entries;
 };
 
+/// A clock jumps, or its oscillator gets another frequency.
+struct ResolvedClockFault {
+  models::NodeIndex node;
+  std::optional<Duration> step;
+  std::optional<sim::FrequencyOffset> offset;
+};
+
 struct ResolvedAction {
   sim::TrueTime at;
-  std::variant<ResolvedCall, ResolvedGates, ResolvedLink, ResolvedNode, ResolvedStuckGate, ResolvedRoutes> what;
+  std::variant<ResolvedCall, ResolvedGates, ResolvedLink, ResolvedNode, ResolvedStuckGate, ResolvedRoutes, ResolvedClockFault> what;
 };
 
 /// The demand on one direction of a link.

@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "scenario/program_shape.hpp"
+
 namespace takt::scenario {
 namespace {
 
@@ -33,8 +35,15 @@ class Run::Script final : public sim::Component {
   }
   void act(const ResolvedGates& change) { run_->network_.request_gates(change.node, change.port, change.gates); }
   void act(const ResolvedLink& change) { run_->network_.set_link(change.link, change.up); }
-  void act(const ResolvedNode& change) { run_->network_.set_node(change.node, change.up); }
+  void act(const ResolvedNode& change) {
+    if (!change.up) run_->crash_programs(change.node);
+    run_->network_.set_node(change.node, change.up);
+  }
   void act(const ResolvedStuckGate& change) { run_->network_.force_gate(change.node, change.port, change.traffic_class, change.open); }
+  void act(const ResolvedClockFault& fault) {
+    if (fault.step) run_->network_.step_clock(fault.node, *fault.step);
+    if (fault.offset) run_->network_.set_frequency_offset(fault.node, *fault.offset);
+  }
   void act(const ResolvedRoutes& change) {
     for (const ResolvedRoutes::Entry& entry : change.entries) run_->network_.reroute(entry.bridge, entry.vlan, entry.address, entry.ports);
   }
@@ -48,7 +57,22 @@ Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle)
   simulation_.set_tie_shuffle(tie_shuffle);
   for (std::uint32_t i = 0; i < resolved.programs.size(); ++i) add_program(i, resolved.programs[i]);
   script_ = std::make_unique<Script>(*this, simulation_);
+  watch_clocks();
   network_.start();
+}
+
+void Run::watch_clocks() {
+  if (!resolved_->scenario.clocks.gptp) return;
+  std::vector<ClockMonitor::Limit> limits;
+  for (const Requirement& requirement : resolved_->scenario.require) {
+    if (!requirement.sync) continue;
+    ClockMonitor::Limit limit;
+    limit.after = sim::TrueTime() + requirement.after;
+    if (requirement.node) limit.node = models::NodeIndex{*resolved_->topology.find(*requirement.node)};
+    limits.push_back(limit);
+  }
+  clock_monitor_ = std::make_unique<ClockMonitor>(simulation_, network_, resolved_->scenario.clocks.gptp->report_every, std::move(limits));
+  clock_monitor_->start();
 }
 
 Run::~Run() = default;
@@ -56,25 +80,28 @@ Run::~Run() = default;
 void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
   const Program& description = *program.description;
   auto live = std::make_unique<LiveProgram>();
-  const handshake::Variant variant = description.variant == Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
+  const auto format = std::make_shared<const wire::ProgramFormat>(shape_of(program));
+  const handshake::Variant variant = format->shape().variant;
   live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, variant, program.participants.size());
   for (std::size_t p = 0; p < program.participants.size(); ++p) {
     ProgramApplication::Settings settings;
-    settings.handshake.variant = variant;
-    settings.handshake.role = p == 0 ? handshake::Role::Master : handshake::Role::Slave;
-    settings.handshake.index = static_cast<std::uint8_t>(p);
-    settings.handshake.slaves = static_cast<std::uint8_t>(program.participants.size() - 1);
-    settings.handshake.incarnation = 1;
-    settings.cycle = description.cycle;
-    settings.offset = description.offset;
-    settings.receive_timeout = program.receive_timeout;
-    settings.initialisation = description.initialisation;
-    settings.publish_on_change = description.publish == Publish::on_change;
+    wire::EndpointSettings& endpoint = settings.endpoint;
+    endpoint.handshake.variant = variant;
+    endpoint.handshake.role = p == 0 ? handshake::Role::Master : handshake::Role::Slave;
+    endpoint.handshake.index = static_cast<std::uint8_t>(p);
+    endpoint.handshake.slaves = static_cast<std::uint8_t>(program.participants.size() - 1);
+    endpoint.handshake.incarnation = 1;
+    endpoint.handshake.subscription =
+        description.subscription == Subscription::star ? handshake::Subscription::Star : handshake::Subscription::AllToAll;
+    endpoint.format = format;
+    endpoint.cycle = description.cycle;
+    endpoint.offset = description.offset;
+    endpoint.receive_timeout = program.receive_timeout;
+    endpoint.initialisation = description.initialisation;
+    endpoint.publish_on_change = description.publish == Publish::on_change;
+    endpoint.priority = description.pcp;
     settings.state_stream = program.state_streams[p];
-    for (std::size_t d = 0; d < program.process_data.size(); ++d) {
-      const ResolvedProcessData& data = program.process_data[d];
-      if (data.from == p) settings.data_sets.push_back({static_cast<std::uint8_t>(d), data.field_octets, data.stream, 0});
-    }
+    for (const ResolvedProcessData& data : program.process_data) settings.data_streams.push_back(data.stream);
     auto application = std::make_unique<ProgramApplication>(std::move(settings), *live->monitor);
     live->applications.push_back(application.get());
     live->processes.push_back(&network_.add_process(program.participants[p], program.name, std::move(application)));
@@ -83,15 +110,21 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
   programs_.push_back(std::move(live));
 }
 
-/// Hands the streams of the program to its processes: the master's to every slave, a slave's to the master.
+void Run::crash_programs(models::NodeIndex node) {
+  for (std::size_t i = 0; i < programs_.size(); ++i) {
+    const std::vector<models::NodeIndex>& participants = resolved_->programs[i].participants;
+    for (std::size_t p = 0; p < participants.size(); ++p)
+      if (participants[p] == node) programs_[i]->applications[p]->crash();
+  }
+}
+
+/// Hands the streams of the program to the processes of those that subscribe to them.
 void Run::connect_streams(const ResolvedProgram& program, const LiveProgram& live) {
   const auto connect = [&](std::size_t from, models::StreamIndex stream) {
-    if (from != 0) {
-      network_.listen(program.participants[0], stream, live.processes[0]);
-      return;
-    }
+    if (from != 0) network_.listen(program.participants[0], stream, live.processes[0]);
+    if (from != 0 && program.description->subscription == Subscription::star) return;
     for (std::size_t slave = 1; slave < program.participants.size(); ++slave)
-      network_.listen(program.participants[slave], stream, live.processes[slave]);
+      if (slave != from) network_.listen(program.participants[slave], stream, live.processes[slave]);
   };
   for (std::size_t p = 0; p < program.participants.size(); ++p) connect(p, program.state_streams[p]);
   for (const ResolvedProcessData& data : program.process_data) connect(data.from, data.stream);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "models/network.hpp"
+#include "scenario/clock_monitor.hpp"
 #include "scenario/program_application.hpp"
 #include "scenario/program_monitor.hpp"
 #include "scenario/resolved.hpp"
@@ -25,6 +26,10 @@ class Run {
   const sim::Simulation& simulation() const { return simulation_; }
   const models::Network& network() const { return network_; }
   const ProgramMonitor& monitor(std::size_t program) const { return *programs_[program]->monitor; }
+  /// Null without gPTP.
+  const ClockMonitor* clocks() const { return clock_monitor_.get(); }
+  /// Takes the series of clock offsets from now on. Precondition: there is gPTP.
+  void set_clock_sink(ClockSampleSink* sink) { clock_monitor_->set_sink(sink); }
   handshake::PublishedState state(std::size_t program, std::size_t participant) const {
     return programs_[program]->applications[participant]->state();
   }
@@ -41,7 +46,9 @@ class Run {
   };
   class Script;
 
+  void watch_clocks();
   void add_program(std::uint32_t number, const ResolvedProgram& program);
+  void crash_programs(models::NodeIndex node);
   void connect_streams(const ResolvedProgram& program, const LiveProgram& live);
 
   const Resolved* resolved_;
@@ -49,6 +56,7 @@ class Run {
   models::Network network_;
   std::vector<std::unique_ptr<LiveProgram>> programs_;
   std::unique_ptr<Script> script_;
+  std::unique_ptr<ClockMonitor> clock_monitor_;
 };
 
 }  // namespace takt::scenario

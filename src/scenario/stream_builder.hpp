@@ -25,6 +25,7 @@ struct NewStream {
   const std::vector<std::string>* path = nullptr;             ///< names of all nodes, for one receiver
   const Redundancy* redundancy = nullptr;                     ///< or null
   bool of_program = false;
+  std::uint16_t ether_type = 0;                               ///< see models::StreamPlan
 };
 
 class StreamBuilder {

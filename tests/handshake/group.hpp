@@ -1,4 +1,4 @@
-// A group of participants in a star without a network: the test says which word is delivered when.
+// A group of participants, in a star unless said otherwise, without a network: the test says which word is delivered when.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,8 +25,8 @@ class Group {
  public:
   using Member = Participant<64>;
 
-  Group(Variant variant, std::size_t slaves)
-      : observer(variant, slaves + 1), reactions(slaves + 1), variant_(variant), pending_(slaves + 1),
+  explicit Group(Variant variant, std::size_t slaves, Subscription subscription = Subscription::Star)
+      : observer(variant, slaves + 1), reactions(slaves + 1), variant_(variant), subscription_(subscription), pending_(slaves + 1),
         sequence_(slaves + 1), incarnation_(slaves + 1, 1) {
     for (std::size_t i = 0; i <= slaves; ++i) members_.emplace_back(config(i));
   }
@@ -35,7 +35,7 @@ class Group {
   const Member& operator[](std::size_t i) const { return members_[i]; }
   Config config(std::size_t i) const {
     return {variant_, i == 0 ? Role::Master : Role::Slave, static_cast<std::uint8_t>(i),
-            static_cast<std::uint8_t>(pending_.size() - 1), incarnation_[i]};
+            static_cast<std::uint8_t>(pending_.size() - 1), incarnation_[i], subscription_};
   }
 
   /// One step; everything that a host and the ghosts do with its outputs.
@@ -74,13 +74,9 @@ class Group {
   }
   /// Sends the present word to one peer at once.
   Outputs tell(std::size_t from, std::size_t to) { return deliver(message(from, to)); }
-  /// A slave's word to the master, the master's to all slaves.
+  /// One word to all that hear it: a slave's in a star to the master.
   void tell_all(std::size_t from) {
-    if (from != 0) {
-      tell(from, 0);
-      return;
-    }
-    for (std::size_t i = 1; i < size(); ++i) tell(0, i);
+    for (std::size_t peer = 0; peer < members_[from].peer_count(); ++peer) tell(from, members_[from].participant_of(peer));
   }
   /// Everybody's initialisation ends and everybody publishes once.
   void round() {
@@ -158,6 +154,7 @@ class Group {
     std::uint32_t run = 0;
   };
   Variant variant_;
+  Subscription subscription_;
   std::vector<Pending> pending_;
   std::vector<std::uint16_t> sequence_;
   std::vector<std::uint32_t> incarnation_;

@@ -63,7 +63,7 @@ std::vector<Action> make_schedule(std::uint64_t seed, std::size_t participants, 
 /// A group with a network that keeps words under way, and delivers them in any order.
 class World {
  public:
-  World(Variant variant, std::size_t slaves) : group(variant, slaves) {}
+  explicit World(Variant variant, std::size_t slaves, Subscription subscription = Subscription::Star) : group(variant, slaves, subscription) {}
 
   void act(const Action& action) {
     const std::size_t who = action.a % group.size();
@@ -117,8 +117,9 @@ class World {
 
 /// What is wrong with a schedule; empty if nothing.
 enum class Begin : std::uint8_t { New, Running };
-std::string run(const std::vector<Action>& schedule, std::size_t slaves, Begin begin, bool* ran = nullptr) {
-  World world(Variant::Robust, slaves);
+std::string run(const std::vector<Action>& schedule, std::size_t slaves, Begin begin, bool* ran = nullptr,
+                Subscription subscription = Subscription::Star) {
+  World world(Variant::Robust, slaves, subscription);
   if (begin == Begin::Running) {
     world.call(0, 0);
     world.group.rounds(4);
@@ -205,6 +206,19 @@ TEST_P(Schedules, NothingBreaksAndAllAgreeInTheEnd) {
   // A harness in which the group never gets to Running would prove nothing.
   EXPECT_GT(that_ran * 10, count / 2) << that_ran << " of " << count / 2 << " schedules brought everybody to Running";
   RecordProperty("that_ran", static_cast<int>(that_ran));
+}
+
+TEST_P(Schedules, AllToAllNothingBreaksEither) {
+  const auto slaves = static_cast<std::size_t>(GetParam());
+  std::uint64_t that_ran = 0;
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+    const std::vector<Action> schedule = make_schedule(seed, slaves + 1, 60 + seed % 300 * slaves);
+    bool ran = false;
+    const std::string wrong = run(schedule, slaves, seed % 2 == 0 ? Begin::New : Begin::Running, &ran, Subscription::AllToAll);
+    that_ran += ran ? 1 : 0;
+    ASSERT_TRUE(wrong.empty()) << "seed " << seed << ", " << slaves << " slaves: " << wrong << print(schedule);
+  }
+  EXPECT_GT(that_ran, 1000u);  // the thousand that begin so, and some more
 }
 
 // `paper` breaks S1 to S3 and never settles under such schedules (weakness_test.cpp), but its machine stays the

@@ -90,7 +90,7 @@ const BadCase programs_cases[] = {
     {"ProcessDataNamedState", with_programs(R"({"name": "p", "master": "a", "slaves": ["b"], "cycle": "1ms", "process_data": [{"name": "state", "from": "a", "fields": {"x": "Double"}}]})"),
      R"(2:89: error at /programs/0/process_data/0/name: duplicate name: found "state", expected a name of its own for each data set ("state" is taken))"},
     {"ProcessDataBeyondOneFrame", with_programs(R"({"name": "p", "master": "a", "slaves": ["b"], "cycle": "1ms", "process_data": [{"name": "d", "from": "a", "fields": {"x": {"type": "Double", "count": 187}}}]})"),
-     R"(2:117: error at /programs/0/process_data/0/fields: more than one frame: found 1506 octets after the EtherType, expected at most 1500 with all headers)"},
+     R"(2:117: error at /programs/0/process_data/0/fields: more than one frame: found 1520 octets after the EtherType, expected at most 1500 with all headers)"},
     {"UnknownDataType", with_programs(R"({"name": "p", "master": "a", "slaves": ["b"], "cycle": "1ms", "process_data": [{"name": "d", "from": "a", "fields": {"x": "double"}}]})"),
      R"(2:123: error at /programs/0/process_data/0/fields/x: unknown name for an OPC UA data type: found "double", expected "Boolean", "SByte", "Byte", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64", "Float" or "Double" (did you mean "Double"?))"},
     {"ScriptOfAnUnknownProgram", with_script(R"({"at": "1us", "program": "q", "call": "Start"})"),
@@ -102,7 +102,7 @@ const BadCase programs_cases[] = {
     {"UnknownMethod", with_script(R"({"at": "1us", "program": "p", "call": "start"})"),
      R"(2:39: error at /script/0/call: unknown name for a Program control method: found "start", expected "Start", "Suspend", "Resume", "Halt" or "Reset" (did you mean "Start"?))"},
     {"RequirementOfNothing", with_requirement(R"({"within": "1ms"})"),
-     R"(2:1: error at /require/0: a field is missing: expected exactly one of "reaction" or "stream")"},
+     R"(2:1: error at /require/0: a field is missing: expected exactly one of "reaction", "stream" or "sync")"},
     {"ReactionWithoutLimit", with_requirement(R"({"reaction": "start"})"),
      R"(2:1: error at /require/0: missing key: found "reaction" without a limit, expected "within")"},
     {"ReactionOfAnUnknownProgram", with_requirement(R"({"reaction": "start", "program": "P", "within": "1ms"})"),
@@ -111,7 +111,7 @@ const BadCase programs_cases[] = {
      R"(2:26: error at /require/0/reaction: a reaction without a program: found no programs, expected "programs")"},
     {"ReactionAndStream", with_requirement(R"({"reaction": "start", "within": "1ms", "stream": "p/state/a", "latency": "1ms"})"),
      R"(2:33: error at /require/0/within: does not belong to this requirement: found "within", expected a requirement with "reaction"
-2:50: error at /require/0/stream: fields that exclude each other: found "stream" beside "reaction", expected exactly one of "reaction" or "stream"
+2:50: error at /require/0/stream: fields that exclude each other: found "stream" beside "reaction", expected exactly one of "reaction", "stream" or "sync"
 2:74: error at /require/0/latency: does not belong to this requirement: found "latency", expected a requirement with "stream")"},
     {"LimitOfTheOtherSubject", with_requirement(R"({"reaction": "start", "within": "1ms", "latency": "1ms"})"),
      R"(2:51: error at /require/0/latency: does not belong to this requirement: found "latency", expected a requirement with "stream")"},

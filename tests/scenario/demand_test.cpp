@@ -43,13 +43,13 @@ TEST(Demand, MulticastCountsOncePerLink) {
   EXPECT_EQ(r->ports.size(), 5u);
 }
 
-// State: 28 B + 14 + 4 + 4 = 50 B, so 64 B + tag's 4... a tagged frame has at least 64 B as well: 84 B on the wire each cycle.
-// Data: 10 B head + 6 Doubles 48 B = 58 B + 22 = 80 B, 100 B on the wire. 672 + 800 bit in 1 ms: 1.472 Mb/s from the master.
+// State: 42 B + 14 + 4 + 4 = 64 B, which is what a frame has at least: 84 B on the wire each cycle.
+// Data: 24 B before 6 Doubles of 48 B = 72 B + 22 = 94 B, 114 B on the wire. 672 + 912 bit in 1 ms: 1.584 Mb/s from the master.
 TEST(Demand, AProgramAsksForItsCycle) {
   const auto r = sound(over_one_switch(R"(, "programs": [{"name": "p", "master": "a", "slaves": ["b"], "cycle": "1ms",
  "process_data": [{"name": "d", "from": "a", "fields": {"q": {"type": "Double", "count": 6}}}]}])"));
   EXPECT_DOUBLE_EQ(port(*r, "b", "sw").class_bits_per_second[6], 672e3);
-  EXPECT_DOUBLE_EQ(port(*r, "a", "sw").class_bits_per_second[6], 1472e3);
+  EXPECT_DOUBLE_EQ(port(*r, "a", "sw").class_bits_per_second[6], 1584e3);
 }
 
 std::string camera(const std::string& every, const std::string& more = {}) {

@@ -161,6 +161,108 @@ TEST(Programs, ASilentPeerHaltsTheGroup) {
   EXPECT_TRUE(program.violations.empty());
 }
 
+// Everybody hears everybody: the same methods, the same states, halts and suspends of slaves a cycle sooner.
+TEST(Programs, AllToAllTo64Slaves) {
+  for (const std::size_t slaves : {1, 2, 3, 8, 24, 64}) {
+    SCOPED_TRACE(slaves);
+    expect_all_complete(run(group(slaves, "robust", every_method, R"(, "subscription": "all-to-all")")).programs[0]);
+  }
+  expect_all_complete(run(group(5, "robust", every_method, R"(, "subscription": "all-to-all", "publish": "on-change")")).programs[0]);
+}
+
+TEST(Programs, StarTo64Slaves) {
+  for (const std::size_t slaves : {16, 33, 64}) expect_all_complete(run(group(slaves, "robust", every_method)).programs[0]);
+}
+
+TEST(Programs, PaperAllToAll) {
+  for (const std::size_t slaves : {1, 3, 8})
+    expect_all_complete(run(group(slaves, "paper", every_method_of_paper, R"(, "subscription": "all-to-all")")).programs[0], every_method_of_paper);
+}
+
+TEST(Programs, AllToAllIsACycleSooner) {
+  const Calls calls = {{"Start", "h1"}, {"Suspend", "h2"}, {"Resume", "h3"}, {"Halt", "h4"}};
+  const ProgramResult star = run(group(3, "robust", calls)).programs[0];
+  const ProgramResult all = run(group(3, "robust", calls, R"(, "subscription": "all-to-all")")).programs[0];
+  for (std::size_t i = 1; i < calls.size(); ++i) {
+    // Over the master of a star a change waits for two cycles of 500 us, directly for one, each but for what passes before it.
+    EXPECT_LT(*all.reactions[i].duration(), 500_us + 100_us) << calls[i].first;
+    EXPECT_GT(*star.reactions[i].duration(), 500_us) << calls[i].first;
+  }
+}
+
+/// A group of two slaves that starts at 10.137 ms, in which a fault happens; the master starts again at 70.137 ms.
+ProgramResult with_crash(const std::string& variant, const std::string& fault, const std::string& more = {}) {
+  std::string text = group(2, variant, {{"Start", "h1"}, {"Halt", "h3"}, {"Halt", "h3"}, {"Start", "h1"}}, more);
+  // No halts in between: the crash has to do it.
+  while (text.find(R"("call": "Halt")") != std::string::npos) {
+    const std::size_t begin = text.rfind('{', text.find(R"("call": "Halt")"));
+    text.erase(begin, text.find('}', begin) + 2 - begin);
+  }
+  text.insert(text.rfind('}'), R"(, "faults": [)" + fault + "]");
+  return run(text).programs[0];
+}
+
+// F1, and what a new incarnation is for: who comes back has no memory, and the next start takes it along.
+TEST(Programs, ACrashHaltsAndTheNextStartRuns) {
+  for (const char* node : {"h1", "h2"}) {
+    for (const char* subscription : {"star", "all-to-all"}) {
+      const ProgramResult program = with_crash("robust", std::string(R"({"kind": "crash", "node": ")") + node + R"(", "at": "30ms", "for": "20ms"})",
+                                               std::string(R"(, "subscription": ")") + subscription + "\"");
+      SCOPED_TRACE(std::string(node) + " " + subscription);
+      EXPECT_TRUE(program.violations.empty());
+      EXPECT_EQ(program.states, std::vector<std::string>(3, "Running"));
+      ASSERT_GE(program.reactions.size(), 3u);
+      EXPECT_EQ(program.reactions[1].cause, "silent peer");
+      EXPECT_TRUE(program.reactions[1].completed);
+      // The time-out of 5 ms after the last state before 30 ms; on all-to-all others may find out first.
+      EXPECT_GT(program.reactions[1].began.ps(), 34'400'000'000);
+      EXPECT_LT(program.reactions[1].began.ps(), 35'200'000'000);
+    }
+  }
+}
+
+// Back before anybody has missed it: its word says that it is another one.
+TEST(Programs, AnIncarnationTellsAQuickRestart) {
+  const ProgramResult program = with_crash("robust", R"({"kind": "crash", "node": "h2", "at": "30ms", "for": "1ms"})");
+  ASSERT_GE(program.reactions.size(), 2u);
+  // Either the master hears another incarnation, or h2 first that a run goes on in which it has never been.
+  EXPECT_TRUE(program.reactions[1].cause == "restarted peer" || program.reactions[1].cause == "mismatch") << program.reactions[1].cause;
+  EXPECT_LT(program.reactions[1].began.ps(), 32'200'000'000);
+  EXPECT_TRUE(program.violations.empty());
+  EXPECT_EQ(program.states, std::vector<std::string>(3, "Running"));
+}
+
+TEST(Programs, OneThatStaysAwayHaltsTheRest) {
+  const ProgramResult program = with_crash("robust", R"({"kind": "crash", "node": "h3", "at": "30ms"})");
+  EXPECT_EQ(program.states[2], "Halted");
+  EXPECT_EQ(program.reactions[1].cause, "silent peer");
+  EXPECT_TRUE(program.reactions[1].completed);
+  EXPECT_TRUE(program.violations.empty());
+}
+
+// `paper` notices nothing: the others go on alone.
+TEST(Programs, PaperDoesNotNoticeACrash) {
+  const ProgramResult program = with_crash("paper", R"({"kind": "crash", "node": "h3", "at": "30ms"})");
+  EXPECT_EQ(program.states, (std::vector<std::string>{"Running", "Running", "Halted"}));
+  EXPECT_EQ(kinds(program), (std::vector<std::string>{"start"}));
+}
+
+// UADP over Ethernet (OPC 10000-14, 7.3.3), and PublisherIds that no two participants share.
+TEST(Programs, TravelAsUadp) {
+  std::string text = group(2, "robust", {{"Start", "h1"}});
+  text.insert(text.find(R"({"name": "p")"), R"({"name": "q", "variant": "paper", "master": "h2", "slaves": ["h1"], "cycle": "1ms"}, )");
+  const auto resolved = sound(text);
+  EXPECT_EQ(resolved->programs[0].first_publisher_id, 1);
+  EXPECT_EQ(resolved->programs[1].first_publisher_id, 3);
+  LiveRun live(*resolved);
+  live.advance();
+  for (const models::Stream& stream : live.network().traffic().streams()) {
+    EXPECT_EQ(stream.ether_type, 0xB62C) << stream.name;
+    EXPECT_EQ(stream.headers, Octets{0}) << stream.name;
+    EXPECT_GT(stream.delivered, stream.name.starts_with("p/") || stream.name.starts_with("q/state") ? 0u : ~0u) << stream.name;
+  }
+}
+
 TEST(Programs, TwoOnTheSameHostsDoNotMix) {
   std::string text = group(1, "robust", every_method);
   const std::string second = R"({"name": "q", "variant": "paper", "master": "h2", "slaves": ["h1"], "cycle": "1ms"}, )";

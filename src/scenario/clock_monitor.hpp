@@ -1,0 +1,63 @@
+// Watches how far the nodes' clocks are from those of their grandmasters. Sees true time, which no node does.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "models/network.hpp"
+#include "sim/simulation.hpp"
+
+namespace takt::scenario {
+
+/// What one node's clock has shown, by the differences to its grandmaster's clock at the instants that were looked at.
+struct ClockFigures {
+  models::NodeIndex node;
+  std::optional<sim::TrueTime> locked;      ///< first time that its servo was locked; a grandmaster is locked from the start
+  std::uint64_t samples = 0;                ///< since then
+  sim::Duration least;
+  sim::Duration greatest;
+  sim::int128 sum = 0;                      ///< ps
+  sim::int128 sum_of_squares = 0;           ///< ps^2
+};
+
+/// Takes the series of offsets, one call for each look and node.
+class ClockSampleSink {
+ public:
+  virtual ~ClockSampleSink() = default;
+  virtual void sample(sim::TrueTime time, models::NodeIndex node, models::NodeIndex grandmaster, sim::Duration offset) = 0;
+};
+
+/// Looks every so often, at instants of true time. It changes nothing in the network.
+class ClockMonitor final : public sim::Component {
+ public:
+  /// A limit that a requirement sets: offsets count from `after` on, of one node or of all.
+  struct Limit {
+    sim::TrueTime after;
+    std::optional<models::NodeIndex> node;
+    sim::Duration greatest;                 ///< what was seen, without sign
+    std::uint64_t samples = 0;
+  };
+
+  ClockMonitor(sim::Simulation& simulation, const models::Network& network, sim::Duration every, std::vector<Limit> limits);
+
+  void start() { simulation_->schedule(source_, simulation_->now() + every_, sim::Phase::control, source_.id(), 0, 0); }
+  void handle(sim::Simulation& simulation, const sim::Event& event) override;
+  void set_sink(ClockSampleSink* sink) { sink_ = sink; }
+
+  const std::vector<ClockFigures>& figures() const { return figures_; }
+  const std::vector<Limit>& limits() const { return limits_; }
+
+ private:
+  void look_at(const models::gptp::Station& station, ClockFigures& figures);
+
+  sim::Simulation* simulation_;
+  const models::Network* network_;
+  sim::Duration every_;
+  std::vector<Limit> limits_;
+  std::vector<ClockFigures> figures_;       // of the nodes with gPTP
+  sim::EventSource source_;
+  ClockSampleSink* sink_ = nullptr;
+};
+
+}  // namespace takt::scenario

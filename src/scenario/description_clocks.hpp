@@ -1,0 +1,151 @@
+// The clocks of a scenario and what keeps them together: plain structs, one for each JSON object. See description.hpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/json/fields.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+
+namespace takt::scenario {
+
+/// A frequency that is the same for all nodes, or drawn for each.
+struct FrequencyRange {
+  json::Source where;
+  std::optional<sim::FrequencyOffset> fixed;
+  std::optional<sim::FrequencyOffset> from;
+  std::optional<sim::FrequencyOffset> to;
+  bool operator==(const FrequencyRange&) const = default;
+};
+
+struct TemperatureWave {
+  sim::FrequencyOffset amplitude;
+  sim::Duration period;
+  double phase = 0;
+  bool operator==(const TemperatureWave&) const = default;
+};
+
+struct RandomWalk {
+  sim::FrequencyOffset step;
+  sim::FrequencyOffset bound;
+  bool operator==(const RandomWalk&) const = default;
+};
+
+struct FrequencyAt {
+  sim::Duration at;
+  sim::FrequencyOffset frequency;
+  bool operator==(const FrequencyAt&) const = default;
+};
+
+/// One node's oscillator and the counter behind it.
+struct Clock {
+  json::Source where;
+  bool ideal = false;
+  FrequencyRange offset;
+  FrequencyRange drift;                 ///< in a second
+  std::optional<TemperatureWave> temperature;
+  std::optional<RandomWalk> walk;
+  std::vector<FrequencyAt> table;
+  sim::Duration update = sim::Duration::from_ps(10'000'000'000);
+  sim::Duration initial;
+  sim::Duration granularity = sim::Duration::from_ps(1);
+  sim::Duration jitter;
+  sim::Duration tx_latency;
+  sim::Duration rx_latency;
+  std::optional<sim::Duration> tx_correction;
+  std::optional<sim::Duration> rx_correction;
+  bool operator==(const Clock&) const = default;
+};
+
+enum class ServoAlgorithm : std::uint8_t { pi, drift_tracking };
+
+struct ServoSettings {
+  json::Source where;
+  ServoAlgorithm algorithm = ServoAlgorithm::pi;
+  sim::Duration first_step_threshold = sim::Duration::from_ps(20'000'000);
+  sim::Duration step_threshold;
+  sim::FrequencyOffset max_frequency{900'000'000'000};
+  bool operator==(const ServoSettings&) const = default;
+};
+
+enum class GptpRole : std::uint8_t { time_transmitter, time_receiver, passive, disabled };
+
+/// The role of a port where BMCA does not choose.
+struct GptpPortRole {
+  json::Source where;
+  std::string to;
+  GptpRole role = GptpRole::time_transmitter;
+  bool operator==(const GptpPortRole&) const = default;
+};
+
+/// What differs for one node.
+struct GptpNode {
+  json::Source where;
+  std::uint8_t priority1 = 248;
+  std::uint8_t priority2 = 248;
+  std::uint8_t clock_class = 248;
+  std::uint8_t clock_accuracy = 0xFE;
+  std::optional<std::vector<GptpPortRole>> roles;
+  bool operator==(const GptpNode&) const = default;
+};
+
+struct GptpDomain {
+  json::Source where;
+  std::uint8_t domain = 0;
+  json::NameMap<GptpNode> nodes;
+  bool operator==(const GptpDomain&) const = default;
+};
+
+struct Gptp {
+  json::Source where;
+  std::int8_t log_sync_interval = -3;
+  std::int8_t log_announce_interval = 0;
+  std::int8_t log_pdelay_interval = 0;
+  std::uint8_t sync_receipt_timeout = 3;
+  std::uint8_t announce_receipt_timeout = 3;
+  bool one_step = false;
+  bool sync_locked = true;
+  sim::Duration processing = sim::Duration::from_ps(5'000'000);
+  std::uint16_t rate_ratio_window = 8;
+  std::uint16_t average_link_delay = 1;
+  std::uint16_t drift_window = 0;
+  sim::Duration link_delay_threshold = sim::Duration::from_ps(800'000);
+  ServoSettings servo;
+  json::NameMap<GptpNode> nodes;
+  std::vector<GptpDomain> domains;
+  bool hot_standby = false;
+  sim::Duration report_every = sim::Duration::from_ps(10'000'000'000);
+  std::vector<std::string> without;
+  bool operator==(const Gptp&) const = default;
+};
+
+enum class ClockModel : std::uint8_t { ideal, free_running };
+
+struct Clocks {
+  json::Source where;
+  ClockModel model = ClockModel::ideal;
+  std::optional<Clock> all;
+  json::NameMap<Clock> nodes;
+  std::optional<Gptp> gptp;
+  bool operator==(const Clocks&) const = default;
+};
+
+const json::Object& describe(json::Type<FrequencyRange>);
+const json::Object& describe(json::Type<TemperatureWave>);
+const json::Object& describe(json::Type<RandomWalk>);
+const json::Object& describe(json::Type<FrequencyAt>);
+const json::Object& describe(json::Type<Clock>);
+const json::Enumeration& describe(json::Type<ServoAlgorithm>);
+const json::Object& describe(json::Type<ServoSettings>);
+const json::Enumeration& describe(json::Type<GptpRole>);
+const json::Object& describe(json::Type<GptpPortRole>);
+const json::Object& describe(json::Type<GptpNode>);
+const json::Object& describe(json::Type<GptpDomain>);
+const json::Object& describe(json::Type<Gptp>);
+const json::Enumeration& describe(json::Type<ClockModel>);
+const json::Object& describe(json::Type<Clocks>);
+
+}  // namespace takt::scenario

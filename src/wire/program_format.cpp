@@ -1,0 +1,133 @@
+#include "wire/program_format.hpp"
+
+#include <algorithm>
+
+#include "uadp/reader.hpp"
+#include "uadp/writer.hpp"
+
+namespace takt::wire {
+namespace {
+
+using handshake::Variant;
+using uadp::BuiltInType;
+using uadp::RawField;
+
+// In UADP-Periodic-Fixed with a UInt16 PublisherId (OPC 10000-14, A.2.1.2).
+constexpr std::size_t publisher_id_at = 2;
+constexpr std::size_t writer_group_at = 5;
+
+uadp::RawLayout state_fields(Variant variant) {
+  std::vector<RawField> fields = {{BuiltInType::Int32}};
+  if (variant == Variant::Robust) {
+    fields.insert(fields.end(), 4, {BuiltInType::UInt32});
+    fields.insert(fields.end(), 2, {BuiltInType::Byte});
+  }
+  return uadp::RawLayout(std::move(fields));
+}
+
+uadp::RawLayout data_fields(const DataSetShape& data_set) {
+  std::vector<RawField> fields = {{BuiltInType::UInt32}};
+  for (const FieldShape& field : data_set.fields) fields.insert(fields.end(), field.count, {field.type});
+  return uadp::RawLayout(std::move(fields));
+}
+
+}  // namespace
+
+ProgramFormat::ProgramFormat(ProgramShape shape) : shape_(std::move(shape)), group_version_(group_version_of(shape_)) {
+  const auto layout = [&](std::size_t participant, std::size_t group, uadp::RawLayout fields) {
+    uadp::PeriodicFixedLayout::Settings settings;
+    settings.publisher_id = uadp::PublisherId::uint16(static_cast<std::uint16_t>(shape_.first_publisher_id + participant));
+    settings.writer_group_id = static_cast<std::uint16_t>(group);
+    settings.group_version = group_version_;
+    settings.data_sets.push_back(std::move(fields));
+    return uadp::PeriodicFixedLayout(settings);
+  };
+  for (std::size_t p = 0; p < shape_.participants.size(); ++p) states_.push_back(layout(p, state_writer_group, state_fields(shape_.variant)));
+  for (std::size_t d = 0; d < shape_.data_sets.size(); ++d)
+    data_.push_back(layout(shape_.data_sets[d].from, first_data_writer_group + d, data_fields(shape_.data_sets[d])));
+  for (const uadp::PeriodicFixedLayout& each : states_) TAKT_CHECK(each.size() == state_octets(shape_.variant), "a state has its length");
+  for (const uadp::PeriodicFixedLayout& each : data_) TAKT_CHECK(each.field_offset(0, 0) == fields_at, "fields begin at octet 20");
+}
+
+std::size_t ProgramFormat::longest() const {
+  std::size_t octets = state_octets(shape_.variant);
+  for (const uadp::PeriodicFixedLayout& each : data_) octets = std::max(octets, each.size());
+  return octets;
+}
+
+uadp::Octets ProgramFormat::encode(const StateMessage& message, std::span<std::byte> target) const {
+  const uadp::PeriodicFixedLayout& layout = states_[message.sender];
+  layout.start(target, message.sequence);
+  layout.set_header(target, 0, message.sequence);
+  uadp::Writer writer(target.subspan(fields_at));
+  writer.put(static_cast<std::int32_t>(message.word.state));
+  if (shape_.variant == Variant::Robust) {
+    writer.put(message.word.incarnation);
+    writer.put(message.word.run);
+    writer.put(message.word.intent.number);
+    writer.put(message.word.intent.run);
+    writer.put(static_cast<std::uint8_t>(message.word.intent.kind));
+    writer.put(message.word.intent.origin);
+  }
+  TAKT_CHECK(fields_at + writer.position() == layout.size(), "the fields fill the message");
+  return target.first(layout.size());
+}
+
+uadp::Octets ProgramFormat::encode(const ProcessDataMessage& message, std::span<std::byte> target) const {
+  const uadp::PeriodicFixedLayout& layout = data_[message.data_set];
+  layout.start(target, message.sequence);
+  layout.set_header(target, 0, message.sequence);
+  uadp::Writer writer(target.subspan(fields_at));
+  writer.put(message.run);
+  writer.put_octets(message.fields);
+  TAKT_CHECK(message.fields.empty() || fields_at + writer.position() == layout.size(), "all fields of a data set, or none");
+  return target.first(layout.size());
+}
+
+std::optional<ProgramMessage> ProgramFormat::decode(uadp::Octets octets) const {
+  if (octets.size() < fields_at) return std::nullopt;
+  const auto id = uadp::load_little_endian<std::uint16_t>(octets.data() + publisher_id_at);
+  const auto group = uadp::load_little_endian<std::uint16_t>(octets.data() + writer_group_at);
+  const std::size_t sender = static_cast<std::uint16_t>(id - shape_.first_publisher_id);
+  const std::size_t data_set = static_cast<std::uint16_t>(group - first_data_writer_group);
+  if (sender >= states_.size()) return std::nullopt;
+  if (group == state_writer_group) return decode_state(static_cast<std::uint8_t>(sender), octets);
+  if (data_set >= data_.size()) return std::nullopt;
+  return decode_data(static_cast<std::uint8_t>(data_set), octets);
+}
+
+std::optional<ProgramMessage> ProgramFormat::decode_state(std::uint8_t sender, uadp::Octets octets) const {
+  const uadp::PeriodicFixedLayout& layout = states_[sender];
+  if (!layout.matches(octets)) return std::nullopt;
+  StateMessage message;
+  message.sender = sender;
+  message.sequence = layout.sequence_number(octets, 0);
+  uadp::Reader reader(octets.subspan(fields_at));
+  const auto state = handshake::published_state_from_number(reader.get<std::uint32_t>());
+  if (!state) return std::nullopt;
+  message.word.state = *state;
+  if (shape_.variant == Variant::Paper) return message;
+  message.word.incarnation = reader.get<std::uint32_t>();
+  message.word.run = reader.get<std::uint32_t>();
+  message.word.intent.number = reader.get<std::uint32_t>();
+  message.word.intent.run = reader.get<std::uint32_t>();
+  message.word.intent.kind = static_cast<handshake::IntentKind>(reader.get<std::uint8_t>());
+  message.word.intent.origin = reader.get<std::uint8_t>();
+  if (!handshake::is_valid(message.word)) return std::nullopt;
+  return message;
+}
+
+/// The layout holds the PublisherId of the only participant that may send the data set.
+std::optional<ProgramMessage> ProgramFormat::decode_data(std::uint8_t data_set, uadp::Octets octets) const {
+  const uadp::PeriodicFixedLayout& layout = data_[data_set];
+  if (!layout.matches(octets)) return std::nullopt;
+  ProcessDataMessage message;
+  message.sender = shape_.data_sets[data_set].from;
+  message.data_set = data_set;
+  message.sequence = layout.sequence_number(octets, 0);
+  message.run = uadp::load_little_endian<std::uint32_t>(octets.data() + fields_at);
+  message.fields = octets.subspan(process_data_octets(0), layout.size() - process_data_octets(0));
+  return message;
+}
+
+}  // namespace takt::wire

@@ -1,0 +1,82 @@
+// The messages of a Program in UADP-Periodic-Fixed: words and process data. See README.md for the octets.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "handshake/word.hpp"
+#include "uadp/periodic_fixed.hpp"
+#include "wire/program_shape.hpp"
+
+namespace takt::wire {
+
+/// EtherType of UADP without IP (OPC 10000-14, 7.3.3).
+inline constexpr std::uint16_t uadp_ether_type = 0xB62C;
+/// The port of UADP over UDP (OPC 10000-14, 7.3.2).
+inline constexpr std::uint16_t uadp_udp_port = 4840;
+
+inline constexpr std::uint16_t state_writer_group = 1;
+/// Of data set 0.
+inline constexpr std::uint16_t first_data_writer_group = 2;
+
+/// Where the fields of every message begin.
+inline constexpr std::uint32_t fields_at = 20;
+
+/// Octets of a state message.
+constexpr std::uint32_t state_octets(handshake::Variant variant) {
+  return fields_at + (variant == handshake::Variant::Paper ? 4 : 22);
+}
+/// Octets of a message of process data, whose run stands before the user's fields.
+constexpr std::uint32_t process_data_octets(std::uint32_t user_octets) { return fields_at + 4 + user_octets; }
+
+/// A participant's published word. `paper` sends its state only.
+struct StateMessage {
+  std::uint8_t sender = 0;     ///< participant
+  std::uint16_t sequence = 0;  ///< of the sender's state messages; wraps
+  handshake::Word word;
+  bool operator==(const StateMessage&) const = default;
+};
+
+struct ProcessDataMessage {
+  std::uint8_t sender = 0;     ///< participant; follows from the data set
+  std::uint8_t data_set = 0;   ///< index in the Program
+  std::uint16_t sequence = 0;  ///< of this data set; wraps
+  std::uint32_t run = 0;       ///< in which the sender is Running
+  uadp::Octets fields;         ///< the user's fields, as they stand in the message; somebody else owns them
+};
+
+using ProgramMessage = std::variant<StateMessage, ProcessDataMessage>;
+
+/// Makes and reads the messages of one Program. Constant, so all its participants may share one.
+class ProgramFormat {
+ public:
+  explicit ProgramFormat(ProgramShape shape);
+
+  const ProgramShape& shape() const { return shape_; }
+  std::uint32_t group_version() const { return group_version_; }
+  std::size_t participants() const { return states_.size(); }
+  /// Octets of the longest message.
+  std::size_t longest() const;
+
+  /// Writes the message into `target`, which has room for it, and returns what was written.
+  uadp::Octets encode(const StateMessage& message, std::span<std::byte> target) const;
+  /// The same. Without `fields` they are zeros; otherwise they have the length of the data set's.
+  uadp::Octets encode(const ProcessDataMessage& message, std::span<std::byte> target) const;
+
+  /// Nothing if the octets are no message of this Program, or say what no participant says. Octets behind a message (padding of
+  /// Ethernet) are passed over.
+  std::optional<ProgramMessage> decode(uadp::Octets octets) const;
+
+ private:
+  std::optional<ProgramMessage> decode_state(std::uint8_t sender, uadp::Octets octets) const;
+  std::optional<ProgramMessage> decode_data(std::uint8_t data_set, uadp::Octets octets) const;
+
+  ProgramShape shape_;
+  std::uint32_t group_version_;
+  std::vector<uadp::PeriodicFixedLayout> states_;  ///< by participant
+  std::vector<uadp::PeriodicFixedLayout> data_;    ///< by data set
+};
+
+}  // namespace takt::wire

@@ -1,0 +1,79 @@
+// What ports do beyond strict priority, and launch times, that name what is not there, contradict themselves or cannot be.
+#include "bad_input.hpp"
+
+namespace takt::scenario::test {
+namespace {
+
+/// `text` is the egress of the switch; its entry begins in column 1 of line 2. `nodes` and `links` are there besides.
+std::string with_egress(const std::string& text, const std::string& nodes = "", const std::string& links = "") {
+  return R"({"name": "t", "duration": "1ms", "network": {"nodes": {)" + nodes + R"("a": {"kind": "host"}, "b": {"kind": "host"}, "sw": {"kind": "switch", "egress": [
+)" + text + "]}}, \"links\": [" + two_links + links + "]}}";
+}
+/// `text` are members of the switch.
+std::string with_switch(const std::string& text) {
+  return R"({"name": "t", "duration": "1ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "sw": {"kind": "switch",
+)" + text + "}}, \"links\": [" + two_links + "]}}";
+}
+/// `text` is the egress of the host "a".
+std::string with_host_egress(const std::string& text) {
+  return R"({"name": "t", "duration": "1ms", "network": {"nodes": {"b": {"kind": "host"}, "sw": {"kind": "switch"}, "a": {"kind": "host", "egress": [
+)" + text + "]}}, \"links\": [" + two_links + "]}}";
+}
+
+const BadCase cases[] = {
+    {"PreemptionOfNothing", with_egress(R"({"preemption": {"preemptable": []}})"),
+     R"(2:32: error at /network/nodes/sw/egress/0/preemption/preemptable: too few items: found 0, expected 1 to 8 items)"},
+    {"PreemptionWithoutClasses", with_egress(R"({"preemption": {}})"),
+     R"(2:16: error at /network/nodes/sw/egress/0/preemption: the field "preemptable" is missing)"},
+    {"PreemptionOutOfRange", with_egress(R"({"preemption": {"preemptable": [0, 8, 0], "add_frag_size": 4, "hold_advance": "2s"}})"),
+     R"(2:36: error at /network/nodes/sw/egress/0/preemption/preemptable/1: out of range: found the number 8, expected an integer from 0 to 7
+2:39: error at /network/nodes/sw/egress/0/preemption/preemptable/2: occurs twice: found the number 0, expected items that differ
+2:60: error at /network/nodes/sw/egress/0/preemption/add_frag_size: out of range: found the number 4, expected an integer from 0 to 3
+2:79: error at /network/nodes/sw/egress/0/preemption/hold_advance: out of range: found "2s", expected a duration of at most 1s)"},
+    {"PreemptionIsNoList", with_egress(R"({"preemption": [0, 1]})"),
+     R"(2:16: error at /network/nodes/sw/egress/0/preemption: wrong type: found an array of 2, expected an object)"},
+    {"NegativeHoldAdvance", with_egress(R"({"preemption": {"preemptable": [0], "hold_advance": "-1us"}})"),
+     R"(2:53: error at /network/nodes/sw/egress/0/preemption/hold_advance: negative: found "-1us", expected a duration that is not negative)"},
+    {"TwoPreemptions", with_egress(R"({"preemption": {"preemptable": [0]}, "preemption": {"preemptable": [1]}})"),
+     R"(2:38: error at /network/nodes/sw/egress/0/preemption: the name "preemption" occurs twice: expected one value (the first is in line 2, column 2))"},
+    {"TwoEntriesForAllPorts", with_egress(R"({"preemption": {"preemptable": [0]}}, {"preemption": {"preemptable": [1]}})"),
+     R"(2:39: error at /network/nodes/sw/egress/1: a port configured twice: found all ports a second time, expected one entry for a port)"},
+    {"TwoEntriesForAPort", with_egress(R"({"to": "b", "preemption": {"preemptable": [0]}}, {"to": "b", "cut_through": [1]})"),
+     R"(2:50: error at /network/nodes/sw/egress/1: a port configured twice: found "b" a second time, expected one entry for a port)"},
+    {"CutThroughOfPreemptable", with_egress(R"({"preemption": {"preemptable": [0, 1]}, "cut_through": [1, 7]})"),
+     R"(2:56: error at /network/nodes/sw/egress/0/cut_through: cut-through of a preemptable class: found class 1, whose frames may be cut while they come, expected express classes)"},
+    {"CutThroughWithAts", with_egress(R"({"ats": [3, 5], "cut_through": [5]})"),
+     R"(2:32: error at /network/nodes/sw/egress/0/cut_through: cut-through of a class with ATS: found class 5, whose eligibility times count from the last bit, expected classes without ATS)"},
+    {"AtsAndShaper", with_egress(R"({"ats": [3], "shapers": [{"class": 3, "idle_slope": "10Mbps"}]})"),
+     R"(2:9: error at /network/nodes/sw/egress/0/ats: two transmission selection algorithms: found class 3 with a credit-based shaper and ATS, expected one for a class)"},
+    {"AtsClasses", with_egress(R"({"ats": [3, 3, 9]})"),
+     R"(2:13: error at /network/nodes/sw/egress/0/ats/1: occurs twice: found the number 3, expected items that differ
+2:16: error at /network/nodes/sw/egress/0/ats/2: out of range: found the number 9, expected an integer from 0 to 7)"},
+    {"CutThroughClasses", with_egress(R"({"cut_through": [7, 7, 8]})"),
+     R"(2:21: error at /network/nodes/sw/egress/0/cut_through/1: occurs twice: found the number 7, expected items that differ
+2:24: error at /network/nodes/sw/egress/0/cut_through/2: out of range: found the number 8, expected an integer from 0 to 7)"},
+    {"UnknownMacOperation", with_egress(R"({"gates": {"entries": [{"open": [3], "for": "20us", "mac": "holds"}]}})"),
+     R"(2:60: error at /network/nodes/sw/egress/0/gates/entries/0/mac: unknown name for what an entry asks of the MAC: found "holds", expected "none", "hold" or "release" (did you mean "hold"?))"},
+    {"UntaggedAsText", with_egress(R"({"to": "b", "untagged": "yes"})"),
+     R"(2:25: error at /network/nodes/sw/egress/0/untagged: wrong type: found the string "yes", expected true or false)"},
+    {"UnknownEgressField", with_egress(R"({"preempt": {"preemptable": [0]}})"),
+     R"(2:2: error at /network/nodes/sw/egress/0/preempt: unknown field "preempt" (did you mean "preemption"?))"},
+    {"CutThroughHeader", with_switch(R"("cut_through_header": "5B")"),
+     R"(2:23: error at /network/nodes/sw/cut_through_header: out of range: found "5B", expected a size from 14B to 72B)"},
+    {"UntaggedTowardsASwitch", with_egress(R"({"untagged": true})", R"("far": {"kind": "switch"}, )", R"(, {"ends": ["sw", "far"]})"),
+     R"(2:14: error at /network/nodes/sw/egress/0/untagged: tags taken off before a switch: found a port to the switch "far", which would forget the priorities, expected ports to hosts)"},
+    {"AHostForwardsNothing", with_host_egress(R"({"cut_through": [3], "ats": [2]})"),
+     R"(2:17: error at /network/nodes/a/egress/0/cut_through: cut-through in a host: found a host, which forwards nothing, expected a switch
+2:29: error at /network/nodes/a/egress/0/ats: ATS in a host: found a host, whose frames meet no ATS scheduler, expected a switch; "launch" of a stream for a host)"},
+    {"AHostWithoutTags", with_host_egress(R"({"untagged": true})"),
+     R"(2:14: error at /network/nodes/a/egress/0/untagged: tags taken off before a switch: found a port to the switch "sw", which would forget the priorities, expected ports to hosts)"},
+    {"NegativeLaunch", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "1B", "every": "1ms", "pcp": 3, "launch": "-1us"})"),
+     R"(2:92: error at /streams/0/launch: negative: found "-1us", expected a duration that is not negative)"},
+    {"LaunchAsNumber", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "1B", "every": "1ms", "pcp": 3, "launch": 5})"),
+     R"(2:92: error at /streams/0/launch: wrong type: found the number 5, expected a duration such as the string "200us")"},
+};
+
+INSTANTIATE_TEST_SUITE_P(BadEgress, BadInput, testing::ValuesIn(cases), name_of_case);
+
+}  // namespace
+}  // namespace takt::scenario::test

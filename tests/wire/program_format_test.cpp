@@ -1,0 +1,198 @@
+// Messages of Programs: the exact octets, round trips, the general decoder as a second opinion, and whatever else arrives.
+#include "wire/program_format.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+
+#include "support.hpp"
+#include "uadp/data_set_message.hpp"
+#include "uadp/network_message.hpp"
+
+namespace takt::wire {
+namespace {
+
+using test::shape;
+using Buffer = std::array<std::byte, 1500>;
+
+StateMessage sample() {
+  StateMessage message;
+  message.sender = 2;
+  message.sequence = 0xBEEF;
+  message.word.incarnation = 0x01020304;
+  message.word.state = handshake::PublishedState::Suspended;
+  message.word.intent.number = 0x11223344;
+  message.word.intent.kind = handshake::IntentKind::Suspend;
+  message.word.intent.origin = 1;
+  message.word.intent.run = 0x55667788;
+  message.word.run = 0x99AABBCC;
+  return message;
+}
+
+std::vector<unsigned> numbers(uadp::Octets octets) {
+  std::vector<unsigned> all;
+  for (const std::byte octet : octets) all.push_back(std::to_integer<unsigned>(octet));
+  return all;
+}
+
+/// The 20 octets before the fields.
+std::vector<unsigned> head(std::uint32_t version, unsigned publisher, unsigned group, unsigned sequence) {
+  const auto low = [](unsigned value, unsigned octet) { return value >> (8 * octet) & 0xFF; };
+  return {0xB1, 0x01, low(publisher, 0), low(publisher, 1), 0x0F, low(group, 0), low(group, 1), low(version, 0), low(version, 1), low(version, 2), low(version, 3),
+          1, 0, low(sequence, 0), low(sequence, 1), 0x1B, low(sequence, 0), low(sequence, 1), 0, 0};
+}
+
+TEST(ProgramFormat, OctetsOfARobustState) {
+  const ProgramFormat format(shape());
+  Buffer buffer;
+  std::vector<unsigned> expected = head(format.group_version(), 0x0102, 1, 0xBEEF);
+  const std::vector<unsigned> fields = {14, 0, 0, 0, 4, 3, 2, 1, 0xCC, 0xBB, 0xAA, 0x99, 0x44, 0x33, 0x22, 0x11, 0x88, 0x77, 0x66, 0x55, 2, 1};
+  expected.insert(expected.end(), fields.begin(), fields.end());
+  EXPECT_EQ(numbers(format.encode(sample(), buffer)), expected);
+  EXPECT_EQ(expected.size(), 42u);
+  EXPECT_EQ(state_octets(handshake::Variant::Robust), 42u);
+}
+
+TEST(ProgramFormat, OctetsOfAStateOfPaper) {
+  const ProgramFormat format(shape(handshake::Variant::Paper));
+  Buffer buffer;
+  std::vector<unsigned> expected = head(format.group_version(), 0x0102, 1, 0xBEEF);
+  expected.insert(expected.end(), {14, 0, 0, 0});
+  EXPECT_EQ(numbers(format.encode(sample(), buffer)), expected);
+  EXPECT_EQ(expected.size(), state_octets(handshake::Variant::Paper));
+}
+
+TEST(ProgramFormat, OctetsOfProcessData) {
+  const ProgramFormat format(shape());
+  Buffer buffer;
+  std::vector<unsigned> expected = head(format.group_version(), 0x0101, 3, 0x0102);
+  expected.insert(expected.end(), {0x98, 0xBA, 0xDC, 0xFE, 5, 6, 7});
+  const std::array<std::byte, 3> fields{std::byte{5}, std::byte{6}, std::byte{7}};
+  EXPECT_EQ(numbers(format.encode(ProcessDataMessage{1, 1, 0x0102, 0xFEDCBA98, fields}, buffer)), expected);
+  EXPECT_EQ(expected.size(), process_data_octets(3));
+  EXPECT_EQ(format.encode(ProcessDataMessage{0, 0, 1, 1, {}}, buffer).size(), process_data_octets(10));
+}
+
+// The hot path writes what the general codec reads.
+TEST(ProgramFormat, TheGeneralDecoderAgrees) {
+  const ProgramFormat format(shape());
+  Buffer buffer;
+  uadp::NetworkMessage message;
+  ASSERT_EQ(uadp::decode(format.encode(sample(), buffer), message), uadp::Verdict::ok);
+  EXPECT_EQ(message.header.publisher_id, uadp::PublisherId::uint16(0x0102));
+  EXPECT_EQ(message.header.group, (uadp::GroupHeader{std::uint16_t{1}, format.group_version(), std::uint16_t{1}, std::uint16_t{0xBEEF}}));
+  EXPECT_EQ(message.payload_offset, 15u);
+  uadp::DataSetMessage data_set;
+  ASSERT_EQ(uadp::decode(message.payload, data_set), uadp::Verdict::ok);
+  EXPECT_EQ(data_set.header.encoding, uadp::FieldEncoding::RawData);
+  EXPECT_EQ(data_set.header.sequence_number, std::uint16_t{0xBEEF});
+  EXPECT_EQ(message.payload_offset + data_set.body_offset, fields_at);
+}
+
+TEST(ProgramFormat, EveryStateAndIntentMakesTheRoundTrip) {
+  const ProgramFormat format(shape());
+  Buffer buffer;
+  for (std::size_t state = 0; state < handshake::published_state_count; ++state) {
+    for (std::size_t kind = 0; kind < handshake::intent_kind_count; ++kind) {
+      for (const std::uint32_t number : {std::uint32_t{0}, std::uint32_t{1}, std::numeric_limits<std::uint32_t>::max()}) {
+        StateMessage message = sample();
+        message.word.state = handshake::published_state_at(state);
+        message.word.intent.kind = static_cast<handshake::IntentKind>(kind);
+        message.word.intent.number = message.word.intent.run = message.word.run = message.word.incarnation = number;
+        const auto decoded = format.decode(format.encode(message, buffer));
+        ASSERT_TRUE(decoded);
+        EXPECT_EQ(std::get<StateMessage>(*decoded), message);
+      }
+    }
+  }
+}
+
+TEST(ProgramFormat, PaperKeepsTheStateAlone) {
+  const ProgramFormat format(shape(handshake::Variant::Paper));
+  Buffer buffer;
+  const auto decoded = format.decode(format.encode(sample(), buffer));
+  ASSERT_TRUE(decoded);
+  EXPECT_EQ(std::get<StateMessage>(*decoded).word, (handshake::Word{0, handshake::PublishedState::Suspended, {}, 0}));
+}
+
+TEST(ProgramFormat, PaddingIsPassedOver) {
+  const ProgramFormat format(shape());
+  Buffer buffer;
+  const std::array<std::byte, 3> fields{std::byte{5}, std::byte{6}, std::byte{7}};
+  const std::size_t size = format.encode(ProcessDataMessage{1, 1, 9, 8, fields}, buffer).size();
+  const auto decoded = format.decode(std::span(buffer).first(size + 19));
+  ASSERT_TRUE(decoded);
+  EXPECT_EQ(std::get<ProcessDataMessage>(*decoded).run, 8u);
+  EXPECT_EQ(numbers(std::get<ProcessDataMessage>(*decoded).fields), (std::vector<unsigned>{5, 6, 7}));
+}
+
+TEST(ProgramFormat, TruncatedOnesAreNone) {
+  const ProgramFormat format(shape());
+  Buffer buffer;
+  const auto state = format.encode(sample(), buffer);
+  for (std::size_t length = 0; length < state.size(); ++length) EXPECT_FALSE(format.decode(state.first(length))) << length;
+  const auto data = format.encode(ProcessDataMessage{0, 0, 1, 1, {}}, buffer);
+  for (std::size_t length = 0; length < data.size(); ++length) EXPECT_FALSE(format.decode(data.first(length))) << length;
+}
+
+// Every constant octet counts; sequence numbers, status and most fields may be anything.
+TEST(ProgramFormat, ForeignValuesAreNone) {
+  const ProgramFormat format(shape());
+  Buffer buffer;
+  const auto taken = [&](std::size_t position, unsigned value) {
+    const auto octets = format.encode(sample(), buffer);
+    buffer[position] = static_cast<std::byte>(value);
+    return format.decode(octets).has_value();
+  };
+  for (std::size_t position = 0; position < 16; ++position) {
+    const bool is_sequence = position == 13 || position == 14;
+    const bool is_other_sender = position == 2;  // 0 and 1 are participants too
+    EXPECT_EQ(taken(position, 0x55), is_sequence) << position;
+    const bool is_zero = position == 6 || position == 12;  // already
+    EXPECT_EQ(taken(position, 0x00), is_sequence || is_other_sender || is_zero) << position;
+  }
+  for (unsigned state = 0; state < 256; ++state) EXPECT_EQ(taken(20, state), state >= 11 && state <= 15) << state;
+  for (unsigned intent = 0; intent < 256; ++intent) EXPECT_EQ(taken(40, intent), intent < handshake::intent_kind_count) << intent;
+}
+
+// A data set has one sender.
+TEST(ProgramFormat, DataOfAnotherSenderIsNone) {
+  const ProgramFormat format(shape());
+  Buffer buffer;
+  const auto octets = format.encode(ProcessDataMessage{1, 1, 1, 1, {}}, buffer);
+  EXPECT_TRUE(format.decode(octets));
+  buffer[2] = std::byte{2};
+  EXPECT_FALSE(format.decode(octets));
+}
+
+TEST(ProgramFormat, AnotherGroupVersionIsNone) {
+  ProgramShape other = shape();
+  other.data_sets[0].fields[0].name = "other";
+  Buffer buffer;
+  EXPECT_FALSE(ProgramFormat(shape()).decode(ProgramFormat(other).encode(sample(), buffer)));
+}
+
+// Whatever is decoded is valid, whatever arrives.
+TEST(ProgramFormat, GarbageIsBounded) {
+  const ProgramFormat format(shape());
+  std::uint64_t chance = 1;
+  std::size_t taken = 0;
+  Buffer buffer;
+  for (int round = 0; round < 200'000; ++round) {
+    const auto octets = format.encode(sample(), buffer);
+    for (int change = 0; change < 2; ++change) {
+      chance = chance * 6364136223846793005ULL + 1442695040888963407ULL;
+      buffer[chance >> 32 & 63] = static_cast<std::byte>(chance >> 59);  // small values are likelier to be valid
+    }
+    const auto message = format.decode(octets);
+    if (!message) continue;
+    ++taken;
+    const auto* const state = std::get_if<StateMessage>(&*message);
+    EXPECT_TRUE(state == nullptr || handshake::is_valid(state->word));
+  }
+  EXPECT_GT(taken, 0u);
+}
+
+}  // namespace
+}  // namespace takt::wire

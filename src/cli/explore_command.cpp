@@ -1,0 +1,230 @@
+// takt explore: every order of messages, calls and faults of a small group.
+#include <CLI/CLI.hpp>
+#include <unistd.h>
+
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "explore/replay.hpp"
+#include "explore/report.hpp"
+#include "explore/schedule.hpp"
+#include "explore/search.hpp"
+#include "scenario/resolve.hpp"
+#include "scenario/run.hpp"
+
+namespace takt::cli {
+namespace {
+
+struct ExploreOptions {
+  std::string scenario;
+  std::optional<unsigned> slaves;
+  std::optional<std::string> variant;
+  std::vector<std::string> faults;
+  explore::Question question;
+  std::optional<std::uint32_t> calls;
+  bool no_symmetry = false;
+  bool no_finish = false;
+  bool quiet = false;
+  std::string out;
+  std::string format = "text";
+};
+
+struct Subject {
+  std::string name;
+  explore::Question question;
+};
+
+/// Runs that end in a minute or so: fewer calls where there are more slaves.
+std::uint32_t usual_calls(unsigned slaves) { return slaves == 1 ? 4 : slaves == 2 ? 2 : 1; }
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// One line on standard error, where a terminal is.
+class Line {
+ public:
+  explicit Line(bool is_wanted) : is_wanted_(is_wanted && ::isatty(STDERR_FILENO) == 1) {}
+  ~Line() {
+    if (is_drawn_) std::fputs("\r\033[K", stderr);
+  }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+  void show(std::uint64_t found, std::uint64_t expanded, std::uint32_t depth) {
+    if (!is_wanted_) return;
+    is_drawn_ = true;
+    if (depth != 0)
+      std::fprintf(stderr, "\rdepth %u: %.1f M states, %.1f M to go\033[K", depth, static_cast<double>(found) / 1e6, static_cast<double>(found - expanded) / 1e6);
+    else
+      std::fprintf(stderr, "\rcycles: %.0f %% of %.1f M states\033[K", 100.0 * static_cast<double>(expanded) / static_cast<double>(found), static_cast<double>(found) / 1e6);
+  }
+
+ private:
+  bool is_wanted_;
+  bool is_drawn_ = false;
+};
+
+/// What is to be explored: the group of the options, or each Program of the scenario. Empty after a mistake.
+std::vector<Subject> subjects_of(const ExploreOptions& options) {
+  std::vector<Subject> subjects;
+  explore::Question question = options.question;
+  question.symmetry = !options.no_symmetry;
+  question.finishes = !options.no_finish;
+  for (std::size_t f = 0; f < explore::fault_count; ++f)
+    for (const std::string& each : options.faults)
+      if (each == explore::fault_names[f]) question.faults.insert(static_cast<explore::Fault>(f));
+  const auto variant_of = [&](handshake::Variant otherwise) {
+    if (!options.variant) return otherwise;
+    return *options.variant == "paper" ? handshake::Variant::Paper : handshake::Variant::Robust;
+  };
+  const auto add = [&](std::string name, std::size_t slaves, handshake::Variant variant) {
+    question.slaves = static_cast<std::uint8_t>(slaves);
+    question.variant = variant_of(variant);
+    question.commands = options.calls.value_or(usual_calls(question.slaves));
+    subjects.push_back({std::move(name), question});
+  };
+  if (options.scenario.empty()) {
+    if (!options.slaves) {
+      std::fputs("takt: explore needs a scenario or --slaves N\n", stderr);
+      return {};
+    }
+    add("group", *options.slaves, handshake::Variant::Robust);
+    return subjects;
+  }
+  scenario::json::Diagnostics diagnostics;
+  const auto resolved = scenario::load_file(options.scenario, {}, diagnostics);
+  std::fputs(diagnostics.to_text().c_str(), stderr);
+  if (!resolved) return {};
+  for (const scenario::Program& program : resolved->scenario.programs) {
+    const std::size_t slaves = options.slaves.value_or(static_cast<unsigned>(program.slaves.size()));
+    if (slaves > explore::most_slaves) {
+      std::fprintf(stderr, "takt: Program %s has %zu slaves; at most %zu can be explored: give --slaves N to explore a smaller group with its variant\n",
+                   program.name.c_str(), slaves, explore::most_slaves);
+      return {};
+    }
+    add(program.name, slaves, program.variant == scenario::Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper);
+  }
+  if (subjects.empty()) std::fputs("takt: the scenario has no Programs to explore\n", stderr);
+  return subjects;
+}
+
+/// Whether `takt run` does the same: the same invariant is violated; or, where the group does not settle, all end in the same
+/// states, or still change at the end.
+bool replays(const std::string& text, const explore::Story& story, explore::Property property) {
+  scenario::json::Diagnostics diagnostics;
+  const auto resolved = scenario::load_text(text, "finding", {}, diagnostics);
+  std::fputs(diagnostics.to_text().c_str(), stderr);
+  if (!resolved) return false;
+  scenario::Run run(*resolved);
+  constexpr auto last_moments = sim::Duration::from_ps(10'000'000'000);
+  if (story.cycle != 0) run.simulation().run(run.end() + -last_moments);
+  const std::uint64_t changes = run.monitor(0).changes();
+  run.advance();
+  for (const scenario::ViolationRecord& each : run.monitor(0).violations())
+    if (handshake::name_of(each.violation.invariant) == explore::name_of(property)) return true;
+  if (property != explore::Property::L1 && property != explore::Property::F1) return false;
+  if (story.cycle != 0) return run.monitor(0).changes() > changes;
+  const explore::Told& last = story.steps.back();
+  for (std::size_t i = 0; i < last.states.size(); ++i)
+    if (!last.down[i] && run.state(0, i) != last.states[i]) return false;
+  return true;
+}
+
+/// Writes the scenario of one counter-example and says whether it does the same. False if the file cannot be written.
+bool write_finding(const Subject& subject, const explore::Answer& answer, explore::Property property, const explore::Trace& trace, const std::string& folder) {
+  const explore::Story story = explore::replay(subject.question, answer.beginnings[trace.beginning], trace);
+  const std::string name = subject.name + (trace.cycle != 0 ? "-chase-" : "-") + std::string(explore::name_of(property));
+  const explore::ScenarioText text = explore::scenario_of(subject.question, story, property, name);
+  const std::string path = folder + "/" + name + ".json";
+  std::ofstream file(path + ".tmp", std::ios::binary);
+  file << text.json;
+  file.close();
+  std::error_code error;
+  std::filesystem::rename(path + ".tmp", path, error);
+  if (!file || error) {
+    std::fprintf(stderr, "takt: cannot write %s\n", path.c_str());
+    return false;
+  }
+  std::fprintf(stderr, "%s: %s\n", path.c_str(), replays(text.json, story, property) ? "takt run does the same" : "takt run does not do the same");
+  for (const std::string& each : text.missing) std::fprintf(stderr, "  no scenario can say: %s\n", each.c_str());
+  return true;
+}
+
+/// One scenario for each violated property.
+bool write_findings(const Subject& subject, const explore::Answer& answer, const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  for (std::size_t p = 0; p < explore::property_count; ++p) {
+    const auto property = static_cast<explore::Property>(p);
+    if (answer[property] == explore::Verdict::violated && answer.traces[p] && !write_finding(subject, answer, property, *answer.traces[p], folder)) return false;
+  }
+  return !answer.chase || write_finding(subject, answer, explore::Property::L1, *answer.chase, folder);
+}
+
+ExitStatus run(const ExploreOptions& options) {
+  const std::vector<Subject> subjects = subjects_of(options);
+  if (subjects.empty()) return ExitStatus::bad_input;
+  const InterruptGuard interrupt;
+  ExitStatus status = ExitStatus::pass;
+  for (const Subject& subject : subjects) {
+    const double began = cpu_seconds();
+    explore::Answer answer;
+    {
+      Line line(!options.quiet);
+      answer = explore::explore(subject.question, [&](std::uint64_t found, std::uint64_t expanded, std::uint32_t depth) {
+        line.show(found, expanded, depth);
+        return !interrupt.requested();
+      });
+    }
+    const double spent = cpu_seconds() - began;
+    const bool is_json = options.format == "json";
+    const std::string page = is_json ? explore::json_report(subject.question, answer, spent) : explore::text_report(subject.question, answer, spent);
+    if (!is_json && subjects.size() > 1) std::printf("Program %s\n", subject.name.c_str());
+    std::fputs(page.c_str(), stdout);
+    if (!options.out.empty() && !write_findings(subject, answer, options.out)) return ExitStatus::internal_error;
+    if (answer.interrupted && !answer.any_violated()) return ExitStatus::interrupted;
+    if (!answer.all_hold()) status = ExitStatus::requirement_failed;
+  }
+  return status;
+}
+
+}  // namespace
+
+void add_explore_command(CLI::App& app, ExitStatus& status) {
+  CLI::App& command = *app.add_subcommand("explore", "Search every order of messages, calls and faults of a small group");
+  const auto options = std::make_shared<ExploreOptions>();
+  command.add_option("scenario", options->scenario, "Take variant and slaves from its Programs")->type_name("SCENARIO");
+  command.add_option("--slaves", options->slaves, "Slaves of the group")->check(CLI::Range(1U, static_cast<unsigned>(explore::most_slaves)))->type_name("N");
+  command.add_option("--variant", options->variant, "The handshake (default: robust, or the scenario's)")->check(CLI::IsMember({"paper", "robust"}));
+  command.add_option("--faults", options->faults, "Classes of faults, with commas between")
+      ->delimiter(',')
+      ->check(CLI::IsMember(std::vector<std::string>(explore::fault_names.begin(), explore::fault_names.end())));
+  command.add_option("--fault-budget", options->question.fault_budget, "Faults in a run, of all classes together")
+      ->check(CLI::Range(0U, explore::most_faults))
+      ->capture_default_str();
+  command.add_option("--calls", options->calls, "Method calls and ends of the Program in a run (default: 4, 2, 1, 1 for 1 to 4 slaves)")
+      ->check(CLI::Range(0U, explore::most_commands));
+  command.add_option("--depth", options->question.depth, "Steps of a run")->type_name("D");
+  command.add_option("--budget", options->question.states, "States to store at most")
+      ->check(CLI::Range(std::uint64_t{1}, explore::most_states))
+      ->type_name("STATES")
+      ->capture_default_str();
+  command.add_flag("--no-finish", options->no_finish, "No Program ends by itself");
+  command.add_flag("--no-symmetry", options->no_symmetry, "Tell equal slaves apart");
+  command.add_option("--out", options->out, "Write a scenario for each violation into this folder")->type_name("DIR");
+  command.add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  command.add_flag("--quiet", options->quiet, "No progress line");
+  command.footer(
+      "Examples:\n"
+      "  takt explore --slaves 2 --variant robust --faults loss,crash\n"
+      "  takt explore --slaves 1 --variant paper --out findings\n"
+      "  takt explore scenarios/robot-arm.json --faults restart,timeout --format json\n"
+      "Exit status: 0 all hold, 1 violated, not reached or not decided, 2 bad input, 130 interrupted.");
+  command.callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace takt::cli

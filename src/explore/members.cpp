@@ -1,0 +1,215 @@
+#include "explore/members.hpp"
+
+#include <algorithm>
+
+#include "sim/check.hpp"
+
+namespace takt::explore {
+
+using handshake::Input;
+using handshake::Outputs;
+using handshake::PublishedState;
+using handshake::StateChange;
+using handshake::Variant;
+using handshake::Word;
+
+namespace {
+
+/// S5 as the observer judges it: the changes of a step follow each other and stand in the table.
+bool are_transitions(PublishedState from, std::span<const StateChange> changes) {
+  for (const StateChange& change : changes) {
+    if (change.from != from) return false;
+    from = change.to;
+    const bool substate = (change.from == PublishedState::Halted && change.to == PublishedState::HaltedInit) ||
+                          (change.from == PublishedState::HaltedInit && change.to == PublishedState::Halted);
+    const program::Transition* transition = program::transition_with_number(change.transition);
+    const bool in_table = transition != nullptr && change.to != PublishedState::HaltedInit &&
+                          transition->from == handshake::base_state(change.from) && transition->to == handshake::base_state(change.to);
+    if (change.transition == 0 ? !substate : !in_table) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Members::Members(const Question& question, const Renamings& renamings) : question_(question), renamings_(&renamings) {
+  words_.append(Word{});  // no_word
+  renamed_word_.assign(renamings.size(), no_word);
+  word_orbit_.push_back(0);
+  effects_.intern(Effect{});  // nothing
+}
+
+handshake::Config Members::config(std::size_t index, std::uint32_t incarnation) const {
+  return {question_.variant, index == 0 ? handshake::Role::Master : handshake::Role::Slave, static_cast<std::uint8_t>(index),
+          question_.slaves, incarnation};
+}
+
+MemberId Members::fresh(std::size_t index, std::uint32_t incarnation) {
+  return intern(Participant(config(index, incarnation)));
+}
+
+MemberId Members::down(std::size_t index, std::uint32_t incarnation) {
+  while (down_.size() <= incarnation) {
+    std::vector<MemberId> all;
+    for (std::size_t i = 0; i <= question_.slaves; ++i) {
+      all.push_back(values_.append(Participant(config(i, static_cast<std::uint32_t>(down_.size())))));
+      add_traits(all.back());
+      traits_.back().down = true;
+      traits_.back().calls = 0;
+    }
+    for (const MemberId member : all) {
+      std::vector<MemberId> images;
+      for (std::size_t r = 0; r < renamings_->size(); ++r) images.push_back(all[(*renamings_)[r].to[traits_[member].index]]);
+      add_images(images);
+    }
+    down_.push_back(all);
+  }
+  return down_[incarnation][index];
+}
+
+Stepped Members::step_anew(MemberId member, const Stimulus& stimulus) {
+  const Stepped stepped = step_value(member, stimulus);
+  steps_.insert(key_of(member, stimulus), pack(stepped));
+  compare_under_other_names(member, stimulus, stepped);
+  return stepped;
+}
+
+/// Of two intents that differ in their origin the greater wins, whatever the names were: that changes words but not what
+/// anybody does, and is no effect.
+void Members::compare_under_other_names(MemberId member, const Stimulus& stimulus, const Stepped& stepped) {
+  const bool at_master = traits_[member].index == 0;
+  for (std::size_t r = 1; r < renamings_->size(); ++r) {
+    const MemberId other = renamed(member, r);
+    const Stimulus there = renamed_stimulus(stimulus, at_master, r);
+    if (steps_.find(key_of(other, there)) != Memo::absent) continue;
+    const Stepped same = step_value(other, there);
+    steps_.insert(key_of(other, there), pack(same));
+    if (same.effect != stepped.effect || same.data_counts != stepped.data_counts) symmetric_ = false;
+  }
+}
+
+Stepped Members::step_value(MemberId member, const Stimulus& stimulus) {
+  const Participant before = values_[member];
+  Participant after = before;
+  const Outputs outputs = after.step(input_of(before, stimulus));
+  Stepped stepped;
+  stepped.member = intern(after);
+  if (stimulus.kind == Input::Kind::Received)
+    stepped.data_counts = words_[stimulus.word].state == PublishedState::Running && !outputs.ignored && after.process_data_counts(stimulus.what);
+  stepped.effect = effect_of(before, after, stimulus, outputs);
+  return stepped;
+}
+
+Input Members::input_of(const Participant& value, const Stimulus& stimulus) const {
+  switch (stimulus.kind) {
+    case Input::Kind::Command: return Input::command(program::methods[stimulus.what].method);
+    case Input::Kind::Received: return Input::received(stimulus.what, words_[stimulus.word], stimulus.overtaken ? 0 : 1);
+    case Input::Kind::Initialised: return Input::initialised(value.intent().run);
+    case Input::Kind::Finished: return Input::finished();
+    case Input::Kind::PeerSilent: return Input::peer_silent(stimulus.what);
+  }
+  return Input::finished();
+}
+
+Stimulus Members::renamed_stimulus(const Stimulus& stimulus, bool at_master, std::size_t renaming) const {
+  Stimulus result = stimulus;
+  const bool has_peer = stimulus.kind == Input::Kind::Received || stimulus.kind == Input::Kind::PeerSilent;
+  if (has_peer && at_master) result.what = static_cast<std::uint8_t>((*renamings_)[renaming].to[stimulus.what + 1U] - 1U);
+  result.word = renamed_word(stimulus.word, renaming);
+  return result;
+}
+
+std::uint16_t Members::effect_of(const Participant& before, const Participant& after, const Stimulus& stimulus, const Outputs& outputs) {
+  Effect effect;
+  effect.change_count = outputs.change_count;
+  for (std::size_t i = 0; i < outputs.change_count; ++i) {
+    effect.change[i] = outputs.change[i];
+    if (outputs.change[i].transition != 0) effect.properties.insert(transition_property(outputs.change[i].transition));
+  }
+  effect.joins = before.state() == PublishedState::Ready && after.state() == PublishedState::Ready && before.run() != after.run();
+  if (effect.change_count != 0 || effect.joins) effect.run = after.run();
+  effect.raised = outputs.raised && question_.variant == Variant::Paper;  // `robust` says it in the words
+  if (effect.raised) effect.kind = outputs.raised_kind;
+  if (!are_transitions(before.state(), outputs.changes())) effect.properties.insert(Property::S5);
+  if (stimulus.kind == Input::Kind::PeerSilent && after.state() != PublishedState::Halted) effect.properties.insert(Property::F1);
+  const bool robust = question_.variant == Variant::Robust;
+  if (robust && stimulus.kind == Input::Kind::Received && !outputs.ignored && words_[stimulus.word].state == PublishedState::Running &&
+      after.process_data_counts(stimulus.what) && words_[stimulus.word].run != after.run())
+    effect.properties.insert(Property::S3);
+  const std::uint32_t id = effects_.intern(effect);
+  TAKT_CHECK(id <= 0xFFFF, "a step has few effects");
+  return static_cast<std::uint16_t>(id);
+}
+
+MemberId Members::intern(const Participant& value) {
+  const MemberId member = values_.intern(value);
+  if (member < traits_.size()) return member;
+  std::vector<MemberId> images;
+  for (std::size_t r = 0; r < renamings_->size(); ++r) {
+    images.push_back(values_.intern(explore::renamed(value, (*renamings_)[r])));
+    if (images.back() == traits_.size()) add_traits(images.back());
+  }
+  add_images(images);
+  return member;
+}
+
+/// What it accepts is tried once, so that the search asks for nothing in vain.
+void Members::add_traits(MemberId member) {
+  const Participant value = values_[member];
+  Traits traits;
+  traits.word = intern_word(value.word());
+  traits.state = value.state();
+  traits.index = value.config().index;
+  for (const program::MethodInfo& method : program::methods) {
+    // The paper lets everybody be started; the adversary calls Start at the master only, as `robust` allows.
+    if (method.method == program::Method::Start && traits.index != 0) continue;
+    Participant tried = value;
+    if (program::is_good(tried.step(Input::command(method.method)).status))
+      traits.calls = static_cast<std::uint8_t>(traits.calls | 1U << program::index_of(method.method));
+  }
+  traits_.push_back(traits);
+}
+
+/// images[r] is what the first of them is under renaming r.
+void Members::add_images(const std::vector<MemberId>& images) {
+  const std::size_t count = renamings_->size();
+  renamed_.resize(traits_.size() * count);
+  for (std::size_t r = 0; r < count; ++r) {
+    traits_[images[r]].orbit = *std::min_element(images.begin(), images.end());
+    for (std::size_t s = 0; s < count; ++s) renamed_[images[r] * count + s] = images[renamings_->then(r, s)];
+  }
+}
+
+WordId Members::intern_word(const Word& word) {
+  const std::uint32_t id = words_.intern(word);
+  if (id < word_orbit_.size()) return static_cast<WordId>(id);
+  const std::size_t count = renamings_->size();
+  std::vector<std::uint32_t> images;
+  for (std::size_t r = 0; r < count; ++r) images.push_back(words_.intern(explore::renamed(word, (*renamings_)[r])));
+  TAKT_CHECK(words_.size() <= 0x10000, "an exploration has at most 65535 different words: allow fewer calls or faults");
+  renamed_word_.resize(words_.size() * count, no_word);
+  word_orbit_.resize(words_.size(), 0);
+  const std::uint32_t orbit = *std::min_element(images.begin(), images.end());
+  for (std::size_t r = 0; r < count; ++r) {
+    word_orbit_[images[r]] = orbit;
+    for (std::size_t s = 0; s < count; ++s)
+      renamed_word_[images[r] * count + s] = static_cast<WordId>(images[renamings_->then(r, s)]);
+  }
+  return static_cast<WordId>(id);
+}
+
+std::size_t Members::HashOfWord::operator()(const Word& word) const {
+  std::uint64_t digest = mixed(std::uint64_t{word.incarnation} << 32 | word.run);
+  digest = mixed(digest ^ (std::uint64_t{word.intent.number} << 32 | word.intent.run));
+  return mixed(digest ^ (handshake::index_of(word.state) | handshake::index_of(word.intent.kind) << 8 | std::uint64_t{word.intent.origin} << 16));
+}
+
+std::size_t Members::HashOfEffect::operator()(const Effect& effect) const {
+  std::uint64_t digest = mixed(std::uint64_t{effect.run} << 32 | effect.properties.bits);
+  for (const StateChange& change : effect.change)
+    digest = mixed(digest ^ (change.transition | handshake::index_of(change.from) << 8 | handshake::index_of(change.to) << 16));
+  return mixed(digest ^ (effect.change_count | std::uint64_t{effect.joins} << 8 | std::uint64_t{effect.raised} << 9 |
+                         handshake::index_of(effect.kind) << 16));
+}
+
+}  // namespace takt::explore

@@ -1,0 +1,121 @@
+// All participants that occur in an exploration, as numbers. A participant and what happens to it give another number
+// and an effect; each such step is taken once by the very handshake code and then remembered.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "explore/ghost.hpp"
+#include "explore/hash_index.hpp"
+#include "explore/question.hpp"
+#include "explore/renamed_participant.hpp"
+#include "explore/renaming.hpp"
+#include "handshake/participant.hpp"
+
+namespace takt::explore {
+
+using MemberId = std::uint32_t;
+using WordId = std::uint16_t;  ///< 0: no word
+inline constexpr WordId no_word = 0;
+
+/// What happens to a participant.
+struct Stimulus {
+  handshake::Input::Kind kind = handshake::Input::Kind::Finished;
+  std::uint8_t what = 0;      ///< method or peer
+  WordId word = no_word;
+  bool overtaken = false;     ///< the word is older than the last one that was accepted
+};
+
+struct Stepped {
+  MemberId member = 0;
+  std::uint16_t effect = 0;     ///< 0: nothing to see
+  bool data_counts = false;     ///< process data in the message reaches the application
+};
+
+class Members {
+ public:
+  /// What the search asks most about a member.
+  struct Traits {
+    WordId word = no_word;                ///< what it publishes
+    handshake::PublishedState state = handshake::PublishedState::Halted;
+    std::uint8_t index = 0;
+    bool down = false;
+    std::uint8_t calls = 0;               ///< methods that it accepts, by index
+    std::uint32_t orbit = 0;              ///< the same number for whoever differs in names only
+  };
+
+  Members(const Question& question, const Renamings& renamings);
+
+  MemberId fresh(std::size_t index, std::uint32_t incarnation);
+  /// One that is down; it remembers only how often it was up.
+  MemberId down(std::size_t index, std::uint32_t incarnation);
+  const Traits& operator[](MemberId member) const { return traits_[member]; }
+  const Participant& value(MemberId member) const { return values_[member]; }
+  std::uint32_t incarnation(MemberId member) const { return values_[member].config().incarnation; }
+  std::size_t size() const { return traits_.size(); }
+
+  Stepped step(MemberId member, const Stimulus& stimulus) {
+    const std::uint64_t found = steps_.find(key_of(member, stimulus));
+    return found != Memo::absent ? unpack(found) : step_anew(member, stimulus);
+  }
+
+  const handshake::Word& word(WordId word) const { return words_[word]; }
+  std::size_t word_count() const { return words_.size(); }
+  std::uint32_t word_orbit(WordId word) const { return word_orbit_[word]; }
+  const Effect& effect(std::uint16_t effect) const { return effects_[effect]; }
+
+  MemberId renamed(MemberId member, std::size_t renaming) const { return renamed_[member * renamings_->size() + renaming]; }
+  WordId renamed_word(WordId word, std::size_t renaming) const { return renamed_word_[word * renamings_->size() + renaming]; }
+  /// False once a step did something else to slaves with other names: then they are not equal.
+  bool symmetric() const { return symmetric_; }
+
+ private:
+  struct HashOfValue {
+    std::size_t operator()(const Participant& value) const { return mixed(value.hash()); }
+  };
+  struct HashOfWord {
+    std::size_t operator()(const handshake::Word& word) const;
+  };
+  struct HashOfEffect {
+    std::size_t operator()(const Effect& effect) const;
+  };
+
+  static std::uint64_t key_of(MemberId member, const Stimulus& stimulus) {
+    return std::uint64_t{member} << 32 | static_cast<std::uint64_t>(stimulus.kind) << 28 | std::uint64_t{stimulus.what} << 20 |
+           std::uint64_t{stimulus.word} << 1 | std::uint64_t{stimulus.overtaken};
+  }
+  static std::uint64_t pack(const Stepped& stepped) {
+    return std::uint64_t{stepped.member} | std::uint64_t{stepped.effect} << 32 | std::uint64_t{stepped.data_counts} << 48;
+  }
+  static Stepped unpack(std::uint64_t packed) {
+    return {static_cast<MemberId>(packed), static_cast<std::uint16_t>(packed >> 32), ((packed >> 48) & 1U) != 0};
+  }
+
+  handshake::Config config(std::size_t index, std::uint32_t incarnation) const;
+  handshake::Input input_of(const Participant& value, const Stimulus& stimulus) const;
+  Stimulus renamed_stimulus(const Stimulus& stimulus, bool at_master, std::size_t renaming) const;
+  Stepped step_anew(MemberId member, const Stimulus& stimulus);
+  Stepped step_value(MemberId member, const Stimulus& stimulus);
+  void compare_under_other_names(MemberId member, const Stimulus& stimulus, const Stepped& stepped);
+  std::uint16_t effect_of(const Participant& before, const Participant& after, const Stimulus& stimulus, const handshake::Outputs& outputs);
+  MemberId intern(const Participant& value);
+  void add_traits(MemberId member);
+  void add_images(const std::vector<MemberId>& images);
+  WordId intern_word(const handshake::Word& word);
+
+  Question question_;
+  const Renamings* renamings_;
+  Interner<Participant, HashOfValue> values_;
+  std::vector<Traits> traits_;
+  std::vector<MemberId> renamed_;       ///< by member and renaming
+  Interner<handshake::Word, HashOfWord> words_;
+  std::vector<WordId> renamed_word_;
+  std::vector<std::uint32_t> word_orbit_;
+  Interner<Effect, HashOfEffect> effects_;
+  Memo steps_;
+  std::vector<std::vector<MemberId>> down_;  ///< by incarnation and index
+  bool symmetric_ = true;
+};
+
+}  // namespace takt::explore

@@ -1,0 +1,107 @@
+// The group on its abstract network: which actions there are, and what each makes of a state. README.md says the rules.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "explore/action.hpp"
+#include "explore/ghost.hpp"
+#include "explore/members.hpp"
+#include "explore/property.hpp"
+#include "explore/question.hpp"
+#include "explore/renaming.hpp"
+#include "explore/state.hpp"
+
+namespace takt::explore {
+
+/// One way in which a run begins: switched on, or at rest after some calls at the master.
+struct Beginning {
+  std::string name;
+  std::vector<Action> actions;  ///< from switched on
+  State state;
+};
+
+/// What an action leads to.
+struct Next {
+  State state;
+  PropertySet properties;  ///< violated or reached by it
+};
+
+class Model {
+ public:
+  explicit Model(const Question& question);
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+
+  const Question& question() const { return question_; }
+  const std::vector<Beginning>& beginnings() const { return beginnings_; }
+  /// Network actions first, calls then, faults last.
+  std::span<const Action> actions() const { return actions_; }
+  std::span<const Action> network_actions() const { return {actions_.data(), network_count_}; }
+
+  /// False if the action is not possible, or changes nothing.
+  bool act(const State& state, Action action, Next& next);
+  /// The same for all states that differ in the names of slaves only.
+  State canonical(const State& state);
+
+  /// The goal of L1 (somebody down: of F1) holds here.
+  bool settled(const State& state) const;
+  bool anybody_down(const State& state) const;
+  bool all_running(const State& state) const;
+  /// Slaves have turned out not to be equal; only without symmetry are the results right.
+  bool symmetric() const { return members_.symmetric(); }
+
+  Members& members() { return members_; }
+  const Members& members() const { return members_; }
+  std::size_t ghost_count() const { return ghosts_.size(); }
+
+ private:
+  struct HashOfGhost {
+    std::size_t operator()(const Ghost& ghost) const { return ghost.hash(); }
+  };
+
+  void list_actions();
+  void make_beginnings();
+  State switched_on();
+  void settle(Beginning& beginning);
+  void take(Beginning& beginning, Action action);
+
+  bool send(std::size_t channel, Next& next) const;
+  bool receive(std::size_t channel, Next& next);
+  bool deliver_late(Next& next);
+  bool call(std::size_t participant, std::size_t method, Next& next);
+  bool finish(std::size_t participant, Next& next);
+  bool lose(std::size_t channel, Next& next) const;
+  bool keep_copy(std::size_t channel, bool overtaken, Next& next) const;
+  bool crash(std::size_t participant, Next& next);
+  bool restart(std::size_t participant, Next& next);
+  bool expire(std::size_t participant, std::size_t peer, bool peer_is_down, Next& next);
+
+  bool step(std::size_t participant, const Stimulus& stimulus, Next& next, bool& data_counts);
+  bool step(std::size_t participant, const Stimulus& stimulus, Next& next) {
+    bool data_counts = false;
+    return step(participant, stimulus, next, data_counts);
+  }
+  void watch(std::size_t participant, std::uint16_t effect, Next& next);
+  std::uint32_t intern_ghost(const Ghost& ghost);
+  bool at_rest(const State& state) const;
+  bool is_down(const State& state, std::size_t participant) const { return members_[state.member(participant)].down; }
+  std::uint64_t sort_key(const State& state, std::size_t slave) const;
+  State renamed(const State& state, std::size_t renaming) const;
+  bool names_matter(const State& state) const;
+
+  Question question_;
+  Renamings renamings_;
+  Members members_;
+  Interner<Ghost, HashOfGhost> ghosts_;
+  std::vector<std::uint32_t> renamed_ghost_;  ///< by ghost and renaming
+  Memo watched_;                               ///< (ghost, participant, effect) -> (ghost, violated)
+  std::vector<Action> actions_;
+  std::size_t network_count_ = 0;
+  std::vector<Beginning> beginnings_;
+};
+
+}  // namespace takt::explore

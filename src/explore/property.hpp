@@ -1,0 +1,54 @@
+// The properties that an exploration decides.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace takt::explore {
+
+/// The first seven must always hold; the others must be reached sometimes, or a proof says nothing.
+enum class Property : std::uint8_t { S1, S2, S3, S4, S5, F1, L1, all_running, T1, T2, T3, T4, T5, T6, T7, T8, T9 };
+
+inline constexpr std::size_t property_count = 17;
+inline constexpr std::array<std::string_view, property_count> property_names{
+    "S1", "S2", "S3", "S4", "S5", "F1", "L1", "all_running",
+    "HaltedToReady", "ReadyToRunning", "RunningToHalted", "RunningToReady", "RunningToSuspended",
+    "SuspendedToRunning", "SuspendedToHalted", "SuspendedToReady", "ReadyToHalted"};
+inline constexpr std::array<std::string_view, property_count> property_texts{
+    "nobody is Running in a run before all were Ready in it",
+    "the master is Running only after all slaves were",
+    "process data counts only between two that are Running in the same run",
+    "from Halted to Running only through INIT",
+    "only the nine transitions occur",
+    "a silent peer halts everyone",
+    "without new calls and faults all reach the state that was asked for",
+    "everybody is Running at once",
+    "transition 1 fires", "transition 2 fires", "transition 3 fires", "transition 4 fires", "transition 5 fires",
+    "transition 6 fires", "transition 7 fires", "transition 8 fires", "transition 9 fires"};
+
+constexpr std::size_t index_of(Property property) { return static_cast<std::size_t>(property); }
+constexpr std::string_view name_of(Property property) { return property_names[index_of(property)]; }
+constexpr bool must_always_hold(Property property) { return property <= Property::L1; }
+constexpr Property transition_property(std::size_t number) { return static_cast<Property>(index_of(Property::T1) + number - 1); }
+
+/// A set of properties: violated, or reached.
+struct PropertySet {
+  std::uint32_t bits = 0;
+  constexpr bool contains(Property property) const { return ((bits >> index_of(property)) & 1U) != 0; }
+  constexpr void insert(Property property) { bits |= 1U << index_of(property); }
+  constexpr bool operator==(const PropertySet&) const = default;
+};
+
+enum class Verdict : std::uint8_t {
+  holds,
+  violated,
+  reached,
+  unreached,
+  unknown,  ///< the search ended before it could be decided
+};
+inline constexpr std::array<std::string_view, 5> verdict_names{"holds", "violated", "reached", "unreached", "unknown"};
+constexpr std::string_view name_of(Verdict verdict) { return verdict_names[static_cast<std::size_t>(verdict)]; }
+
+}  // namespace takt::explore

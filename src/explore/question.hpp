@@ -1,0 +1,45 @@
+// What is asked of an exploration: which group, what the adversary may do, and how far to look.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "handshake/participant.hpp"
+
+namespace takt::explore {
+
+/// The classes of faults. Each fault costs one of the budget of a run.
+enum class Fault : std::uint8_t { loss, duplicate, reorder, crash, restart, timeout };
+
+inline constexpr std::size_t fault_count = 6;
+inline constexpr std::array<std::string_view, fault_count> fault_names{"loss", "duplicate", "reorder", "crash", "restart", "timeout"};
+constexpr std::string_view name_of(Fault fault) { return fault_names[static_cast<std::size_t>(fault)]; }
+
+struct FaultSet {
+  std::uint8_t bits = 0;
+  constexpr bool contains(Fault fault) const { return ((bits >> static_cast<unsigned>(fault)) & 1U) != 0; }
+  constexpr void insert(Fault fault) { bits = static_cast<std::uint8_t>(bits | 1U << static_cast<unsigned>(fault)); }
+  constexpr bool operator==(const FaultSet&) const = default;
+};
+
+inline constexpr std::size_t most_slaves = 4;
+inline constexpr std::uint32_t most_commands = 12;
+inline constexpr std::uint32_t most_faults = 7;
+inline constexpr std::uint64_t most_states = 0xFFFF'FFF0ULL;
+
+struct Question {
+  handshake::Variant variant = handshake::Variant::Robust;
+  std::uint8_t slaves = 1;           ///< 1 to most_slaves
+  FaultSet faults;
+  std::uint32_t fault_budget = 1;    ///< faults in a run, of all classes together
+  std::uint32_t commands = 2;        ///< accepted method calls and ends of the Program in a run, after its beginning
+  bool finishes = true;              ///< Programs may end by themselves; each end counts as a call
+  std::uint32_t depth = ~0U;         ///< steps after the beginning
+  std::uint64_t states = 100'000'000;  ///< to store at most
+  bool symmetry = true;              ///< slaves that play the same part are one state
+  bool operator==(const Question&) const = default;
+};
+
+}  // namespace takt::explore

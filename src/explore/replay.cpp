@@ -1,0 +1,153 @@
+#include "explore/replay.hpp"
+
+#include <algorithm>
+
+#include "sim/check.hpp"
+
+namespace takt::explore {
+
+using handshake::Input;
+using handshake::Outputs;
+using handshake::Word;
+
+namespace {
+
+struct Message {
+  Word word;
+  std::uint16_t sequence = 0;
+  std::uint32_t sent_in = 0;
+  bool present = false;
+};
+
+class Player {
+ public:
+  explicit Player(const Question& question)
+      : question_(question), observer_(question.variant, question.slaves + 1U), sequence_(question.slaves + 1U, 0),
+        down_(question.slaves + 1U, false), register_(2U * question.slaves) {
+    for (std::size_t i = 0; i <= question.slaves; ++i) members_.push_back(Participant(config(i, 1)));
+  }
+
+  Told play(Action action) {
+    Told told;
+    told.action = action;
+    const std::size_t before = observer_.violations().size();
+    act(action, told);
+    for (std::size_t i = 0; i < members_.size(); ++i) told.states.push_back(members_[i].state());
+    told.down = down_;
+    told.violations.assign(observer_.violations().begin() + static_cast<std::ptrdiff_t>(before), observer_.violations().end());
+    return told;
+  }
+
+ private:
+  handshake::Config config(std::size_t index, std::uint32_t incarnation) const {
+    return {question_.variant, index == 0 ? handshake::Role::Master : handshake::Role::Slave, static_cast<std::uint8_t>(index),
+            question_.slaves, incarnation};
+  }
+
+  void act(Action action, Told& told) {
+    told.actor = action.who;
+    switch (action.kind) {
+      case ActionKind::send: publish(action.who, told); break;
+      case ActionKind::receive: hear(action.who, register_[action.who], told); break;
+      case ActionKind::deliver_late:
+        hear(late_channel_, late_, told);
+        late_ = {};
+        break;
+      case ActionKind::initialised: step(action.who, Input::initialised(members_[action.who].intent().run)); break;
+      case ActionKind::silence: {
+        step(action.who, Input::peer_silent(action.what));
+        register_[action.who == 0 ? action.what : action.who - 1U + question_.slaves] = {};
+        break;
+      }
+      case ActionKind::timeout: step(action.who, Input::peer_silent(action.what)); break;
+      case ActionKind::call: step(action.who, Input::command(program::methods[action.what].method)); break;
+      case ActionKind::finish: step(action.who, Input::finished()); break;
+      case ActionKind::lose:
+        tell_channel(action.who, register_[action.who].word, told);
+        register_[action.who] = {};
+        break;
+      case ActionKind::duplicate: hold(action.who, told); break;
+      case ActionKind::reorder:
+        hold(action.who, told);
+        publish(action.who, told);
+        break;
+      case ActionKind::crash: down_[action.who] = true; break;
+      case ActionKind::restart: {
+        down_[action.who] = false;
+        members_[action.who] = Participant(config(action.who, members_[action.who].config().incarnation + 1));
+        sequence_[action.who] = 0;
+        observer_.on_restart(action.who);
+        break;
+      }
+    }
+  }
+
+  Outputs step(std::size_t who, const Input& input) {
+    const Outputs outputs = members_[who].step(input);
+    observer_.on_step(who, outputs, members_[who].word());
+    return outputs;
+  }
+  void tell_channel(std::size_t channel, const Word& word, Told& told) const {
+    told.actor = sender_of(channel, question_.slaves);
+    told.word = word;
+    told.has_word = true;
+  }
+  void publish(std::size_t channel, Told& told) {
+    const std::size_t sender = sender_of(channel, question_.slaves);
+    register_[channel] = {members_[sender].word(), ++sequence_[sender], observer_.sending_run(sender), true};
+    tell_channel(channel, register_[channel].word, told);
+  }
+  void hold(std::size_t channel, Told& told) {
+    late_ = register_[channel];
+    late_channel_ = channel;
+    tell_channel(channel, late_.word, told);
+  }
+  void hear(std::size_t channel, const Message message, Told& told) {
+    TAKT_CHECK(message.present, "only what was published is heard");
+    const std::size_t from = sender_of(channel, question_.slaves);
+    const std::size_t to = receiver_of(channel, question_.slaves);
+    tell_channel(channel, message.word, told);
+    told.actor = to;
+    told.action.who = static_cast<std::uint8_t>(channel);
+    if (down_[to]) return;
+    const std::size_t peer = peer_at_receiver(channel, question_.slaves);
+    const Outputs outputs = step(to, Input::received(peer, message.word, message.sequence));
+    if (message.sent_in != 0 && !outputs.ignored && members_[to].process_data_counts(peer))
+      observer_.on_process_data(from, to, message.sent_in);
+  }
+
+  Question question_;
+  handshake::GroupObserver observer_;
+  std::vector<Participant> members_;
+  std::vector<std::uint16_t> sequence_;
+  std::vector<bool> down_;
+  std::vector<Message> register_;
+  Message late_;
+  std::size_t late_channel_ = 0;
+};
+
+constexpr handshake::Invariant invariant_of(Property property) {
+  return static_cast<handshake::Invariant>(index_of(property));
+}
+
+}  // namespace
+
+Story replay(const Question& question, const Beginning& beginning, const Trace& trace) {
+  Story story;
+  story.beginning = beginning.name;
+  story.cycle = trace.cycle;
+  Player player(question);
+  for (const Action action : beginning.actions) story.opening_steps.push_back(player.play(action));
+  for (const Action action : trace.actions) story.steps.push_back(player.play(action));
+  return story;
+}
+
+bool observed(const Story& story, Property property) {
+  if (property > Property::S5) return false;
+  return std::any_of(story.steps.begin(), story.steps.end(), [&](const Told& told) {
+    return std::any_of(told.violations.begin(), told.violations.end(),
+                       [&](const handshake::Violation& each) { return each.invariant == invariant_of(property); });
+  });
+}
+
+}  // namespace takt::explore

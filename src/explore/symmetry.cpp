@@ -1,0 +1,71 @@
+// Slaves that play the same part are one state: of all states that differ in names only, the least one stands for them.
+#include <algorithm>
+
+#include "explore/model.hpp"
+
+namespace takt::explore {
+
+/// What tells a slave from others without its name.
+std::uint64_t Model::sort_key(const State& state, std::size_t slave) const {
+  const std::size_t up = slave - 1;
+  const std::size_t down = up + question_.slaves;
+  return std::uint64_t{members_[state.member(slave)].orbit} << 32 ^ std::uint64_t{members_.word_orbit(state.reg(up))} << 16 ^
+         members_.word_orbit(state.reg(down));
+}
+
+/// Two intents that differ in their origin only: which of them is greater depends on names.
+bool Model::names_matter(const State& state) const {
+  std::array<std::uint64_t, 3 * most_slaves + 2> seen{};
+  std::size_t count = 0;
+  const auto clashes = [&](WordId word) {
+    const handshake::Intent& intent = members_.word(word).intent;
+    if (intent.origin == 0) return false;
+    const std::uint64_t rank = std::uint64_t{intent.number} << 16 | handshake::index_of(intent.kind) << 8;
+    for (std::size_t i = 0; i < count; ++i)
+      if ((seen[i] ^ rank) < 0x100 && seen[i] != (rank | intent.origin)) return true;
+    seen[count++] = rank | intent.origin;
+    return false;
+  };
+  for (std::size_t i = 0; i <= question_.slaves; ++i)
+    if (clashes(members_[state.member(i)].word)) return true;
+  for (std::size_t c = 0; c < 2U * question_.slaves; ++c)
+    if (clashes(state.reg(c))) return true;
+  return clashes(state.late_word());
+}
+
+State Model::canonical(const State& state) {
+  if (renamings_.size() == 1 || names_matter(state)) return state;
+  std::array<std::uint64_t, most_slaves + 1> key{};
+  for (std::size_t i = 1; i <= question_.slaves; ++i) key[i] = sort_key(state, i);
+  State least = state;
+  bool found = false;
+  for (std::size_t r = 0; r < renamings_.size(); ++r) {
+    std::array<std::uint64_t, most_slaves + 1> sorted{};
+    for (std::size_t i = 1; i <= question_.slaves; ++i) sorted[renamings_[r].to[i]] = key[i];
+    if (!std::is_sorted(sorted.begin() + 1, sorted.begin() + 1 + question_.slaves)) continue;
+    const State other = r == 0 ? state : renamed(state, r);
+    if (!found || other < least) least = other;
+    found = true;
+  }
+  return least;
+}
+
+State Model::renamed(const State& state, std::size_t renaming) const {
+  const Renaming& names = renamings_[renaming];
+  const std::size_t slaves = question_.slaves;
+  State result = state;
+  const auto channel = [&](std::size_t c) {
+    return c < slaves ? static_cast<std::size_t>(names.to[c + 1]) - 1 : static_cast<std::size_t>(names.to[c - slaves + 1]) - 1 + slaves;
+  };
+  for (std::size_t i = 0; i <= slaves; ++i) result.set_member(names.to[i], members_.renamed(state.member(i), renaming));
+  for (std::size_t c = 0; c < 2 * slaves; ++c) {
+    result.set_reg(channel(c), members_.renamed_word(state.reg(c), renaming));
+    if (state.any_outdated()) result.set_outdated(channel(c), state.outdated(c));
+  }
+  if (state.late() != Late::none)
+    result.set_late(state.late(), channel(state.late_channel()), members_.renamed_word(state.late_word(), renaming));
+  result.set_ghost(renamed_ghost_[state.ghost() * renamings_.size() + renaming]);
+  return result;
+}
+
+}  // namespace takt::explore

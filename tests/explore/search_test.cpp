@@ -1,0 +1,136 @@
+// What the explorer says about both variants. The numbers of states are those of the present rules and of the present
+// network; they change with any rule, and a smaller one may mean that something is no longer explored.
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+
+#include "explore/replay.hpp"
+#include "explore/search.hpp"
+
+namespace takt::explore {
+namespace {
+
+using handshake::Variant;
+
+constexpr Fault every_fault[] = {Fault::loss, Fault::duplicate, Fault::reorder, Fault::crash, Fault::restart, Fault::timeout};
+
+Question question(Variant variant, std::uint8_t slaves, std::uint32_t commands, std::uint32_t faults, std::span<const Fault> classes) {
+  Question result;
+  result.variant = variant;
+  result.slaves = slaves;
+  result.commands = commands;
+  result.fault_budget = faults;
+  for (const Fault each : classes) result.faults.insert(each);
+  return result;
+}
+
+Answer ask(const Question& question) {
+  return explore(question, [](std::uint64_t, std::uint64_t, std::uint32_t) { return true; });
+}
+
+std::string verdicts(const Answer& answer) {
+  std::string text;
+  for (std::size_t p = 0; p < property_count; ++p) text += std::string(property_names[p]) + " " + std::string(name_of(answer.verdicts[p])) + "\n";
+  return text;
+}
+
+struct Case {
+  std::uint8_t slaves;
+  std::uint32_t commands;
+  std::uint32_t faults;
+  std::uint64_t states;  ///< with symmetry
+  std::uint64_t plain;   ///< without
+};
+
+TEST(Robust, HoldsInEveryOrderUnderEveryFault) {
+#ifdef NDEBUG
+  constexpr Case cases[] = {{1, 4, 0, 37973, 37973}, {1, 2, 1, 65390, 65390}, {2, 2, 0, 19535, 37914}, {2, 1, 1, 349911, 619103}, {3, 1, 0, 11775, 63231}};
+#else
+  constexpr Case cases[] = {{1, 2, 0, 1351, 1351}, {1, 1, 1, 0, 0}, {2, 1, 0, 0, 0}};
+#endif
+  for (const Case& each : cases) {
+    SCOPED_TRACE(testing::Message() << int{each.slaves} << " slaves, " << each.commands << " calls, " << each.faults << " faults");
+    Question asked = question(Variant::Robust, each.slaves, each.commands, each.faults, every_fault);
+    const Answer answer = ask(asked);
+    EXPECT_TRUE(answer.exhausted);
+    EXPECT_TRUE(answer.all_hold()) << verdicts(answer);
+    EXPECT_EQ(answer.symmetry, each.slaves > 1);
+    if (each.states != 0) {
+      EXPECT_EQ(answer.states, each.states);
+    }
+    asked.symmetry = false;
+    const Answer plain = ask(asked);
+    if (each.plain != 0) {
+      EXPECT_EQ(plain.states, each.plain);
+    }
+    EXPECT_EQ(verdicts(plain), verdicts(answer));
+    EXPECT_EQ(plain.depth, answer.depth);
+  }
+}
+
+TEST(Robust, HoldsUnderEachClassOfFaultsByItself) {
+  for (const Fault fault : every_fault) {
+    const Fault classes[] = {fault};
+    const Answer answer = ask(question(Variant::Robust, 1, 2, 2, classes));
+    EXPECT_TRUE(answer.exhausted && answer.all_hold()) << name_of(fault) << "\n" << verdicts(answer);
+  }
+}
+
+TEST(Paper, FailsAsTheReadmeOfTheHandshakeSays) {
+  const Answer answer = ask(question(Variant::Paper, 1, 2, 1, every_fault));
+  EXPECT_TRUE(answer.exhausted);
+  for (const Property property : {Property::S1, Property::S2, Property::S3, Property::F1, Property::L1}) EXPECT_EQ(answer[property], Verdict::violated) << name_of(property);
+  for (const Property property : {Property::S4, Property::S5}) EXPECT_EQ(answer[property], Verdict::holds) << name_of(property);
+  for (std::size_t p = index_of(Property::all_running); p < property_count; ++p) EXPECT_EQ(answer.verdicts[p], Verdict::reached) << property_names[p];
+}
+
+// The counter-example of an invariant is one for the observer of all other tests, too.
+TEST(Paper, TheObserverSeesWhatTheSearchSees) {
+  for (std::uint8_t slaves = 1; slaves <= 2; ++slaves) {
+    for (const bool finishes : {true, false}) {
+      Question asked = question(Variant::Paper, slaves, slaves == 1 ? 3 : 1, 1, every_fault);
+      asked.finishes = finishes;
+      const Answer answer = ask(asked);
+      for (const Property property : {Property::S1, Property::S2, Property::S3}) {
+        if (answer[property] != Verdict::violated) continue;
+        const Trace& trace = *answer.traces[index_of(property)];
+        EXPECT_TRUE(observed(replay(asked, answer.beginnings[trace.beginning], trace), property)) << name_of(property);
+      }
+    }
+  }
+}
+
+// Suspend and resume that cross chase each other for ever: a cycle, and not only an end at the wrong place.
+TEST(Paper, HasFairCyclesOutsideTheGoal) { EXPECT_GT(ask(question(Variant::Paper, 1, 2, 0, {})).cyclic_states, 100U); }
+
+// Without any call the paper's group stays where it is; with none, nothing can be reached either, and that is said.
+TEST(Vacuity, NothingIsReachedWithoutCalls) {
+  const Answer answer = ask(question(Variant::Robust, 1, 0, 0, {}));
+  EXPECT_TRUE(answer.exhausted);
+  EXPECT_FALSE(answer.all_hold());
+  EXPECT_FALSE(answer.any_violated());
+  EXPECT_EQ(answer[Property::T5], Verdict::unreached);
+}
+
+TEST(Limits, StatesAndDepth) {
+  Question asked = question(Variant::Robust, 1, 4, 0, {});
+  asked.states = 1000;
+  const Answer few = ask(asked);
+  EXPECT_EQ(few.states, 1000U);
+  EXPECT_FALSE(few.exhausted);
+  EXPECT_EQ(few[Property::L1], Verdict::unknown);
+  asked = question(Variant::Robust, 1, 4, 0, {});
+  asked.depth = 5;
+  const Answer shallow = ask(asked);
+  EXPECT_EQ(shallow.depth, 5U);
+  EXPECT_FALSE(shallow.exhausted);
+}
+
+TEST(Limits, CanBeInterrupted) {
+  const Answer answer = explore(question(Variant::Robust, 2, 2, 1, every_fault), [](std::uint64_t, std::uint64_t, std::uint32_t) { return false; });
+  EXPECT_TRUE(answer.interrupted);
+  EXPECT_FALSE(answer.exhausted);
+}
+
+}  // namespace
+}  // namespace takt::explore

@@ -1,0 +1,51 @@
+// takt node: a participant of a Program on this machine.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "node/real_node.hpp"
+
+namespace takt::cli {
+namespace {
+
+ExitStatus run_node(const std::string& file, bool is_check) {
+  scenario::json::Diagnostics diagnostics;
+  const auto loaded = node::load_config(file, diagnostics);
+  std::fputs(diagnostics.to_text().c_str(), stderr);
+  if (!loaded) return ExitStatus::bad_input;
+  if (is_check) return ExitStatus::pass;
+  std::string problem;
+  const auto live = node::RealNode::make(*loaded, stdout, problem);
+  if (!live) {
+    std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
+    return ExitStatus::internal_error;
+  }
+  if (loaded->config.realtime)
+    if (const std::string refused = node::ask_for_real_time(); !refused.empty())
+      std::fprintf(stderr, "takt: warning: without real time: %s\n", refused.c_str());
+  const InterruptGuard interrupt;
+  live->run([](const void* guard) { return static_cast<const InterruptGuard*>(guard)->requested(); }, &interrupt);
+  return ExitStatus::pass;
+}
+
+}  // namespace
+
+void add_node_command(CLI::App& app, ExitStatus& status) {
+  CLI::App& command = *app.add_subcommand("node", "Run a participant of a Program on this machine");
+  const auto file = std::make_shared<std::string>();
+  const auto is_check = std::make_shared<bool>(false);
+  command.add_option("CONFIG", *file, "The file of the node (JSON, comments allowed)")->required();
+  command.add_flag("--check", *is_check, "Say whether the file is sound, and no more");
+  command.footer(
+      "Examples:\n"
+      "  takt node left.json                     runs until its duration is over, or until SIGINT or SIGTERM\n"
+      "  takt node left.json | jq 'select(.event == \"transition\")'\n"
+      "Standard output is one JSON object a line: transitions, calls, intents, and statistics at the end.\n"
+      "Exit status: 0 ended or stopped, 2 bad input, 3 the machine does not let it (port, interface, permission).");
+  command.callback([file, is_check, &status] { status = run_node(*file, *is_check); });
+}
+
+}  // namespace takt::cli

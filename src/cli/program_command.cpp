@@ -1,0 +1,27 @@
+// takt program: the state machine of OPC UA Programs, from the table that the code runs on.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "program/documentation.hpp"
+
+namespace takt::cli {
+
+void add_program_command(CLI::App& app, ExitStatus& status) {
+  CLI::App& command = *app.add_subcommand("program", "Print the state machine of OPC UA Programs");
+  const auto is_table = std::make_shared<bool>(false);
+  const auto is_dot = std::make_shared<bool>(false);
+  CLI::Option* const table = command.add_flag("--table", *is_table, "States, transitions and methods as text (if nothing else is asked)");
+  command.add_flag("--dot", *is_dot, "The same as a graph for Graphviz")->excludes(table);
+  command.footer(
+      "Examples:\n"
+      "  takt program --table\n"
+      "  takt program --dot | dot -Tsvg > program.svg");
+  command.callback([is_table, is_dot, &status] {
+    std::fputs((*is_dot ? program::table_dot() : program::table_text()).c_str(), stdout);
+    status = ExitStatus::pass;
+  });
+}
+
+}  // namespace takt::cli

@@ -1,0 +1,127 @@
+// The file of a node: which participant of which Program it is, and how it reaches the others.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "program/method.hpp"
+#include "scenario/json/fields.hpp"
+#include "sim/time.hpp"
+#include "wire/program_endpoint.hpp"
+
+namespace takt::node {
+
+namespace json = scenario::json;
+using sim::Duration;
+
+enum class Variant : std::uint8_t { robust, paper };
+enum class Publish : std::uint8_t { cyclic, on_change };
+enum class Subscription : std::uint8_t { star, all_to_all };
+enum class DataType : std::uint8_t { boolean, sbyte, byte, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
+enum class ClockName : std::uint8_t { monotonic, tai };
+enum class Method : std::uint8_t { start, suspend, resume, halt, reset };
+
+struct DataField {
+  DataType type = DataType::float64;
+  std::uint16_t count = 1;
+  bool operator==(const DataField&) const = default;
+};
+
+struct ProcessData {
+  json::Source where;
+  std::string name;
+  std::string from;
+  json::NameMap<DataField> fields;
+  bool operator==(const ProcessData&) const = default;
+};
+
+/// As in a scenario; the same for all nodes of the group.
+struct Program {
+  json::Source where;
+  std::string name;
+  Variant variant = Variant::robust;
+  std::string master;
+  std::vector<std::string> slaves;
+  Duration cycle;
+  Duration offset;
+  Publish publish = Publish::cyclic;
+  Subscription subscription = Subscription::star;
+  std::optional<Duration> receive_timeout;
+  Duration initialisation = Duration::from_ps(1'000'000'000);
+  std::uint16_t publisher_id = 1;
+  std::vector<ProcessData> process_data;
+  bool operator==(const Program&) const = default;
+};
+
+/// UADP over UDP.
+struct UdpTransport {
+  json::Source where;
+  std::optional<std::string> interface;
+  std::uint16_t port = 4840;
+  std::vector<std::string> destinations;  ///< "address" or "address:port"; multicast ones are joined
+  std::uint8_t pcp = 6;
+  bool operator==(const UdpTransport&) const = default;
+};
+
+/// UADP over Ethernet.
+struct EthernetTransport {
+  json::Source where;
+  std::string interface;
+  std::string destination = "01:00:5e:7f:00:01";
+  std::optional<std::uint16_t> vlan;  ///< with it frames carry a tag
+  std::uint8_t pcp = 6;
+  bool operator==(const EthernetTransport&) const = default;
+};
+
+using Transport = std::variant<UdpTransport, EthernetTransport>;
+
+struct ScriptEntry {
+  json::Source where;
+  Duration at;  ///< after the start of this node
+  Method call = Method::start;
+  bool operator==(const ScriptEntry&) const = default;
+};
+
+struct Config {
+  json::Source where;
+  std::string node;
+  Program program;
+  Transport transport;
+  ClockName clock = ClockName::monotonic;
+  std::optional<Duration> duration;
+  bool realtime = false;
+  std::vector<ScriptEntry> script;
+  bool operator==(const Config&) const = default;
+};
+
+const json::Enumeration& describe(json::Type<Variant>);
+const json::Enumeration& describe(json::Type<Publish>);
+const json::Enumeration& describe(json::Type<Subscription>);
+const json::Enumeration& describe(json::Type<DataType>);
+const json::Enumeration& describe(json::Type<ClockName>);
+const json::Enumeration& describe(json::Type<Method>);
+const json::Object& describe(json::Type<DataField>);
+const json::Object& describe(json::Type<ProcessData>);
+const json::Object& describe(json::Type<Program>);
+const json::Object& describe(json::Type<UdpTransport>);
+const json::Object& describe(json::Type<EthernetTransport>);
+const json::Tagged& describe(json::Type<Transport>);
+const json::Object& describe(json::Type<ScriptEntry>);
+const json::Object& describe(json::Type<Config>);
+
+program::Method method_of(Method method);
+
+/// A file that has been checked, and the endpoint that it asks for, but for the incarnation.
+struct LoadedConfig {
+  Config config;
+  wire::EndpointSettings endpoint;
+};
+
+/// Null if there was a mistake.
+std::unique_ptr<LoadedConfig> load_config(const std::string& path, json::Diagnostics& diagnostics);
+
+}  // namespace takt::node

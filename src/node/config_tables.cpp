@@ -1,0 +1,146 @@
+// The vocabulary of node files. Names that scenario files have too mean the same.
+#include "node/config.hpp"
+
+namespace takt::node {
+namespace {
+
+using json::name;
+using json::optional;
+using json::required;
+using namespace sim::literals;  // NOLINT: units in limits
+
+}  // namespace
+
+const json::Enumeration& describe(json::Type<Variant>) {
+  static constexpr json::EnumName names[] = {name(Variant::robust, "robust", "agreement on intents"), name(Variant::paper, "paper", "states only")};
+  static constexpr json::Enumeration table = json::enumeration<Variant>("a handshake", names);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Publish>) {
+  static constexpr json::EnumName names[] = {name(Publish::cyclic, "cyclic", "every cycle"), name(Publish::on_change, "on-change", "every cycle and at once when the state changes")};
+  static constexpr json::Enumeration table = json::enumeration<Publish>("a way of publishing", names);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Subscription>) {
+  static constexpr json::EnumName names[] = {name(Subscription::star, "star", "the master hears all slaves, a slave the master"),
+                                             name(Subscription::all_to_all, "all-to-all", "everybody hears everybody")};
+  static constexpr json::Enumeration table = json::enumeration<Subscription>("a subscription", names);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<DataType>) {
+  static constexpr json::EnumName names[] = {
+      name(DataType::boolean, "Boolean", "1 octet"), name(DataType::sbyte, "SByte", "1 octet"),   name(DataType::byte, "Byte", "1 octet"),
+      name(DataType::int16, "Int16", "2 octets"),    name(DataType::uint16, "UInt16", "2 octets"), name(DataType::int32, "Int32", "4 octets"),
+      name(DataType::uint32, "UInt32", "4 octets"),  name(DataType::int64, "Int64", "8 octets"),   name(DataType::uint64, "UInt64", "8 octets"),
+      name(DataType::float32, "Float", "4 octets"),  name(DataType::float64, "Double", "8 octets")};
+  static constexpr json::Enumeration table = json::enumeration<DataType>("an OPC UA built-in type of fixed length", names);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<ClockName>) {
+  static constexpr json::EnumName names[] = {name(ClockName::monotonic, "monotonic", "CLOCK_MONOTONIC; shared by nodes on one machine"),
+                                             name(ClockName::tai, "tai", "CLOCK_TAI; shared by machines that gPTP synchronises")};
+  static constexpr json::Enumeration table = json::enumeration<ClockName>("a clock", names);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Method>) {
+  static constexpr json::EnumName names[] = {name(Method::start, "Start", ""), name(Method::suspend, "Suspend", ""), name(Method::resume, "Resume", ""),
+                                             name(Method::halt, "Halt", ""), name(Method::reset, "Reset", "")};
+  static constexpr json::Enumeration table = json::enumeration<Method>("a Program control method", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<DataField>) {
+  static constexpr json::Field fields[] = {
+      required<&DataField::type>("type", "OPC UA built-in type."),
+      optional<&DataField::count>("count", "Number of values.", {.min = 1, .max = 1500}),
+  };
+  static constexpr json::Object table = json::object<DataField>("data_field", "One field of a data set.", fields, {.shorthand = "type"});
+  return table;
+}
+
+const json::Object& describe(json::Type<ProcessData>) {
+  static constexpr json::Field fields[] = {
+      required<&ProcessData::name>("name", "Unique in the program.", {.min_length = 1, .max_length = 200}),
+      required<&ProcessData::from>("from", "The participant that publishes it."),
+      required<&ProcessData::fields>("fields", "The fields of the data set.", {.min_items = 1, .max_items = 256}),
+  };
+  static constexpr json::Object table = json::object<ProcessData>("process_data", "A data set that is published every cycle while Running.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Program>) {
+  static constexpr json::Field fields[] = {
+      required<&Program::name>("name", "The same at all nodes.", {.min_length = 1, .max_length = 200}),
+      optional<&Program::variant>("variant", "Which handshake synchronises the participants."),
+      required<&Program::master>("master", "The name of the master."),
+      required<&Program::slaves>("slaves", "The names of the slaves.", {.min_items = 1, .max_items = 64}),
+      required<&Program::cycle>("cycle", "Publishing interval of state and process data.", {.min = 10_us, .max = 3600_s}),
+      optional<&Program::offset>("offset", "Phase of publishing within the cycle.", {.max = 3600_s}),
+      optional<&Program::publish>("publish", "When the state is published."),
+      optional<&Program::subscription>("subscription", "Who hears whom."),
+      optional<&Program::receive_timeout>("receive_timeout", "A peer that is silent for so long halts the group (MessageReceiveTimeout); 10 cycles if absent.", {.min = 1_us, .max = 3600_s}),
+      optional<&Program::initialisation>("initialisation", "How long a participant stays in INIT.", {.max = 3600_s}),
+      optional<&Program::publisher_id>("publisher_id", "PublisherId of the master; the slaves have the next ones.", {.min = 1, .max = 65471}),
+      optional<&Program::process_data>("process_data", "Data sets that the participants exchange.", {.max_items = 256}),
+  };
+  static constexpr json::Object table = json::object<Program>("program", "A distributed OPC UA Program, as in a scenario.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<UdpTransport>) {
+  static constexpr json::Field fields[] = {
+      optional<&UdpTransport::interface>("interface", "For multicast; the kernel's choice if absent.", {.min_length = 1, .max_length = 15}),
+      optional<&UdpTransport::port>("port", "Own port, and that of destinations without one.", {.min = 1}),
+      required<&UdpTransport::destinations>("destinations", "IPv4 addresses, each alone or as \"address:port\". Multicast ones are joined.", {.min_items = 1, .max_items = 128}),
+      optional<&UdpTransport::pcp>("pcp", "SO_PRIORITY, and DSCP class selector.", {.max = 7}),
+  };
+  static constexpr json::Object table = json::object<UdpTransport>("udp", "UADP over UDP and IPv4.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<EthernetTransport>) {
+  static constexpr json::Field fields[] = {
+      required<&EthernetTransport::interface>("interface", "The network interface.", {.min_length = 1, .max_length = 15}),
+      optional<&EthernetTransport::destination>("destination", "MAC address that all messages go to; a group address is joined."),
+      optional<&EthernetTransport::vlan>("vlan", "VLAN; frames carry a tag with it, without it none.", {.max = 4094}),
+      optional<&EthernetTransport::pcp>("pcp", "SO_PRIORITY, and the priority in the tag.", {.max = 7}),
+  };
+  static constexpr json::Object table = json::object<EthernetTransport>("ethernet", "UADP over Ethernet, EtherType 0xB62C.", fields);
+  return table;
+}
+
+const json::Tagged& describe(json::Type<Transport>) {
+  static constexpr auto kinds = json::options<Transport>({"udp", "ethernet"});
+  static constexpr json::Tagged table = json::tagged<Transport>("transport", "How messages travel.", "kind", kinds);
+  return table;
+}
+
+const json::Object& describe(json::Type<ScriptEntry>) {
+  static constexpr json::Field fields[] = {
+      required<&ScriptEntry::at>("at", "After the start of this node.", {.max = 3600_s}),
+      required<&ScriptEntry::call>("call", "The method that is called here."),
+  };
+  static constexpr json::Object table = json::object<ScriptEntry>("script_entry", "A method call.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Config>) {
+  static constexpr json::Field fields[] = {
+      required<&Config::node>("node", "Which participant this node is."),
+      required<&Config::program>("program", "The Program, the same at all nodes."),
+      required<&Config::transport>("transport", "How its messages travel."),
+      optional<&Config::clock>("clock", "The clock that the nodes share."),
+      optional<&Config::duration>("duration", "How long it runs; until a signal if absent.", {.min = 1_ms, .max = 3600_s}),
+      optional<&Config::realtime>("realtime", "Ask for SCHED_FIFO and locked memory; a warning where that is not permitted."),
+      optional<&Config::script>("script", "Methods that are called at this node.", {.max_items = 10'000}),
+  };
+  static constexpr json::Object table = json::object<Config>("node", "A participant of a Program on this machine.", fields);
+  return table;
+}
+
+}  // namespace takt::node

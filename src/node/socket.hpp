@@ -1,0 +1,40 @@
+// The way to the network of a real node: NetworkMessages out and in.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "node/config.hpp"
+#include "pubsub/stack.hpp"
+
+namespace takt::node {
+
+/// A file descriptor that is closed with its owner.
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(int number = -1) : number_(number) {}
+  FileDescriptor(FileDescriptor&& other) noexcept : number_(other.number_) { other.number_ = -1; }
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept;
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+  ~FileDescriptor();
+  int number() const { return number_; }
+  bool is_open() const { return number_ >= 0; }
+
+ private:
+  int number_;
+};
+
+/// Sends to all destinations; gives what was received, without waiting.
+class Socket : public pubsub::PublishedData, public pubsub::SubscribedData {
+ public:
+  virtual int file_descriptor() const = 0;
+  /// Messages that the kernel did not take.
+  virtual std::uint64_t send_failures() const = 0;
+};
+
+/// Null, and `problem` says why, if the machine does not give what the transport needs.
+std::unique_ptr<Socket> open_socket(const UdpTransport& transport, std::string& problem);
+std::unique_ptr<Socket> open_socket(const EthernetTransport& transport, std::string& problem);
+
+}  // namespace takt::node

@@ -43,6 +43,7 @@ class CreditAccount {
       const sim::int128 rest = credit_ % denominator_ * denominator;
       credit_ = scaled + rest / denominator_ - (rest % denominator_ < 0 ? 1 : 0);
     }
+    slope_has_changed_ = slope_has_changed_ || at_ > 0;
     idle_ = static_cast<std::int64_t>(numerator / divisor);
     denominator_ = denominator;
   }
@@ -61,8 +62,9 @@ class CreditAccount {
   }
   /// Bits, for texts.
   double bits() const { return static_cast<double>(credit_) / 1e12 / static_cast<double>(denominator_); }
-  /// credit >= send_slope * duration, the least that a transmission of that length brings about.
-  bool is_above_lo(Ps duration) const { return credit_ >= (sim::int128{idle_} - sim::int128{rate_} * denominator_) * duration; }
+  /// credit >= send_slope * duration, the least that a transmission of that length brings about. Of an unknown former slope only
+  /// the port's rate is certain.
+  bool is_above_lo(Ps duration) const { return credit_ >= ((slope_has_changed_ ? 0 : sim::int128{idle_}) - sim::int128{rate_} * denominator_) * duration; }
   /// credit <= idle_slope * duration, the most that so much interference brings about.
   bool is_below_hi(Ps duration) const { return credit_ <= sim::int128{idle_} * duration; }
 
@@ -76,6 +78,7 @@ class CreditAccount {
   std::int64_t denominator_ = 1;
   bool of_whole_cycle_;
   bool waiting_ = false;
+  bool slope_has_changed_ = false;
   models::TrafficClass class_;
 };
 

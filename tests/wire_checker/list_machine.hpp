@@ -57,7 +57,7 @@ class ListMachine {
     while (next_event() <= now) tick(next_event());
     now_ = std::max(now_, now);
   }
-  /// ConfigChange at `now`, before anything else of that instant but a list whose time has come.
+  /// ConfigChange at `now`, before anything else of that instant but a list whose time has come. run_to(now) comes next.
   void request(Ps now, const ListConfig& config) {
     if (now > 0) run_to(now - 1);
     now_ = now;
@@ -66,7 +66,7 @@ class ListMachine {
     config_change_time_ = admin_->base_time;
     if (config_change_time_ < now_) config_change_time_ = start_not_before(*admin_, now_);
     config_pending_ = true;
-    tick(now);
+    update_config();
   }
 
   /// When something happens next: a list is exchanged, a cycle or an entry begins.

@@ -13,5 +13,8 @@ namespace takt::cli {
 void add_run_command(CLI::App& app, ExitStatus& status);
 void add_check_command(CLI::App& app, ExitStatus& status);
 void add_schema_command(CLI::App& app, ExitStatus& status);
+void add_program_command(CLI::App& app, ExitStatus& status);
+void add_node_command(CLI::App& app, ExitStatus& status);
+void add_explore_command(CLI::App& app, ExitStatus& status);
 
 }  // namespace takt::cli

@@ -8,6 +8,8 @@ namespace takt::cli {
 Recording::Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, scenario::json::Diagnostics& diagnostics)
     : options_(options), folder_(folder), run_(&run) {
   for (const std::string& text : options.pcap) select_ports(text, diagnostics);
+  if (options.clocks && run.clocks() == nullptr)
+    diagnostics.error({"--clocks", 0, 0, ""}, "no clocks to record", {"a scenario without gPTP", "\"gptp\" in \"clocks\""});
 }
 
 void Recording::select_ports(const std::string& text, scenario::json::Diagnostics& diagnostics) {
@@ -53,6 +55,10 @@ std::string Recording::open() {
     waves_ = std::make_unique<output::VcdRecorder>(run_->network(), (folder / "waves.vcd").string());
     sinks_.add(*waves_);
   }
+  if (options_.clocks) {
+    clocks_ = std::make_unique<output::ClockSeries>(run_->network(), (folder / "clocks.csv").string());
+    run_->set_clock_sink(clocks_.get());
+  }
   run_->simulation().set_trace(&sinks_);
   return {};
 }
@@ -67,6 +73,10 @@ std::string Recording::close() {
   }
   if (waves_)
     if (std::string other = waves_->close(run_->simulation().now()); problem.empty()) problem = std::move(other);
+  if (clocks_) {
+    run_->set_clock_sink(nullptr);
+    if (std::string other = clocks_->close(); problem.empty()) problem = std::move(other);
+  }
   return problem;
 }
 

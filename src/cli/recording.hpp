@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "output/clock_series.hpp"
 #include "output/fan_out.hpp"
 #include "output/pcap_recorder.hpp"
 #include "output/timeline_recorder.hpp"
@@ -17,7 +18,8 @@ struct RecordingOptions {
   std::vector<std::string> pcap;   ///< "all", "node" (all its ports) or "node:port"
   bool timeline = false;
   bool waves = false;
-  bool is_wanted() const { return !pcap.empty() || timeline || waves; }
+  bool clocks = false;
+  bool is_wanted() const { return !pcap.empty() || timeline || waves || clocks; }
 };
 
 /// Hangs on a run from before its first event to its end. Recording changes no digest.
@@ -50,6 +52,7 @@ class Recording {
   std::unique_ptr<output::PcapRecorder> pcap_;
   std::unique_ptr<output::TimelineRecorder> timeline_;
   std::unique_ptr<output::VcdRecorder> waves_;
+  std::unique_ptr<output::ClockSeries> clocks_;
 };
 
 }  // namespace takt::cli

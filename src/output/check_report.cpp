@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "output/check_features.hpp"
 #include "output/text_report.hpp"
 
 namespace takt::output {
@@ -58,6 +59,7 @@ std::string check_report(const Resolved& r) {
     out += fmt::format("  {:<20} {:<36} ports{}\n", node.name, what, neighbours);
   }
   out += more(r.topology.nodes.size());
+  out += feature_pages(r, most_rows);
 
   if (!r.streams.empty()) out += "\nStreams and their paths\n";
   for (std::size_t s = 0; s < std::min(most_rows, r.streams.size()); ++s) {

@@ -149,6 +149,7 @@ std::span<const std::byte> encode_frame(const models::Network& network, models::
   encoding.first_group = static_cast<std::uint32_t>(network.plan().nodes.size());
   encoding.headers = traffic.stream(frame.stream).headers;
   if (!frame.payload.is_none()) encoding.payload = traffic.payload(frame.payload).view();
+  if (traffic.stream(frame.stream).ether_type != 0) encoding.ether_type = traffic.stream(frame.stream).ether_type;
   if (frame.r_tagged) encoding.r_tag = frame.r_tag_sequence;
   encoding.drop_eligible = frame.drop_eligible;
   return encode_frame(frame, encoding, buffer);

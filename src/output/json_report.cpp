@@ -18,6 +18,12 @@ Node optional_picoseconds(const std::optional<T>& value) {
   return value ? picoseconds(*value) : Node();
 }
 
+Node dropped_of(const std::vector<std::pair<std::string, std::uint64_t>>& drops) {
+  Node node = Node::object();
+  for (const auto& [reason, count] : drops) node.add(reason, integer(count));
+  return node;
+}
+
 Node requirements_of(const results::RunResult& result) {
   Node array = Node::array();
   for (const results::RequirementResult& r : result.requirements) {
@@ -38,9 +44,7 @@ Node streams_of(const results::RunResult& result) {
     Node node = Node::object();
     node.add("sent", integer(s.sent));
     node.add("delivered", integer(s.delivered));
-    Node dropped = Node::object();
-    for (const auto& [reason, count] : s.dropped) dropped.add(reason, integer(count));
-    node.add("dropped", std::move(dropped));
+    node.add("dropped", dropped_of(s.dropped));
     node.add("copies", integer(s.copies));
     node.add("in_flight", integer(s.in_flight));
     node.add("listeners", integer(s.listeners));
@@ -120,9 +124,134 @@ Node ports_of(const results::RunResult& result) {
     node.add("dropped", integer(p.dropped));
     node.add("queue_peak", integer(p.queue_peak));
     node.add("utilisation", Node::of_double(p.utilisation));
+    node.add("fragments_cut", integer(p.fragments_cut));
+    node.add("frames_cut_through", integer(p.frames_cut_through));
+    node.add("bad_fcs_forwarded", integer(p.bad_fcs_forwarded));
+    node.add("transmission_overrun", integer(p.transmission_overrun));
     array.items.push_back(std::move(node));
   }
   return array;
+}
+
+Node filter_node(const results::StreamFilterResult& f) {
+  Node node = Node::object();
+  node.add("stream", f.stream.empty() ? Node() : Node::of_string(f.stream));
+  node.add("pcp", f.priority ? integer(*f.priority) : Node());
+  node.add("matching", integer(f.matching));
+  node.add("passing", integer(f.passing));
+  node.add("not_passing", integer(f.not_passing));
+  node.add("passing_sdu", integer(f.passing_sdu));
+  node.add("not_passing_sdu", integer(f.not_passing_sdu));
+  node.add("red", integer(f.red));
+  node.add("blocked_due_to_oversize", Node::of_bool(f.blocked_due_to_oversize));
+  return node;
+}
+
+Node gate_node(const results::StreamGateResult& g) {
+  Node node = Node::object();
+  node.add("passed", integer(g.passed));
+  node.add("closed", integer(g.closed));
+  node.add("octets_exceeded", integer(g.octets_exceeded));
+  node.add("closed_due_to_invalid_rx", Node::of_bool(g.closed_due_to_invalid_rx));
+  node.add("closed_due_to_octets_exceeded", Node::of_bool(g.closed_due_to_octets_exceeded));
+  return node;
+}
+
+Node meter_node(const results::FlowMeterResult& m) {
+  Node node = Node::object();
+  node.add("green", integer(m.frames[0]));
+  node.add("yellow", integer(m.frames[1]));
+  node.add("red", integer(m.frames[2]));
+  node.add("discarded", integer(m.discarded));
+  node.add("marks_all_red", Node::of_bool(m.marks_all_red));
+  return node;
+}
+
+Node scheduler_node(const results::AtsSchedulerResult& s) {
+  Node node = Node::object();
+  node.add("passed", integer(s.passed));
+  node.add("discarded", integer(s.discarded));
+  node.add("longest_hold_ps", picoseconds(s.longest_hold));
+  return node;
+}
+
+/// Tables whose entries have names.
+template <class Rows>
+Node by_name(const Rows& rows, Node (*node_of)(const typename Rows::value_type&)) {
+  Node all = Node::object();
+  for (const auto& row : rows) all.add(row.name, node_of(row));
+  return all;
+}
+
+Node ingress_of(const results::RunResult& result) {
+  Node all = Node::object();
+  for (const results::IngressResult& i : result.ingress) {
+    Node node = Node::object();
+    node.add("unidentified", integer(i.unidentified));
+    Node filters = Node::array();
+    for (const results::StreamFilterResult& filter : i.filters) filters.items.push_back(filter_node(filter));
+    node.add("filters", std::move(filters));
+    node.add("gates", by_name(i.gates, gate_node));
+    node.add("meters", by_name(i.meters, meter_node));
+    node.add("ats", by_name(i.ats, scheduler_node));
+    all.add(i.node, std::move(node));
+  }
+  return all;
+}
+
+void add_counters(Node& node, const results::RecoveryCounters& c) {
+  node.add("passed", integer(c.passed));
+  node.add("discarded", integer(c.discarded));
+  node.add("out_of_order", integer(c.out_of_order));
+  node.add("rogue", integer(c.rogue));
+  node.add("lost", integer(c.lost));
+  node.add("tagless", integer(c.tagless));
+  node.add("resets", integer(c.resets));
+}
+
+Node recovery_node(const results::RecoveryResult& r) {
+  Node node = Node::object();
+  node.add("node", Node::of_string(r.node));
+  node.add("stream", Node::of_string(r.stream));
+  add_counters(node, r.counters);
+  Node latent;
+  if (r.latent_errors) {
+    latent = Node::object();
+    latent.add("paths", integer(r.latent_errors->paths));
+    latent.add("errors", integer(r.latent_errors->errors));
+    latent.add("resets", integer(r.latent_errors->resets));
+    latent.add("first_ps", optional_picoseconds(r.latent_errors->first));
+  }
+  node.add("latent_errors", std::move(latent));
+  Node individual = Node::array();
+  for (const results::RecoveryResult::Individual& each : r.individual) {
+    Node one = Node::object();
+    one.add("member", each.member ? integer(*each.member) : Node());
+    one.add("port", integer(each.port));
+    add_counters(one, each.counters);
+    individual.items.push_back(std::move(one));
+  }
+  node.add("individual", std::move(individual));
+  return node;
+}
+
+Node redundancy_of(const results::RunResult& result) {
+  Node splits = Node::array();
+  for (const results::SplitResult& s : result.redundancy.splits) {
+    Node node = Node::object();
+    node.add("node", Node::of_string(s.node));
+    node.add("stream", Node::of_string(s.stream));
+    node.add("members", integer(s.members));
+    node.add("frames", integer(s.frames));
+    node.add("copies", integer(s.copies));
+    splits.items.push_back(std::move(node));
+  }
+  Node recoveries = Node::array();
+  for (const results::RecoveryResult& r : result.redundancy.recoveries) recoveries.items.push_back(recovery_node(r));
+  Node node = Node::object();
+  node.add("splits", std::move(splits));
+  node.add("recoveries", std::move(recoveries));
+  return node;
 }
 
 }  // namespace
@@ -141,6 +270,9 @@ std::string run_json(const results::RunResult& result) {
   root.add("streams", streams_of(result));
   root.add("programs", programs_of(result));
   root.add("ports", ports_of(result));
+  root.add("dropped", dropped_of(result.dropped));
+  root.add("ingress", ingress_of(result));
+  root.add("redundancy", redundancy_of(result));
   return scenario::json::pretty(root);
 }
 

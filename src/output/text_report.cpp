@@ -21,6 +21,7 @@ constexpr std::size_t most_columns = 6;
 constexpr std::size_t most_streams = 12;
 constexpr std::size_t most_reactions = 24;
 constexpr std::size_t most_violations = 12;
+constexpr std::size_t most_features = 16;
 
 const char* mark(Verdict verdict) {
   switch (verdict) {
@@ -174,6 +175,146 @@ std::string ports_part(const RunResult& result) {
   return out;
 }
 
+/// "3 red" if there are any, after a comma if something stands before.
+void mention(std::string& row, std::uint64_t count, std::string_view what) {
+  if (count > 0) row += fmt::format("{}{} {}", row.empty() ? "" : ", ", count, what);
+}
+void mention_latch(std::string& row, bool latched, std::string_view what) {
+  if (latched) row += (row.empty() ? "" : ", ") + std::string(what);
+}
+
+/// A table of what was counted where. Rows without anything to say are left out. Where there are too many rows, those that tell of
+/// trouble come first.
+class FeatureTable {
+ public:
+  explicit FeatureTable(std::string_view title) : title_(title) {}
+  void add(std::string who, std::string what, bool trouble = false) {
+    if (!what.empty()) rows_.push_back({std::move(who), std::move(what), trouble});
+  }
+  std::string text() {
+    if (rows_.empty()) return {};
+    const std::size_t shown = std::min(rows_.size(), most_features);
+    if (shown < rows_.size()) std::stable_partition(rows_.begin(), rows_.end(), [](const Row& row) { return row.trouble; });
+    std::size_t width = 0;
+    for (std::size_t i = 0; i < shown; ++i) width = std::max(width, rows_[i].who.size());
+    std::string out = heading(title_);
+    for (std::size_t i = 0; i < shown; ++i) out += fmt::format("  {:<{}}  {}\n", rows_[i].who, width, rows_[i].what);
+    if (rows_.size() > shown) out += fmt::format("  ... {} more\n", rows_.size() - shown);
+    return out;
+  }
+
+ private:
+  struct Row {
+    std::string who;
+    std::string what;
+    bool trouble = false;
+  };
+  std::string_view title_;
+  std::vector<Row> rows_;
+};
+
+std::string port_features_part(const RunResult& result) {
+  FeatureTable table("Preemption, cut-through, overruns");
+  for (const results::PortResult& p : result.ports) {
+    std::string row;
+    mention(row, p.fragments_cut, p.fragments_cut == 1 ? "frame cut for an express one" : "frames cut for express ones");
+    mention(row, p.frames_cut_through, "cut through");
+    mention(row, p.bad_fcs_forwarded, "of them damaged");
+    mention(row, p.transmission_overrun, "sent beyond the end of their gate");
+    table.add(fmt::format("{}:{} to {}", p.node, p.port, p.peer), row, p.bad_fcs_forwarded + p.transmission_overrun > 0);
+  }
+  return table.text();
+}
+
+std::string filter_name(const results::StreamFilterResult& filter) {
+  std::string name = filter.stream.empty() ? "all streams" : filter.stream;
+  if (filter.priority) name += fmt::format(" PCP {}", *filter.priority);
+  return name;
+}
+
+std::string ingress_part(const RunResult& result) {
+  FeatureTable table("Ingress of switches");
+  for (const results::IngressResult& ingress : result.ingress) {
+    for (const results::StreamFilterResult& f : ingress.filters) {
+      std::string row;
+      mention(row, f.matching, "matched");
+      mention(row, f.not_passing_sdu, "too long");
+      mention(row, f.not_passing, "stopped by the gate");
+      mention(row, f.red, "discarded by the meter");
+      mention_latch(row, f.blocked_due_to_oversize, "BLOCKED since one was too long");
+      table.add(fmt::format("{} filter {}", ingress.node, filter_name(f)), row, f.not_passing_sdu + f.not_passing + f.red > 0);
+    }
+    for (const results::StreamGateResult& g : ingress.gates) {
+      std::string row;
+      mention(row, g.passed, "passed");
+      mention(row, g.closed, "came while it was closed");
+      mention(row, g.octets_exceeded, "beyond its octets");
+      mention_latch(row, g.closed_due_to_invalid_rx, "CLOSED since one came while it was closed");
+      mention_latch(row, g.closed_due_to_octets_exceeded, "CLOSED since octets were exceeded");
+      table.add(fmt::format("{} gate {}", ingress.node, g.name), row, g.closed + g.octets_exceeded > 0);
+    }
+    for (const results::FlowMeterResult& m : ingress.meters) {
+      std::string row;
+      mention(row, m.frames[0], "green");
+      mention(row, m.frames[1], "yellow");
+      mention(row, m.frames[2], "red");
+      mention(row, m.discarded, "discarded");
+      mention_latch(row, m.marks_all_red, "ALL RED since the first discarded one");
+      table.add(fmt::format("{} meter {}", ingress.node, m.name), row, m.discarded > 0);
+    }
+    for (const results::AtsSchedulerResult& s : ingress.ats) {
+      std::string row;
+      mention(row, s.passed, "passed");
+      if (s.longest_hold > Duration()) row += fmt::format(", held for up to {}", readable(s.longest_hold));
+      mention(row, s.discarded, "would have stayed too long");
+      table.add(fmt::format("{} ats {}", ingress.node, s.name), row, s.discarded > 0);
+    }
+  }
+  return table.text();
+}
+
+std::string counters_text(const results::RecoveryCounters& c) {
+  std::string row;
+  mention(row, c.passed, "passed");
+  mention(row, c.discarded, "discarded");
+  mention(row, c.lost, "lost");
+  mention(row, c.out_of_order, "out of order");
+  mention(row, c.rogue, "outside the history");
+  mention(row, c.tagless, "without an R-TAG");
+  mention(row, c.resets, c.resets == 1 ? "time-out" : "time-outs");
+  return row;
+}
+
+std::string redundancy_part(const RunResult& result) {
+  FeatureTable table("Redundant streams");
+  for (const results::SplitResult& s : result.redundancy.splits) {
+    std::string row;
+    mention(row, s.frames, fmt::format("split into {} members", s.members));
+    table.add(fmt::format("{} at {}", s.stream, s.node), row);
+  }
+  for (const results::RecoveryResult& r : result.redundancy.recoveries) {
+    std::string row = counters_text(r.counters);
+    if (r.latent_errors && r.latent_errors->errors > 0)
+      row += fmt::format("{}LATENT ERROR signalled {} time{}, first at {}", row.empty() ? "" : ", ", r.latent_errors->errors,
+                         r.latent_errors->errors == 1 ? "" : "s", readable(r.latent_errors->first->since_start()));
+    table.add(fmt::format("{} at {}", r.stream, r.node), row, r.counters.lost + r.counters.rogue > 0 || (r.latent_errors && r.latent_errors->errors > 0));
+    for (const results::RecoveryResult::Individual& each : r.individual)
+      if (each.counters.discarded > 0)
+        table.add(fmt::format("{} at {}, {} through port {}", r.stream, r.node, each.member ? fmt::format("member {}", *each.member) : std::string("no member"), each.port),
+                  counters_text(each.counters), true);
+  }
+  return table.text();
+}
+
+/// The sum of what the rows of several streams say.
+std::string drops_part(const RunResult& result) {
+  const auto drops = [](const StreamResult& stream) { return !stream.dropped.empty(); };
+  if (std::count_if(result.streams.begin(), result.streams.end(), drops) < 2) return {};
+  std::string row;
+  for (const auto& [reason, count] : result.dropped) row += fmt::format("{}{}: {}", row.empty() ? "" : ", ", reason, count);
+  return "  dropped in all  " + row + "\n";
+}
+
 }  // namespace
 
 std::string readable(Duration duration) {
@@ -210,7 +351,11 @@ std::string run_report(const RunResult& result) {
   if (result.partial) out += fmt::format("PARTIAL: interrupted after {} of {}\n", readable(result.simulated), readable(result.wanted));
   for (const ProgramResult& program : result.programs) out += program_part(program);
   out += streams_part(result);
+  out += drops_part(result);
   out += ports_part(result);
+  out += port_features_part(result);
+  out += ingress_part(result);
+  out += redundancy_part(result);
   out += requirements_part(result);
   return out + "\n" + run_line(result);
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "results/collect_clocks.hpp"
+#include "results/collect_ingress.hpp"
 #include "results/version.hpp"
 
 namespace takt::results {
@@ -88,6 +90,23 @@ ProgramResult result_of(const scenario::Run& run, std::size_t index) {
   return result;
 }
 
+std::uint64_t overruns_of(const models::EgressPort& port) {
+  std::uint64_t sum = 0;
+  for (models::TrafficClass q = 0; port.shaping() != nullptr && q < models::traffic_class_count; ++q) sum += port.shaping()->transmission_overrun(q);
+  return sum;
+}
+
+/// By reason, in the order of DropReason.
+std::vector<std::pair<std::string, std::uint64_t>> drops_of(const std::vector<models::Stream>& streams) {
+  std::vector<std::pair<std::string, std::uint64_t>> drops;
+  for (std::size_t reason = 0; reason < static_cast<std::size_t>(models::DropReason::count); ++reason) {
+    std::uint64_t sum = 0;
+    for (const models::Stream& stream : streams) sum += stream.dropped[reason];
+    if (sum > 0) drops.emplace_back(models::name_of(static_cast<models::DropReason>(reason)), sum);
+  }
+  return drops;
+}
+
 std::vector<PortResult> ports_of(const scenario::Run& run, Duration simulated) {
   std::vector<PortResult> results;
   const models::NetworkPlan& plan = run.resolved().plan;
@@ -97,7 +116,8 @@ std::vector<PortResult> ports_of(const scenario::Run& run, Duration simulated) {
       if (port.frames_sent() == 0 && port.frames_dropped() == 0) return;
       const double busy = static_cast<double>(port.wire_octets_sent()) * static_cast<double>(link.rate.octet_time().ps());
       results.push_back({plan.nodes[from.node.value].name, from.port, plan.nodes[to.node.value].name, port.frames_sent(), port.frames_dropped(),
-                         port.queues().peak_frames(), simulated > Duration() ? busy / static_cast<double>(simulated.ps()) : 0});
+                         port.queues().peak_frames(), simulated > Duration() ? busy / static_cast<double>(simulated.ps()) : 0,
+                         port.merge() == nullptr ? 0 : port.merge()->fragments_cut(), port.frames_cut_through(), port.bad_fcs_forwarded(), overruns_of(port)});
     };
     add(link.a, link.b);
     add(link.b, link.a);
@@ -161,6 +181,22 @@ class Judge {
     if (requirement.delivered)
       add({fmt::format("stream {} delivers at least {}", stream.name, *requirement.delivered),
            stream.delivered >= *requirement.delivered ? Verdict::pass : missing(), {}, {}, fmt::format("{} delivered", stream.delivered)});
+  }
+
+  void sync(const scenario::Requirement& requirement, const scenario::ClockMonitor::Limit& seen) {
+    RequirementResult verdict;
+    verdict.text = fmt::format("clock{} within {} of the grandmaster after {}", requirement.node ? " of " + *requirement.node : "s", json_text(*requirement.sync),
+                               json_text(requirement.after));
+    verdict.limit = *requirement.sync;
+    if (seen.samples == 0) {
+      verdict.remark = "not looked at";
+      verdict.verdict = missing();
+    } else {
+      verdict.measured = seen.greatest;
+      verdict.remark = fmt::format("{} samples", seen.samples);
+      verdict.verdict = seen.greatest <= *requirement.sync ? held() : Verdict::fail;
+    }
+    add(std::move(verdict));
   }
 
   /// Every Program keeps its invariants, whether or not a requirement says so.
@@ -228,15 +264,23 @@ RunResult evaluate(const scenario::Run& run, bool partial) {
   result.digest = run.simulation().digest().value();
   result.events = run.simulation().event_count();
   result.verdict = partial ? Verdict::undecided : Verdict::pass;
-  for (std::size_t s = 0; s < run.network().traffic().streams().size(); ++s)
+  // Behind the streams of the scenario may stand that of gPTP.
+  for (std::size_t s = 0; s < run.resolved().streams.size(); ++s)
     result.streams.push_back(result_of(run.network().traffic().streams()[s], run.resolved().streams[s].of_program));
   for (std::size_t p = 0; p < run.resolved().programs.size(); ++p) result.programs.push_back(result_of(run, p));
   result.ports = ports_of(run, result.simulated);
+  result.dropped = drops_of(run.network().traffic().streams());
+  result.clocks = clocks_of(run);
+  result.ingress = ingress_of(run);
+  result.redundancy = redundancy_of(run);
 
   Judge judge(result);
+  std::size_t next_limit = 0;  // of the clock monitor, in the order of the requirements
   for (const scenario::Requirement& requirement : scenario.require) {
     if (requirement.reaction)
       judge.reaction(requirement);
+    else if (requirement.sync)
+      judge.sync(requirement, run.clocks()->limits()[next_limit++]);
     else
       judge.stream(requirement);
   }

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "results/clock_result.hpp"
+#include "results/ingress_result.hpp"
 #include "sim/time.hpp"
 
 namespace takt::results {
@@ -109,6 +111,10 @@ struct PortResult {
   std::uint64_t dropped = 0;
   std::uint32_t queue_peak = 0;            ///< most frames in one queue
   double utilisation = 0;                  ///< share of the simulated time that the medium was taken
+  std::uint64_t fragments_cut = 0;         ///< how often a frame was cut for an express one
+  std::uint64_t frames_cut_through = 0;    ///< began to leave before they had come wholly
+  std::uint64_t bad_fcs_forwarded = 0;     ///< of those, damaged ones
+  std::uint64_t transmission_overrun = 0;  ///< were still being sent when their gate closed
 };
 
 struct RunResult {
@@ -125,6 +131,10 @@ struct RunResult {
   std::vector<StreamResult> streams;
   std::vector<ProgramResult> programs;
   std::vector<PortResult> ports;           ///< those that sent or dropped something
+  std::vector<std::pair<std::string, std::uint64_t>> dropped;  ///< frames of all streams by reason, only those that occurred
+  std::vector<ClockResult> clocks;         ///< of nodes with gPTP
+  std::vector<IngressResult> ingress;      ///< of switches whose ingress has met a frame
+  RedundancyResult redundancy;
 };
 
 }  // namespace takt::results

@@ -116,7 +116,7 @@ class Status(CliTest):
             with self.subTest(file=file.name):
                 status, out, err = takt("check", file)
                 self.assertEqual((status, err), (0, ""))
-                self.assertIn("Streams and their paths", out)
+                self.assertIn("\nNodes\n", out)
 
     def test_the_resolved_scenario_of_check_runs_the_same(self):
         status, out, _ = takt("check", shipped(), "--format", "json", "--duration", "1.5s")

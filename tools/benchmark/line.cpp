@@ -55,6 +55,15 @@ LineFigures run_line(double simulated_seconds, LineVariant variant) {
       gates.admin_control_list.push_back({GateOperation::set_gate_states, static_cast<GateStates>(entry == 7 ? 0xFC : 0x02 | 1u << entry), entry_time});
     plan.port_configs[0].shaping.gates = gates;
   }
+  if (variant == LineVariant::gptp) {
+    plan.gptp_stations.emplace_back();
+    for (std::uint32_t n = 0; n < plan.nodes.size(); ++n) {
+      plan.nodes[n].clock.emplace();
+      plan.nodes[n].clock->oscillator.offset = sim::FrequencyOffset{(static_cast<std::int64_t>(n * 37 % 100) - 50) * 1'000'000};
+      plan.nodes[n].clock->timestamps.granularity = 8_ns;
+      plan.gptp.push_back(0u);
+    }
+  }
   if (variant == LineVariant::preemption) {
     plan.port_configs[0].preemption = PreemptionConfig{0x03, AddFragSize(0), std::nullopt, {}};
     plan.streams[0].priority = 7;
@@ -70,6 +79,35 @@ LineFigures run_line(double simulated_seconds, LineVariant variant) {
   figures.population = simulation.pending_peak();
   for (std::uint32_t n = 0; n < network.plan().nodes.size(); ++n)
     for (const EgressPort& port : network.ports(NodeIndex{n})) figures.frame_hops += port.frames_sent();
+  return figures;
+}
+
+PairFigures run_gptp_line(double simulated_seconds) {
+  sim::Simulation simulation(1);
+  NetworkPlan plan;
+  constexpr std::uint32_t hops = 100;
+  plan.gptp_stations.emplace_back();
+  for (std::uint32_t n = 0; n <= hops; ++n) {
+    NodePlan node;
+    node.name = "n" + std::to_string(n);
+    node.kind = n == 0 || n == hops ? NodeKind::host : NodeKind::bridge;
+    node.clock.emplace();
+    node.clock->oscillator.offset = sim::FrequencyOffset{(static_cast<std::int64_t>(n * 37 % 100) - 50) * 1'000'000};
+    node.clock->oscillator.drift_ppt_per_second = n % 5 == 0 ? 0 : n % 2 == 0 ? 1'500'000 : -1'500'000;
+    node.clock->timestamps.granularity = 8_ns;
+    node.clock->timestamps.jitter = 4_ns;
+    plan.nodes.push_back(std::move(node));
+    plan.gptp.push_back(0u);
+  }
+  for (std::uint32_t n = 0; n < hops; ++n)
+    plan.links.push_back({{NodeIndex{n}, static_cast<std::uint16_t>(n == 0 ? 0 : 1)}, {NodeIndex{n + 1}, 0}, sim::DataRate{1'000'000'000}, 100_ns});
+  Network network(simulation, std::move(plan));
+  network.start();
+  PairFigures figures;
+  const double before = cpu_seconds();
+  simulation.run(sim::TrueTime() + sim::Duration::from_ps(static_cast<std::int64_t>(simulated_seconds * 1e12)));
+  figures.cpu_seconds = cpu_seconds() - before;
+  figures.simulated_seconds = simulated_seconds;
   return figures;
 }
 

@@ -1,7 +1,7 @@
 // One measured run of one workload, as a line of JSON; tools/bench calls it again and again, in turn with others.
 //
-//   takt_bench line|line-gates|line-short-gates|line-preemption SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION
-//            | tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair SECONDS
+//   takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION
+//            | tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -14,8 +14,8 @@ namespace {
 using namespace takt::benchmark;  // NOLINT
 
 int usage() {
-  std::fputs("usage: takt_bench line|line-gates|line-short-gates|line-preemption SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION |\n"
-             "       tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair SECONDS\n", stderr);
+  std::fputs("usage: takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION |\n"
+             "       tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS\n", stderr);
   return 2;
 }
 
@@ -23,6 +23,7 @@ std::optional<LineVariant> line_variant(std::string_view workload) {
   if (workload == "line") return LineVariant::plain;
   if (workload == "line-gates") return LineVariant::gates;
   if (workload == "line-short-gates") return LineVariant::short_gates;
+  if (workload == "line-gptp") return LineVariant::gptp;
   if (workload == "line-preemption") return LineVariant::preemption;
   return std::nullopt;
 }
@@ -46,8 +47,8 @@ int main(int argc, char** argv) {
     const TreeFigures f = run_tree(number(argv[2]), number(argv[3]), number(argv[4]), std::atof(argv[5]));
     std::printf(R"({"cpu_s": %.9f, "frame_hops": %llu, "setup_cpu_s": %.9f, "setup_octets": %zu, "hosts": %zu})" "\n", f.cpu_seconds,
                 static_cast<unsigned long long>(f.frame_hops), f.setup_cpu_seconds, f.setup_octets, f.hosts);
-  } else if (workload == "pair" && argc == 3) {
-    const PairFigures f = run_pair(std::atof(argv[2]));
+  } else if ((workload == "pair" || workload == "gptp-line") && argc == 3) {
+    const PairFigures f = workload == "pair" ? run_pair(std::atof(argv[2])) : run_gptp_line(std::atof(argv[2]));
     std::printf(R"({"cpu_s": %.9f, "simulated_s": %.9f})" "\n", f.cpu_seconds, f.simulated_seconds);
   } else {
     return usage();

@@ -17,6 +17,7 @@ enum class LineVariant {
   plain,
   gates,        ///< a gate list of eight entries of 31.25 us, one of which closes the class of the frames
   short_gates,  ///< the same with entries of 2.5 us: every second frame finds its gate closed
+  gptp,         ///< gPTP at every node, clocks of up to 50 ppm
   preemption,   ///< the large frames may be cut; the small ones are express and come while a large one is being sent
 };
 /// host - 5 switches - host at 1 Gb/s: 100 octets of UDP payload every 200 us and 1000 octets every 20 us.
@@ -44,5 +45,7 @@ struct PairFigures {
 };
 /// scenarios/direct-link.json, started once and left running.
 PairFigures run_pair(double simulated_seconds);
+/// host - 99 switches - host at 1 Gb/s with gPTP and nothing else: drifting clocks, Sync every 125 ms.
+PairFigures run_gptp_line(double simulated_seconds);
 
 }  // namespace takt::benchmark

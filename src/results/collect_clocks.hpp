@@ -1,0 +1,14 @@
+// From a run to what its clocks did.
+#pragma once
+
+#include <vector>
+
+#include "results/clock_result.hpp"
+#include "scenario/run.hpp"
+
+namespace takt::results {
+
+/// One for each node with gPTP; empty without it.
+std::vector<ClockResult> clocks_of(const scenario::Run& run);
+
+}  // namespace takt::results

@@ -1,0 +1,16 @@
+// Reads the counters of ingress chains and of redundancy from a run.
+#pragma once
+
+#include <vector>
+
+#include "results/ingress_result.hpp"
+#include "scenario/run.hpp"
+
+namespace takt::results {
+
+/// The switches whose ingress has met a frame.
+std::vector<IngressResult> ingress_of(const scenario::Run& run);
+/// Of switches, then of hosts.
+RedundancyResult redundancy_of(const scenario::Run& run);
+
+}  // namespace takt::results

@@ -1,0 +1,234 @@
+#!/usr/bin/env python3
+"""Records the shipped scenarios of TSN features and reads the recordings back: captures with tshark, wave forms, time lines.
+
+usage: recordings_test.py TAKT SOURCE_FOLDER [unittest options]
+"""
+import collections
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TAKT = ""
+SCENARIOS = pathlib.Path()
+
+# What would make captures of hundreds of megabytes; what happens in them happens early enough.
+SHORT = {"cqf-three-buffers": "200ms", "frer-ring": "100ms", "gates-on-a-line": "200ms"}
+
+
+def run(scenario, *arguments):
+    """The result of a run as JSON. A requirement may fail where the run was shortened."""
+    done = subprocess.run([TAKT, "run", str(scenario), "--format", "json", *map(str, arguments)], capture_output=True, text=True, timeout=240, check=False)
+    if done.returncode not in (0, 1):
+        raise AssertionError(f"{scenario.name} ended with {done.returncode}\n{done.stderr}")
+    return json.loads(done.stdout)
+
+
+def tshark(capture, *fields):
+    """Rows of fields, as tshark dissects the frames; checksums are verified."""
+    command = ["tshark", "-n", "-r", str(capture), "-o", "ip.check_checksum:TRUE", "-o", "udp.check_checksum:TRUE", "-T", "fields"]
+    for field in fields:
+        command += ["-e", field]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=True)
+    return [line.split("\t") for line in done.stdout.splitlines()]
+
+
+def waves_of(path):
+    """{scope.name: [(time in ps, value)]} of a value change dump, or an AssertionError."""
+    names, waves, scopes = {}, {}, []
+    time, lines = None, iter(path.read_text(encoding="ascii").splitlines())
+    for line in lines:
+        words = line.split()
+        if words[0] == "$scope":
+            scopes.append(words[2])
+        elif words[0] == "$upscope":
+            scopes.pop()
+        elif words[0] == "$var":
+            name = ".".join([*scopes, words[4]])
+            assert words[3] not in names and name not in waves, line
+            names[words[3]] = name
+            waves[name] = []
+        elif words[0] == "$enddefinitions":
+            break
+        else:
+            assert words[0] in ("$version", "$timescale"), line
+    assert not scopes
+    for line in lines:
+        if line in ("$dumpvars", "$end"):
+            continue
+        if line[0] == "#":
+            assert time is None or int(line[1:]) > time, f"time goes on: {line}"
+            time = int(line[1:])
+        elif line[0] == "b":
+            value, code = line[1:].split()
+            waves[names[code]].append((time, int(value, 2)))
+        else:
+            waves[names[line[1:]]].append((time, int(line[0], 2)))
+    return waves
+
+
+def gate_wave(lists, end):
+    """The changes of a gate list's states up to `end`: [(from, [(bits, duration)])], each list in force until the next; all in ps."""
+    changes = []
+    for number, (start, entries) in enumerate(lists):
+        until = lists[number + 1][0] if number + 1 < len(lists) else end + 1
+        time, entry = start, 0
+        while time < until:
+            bits, duration = entries[entry % len(entries)]
+            if not changes or changes[-1][1] != bits:
+                changes.append((time, bits))
+            time, entry = time + duration, entry + 1
+    return changes
+
+
+US = 10**6
+MS = 10**9
+
+
+class RecordingsTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="takt-recordings-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def scenarios(self):
+        found = sorted([*SCENARIOS.glob("tsn/*.json"), *SCENARIOS.glob("validation/*.json")])
+        self.assertGreater(len(found), 15)
+        return found
+
+    def record(self, scenario, *arguments):
+        out = self.folder / scenario.stem
+        return run(scenario, "--out", out, *arguments), out
+
+
+class All(RecordingsTest):
+    def test_captures_are_sound_and_recording_changes_nothing(self):
+        self.assertIsNotNone(shutil.which("tshark"), "this test needs tshark")
+        for scenario in self.scenarios():
+            with self.subTest(scenario=scenario.name):
+                short = ["--duration", SHORT[scenario.stem]] if scenario.stem in SHORT else []
+                plain = run(scenario, *short)
+                recorded, out = self.record(scenario, "--pcap", "all", "--timeline", "--waves", *short)
+                self.assertEqual(recorded, plain)  # digest, number of events and all figures
+                rows = tshark(out / "all.pcap", "_ws.malformed", "_ws.expert", "ip.checksum.status", "udp.checksum.status")
+                self.assertEqual(len(rows), sum(port["frames"] for port in plain["ports"]))
+                kinds = collections.Counter(map(tuple, rows))
+                self.assertLessEqual(set(kinds), {("", "", "1", "1"), ("", "", "", "")}, kinds)
+                json.loads((out / "timeline.json").read_text(encoding="utf-8"))
+                self.assertTrue(waves_of(out / "waves.vcd"))
+                shutil.rmtree(out)
+
+
+class RTags(RecordingsTest):
+    """Member frames carry an R-TAG behind the VLAN tag: both members the same numbers, one after the other."""
+
+    def sequences(self, capture):
+        rows = tshark(capture, "ieee8021cb.seq", "ieee8021cb.etype", "eth.type", "vlan.etype")
+        tagged = [row for row in rows if row[0]]
+        for row in tagged:
+            self.assertEqual(int(row[1], 16), 0x0800)
+            self.assertIn((row[2], row[3]), {("0x8100", "0xf1c1"), ("0xf1c1", "")})
+        return rows, [int(row[0], 16) for row in tagged]
+
+    def test_between_split_and_merge(self):
+        for name, ports in (("tsn/frer-ring", ("sw1:0", "sw1:1")), ("validation/frer", ("s1:1", "s1:2"))):
+            with self.subTest(name=name):
+                scenario = SCENARIOS / f"{name}.json"
+                _, out = self.record(scenario, "--duration", "19ms", *[a for port in ports for a in ("--pcap", port)])
+                captured = [self.sequences(out / f"{port.replace(':', '-')}.pcap")[1] for port in ports]
+                self.assertGreater(len(captured[0]), 15)
+                self.assertEqual(captured[0], list(range(len(captured[0]))))
+                self.assertEqual(captured[0], captured[1])
+
+    def test_not_outside(self):
+        _, out = self.record(SCENARIOS / "validation/frer.json", "--duration", "19ms", "--pcap", "source", "--pcap", "s3:2")
+        for file in ("source.pcap", "s3-2.pcap"):
+            rows, numbers = self.sequences(out / file)
+            self.assertGreater(len(rows), 15)
+            self.assertEqual(numbers, [])
+
+
+class Waves(RecordingsTest):
+    def test_gates_follow_their_list(self):
+        # Class 4 for 20 us, classes 0 and 1 for 980 us.
+        _, out = self.record(SCENARIOS / "validation/gates.json", "--waves", "--duration", "20ms")
+        waves = waves_of(out / "waves.vcd")
+        expected = gate_wave([(0, [(0x10, 20 * US), (0x03, 980 * US)])], 20 * MS)
+        self.assertEqual(waves["switch.port2_to_server.gates"], expected)
+        self.assertEqual(waves["switch.port0_to_client1.gates"], [(0, 0xFF)])  # no list: open
+
+    def test_another_list_takes_over(self):
+        # Asked at 1.5003 s; the new list has a cycle of 500 us and base time 0, so it begins at 1.5005 s (802.1Q 8.6.9.1.1).
+        _, out = self.record(SCENARIOS / "tsn/gates-on-a-line.json", "--waves", "--duration", "1503ms")
+        waves = waves_of(out / "waves.vcd")
+        slow = (0, [(0xC0, 100 * US), (0x0F, 900 * US)])
+        fast = (1_500_500 * US, [(0xC0, 100 * US), (0x0F, 400 * US)])
+        self.assertEqual(waves["sw2.port1_to_sw3.gates"], gate_wave([slow, fast], 1503 * MS))
+        self.assertEqual(waves["sw1.port0_to_sw2.gates"], gate_wave([slow], 1503 * MS))
+
+    def test_a_stuck_gate_shows(self):
+        # All gates are open for 400 us after 100 us of class 7 alone; that of class 0 is stuck closed from 50 to 55 ms.
+        _, out = self.record(SCENARIOS / "tsn/cut-through-and-bad-frames.json", "--waves", "--duration", "60ms")
+        wave = waves_of(out / "waves.vcd")["sw4.port1_to_sw5.gates"]
+        seen = {time: bits for time, bits in wave if 50 * MS <= time < 55 * MS}
+        self.assertEqual(set(seen.values()), {0x80, 0xFE})
+        self.assertEqual({bits for time, bits in wave if time < 50 * MS or time >= 55 * MS + 100 * US}, {0x80, 0xFF})
+
+
+class TimeLine(RecordingsTest):
+    def slices(self, scenario, *arguments):
+        _, out = self.record(scenario, "--timeline", *arguments)
+        events = json.loads((out / "timeline.json").read_text(encoding="utf-8"), parse_float=str)["traceEvents"]
+        ports = {(e["pid"], e["tid"]): e["args"]["name"] for e in events if e["name"] == "thread_name"}
+        return [e for e in events if e["ph"] == "X"], ports
+
+    def test_fragments(self):
+        # The figures of the scenario's own derivation: 117 octets and an mCRC, the express frame, 1405 octets; 80 ns an octet, 8 of
+        # preamble before each.
+        slices, _ = self.slices(SCENARIOS / "validation/preemption.json", "--duration", "2500us")
+        first_period = [(e["name"], e["args"].get("fragment"), e["args"]["octets"], e["ts"], e["dur"]) for e in slices if float(e["ts"]) < 1000]
+        self.assertEqual(sorted(first_period, key=lambda e: float(e[3])), [
+            ("bulk", "first", 121, "0.000000", "10.320000"),
+            ("express", None, 150, "11.280000", "12.640000"),
+            ("bulk", "last", 1405, "24.880000", "113.040000")])
+        self.assertEqual(sum(e["args"].get("fragment") == "first" for e in slices), 3)
+
+    def test_slices_of_a_port_do_not_overlap_and_fragments_add_up(self):
+        # 12 octets of gap at least between two slices; data octets of all fragments of a frame make the frame.
+        slices, ports = self.slices(SCENARIOS / "tsn/preemption-on-a-line.json", "--duration", "50ms")
+        by_port = collections.defaultdict(list)
+        for e in slices:
+            by_port[(e["pid"], e["tid"])].append((round(float(e["ts"]) * 10**6), round(float(e["dur"]) * 10**6), e))
+        cut = 0
+        for port, own in by_port.items():
+            own.sort(key=lambda s: s[0])
+            for (start, duration, e), (following, _, _) in zip(own, own[1:]):
+                octet = duration // (e["args"]["octets"] + 8)
+                self.assertGreaterEqual(following, start + duration + 12 * octet, ports[port])
+            lengths = collections.defaultdict(set)
+            open_frame = {}
+            for _, _, e in own:
+                key, part, octets = (e["name"], e["args"]["sequence"]), e["args"].get("fragment"), e["args"]["octets"]
+                if part == "first":
+                    self.assertEqual(open_frame, {}, "one frame is cut at a time")
+                    open_frame = {key: octets - 4}
+                    cut += 1
+                elif part == "middle":
+                    open_frame[key] += octets - 4
+                elif part == "last":
+                    lengths[e["name"]].add(open_frame.pop(key) + octets)
+                else:
+                    lengths[e["name"]].add(octets)
+            for name, found in lengths.items():
+                self.assertEqual(len(found), 1, (ports[port], name, found))
+        self.assertGreater(cut, 100)
+
+
+if __name__ == "__main__":
+    TAKT = os.path.abspath(sys.argv[1])
+    SCENARIOS = pathlib.Path(sys.argv[2]) / "scenarios"
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

@@ -183,6 +183,39 @@ Node by_name(const Rows& rows, Node (*node_of)(const typename Rows::value_type&)
   return all;
 }
 
+Node clocks_of(const results::RunResult& result) {
+  Node all = Node::array();
+  const auto ps = [](sim::Duration duration) { return Node::of_integer(duration.ps()); };
+  for (const results::ClockResult& c : result.clocks) {
+    Node node = Node::object();
+    node.add("node", Node::of_string(c.node));
+    node.add("grandmaster", Node::of_string(c.grandmaster));
+    node.add("state", Node::of_string(c.state));
+    node.add("time_to_lock_ps", optional_picoseconds(c.time_to_lock));
+    node.add("samples", integer(c.samples));
+    Node offset = Node::object();
+    offset.add("min_ps", ps(c.least));
+    offset.add("mean_ps", ps(c.mean));
+    offset.add("rms_ps", ps(c.rms));
+    offset.add("max_ps", ps(c.greatest));
+    node.add("offset", std::move(offset));
+    node.add("rate_error_ppt", Node::of_integer(c.frequency_error_ppt));
+    node.add("steps", integer(c.steps));
+    node.add("messages", integer(c.messages));
+    Node changes = Node::array();
+    for (const results::ClockChangeResult& change : c.changes) {
+      Node entry = Node::object();
+      entry.add("at_ps", ps(change.at.since_start()));
+      entry.add("grandmaster", Node::of_string(change.grandmaster));
+      entry.add("state", Node::of_string(change.state));
+      changes.items.push_back(std::move(entry));
+    }
+    node.add("history", std::move(changes));
+    all.items.push_back(std::move(node));
+  }
+  return all;
+}
+
 Node ingress_of(const results::RunResult& result) {
   Node all = Node::object();
   for (const results::IngressResult& i : result.ingress) {
@@ -271,6 +304,7 @@ std::string run_json(const results::RunResult& result) {
   root.add("programs", programs_of(result));
   root.add("ports", ports_of(result));
   root.add("dropped", dropped_of(result.dropped));
+  root.add("clocks", clocks_of(result));
   root.add("ingress", ingress_of(result));
   root.add("redundancy", redundancy_of(result));
   return scenario::json::pretty(root);

@@ -226,6 +226,32 @@ std::string port_features_part(const RunResult& result) {
   return table.text();
 }
 
+/// Offsets with their sign.
+std::string signed_time(Duration offset) { return offset < Duration() ? "-" + readable(Duration() - offset) : readable(offset); }
+
+/// The worst clocks, and who is grandmaster when.
+std::string clocks_part(const RunResult& result) {
+  if (result.clocks.empty()) return {};
+  std::vector<const results::ClockResult*> clocks;
+  for (const results::ClockResult& clock : result.clocks) clocks.push_back(&clock);
+  const auto worst = [](const results::ClockResult* c) { return std::max(c->greatest, Duration() - c->least); };
+  std::stable_sort(clocks.begin(), clocks.end(), [&](const auto* a, const auto* b) { return worst(a) > worst(b); });
+  const std::size_t shown = std::min(clocks.size(), most_features);
+  std::size_t width = 4;
+  for (std::size_t i = 0; i < shown; ++i) width = std::max(width, clocks[i]->node.size());
+  std::string out = heading("Clocks, by their greatest offset from the grandmaster since they were locked");
+  out += fmt::format("  {:<{}}  {:<12}  {:<12}  {:>12}  {:>12}  {:>12}  {:>12}  {:>12}  {:>10}  {}\n", "node", width, "grandmaster", "state", "locked after", "min", "mean", "rms", "max",
+                     "rate error", "steps");
+  for (std::size_t i = 0; i < shown; ++i) {
+    const results::ClockResult& c = *clocks[i];
+    out += fmt::format("  {:<{}}  {:<12}  {:<12}  {:>12}  {:>12}  {:>12}  {:>12}  {:>12}  {:>6.1f} ppb  {}\n", c.node, width, c.grandmaster, c.state,
+                       c.time_to_lock ? readable(*c.time_to_lock) : c.state == "grandmaster" ? "-" : "never", signed_time(c.least), signed_time(c.mean), readable(c.rms), signed_time(c.greatest),
+                       static_cast<double>(c.frequency_error_ppt) / 1000.0, c.steps);
+  }
+  if (clocks.size() > shown) out += fmt::format("  ... {} more\n", clocks.size() - shown);
+  return out;
+}
+
 std::string filter_name(const results::StreamFilterResult& filter) {
   std::string name = filter.stream.empty() ? "all streams" : filter.stream;
   if (filter.priority) name += fmt::format(" PCP {}", *filter.priority);
@@ -354,6 +380,7 @@ std::string run_report(const RunResult& result) {
   out += drops_part(result);
   out += ports_part(result);
   out += port_features_part(result);
+  out += clocks_part(result);
   out += ingress_part(result);
   out += redundancy_part(result);
   out += requirements_part(result);

@@ -22,7 +22,7 @@ std::vector<ClockResult> clocks_of(const scenario::Run& run) {
     ClockResult result;
     result.node = name(figures.node);
     result.grandmaster = name(station.grandmaster());
-    result.state = station.is_up() ? name_of(station.state()) : "down";
+    result.state = !station.is_up() ? "down" : station.active_is_grandmaster() ? "grandmaster" : name_of(station.target().state());
     if (figures.locked) result.time_to_lock = figures.locked->since_start();
     result.samples = figures.samples;
     if (figures.samples > 0) {

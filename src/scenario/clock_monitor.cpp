@@ -4,6 +4,9 @@
 #include <utility>
 
 namespace takt::scenario {
+namespace {
+constexpr sim::Duration near_enough = sim::Duration::from_ps(1'000'000);  // a servo calls itself locked while it still closes in
+}
 
 ClockMonitor::ClockMonitor(sim::Simulation& simulation, const models::Network& network, sim::Duration every, std::vector<Limit> limits)
     : simulation_(&simulation), network_(&network), every_(every), limits_(std::move(limits)), source_(simulation.add(*this)) {
@@ -28,7 +31,8 @@ void ClockMonitor::look_at(const models::gptp::Station& station, ClockFigures& f
     limit.greatest = std::max(limit.greatest, offset < sim::Duration() ? sim::Duration() - offset : offset);
   }
   if (!figures.locked) {
-    if (station.state() != models::gptp::TargetState::locked) return;
+    const sim::Duration distance = offset < sim::Duration() ? sim::Duration() - offset : offset;
+    if (station.target().state() != models::gptp::TargetState::locked || distance > near_enough) return;
     figures.locked = now;
   }
   figures.least = figures.samples == 0 ? offset : std::min(figures.least, offset);

@@ -13,7 +13,7 @@ namespace takt::scenario {
 /// What one node's clock has shown, by the differences to its grandmaster's clock at the instants that were looked at.
 struct ClockFigures {
   models::NodeIndex node;
-  std::optional<sim::TrueTime> locked;      ///< first time that its servo was locked; a grandmaster is locked from the start
+  std::optional<sim::TrueTime> locked;      ///< first time that its servo was locked and within 1 us; never for who was always grandmaster
   std::uint64_t samples = 0;                ///< since then
   sim::Duration least;
   sim::Duration greatest;

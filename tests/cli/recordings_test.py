@@ -105,6 +105,19 @@ class RecordingsTest(unittest.TestCase):
         return run(scenario, "--out", out, *arguments), out
 
 
+class Clocks(RecordingsTest):
+    def test_ptp_is_dissected(self):
+        """Every message type of gPTP, by what Wireshark says of it."""
+        seen = collections.Counter()
+        for name in ("two-nodes", "ring", "hot-standby"):
+            _, out = self.record(SCENARIOS / "clocks" / f"{name}.json", "--duration", "3s", "--pcap", "all")
+            rows = tshark(out / "all.pcap", "_ws.malformed", "_ws.expert", "ptp.v2.messagetype")
+            self.assertFalse([row for row in rows if row[0] or row[1]])
+            seen.update(row[2] for row in rows)
+        # Sync, Pdelay_Req, Pdelay_Resp, Follow_Up, Pdelay_Resp_Follow_Up, Announce
+        self.assertEqual({int(kind, 16) for kind in seen}, {0x0, 0x2, 0x3, 0x8, 0xA, 0xB})
+
+
 class All(RecordingsTest):
     def test_captures_are_sound_and_recording_changes_nothing(self):
         self.assertIsNotNone(shutil.which("tshark"), "this test needs tshark")

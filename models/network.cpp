@@ -114,7 +114,11 @@ void Network::add_talker(const TalkerPlan& talker) {
                                               node.name + "/" + (talker.name.empty() ? stream.name : talker.name), talker.stream, talker.payload,
                                               talker.schedule));
   talkers_.back()->set_until(talker.until);
-  if (talker.babbles) talkers_.back()->set_babbling();
+  if (talker.babbles)
+    talkers_.back()->set_babbling();
+  else
+    for (const auto& other : talkers_)
+      if (other != talkers_.back() && other->stream() == talker.stream) other->share_latency(*talkers_.back());
   if (followers_[stream.talker.value]) followers_[stream.talker.value]->talkers.push_back(talkers_.back().get());
   if (!talker.launch) return;
   talkers_.back()->set_launch(*talker.launch);

@@ -75,6 +75,7 @@ class CreditBasedShaper {
   /// Another slope from now on: the gate list has changed. The denominator may change; credit is rounded towards minus infinity.
   void set_idle_slope(sim::TrueTime now, CreditSlope idle_slope);
 
+  bool gate_is_open() const { return gate_open_; }
   /// Nothing waits or is being sent, and credit is 0: so it stays, whatever the gate does.
   bool is_at_rest(sim::TrueTime now) const { return queue_empty_ && now >= free_at_ && updated_ >= free_at_ && credit_.units == 0; }
 

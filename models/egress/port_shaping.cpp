@@ -118,6 +118,12 @@ void PortShaping::follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now)
       break;
     }
     const bool open = shaper.gates.is_open(q, at);
+    if (open != shaper.credit.gate_is_open()) {  // a list that began to run at once has moved the gate
+      if (open)
+        shaper.credit.gate_opened(clock_->true_at(at));
+      else
+        shaper.credit.gate_closed(clock_->true_at(at));
+    }
     set_slope(shaper, q, clock_->true_at(at));
     const sim::LocalTime toggle = open ? shaper.gates.close_time(q, at) : shaper.gates.open_time(q, at);
     if (const sim::LocalTime change = pending_change(shaper, at); change < toggle && change <= local) {

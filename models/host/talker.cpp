@@ -33,8 +33,8 @@ Talker::Talker(sim::Simulation& simulation, Traffic& traffic, HostOutput& output
       stream_(stream),
       payload_(payload),
       schedule_(std::move(schedule)),
-      transmit_(latency.transmit, simulation.seed(), path, "os transmit"),
-      transmits_at_once_(transmit_.is_none()),
+      own_transmit_(latency.transmit, simulation.seed(), path, "os transmit"),
+      transmits_at_once_(own_transmit_.is_none()),
       chance_(simulation.seed(), path, "schedule") {}
 
 sim::LocalTime Talker::time_of_next() {
@@ -110,7 +110,7 @@ void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::produced), source_.id(), frame.value, stream_.value});
   if (!transmits_at_once_)
-    simulation.schedule(source_, transmit_.pass(simulation.now()), sim::Phase::arrival, source_.id(), transmit_now, frame.value);
+    simulation.schedule(source_, transmit_->pass(simulation.now()), sim::Phase::arrival, source_.id(), transmit_now, frame.value);
   ++count_;
   schedule_next(simulation);
   if (transmits_at_once_) hand_over(simulation, frame);

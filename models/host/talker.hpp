@@ -50,6 +50,9 @@ class Talker final : public sim::Component {
   void set_launch(sim::Duration after_due) { launch_ = after_due; }
   /// A second talker of its stream, which speaks first where both do at one instant; it is made before the other one.
   void set_babbling() { phase_ = sim::Phase::arrival; }
+  /// Its frames take the way through the operating system that those of `other` take, so that they do not overtake each other.
+  void share_latency(Talker& other) { transmit_ = other.transmit_; }
+  StreamIndex stream() const { return stream_; }
   /// Only frames that are due before then are produced.
   void set_until(sim::LocalTime until) { until_ = until; }
 
@@ -81,7 +84,8 @@ class Talker final : public sim::Component {
   sim::LocalTime until_ = sim::LocalTime::never();
   std::optional<sim::Duration> launch_;
   TalkerSchedule schedule_;
-  LatencyLine transmit_;
+  LatencyLine own_transmit_;
+  LatencyLine* transmit_ = &own_transmit_;
   bool transmits_at_once_;
   sim::RandomStream chance_;
 };

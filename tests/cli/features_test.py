@@ -201,7 +201,7 @@ class Check(FeaturesTest):
         return out
 
     def test_ports(self):
-        self.assertEqual(self.row(self.page("validation/gates"), CHECKED_PORTS, "switch:2 to server"), "gates: 2 entries, cycle 1 ms")
+        self.assertEqual(self.row(self.page("validation/gates"), CHECKED_PORTS, "switch:2 to server"), "gates: 2 entries, cycle 1 ms; untagged")
         self.assertEqual(self.row(self.page("tsn/cut-through-and-bad-frames"), CHECKED_PORTS, "sw1:0 to sw2"), "gates: 2 entries, cycle 500 us; cut through: 7")
         self.assertEqual(self.row(self.page("tsn/preemption-on-a-line"), CHECKED_PORTS, "sw1:0 to sw2"), "shaper of class 4: 20Mbps; preemptable: 0 1 2 3 4 5")
         self.assertEqual(self.row(self.page("validation/launch-time"), CHECKED_PORTS, "talker:0 to listener"), "launch times: 1")

@@ -10,10 +10,13 @@ namespace takt::scenario {
 namespace {
 
 using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
+// Boost adds the distances of vertices that no path reaches, each the greatest of its type, which an integer cannot hold. The costs are whole
+// numbers below 2^53, so that a double adds them exactly.
+using Cost = double;
 using Properties =
     boost::property<boost::edge_capacity_t, std::int64_t,
                     boost::property<boost::edge_residual_capacity_t, std::int64_t,
-                                    boost::property<boost::edge_reverse_t, Traits::edge_descriptor, boost::property<boost::edge_weight_t, std::int64_t>>>>;
+                                    boost::property<boost::edge_reverse_t, Traits::edge_descriptor, boost::property<boost::edge_weight_t, Cost>>>>;
 using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property, Properties>;
 
 /// Each switch is two vertices, where paths come in and where they go out, with the number of paths that may cross it between.
@@ -31,12 +34,14 @@ class FlowNetwork {
     for (std::uint32_t n = 0; n < topology.nodes.size(); ++n)
       if (!topology.nodes[n].is_host() || is_end(n))
         add(way_in(n), way_out(n), is_end(n) || is_only_way(from, n) || is_only_way(to, n) ? count : count_at_switch, 0);
-    std::int64_t number = 0;
+    // One link more costs more than any choice among equally many.
+    const Cost cost_of_link = static_cast<Cost>(topology.nodes.size()) * static_cast<Cost>(topology.links.size()) + 1;
+    Cost number = 0;
     std::set<std::pair<std::uint32_t, std::uint32_t>> joined;  // a path names its nodes: of parallel links the first counts
     for (const models::LinkPlan& link : topology.links) {
       const std::uint32_t a = link.a.node.value;
       const std::uint32_t b = link.b.node.value;
-      ++number;
+      number += 1;
       if ((topology.nodes[a].is_host() && !is_end(a)) || (topology.nodes[b].is_host() && !is_end(b))) continue;
       if (!joined.insert(std::minmax(a, b)).second) continue;
       for (const auto& [x, y] : {std::pair(a, b), std::pair(b, a)}) {
@@ -91,8 +96,6 @@ class FlowNetwork {
   }
 
  private:
-  // One link more costs more than any choice among equally many.
-  static constexpr std::int64_t cost_of_link = std::int64_t{1} << 40;
   struct Link {
     std::uint32_t from = 0;
     std::uint32_t to = 0;
@@ -103,7 +106,7 @@ class FlowNetwork {
   static std::size_t way_in(std::uint32_t node) { return std::size_t{2} * node; }
   static std::size_t way_out(std::uint32_t node) { return std::size_t{2} * node + 1; }
 
-  Traits::edge_descriptor add(std::size_t from, std::size_t to, std::int64_t capacity, std::int64_t cost) {
+  Traits::edge_descriptor add(std::size_t from, std::size_t to, std::int64_t capacity, Cost cost) {
     const auto forth = boost::add_edge(from, to, graph_).first;
     const auto back = boost::add_edge(to, from, graph_).first;
     boost::put(boost::edge_capacity, graph_, forth, capacity);

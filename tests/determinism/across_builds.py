@@ -39,6 +39,8 @@ def build(source, folder, compiler, build_type, sanitizers):
 def digest(takt, scenario, *options):
     duration = SHORT.get(scenario.stem, USUAL)
     done = run(takt, "run", scenario, "--format", "json", "--duration", duration, *options)
+    if not done.stdout:  # a sanitizer ends with 1, too
+        sys.exit(f"{takt} run {scenario} {' '.join(options)} printed no result\n{done.stderr[-4000:]}")
     result = json.loads(done.stdout)
     return result["digest"], result["events"]
 

@@ -114,11 +114,12 @@ void Network::add_talker(const TalkerPlan& talker) {
                                               node.name + "/" + (talker.name.empty() ? stream.name : talker.name), talker.stream, talker.payload,
                                               talker.schedule));
   talkers_.back()->set_until(talker.until);
-  if (talker.babbles)
+  if (talker.babbles) {
     talkers_.back()->set_babbling();
-  else
-    for (const auto& other : talkers_)
-      if (other != talkers_.back() && other->stream() == talker.stream) other->share_latency(*talkers_.back());
+    babblers_.emplace(talker.stream.value, talkers_.back().get());
+  } else {
+    for (auto [other, end] = babblers_.equal_range(talker.stream.value); other != end; ++other) other->second->share_latency(*talkers_.back());
+  }
   if (followers_[stream.talker.value]) followers_[stream.talker.value]->talkers.push_back(talkers_.back().get());
   if (!talker.launch) return;
   talkers_.back()->set_launch(*talker.launch);
@@ -172,6 +173,7 @@ void Network::announce_cut_through() {
   for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
     if (bridges_[n] == nullptr) continue;
     const std::span<EgressPort> ports = mutable_ports(NodeIndex{n});
+    bool announced = false;
     std::uint8_t timed = 0;
     for (const EgressPort& port : ports)
       for (unsigned p = 0; port.is_connected() && p < 8; ++p)
@@ -182,8 +184,13 @@ void Network::announce_cut_through() {
         for (unsigned p = 0; p < 8; ++p)
           if (&other != &port && other.is_connected() && contains(other.config().cut_through, other.config().traffic_class_of_priority[p])) priorities = static_cast<std::uint8_t>(priorities | 1u << p);
       priorities = static_cast<std::uint8_t>(priorities & ~timed);
-      if (priorities != 0 && port.is_connected() && port.opposite() != nullptr) port.opposite()->notice_headers(priorities, plan_.nodes[n].cut_through_header);
+      if (priorities == 0 || !port.is_connected() || port.opposite() == nullptr) continue;
+      port.opposite()->notice_headers(priorities, plan_.nodes[n].cut_through_header);
+      announced = true;
     }
+    // A header may lead to any port, whether that cuts through or not.
+    for (EgressPort& port : ports)
+      if (announced && port.is_connected()) port.expect_headers();
   }
 }
 

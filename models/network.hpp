@@ -1,6 +1,7 @@
 // A live network: nodes, ports, talkers and processes, built from a plan on top of one simulation.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -124,6 +125,7 @@ class Network final : private LinkLocalSender {
   std::vector<std::uint32_t> reasons_down_;           // by link: how many reasons it has to be down
   std::vector<std::uint32_t> crashes_;                // by node: how many crashes it has not come back from
   std::vector<std::unique_ptr<Talker>> talkers_;
+  std::multimap<std::uint32_t, Talker*> babblers_;  // by stream
   std::vector<std::unique_ptr<Process>> processes_;
   std::vector<NodeIndex> host_of_process_;
 };

@@ -13,6 +13,7 @@
 // segment, the second time. never() maps to never(), as does what lies beyond the last instant.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "models/clock/clock_rate.hpp"
@@ -47,6 +48,9 @@ class LocalClock {
     if (ideal_) [[likely]] return sim::TrueTime::from_ps(time.ps());
     return true_in_segments(time);
   }
+
+  /// When to ask again for what becomes true at `time`: after `now` in any case, also where the clock shows `time` already.
+  sim::TrueTime true_after(sim::LocalTime time, sim::TrueTime now) const { return std::max(true_at(time), now + sim::Duration::from_ps(1)); }
 
   /// The time of this clock as if it had never been stepped: follows the rate, never goes back, never jumps. Local intervals
   /// are measured on it. Equal to local_at() until the first step.

@@ -32,17 +32,16 @@ void EgressPort::connect(sim::Simulation& simulation, Shared& shared, const Port
   peer_port_ = far_end.port;
   peer_delay_ps_ = static_cast<std::uint64_t>(far_end.delay.ps()) & 0xFFF'FFFF'FFFF;
   if (!config.shaping.is_plain()) make_shaping();
-  // Extras of the link or the node may come at any time, and need to know the peer's share of the delay.
   if (config.preemption || config.cut_through != 0 || config.untagged) make_extras();
   if (config.preemption) extras_->merge = std::make_unique<MacMerge>(*config.preemption, octet_time);
-  if (config.cut_through != 0) extras_->conditional = true;
+  if (config.cut_through != 0) make_conditional();
   find_gates();
   node_delay_ = far_end.node_delay;
 }
 
 inline void EgressPort::find_way() {
   if (extras_ && !shaping_ && queues_.empty() && extras_->merge && !extras_->merge->rest() && !extras_->fault && !extras_->conditional &&
-      extras_->noticed_priorities == 0)
+      extras_->noticed_priorities == 0 && !extras_->expects_headers)
     way_ = Way::merging;
   else
     way_ = !queues_.empty() || extras_ ? Way::detour : !shaping_ ? Way::straight : only_gates_ != nullptr ? Way::gated : Way::detour;
@@ -72,6 +71,11 @@ void EgressPort::notice_headers(std::uint8_t priorities, Octets header) {
   find_gates();
 }
 
+void EgressPort::expect_headers() {
+  make_extras().expects_headers = true;
+  find_gates();
+}
+
 void EgressPort::make_conditional() {
   make_extras().conditional = true;
   find_gates();
@@ -98,10 +102,10 @@ void EgressPort::settle(sim::Simulation& simulation) {
     has_arrival_ = false;
     if (way_ == Way::straight)
       start(simulation, arrival_.frame);
-    else if (way_ == Way::merging)
-      start_with_extras(simulation, arrival_.frame, class_of(arrival_.frame));
-    else
+    else if (way_ == Way::gated)
       pass_gate(simulation, arrival_.frame);
+    else
+      start_with_extras(simulation, arrival_.frame, class_of(arrival_.frame));
     return;
   }
   settle_many(simulation);
@@ -120,7 +124,7 @@ void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame) {
   }
   admit(simulation, frame);
   way_ = Way::detour;
-  promised_ = answer.ask_again == sim::LocalTime::never() ? sim::TrueTime::never() : std::max(clock_->true_at(answer.ask_again), now + sim::Duration::from_ps(1));
+  promised_ = clock_->true_after(answer.ask_again, now);
   wake_at(simulation, promised_);
 }
 
@@ -365,20 +369,18 @@ void EgressPort::force_gate(sim::Simulation& simulation, TrafficClass q, std::op
   gates_changed(simulation);
 }
 
-/// What waits may become ready earlier or later than was thought.
 void EgressPort::gates_changed(sim::Simulation& simulation) {
   const sim::TrueTime last_bit = busy_until_ - octet_time() * inter_packet_gap.count;
   if (last_bit > simulation.now()) shaping_->check_overrun(simulation.now(), sending_, last_bit);
-  promised_ = sim::TrueTime::never();
   find_gates();
-  if (extras_ && extras_->merge) extras_->merge->gates_changed();
-  if (!queues_.empty() || (extras_ && extras_->merge)) settle_later(simulation);
-  if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
-    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::gates_changed), id(), 0, 0});
+  ask_again(simulation);
 }
 
 void EgressPort::clock_changed(sim::Simulation& simulation) {
-  if (!shaping_) return;
+  if (shaping_) ask_again(simulation);
+}
+
+void EgressPort::ask_again(sim::Simulation& simulation) {
   promised_ = sim::TrueTime::never();
   if (extras_ && extras_->merge) extras_->merge->gates_changed();
   if (!queues_.empty() || (extras_ && extras_->merge)) settle_later(simulation);

@@ -76,6 +76,8 @@ class alignas(64) EgressPort final : public sim::Component {
   /// The peer may cut frames of these priorities through: tell it when so many octets from the preamble on have come (so many
   /// more if the frame has a VLAN tag or an R-TAG).
   void notice_headers(std::uint8_t priorities, Octets header);
+  /// offer_header() will be called.
+  void expect_headers();
   /// The node marks frames, changes their tags, or may send damaged ones: the peer looks at each.
   void make_conditional();
   /// Something may go wrong on this direction of the link; `path` names it in the random streams, e.g. "sw1 to sw2".
@@ -124,8 +126,9 @@ class alignas(64) EgressPort final : public sim::Component {
   /// The same for a frame of which only the header has come: it may start at once if this port cuts its class through, the medium
   /// is free, nothing waits and the link it comes from is as fast. Otherwise it is offered at `stored`, when it has wholly come
   /// and the node's fixed delay is over, or dropped then if it turns out to be damaged. `sender` is the port from which it comes.
+  /// Precondition: expect_headers().
   void offer_header(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, sim::TrueTime stored, EgressPort& sender) {
-    make_extras().headers.push_back({frame, rank, stored, &sender});
+    extras_->headers.push_back({frame, rank, stored, &sender});
     settle_later(simulation);
   }
 
@@ -158,7 +161,6 @@ class alignas(64) EgressPort final : public sim::Component {
 
   /// Management sets ConfigChange: another gate list (IEEE 802.1Q 8.6.9.3).
   ConfigChange request_gates(sim::Simulation& simulation, const GateConfig& gates);
-  /// What the port has beyond strict priority, or null.
   sim::Duration octet_time() const { return sim::Duration::from_ps(static_cast<std::int64_t>(octet_time_ps_)); }
   /// How many octets of a frame, preamble included, have come when the peer is told of its header.
   Octets header_notice(const Frame& frame) const {
@@ -168,6 +170,7 @@ class alignas(64) EgressPort final : public sim::Component {
   std::uint64_t bad_fcs_forwarded() const { return extras_ ? extras_->bad_fcs_forwarded : 0; }
   /// Frames that were passed on before they had come wholly.
   std::uint64_t frames_cut_through() const { return extras_ ? extras_->frames_cut_through : 0; }
+  /// What the port has beyond strict priority, or null.
   PortShaping* shaping() const { return shaping_.get(); }
   const MacMerge* merge() const { return extras_ ? extras_->merge.get() : nullptr; }
   EgressPort* opposite() const { return opposite_; }
@@ -206,6 +209,7 @@ class alignas(64) EgressPort final : public sim::Component {
     std::uint8_t noticed_priorities = 0;
     Octets noticed_header{0};
     bool conditional = false;
+    bool expects_headers = false;
     std::uint64_t bad_fcs_forwarded = 0;
     std::uint64_t frames_cut_through = 0;
     struct Withdrawn {                 // an arrival that will not be, since its frame was cut
@@ -269,6 +273,8 @@ class alignas(64) EgressPort final : public sim::Component {
   bool is_down() const { return extras_ && extras_->fault && !extras_->fault->is_up(); }
   HoldRequest hold_request(sim::TrueTime now);
   void gates_changed(sim::Simulation& simulation);
+  /// What waits may become ready earlier or later than was thought.
+  void ask_again(sim::Simulation& simulation);
   sim::Duration peer_delay() const { return sim::Duration::from_ps(static_cast<std::int64_t>(peer_delay_ps_)); }
   TrafficClass class_of(FrameIndex frame) const {
     return config_->traffic_class_of_priority[shared_->traffic->frame(frame).queue_priority];

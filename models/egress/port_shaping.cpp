@@ -55,11 +55,11 @@ Selection PortShaping::select(sim::TrueTime now, ClassSet candidates, const Head
   if (((forced_open_ | forced_closed_) >> q & 1u) != 0) [[unlikely]] return contains(forced_open_, q) ? now : sim::TrueTime::never();
   const StartAnswer answer = gates_.may_start(q, clock_->local_at(now), delay + octet_time_ * (preamble_and_sfd.count + std::int64_t{length}));
   if (answer.may_start) return now;
-  return answer.ask_again == sim::LocalTime::never() ? sim::TrueTime::never() : std::max(clock_->true_at(answer.ask_again), now + sim::Duration::from_ps(1));
+  return clock_->true_after(answer.ask_again, now);
 }
 
 sim::TrueTime PortShaping::ready_time(sim::TrueTime now, TrafficClass q, const Head& head, sim::Duration delay) {
-  if (config_->timed != 0 && is_timed(q) && head.eligible > clock_->local_at(now)) return std::max(clock_->true_at(head.eligible), now + sim::Duration::from_ps(1));
+  if (config_->timed != 0 && is_timed(q) && head.eligible > clock_->local_at(now)) return clock_->true_after(head.eligible, now);
   const sim::TrueTime gate = gate_ready_time(now, q, head.length, delay);
   if (gate != now) return gate;
   if (Shaper* const shaper = shapers_[q].get()) {
@@ -68,7 +68,7 @@ sim::TrueTime PortShaping::ready_time(sim::TrueTime now, TrafficClass q, const H
     if (eligible == now || !has_gates_) return eligible;
     // Another list brings another slope.
     const sim::LocalTime change = pending_change(*shaper, clock_->local_at(now));
-    return change == sim::LocalTime::never() ? eligible : std::min(eligible, std::max(clock_->true_at(change), now + sim::Duration::from_ps(1)));
+    return std::min(eligible, clock_->true_after(change, now));
   }
   return now;
 }

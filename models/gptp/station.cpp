@@ -67,7 +67,7 @@ void Station::handle(sim::Simulation& simulation, const sim::Event& event) {
     case timer_due:
       if (timer_.fired(simulation, source_, event)) expire();
       break;
-    case hand_over_now: hand_over(static_cast<std::uint32_t>(event.argument)); break;
+    case hand_over_now: hand_over(event.argument); break;
     case messages_have_come: take_in_all(); break;
     default: report_egress(event.argument); break;
   }
@@ -75,11 +75,11 @@ void Station::handle(sim::Simulation& simulation, const sim::Event& event) {
 
 void Station::expire() {
   const sim::LocalTime now = local();
-  std::vector<Armed> due;
+  due_.clear();
   for (const Armed& armed : armed_)
-    if (armed.at <= now) due.push_back(armed);
-  std::sort(due.begin(), due.end(), [](const Armed& a, const Armed& b) { return a.timer < b.timer; });
-  for (const Armed& armed : due) {
+    if (armed.at <= now) due_.push_back(armed);
+  std::sort(due_.begin(), due_.end(), [](const Armed& a, const Armed& b) { return a.timer < b.timer; });
+  for (const Armed& armed : due_) {
     // An earlier one of them may have moved or cancelled it.
     const auto still = std::find_if(armed_.begin(), armed_.end(), [&](const Armed& other) { return other.timer == armed.timer && other.at == armed.at; });
     if (still == armed_.end()) continue;
@@ -103,8 +103,7 @@ void Station::rearm() {
 void Station::clock_changed(const LocalClock&, sim::TrueTime) { rearm(); }
 
 void Station::carry_out() {
-  const std::vector<Output> outputs = std::exchange(outputs_, {});
-  for (const Output& output : outputs) {
+  for (const Output& output : outputs_) {
     if (const auto* const message = std::get_if<SendMessage>(&output)) {
       send(*message);
     } else if (const auto* const arm = std::get_if<ArmTimer>(&output)) {
@@ -133,18 +132,19 @@ std::uint32_t Station::keep(const SendMessage& message) {
   }
   const std::uint32_t slot = free_slots_.back();
   free_slots_.pop_back();
-  waiting_[slot] = {message, {}};
+  waiting_[slot] = {message, {}, 0};
   return slot;
 }
 
 void Station::send(const SendMessage& message) {
-  simulation_->schedule(source_, simulation_->now() + plan_.processing, sim::Phase::timer, source_.id(), hand_over_now, keep(message));
+  simulation_->schedule(source_, simulation_->now() + plan_.processing, sim::Phase::timer, source_.id(), hand_over_now, of_this_life(keep(message)));
 }
 
-void Station::hand_over(std::uint32_t slot) {
+void Station::hand_over(std::uint64_t argument) {
+  const auto slot = static_cast<std::uint32_t>(argument);
   Waiting& waiting = waiting_[slot];
   EgressPort& port = ports_[waiting.send.port - 1u];
-  if (!up_ || !port.is_connected()) {
+  if (!up_ || argument >> 32 != epoch_ || !port.is_connected()) {
     free_slots_.push_back(slot);
     return;
   }
@@ -152,7 +152,7 @@ void Station::hand_over(std::uint32_t slot) {
   const FrameIndex frame = traffic_->produce(stream_, octets_, simulation_->now());
   // All nodes share the stream; each port numbers what it sends, so that it does not matter who sends first at an instant.
   traffic_->frame(frame).source = AddressIndex{node_.value};
-  traffic_->frame(frame).sequence = sent_by_port_[waiting.send.port - 1u]++;
+  waiting.sequence = traffic_->frame(frame).sequence = sent_by_port_[waiting.send.port - 1u]++;
   ++messages_sent_;
   if (is_event(waiting.send.message))
     waiting.frame = frame;
@@ -162,7 +162,16 @@ void Station::hand_over(std::uint32_t slot) {
 }
 
 void Station::transmission_starts(std::uint16_t port, FrameIndex frame) {
-  const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& w) { return w.frame == frame && w.send.port == port + 1u; });
+  const std::uint64_t sequence = traffic_->frame(frame).sequence;
+  auto found = waiting_.end();
+  for (auto w = waiting_.begin(); w != waiting_.end(); ++w) {
+    if (w->frame == FrameIndex{} || w->send.port != port + 1u) continue;
+    if (w->sequence == sequence) found = w;
+    // All of a port's messages are of one class and leave in order: what should have left before has been dropped.
+    if (w->sequence >= sequence) continue;
+    w->frame = FrameIndex{};
+    free_slots_.push_back(static_cast<std::uint32_t>(w - waiting_.begin()));
+  }
   if (found == waiting_.end()) return;  // no event message
   // The timestamp point is the first symbol after the SFD (11.3.9).
   const sim::TrueTime point = simulation_->now() + ports_[port].octet_time() * preamble_and_sfd.count;
@@ -179,7 +188,7 @@ void Station::transmission_starts(std::uint16_t port, FrameIndex frame) {
   const auto slot = static_cast<std::uint32_t>(found - waiting_.begin());
   egress_of_slot_.resize(waiting_.size());
   egress_of_slot_[slot] = egress;
-  simulation_->schedule(source_, point, sim::Phase::timer, source_.id(), has_left, static_cast<std::uint64_t>(epoch_) << 32 | slot);
+  simulation_->schedule(source_, point, sim::Phase::timer, source_.id(), has_left, of_this_life(slot));
 }
 
 void Station::report_egress(std::uint64_t argument) {

@@ -72,7 +72,8 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
  private:
   struct Waiting {             // a message between decision and egress queue, or between queue and egress
     SendMessage send;
-    FrameIndex frame;
+    FrameIndex frame;          // from the egress queue on, of event messages
+    std::uint64_t sequence = 0;
   };
   struct Armed {
     TimerId timer;
@@ -89,7 +90,9 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   sim::LocalTime local() const { return clock_->free_running().local_at(simulation_->now()); }
   void carry_out();
   void send(const SendMessage& message);
-  void hand_over(std::uint32_t slot);
+  void hand_over(std::uint64_t argument);
+  /// The argument of an event that concerns a message, and is void after a crash.
+  std::uint64_t of_this_life(std::uint32_t slot) const { return static_cast<std::uint64_t>(epoch_) << 32 | slot; }
   void report_egress(std::uint64_t argument);
   void discipline(const SyncSample& sample);
   void give_time();
@@ -115,6 +118,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   std::optional<HotStandby> standby_;
   sim::Timer timer_;
   std::vector<Armed> armed_;
+  std::vector<Armed> due_;                 // at this instant
   std::vector<Waiting> waiting_;           // by slot
   std::vector<std::uint32_t> free_slots_;
   std::vector<sim::LocalTime> egress_of_slot_;

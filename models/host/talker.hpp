@@ -52,7 +52,6 @@ class Talker final : public sim::Component {
   void set_babbling() { phase_ = sim::Phase::arrival; }
   /// Its frames take the way through the operating system that those of `other` take, so that they do not overtake each other.
   void share_latency(Talker& other) { transmit_ = other.transmit_; }
-  StreamIndex stream() const { return stream_; }
   /// Only frames that are due before then are produced.
   void set_until(sim::LocalTime until) { until_ = until; }
 

@@ -1,7 +1,9 @@
 #include "scenario/resolve_clocks.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace takt::scenario {
@@ -12,6 +14,14 @@ using models::gptp::PortRole;
 constexpr PortRole role_of(GptpRole role) {
   constexpr PortRole roles[] = {PortRole::time_transmitter, PortRole::time_receiver, PortRole::passive, PortRole::disabled};
   return roles[static_cast<std::size_t>(role)];
+}
+
+/// What the file says of nodes, by their names.
+template <class T>
+std::map<std::string_view, const T*> by_name(const json::NameMap<T>& nodes) {
+  std::map<std::string_view, const T*> found;
+  for (const auto& [name, node] : nodes) found.emplace(name, &node);
+  return found;
 }
 
 class ClockResolver {
@@ -26,10 +36,10 @@ class ClockResolver {
       check(clock);
     }
     if (!free_running && clocks_.nodes.empty()) return;
+    const auto own = by_name(clocks_.nodes);
     for (std::uint32_t n = 0; n < r_.plan.nodes.size(); ++n) {
-      const Clock* clock = clocks_.all ? &*clocks_.all : nullptr;
-      for (const auto& [name, own] : clocks_.nodes)
-        if (name == r_.plan.nodes[n].name) clock = &own;
+      const auto found = own.find(r_.plan.nodes[n].name);
+      const Clock* clock = found != own.end() ? found->second : clocks_.all ? &*clocks_.all : nullptr;
       if (clock != nullptr ? clock->ideal && !clocks_.gptp : !free_running) continue;
       r_.plan.nodes[n].clock = plan_of(clock != nullptr ? *clock : Clock{}, r_.plan.nodes[n].name);
     }
@@ -37,6 +47,11 @@ class ClockResolver {
   }
 
  private:
+  struct Instance {
+    std::uint8_t domain = 0;
+    std::map<std::string_view, const GptpNode*> nodes;
+  };
+
   std::optional<std::uint32_t> node_named(const std::string& name, const json::Place& place) {
     const auto node = r_.topology.find(name);
     if (!node) diagnostics_.error(place, "unknown node", {json::quote(name), "the name of a node", suggest_node(r_.topology, name, diagnostics_)});
@@ -104,10 +119,12 @@ class ClockResolver {
     check_classes();
     if (diagnostics_.has_errors()) return;
     r_.plan.gptp.resize(r_.plan.nodes.size());
+    std::vector<Instance> instances{{0, by_name(gptp.nodes)}};
+    for (const GptpDomain& domain : gptp.domains) instances.push_back({domain.domain, by_name(domain.nodes)});
     for (std::uint32_t n = 0; n < r_.plan.nodes.size(); ++n) {
       if (without.contains(r_.plan.nodes[n].name) || r_.topology.neighbours[n].empty()) continue;
       r_.plan.gptp[n] = static_cast<std::uint32_t>(r_.plan.gptp_stations.size());
-      r_.plan.gptp_stations.push_back(station_of(gptp, n));
+      r_.plan.gptp_stations.push_back(station_of(gptp, instances, n));
     }
   }
 
@@ -133,11 +150,10 @@ class ClockResolver {
         diagnostics_.error(clocks_.gptp->where.place(), "gPTP in a preemptable class", {"a port that may cut frames of priority 7, which gPTP has", "an express class for priority 7"});
   }
 
-  models::gptp::StationPlan station_of(const Gptp& gptp, std::uint32_t n) {
+  models::gptp::StationPlan station_of(const Gptp& gptp, const std::vector<Instance>& instances, std::uint32_t n) {
     models::gptp::StationPlan plan;
     plan.instances.clear();
-    plan.instances.push_back(instance_of(gptp, 0, gptp.nodes, n));
-    for (const GptpDomain& domain : gptp.domains) plan.instances.push_back(instance_of(gptp, domain.domain, domain.nodes, n));
+    for (const Instance& instance : instances) plan.instances.push_back(config_of(gptp, instance, n));
     plan.link.log_pdelay_req_interval = gptp.log_pdelay_interval;
     plan.link.neighbor_rate_ratio_window = gptp.rate_ratio_window;
     plan.link.compensate_drift = gptp.drift_window > 0;
@@ -154,9 +170,9 @@ class ClockResolver {
     return plan;
   }
 
-  models::gptp::InstanceConfig instance_of(const Gptp& gptp, std::uint8_t domain, const json::NameMap<GptpNode>& nodes, std::uint32_t n) {
+  models::gptp::InstanceConfig config_of(const Gptp& gptp, const Instance& instance, std::uint32_t n) {
     models::gptp::InstanceConfig config;
-    config.domain = domain;
+    config.domain = instance.domain;
     config.log_sync_interval = gptp.log_sync_interval;
     config.log_announce_interval = gptp.log_announce_interval;
     config.sync_receipt_timeout = gptp.sync_receipt_timeout;
@@ -164,13 +180,13 @@ class ClockResolver {
     config.two_step = !gptp.one_step;
     config.sync_locked = gptp.sync_locked;
     config.rate_ratio_drift_window = gptp.drift_window;
-    for (const auto& [name, node] : nodes) {
-      if (name != r_.plan.nodes[n].name) continue;
+    if (const auto found = instance.nodes.find(r_.plan.nodes[n].name); found != instance.nodes.end()) {
+      const GptpNode& node = *found->second;
       config.system.priority1 = node.priority1;
       config.system.priority2 = node.priority2;
       config.system.quality.clock_class = node.clock_class;
       config.system.quality.clock_accuracy = node.clock_accuracy;
-      if (!node.roles) continue;
+      if (!node.roles) return config;
       std::uint16_t ports = 0;
       for (const Neighbour& neighbour : r_.topology.neighbours[n]) ports = std::max<std::uint16_t>(ports, static_cast<std::uint16_t>(neighbour.port + 1));
       config.external_roles.emplace(ports, PortRole::time_transmitter);

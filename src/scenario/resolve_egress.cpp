@@ -1,6 +1,7 @@
 #include "scenario/resolve_egress.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "models/ethernet/sizes.hpp"
@@ -155,17 +156,21 @@ models::GateConfig gate_config_of(const Gates& gates, json::Diagnostics& diagnos
 void resolve_egress(Resolved& resolved, json::Diagnostics& diagnostics) { EgressResolver(resolved, diagnostics).run(); }
 
 void add_launch_classes(Resolved& r) {
+  std::map<std::uint32_t, std::set<std::uint8_t>> priorities;  // of frames with a launch time, by talker
   for (const models::TalkerPlan& talker : r.plan.talkers) {
-    if (!talker.launch) continue;
     const models::StreamPlan& stream = r.plan.streams[talker.stream.value];
-    for (models::LinkPlan& link : r.plan.links) {
-      for (models::LinkPlan::End* end : {&link.a, &link.b}) {
-        if (end->node != stream.talker) continue;
-        models::PortConfig config = r.plan.port_configs[end->port_config.value_or(r.plan.nodes[end->node.value].port_config)];
-        config.shaping.timed = models::with(config.shaping.timed, config.traffic_class_of_priority[stream.priority.value_or(0)]);
-        end->port_config = static_cast<std::uint32_t>(r.plan.port_configs.size());
-        r.plan.port_configs.push_back(std::move(config));
-      }
+    if (talker.launch) priorities[stream.talker.value].insert(stream.priority.value_or(0));
+  }
+  if (priorities.empty()) return;
+  for (models::LinkPlan& link : r.plan.links) {
+    for (models::LinkPlan::End* end : {&link.a, &link.b}) {
+      const auto found = priorities.find(end->node.value);
+      if (found == priorities.end()) continue;
+      models::PortConfig config = r.plan.port_configs[end->port_config.value_or(r.plan.nodes[end->node.value].port_config)];
+      for (const std::uint8_t priority : found->second)
+        config.shaping.timed = models::with(config.shaping.timed, config.traffic_class_of_priority[priority]);
+      end->port_config = static_cast<std::uint32_t>(r.plan.port_configs.size());
+      r.plan.port_configs.push_back(std::move(config));
     }
   }
 }

@@ -63,7 +63,8 @@ bool PortChecker::is_ready(TrafficClass q, const Item& item) const {
   return !is_preemptable(q) || (!rest_ && !hold_at(now_).asked);
 }
 
-/// Whether the MAC is asked to hold at `time`, and until when that stays so.
+/// Whether the MAC is asked to hold at `time`, and until when that stays so. A release that comes in advance of the whole time of a hold
+/// leaves nothing of it.
 PortChecker::HoldState PortChecker::hold_at(Ps time) const {
   if (!may_hold_ || !config_.preemption) return {};
   const Ps release_advance = config_.preemption->release_advance.ps();
@@ -73,15 +74,15 @@ PortChecker::HoldState PortChecker::hold_at(Ps time) const {
   Ps asked_from = gates.holds() ? long_ago : never;
   for (;;) {
     const Ps next = gates.next_event();
-    if (next > horizon) return {asked_from != never && asked_from <= time, asked_from != never && asked_from > time ? asked_from : never};
+    if (next > horizon) return {asked_from <= time, asked_from > time ? asked_from : never};
     const bool before = gates.holds();
     gates.run_to(next);
     if (gates.holds() == before) continue;
     if (gates.holds()) {
       asked_from = next - hold_advance_;
-      if (asked_from > time) return {false, asked_from};
     } else {
-      if (asked_from <= time && time < next - release_advance) return {true, next - release_advance};
+      const Ps released = next - release_advance;
+      if (asked_from < released && time < released) return {asked_from <= time, asked_from <= time ? released : asked_from};
       asked_from = never;
     }
   }

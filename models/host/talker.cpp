@@ -110,7 +110,7 @@ void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::produced), source_.id(), frame.value, stream_.value});
   if (!transmits_at_once_)
-    simulation.schedule(source_, transmit_->pass(simulation.now()), sim::Phase::arrival, source_.id(), transmit_now, frame.value);
+    simulation.schedule(source_, shares_latency_ ? transmit_->pass_strictly(simulation.now()) : transmit_->pass(simulation.now()), sim::Phase::arrival, source_.id(), transmit_now, frame.value);
   ++count_;
   schedule_next(simulation);
   if (transmits_at_once_) hand_over(simulation, frame);

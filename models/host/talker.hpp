@@ -51,7 +51,10 @@ class Talker final : public sim::Component {
   /// A second talker of its stream, which speaks first where both do at one instant; it is made before the other one.
   void set_babbling() { phase_ = sim::Phase::arrival; }
   /// Its frames take the way through the operating system that those of `other` take, so that they do not overtake each other.
-  void share_latency(Talker& other) { transmit_ = other.transmit_; }
+  void share_latency(Talker& other) {
+    transmit_ = other.transmit_;
+    shares_latency_ = other.shares_latency_ = true;
+  }
   /// Only frames that are due before then are produced.
   void set_until(sim::LocalTime until) { until_ = until; }
 
@@ -86,6 +89,7 @@ class Talker final : public sim::Component {
   LatencyLine own_transmit_;
   LatencyLine* transmit_ = &own_transmit_;
   bool transmits_at_once_;
+  bool shares_latency_ = false;
   sim::RandomStream chance_;
 };
 

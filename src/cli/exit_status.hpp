@@ -8,6 +8,7 @@ enum class ExitStatus : int {
   requirement_failed = 1,
   bad_input = 2,       ///< nothing was written
   internal_error = 3,  ///< takt is wrong, or the machine failed it (disk full, no memory)
+  undecided = 4,       ///< neither proved nor refuted
   interrupted = 130,   ///< Ctrl-C; what was reached is reported as partial
 };
 

@@ -133,6 +133,9 @@ class Judge {
   void reaction(const scenario::Requirement& requirement) {
     RequirementResult verdict;
     const std::string kind(scenario::spelling(*requirement.reaction));
+    verdict.kind = RequirementKind::reaction;
+    verdict.subject = requirement.program.value_or("");
+    verdict.reaction = kind;
     verdict.text = "reaction " + kind + (requirement.program ? " of " + *requirement.program : "") + " within " + json_text(*requirement.within);
     verdict.limit = *requirement.within;
     std::size_t seen = 0;
@@ -167,24 +170,26 @@ class Judge {
     if (by_name_.empty())
       for (const StreamResult& each : result_.streams) by_name_.emplace(each.name, &each);
     const StreamResult& stream = *by_name_.at(*requirement.stream);
-    if (requirement.latency) duration_of(stream, "latency", *requirement.latency, stream.latency ? std::optional(stream.latency->max) : std::nullopt);
+    if (requirement.latency) duration_of(stream, RequirementKind::latency, "latency", *requirement.latency, stream.latency ? std::optional(stream.latency->max) : std::nullopt);
     if (requirement.jitter)
-      duration_of(stream, "jitter", *requirement.jitter, stream.latency ? std::optional(stream.latency->max - stream.latency->min) : std::nullopt);
+      duration_of(stream, RequirementKind::jitter, "jitter", *requirement.jitter, stream.latency ? std::optional(stream.latency->max - stream.latency->min) : std::nullopt);
     if (requirement.dropped) {
       // Copies that sequence recovery takes out are what redundancy is for.
       std::uint64_t dropped = stream.dropped_in_all();
       for (const auto& [reason, count] : stream.dropped)
         if (reason == models::name_of(models::DropReason::duplicate)) dropped -= count;
-      add({fmt::format("stream {} drops at most {}", stream.name, *requirement.dropped), dropped <= *requirement.dropped ? held() : Verdict::fail, {}, {},
-           fmt::format("{} dropped", dropped)});
+      count_of(stream, RequirementKind::dropped, *requirement.dropped, fmt::format("stream {} drops at most {}", stream.name, *requirement.dropped),
+               dropped <= *requirement.dropped ? held() : Verdict::fail, fmt::format("{} dropped", dropped));
     }
     if (requirement.delivered)
-      add({fmt::format("stream {} delivers at least {}", stream.name, *requirement.delivered),
-           stream.delivered >= *requirement.delivered ? Verdict::pass : missing(), {}, {}, fmt::format("{} delivered", stream.delivered)});
+      count_of(stream, RequirementKind::delivered, *requirement.delivered, fmt::format("stream {} delivers at least {}", stream.name, *requirement.delivered),
+               stream.delivered >= *requirement.delivered ? Verdict::pass : missing(), fmt::format("{} delivered", stream.delivered));
   }
 
   void sync(const scenario::Requirement& requirement, const scenario::ClockMonitor::Limit& seen) {
     RequirementResult verdict;
+    verdict.kind = RequirementKind::sync;
+    verdict.subject = requirement.node.value_or("");
     verdict.text = fmt::format("clock{} within {} of the grandmaster after {}", requirement.node ? " of " + *requirement.node : "s", json_text(*requirement.sync),
                                json_text(requirement.after));
     verdict.limit = *requirement.sync;
@@ -202,6 +207,8 @@ class Judge {
   /// Every Program keeps its invariants, whether or not a requirement says so.
   void invariants(const ProgramResult& program) {
     RequirementResult verdict;
+    verdict.kind = RequirementKind::invariants;
+    verdict.subject = program.name;
     verdict.text = "program " + program.name + " keeps S1 to S5";
     if (program.violations_allowed) verdict.text += " (reported only)";
     verdict.remark = fmt::format("{} violation{}", program.violations.size(), program.violations.size() == 1 ? "" : "s");
@@ -214,8 +221,10 @@ class Judge {
   Verdict held() const { return result_.partial ? Verdict::undecided : Verdict::pass; }
   Verdict missing() const { return result_.partial ? Verdict::undecided : Verdict::fail; }
 
-  void duration_of(const StreamResult& stream, const char* what, Duration limit, std::optional<Duration> measured) {
+  void duration_of(const StreamResult& stream, RequirementKind kind, const char* what, Duration limit, std::optional<Duration> measured) {
     RequirementResult verdict;
+    verdict.kind = kind;
+    verdict.subject = stream.name;
     verdict.text = fmt::format("stream {} {} at most {}", stream.name, what, json_text(limit));
     verdict.limit = limit;
     verdict.measured = measured;
@@ -226,6 +235,17 @@ class Judge {
       verdict.remark = fmt::format("{} frames", stream.delivered);
       verdict.verdict = *measured <= limit ? held() : Verdict::fail;
     }
+    add(std::move(verdict));
+  }
+
+  void count_of(const StreamResult& stream, RequirementKind kind, std::uint64_t limit, std::string text, Verdict found, std::string remark) {
+    RequirementResult verdict;
+    verdict.kind = kind;
+    verdict.subject = stream.name;
+    verdict.count_limit = limit;
+    verdict.text = std::move(text);
+    verdict.verdict = found;
+    verdict.remark = std::move(remark);
     add(std::move(verdict));
   }
 

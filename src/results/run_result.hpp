@@ -95,7 +95,14 @@ struct ProgramResult {
   std::uint64_t process_data_received = 0;
 };
 
+/// What a requirement is about.
+enum class RequirementKind : std::uint8_t { reaction, latency, jitter, dropped, delivered, sync, invariants };
+
 struct RequirementResult {
+  RequirementKind kind{};
+  std::string subject;                     ///< the stream, the Program or the node; empty: all Programs or all nodes
+  std::string reaction;                    ///< "start", "halt" ..., if it is one
+  std::optional<std::uint64_t> count_limit;  ///< most dropped, fewest delivered
   std::string text;
   Verdict verdict = Verdict::pass;
   std::optional<Duration> measured;

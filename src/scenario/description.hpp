@@ -241,7 +241,7 @@ struct Stream {
   std::optional<ExponentialGaps> exponential;
   std::optional<Bursts> burst;
   std::optional<std::string> trace;
-  Duration offset;
+  std::optional<Duration> offset;    ///< 0 in a run; absent, it is nothing that the plant promises
   Duration jitter;
   std::optional<Duration> launch;
   std::optional<std::vector<std::string>> path;
@@ -267,7 +267,8 @@ struct Program {
   std::string master;
   std::vector<std::string> slaves;
   Duration cycle;
-  Duration offset;
+  std::optional<Duration> offset;    ///< the same
+  json::NameMap<Duration> phases;    ///< of single participants
   Publish publish = Publish::cyclic;
   Subscription subscription = Subscription::star;
   std::optional<Duration> receive_timeout;

@@ -145,21 +145,21 @@ class Resolver {
     if (stream.every) {
       if (stream.jitter > *stream.every)
         diagnostics_.error(stream.where.at("jitter"), "jitter above the period", {json::to_text(stream.jitter), "at most " + json::to_text(*stream.every)});
-      return models::PeriodicSchedule{stream.offset, *stream.every, stream.jitter};
+      return models::PeriodicSchedule{stream.offset.value_or(Duration()), *stream.every, stream.jitter};
     }
     if (stream.jitter > Duration())
       diagnostics_.error(stream.where.at("jitter"), "jitter belongs to a periodic stream", {"\"jitter\" without \"every\"", "\"every\""});
-    if (stream.exponential) return models::ExponentialSchedule{stream.offset, stream.exponential->mean};
+    if (stream.exponential) return models::ExponentialSchedule{stream.offset.value_or(Duration()), stream.exponential->mean};
     if (stream.burst) {
       if (stream.burst->frames > 1 && stream.burst->spacing > stream.burst->every / static_cast<std::int64_t>(stream.burst->frames - 1))
         diagnostics_.error(stream.where.at("burst"), "a burst longer than its period",
                            {std::to_string(stream.burst->frames) + " frames " + json::to_text(stream.burst->spacing) + " apart",
                             "at most " + json::to_text(stream.burst->every)});
-      return models::BurstSchedule{stream.offset, stream.burst->every, stream.burst->frames, stream.burst->spacing};
+      return models::BurstSchedule{stream.offset.value_or(Duration()), stream.burst->every, stream.burst->frames, stream.burst->spacing};
     }
     if (stream.trace) {
       models::TraceSchedule schedule{read_trace(*stream.trace, stream.where.at("trace"), diagnostics_)};
-      for (auto& entry : schedule.entries) entry.time += stream.offset;
+      for (auto& entry : schedule.entries) entry.time += stream.offset.value_or(Duration());
       return schedule;
     }
     return models::PeriodicSchedule{{}, 1_s, {}};  // none of them: the table has reported it
@@ -201,8 +201,11 @@ class Resolver {
     if (resolved.receive_timeout <= program.cycle)
       diagnostics_.error(program.where.at("receive_timeout"), "a time-out within one cycle",
                          {json::to_text(resolved.receive_timeout), "more than the cycle of " + json::to_text(program.cycle)});
-    if (program.offset >= program.cycle && program.offset > Duration())
-      diagnostics_.error(program.where.at("offset"), "an offset beyond the cycle", {json::to_text(program.offset), "less than " + json::to_text(program.cycle)});
+    const auto check_phase = [&](Duration phase, const json::Place& place) {
+      if (phase >= program.cycle && phase > Duration())
+        diagnostics_.error(place, "an offset beyond the cycle", {json::to_text(phase), "less than " + json::to_text(program.cycle)});
+    };
+    if (program.offset) check_phase(*program.offset, program.where.at("offset"));
     std::set<std::string_view> seen;
     const auto add_participant = [&](const std::string& name, const json::Place& place) {
       if (!seen.insert(name).second)
@@ -211,6 +214,12 @@ class Resolver {
     };
     add_participant(program.master, program.where.at("master"));
     for (std::size_t i = 0; i < program.slaves.size(); ++i) add_participant(program.slaves[i], program.where.at("slaves", i));
+    resolved.phases.assign(program.slaves.size() + 1, program.offset.value_or(Duration()));
+    for (const auto& [name, phase] : program.phases) {
+      const auto participant = participant_of(program, name, program.where.at("phases"));
+      check_phase(phase, program.where.at("phases"));
+      if (participant && *participant < resolved.phases.size()) resolved.phases[*participant] = phase;
+    }
     if (publishers_ + resolved.participants.size() > most_publishers)
       diagnostics_.error(program.where.place(), "too many participants of all programs together",
                          {std::to_string(publishers_ + resolved.participants.size()) + " with this program", "at most " + std::to_string(most_publishers)});

@@ -42,6 +42,7 @@ struct ResolvedProgram {
   std::vector<models::NodeIndex> participants;          ///< 0 the master, then the slaves
   std::vector<models::StreamIndex> state_streams;       ///< of each participant
   std::vector<ResolvedProcessData> process_data;
+  std::vector<Duration> phases;                         ///< of publishing, by participant
   Duration receive_timeout;
   std::uint16_t first_publisher_id = 1;                 ///< of the master
 };

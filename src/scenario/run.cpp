@@ -88,7 +88,7 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
     endpoint.handshake.subscription = subscription_of(description.subscription);
     endpoint.format = format;
     endpoint.cycle = description.cycle;
-    endpoint.offset = description.offset;
+    endpoint.offset = program.phases[p];
     endpoint.receive_timeout = program.receive_timeout;
     endpoint.initialisation = description.initialisation;
     endpoint.publish_on_change = description.publish == Publish::on_change;

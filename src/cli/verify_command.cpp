@@ -1,0 +1,126 @@
+// takt verify: does it meet its requirements, whatever phases and chance bring?
+#include <CLI/CLI.hpp>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/load.hpp"
+#include "output/result_folder.hpp"
+#include "verify/report.hpp"
+
+namespace takt::cli {
+namespace {
+
+struct VerifyOptions {
+  ScenarioOptions scenario;
+  verify::SearchOptions search;
+  double budget = 60;   // millions of events
+  std::string out;
+  bool quiet = false;
+};
+
+/// One line on standard error, where a terminal is.
+class Line {
+ public:
+  explicit Line(bool is_wanted) : is_wanted_(is_wanted && ::isatty(STDERR_FILENO) == 1) {}
+  ~Line() {
+    if (is_drawn_) std::fputs("\r\033[K", stderr);
+  }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+  void show(std::uint64_t events, std::uint64_t of) {
+    if (!is_wanted_) return;
+    is_drawn_ = true;
+    std::fprintf(stderr, "\rsearching for the worst: %.0f %%\033[K", 100.0 * static_cast<double>(events) / static_cast<double>(of));
+  }
+
+ private:
+  bool is_wanted_;
+  bool is_drawn_ = false;
+};
+
+/// "3-reaction-start.json": the number of the requirement, and what it is about.
+std::string file_name(std::size_t number, const results::RequirementResult& requirement) {
+  std::string name = std::to_string(number + 1);
+  for (const char c : "-" + requirement.text)
+    name += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? c : '-';
+  return name.substr(0, 60) + ".json";
+}
+
+/// Writes the run that replays the worst of each requirement that has one; the names, or a problem.
+std::string write_worst(const std::string& folder, const verify::Verification& verification, std::vector<std::string>& files) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return folder + ": " + error.message();
+  for (std::size_t i = 0; i < verification.lines.size(); ++i) {
+    const verify::Line& line = verification.lines[i];
+    if (line.worst.name.empty()) continue;
+    const std::string path = (std::filesystem::path(folder) / file_name(i, line.requirement)).string();
+    if (const std::string problem = output::write_file(path, scenario::json::encode(line.worst)); !problem.empty()) return problem;
+    files[i] = path;
+  }
+  return {};
+}
+
+ExitStatus status_of(const verify::Verification& verification) {
+  if (!verification.contradiction.empty()) return ExitStatus::internal_error;
+  switch (verification.verdict()) {
+    case verify::Verdict::pass: return ExitStatus::pass;
+    case verify::Verdict::refuted: return ExitStatus::requirement_failed;
+    case verify::Verdict::undecided: break;
+  }
+  return verification.partial ? ExitStatus::interrupted : ExitStatus::undecided;
+}
+
+ExitStatus run(VerifyOptions& options) {
+  const auto resolved = load(options.scenario, options.quiet);
+  if (!resolved) return ExitStatus::bad_input;
+  const InterruptGuard interrupt;
+  Line line(!options.quiet && !options.scenario.is_json());
+  verify::Options what;
+  what.search = options.search;
+  what.search.events = static_cast<std::uint64_t>(options.budget * 1e6);
+  what.search.interrupted = [&] { return interrupt.requested(); };
+  what.search.progress = [&](std::uint64_t events, std::uint64_t of) { line.show(events, of); };
+  what.proof.interrupted = what.search.interrupted;
+  const verify::Verification verification = verify::verify(*resolved, what);
+  std::vector<std::string> files(verification.lines.size());
+  if (!options.out.empty()) {
+    if (const std::string problem = write_worst(options.out, verification, files); !problem.empty()) {
+      std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
+      return ExitStatus::internal_error;
+    }
+  }
+  const std::string& name = resolved->scenario.name;
+  const std::string page = options.scenario.is_json() ? verify::json_report(name, verification, files)
+                           : options.quiet            ? name + ": " + verify::name_of(verification.verdict()) + "\n"
+                                                      : verify::text_report(name, verification, files);
+  std::fputs(page.c_str(), stdout);
+  if (!verification.contradiction.empty()) std::fprintf(stderr, "takt: internal error, please report it with the scenario:\n%s\n", verification.contradiction.c_str());
+  return status_of(verification);
+}
+
+}  // namespace
+
+void add_verify_command(CLI::App& app, ExitStatus& status) {
+  CLI::App& command = *app.add_subcommand("verify", "Prove or refute each requirement: simulated, adversarial, bounded");
+  const auto options = std::make_shared<VerifyOptions>();
+  add_scenario_options(command, options->scenario);
+  command.add_option("--seeds", options->search.seeds, "Runs of the scenario as it is, with its seed and those after it")->check(CLI::Range(1u, 100'000u))->type_name("N");
+  command.add_option("--jobs", options->search.jobs, "Threads; the result is the same for any number")->check(CLI::Range(1u, 256u))->type_name("N");
+  command.add_option("--budget", options->budget, "What the search for the worst may cost, in millions of events")->check(CLI::Range(0.0, 1e6))->type_name("M");
+  command.add_option("--out", options->out, "Write into this folder, for each requirement, the scenario that replays its worst run")->type_name("DIR");
+  command.add_flag("--quiet", options->quiet, "Print one line");
+  command.footer(
+      "Examples:\n"
+      "  takt verify scenarios/robot-arm.json --out out/worst\n"
+      "  takt verify scenarios/robot-arm.json --seeds 20 --jobs 2 --format json | jq '.requirements[].verdict'\n"
+      "Exit status: 0 all proved, 1 one refuted, 2 bad input, 3 internal error, 4 one undecided, 130 interrupted.");
+  command.callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace takt::cli

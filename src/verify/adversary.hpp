@@ -1,0 +1,53 @@
+// Adversarial search: the worst run that the scenario allows, for each of its requirements.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/run_result.hpp"
+#include "verify/freedom.hpp"
+
+namespace takt::verify {
+
+struct SearchOptions {
+  unsigned seeds = 4;                       ///< runs of the scenario as it is, with this seed and those after it
+  unsigned jobs = 1;                        ///< threads; the result does not depend on it
+  std::uint64_t events = 60'000'000;        ///< what the search may cost, in events of runs, besides those of the scenario as it is
+  std::function<bool()> interrupted;        ///< asked between runs, and within long ones
+  std::function<void(std::uint64_t events, std::uint64_t of)> progress;   ///< told between runs
+};
+
+/// The worst run for a requirement.
+struct Worst {
+  std::optional<sim::Duration> measured;    ///< of requirements about times
+  bool failed = false;
+  scenario::Scenario scenario;              ///< a file of it replays the run
+};
+
+/// What was found for one requirement, in the order of RunResult::requirements.
+struct Finding {
+  results::RequirementResult requirement;   ///< text, kind and limit; of the scenario as it is
+  std::optional<sim::Duration> simulated;   ///< worst of the runs of the scenario as it is
+  bool failed_as_it_is = false;
+  Worst worst;                              ///< of all runs
+  std::uint64_t runs = 0;                   ///< of the search for this requirement
+  bool exhaustive = false;                  ///< all combinations of critical instants were run
+};
+
+struct Search {
+  std::vector<Freedom> freedoms;
+  std::vector<Finding> findings;
+  std::uint64_t runs = 0;                   ///< in all
+  bool partial = false;                     ///< interrupted
+};
+
+/// First the scenario as it is, with several seeds; then, for each requirement in turn, combinations of critical instants: all of them if they
+/// are few, otherwise uphill one freedom after the other, from the scenario as it is, from where all meet, and from random places. Each
+/// run counts for all requirements. Where waiting may be left out (shortened.hpp), it is; the worst choice for a latency or jitter is then
+/// run in full length, since chance has its say in every frame.
+Search search(const scenario::Resolved& resolved, const SearchOptions& options);
+
+}  // namespace takt::verify

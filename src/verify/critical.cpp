@@ -1,0 +1,154 @@
+#include "verify/critical.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+#include "models/ethernet/sizes.hpp"
+
+namespace takt::verify {
+
+using scenario::Resolved;
+using sim::Duration;
+
+namespace {
+
+constexpr std::int64_t parts_of_range = 8;
+constexpr std::size_t most_values = 48;
+constexpr Duration just = Duration::from_ps(1000);   // more than a rounding, less than an octet
+
+/// As requirements spell it.
+std::string_view reaction_to(scenario::Method method) {
+  constexpr std::pair<scenario::Method, std::string_view> names[] = {{scenario::Method::start, "start"}, {scenario::Method::suspend, "suspend"},
+                                                                     {scenario::Method::resume, "resume"}, {scenario::Method::halt, "halt"},
+                                                                     {scenario::Method::reset, "reset"}};
+  for (const auto& [each, name] : names)
+    if (each == method) return name;
+  return {};
+}
+
+Duration modulo(Duration value, Duration range) {
+  const std::int64_t rest = value.ps() % range.ps();
+  return Duration::from_ps(rest < 0 ? rest + range.ps() : rest);
+}
+
+}  // namespace
+
+CriticalInstants::CriticalInstants(const Resolved& resolved, std::span<const Freedom> freedoms)
+    : resolved_(&resolved), freedoms_(freedoms.begin(), freedoms.end()), timings_(resolved.plan.streams.size()) {
+  std::map<std::string_view, std::size_t> by_name;
+  for (std::size_t s = 0; s < resolved.plan.streams.size(); ++s) by_name.emplace(resolved.plan.streams[s].name, s);
+  for (const scenario::Stream& stream : resolved.scenario.streams) {
+    Timing& timing = timings_[by_name.at(stream.name)];
+    timing.phase = stream.offset.value_or(Duration());
+    timing.period = stream.every ? *stream.every : stream.burst ? stream.burst->every : Duration();
+  }
+  for (const scenario::ResolvedProgram& program : resolved.programs) {
+    for (std::size_t p = 0; p < program.state_streams.size(); ++p)
+      timings_[program.state_streams[p].value] = {program.phases[p], program.description->cycle, {}};
+    for (const scenario::ResolvedProcessData& data : program.process_data)
+      timings_[data.stream.value] = {program.phases[data.from], program.description->cycle, {}};
+  }
+  for (std::size_t f = 0; f < freedoms_.size(); ++f)
+    for (const std::size_t stream : streams_moved_by(f)) timings_[stream].freedoms.push_back(f);
+  for (std::size_t s = 0; s < timings_.size(); ++s) visits_.push_back(visits_of(s));
+}
+
+std::vector<std::size_t> CriticalInstants::streams_moved_by(std::size_t f) const {
+  const Freedom& freedom = freedoms_[f];
+  std::vector<std::size_t> found;
+  if (freedom.kind == Freedom::Kind::talker) {
+    for (std::size_t s = 0; s < resolved_->plan.streams.size(); ++s)
+      if (resolved_->plan.streams[s].name == resolved_->scenario.streams[freedom.item].name) found.push_back(s);
+  } else if (freedom.kind == Freedom::Kind::publisher) {
+    const scenario::ResolvedProgram& program = resolved_->programs[freedom.item];
+    found.push_back(program.state_streams[freedom.participant].value);
+    for (const scenario::ResolvedProcessData& data : program.process_data)
+      if (data.from == freedom.participant) found.push_back(data.stream.value);
+  }
+  return found;
+}
+
+std::vector<CriticalInstants::Visit> CriticalInstants::visits_of(std::size_t stream) const {
+  std::vector<Visit> visits;
+  const auto found = std::find_if(resolved_->streams.begin(), resolved_->streams.end(), [&](const scenario::ResolvedStream& s) { return s.index.value == stream; });
+  if (found == resolved_->streams.end()) return visits;
+  const models::StreamPlan& plan = resolved_->plan.streams[stream];
+  const sim::Octets frame = models::frame_length(found->largest_payload + plan.headers, plan.priority.has_value());
+  for (const scenario::Path& path : found->paths) {
+    Duration after;
+    for (std::size_t hop = 0; hop + 1 < path.size(); ++hop) {
+      const auto port = resolved_->topology.port_towards(path[hop], path[hop + 1]);
+      if (!port) break;
+      visits.push_back({static_cast<std::uint64_t>(path[hop]) << 16 | *port, after});
+      for (const models::LinkPlan& link : resolved_->plan.links) {
+        const bool forth = link.a.node.value == path[hop] && link.a.port == *port;
+        if (!forth && !(link.b.node.value == path[hop] && link.b.port == *port)) continue;
+        after += link.rate.octet_time() * (models::preamble_and_sfd + frame).count + link.delay + resolved_->plan.nodes[path[hop + 1]].forwarding_delay;
+      }
+    }
+  }
+  return visits;
+}
+
+Duration CriticalInstants::phase_of(std::size_t stream, const Choice& choice) const {
+  const Timing& timing = timings_[stream];
+  Duration phase = timing.phase;
+  for (const std::size_t f : timing.freedoms)
+    if (choice.values[f] != Duration()) phase = choice.values[f];
+  return phase;
+}
+
+std::vector<std::size_t> CriticalInstants::streams_of(const results::RequirementResult& requirement) const {
+  using Kind = results::RequirementKind;
+  std::vector<std::size_t> found;
+  if (requirement.kind == Kind::reaction || requirement.kind == Kind::invariants) {
+    for (const scenario::ResolvedProgram& program : resolved_->programs)
+      if (requirement.subject.empty() || program.name == requirement.subject)
+        for (const models::StreamIndex stream : program.state_streams) found.push_back(stream.value);
+  } else if (requirement.kind != Kind::sync) {
+    for (std::size_t s = 0; s < resolved_->plan.streams.size(); ++s)
+      if (resolved_->plan.streams[s].name == requirement.subject) found.push_back(s);
+  }
+  return found;
+}
+
+std::vector<Duration> CriticalInstants::of(std::size_t f, const results::RequirementResult& requirement, const Choice& choice) const {
+  const Freedom& freedom = freedoms_[f];
+  std::vector<Duration> values{choice.values[f]};
+  const auto add = [&](Duration value) { values.push_back(modulo(value, freedom.range)); };
+  if (freedom.kind == Freedom::Kind::call) {
+    const scenario::ScriptEntry& entry = resolved_->scenario.script[freedom.item];
+    // A reaction to one method does not depend on when another one was called.
+    if (requirement.kind == results::RequirementKind::reaction && reaction_to(*entry.call) != requirement.reaction) return values;
+    for (const scenario::ResolvedProgram& program : resolved_->programs) {
+      if (entry.program && program.name != *entry.program) continue;
+      for (const models::StreamIndex stream : program.state_streams) {
+        const Duration to_publishing = modulo(phase_of(stream.value, choice) - entry.at, program.description->cycle);
+        for (const Duration moved : {to_publishing, to_publishing + just})
+          if (moved < freedom.range) add(moved);
+      }
+    }
+  }
+  const std::vector<std::size_t> targets = streams_of(requirement);
+  // A disturbing frame comes just before that of the requirement, or that of the requirement just behind a disturbing one.
+  const auto meet = [&](std::size_t moved, std::size_t other, Duration shift) {
+    if (moved == other || timings_[other].period == Duration()) return;
+    for (const Visit& visit : visits_[moved])
+      for (const Visit& theirs : visits_[other])
+        if (theirs.port == visit.port && values.size() < most_values)
+          for (const Duration apart : {Duration(), shift}) add(phase_of(other, choice) + theirs.after - visit.after + apart);
+  };
+  for (const std::size_t moved : streams_moved_by(f)) {
+    if (std::find(targets.begin(), targets.end(), moved) == targets.end())
+      for (const std::size_t target : targets) meet(moved, target, -just);
+    else
+      for (std::size_t other = 0; other < timings_.size(); ++other) meet(moved, other, just);
+  }
+  for (std::int64_t part = 0; part < parts_of_range; ++part) add(freedom.range * part / parts_of_range);
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+}  // namespace takt::verify

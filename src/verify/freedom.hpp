@@ -1,0 +1,45 @@
+// What a scenario leaves open, and a worst case may choose.
+//
+// A run takes what is not said as 0: a stream without "offset", a Program without "offset" or "phases", calls at the very instants of the
+// script. A plant promises none of it. So these are free:
+//
+//   phase of a talker      within its period, unless the stream has an "offset" (periodic talkers and bursts)
+//   phase of a publisher   of each participant within the Program's cycle, unless the Program has an "offset", or "phases" for this participant
+//   instant of a call      later by less than a cycle, and still before the next entry of the script
+//   seed                   all that chance decides: latencies of operating systems, oscillators, losses, gaps between frames
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenario/resolved.hpp"
+
+namespace takt::verify {
+
+/// Something that is free: a time from 0 up to, but without, `range`.
+struct Freedom {
+  enum class Kind : std::uint8_t { talker, publisher, call };
+  Kind kind{};
+  std::size_t item = 0;          ///< in Scenario::streams, programs or script
+  std::size_t participant = 0;   ///< publishers: 0 the master, then the slaves
+  sim::Duration range;
+  std::string name;              ///< "phase of camera"
+  bool operator==(const Freedom&) const = default;
+};
+
+/// All that is free, but for the seed.
+std::vector<Freedom> freedoms_of(const scenario::Resolved& resolved);
+
+/// One of the runs that the scenario allows.
+struct Choice {
+  std::uint64_t seed = 1;
+  std::vector<sim::Duration> values;   ///< by freedom; 0 is what a run takes
+  bool operator==(const Choice&) const = default;
+};
+
+/// The scenario in which the choice is made: a file of it replays the run. Precondition: the values lie within their ranges.
+scenario::Scenario scenario_of(const scenario::Scenario& scenario, std::span<const Freedom> freedoms, const Choice& choice);
+
+}  // namespace takt::verify

@@ -1,0 +1,28 @@
+// One run of a choice, and what it says of each requirement.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "results/run_result.hpp"
+#include "scenario/description.hpp"
+
+namespace takt::verify {
+
+/// A run that has come to its end.
+struct Probe {
+  std::vector<results::RequirementResult> requirements;   ///< in the order of RunResult::requirements
+  std::uint64_t events = 0;
+  std::uint64_t digest = 0;
+};
+
+/// Runs a scenario. Nothing if it cannot be resolved (a choice never makes it so), or if `interrupted` said so in between.
+std::optional<Probe> probe(const scenario::Scenario& scenario, const std::function<bool()>& interrupted);
+
+/// Runs all of them on so many threads; the same results, in the same order, for any number.
+std::vector<std::optional<Probe>> probe_all(std::span<const scenario::Scenario> scenarios, unsigned jobs, const std::function<bool()>& interrupted);
+
+}  // namespace takt::verify

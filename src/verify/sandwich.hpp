@@ -1,0 +1,52 @@
+// The sandwich of each requirement: simulated maximum <= adversarial maximum <= analytic bound, and where the limit lies in it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "verify/adversary.hpp"
+#include "verify/bounds.hpp"
+
+namespace takt::verify {
+
+enum class Verdict : std::uint8_t {
+  pass,       ///< proved: no run that the scenario allows exceeds the limit
+  refuted,    ///< there is a run that exceeds it
+  undecided,  ///< no run was found, and none is excluded
+};
+const char* name_of(Verdict verdict);
+
+struct Line {
+  results::RequirementResult requirement;
+  Verdict verdict = Verdict::undecided;
+  std::optional<sim::Duration> simulated;
+  std::optional<sim::Duration> adversarial;
+  std::optional<sim::Duration> bound;
+  std::string reason;                       ///< why it is not proved
+  std::vector<std::string> assumptions;
+  scenario::Scenario worst;                 ///< replays the adversarial maximum
+  std::uint64_t runs = 0;
+  bool exhaustive = false;
+  /// adversarial / bound: at 1 the bound cannot be improved. Nothing without either.
+  std::optional<double> tightness() const;
+};
+
+struct Verification {
+  std::vector<Line> lines;
+  std::vector<Freedom> freedoms;
+  std::uint64_t runs = 0;
+  bool partial = false;                     ///< interrupted: what has not been refuted or proved is undecided
+  /// A run above its bound, which is a mistake of takt; empty if there is none.
+  std::string contradiction;
+  Verdict verdict() const;                  ///< refuted if one is, else undecided if one is
+};
+
+struct Options {
+  SearchOptions search;
+  ProofOptions proof;
+};
+
+Verification verify(const scenario::Resolved& resolved, const Options& options);
+
+}  // namespace takt::verify

@@ -1,0 +1,116 @@
+// The search finds worst cases that can be worked out by hand, and what it finds can be replayed.
+#include "verify/adversary.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scenario/resolve.hpp"
+#include "sim/time.hpp"
+#include "verify/probe.hpp"
+#include "verify/shortened.hpp"
+
+namespace takt::verify {
+namespace {
+
+using sim::Duration;
+using namespace sim::literals;  // NOLINT
+
+std::unique_ptr<scenario::Resolved> resolved(const std::string& text) {
+  scenario::json::Diagnostics diagnostics;
+  auto found = scenario::load_text(text, "test", {}, diagnostics);
+  EXPECT_TRUE(found) << diagnostics.to_text();
+  return found;
+}
+
+// urgent and bulk come from hosts of their own and share the way from the switch to b.
+std::string two_talkers(const std::string& bulk = {}) {
+  return R"({"name": "two", "duration": "20ms",
+    "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "c": {"kind": "host"}, "sw": {"kind": "switch"}},
+      "links": [{"ends": ["a", "sw"]}, {"ends": ["sw", "b"]}, {"ends": ["c", "sw"]}]},
+    "streams": [{"name": "urgent", "from": "a", "to": "b", "payload": "100B", "pcp": 6, "every": "1ms"},
+                {"name": "bulk", "from": "c", "to": "b", "payload": "1400B", "pcp": 0, "every": "1ms")" + bulk + R"(}],
+    "require": [{"stream": "urgent", "latency": "1ms"}]})";
+}
+
+TEST(Adversary, MeetsAFrameThatHasJustBegun) {
+  const auto scenario = resolved(two_talkers());
+  const Search found = search(*scenario, {});
+  ASSERT_EQ(found.findings.size(), 1u);
+  const Finding& finding = found.findings[0];
+  // As it is both begin at 0 and the long one comes later. At worst it has begun 1 ns before: 8 + 1400 + 28 + 18 + 4 + 12 octets of 8 ns.
+  const Duration alone = *finding.simulated;
+  EXPECT_EQ(*finding.worst.measured, alone + 1470 * 8_ns - 1_ns);
+  EXPECT_TRUE(finding.exhaustive);
+  const std::optional<Probe> again = probe(finding.worst.scenario, {});
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->requirements[0].measured, finding.worst.measured);
+}
+
+TEST(Adversary, LeavesAloneWhatThePlantPromises) {
+  const auto scenario = resolved(two_talkers(R"(, "offset": "500us")"));
+  const Search found = search(*scenario, {});
+  ASSERT_EQ(found.freedoms.size(), 1u);
+  EXPECT_EQ(found.freedoms[0].name, "phase of urgent");
+  EXPECT_EQ(found.findings[0].worst.scenario.streams[1].offset, 500_us);
+  // The other one moves instead, and meets it.
+  EXPECT_EQ(*found.findings[0].worst.measured, *found.findings[0].simulated + 1470 * 8_ns - 1_ns);
+}
+
+// A halt waits for the master's next publishing at most, then for the network: nothing else is in the way.
+const char* const halted = R"({"name": "halted", "duration": "1s",
+  "network": {"nodes": {"m": {"kind": "host"}, "s": {"kind": "host"}}, "links": [{"ends": ["m", "s"]}]},
+  "programs": [{"name": "p", "master": "m", "slaves": ["s"], "cycle": "200us", "initialisation": "1ms"}],
+  "script": [{"at": "10ms", "program": "p", "call": "Start"}, {"at": "500ms", "program": "p", "call": "Halt"}],
+  "require": [{"reaction": "halt", "within": "300us"}]})";
+
+TEST(Adversary, CallsJustBehindAPublication) {
+  const auto scenario = resolved(halted);
+  const Search found = search(*scenario, {});
+  const Duration network = *found.findings[0].simulated;   // as it is, the call comes with the publication
+  EXPECT_LT(network, 10_us);
+  EXPECT_GE(*found.findings[0].worst.measured, 200_us - 1_ns);
+  EXPECT_LE(*found.findings[0].worst.measured, 200_us + network);
+  EXPECT_FALSE(found.findings[0].worst.failed);
+}
+
+TEST(Adversary, TheSameForAnyNumberOfJobs) {
+  const auto scenario = resolved(halted);
+  SearchOptions options;
+  options.events = 400'000;
+  const Search alone = search(*scenario, options);
+  options.jobs = 3;
+  const Search together = search(*scenario, options);
+  EXPECT_EQ(alone.runs, together.runs);
+  for (std::size_t i = 0; i < alone.findings.size(); ++i) {
+    EXPECT_EQ(alone.findings[i].worst.measured, together.findings[i].worst.measured);
+    EXPECT_EQ(alone.findings[i].worst.scenario, together.findings[i].worst.scenario);
+  }
+}
+
+TEST(Adversary, CanBeInterrupted) {
+  const auto scenario = resolved(halted);
+  SearchOptions options;
+  int asked = 0;
+  options.interrupted = [&] { return ++asked > 5; };
+  const Search found = search(*scenario, options);
+  EXPECT_TRUE(found.partial);
+  EXPECT_EQ(found.findings.size(), 2u);
+}
+
+TEST(Shortened, KeepsThePhaseOfCallsAndTheirOrder) {
+  const auto scenario = resolved(halted);
+  const scenario::Scenario made = shortened(scenario->scenario, 1_ms);
+  EXPECT_LT(made.duration, 100_ms);
+  ASSERT_EQ(made.script.size(), 2u);
+  EXPECT_GT(made.script[1].at, made.script[0].at + 1_ms);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ((made.script[i].at - scenario->scenario.script[i].at).ps() % (200_us).ps(), 0);
+}
+
+TEST(Shortened, LeavesAloneWhatDependsOnItsTimes) {
+  std::string text = halted;
+  text.insert(text.rfind("\"require\""), R"("faults": [{"kind": "link-down", "link": ["m", "s"], "at": "600ms", "for": "1ms"}], )");
+  const auto scenario = resolved(text);
+  EXPECT_EQ(shortened(scenario->scenario, 1_ms), scenario->scenario);
+}
+
+}  // namespace
+}  // namespace takt::verify

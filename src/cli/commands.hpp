@@ -16,5 +16,6 @@ void add_schema_command(CLI::App& app, ExitStatus& status);
 void add_program_command(CLI::App& app, ExitStatus& status);
 void add_node_command(CLI::App& app, ExitStatus& status);
 void add_explore_command(CLI::App& app, ExitStatus& status);
+void add_bound_command(CLI::App& app, ExitStatus& status);
 
 }  // namespace takt::cli

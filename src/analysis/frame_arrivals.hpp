@@ -83,6 +83,8 @@ class FrameArrivals {
 
 /// Whether a flow keeps to a token bucket: `bits` a frame, burst in bits, rate in bit/s.
 bool conforms(const FrameArrivals& arrivals, std::int64_t bits, std::int64_t burst_bits, std::int64_t bits_per_second);
+/// How long a token bucket that serves this flow alone keeps a frame back at most. Unbounded if more comes than its rate.
+Ps longest_hold(const FrameArrivals& arrivals, std::int64_t bits, std::int64_t burst_bits, std::int64_t bits_per_second);
 /// The pattern that a token bucket leaves of frames of that many bits; unlimited if the bucket holds less than one.
 ArrivalPattern pattern_of_token_bucket(std::int64_t bits, std::int64_t burst_bits, std::int64_t bits_per_second);
 

@@ -11,7 +11,7 @@ namespace takt::analysis {
 namespace {
 
 /// More rounds than any sound network needs; what still grows then is taken for unbounded.
-constexpr int most_rounds = 500;
+constexpr int most_rounds = 5000;
 
 class FixedPoint {
  public:
@@ -80,7 +80,9 @@ class FixedPoint {
 
   bool one_round() {
     bool changed = false;
-    for (std::uint32_t p = 0; p < graph_.ports.size(); ++p) {
+    const auto ports = static_cast<std::uint32_t>(graph_.ports.size());
+    for (std::uint32_t at = 0; at < ports; ++at) {
+      const std::uint32_t p = result_.rounds % 2 == 0 ? at : ports - 1 - at;   // to and fro, since paths lead both ways
       if (!is_due_[p] || graph_.ports[p].hops.empty()) continue;
       is_due_[p] = false;
       changed = true;
@@ -160,12 +162,14 @@ class FixedPoint {
   /// The delay at the port before, with what the scheduler of this hop holds the frame after it.
   ///
   /// Flows that kept to their buckets when they came to one FIFO queue, and go from it to the schedulers of one group, are held for no longer than the queue could
-  /// have delayed a frame anyway ("shaping for free", Le Boudec 2018). Others are held for as long as the residence time lets them be.
+  /// have delayed a frame anyway ("shaping for free", Le Boudec 2018). A flow alone in its group waits for its own tokens; others are held for as long as the residence
+  /// time lets them be.
   Ps delay_with_hold(const Hop& hop, std::uint32_t parent) const {
     const Ps delay = result_.hops[parent].delay;
     if (!hop.ats) return delay;
-    const Ps held = sum(delay, hop.ats->longest_residence);
-    if (hop.ats->group == 0) return held;
+    if (hop.ats->group == 0) return sum(delay, hop.ats->longest_residence);
+    const Ps hold = ats_groups_.at(hop.ats->group).size() == 1 ? longest_hold(arrivals_at_scheduler(hop, parent), hop.ats->bits, hop.ats->burst_bits, hop.ats->rate) : unbounded_ps;
+    const Ps held = sum(delay, std::min(hop.ats->longest_residence, hold));
     const ClockQuality& clock = graph_.models[hop.port].clock;
     Ps longest = delay;
     for (const std::uint32_t other : ats_groups_.at(hop.ats->group)) {
@@ -176,10 +180,23 @@ class FixedPoint {
       const PortModel& port = graph_.models[before.port];
       const bool one_queue = before.port == mine.port && before.highest_class == mine.highest_class && before.lowest_class == mine.lowest_class && before.lowest_class == before.highest_class;
       if (!one_queue || models::contains(port.unordered, before.highest_class)) return held;
-      if (!conforms(arrivals_[sibling.parents.front()], sibling.ats->bits, sibling.ats->burst_bits, sibling.ats->rate)) return held;
+      if (!is_shaped_alike(before, *sibling.ats) && !conforms(arrivals_[sibling.parents.front()], sibling.ats->bits, sibling.ats->burst_bits, sibling.ats->rate)) return held;
       longest = std::max(longest, result_.hops[sibling.parents.front()].delay);
     }
     return longest;
+  }
+
+  /// The hop before has shaped the flow to a bucket that is no greater.
+  static bool is_shaped_alike(const Hop& before, const AtsHold& bucket) {
+    return before.ats && before.ats->bits == bucket.bits && before.ats->burst_bits <= bucket.burst_bits && before.ats->rate <= bucket.rate;
+  }
+
+  /// The arrival curve of a flow where it comes out of the link before this hop.
+  FrameArrivals arrivals_at_scheduler(const Hop& hop, std::uint32_t parent) const {
+    const HopResult& before = result_.hops[parent];
+    FrameArrivals arrivals = arrivals_[parent].delayed(is_bounded(before.delay) ? before.delay - before.least_delay : unbounded_ps);
+    if (hop.metered) arrivals.add(*hop.metered);
+    return arrivals;
   }
 
   void give_up_what_grows() {

@@ -30,8 +30,8 @@ class PortAnalysis {
       : model_(model), traffic_(traffic), config_(*model.config), octet_(model.octet_time), gap_(octet_ * models::inter_packet_gap.count) {
     bound_.flows.resize(traffic.flows.size());
     for (TrafficClass q = 0; q < traffic_class_count; ++q) demands_.emplace_back(traffic, models::with(0, q), octet_);
-    if (config_.shaping.gates) gates_.emplace_back(*config_.shaping.gates);
-    for (const models::GateConfig& gates : model.more_gates) gates_.emplace_back(gates);
+    if (config_.shaping.gates) gates_.emplace_back(with_hold(*config_.shaping.gates));
+    for (const models::GateConfig& gates : model.more_gates) gates_.emplace_back(with_hold(gates));
   }
 
   PortBound run() {
@@ -53,6 +53,7 @@ class PortAnalysis {
   /// A frame of the class waits for nothing but other frames.
   bool is_work_conserving(TrafficClass q) const { return !is_shaped(q) && !is_gated(q) && !is_in_cqf(q); }
   bool overlap(TrafficClass a, TrafficClass b) const {
+    if (holds_late_ && is_preemptable(a) != is_preemptable(b)) return true;
     return gates_.empty() || std::any_of(gates_.begin(), gates_.end(), [&](const GateCycle& gates) { return gates.overlap(a, b); });
   }
   /// Frames of h go before waiting ones of q.
@@ -163,25 +164,25 @@ class PortAnalysis {
     const Ps guard = model_.counts_packets ? demands_[q].longest() - gap_ : 0;
     for (const GateCycle& gates : gates_) {
       if (gates.is_always_open(q)) continue;
-      const Ps hold = is_preemptable(q) ? hold_time() : 0;
-      all.emplace_back(gates, q, overhang(gates, q) + model_.clock.error + hold, guard + model_.clock.error + hold, model_.clock.rate_ppt);
+      const Ps hold = is_preemptable(q) ? hold_advance_ : 0;   // asked for so long before a window closes
+      all.emplace_back(gates, q, overhang(gates, q) + model_.clock.error, guard + model_.clock.error + hold, model_.clock.rate_ppt);
     }
     return all;
   }
-  /// A MAC that holds keeps preemptable frames off the medium around the windows of others: taken off both ends, which is more than it can be.
-  Ps hold_time() const {
-    const std::vector<const models::GateConfig*> lists = gate_lists();
-    const bool holds = std::any_of(lists.begin(), lists.end(), [](const models::GateConfig* gates) {
-      return std::any_of(gates->admin_control_list.begin(), gates->admin_control_list.end(),
-                         [](const models::GateControlEntry& entry) { return entry.operation == models::GateOperation::set_and_hold_mac; });
-    });
-    return holds ? octet_ * models::longest_express_wait(config_.preemption->add_frag_size).count : 0;
-  }
-  std::vector<const models::GateConfig*> gate_lists() const {
-    std::vector<const models::GateConfig*> lists;
-    if (config_.shaping.gates) lists.push_back(&*config_.shaping.gates);
-    for (const models::GateConfig& gates : model_.more_gates) lists.push_back(&gates);
-    return lists;
+  /// While the MAC holds, the gates of preemptable classes are as good as closed.
+  models::GateConfig with_hold(models::GateConfig gates) {
+    if (!config_.preemption) return gates;
+    bool holds = false;
+    for (int round = 0; round < 2; ++round)   // the first one finds what the second one begins with
+      for (models::GateControlEntry& entry : gates.admin_control_list) {
+        if (entry.operation != models::GateOperation::set_gate_states) holds = entry.operation == models::GateOperation::set_and_hold_mac;
+        if (round == 1 && holds) entry.gate_states = static_cast<models::GateStates>(entry.gate_states & ~config_.preemption->preemptable);
+        holds_ = holds_ || holds;
+      }
+    const Ps longest_wait = octet_ * models::longest_express_wait(config_.preemption->add_frag_size).count;
+    hold_advance_ = holds_ ? std::max(longest_wait, config_.preemption->hold_advance.value_or(sim::Duration()).ps()) : 0;
+    holds_late_ = holds_ && config_.preemption->hold_advance && config_.preemption->hold_advance->ps() < longest_wait;
+    return gates;
   }
 
   std::optional<Service> service_of(TrafficClass q, std::string& reason);
@@ -196,6 +197,9 @@ class PortAnalysis {
   const models::PortConfig& config_;
   Ps octet_;
   Ps gap_;
+  bool holds_ = false;          // some entry of a list does
+  bool holds_late_ = false;     // a preemptable frame may reach into what is held
+  Ps hold_advance_ = 0;
   std::vector<ClassDemand> demands_;
   std::vector<GateCycle> gates_;
   PortBound bound_;

@@ -53,6 +53,7 @@ class StreamBounds {
         take_hops(last, bound);
       }
     }
+    bound.loses_nothing = bound.loses_nothing && !flow.may_miss_launch;
     for (const std::uint32_t h : flow.hops) bound.loses_nothing = bound.loses_nothing && has_room(graph_.hops[h]);
   }
 

@@ -41,6 +41,7 @@ struct Hop {
   sim::Octets frame{0};
   models::TrafficClass lowest_class = 0;
   models::TrafficClass highest_class = 0;
+  bool uses_cqf = false;                ///< the stream gate of cyclic queuing and forwarding gives it its class here
   bool is_copied_here = false;          ///< the node makes several frames of one: its link does not limit them
   bool headers_come_first = false;      ///< the node may see the frame before its last bit
   std::optional<AtsHold> ats;
@@ -54,6 +55,7 @@ struct Flow {
   FrameArrivals source;                 ///< at the egress queue of the talker
   Ps worst_source = 0;                  ///< from production to the egress queue
   Ps best_source = 0;
+  bool may_miss_launch = false;         ///< the operating system may hand a frame over after its launch time
   std::vector<std::uint32_t> hops;      ///< parents before children
   /// The last hop to each listener, as in the plan; several where the listener takes out copies itself.
   std::vector<std::vector<std::uint32_t>> last;

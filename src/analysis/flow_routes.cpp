@@ -136,6 +136,7 @@ class RouteMaker {
       if (models::contains(classes, q)) lowest = q;
     hop.highest_class = models::highest_class(classes);
     hop.lowest_class = lowest;
+    hop.uses_cqf = gate.name == "cqf";
     if (lowest != hop.highest_class && gate.name != "cqf") hop.unsupported = "a stream gate that spreads a stream over several classes";
   }
 

@@ -65,6 +65,7 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, c
   if (talker.launch) {
     flow.worst_source = longest(talker.launch->ps(), clock) + 2 * clock.error;
     flow.best_source = std::max<Ps>(0, shortest(talker.launch->ps(), clock) - 2 * clock.error);
+    flow.may_miss_launch = os.transmit.greatest().ps() > flow.best_source;
   } else {
     flow.worst_source = os.transmit.greatest().ps();
     flow.best_source = os.transmit.least().ps();

@@ -45,6 +45,7 @@ class FixedPoint {
       flow.frame = hop.frame;
       flow.lowest_class = hop.lowest_class;
       flow.highest_class = hop.highest_class;
+      flow.uses_cqf = hop.uses_cqf;
       // Frames that a scheduler has held come when they are eligible, not as their link brought them.
       if (hop.parents.size() == 1 && !hop.is_copied_here && !hop.ats) {
         const std::uint32_t from = graph_.hops[hop.parents.front()].port;

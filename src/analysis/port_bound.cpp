@@ -397,10 +397,13 @@ void PortAnalysis::bound_cqf() {
       blocked = std::max(blocked, demands_[h].longest());
   }
   const bool fits = sum(needed, blocked, gap_) <= cqf.cycle - cqf.dead_time;
+  const bool all_use_it = std::all_of(traffic_.flows.begin(), traffic_.flows.end(), [&](const PortFlow& flow) { return flow.uses_cqf || (!is_in_cqf(flow.highest_class) && !is_in_cqf(flow.lowest_class)); });
+  if (!all_use_it) reason = "frames that do not pass the stream gate share the classes of cyclic queuing and forwarding";
   if (!model_.clock.is_synchronised) reason = "cyclic queuing and forwarding on clocks that drift apart";
   const Ps delay = cqf.cycle * cqf.buffers - cqf.offset - cqf.dead_time - cqf.forwarding_delay + 2 * model_.clock.error;
   const Ps waits = std::max<Ps>(0, cqf.cycle * (cqf.buffers - 2) - cqf.offset - cqf.forwarding_delay - 2 * model_.clock.error);
-  const bool holds = fits && model_.clock.is_synchronised && !config_.preemption;
+  if (config_.preemption) reason = "cyclic queuing and forwarding with preemption";
+  const bool holds = fits && all_use_it && model_.clock.is_synchronised && !config_.preemption;
   for (TrafficClass q = 0; q < traffic_class_count; ++q) {
     if (!is_in_cqf(q)) continue;
     if (!holds) {
@@ -416,7 +419,7 @@ void PortAnalysis::bound_cqf() {
     if (!is_in_cqf(flow.highest_class)) continue;
     const Ps last_bit = octet_ * models::wire_length(flow.frame).count - gap_;
     bound_.flows[f].delay = holds ? delay : unbounded_ps;
-    bound_.flows[f].least_delay = last_bit + waits;
+    bound_.flows[f].least_delay = last_bit + (holds ? waits : 0);
   }
 }
 

@@ -35,6 +35,7 @@ struct PortFlow {
   models::TrafficClass lowest_class = 0;     ///< two where cyclic queuing and forwarding takes turns
   models::TrafficClass highest_class = 0;
   std::size_t link = 0;                      ///< index in PortTraffic::links
+  bool uses_cqf = false;                     ///< the stream gate of cyclic queuing and forwarding has given it its class
 };
 
 /// A port's part in cyclic queuing and forwarding (see scenario/cqf.hpp).

@@ -16,6 +16,7 @@ void add_schema_command(CLI::App& app, ExitStatus& status);
 void add_program_command(CLI::App& app, ExitStatus& status);
 void add_node_command(CLI::App& app, ExitStatus& status);
 void add_explore_command(CLI::App& app, ExitStatus& status);
+void add_bound_command(CLI::App& app, ExitStatus& status);
 void add_verify_command(CLI::App& app, ExitStatus& status);
 
 }  // namespace takt::cli

@@ -1,0 +1,50 @@
+// What bounds rest on. Each bound says which of these it needs; where one does not hold, the bound may be exceeded.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace takt::analysis {
+
+enum class Assumption : std::uint8_t {
+  no_fault,
+  listed_faults_only,
+  os_latency,
+  clock_rate,
+  clock_error,
+  gptp_traffic,
+  gates_in_force,
+  gates_do_not_change,
+  elimination,
+  program_publishes,
+  no_loss,
+  one_command,
+  initialisation,
+  sampled_states,
+  count
+};
+
+/// A set of assumptions.
+class Assumptions {
+ public:
+  void add(Assumption assumption) { bits_ |= std::uint32_t{1} << static_cast<unsigned>(assumption); }
+  void add(const Assumptions& others) { bits_ |= others.bits_; }
+  bool contains(Assumption assumption) const { return (bits_ >> static_cast<unsigned>(assumption) & 1U) != 0; }
+  std::vector<Assumption> list() const {
+    std::vector<Assumption> all;
+    for (unsigned i = 0; i < static_cast<unsigned>(Assumption::count); ++i)
+      if (contains(static_cast<Assumption>(i))) all.push_back(static_cast<Assumption>(i));
+    return all;
+  }
+  bool operator==(const Assumptions&) const = default;
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
+/// The name in reports, such as "no-fault", and a sentence.
+std::string_view name_of(Assumption assumption);
+std::string_view text_of(Assumption assumption);
+
+}  // namespace takt::analysis

@@ -1,0 +1,189 @@
+#include "analysis/bounds.hpp"
+
+#include <algorithm>
+
+#include "analysis/network_bound.hpp"
+#include "analysis/reaction_bound.hpp"
+
+namespace takt::analysis {
+namespace {
+
+using sim::Duration;
+
+std::optional<Duration> duration_of(Ps ps) { return is_bounded(ps) ? std::optional(Duration::from_ps(ps)) : std::nullopt; }
+
+class StreamBounds {
+ public:
+  StreamBounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network) : r_(resolved), graph_(graph), network_(network) {}
+
+  std::vector<StreamBound> make() {
+    std::vector<StreamBound> bounds(r_.streams.size());
+    for (std::size_t s = 0; s < bounds.size(); ++s) {
+      const models::StreamPlan& plan = r_.plan.streams[s];
+      bounds[s].name = plan.name;
+      bounds[s].index = models::StreamIndex{static_cast<std::uint32_t>(s)};
+      bounds[s].by_listener.assign(plan.listeners.size(), Duration());
+      bounds[s].least = Duration::max();
+      bounds[s].latency = Duration();
+      bounds[s].assumptions = graph_.assumptions;
+      bounds[s].loses_nothing = true;
+    }
+    for (const Flow& flow : graph_.flows) take(flow, bounds[flow.stream.value]);
+    for (StreamBound& bound : bounds)
+      if (bound.least == Duration::max()) bound.least = Duration();
+    return bounds;
+  }
+
+ private:
+  void take(const Flow& flow, StreamBound& bound) {
+    const models::StreamPlan& plan = r_.plan.streams[bound.index.value];
+    for (std::size_t l = 0; l < flow.last.size(); ++l) {
+      const sim::Distribution& receive = r_.plan.os_latencies[r_.plan.nodes[plan.listeners[l].value].os_latency].receive;
+      for (const std::uint32_t last : flow.last[l]) {
+        const HopResult& hop = network_.hops[last];
+        const Ps propagation = graph_.ports[graph_.hops[last].port].propagation;
+        const Ps latency = sum(hop.worst, hop.delay, propagation, receive.greatest().ps());
+        const Ps least = sum(hop.best, hop.least_delay, propagation, receive.least().ps());
+        bound.least = std::min(bound.least, Duration::from_ps(least));
+        bound.by_listener[l] = later(bound.by_listener[l], duration_of(latency));
+        const bool is_worst = bound.hops.empty() || (bound.latency && (!is_bounded(latency) || Duration::from_ps(latency) > *bound.latency));
+        bound.latency = later(bound.latency, duration_of(latency));
+        if (!is_worst) continue;
+        bound.listener = plan.listeners[l];
+        take_hops(last, bound);
+      }
+    }
+    bound.loses_nothing = bound.loses_nothing && !flow.may_miss_launch;
+    for (const std::uint32_t h : flow.hops) bound.loses_nothing = bound.loses_nothing && has_room(graph_.hops[h]);
+  }
+
+  static std::optional<Duration> later(const std::optional<Duration>& a, const std::optional<Duration>& b) { return a && b ? std::optional(std::max(*a, *b)) : std::nullopt; }
+
+  /// The hops of the slowest way to this one.
+  void take_hops(std::uint32_t last, StreamBound& bound) {
+    std::vector<std::uint32_t> way{last};
+    for (;;) {
+      const std::vector<std::uint32_t>& parents = graph_.hops[way.back()].parents;
+      if (parents.empty()) break;
+      way.push_back(*std::max_element(parents.begin(), parents.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return sum(network_.hops[a].worst, network_.hops[a].delay) < sum(network_.hops[b].worst, network_.hops[b].delay);
+      }));
+    }
+    std::reverse(way.begin(), way.end());
+    bound.hops.clear();
+    bound.reason.clear();
+    for (const std::uint32_t h : way) bound.hops.push_back(hop_bound(h, bound.reason));
+    if (bound.reason.empty() && !is_bounded(network_.hops[last].worst)) bound.reason = "an ATS scheduler holds what does not keep to its rate, for any time";
+  }
+
+  HopBound hop_bound(std::uint32_t h, std::string& reason) {
+    const Hop& hop = graph_.hops[h];
+    const GraphPort& port = graph_.ports[hop.port];
+    const HopResult& result = network_.hops[h];
+    const PortClassBound& traffic_class = network_.ports[hop.port].classes[hop.highest_class];
+    HopBound made;
+    made.node = port.node;
+    made.port = port.number;
+    made.name = r_.plan.nodes[port.node.value].name + ":" + std::to_string(port.number) + " to " + r_.plan.nodes[port.peer.value].name;
+    made.delay = duration_of(result.delay);
+    if (is_bounded(traffic_class.backlog)) made.backlog_bits = static_cast<std::uint64_t>(8 * ((traffic_class.backlog + port.octet_time - 1) / port.octet_time));
+    if (!made.delay && reason.empty()) {
+      const std::string& why = !hop.unsupported.empty() ? hop.unsupported : !result.reason.empty() ? result.reason : traffic_class.reason;
+      reason = "at " + made.name + ", class " + std::to_string(hop.highest_class) + ": " + (why.empty() ? "unbounded" : why);
+    }
+    return made;
+  }
+
+  /// Nothing on the way drops frames of the hop: queues hold the backlog, no gate or meter polices.
+  bool has_room(const Hop& hop) const {
+    const models::PortConfig& config = *graph_.models[hop.port].config;
+    for (models::TrafficClass q = hop.lowest_class; q <= hop.highest_class; ++q) {
+      const PortClassBound& bound = network_.ports[hop.port].classes[q];
+      if (!bound.is_used) continue;
+      const models::QueueLimit& limit = config.queue_limits[q];
+      const Ps octets = bound.backlog / graph_.ports[hop.port].octet_time + 1;
+      if (!is_bounded(bound.backlog) || bound.backlog_frames > limit.frames || octets > limit.octets) return false;
+      if (config.shaping.queue_max_sdu[q].count != 0) return false;
+    }
+    const models::NodePlan& node = r_.plan.nodes[graph_.ports[hop.port].node.value];
+    return !node.ingress || hop.parents.empty() || !polices(r_.plan.ingress_configs[*node.ingress]);
+  }
+
+  static bool polices(const models::IngressConfig& ingress) {
+    return !ingress.stream_filters.empty() || !ingress.recoveries.empty();
+  }
+
+  const scenario::Resolved& r_;
+  const FlowGraph& graph_;
+  const NetworkResult& network_;
+};
+
+class RequirementBounds {
+ public:
+  RequirementBounds(const scenario::Resolved& resolved, Bounds& bounds) : r_(resolved), bounds_(bounds) {}
+
+  void make() {
+    for (std::size_t i = 0; i < r_.scenario.require.size(); ++i) {
+      const scenario::Requirement& requirement = r_.scenario.require[i];
+      if (requirement.reaction) add(i, "reaction", reaction(requirement));
+      if (requirement.sync) add(i, "sync", {{}, {}, "synchronisation is simulated, not bounded; gates and publishing rest on it", {}});
+      if (!requirement.stream) continue;
+      const StreamBound* const stream = stream_named(*requirement.stream);
+      if (stream == nullptr) continue;
+      if (requirement.latency) add(i, "latency", {stream->latency, {}, stream->reason, stream->assumptions});
+      if (requirement.jitter) add(i, "jitter", {stream->latency ? std::optional(*stream->latency - stream->least) : std::nullopt, {}, stream->reason, stream->assumptions});
+      if (requirement.dropped) add(i, "dropped", dropped(*stream));
+      if (requirement.delivered) add(i, "delivered", {{}, {}, "a number of delivered frames is no worst case", {}});
+    }
+  }
+
+ private:
+  void add(std::size_t requirement, std::string what, RequirementBound bound) { bounds_.requirements.push_back({requirement, std::move(what), std::move(bound)}); }
+
+  const StreamBound* stream_named(const std::string& name) const {
+    const auto found = std::find_if(bounds_.streams.begin(), bounds_.streams.end(), [&](const StreamBound& s) { return s.name == name; });
+    return found == bounds_.streams.end() ? nullptr : &*found;
+  }
+
+  RequirementBound reaction(const scenario::Requirement& requirement) const {
+    RequirementBound worst;
+    worst.duration = Duration();
+    for (const ReactionBound& bound : bounds_.reactions) {
+      if (bound.kind != *requirement.reaction || (requirement.program && r_.programs[bound.program].name != *requirement.program)) continue;
+      worst.assumptions.add(bound.assumptions);
+      if (!bound.bound && worst.reason.empty()) worst.reason = bound.reason;
+      worst.duration = worst.duration && bound.bound ? std::optional(std::max(*worst.duration, *bound.bound)) : std::nullopt;
+    }
+    return worst;
+  }
+
+  static RequirementBound dropped(const StreamBound& stream) {
+    RequirementBound bound;
+    bound.assumptions = stream.assumptions;
+    if (stream.loses_nothing)
+      bound.count = 0;
+    else
+      bound.reason = "frames may be dropped by a full queue, a filter, a recovery or a link";
+    return bound;
+  }
+
+  const scenario::Resolved& r_;
+  Bounds& bounds_;
+};
+
+}  // namespace
+
+Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
+  const FlowGraph graph = make_flow_graph(resolved, options);
+  const NetworkResult network = bound_network(resolved, graph);
+  Bounds bounds;
+  bounds.rounds = network.rounds;
+  bounds.streams = StreamBounds(resolved, graph, network).make();
+  if (!resolved.plan.impairments.empty())   // chance loses frames
+    for (StreamBound& stream : bounds.streams) stream.loses_nothing = false;
+  add_reactions(resolved, options, bounds);
+  RequirementBounds(resolved, bounds).make();
+  return bounds;
+}
+
+}  // namespace takt::analysis

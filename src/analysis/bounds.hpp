@@ -1,0 +1,91 @@
+// The bounds of a scenario: latency and backlog of every stream by hop, and of every reaction. Start here.
+//
+//   const analysis::Bounds bounds = analysis::bound(resolved);
+//   bounds.requirements[i].limit_bound     // what the scenario's requirement i can be at most, or why that is not known
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/assumption.hpp"
+#include "scenario/resolved.hpp"
+
+namespace takt::analysis {
+
+struct BoundOptions {
+  /// How far synchronised clocks may be from true time, if no requirement "sync" of the scenario says it.
+  sim::Duration clock_error = sim::Duration::from_ps(1'000'000);
+  /// False: frames are taken for fluids, which they are not. For tests that must catch a wrong bound.
+  bool counts_packets = true;
+};
+
+/// One egress port on the way of a stream.
+struct HopBound {
+  models::NodeIndex node;
+  std::uint16_t port = 0;
+  std::string name;                       ///< "sw1:0 to robot"
+  std::optional<sim::Duration> delay;     ///< from arrival at the port to the last bit on the wire
+  std::optional<std::uint64_t> backlog_bits;   ///< of the stream's class at that port, preambles and gaps included
+};
+
+struct StreamBound {
+  std::string name;
+  models::StreamIndex index;
+  std::optional<sim::Duration> latency;       ///< from production to delivery, at any listener
+  sim::Duration least;                        ///< no delivered frame is faster
+  models::NodeIndex listener;                 ///< the one that the bound is of
+  std::vector<std::optional<sim::Duration>> by_listener;   ///< as in the plan
+  std::vector<HopBound> hops;                 ///< to that listener
+  bool loses_nothing = false;                 ///< queues have room for every backlog and nothing else drops its frames
+  std::string reason;                         ///< why there is no bound
+  Assumptions assumptions;
+};
+
+/// A part of a reaction's bound, in the order in which they happen.
+struct ReactionPart {
+  std::string what;
+  sim::Duration duration;
+};
+
+struct ReactionBound {
+  std::size_t program = 0;                    ///< in resolved.programs
+  scenario::Reaction kind = scenario::Reaction::start;
+  std::optional<sim::Duration> bound;         ///< from the call to the moment at which all have reached the state
+  std::vector<ReactionPart> parts;            ///< of the slowest chain; they sum up to the bound
+  std::string reason;
+  Assumptions assumptions;
+};
+
+/// A silent peer: from its last message to the moment at which all others are Halted.
+struct SilenceBound {
+  std::size_t program = 0;
+  std::optional<sim::Duration> bound;
+};
+
+struct RequirementBound {
+  std::optional<sim::Duration> duration;      ///< latency, jitter, reaction or synchronisation
+  std::optional<std::uint64_t> count;         ///< dropped frames
+  std::string reason;                         ///< why there is none
+  Assumptions assumptions;
+};
+
+struct Bounds {
+  std::vector<StreamBound> streams;           ///< by stream index
+  std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset
+  std::vector<SilenceBound> silences;         ///< of each program
+  /// One for each limit of each requirement of the scenario, in order: a requirement on a stream may have several.
+  struct Requirement {
+    std::size_t requirement = 0;              ///< in scenario.require
+    std::string what;                         ///< "reaction", "latency", "jitter", "dropped", "delivered", "sync"
+    RequirementBound bound;
+  };
+  std::vector<Requirement> requirements;
+  int rounds = 0;                             ///< until the fixed point
+};
+
+/// Never fails: what cannot be bounded has a reason instead of a bound.
+Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options = {});
+
+}  // namespace takt::analysis

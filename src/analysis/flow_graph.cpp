@@ -1,0 +1,130 @@
+#include "analysis/flow_graph.hpp"
+
+#include <algorithm>
+
+#include "analysis/flow_routes.hpp"
+#include "analysis/flow_sources.hpp"
+#include "models/egress/class_set.hpp"
+#include "scenario/cqf.hpp"
+
+namespace takt::analysis {
+namespace {
+
+std::int64_t magnitude(std::int64_t value) { return value < 0 ? -value : value; }
+
+/// The greatest deviation of an oscillator in a run of that duration, in parts in 10^12.
+std::int64_t greatest_deviation(const models::OscillatorConfig& oscillator, sim::Duration duration) {
+  double ppt = static_cast<double>(magnitude(oscillator.offset.parts_per_trillion)) +
+               static_cast<double>(magnitude(oscillator.drift_ppt_per_second)) * static_cast<double>(duration.ps()) * 1e-12;
+  if (oscillator.temperature) ppt += static_cast<double>(magnitude(oscillator.temperature->amplitude.parts_per_trillion));
+  if (oscillator.walk) ppt += static_cast<double>(magnitude(oscillator.walk->bound.parts_per_trillion));
+  std::int64_t table = 0;
+  for (const models::FrequencyPoint& point : oscillator.table) table = std::max(table, magnitude(point.frequency.parts_per_trillion));
+  const double bound = std::min(ppt + static_cast<double>(table), static_cast<double>(magnitude(oscillator.bound.parts_per_trillion)));
+  return static_cast<std::int64_t>(bound) + 1'000;   // and what fixed point rounds
+}
+
+sim::Duration clock_error(const scenario::Resolved& r, const BoundOptions& options) {
+  sim::Duration error;
+  for (const scenario::Requirement& requirement : r.scenario.require)
+    if (requirement.sync && !requirement.node) error = std::max(error, *requirement.sync);
+  return error > sim::Duration() ? error : options.clock_error;
+}
+
+PortModel model_of(const scenario::Resolved& r, const GraphPort& port, const BoundOptions& options) {
+  PortModel model;
+  model.octet_time = port.octet_time;
+  model.config = &r.plan.port_configs[port.config];
+  model.clock = clock_quality(r, port.node, options);
+  model.counts_packets = options.counts_packets;
+  const models::NodePlan& node = r.plan.nodes[port.node.value];
+  if (node.kind == models::NodeKind::bridge) model.late_by = node.forwarding_delay.ps();
+  for (const scenario::ResolvedAction& action : r.script)
+    if (const auto* const gates = std::get_if<scenario::ResolvedGates>(&action.what); gates != nullptr && gates->node == port.node && gates->port == port.number)
+      model.more_gates.push_back(gates->gates);
+  const auto* const bridge = std::get_if<scenario::SwitchNode>(&r.topology.nodes[port.node.value].description);
+  if (bridge != nullptr && bridge->ingress && bridge->ingress->cqf) {
+    const scenario::Cqf& cqf = *bridge->ingress->cqf;
+    const scenario::CqfTimes times = scenario::cqf_times(cqf, r.topology, port.node.value);
+    CqfPort made{cqf.cycle.ps(), static_cast<int>(cqf.classes.size()), times.dead_time.ps(), times.offset.ps(), node.forwarding_delay.ps(), 0};
+    for (const std::uint8_t q : cqf.classes) made.classes = models::with(made.classes, q);
+    model.cqf = made;
+  }
+  return model;
+}
+
+/// At a host, frames without launch times go before those that wait for theirs.
+void note_unordered_classes(const scenario::Resolved& r, FlowGraph& graph) {
+  for (std::size_t p = 0; p < graph.ports.size(); ++p) {
+    const models::ClassSet timed = graph.models[p].config->shaping.timed;
+    if (timed == 0 || r.plan.nodes[graph.ports[p].node.value].kind != models::NodeKind::host) continue;
+    for (const std::uint32_t h : graph.ports[p].hops) {
+      const Hop& hop = graph.hops[h];
+      const models::StreamIndex stream = graph.flows[hop.flow].stream;
+      const bool launches = std::any_of(r.plan.talkers.begin(), r.plan.talkers.end(), [&](const models::TalkerPlan& t) { return t.stream == stream && t.launch && !t.babbles; });
+      if (models::contains(timed, hop.highest_class) && !launches) graph.models[p].unordered = models::with(graph.models[p].unordered, hop.highest_class);
+    }
+  }
+}
+
+void note_assumptions(const scenario::Resolved& r, FlowGraph& graph) {
+  Assumptions& all = graph.assumptions;
+  const auto is_random = [](const sim::Distribution& d) { return d.greatest() != d.least(); };
+  for (const models::OsLatency& os : r.plan.os_latencies)
+    if (is_random(os.transmit) || is_random(os.receive) || is_random(os.wake_up)) all.add(Assumption::os_latency);
+  for (const scenario::ResolvedAction& action : r.script) {
+    if (std::holds_alternative<scenario::ResolvedGates>(action.what))
+      all.add(Assumption::gates_do_not_change);
+    else if (!std::holds_alternative<scenario::ResolvedCall>(action.what))
+      all.add(Assumption::no_fault);
+  }
+  for (const models::PortConfig& config : r.plan.port_configs)
+    if (config.shaping.gates) all.add(Assumption::gates_in_force);
+  if (!r.redundancies.empty()) all.add(Assumption::elimination);
+  if (!r.plan.gptp.empty()) {
+    all.add(Assumption::gptp_traffic);
+    all.add(Assumption::clock_error);
+  }
+  if (std::any_of(r.plan.nodes.begin(), r.plan.nodes.end(), [](const models::NodePlan& node) { return node.clock.has_value(); })) all.add(Assumption::clock_rate);
+}
+
+}  // namespace
+
+ClockQuality clock_quality(const scenario::Resolved& r, models::NodeIndex node, const BoundOptions& options) {
+  ClockQuality quality;
+  const models::NodePlan& plan = r.plan.nodes[node.value];
+  if (!plan.clock) return quality;
+  const bool speaks_gptp = node.value < r.plan.gptp.size() && r.plan.gptp[node.value];
+  if (speaks_gptp) {
+    // Everybody follows the grandmaster, who may be anybody.
+    for (const models::NodePlan& other : r.plan.nodes)
+      if (other.clock) quality.rate_ppt = std::max(quality.rate_ppt, greatest_deviation(other.clock->oscillator, r.scenario.duration));
+    quality.error = clock_error(r, options).ps();
+    return quality;
+  }
+  quality.rate_ppt = greatest_deviation(plan.clock->oscillator, r.scenario.duration);
+  quality.is_synchronised = false;
+  return quality;
+}
+
+FlowGraph make_flow_graph(const scenario::Resolved& resolved, const BoundOptions& options) {
+  FlowGraph graph;
+  for (std::uint32_t l = 0; l < resolved.plan.links.size(); ++l) {
+    const models::LinkPlan& link = resolved.plan.links[l];
+    const auto doubles = [&](bool from_a) {
+      return std::any_of(resolved.plan.impairments.begin(), resolved.plan.impairments.end(),
+                         [&](const models::ImpairmentPlan& i) { return i.link == l && i.from_a_to_b == from_a && i.impairment.duplication; });
+    };
+    for (const auto& [from, to, from_a] : {std::tuple(&link.a, &link.b, true), std::tuple(&link.b, &link.a, false)})
+      graph.ports.push_back({from->node, from->port, to->node, link.rate.octet_time().ps(), link.delay.ps(),
+                             from->port_config.value_or(resolved.plan.nodes[from->node.value].port_config), doubles(from_a), {}});
+  }
+  for (const GraphPort& port : graph.ports) graph.models.push_back(model_of(resolved, port, options));
+  add_flows(resolved, options, graph);
+  add_routes(resolved, graph);
+  note_unordered_classes(resolved, graph);
+  note_assumptions(resolved, graph);
+  return graph;
+}
+
+}  // namespace takt::analysis

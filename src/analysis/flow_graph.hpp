@@ -1,0 +1,78 @@
+// The frames of a scenario as a graph of hops: which flows come to which egress port, from where, with what frames.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/bounds.hpp"
+#include "analysis/port_bound.hpp"
+
+namespace takt::analysis {
+
+/// One direction of a link.
+struct GraphPort {
+  models::NodeIndex node;
+  std::uint16_t number = 0;
+  models::NodeIndex peer;
+  Ps octet_time = 0;
+  Ps propagation = 0;
+  std::uint32_t config = 0;          ///< in plan.port_configs
+  bool may_double = false;           ///< chance doubles frames on the link
+  std::vector<std::uint32_t> hops;   ///< that pass it
+};
+
+/// How ATS holds a flow back before a hop.
+struct AtsHold {
+  std::uint64_t group = 0;           ///< flows with the same number share a scheduler group; 0: nothing is known
+  ArrivalPattern shaped;             ///< what leaves the scheduler
+  std::int64_t bits = 0;             ///< of a frame, as the scheduler counts them
+  std::int64_t burst_bits = 0;
+  std::int64_t rate = 0;             ///< bit/s
+  Ps longest_residence = unbounded_ps;
+};
+
+/// A flow at one egress port.
+struct Hop {
+  std::uint32_t flow = 0;
+  std::uint32_t port = 0;
+  std::vector<std::uint32_t> parents;   ///< hops; none at the talker, several where copies are merged
+  std::vector<std::uint32_t> children;
+  sim::Octets frame{0};
+  models::TrafficClass lowest_class = 0;
+  models::TrafficClass highest_class = 0;
+  bool uses_cqf = false;                ///< the stream gate of cyclic queuing and forwarding gives it its class here
+  bool is_copied_here = false;          ///< the node makes several frames of one: its link does not limit them
+  bool headers_come_first = false;      ///< the node may see the frame before its last bit
+  std::optional<AtsHold> ats;
+  std::optional<ArrivalPattern> metered;   ///< what a flow meter lets pass
+  std::string unsupported;              ///< why the hop cannot be bounded
+};
+
+/// Frames of one stream from one source.
+struct Flow {
+  models::StreamIndex stream;           ///< none: gPTP at one port
+  FrameArrivals source;                 ///< at the egress queue of the talker
+  Ps worst_source = 0;                  ///< from production to the egress queue
+  Ps best_source = 0;
+  bool may_miss_launch = false;         ///< the operating system may hand a frame over after its launch time
+  std::vector<std::uint32_t> hops;      ///< parents before children
+  /// The last hop to each listener, as in the plan; several where the listener takes out copies itself.
+  std::vector<std::vector<std::uint32_t>> last;
+};
+
+struct FlowGraph {
+  std::vector<GraphPort> ports;
+  std::vector<Flow> flows;
+  std::vector<Hop> hops;
+  std::vector<PortModel> models;        ///< by port
+  Assumptions assumptions;              ///< that all bounds need
+};
+
+/// Flows and hops; see flow_sources.hpp and flow_routes.hpp for the parts.
+FlowGraph make_flow_graph(const scenario::Resolved& resolved, const BoundOptions& options);
+
+/// How good a node's clock is under the scenario's clocks.
+ClockQuality clock_quality(const scenario::Resolved& resolved, models::NodeIndex node, const BoundOptions& options);
+
+}  // namespace takt::analysis

@@ -1,0 +1,189 @@
+#include "analysis/flow_routes.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "models/egress/class_set.hpp"
+#include "models/ethernet/sizes.hpp"
+#include "scenario/cqf.hpp"
+#include "sim/check.hpp"
+
+namespace takt::analysis {
+namespace {
+
+using models::NodeIndex;
+using models::TrafficClass;
+
+class RouteMaker {
+ public:
+  RouteMaker(const scenario::Resolved& resolved, FlowGraph& graph) : r_(resolved), graph_(graph) {
+    for (std::uint32_t p = 0; p < graph.ports.size(); ++p) port_at_[{graph.ports[p].node.value, graph.ports[p].number}] = p;
+    for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) redundancy_[redundancy.stream.value] = &redundancy;
+  }
+
+  void make(std::uint32_t flow) {
+    const scenario::ResolvedStream& stream = r_.streams[graph_.flows[flow].stream.value];
+    const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
+    const auto redundant = redundancy_.find(stream.index.value);
+    const scenario::ResolvedRedundancy* const redundancy = redundant == redundancy_.end() ? nullptr : redundant->second;
+    hop_at_.clear();
+    const std::size_t listeners = plan.listeners.size();
+    graph_.flows[flow].last.assign(listeners, {});
+    for (std::size_t i = 0; i < stream.paths.size(); ++i) {
+      const std::uint32_t last = walk(flow, stream.paths[i], redundancy, i);
+      std::vector<std::uint32_t>& all = graph_.flows[flow].last[redundancy != nullptr ? 0 : i];
+      if (std::find(all.begin(), all.end(), last) == all.end()) all.push_back(last);
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t nobody = 0xFFFF'FFFF;
+
+  /// Adds the hops of one path that are not there yet; the last one.
+  std::uint32_t walk(std::uint32_t flow, const scenario::Path& path, const scenario::ResolvedRedundancy* redundancy, std::size_t number) {
+    const scenario::ResolvedStream& stream = r_.streams[graph_.flows[flow].stream.value];
+    const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
+    std::uint32_t parent = nobody;
+    bool is_member = false;
+    bool was_merged = false;
+    bool tagged = plan.priority.has_value();
+    for (std::size_t at = 0; at + 1 < path.size(); ++at) {
+      const std::uint16_t port_number = *r_.topology.port_towards(path[at], path[at + 1]);
+      const bool splits = redundancy != nullptr && path[at] == redundancy->split;
+      if (redundancy != nullptr) {
+        was_merged = was_merged || (is_member && path[at] == redundancy->merge);
+        is_member = splits || (is_member && path[at] != redundancy->merge);
+      }
+      const std::uint32_t port = port_at_.at({path[at], port_number});
+      const models::PortConfig& config = r_.plan.port_configs[graph_.ports[port].config];
+      if (config.untagged && at > 0) tagged = false;
+      const std::size_t member = is_member ? number + 1 : 0;
+      const auto [known, is_new] = hop_at_.try_emplace({member, path[at], port_number}, static_cast<std::uint32_t>(graph_.hops.size()));
+      const std::uint32_t hop = known->second;
+      if (is_new) {
+        const bool r_tagged = is_member || (was_merged && redundancy->description->keep_tag);
+        const bool has_tag = tagged || (is_member && redundancy->members[number].vlan != 0 && plan.priority.has_value());
+        Hop made;
+        made.flow = flow;
+        made.port = port;
+        made.frame = models::frame_length(plan.headers + stream.largest_payload, has_tag, r_tagged);
+        made.is_copied_here = splits;
+        const models::AddressIndex address = is_member && !splits ? redundancy->members[number].destination : plan.destination;
+        const std::uint16_t in_port = at > 0 ? *r_.topology.port_towards(path[at], path[at - 1]) : std::uint16_t{0};
+        set_class(made, config, plan, path[at], in_port, address);
+        made.headers_come_first = at > 0 && cuts_through(path[at], plan.priority.value_or(0));
+        graph_.hops.push_back(std::move(made));
+        graph_.ports[port].hops.push_back(hop);
+        graph_.flows[flow].hops.push_back(hop);
+      }
+      if (parent != nobody) {
+        std::vector<std::uint32_t>& parents = graph_.hops[hop].parents;
+        if (std::find(parents.begin(), parents.end(), parent) == parents.end()) {
+          parents.push_back(parent);
+          graph_.hops[parent].children.push_back(hop);
+        }
+      }
+      parent = hop;
+    }
+    return parent;
+  }
+
+  bool cuts_through(std::uint32_t node, models::Priority priority) const {
+    for (const GraphPort& port : graph_.ports)
+      if (port.node.value == node) {
+        const models::PortConfig& config = r_.plan.port_configs[port.config];
+        if (models::contains(config.cut_through, config.traffic_class_of_priority[priority])) return true;
+      }
+    return false;
+  }
+
+  /// The class of the flow at a port, after what the ingress of the node says.
+  void set_class(Hop& hop, const models::PortConfig& config, const models::StreamPlan& plan, std::uint32_t node, std::uint16_t in_port, models::AddressIndex address) {
+    const models::Priority priority = plan.priority.value_or(0);
+    hop.lowest_class = hop.highest_class = config.traffic_class_of_priority[priority];
+    const models::NodePlan& node_plan = r_.plan.nodes[node];
+    if (!node_plan.ingress) return;
+    const models::IngressConfig& ingress = r_.plan.ingress_configs[*node_plan.ingress];
+    models::StreamHandle handle;
+    for (const models::StreamIdentityEntry& entry : ingress.stream_identity_table) {
+      const auto* const null = std::get_if<models::AddressIdentification>(&entry.function);
+      if (null == nullptr) {
+        hop.unsupported = "streams that are identified otherwise than by their address";
+        return;
+      }
+      if (null->destination == address && handle.is_none()) handle = entry.stream;
+    }
+    const auto filter = std::find_if(ingress.stream_filters.begin(), ingress.stream_filters.end(), [&](const models::StreamFilterConfig& f) {
+      return (!f.stream_handle || (!handle.is_none() && *f.stream_handle == handle)) && (!f.priority || *f.priority == priority);
+    });
+    if (filter == ingress.stream_filters.end()) return;
+    if (!filter->stream_gate.is_none()) set_gate(hop, config, ingress.stream_gates[filter->stream_gate.value]);
+    if (!filter->flow_meter.is_none()) set_meter(hop, ingress.flow_meters[filter->flow_meter.value].meter);
+    if (!filter->ats_scheduler.is_none()) set_ats(hop, ingress, filter->ats_scheduler.value, node, in_port, priority);
+  }
+
+  static void set_gate(Hop& hop, const models::PortConfig& config, const models::StreamGateConfig& gate) {
+    models::ClassSet classes = 0;
+    const auto note = [&](const std::optional<models::Priority>& ipv) {
+      classes = models::with(classes, ipv ? config.traffic_class_of_priority[*ipv] : hop.highest_class);
+    };
+    if (gate.admin_control_list.empty()) note(gate.admin_ipv);
+    for (const models::StreamGateEntry& entry : gate.admin_control_list)
+      if (entry.open) note(entry.ipv);
+    if (classes == 0) return;
+    TrafficClass lowest = 7;
+    for (TrafficClass q = 8; q-- > 0;)
+      if (models::contains(classes, q)) lowest = q;
+    hop.highest_class = models::highest_class(classes);
+    hop.lowest_class = lowest;
+    hop.uses_cqf = gate.name == "cqf";
+    if (lowest != hop.highest_class && gate.name != "cqf") hop.unsupported = "a stream gate that spreads a stream over several classes";
+  }
+
+  static void set_meter(Hop& hop, const models::FlowMeterConfig& meter) {
+    const bool yellow_passes = !meter.drop_on_yellow;
+    const std::int64_t burst = 8 * (std::int64_t{meter.committed_burst_size.count} + (yellow_passes ? meter.excess_burst_size.count : 0));
+    const auto rate = static_cast<std::int64_t>(meter.committed_information_rate.bits_per_second + (yellow_passes ? meter.excess_information_rate.bits_per_second : 0));
+    hop.metered = pattern_of_token_bucket(std::int64_t{8} * hop.frame.count, burst, rate);
+  }
+
+  void set_ats(Hop& hop, const models::IngressConfig& ingress, std::uint32_t number, std::uint32_t node, std::uint16_t in_port, models::Priority priority) {
+    const models::AtsSchedulerConfig& scheduler = ingress.ats_schedulers[number];
+    const bool is_named = !scheduler.group.is_none();
+    AtsHold hold;
+    hold.bits = std::int64_t{8} * (scheduler.media_overhead ? models::wire_length(hop.frame) : hop.frame).count;
+    hold.burst_bits = std::int64_t{8} * scheduler.committed_burst_size.count;
+    hold.rate = static_cast<std::int64_t>(scheduler.committed_information_rate.bits_per_second);
+    hold.shaped = pattern_of_token_bucket(hold.bits, hold.burst_bits, hold.rate);
+    const std::uint64_t within = is_named ? 0x100000ULL + scheduler.group.value : in_port * 8ULL + ingress.traffic_class_of_priority[priority];
+    hold.group = (static_cast<std::uint64_t>(node) + 1) << 32 | within;
+    const sim::Duration residence = is_named ? ingress.ats_groups[scheduler.group.value].maximum_residence_time : ingress.maximum_residence_time;
+    if (residence != sim::Duration::max()) hold.longest_residence = residence.ps();
+    // Frames of several streams take the tokens of one bucket in turn: none is known to keep to it alone.
+    hold.group = shares_scheduler(node, number) ? 0 : hold.group;
+    hop.ats = hold;
+  }
+
+  bool shares_scheduler(std::uint32_t node, std::uint32_t number) {
+    const models::IngressConfig& ingress = r_.plan.ingress_configs[*r_.plan.nodes[node].ingress];
+    std::size_t users = 0;
+    for (const models::StreamFilterConfig& filter : ingress.stream_filters)
+      if (!filter.ats_scheduler.is_none() && filter.ats_scheduler.value == number) users += filter.stream_handle ? 1 : 2;
+    return users > 1;
+  }
+
+  const scenario::Resolved& r_;
+  FlowGraph& graph_;
+  std::map<std::pair<std::uint32_t, std::uint16_t>, std::uint32_t> port_at_;
+  std::map<std::uint32_t, const scenario::ResolvedRedundancy*> redundancy_;
+  std::map<std::tuple<std::size_t, std::uint32_t, std::uint16_t>, std::uint32_t> hop_at_;   // by member, node, port
+};
+
+}  // namespace
+
+void add_routes(const scenario::Resolved& resolved, FlowGraph& graph) {
+  RouteMaker maker(resolved, graph);
+  for (std::uint32_t flow = 0; flow < graph.flows.size(); ++flow) maker.make(flow);
+}
+
+}  // namespace takt::analysis

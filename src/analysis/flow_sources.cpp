@@ -1,0 +1,127 @@
+#include "analysis/flow_sources.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/ethernet/sizes.hpp"
+
+namespace takt::analysis {
+namespace {
+
+constexpr std::int64_t one = 1'000'000'000'000;
+/// State messages in a cycle of a participant that publishes on change: the cyclic one, and Assumption::program_publishes.
+constexpr std::int64_t state_messages_in_a_cycle = 5;
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
+
+ArrivalPattern at_any_time() { return {1, 1, 0, unbounded_ps}; }
+
+/// A length of a clock's time in true time, at least and at most.
+Ps shortest(Ps local, const ClockQuality& clock) { return scaled_down(local, one - clock.rate_ppt, one); }
+Ps longest(Ps local, const ClockQuality& clock) { return scaled_up(local, one + clock.rate_ppt, one); }
+
+ArrivalPattern pattern_of(const models::TalkerPlan& talker, const ClockQuality& clock) {
+  const auto periodic = [&](Ps period, Ps jitter) {
+    ArrivalPattern pattern{std::max<Ps>(1, shortest(period, clock)), 1, 0, longest(jitter, clock) + 2 * clock.error};
+    return pattern;
+  };
+  return std::visit(Overloaded{[&](const models::PeriodicSchedule& s) {
+                                 ArrivalPattern pattern = periodic(s.period.ps(), s.jitter.ps());
+                                 if (talker.until == sim::LocalTime::never()) return pattern;
+                                 // It ends: so many frames, and no more.
+                                 const Ps lasts = std::max<Ps>(0, talker.until.ps() - s.offset.ps());
+                                 return ArrivalPattern{unbounded_ps, lasts / s.period.ps() + 1, pattern.period, pattern.jitter};
+                               },
+                               [&](const models::ExponentialSchedule&) { return at_any_time(); },
+                               [&](const models::BurstSchedule& s) {
+                                 ArrivalPattern pattern = periodic(s.period.ps(), 0);
+                                 pattern.frames = s.frames;
+                                 // The gap between the last frame of a burst and the first of the next counts too.
+                                 const Ps last_gap = s.period.ps() - (static_cast<Ps>(s.frames) - 1) * s.spacing.ps();
+                                 pattern.gap = shortest(std::max<Ps>(0, std::min(s.spacing.ps(), last_gap)), clock);
+                                 return pattern;
+                               },
+                               [&](const models::TraceSchedule& s) {
+                                 if (s.entries.empty()) return ArrivalPattern{unbounded_ps, 0, 0, 0};
+                                 Ps gap = s.entries.size() > 1 ? unbounded_ps : 0;
+                                 for (std::size_t i = 1; i < s.entries.size(); ++i) gap = std::min(gap, (s.entries[i].time - s.entries[i - 1].time).ps());
+                                 return ArrivalPattern{unbounded_ps, static_cast<std::int64_t>(s.entries.size()), shortest(gap, clock), 2 * clock.error};
+                               }},
+                    talker.schedule);
+}
+
+void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, const BoundOptions& options, FlowGraph& graph) {
+  const models::NodeIndex node = r.plan.streams[talker.stream.value].talker;
+  const ClockQuality clock = clock_quality(r, node, options);
+  const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
+  Flow flow;
+  flow.stream = talker.stream;
+  ArrivalPattern pattern = pattern_of(talker, clock);
+  if (talker.launch) {
+    flow.worst_source = longest(talker.launch->ps(), clock) + 2 * clock.error;
+    flow.best_source = std::max<Ps>(0, shortest(talker.launch->ps(), clock) - 2 * clock.error);
+    flow.may_miss_launch = os.transmit.greatest().ps() > flow.best_source;
+  } else {
+    flow.worst_source = os.transmit.greatest().ps();
+    flow.best_source = os.transmit.least().ps();
+  }
+  pattern.jitter = sum(pattern.jitter, flow.worst_source - flow.best_source);
+  if (talker.babbles) graph.assumptions.add(Assumption::listed_faults_only);
+  flow.source = FrameArrivals(pattern);
+  graph.flows.push_back(std::move(flow));
+}
+
+void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& program, const BoundOptions& options, FlowGraph& graph) {
+  const auto add = [&](std::uint8_t participant, models::StreamIndex stream, std::int64_t frames) {
+    const models::NodeIndex node = program.participants[participant];
+    const ClockQuality clock = clock_quality(r, node, options);
+    const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
+    Flow flow;
+    flow.stream = stream;
+    flow.worst_source = os.transmit.greatest().ps();
+    flow.best_source = os.transmit.least().ps();
+    const Ps jitter = sum(os.wake_up.greatest().ps() - os.wake_up.least().ps() + 2 * clock.error, flow.worst_source - flow.best_source);
+    flow.source = FrameArrivals({std::max<Ps>(1, shortest(program.description->cycle.ps(), clock)), frames, 0, jitter});
+    graph.flows.push_back(std::move(flow));
+  };
+  const bool on_change = program.description->publish == scenario::Publish::on_change;
+  if (on_change) graph.assumptions.add(Assumption::program_publishes);
+  for (std::uint8_t p = 0; p < program.participants.size(); ++p) add(p, program.state_streams[p], on_change ? state_messages_in_a_cycle : 1);
+  for (const scenario::ResolvedProcessData& data : program.process_data) add(data.from, data.stream, 1);
+}
+
+Ps interval_ps(int log_seconds) { return rounded_up(std::ldexp(1e12, log_seconds)); }
+
+}  // namespace
+
+void add_flows(const scenario::Resolved& resolved, const BoundOptions& options, FlowGraph& graph) {
+  for (const models::TalkerPlan& talker : resolved.plan.talkers) add_talker(resolved, talker, options, graph);
+  for (const scenario::ResolvedProgram& program : resolved.programs) add_program(resolved, program, options, graph);
+}
+
+std::optional<GptpMessages> gptp_messages(const scenario::Resolved& resolved, models::NodeIndex node) {
+  const auto& stations = resolved.plan.gptp;
+  if (node.value >= stations.size() || !stations[node.value]) return std::nullopt;
+  const models::gptp::StationPlan& plan = resolved.plan.gptp_stations[*stations[node.value]];
+  // Request, response and its follow-up of the link delay; Sync, Follow_Up and Announce of each domain.
+  int shortest = plan.link.log_pdelay_req_interval;
+  std::int64_t kinds = 3;
+  for (const models::gptp::InstanceConfig& instance : plan.instances) {
+    shortest = std::min({shortest, instance.log_sync_interval, instance.log_announce_interval});
+    kinds += 3;
+  }
+  const std::size_t nodes = static_cast<std::size_t>(std::count_if(stations.begin(), stations.end(), [](const auto& station) { return station.has_value(); }));
+  // The longest is an Announce with the path over all nodes: 68 octets and 8 for each.
+  const std::size_t announce = 68 + 8 * std::min<std::size_t>(nodes, 179);
+  GptpMessages messages;
+  messages.arrivals = FrameArrivals({interval_ps(shortest) / 2, kinds, 0, 0});
+  messages.frame = models::frame_length(sim::Octets{static_cast<std::uint32_t>(std::max<std::size_t>(76, announce))}, false);
+  return messages;
+}
+
+}  // namespace takt::analysis

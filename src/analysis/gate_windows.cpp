@@ -1,0 +1,97 @@
+#include "analysis/gate_windows.hpp"
+
+#include <algorithm>
+
+#include "models/egress/gate_control_list.hpp"
+
+namespace takt::analysis {
+
+using models::TrafficClass;
+
+GateCycle::GateCycle(const models::GateConfig& gates) {
+  const models::GateControlList list(gates.admin_control_list, gates.admin_cycle_time);
+  cycle_ = list.cycle_time().ps();
+  for (TrafficClass q = 0; q < models::traffic_class_count; ++q) {
+    open_[q] = list.open_share(q).open.ps();
+    if (open_[q] == cycle_) {
+      windows_[q].push_back({0, cycle_});
+      continue;
+    }
+    for (const models::GateControlList::Window& window : list.windows(q))
+      if (window.from_ps >= 0 && window.from_ps < cycle_) windows_[q].push_back({window.from_ps, window.until_ps});
+  }
+}
+
+bool GateCycle::is_open_at(TrafficClass q, Ps time) const {
+  return std::any_of(windows_[q].begin(), windows_[q].end(), [&](const GateWindow& w) {
+    return (w.from <= time && time < w.until) || (w.from <= time + cycle_ && time + cycle_ < w.until);
+  });
+}
+
+/// Precondition: q is open at `time`, within the cycle.
+Ps GateCycle::close_after(TrafficClass q, Ps time) const {
+  if (is_always_open(q)) return unbounded_ps;
+  for (const GateWindow& w : windows_[q]) {
+    if (w.from <= time && time < w.until) return w.until;
+    if (w.from <= time + cycle_ && time + cycle_ < w.until) return w.until - cycle_;
+  }
+  return time;
+}
+
+bool GateCycle::overlap(TrafficClass a, TrafficClass b) const {
+  return std::any_of(windows_[a].begin(), windows_[a].end(), [&](const GateWindow& w) { return is_open_at(b, w.from % cycle_); }) ||
+         std::any_of(windows_[b].begin(), windows_[b].end(), [&](const GateWindow& w) { return is_open_at(a, w.from % cycle_); });
+}
+
+Ps GateCycle::overhang(TrafficClass q, TrafficClass other, Ps frame, Ps gap) const {
+  Ps longest = gap;
+  for (const GateWindow& window : windows_[q]) {
+    const Ps from = window.from % cycle_;
+    if (is_open_at(other, from)) longest = std::max(longest, std::min(frame, sum(close_after(other, from) - from, gap)));
+  }
+  return longest;
+}
+
+PeriodicSupply::PeriodicSupply(const GateCycle& gates, TrafficClass q, Ps lost_at_start, Ps lost_at_end, std::int64_t rate_ppt) {
+  constexpr std::int64_t one = 1'000'000'000'000;
+  Ps end_of_last = -1;
+  Ps first_start = 0;
+  for (const GateWindow& window : gates.windows(q)) {
+    const Ps from = window.from + lost_at_start;
+    const Ps until = window.until - lost_at_end;
+    if (from > until) continue;
+    if (windows_.empty())
+      first_start = from;
+    windows_.push_back({windows_.empty() ? 0 : from - end_of_last, until - from});
+    end_of_last = until;
+  }
+  if (windows_.empty()) return;
+  windows_.front().gap_before = std::max<Ps>(0, first_start + gates.cycle() - end_of_last);
+  for (Window& window : windows_) {
+    window.gap_before = scaled_up(std::max<Ps>(0, window.gap_before), one + rate_ppt, one);
+    window.length = scaled_down(window.length, one - rate_ppt, one);
+    usable_ += window.length;
+    cycle_ += window.gap_before + window.length;
+  }
+}
+
+Ps PeriodicSupply::time_for(Ps need) const {
+  if (windows_.empty() || !is_bounded(need) || (usable_ == 0 && need > 0)) return unbounded_ps;
+  // Worst begins where a window has just ended: earlier in it there would be more of it, later the next one would be nearer.
+  const std::int64_t cycles = need > 0 ? (need - 1) / usable_ : 0;
+  Ps longest = 0;
+  for (std::size_t first = 0; first < windows_.size(); ++first) {
+    Ps rest = need - cycles * usable_;
+    Ps time = product(cycle_, cycles);
+    for (std::size_t i = first;; i = (i + 1) % windows_.size()) {
+      time = sum(time, windows_[i].gap_before);
+      if (rest <= windows_[i].length) break;
+      rest -= windows_[i].length;
+      time = sum(time, windows_[i].length);
+    }
+    longest = std::max(longest, sum(time, rest));
+  }
+  return longest;
+}
+
+}  // namespace takt::analysis

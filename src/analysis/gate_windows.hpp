@@ -1,0 +1,67 @@
+// When the gate of a class lets frames start, as a service that repeats: windows and the gaps between them, at the worst phase.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/picoseconds.hpp"
+#include "models/egress/shaping_config.hpp"
+
+namespace takt::analysis {
+
+/// Windows of one class in one cycle of a gate list, by the node's own clock.
+struct GateWindow {
+  Ps from = 0;
+  Ps until = 0;     ///< may lie beyond the end of the cycle, in which it began
+};
+
+/// The gates of a list as they repeat.
+class GateCycle {
+ public:
+  /// Precondition: a sound list (checked by the scenario).
+  explicit GateCycle(const models::GateConfig& gates);
+
+  Ps cycle() const { return cycle_; }
+  bool is_always_open(models::TrafficClass q) const { return open_[q] == cycle_; }
+  Ps open(models::TrafficClass q) const { return open_[q]; }
+  const std::vector<GateWindow>& windows(models::TrafficClass q) const { return windows_[q]; }
+  /// Whether both gates are open at one time.
+  bool overlap(models::TrafficClass a, models::TrafficClass b) const;
+  /// How long a frame of class `other`, begun before a window of q opens, may run into it: at most `frame`, since it must end before its own gate closes,
+  /// and `gap` in any case, the inter-packet gap of a frame that ends at the close.
+  Ps overhang(models::TrafficClass q, models::TrafficClass other, Ps frame, Ps gap) const;
+
+ private:
+  bool is_open_at(models::TrafficClass q, Ps time) const;
+  Ps close_after(models::TrafficClass q, Ps time) const;
+
+  Ps cycle_ = 0;
+  std::array<Ps, models::traffic_class_count> open_{};
+  std::array<std::vector<GateWindow>, models::traffic_class_count> windows_;
+};
+
+/// Stretches of usable time that repeat.
+class PeriodicSupply {
+ public:
+  /// Of each window what is left when `lost_at_start` and `lost_at_end` are taken off its ends; shrunk and stretched by the clock's worst rate.
+  PeriodicSupply(const GateCycle& gates, models::TrafficClass q, Ps lost_at_start, Ps lost_at_end, std::int64_t rate_ppt);
+
+  /// The longest time, from any phase, in which `need` of usable time passes. Unbounded if there is none.
+  Ps time_for(Ps need) const;
+  /// The part of all time that is usable.
+  double share() const { return cycle_ == 0 ? 0.0 : static_cast<double>(usable_) / static_cast<double>(cycle_); }
+  std::size_t windows() const { return windows_.size(); }
+  Ps cycle() const { return cycle_; }
+  Ps usable() const { return usable_; }
+
+ private:
+  struct Window {
+    Ps gap_before = 0;
+    Ps length = 0;
+  };
+  Ps cycle_ = 0;
+  Ps usable_ = 0;
+  std::vector<Window> windows_;
+};
+
+}  // namespace takt::analysis

@@ -1,0 +1,223 @@
+#include "analysis/network_bound.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "analysis/flow_sources.hpp"
+#include "models/ethernet/sizes.hpp"
+#include "sim/check.hpp"
+
+namespace takt::analysis {
+namespace {
+
+/// More rounds than any sound network needs; what still grows then is taken for unbounded.
+constexpr int most_rounds = 5000;
+
+class FixedPoint {
+ public:
+  FixedPoint(const scenario::Resolved& resolved, const FlowGraph& graph)
+      : r_(resolved), graph_(graph), arrivals_(graph.hops.size()), traffic_(graph.ports.size()), is_due_(graph.ports.size(), true), is_known_(graph.hops.size(), false) {
+    result_.hops.resize(graph.hops.size());
+    result_.ports.resize(graph.ports.size());
+    for (const Hop& hop : graph.hops)
+      if (hop.ats && hop.ats->group != 0) ats_groups_[hop.ats->group].push_back(static_cast<std::uint32_t>(&hop - graph.hops.data()));
+    for (std::uint32_t p = 0; p < graph.ports.size(); ++p) lay_out_traffic(p);
+  }
+
+  NetworkResult run() {
+    for (const Flow& flow : graph_.flows)
+      for (const std::uint32_t hop : flow.hops) arrive(hop);
+    // What still grows after many rounds is unbounded; with that known, the others settle.
+    while (!settle()) give_up_what_grows();
+    return std::move(result_);
+  }
+
+ private:
+  /// Which flows come to a port, by which links; their arrival curves follow in each round.
+  void lay_out_traffic(std::uint32_t p) {
+    const GraphPort& port = graph_.ports[p];
+    PortTraffic& traffic = traffic_[p];
+    traffic.links.push_back({});   // no limit
+    std::map<std::uint32_t, std::size_t> link_of;
+    for (const std::uint32_t h : port.hops) {
+      const Hop& hop = graph_.hops[h];
+      PortFlow flow;
+      flow.frame = hop.frame;
+      flow.lowest_class = hop.lowest_class;
+      flow.highest_class = hop.highest_class;
+      flow.uses_cqf = hop.uses_cqf;
+      // Frames that a scheduler has held come when they are eligible, not as their link brought them.
+      if (hop.parents.size() == 1 && !hop.is_copied_here && !hop.ats) {
+        const std::uint32_t from = graph_.hops[hop.parents.front()].port;
+        const auto [known, is_new] = link_of.try_emplace(from, traffic.links.size());
+        if (is_new) {
+          const GraphPort& link = graph_.ports[from];
+          IncomingLink incoming;
+          if (!link.may_double) incoming.octet_time = link.octet_time;
+          incoming.is_mixed = graph_.models[from].config->preemption.has_value();
+          traffic.links.push_back(incoming);
+        }
+        traffic.links[known->second].is_mixed = traffic.links[known->second].is_mixed || hop.headers_come_first;
+        flow.link = known->second;
+      }
+      traffic.flows.push_back(std::move(flow));
+    }
+    if (const auto messages = gptp_messages(r_, port.node)) {
+      PortFlow flow;
+      flow.arrivals = messages->arrivals;
+      flow.frame = messages->frame;
+      flow.lowest_class = flow.highest_class = graph_.models[p].config->traffic_class_of_priority[7];
+      traffic.flows.push_back(std::move(flow));
+    }
+  }
+
+  bool settle() {
+    for (int round = 0; round < most_rounds; ++round) {
+      if (!one_round()) return true;
+      ++result_.rounds;
+    }
+    return false;
+  }
+
+  bool one_round() {
+    bool changed = false;
+    const auto ports = static_cast<std::uint32_t>(graph_.ports.size());
+    for (std::uint32_t at = 0; at < ports; ++at) {
+      const std::uint32_t p = result_.rounds % 2 == 0 ? at : ports - 1 - at;   // to and fro, since paths lead both ways
+      if (!is_due_[p] || graph_.ports[p].hops.empty()) continue;
+      is_due_[p] = false;
+      changed = true;
+      const std::vector<std::uint32_t>& hops = graph_.ports[p].hops;
+      for (std::size_t i = 0; i < hops.size(); ++i) traffic_[p].flows[i].arrivals = arrivals_[hops[i]];
+      result_.ports[p] = bound_port(graph_.models[p], traffic_[p]);
+      for (std::size_t i = 0; i < hops.size(); ++i) {
+        HopResult& hop = result_.hops[hops[i]];
+        const PortFlowBound& bound = result_.ports[p].flows[i];
+        hop.delay = graph_.hops[hops[i]].unsupported.empty() && hop.reason.empty() ? bound.delay : unbounded_ps;
+        hop.least_delay = bound.least_delay;
+      }
+      // Schedulers that share a group wait for each other's frames, so all of them are looked at once all delays here are known.
+      for (const std::uint32_t h : hops)
+        for (const std::uint32_t child : graph_.hops[h].children) {
+          if (graph_.hops[child].ats && graph_.hops[child].ats->group != 0)
+            for (const std::uint32_t other : ats_groups_.at(graph_.hops[child].ats->group)) arrive(other);
+          else
+            arrive(child);
+        }
+    }
+    return changed;
+  }
+
+  /// When and how a flow comes to a hop, from what is known of the hops before; its port is due if that has changed.
+  void arrive(std::uint32_t h) {
+    const Hop& hop = graph_.hops[h];
+    const Flow& flow = graph_.flows[hop.flow];
+    Ps best = flow.best_source;
+    Ps worst = flow.worst_source;
+    if (!hop.parents.empty()) {
+      best = unbounded_ps;
+      worst = 0;
+      for (const std::uint32_t parent : hop.parents) {
+        const HopResult& before = result_.hops[parent];
+        const GraphPort& port = graph_.ports[graph_.hops[parent].port];
+        const Ps on_the_way = sum(port.propagation, r_.plan.nodes[graph_.ports[hop.port].node.value].forwarding_delay.ps());
+        best = std::min(best, sum(before.best, hop.headers_come_first ? 0 : before.least_delay, on_the_way));
+        worst = std::max(worst, sum(before.worst, delay_with_hold(hop, parent), on_the_way));
+      }
+    }
+    HopResult& result = result_.hops[h];
+    FrameArrivals arrivals;
+    const Ps own_jitter = is_bounded(worst) ? worst - best : unbounded_ps;
+    if (hop.parents.size() == 1) {
+      const HopResult& before = result_.hops[hop.parents.front()];
+      arrivals = arrivals_[hop.parents.front()].delayed(is_bounded(worst) ? own_jitter - (before.worst - before.best) : unbounded_ps);
+    } else {
+      arrivals = flow.source.delayed(hop.parents.empty() ? 0 : own_jitter);
+    }
+    if (hop.metered) arrivals.add(*hop.metered);
+    if (hop.ats) arrivals.add(hop.ats->shaped);
+    if (!hop.parents.empty() && graph_.ports[graph_.hops[hop.parents.front()].port].may_double) arrivals = doubled(arrivals);
+    if (is_known_[h] && result.best == best && result.worst == worst && same(arrivals, arrivals_[h])) return;
+    is_known_[h] = true;
+    result.best = best;
+    result.worst = worst;
+    arrivals_[h] = std::move(arrivals);
+    is_due_[hop.port] = true;   // and with it the hops behind
+  }
+
+  static bool same(const FrameArrivals& a, const FrameArrivals& b) {
+    return std::equal(a.patterns().begin(), a.patterns().end(), b.patterns().begin(), b.patterns().end(), [](const ArrivalPattern& x, const ArrivalPattern& y) {
+      return x.period == y.period && x.frames == y.frames && x.gap == y.gap && x.jitter == y.jitter;
+    });
+  }
+  static FrameArrivals doubled(const FrameArrivals& arrivals) {
+    FrameArrivals twice;
+    for (ArrivalPattern pattern : arrivals.patterns()) {
+      pattern.frames *= 2;
+      pattern.gap = 0;
+      twice.add(pattern);
+    }
+    return twice;
+  }
+
+  /// The delay at the port before, with what the scheduler of this hop holds the frame after it.
+  ///
+  /// Flows that kept to their buckets when they came to one FIFO queue, and go from it to the schedulers of one group, are held for no longer than the queue could
+  /// have delayed a frame anyway ("shaping for free", Le Boudec 2018). A flow alone in its group waits for its own tokens; others are held for as long as the residence
+  /// time lets them be.
+  Ps delay_with_hold(const Hop& hop, std::uint32_t parent) const {
+    const Ps delay = result_.hops[parent].delay;
+    if (!hop.ats) return delay;
+    if (hop.ats->group == 0) return sum(delay, hop.ats->longest_residence);
+    const Ps hold = ats_groups_.at(hop.ats->group).size() == 1 ? longest_hold(arrivals_at_scheduler(hop, parent), hop.ats->bits, hop.ats->burst_bits, hop.ats->rate) : unbounded_ps;
+    const Ps held = sum(delay, std::min(hop.ats->longest_residence, hold));
+    const ClockQuality& clock = graph_.models[hop.port].clock;
+    Ps longest = delay;
+    for (const std::uint32_t other : ats_groups_.at(hop.ats->group)) {
+      const Hop& sibling = graph_.hops[other];
+      if (sibling.parents.size() != 1 || clock.rate_ppt != 0 || clock.error != 0) return held;
+      const Hop& before = graph_.hops[sibling.parents.front()];
+      const Hop& mine = graph_.hops[parent];
+      const PortModel& port = graph_.models[before.port];
+      const bool one_queue = before.port == mine.port && before.highest_class == mine.highest_class && before.lowest_class == mine.lowest_class && before.lowest_class == before.highest_class;
+      if (!one_queue || models::contains(port.unordered, before.highest_class)) return held;
+      if (!is_shaped_alike(before, *sibling.ats) && !conforms(arrivals_[sibling.parents.front()], sibling.ats->bits, sibling.ats->burst_bits, sibling.ats->rate)) return held;
+      longest = std::max(longest, result_.hops[sibling.parents.front()].delay);
+    }
+    return longest;
+  }
+
+  /// The hop before has shaped the flow to a bucket that is no greater.
+  static bool is_shaped_alike(const Hop& before, const AtsHold& bucket) {
+    return before.ats && before.ats->bits == bucket.bits && before.ats->burst_bits <= bucket.burst_bits && before.ats->rate <= bucket.rate;
+  }
+
+  /// The arrival curve of a flow where it comes out of the link before this hop.
+  FrameArrivals arrivals_at_scheduler(const Hop& hop, std::uint32_t parent) const {
+    const HopResult& before = result_.hops[parent];
+    FrameArrivals arrivals = arrivals_[parent].delayed(is_bounded(before.delay) ? before.delay - before.least_delay : unbounded_ps);
+    if (hop.metered) arrivals.add(*hop.metered);
+    return arrivals;
+  }
+
+  void give_up_what_grows() {
+    for (std::uint32_t p = 0; p < graph_.ports.size(); ++p)
+      if (is_due_[p])
+        for (const std::uint32_t h : graph_.ports[p].hops) result_.hops[h].reason = "delays that depend on each other in a circle grow without end";
+  }
+
+  const scenario::Resolved& r_;
+  const FlowGraph& graph_;
+  std::vector<FrameArrivals> arrivals_;        // by hop
+  std::vector<PortTraffic> traffic_;           // by port
+  std::vector<bool> is_due_;                   // by port
+  std::vector<bool> is_known_;                 // by hop
+  std::map<std::uint64_t, std::vector<std::uint32_t>> ats_groups_;
+  NetworkResult result_;
+};
+
+}  // namespace
+
+NetworkResult bound_network(const scenario::Resolved& resolved, const FlowGraph& graph) { return FixedPoint(resolved, graph).run(); }
+
+}  // namespace takt::analysis

@@ -1,0 +1,28 @@
+// The fixed point over all ports: how late each flow can come to each hop, given what the hops before do to all others.
+//
+// Total-flow analysis with exact staircases: a flow that may come between `best` and `worst` after its production comes to a hop with its source's arrival curve
+// and worst - best more jitter. Delays follow from arrivals, arrivals from delays; from no jitter at all upwards, until nothing changes. Where paths
+// depend on each other in circles the fixed point is a bound too, if there is one; what grows without end is unbounded.
+#pragma once
+
+#include "analysis/flow_graph.hpp"
+
+namespace takt::analysis {
+
+struct HopResult {
+  Ps best = 0;                    ///< from production to the arrival at the port
+  Ps worst = 0;
+  Ps delay = 0;                   ///< at the port
+  Ps least_delay = 0;
+  std::string reason;             ///< why `worst` is unbounded, if this hop is where it begins
+};
+
+struct NetworkResult {
+  std::vector<HopResult> hops;
+  std::vector<PortBound> ports;   ///< of the last round
+  int rounds = 0;
+};
+
+NetworkResult bound_network(const scenario::Resolved& resolved, const FlowGraph& graph);
+
+}  // namespace takt::analysis

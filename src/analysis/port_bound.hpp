@@ -1,0 +1,86 @@
+// One egress port: how long a frame can take from its arrival at the queue to its last bit on the wire, whatever the phases.
+//
+// All amounts are time on the medium of this port, preamble and inter-packet gap included; frames arrive whole, at one instant (packetiser). What a class
+// waits for: one frame of a lower class (blocking), all that comes to higher classes until it starts, what came to its own class before (FIFO), and what
+// its gate, credit and preemption take away. See docs/bounds.md for the formulas and why they hold.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/frame_arrivals.hpp"
+#include "models/egress/port_config.hpp"
+#include "sim/units.hpp"
+
+namespace takt::analysis {
+
+/// How far the clock of the port's node may be wrong.
+struct ClockQuality {
+  std::int64_t rate_ppt = 0;   ///< its frequency is off by up to so many parts in 10^12
+  Ps error = 0;                ///< it shows true time within so much, if it is synchronised
+  bool is_synchronised = true;
+};
+
+/// Frames that come to the port through one link. They cannot come faster than it carries them (line shaping).
+struct IncomingLink {
+  std::optional<Ps> octet_time;   ///< nothing: no such limit, for example from the host's own programs
+  bool is_mixed = false;          ///< frames are preempted or cut through there: one more frame may come at the same time
+};
+
+struct PortFlow {
+  FrameArrivals arrivals;
+  sim::Octets frame{0};                      ///< DA to FCS
+  models::TrafficClass lowest_class = 0;     ///< two where cyclic queuing and forwarding takes turns
+  models::TrafficClass highest_class = 0;
+  std::size_t link = 0;                      ///< index in PortTraffic::links
+  bool uses_cqf = false;                     ///< the stream gate of cyclic queuing and forwarding has given it its class
+};
+
+/// A port's part in cyclic queuing and forwarding (see scenario/cqf.hpp).
+struct CqfPort {
+  Ps cycle = 0;
+  int buffers = 2;
+  Ps dead_time = 0;
+  Ps offset = 0;
+  Ps forwarding_delay = 0;
+  models::ClassSet classes = 0;
+};
+
+struct PortTraffic {
+  std::vector<IncomingLink> links;
+  std::vector<PortFlow> flows;
+};
+
+struct PortModel {
+  Ps octet_time = 0;
+  const models::PortConfig* config = nullptr;
+  std::vector<models::GateConfig> more_gates = {};   ///< lists that the script will set; a bound holds for each list
+  ClockQuality clock;
+  std::optional<CqfPort> cqf;
+  Ps late_by = 0;         ///< frames of timed classes that come so much later may be eligible before (bridges: the forwarding delay)
+  models::ClassSet unordered = 0;   ///< timed classes in which frames without launch times overtake
+  bool counts_packets = true;   ///< false: bits leave as they come, no frame is waited for. Wrong, for tests of tests
+};
+
+struct PortFlowBound {
+  Ps delay = unbounded_ps;           ///< from arrival to the last bit, preamble included
+  Ps least_delay = 0;
+};
+
+struct PortClassBound {
+  bool is_used = false;
+  Ps backlog = unbounded_ps;         ///< time on the medium
+  std::int64_t backlog_frames = 0;   ///< meaningful if the backlog is bounded
+  std::string reason;                ///< why it is unbounded
+};
+
+struct PortBound {
+  std::vector<PortFlowBound> flows;   ///< as in the traffic
+  std::array<PortClassBound, models::traffic_class_count> classes;
+};
+
+PortBound bound_port(const PortModel& model, const PortTraffic& traffic);
+
+}  // namespace takt::analysis

@@ -1,0 +1,41 @@
+// How long a group takes to react, from the longest ways of notifications along its handshake (max-plus).
+//
+// A notification is on its way from the change of a participant's word to the step of another that hears it: wait for the next publication (a cycle and the
+// wake-up, nothing if it publishes on change), and the latency of its state message.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/bounds.hpp"
+#include "analysis/max_plus.hpp"
+
+namespace takt::analysis {
+
+/// A group: participant 0 is the master. notify(i, j): from a change at j until i has heard of it; zero() if i does not listen to j.
+/// initialise[i]: how long i stays in INIT.
+struct ReactionGroup {
+  MaxPlusMatrix notify{0, 0};
+  std::vector<MaxPlus> initialise;
+  /// Groups within: a slave that is master of another group.
+  struct Inner;
+  std::vector<Inner> inner;
+};
+struct ReactionGroup::Inner {
+  std::size_t slave = 0;
+  ReactionGroup group;
+};
+
+/// From the master's INIT to its Ready, when all slaves are Ready; a slave with an inner group is Ready when that is.
+MaxPlus ready_bound(const ReactionGroup& group);
+/// From the master's Ready to its Running, when all slaves are Running; likewise with inner groups.
+MaxPlus run_bound(const ReactionGroup& group);
+/// From Start at the master to the moment at which everybody is Running.
+MaxPlus start_bound(const ReactionGroup& group);
+/// From a call at any participant, of any of the groups, until the last of all has heard of it: halt, suspend, resume, reset.
+MaxPlus spread_bound(const ReactionGroup& group);
+
+/// The reactions of all Programs of a scenario. `bounds` has its streams.
+void add_reactions(const scenario::Resolved& resolved, const BoundOptions& options, Bounds& bounds);
+
+}  // namespace takt::analysis

@@ -1,0 +1,157 @@
+#include "analysis/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenario/json/node.hpp"
+#include "scenario/json/quantity.hpp"
+
+namespace takt::analysis {
+namespace {
+
+using scenario::json::Node;
+using sim::Duration;
+
+std::string text_of(const std::optional<Duration>& value) { return value ? scenario::json::to_text(*value) : "unbounded"; }
+Node picoseconds(const std::optional<Duration>& value) { return value ? Node::of_integer(value->ps()) : Node(); }
+
+std::string numbers_of(const Assumptions& assumptions, const std::vector<Assumption>& all) {
+  std::string text;
+  for (const Assumption assumption : assumptions.list())
+    text += (text.empty() ? "" : ",") + std::to_string(std::find(all.begin(), all.end(), assumption) - all.begin() + 1);
+  return text.empty() ? "" : " [" + text + "]";
+}
+
+/// What any of the bounds rests on.
+std::vector<Assumption> all_assumptions(const Bounds& bounds) {
+  Assumptions all;
+  for (const StreamBound& stream : bounds.streams) all.add(stream.assumptions);
+  for (const ReactionBound& reaction : bounds.reactions) all.add(reaction.assumptions);
+  return all.list();
+}
+
+Node nodes_of(const Assumptions& assumptions) {
+  Node array = Node::array();
+  for (const Assumption assumption : assumptions.list()) array.items.push_back(Node::of_string(name_of(assumption)));
+  return array;
+}
+
+std::string requirement_text(const scenario::Requirement& requirement, const std::string& what) {
+  if (what == "reaction") return fmt::format("reaction {} within {}", scenario::spelling(*requirement.reaction), text_of(requirement.within));
+  if (what == "latency") return fmt::format("stream {} latency at most {}", *requirement.stream, text_of(requirement.latency));
+  if (what == "jitter") return fmt::format("stream {} jitter at most {}", *requirement.stream, text_of(requirement.jitter));
+  if (what == "dropped") return fmt::format("stream {} drops at most {}", *requirement.stream, *requirement.dropped);
+  if (what == "delivered") return fmt::format("stream {} delivers at least {}", *requirement.stream, *requirement.delivered);
+  return fmt::format("synchronised within {}", text_of(requirement.sync));
+}
+
+std::string requirement_answer(const RequirementBound& bound) {
+  if (bound.duration) return text_of(bound.duration);
+  if (bound.count) return std::to_string(*bound.count);
+  return "no bound: " + bound.reason;
+}
+
+std::string streams_text(const Bounds& bounds, const scenario::Resolved& r, const std::vector<Assumption>& all) {
+  std::string text = "Streams: the longest latency from production to delivery; of each port the longest delay and the greatest backlog of the class\n";
+  for (const StreamBound& stream : bounds.streams) {
+    text += fmt::format("  {:<32} {:>16}  to {}{}{}\n", stream.name, text_of(stream.latency), r.plan.nodes[stream.listener.value].name,
+                        numbers_of(stream.assumptions, all), stream.reason.empty() ? "" : "  " + stream.reason);
+    for (const HopBound& hop : stream.hops)
+      text += fmt::format("    {:<30} {:>16}  {}\n", hop.name, text_of(hop.delay), hop.backlog_bits ? fmt::format("{} bits", *hop.backlog_bits) : "unbounded");
+  }
+  return text;
+}
+
+std::string reactions_text(const Bounds& bounds, const scenario::Resolved& r, const std::vector<Assumption>& all) {
+  std::string text;
+  for (const ReactionBound& reaction : bounds.reactions) {
+    if (text.empty()) text = "\nReactions: from the call until all have reached the state\n";
+    text += fmt::format("  {:<22} {:<9} {:>16}{}{}\n", r.programs[reaction.program].name, scenario::spelling(reaction.kind), text_of(reaction.bound),
+                        numbers_of(reaction.assumptions, all), reaction.reason.empty() ? "" : "  " + reaction.reason);
+    for (const ReactionPart& part : reaction.parts) text += fmt::format("    {:<28} {:>18}\n", part.what, text_of(part.duration));
+  }
+  for (const SilenceBound& silence : bounds.silences)
+    text += fmt::format("  {:<22} {:<9} {:>16}  from the last message of a peer until all others are Halted\n", r.programs[silence.program].name, "silence", text_of(silence.bound));
+  return text;
+}
+
+}  // namespace
+
+std::string text_report(const scenario::Resolved& resolved, const Bounds& bounds) {
+  const std::vector<Assumption> all = all_assumptions(bounds);
+  std::string text = fmt::format("{}: bounds of {} streams and {} Programs\n\n", resolved.scenario.name, bounds.streams.size(), resolved.programs.size());
+  text += streams_text(bounds, resolved, all) + reactions_text(bounds, resolved, all);
+  if (!bounds.requirements.empty()) text += "\nRequirements and what they can be at most\n";
+  for (const Bounds::Requirement& requirement : bounds.requirements)
+    text += fmt::format("  {:<48} {}\n", requirement_text(resolved.scenario.require[requirement.requirement], requirement.what), requirement_answer(requirement.bound));
+  if (!all.empty()) text += "\nThese bounds rest on\n";
+  for (std::size_t i = 0; i < all.size(); ++i) text += fmt::format("  [{}] {}: {}\n", i + 1, name_of(all[i]), text_of(all[i]));
+  return text;
+}
+
+std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds) {
+  Node root = Node::object();
+  root.add("scenario", Node::of_string(resolved.scenario.name));
+  Node& streams = root.add("streams", Node::array());
+  for (const StreamBound& stream : bounds.streams) {
+    Node node = Node::object();
+    node.add("name", Node::of_string(stream.name));
+    node.add("bound_ps", picoseconds(stream.latency));
+    node.add("least_ps", Node::of_integer(stream.least.ps()));
+    node.add("listener", Node::of_string(resolved.plan.nodes[stream.listener.value].name));
+    node.add("reason", Node::of_string(stream.reason));
+    node.add("loses_nothing", Node::of_bool(stream.loses_nothing));
+    Node hops = Node::array();
+    for (const HopBound& hop : stream.hops) {
+      Node made = Node::object();
+      made.add("port", Node::of_string(hop.name));
+      made.add("delay_ps", picoseconds(hop.delay));
+      made.add("backlog_bits", hop.backlog_bits ? Node::of_integer(static_cast<sim::int128>(*hop.backlog_bits)) : Node());
+      hops.items.push_back(std::move(made));
+    }
+    node.add("hops", std::move(hops));
+    node.add("assumptions", nodes_of(stream.assumptions));
+    streams.items.push_back(std::move(node));
+  }
+  Node& reactions = root.add("reactions", Node::array());
+  for (const ReactionBound& reaction : bounds.reactions) {
+    Node node = Node::object();
+    node.add("program", Node::of_string(resolved.programs[reaction.program].name));
+    node.add("kind", Node::of_string(scenario::spelling(reaction.kind)));
+    node.add("bound_ps", picoseconds(reaction.bound));
+    node.add("reason", Node::of_string(reaction.reason));
+    Node parts = Node::array();
+    for (const ReactionPart& part : reaction.parts) {
+      Node made = Node::object();
+      made.add("what", Node::of_string(part.what));
+      made.add("duration_ps", Node::of_integer(part.duration.ps()));
+      parts.items.push_back(std::move(made));
+    }
+    node.add("parts", std::move(parts));
+    node.add("assumptions", nodes_of(reaction.assumptions));
+    reactions.items.push_back(std::move(node));
+  }
+  Node& silences = root.add("silences", Node::array());
+  for (const SilenceBound& silence : bounds.silences) {
+    Node node = Node::object();
+    node.add("program", Node::of_string(resolved.programs[silence.program].name));
+    node.add("bound_ps", picoseconds(silence.bound));
+    silences.items.push_back(std::move(node));
+  }
+  Node& requirements = root.add("requirements", Node::array());
+  for (const Bounds::Requirement& requirement : bounds.requirements) {
+    Node node = Node::object();
+    node.add("text", Node::of_string(requirement_text(resolved.scenario.require[requirement.requirement], requirement.what)));
+    node.add("bound_ps", picoseconds(requirement.bound.duration));
+    node.add("bound_count", requirement.bound.count ? Node::of_integer(static_cast<sim::int128>(*requirement.bound.count)) : Node());
+    node.add("reason", Node::of_string(requirement.bound.reason));
+    node.add("assumptions", nodes_of(requirement.bound.assumptions));
+    requirements.items.push_back(std::move(node));
+  }
+  Node& assumptions = root.add("assumptions", Node::object());
+  for (const Assumption assumption : all_assumptions(bounds)) assumptions.add(name_of(assumption), Node::of_string(text_of(assumption)));
+  return scenario::json::pretty(root);
+}
+
+}  // namespace takt::analysis

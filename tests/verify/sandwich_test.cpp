@@ -1,0 +1,98 @@
+// simulated <= adversarial <= bound for every requirement of every shipped scenario, and verdicts that follow from it.
+#include "verify/sandwich.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scenario/resolve.hpp"
+#include "verify/report.hpp"
+
+namespace takt::verify {
+namespace {
+
+using sim::Duration;
+using namespace sim::literals;  // NOLINT
+
+std::vector<std::string> shipped() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(TAKT_SOURCE_DIR) + "/scenarios")) {
+    const std::string name = entry.path().string();
+    if (entry.path().extension() == ".json" && !name.ends_with(".schema.json") && name.find("/studies/") == std::string::npos) files.push_back(name);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Enough to see something, little enough for all of them.
+Options small() {
+  Options options;
+  options.search.seeds = 1;
+  options.search.events = 400'000;
+  options.proof.states = 100'000;
+  return options;
+}
+
+TEST(Sandwich, OfEveryShippedScenario) {
+  std::size_t bounds = 0;
+  std::size_t files = 0;
+  for (const std::string& file : shipped()) {
+    scenario::json::Diagnostics diagnostics;
+    // Clocks take seconds to settle, and large rings to run; what they do in the first second must not exceed a bound either.
+    const bool is_long = file.find("/clocks/") != std::string::npos || file.find("ring-1000") != std::string::npos;
+    const auto resolved = scenario::load_file(file, is_long ? std::vector<std::string>{"/duration=300ms"} : std::vector<std::string>{}, diagnostics);
+    if (!resolved && is_long) continue;   // its script goes on for longer
+    ASSERT_TRUE(resolved) << diagnostics.to_text();
+    ++files;
+    const Verification found = verify(*resolved, small());
+    EXPECT_EQ(found.contradiction, "") << file;
+    for (const Line& line : found.lines) {
+      EXPECT_LE(line.simulated.value_or(Duration()), line.adversarial.value_or(Duration::max())) << file << ": " << line.requirement.text;
+      if (!line.bound || !line.adversarial) continue;
+      ++bounds;
+      EXPECT_LE(*line.adversarial, *line.bound) << file << ": " << line.requirement.text;
+    }
+  }
+  EXPECT_GE(files, 30u);
+  EXPECT_GE(bounds, 40u);
+}
+
+Verification verified(const std::string& requirements) {
+  scenario::json::Diagnostics diagnostics;
+  const auto resolved = scenario::load_text(R"({"name": "two", "duration": "20ms",
+    "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "c": {"kind": "host"}, "sw": {"kind": "switch"}},
+      "links": [{"ends": ["a", "sw"]}, {"ends": ["sw", "b"]}, {"ends": ["c", "sw"]}]},
+    "streams": [{"name": "urgent", "from": "a", "to": "b", "payload": "100B", "pcp": 6, "every": "1ms"},
+                {"name": "bulk", "from": "c", "to": "b", "payload": "1400B", "pcp": 0, "every": "1ms"}],
+    "require": [)" + requirements + "]}", "test", {}, diagnostics);
+  EXPECT_TRUE(resolved) << diagnostics.to_text();
+  return verify(*resolved, small());
+}
+
+// Alone the frame takes 2 x 154 octets + 4 for the tag, and the cables and the switch; at worst 1470 octets of 8 ns more, less 1 ns that is left of them.
+TEST(Sandwich, VerdictsFollowFromTheLimit) {
+  const Verification found = verified(R"({"stream": "urgent", "latency": "20us"}, {"stream": "urgent", "latency": "14us"}, {"stream": "urgent", "dropped": 0},
+    {"stream": "urgent", "delivered": 20}, {"stream": "urgent", "delivered": 21})");
+  ASSERT_EQ(found.lines.size(), 5u);
+  const Verdict expected[] = {Verdict::pass, Verdict::refuted, Verdict::pass, Verdict::pass, Verdict::refuted};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(found.lines[i].verdict, expected[i]) << found.lines[i].requirement.text << ": " << found.lines[i].reason;
+  EXPECT_EQ(found.verdict(), Verdict::refuted);
+  EXPECT_GT(*found.lines[0].tightness(), 0.99);
+  const std::string json = json_report("two", found, std::vector<std::string>(5));
+  for (const char* const key : {"\"simulated_ps\"", "\"adversarial_ps\"", "\"bound_ps\"", "\"limit_ps\": 20000000", "\"verdict\": \"refuted\""})
+    EXPECT_NE(json.find(key), std::string::npos) << key;
+}
+
+TEST(Sandwich, UndecidedBetweenTheWorstRunAndTheBound) {
+  const Verification loose = verified(R"({"stream": "urgent", "latency": "20us"})");
+  const Duration between = *loose.lines[0].adversarial + (*loose.lines[0].bound - *loose.lines[0].adversarial) / 2;
+  ASSERT_GT(between, *loose.lines[0].adversarial);
+  const Verification found = verified(R"({"stream": "urgent", "latency": ")" + std::to_string(between.ps()) + R"(ps"})");
+  EXPECT_EQ(found.lines[0].verdict, Verdict::undecided);
+  EXPECT_EQ(found.verdict(), Verdict::undecided);
+  EXPECT_NE(found.lines[0].reason, "");
+}
+
+}  // namespace
+}  // namespace takt::verify

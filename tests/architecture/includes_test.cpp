@@ -50,6 +50,7 @@ const std::vector<Layer>& layers() {
     for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, results})});
     list.push_back({"src/results/", all_of({below, results})});
     list.push_back({"src/output/", all_of({below, questions, results, output})});
+    list.push_back({"src/property/", all_of({below, questions, results, output, {"property/"}})});
     list.push_back({"src/cli/", all_of({below, questions, results, output, node, cli})});
     list.push_back({"src/main.cpp", all_of({below, questions, results, output, node, cli})});
     return list;
@@ -76,7 +77,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, vocabulary});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, vocabulary, {"property/"}});
   return roots;
 }
 

@@ -289,7 +289,7 @@ Node redundancy_of(const results::RunResult& result) {
 
 }  // namespace
 
-std::string run_json(const results::RunResult& result) {
+scenario::json::Node run_node(const results::RunResult& result) {
   Node root = Node::object();
   root.add("takt", Node::of_string(result.version));
   root.add("scenario", Node::of_string(result.scenario));
@@ -307,7 +307,9 @@ std::string run_json(const results::RunResult& result) {
   root.add("clocks", clocks_of(result));
   root.add("ingress", ingress_of(result));
   root.add("redundancy", redundancy_of(result));
-  return scenario::json::pretty(root);
+  return root;
 }
+
+std::string run_json(const results::RunResult& result) { return scenario::json::pretty(run_node(result)); }
 
 }  // namespace takt::output

@@ -4,10 +4,13 @@
 #include <string>
 
 #include "results/run_result.hpp"
+#include "scenario/json/node.hpp"
 
 namespace takt::output {
 
 /// Keys and meaning: docs/results.md. All times are whole picoseconds in keys that end with _ps.
 std::string run_json(const results::RunResult& result);
+/// The same before it is text.
+scenario::json::Node run_node(const results::RunResult& result);
 
 }  // namespace takt::output

@@ -19,9 +19,11 @@ const Prefixes models = {"models/"};
 const Prefixes protocol = {"wire/", "uadp/", "pubsub/", "program/", "handshake/", "dds/", "gateway/"};
 const Prefixes scenario = {"scenario/"};
 const Prefixes json = {"scenario/json/"};
-const Prefixes questions = {"analysis/", "explore/", "synthesis/", "study/", "verify/"};
+const Prefixes questions = {"analysis/", "explore/", "synthesis/", "verify/"};
 const Prefixes results = {"results/"};
 const Prefixes output = {"output/"};
+const Prefixes chart = {"chart/"};
+const Prefixes study = {"study/"};
 const Prefixes cli = {"cli/"};
 const Prefixes node = {"node/"};
 const Prefixes vocabulary = {"vocabulary/"};
@@ -47,12 +49,15 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/scenario/json/", all_of({base, json})});
     const Prefixes below = all_of({kernel, models, protocol, vocabulary, scenario});
     list.push_back({"src/scenario/", below});
+    list.push_back({"src/chart/", chart});
+    // Beside the questions, but its points are results as result.json has them, and its report is drawn.
+    list.push_back({"src/study/", all_of({below, questions, results, output, chart})});
     for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, results})});
     list.push_back({"src/results/", all_of({below, results})});
     list.push_back({"src/output/", all_of({below, questions, results, output})});
     list.push_back({"src/property/", all_of({below, questions, results, output, {"property/"}})});
-    list.push_back({"src/cli/", all_of({below, questions, results, output, node, cli})});
-    list.push_back({"src/main.cpp", all_of({below, questions, results, output, node, cli})});
+    list.push_back({"src/cli/", all_of({below, questions, study, results, output, node, cli})});
+    list.push_back({"src/main.cpp", all_of({below, questions, study, results, output, node, cli})});
     return list;
   }();
   return all;
@@ -77,7 +82,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, vocabulary, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, vocabulary, chart, study, {"property/"}});
   return roots;
 }
 

@@ -38,29 +38,33 @@ std::optional<std::string> unescape(std::string_view step) {
   return text;
 }
 
-Parts split(std::string_view text) {
-  Parts option;
-  option.text = text;
-  const std::size_t equals = text.find('=');
-  if (equals == std::string_view::npos) return option.error = "no \"=\" in it", option;
-  option.value = text.substr(equals + 1);
-  std::string_view pointer = text.substr(0, equals);
-  if (pointer.empty()) return option.error = "nothing before the \"=\"", option;
-
-  const bool is_rfc = pointer.front() == '/';
+/// The steps of a pointer of either form; an empty text, or what is wrong with it.
+std::string split_pointer(std::string_view pointer, std::vector<std::string>& steps) {
+  const bool is_rfc = pointer.starts_with('/');
   if (is_rfc) pointer.remove_prefix(1);
   for (bool is_last = false; !is_last;) {
     const std::size_t end = pointer.find(is_rfc ? '/' : '.');
     is_last = end == std::string_view::npos;
     const std::string_view step = pointer.substr(0, end);
     const auto key = is_rfc ? unescape(step) : std::string(step);
-    if (!key) return option.error = "a ~ that is neither ~0 nor ~1", option;
-    if (key->empty()) return option.error = "an empty step in the pointer", option;
-    if (key->size() > max_key_length || option.steps.size() == max_depth)
-      return option.error = "a pointer that is too long", option;
-    option.steps.push_back(*key);
+    if (!key) return "a ~ that is neither ~0 nor ~1";
+    if (key->empty()) return "an empty step in the pointer";
+    if (key->size() > max_key_length || steps.size() == max_depth) return "a pointer that is too long";
+    steps.push_back(*key);
     if (!is_last) pointer.remove_prefix(end + 1);
   }
+  return {};
+}
+
+Parts split(std::string_view text) {
+  Parts option;
+  option.text = text;
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) return option.error = "no \"=\" in it", option;
+  option.value = text.substr(equals + 1);
+  const std::string_view pointer = text.substr(0, equals);
+  if (pointer.empty()) return option.error = "nothing before the \"=\"", option;
+  option.error = split_pointer(pointer, option.steps);
   return option;
 }
 
@@ -91,20 +95,25 @@ std::optional<std::size_t> index_of(std::string_view step, std::size_t size) {
   return index <= size ? std::optional(index) : std::nullopt;
 }
 
-/// One override under way: knows how to report.
+/// Overrides under way: knows how to report.
 class Override {
  public:
-  Override(const Document& document, std::string_view text, Diagnostics& diagnostics)
-      : tree_(*document.tree()), name_("--set " + std::string(first_octets(text, 200))), diagnostics_(diagnostics) {
+  Override(const Document& document, Diagnostics& diagnostics) : tree_(*document.tree()), diagnostics_(diagnostics) {}
+
+  /// What follows comes from a source of this name.
+  void begin(std::string name) {
+    name_ = std::move(name);
+    pointer_.clear();
     position_.source = static_cast<std::uint32_t>(tree_.sources.size());
     tree_.sources.push_back(name_);
   }
-
   bool apply(const Parts& option);
+  bool replace(const Replacement& replacement);
   Tree take_tree() { return std::move(tree_); }
 
  private:
   std::optional<Node> read_value(std::string_view text, std::size_t depth);
+  bool put(const std::vector<std::string>& steps, Node value);
   Node* enter(Node& node, const std::string& step);
   bool fail(std::string message, Details details);
 
@@ -120,13 +129,27 @@ bool Override::apply(const Parts& option) {
   if (!option.error.empty())
     return fail("not an override", {option.error, "pointer=value, such as network.links.0.rate=100Mbps", ""});
   auto value = read_value(option.value, option.steps.size());
-  if (!value) return false;
+  return value && put(option.steps, std::move(*value));
+}
+
+bool Override::replace(const Replacement& replacement) {
+  std::vector<std::string> steps;
+  if (const std::string problem = split_pointer(replacement.pointer, steps); !problem.empty())
+    return fail("not a pointer", {problem, "a JSON pointer such as /network/links/0/rate", ""});
+  Node value = replacement.value;
+  if (steps.size() + depth_of(value) > max_depth)
+    return fail("arrays and objects are nested too deeply", {"", fmt::format("at most {} levels", max_depth), ""});
+  set_position(value, position_);
+  return put(steps, std::move(value));
+}
+
+bool Override::put(const std::vector<std::string>& steps, Node value) {
   Node* node = &tree_.root;
-  for (const std::string& step : option.steps) {
+  for (const std::string& step : steps) {
     node = enter(*node, step);
     if (node == nullptr) return false;
   }
-  *node = std::move(*value);
+  *node = std::move(value);
   return true;
 }
 
@@ -188,10 +211,22 @@ bool Override::fail(std::string message, Details details) {
 }  // namespace
 
 bool apply(Document& document, std::string_view option, Diagnostics& diagnostics) {
-  Override edit(document, option, diagnostics);
+  Override edit(document, diagnostics);
+  edit.begin("--set " + std::string(first_octets(option, 200)));
   if (!edit.apply(split(option))) return false;
   document = Document(edit.take_tree());
   return true;
+}
+
+bool replace(Document& document, std::span<const Replacement> replacements, Diagnostics& diagnostics) {
+  Override edit(document, diagnostics);
+  bool is_done = true;
+  for (const Replacement& replacement : replacements) {
+    edit.begin(replacement.origin);
+    is_done = edit.replace(replacement) && is_done;
+  }
+  if (is_done) document = Document(edit.take_tree());
+  return is_done;
 }
 
 }  // namespace takt::scenario::json

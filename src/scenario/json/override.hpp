@@ -1,6 +1,8 @@
 // One value of a document replaced from the command line: --set network.links.0.rate=100Mbps
 #pragma once
 
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "scenario/json/diagnostics.hpp"
@@ -17,5 +19,16 @@ namespace takt::scenario::json {
 ///
 /// False, a diagnostic that names the option, and an unchanged document, if that cannot be done.
 bool apply(Document& document, std::string_view option, Diagnostics& diagnostics);
+
+/// A value that a program puts into a document.
+struct Replacement {
+  std::string pointer;  ///< RFC 6901 or dotted, as above; the last step "-" appends to an array
+  Node value;
+  std::string origin;   ///< names the source of the value in diagnostics: "slaves = 3"
+};
+
+/// Applies all of them in their order, with one copy of the document. False, diagnostics and an unchanged document, if
+/// one of them cannot be done.
+bool replace(Document& document, std::span<const Replacement> replacements, Diagnostics& diagnostics);
 
 }  // namespace takt::scenario::json

@@ -1,0 +1,169 @@
+// takt study: what if? A scenario, what of it varies, what comes of it.
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/study_progress.hpp"
+#include "results/version.hpp"
+#include "study/runner.hpp"
+
+namespace takt::cli {
+namespace {
+
+struct StudyOptions {
+  std::string file;
+  unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+  std::string out = "study.sqlite";
+  bool resume = false;
+  std::string shard = "1/1";
+  bool dry_run = false;
+  bool quiet = false;
+};
+
+/// "2/10"; nothing if it is not that.
+std::optional<study::Shard> shard_of(const std::string& text) {
+  study::Shard shard;
+  char rest = '\0';
+  unsigned long long index = 0;
+  unsigned long long count = 0;
+  if (std::sscanf(text.c_str(), "%llu/%llu%c", &index, &count, &rest) != 2 || index < 1 || index > count) return std::nullopt;
+  return study::Shard{index, count};
+}
+
+ExitStatus bad(const std::string& message) {
+  std::fprintf(stderr, "takt: %s\n", message.c_str());
+  return ExitStatus::bad_input;
+}
+
+std::unique_ptr<study::Plan> load_plan(const std::string& file) {
+  scenario::json::Diagnostics diagnostics;
+  auto plan = study::load_plan(file, diagnostics);
+  std::fputs(diagnostics.to_text().c_str(), stderr);
+  return plan;
+}
+
+void print_plan(const study::Plan& plan, const study::RunOptions& options) {
+  std::printf("%s: %zu variants, %u replications, %llu points, configuration %016llx\n", plan.study.name.c_str(), plan.variants.size(), plan.study.replications.count,
+              static_cast<unsigned long long>(plan.points()), static_cast<unsigned long long>(plan.digest));
+  std::uint64_t in_shard = 0;
+  for (std::uint64_t point = 0; point < plan.points(); ++point) in_shard += options.shard.has(point) ? 1 : 0;
+  if (options.shard.count > 1) std::printf("shard %llu of %llu: %llu points\n", static_cast<unsigned long long>(options.shard.index), static_cast<unsigned long long>(options.shard.count), static_cast<unsigned long long>(in_shard));
+  constexpr std::size_t most = 1000;
+  for (std::size_t v = 0; v < std::min(most, plan.variants.size()); ++v) std::printf("%6zu  %s\n", v, study::name_of(plan, plan.variants[v]).c_str());
+  if (plan.variants.size() > most) std::printf("        and %zu more\n", plan.variants.size() - most);
+}
+
+/// The store of the study, a new one or with --resume the one that is there; null after a problem, which is printed.
+std::unique_ptr<study::Store> store_for(const study::Plan& plan, const StudyOptions& options, ExitStatus& status) {
+  std::string problem;
+  std::unique_ptr<study::Store> store;
+  if (!options.resume) {
+    store = study::Store::create(options.out, plan, problem);
+    status = problem.find("--resume, or") != std::string::npos ? ExitStatus::bad_input : ExitStatus::internal_error;
+  } else {
+    store = study::Store::open(options.out, problem);
+    status = ExitStatus::bad_input;
+    const std::string digest = fmt::format("{:016x}", plan.digest);
+    if (store && store->header().digest != digest)
+      problem = fmt::format("{} is of another study or an older state of this one (\"{}\" {}, now {})", options.out, store->header().name, store->header().digest, digest);
+    else if (store && store->header().takt != results::version)
+      problem = fmt::format("{} was made by takt {}, this is {}", options.out, store->header().takt, results::version);
+  }
+  if (problem.empty()) return store;
+  std::fprintf(stderr, "takt: %s\n", problem.c_str());
+  return nullptr;
+}
+
+ExitStatus run_points(const study::Plan& plan, const StudyOptions& options, study::RunOptions& how) {
+  ExitStatus status = ExitStatus::pass;
+  std::vector<bool> finished(plan.points(), false);
+  std::unique_ptr<study::Store> store;
+  // A new store is made only after the validation, so that a mistake leaves nothing behind.
+  if (options.resume && !(store = store_for(plan, options, status))) return status;
+  if (store)
+    if (const std::string problem = store->finished(finished); !problem.empty()) return bad(options.out + ": " + problem);
+  if (const std::string mistakes = study::validate(plan, how, finished); !mistakes.empty()) {
+    std::fputs(mistakes.c_str(), stderr);
+    return ExitStatus::bad_input;
+  }
+  if (how.interrupted()) return ExitStatus::interrupted;
+  if (!store && !(store = store_for(plan, options, status))) return status;
+  const study::RunSummary summary = study::run_study(plan, *store, how, finished);
+  if (!summary.problem.empty()) {
+    std::fprintf(stderr, "takt: %s: %s\n", options.out.c_str(), summary.problem.c_str());
+    return ExitStatus::internal_error;
+  }
+  std::uint64_t digest = 0;
+  std::uint64_t count = 0;
+  if (const std::string problem = store->results_digest(digest, count); !problem.empty()) return bad(options.out + ": " + problem);
+  store->tidy();
+  std::printf("%s: %llu of %llu points in %s, %llu run now, %llu of these without a result, results %016llx\n", plan.study.name.c_str(), static_cast<unsigned long long>(count),
+              static_cast<unsigned long long>(plan.points()), options.out.c_str(), static_cast<unsigned long long>(summary.ran), static_cast<unsigned long long>(summary.troubled),
+              static_cast<unsigned long long>(digest));
+  return summary.interrupted ? ExitStatus::interrupted : ExitStatus::pass;
+}
+
+ExitStatus run(const StudyOptions& options) {
+  if (options.file.empty()) return bad("takt study: a study file is missing (takt study --help)");
+  const auto shard = shard_of(options.shard);
+  if (!shard) return bad("--shard " + options.shard + ": expected I/N with I from 1 to N, such as 2/10");
+  const auto plan = load_plan(options.file);
+  if (!plan) return ExitStatus::bad_input;
+  const InterruptGuard interrupt;
+  StudyProgress progress(!options.quiet);
+  study::RunOptions how;
+  how.jobs = options.jobs;
+  how.shard = *shard;
+  how.interrupted = [&] { return interrupt.requested(); };
+  how.progress = [&](const char* what, std::uint64_t done, std::uint64_t of) { progress.update(what, done, of); };
+  if (!options.dry_run) return run_points(*plan, options, how);
+  const std::string mistakes = study::validate(*plan, how, std::vector<bool>(plan->points(), false));
+  std::fputs(mistakes.c_str(), stderr);
+  if (!mistakes.empty()) return ExitStatus::bad_input;
+  if (!options.quiet) print_plan(*plan, how);
+  return interrupt.requested() ? ExitStatus::interrupted : ExitStatus::pass;
+}
+
+void add_merge(CLI::App& study, ExitStatus& status) {
+  CLI::App& command = *study.add_subcommand("merge", "Join the stores of a study's shards into a new one");
+  const auto out = std::make_shared<std::string>();
+  const auto parts = std::make_shared<std::vector<std::string>>();
+  command.add_option("OUT", *out, "The new store")->required();
+  command.add_option("PARTS", *parts, "The stores that are joined")->required();
+  command.footer("Example:\n  takt study merge all.sqlite part-*.sqlite");
+  command.callback([out, parts, &status] {
+    const std::string problem = study::merge_stores(*out, *parts);
+    status = problem.empty() ? ExitStatus::pass : bad(problem);
+  });
+}
+
+}  // namespace
+
+void add_study_command(CLI::App& app, ExitStatus& status) {
+  CLI::App& command = *app.add_subcommand("study", "What if: run the variants of a scenario, keep the figures, report");
+  const auto options = std::make_shared<StudyOptions>();
+  command.add_option("FILE", options->file, "The study file (JSON, comments allowed)");
+  command.add_option("--jobs", options->jobs, "Processes; the results are the same for any number")->check(CLI::Range(1u, 1024u))->type_name("N");
+  command.add_option("--out", options->out, "The store of the results (SQLite)")->type_name("STORE");
+  command.add_flag("--resume", options->resume, "Go on with a store: run only what is missing");
+  command.add_option("--shard", options->shard, "Only the I-th of N parts of the points, for several machines")->type_name("I/N");
+  command.add_flag("--dry-run", options->dry_run, "Expand and check everything, print the variants, run nothing");
+  command.add_flag("--quiet", options->quiet, "No progress");
+  add_merge(command, status);
+  command.footer(
+      "Examples:\n"
+      "  takt study scenarios/studies/slaves-hops-cycle.json --out slaves.sqlite\n"
+      "  takt study FILE --shard 3/10 --out part-3.sqlite\n"
+      "Exit status: 0 all points are there, 2 bad input (nothing was run), 3 internal error or a full disk, 130 interrupted.");
+  command.callback([&command, options, &status] {
+    if (command.get_subcommands().empty()) status = run(*options);
+  });
+}
+
+}  // namespace takt::cli

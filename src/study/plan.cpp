@@ -1,0 +1,112 @@
+#include "study/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <set>
+
+#include "scenario/json/suggest.hpp"
+#include "sim/digest.hpp"
+#include "study/design.hpp"
+
+namespace takt::study {
+namespace {
+
+std::uint64_t hash_of(std::string_view text) {
+  std::uint64_t hash = sim::mix64(text.size() + 0x9E3779B97F4A7C15ULL);
+  for (const char c : text) hash = sim::mix64(hash ^ static_cast<unsigned char>(c)) + 0x9E3779B97F4A7C15ULL;
+  return hash;
+}
+
+std::optional<json::Document> base_of(const Study& study, const std::string& path, json::Diagnostics& diagnostics) {
+  if (study.scenario) {
+    if (study.scenario->node.kind == json::Kind::object) return json::Document(study.scenario->node, path);
+    diagnostics.error(study.scenario->where.place(), "not a scenario", {json::excerpt(study.scenario->node), "an object"});
+    return std::nullopt;
+  }
+  if (!study.base) return std::nullopt;   // reported by the table
+  const std::filesystem::path beside = std::filesystem::path(path).parent_path() / *study.base;
+  return json::parse_file(beside.string(), diagnostics);
+}
+
+void check_names(const Study& study, json::Diagnostics& diagnostics) {
+  std::set<std::string> names;
+  for (const Factor& factor : study.factors)
+    if (!names.insert(factor.name).second) diagnostics.error(factor.where.at("name"), "a name occurs twice", {json::quote(factor.name), "names that differ"});
+  for (const Measure& measure : study.measures)
+    if (!names.insert(measure.name).second)
+      diagnostics.error(measure.where.at("name"), "a name occurs twice", {json::quote(measure.name), "names of factors and measures that differ"});
+}
+
+/// What the digest is of: all that decides what the points are and what is measured, but not what a run may take.
+std::string text_of(const Study& study, const json::Document& base) {
+  Study decisive = study;
+  decisive.schema.reset();
+  decisive.description.reset();
+  decisive.base.reset();
+  decisive.scenario.reset();
+  decisive.effort = {};
+  json::Node node = json::encode_value(decisive);
+  node.add("scenario", base.root());
+  return json::compact(node);
+}
+
+}  // namespace
+
+std::unique_ptr<Plan> load_plan(const std::string& path, json::Diagnostics& diagnostics) {
+  const auto document = json::parse_file(path, diagnostics);
+  if (!document) return nullptr;
+  Study study;
+  json::decode(*document, study, diagnostics);
+  if (!study.where.is_known()) return nullptr;
+  const auto base = base_of(study, path, diagnostics);
+  check_names(study, diagnostics);
+  auto plan = std::make_unique<Plan>(Plan{study, base.value_or(json::Document(json::Node::object(), path)), {}, {}, {}, {}, {}, 0});
+  std::optional<std::size_t> failures;
+  for (std::size_t i = 0; i < study.factors.size(); ++i) {
+    plan->factors.push_back(plan_factor(study.factors[i], diagnostics));
+    if (!study.factors[i].link_failures) continue;
+    if (failures) diagnostics.error(study.factors[i].where.at("link_failures"), "a second factor of link failures", {"", "at most one; \"at_once\": 2 fails pairs of links"});
+    failures = i;
+  }
+  for (const Measure& measure : study.measures)
+    if (auto planned = plan_measure(measure, diagnostics)) plan->measures.push_back(std::move(*planned));
+  for (const Limit& limit : study.limits)
+    if (auto planned = plan_limit(limit, plan->measures, diagnostics)) plan->limits.push_back(std::move(*planned));
+  if (!base) return nullptr;
+  expand(*plan, diagnostics);
+  if (diagnostics.has_errors()) return nullptr;
+  if (failures) expand_link_failures(*plan, *failures, diagnostics);
+  if (plan->points() > most_points)
+    diagnostics.error(study.where.place(), "too many points", {fmt::format("{} variants with {} replications", plan->variants.size(), study.replications.count), fmt::format("at most {}", most_points)});
+  if (diagnostics.has_errors()) return nullptr;
+  plan->text = text_of(study, *base);
+  plan->digest = hash_of(plan->text);
+  return plan;
+}
+
+std::string name_of(const Plan& plan, const Variant& variant) {
+  std::string text;
+  for (std::size_t f = 0; f < plan.factors.size(); ++f) text += fmt::format("{}{} = {}", f == 0 ? "" : ", ", plan.factors[f].name, plan.level_of(variant, f).text);
+  return text;
+}
+
+std::optional<scenario::Scenario> scenario_of(const Plan& plan, const Variant& variant, std::uint64_t seed, json::Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.errors();
+  std::vector<json::Replacement> replacements;
+  if (plan.base.root().find("faults") == nullptr) replacements.push_back({"/faults", json::Node::array(), "no faults"});
+  for (std::size_t f = 0; f < plan.factors.size(); ++f) {
+    if (plan.factors[f].levels.empty()) continue;   // link failures that are not enumerated yet
+    const Level& level = plan.level_of(variant, f);
+    replacements.insert(replacements.end(), level.replacements.begin(), level.replacements.end());
+  }
+  replacements.push_back({"/seed", json::Node::of_integer(static_cast<sim::int128>(seed)), "replications"});
+  json::Document document = plan.base;
+  if (!json::replace(document, replacements, diagnostics)) return std::nullopt;
+  scenario::Scenario scenario;
+  json::decode(document, scenario, diagnostics);
+  if (diagnostics.errors() != errors_before) return std::nullopt;
+  return scenario;
+}
+
+}  // namespace takt::study

@@ -1,0 +1,66 @@
+// A study that has been read and checked: its factors with their levels, its variants, its measures.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/description.hpp"
+#include "scenario/json/document.hpp"
+#include "scenario/json/override.hpp"
+#include "study/description.hpp"
+#include "study/measure.hpp"
+
+namespace takt::study {
+
+/// One value of a factor.
+struct Level {
+  std::string text;                               ///< as the study spells it
+  std::optional<double> number;                   ///< in PlannedFactor::unit, if it is one
+  std::vector<json::Replacement> replacements;    ///< what it changes in the scenario
+};
+
+struct PlannedFactor {
+  std::string name;
+  std::string unit;                               ///< of the numbers: "s", "bps" ... or ""
+  bool is_logarithmic = false;                    ///< its range said so
+  std::vector<Level> levels;
+  std::size_t baseline = 0;
+};
+
+/// A combination of levels: for each factor the index of its level.
+using Variant = std::vector<std::uint32_t>;
+
+/// What bounds a study. More is a diagnostic.
+constexpr std::uint64_t most_variants = 1'000'000;
+constexpr std::uint64_t most_points = 10'000'000;
+
+struct Plan {
+  Study study;
+  json::Document base;                            ///< the scenario before anything is varied
+  std::vector<PlannedFactor> factors;
+  std::vector<PlannedMeasure> measures;
+  std::vector<PlannedLimit> limits;
+  std::vector<Variant> variants;
+  std::string text;                               ///< study and base as one line of JSON: what the configuration digest is of
+  std::uint64_t digest = 0;                       ///< of the configuration: two stores belong together if theirs are equal
+
+  std::uint64_t points() const { return variants.size() * study.replications.count; }
+  std::size_t variant_of(std::uint64_t point) const { return point / study.replications.count; }
+  std::uint32_t replication_of(std::uint64_t point) const { return static_cast<std::uint32_t>(point % study.replications.count); }
+  std::uint64_t seed_of(std::uint64_t point) const { return study.replications.first_seed + replication_of(point); }
+  const Level& level_of(const Variant& variant, std::size_t factor) const { return factors[factor].levels[variant[factor]]; }
+};
+
+/// Reads and expands a study file. Everything but the variants' own soundness (point.hpp) is checked; null after an error.
+std::unique_ptr<Plan> load_plan(const std::string& path, json::Diagnostics& diagnostics);
+
+/// "slaves = 3, cycle = 200us"
+std::string name_of(const Plan& plan, const Variant& variant);
+
+/// The scenario of a variant with a seed, still to be resolved. Nothing after an error.
+std::optional<scenario::Scenario> scenario_of(const Plan& plan, const Variant& variant, std::uint64_t seed, json::Diagnostics& diagnostics);
+
+}  // namespace takt::study

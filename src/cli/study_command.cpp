@@ -11,6 +11,9 @@
 #include "cli/interrupt.hpp"
 #include "cli/study_progress.hpp"
 #include "results/version.hpp"
+#include "output/result_folder.hpp"
+#include "study/content.hpp"
+#include "study/report.hpp"
 #include "study/runner.hpp"
 
 namespace takt::cli {
@@ -143,6 +146,27 @@ void add_merge(CLI::App& study, ExitStatus& status) {
   });
 }
 
+ExitStatus report(const std::string& store, const std::string& out) {
+  std::string problem;
+  const auto content = study::read_store(store, problem);
+  if (!content) return bad(problem);
+  std::fputs(study::text_summary(*content).c_str(), stdout);
+  problem = output::write_file(out, study::html_report(*content));
+  if (problem.empty()) return ExitStatus::pass;
+  std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
+  return ExitStatus::internal_error;
+}
+
+void add_report(CLI::App& study, ExitStatus& status) {
+  CLI::App& command = *study.add_subcommand("report", "Tables and charts of a store, as one HTML file");
+  const auto store = std::make_shared<std::string>();
+  const auto out = std::make_shared<std::string>("study.html");
+  command.add_option("STORE", *store, "The store (study.sqlite)")->required();
+  command.add_option("--out", *out, "The HTML file that is written")->type_name("FILE");
+  command.footer("Example:\n  takt study report slaves.sqlite --out slaves.html");
+  command.callback([store, out, &status] { status = report(*store, *out); });
+}
+
 }  // namespace
 
 void add_study_command(CLI::App& app, ExitStatus& status) {
@@ -155,6 +179,7 @@ void add_study_command(CLI::App& app, ExitStatus& status) {
   command.add_option("--shard", options->shard, "Only the I-th of N parts of the points, for several machines")->type_name("I/N");
   command.add_flag("--dry-run", options->dry_run, "Expand and check everything, print the variants, run nothing");
   command.add_flag("--quiet", options->quiet, "No progress");
+  add_report(command, status);
   add_merge(command, status);
   command.footer(
       "Examples:\n"

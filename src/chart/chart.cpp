@@ -1,0 +1,177 @@
+#include "chart/chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "chart/axis.hpp"
+#include "chart/svg.hpp"
+
+namespace takt::chart {
+namespace {
+
+constexpr double left = 64;
+constexpr double top = 26;
+constexpr double right = 14;
+constexpr double line_height = 15;
+
+/// The frame that line and bar charts share: title, y axis with its grid, legend below.
+struct Frame {
+  double width;
+  double height;      // of the plot and what stands around it, without the legend
+  double bottom;      // room for the x axis
+  double x_end() const { return width - right; }
+  double y_end() const { return height - bottom; }
+};
+
+std::size_t legend_lines(const std::vector<std::string>& names, double width) {
+  double x = left;
+  std::size_t lines = names.empty() ? 0 : 1;
+  for (const std::string& name : names) {
+    const double needed = 24 + 6.2 * static_cast<double>(name.size());
+    if (x + needed > width && x > left) {
+      x = left;
+      ++lines;
+    }
+    x += needed;
+  }
+  return lines;
+}
+
+void draw_legend(Svg& svg, const std::vector<std::string>& names, const std::vector<std::string>& colours, double width, double y) {
+  double x = left;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const double needed = 24 + 6.2 * static_cast<double>(names[i].size());
+    if (x + needed > width && x > left) {
+      x = left;
+      y += line_height;
+    }
+    svg.box(x, y - 8, 9, 9, colours[i]);
+    svg.text(x + 13, y, names[i], "start", "legend");
+    x += needed;
+  }
+}
+
+void draw_y(Svg& svg, const Frame& frame, const Axis& axis, const std::string& title, const std::string& label, const std::vector<Rule>& rules) {
+  svg.text(left, 15, title, "start", "title");
+  for (const Tick& tick : axis.ticks()) {
+    svg.line(left, axis.at(tick.value), frame.x_end(), axis.at(tick.value), "grid");
+    svg.text(left - 6, axis.at(tick.value) + 4, tick.text, "end", "tick");
+  }
+  svg.text(13, (top + frame.y_end()) / 2, label, "middle", "label", -90);
+  for (const Rule& rule : rules) {
+    if (rule.y < axis.low() || rule.y > axis.high()) continue;
+    svg.line(left, axis.at(rule.y), frame.x_end(), axis.at(rule.y), "limit");
+    svg.text(frame.x_end(), axis.at(rule.y) - 4, rule.text, "end", "note");
+  }
+}
+
+void draw_whisker(Svg& svg, double x, const Sample& sample, const Axis& y) {
+  if (!sample.low || !sample.high || *sample.high <= *sample.low) return;
+  svg.line(x, y.at(*sample.low), x, y.at(*sample.high), "whisker");
+  for (const double end : {*sample.low, *sample.high}) svg.line(x - 3, y.at(end), x + 3, y.at(end), "whisker");
+}
+
+std::string title_of(const std::string& name, const std::string& x, const Sample& sample) {
+  std::string text = (name.empty() ? "" : name + ": ") + x + ": " + number_text(sample.y);
+  if (sample.low && sample.high) text += fmt::format(" ({} to {})", number_text(*sample.low), number_text(*sample.high));
+  return text;
+}
+
+void collect(std::vector<double>& values, const Sample& sample) {
+  values.push_back(sample.y);
+  if (sample.low) values.push_back(*sample.low);
+  if (sample.high) values.push_back(*sample.high);
+}
+
+}  // namespace
+
+std::string palette(std::size_t n) {
+  static constexpr std::array<const char*, 8> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#999933"};
+  return colours[n % colours.size()];
+}
+
+std::string draw(const LineChart& chart) {
+  std::vector<double> xs;
+  std::vector<double> ys;
+  std::vector<std::string> names;
+  std::vector<std::string> colours;
+  std::vector<std::string> legend_colours;
+  for (const Series& series : chart.series) {
+    for (const Sample& sample : series.samples) {
+      xs.push_back(sample.x);
+      collect(ys, sample);
+    }
+    colours.push_back(series.colour.empty() ? palette(colours.size()) : series.colour);
+    if (series.name.empty()) continue;
+    names.push_back(series.name);
+    legend_colours.push_back(colours.back());
+  }
+  const double legend_height = line_height * static_cast<double>(legend_lines(names, chart.width));
+  const Frame frame{chart.width, chart.height, 40};
+  Svg svg(chart.width, chart.height + legend_height);
+  const Axis x(xs, chart.x.is_logarithmic, left, frame.x_end());
+  const Axis y(ys, chart.y.is_logarithmic, frame.y_end(), top);
+  draw_y(svg, frame, y, chart.title, chart.y.label, chart.rules);
+  svg.line(left, frame.y_end(), frame.x_end(), frame.y_end(), "axis");
+  for (const Tick& tick : x.ticks()) {
+    svg.line(x.at(tick.value), frame.y_end(), x.at(tick.value), frame.y_end() + 4, "axis");
+    svg.text(x.at(tick.value), frame.y_end() + 16, tick.text, "middle", "tick");
+  }
+  svg.text((left + frame.x_end()) / 2, frame.y_end() + 32, chart.x.label, "middle", "label");
+  for (std::size_t s = 0; s < chart.series.size(); ++s) {
+    const Series& series = chart.series[s];
+    std::string commands;
+    for (const Sample& sample : series.samples) commands += fmt::format("{}{} {}", commands.empty() ? "M" : "L", coordinate(x.at(sample.x)), coordinate(y.at(sample.y)));
+    if (series.is_joined && series.samples.size() > 1) svg.path(commands, colours[s], "curve");
+    for (const Sample& sample : series.samples) {
+      draw_whisker(svg, x.at(sample.x), sample, y);
+      svg.circle(x.at(sample.x), y.at(sample.y), series.is_joined ? 3 : 3.5, colours[s], title_of(series.name, number_text(sample.x), sample));
+    }
+  }
+  draw_legend(svg, names, legend_colours, chart.width, chart.height + 6);
+  return svg.take(chart.title);
+}
+
+std::string draw(const BarChart& chart) {
+  std::vector<double> values;
+  if (!chart.y.is_logarithmic) values.push_back(0);   // the length of a bar is its figure
+  for (const auto& group : chart.bars)
+    for (const auto& bar : group)
+      if (bar) collect(values, *bar);
+  std::vector<std::string> names = chart.names;
+  if (names.size() == 1 && names.front().empty()) names.clear();
+  std::vector<std::string> colours;
+  for (std::size_t i = 0; i < names.size(); ++i) colours.push_back(palette(i));
+  std::size_t longest = 0;
+  for (const std::string& category : chart.categories) longest = std::max(longest, category.size());
+  const double slot = (chart.width - left - right) / static_cast<double>(std::max<std::size_t>(chart.categories.size(), 1));
+  const bool is_turned = 6.2 * static_cast<double>(longest) > slot;
+  const double bottom = is_turned ? 12 + 4.5 * static_cast<double>(std::min<std::size_t>(longest, 30)) : 24;
+  const Frame frame{chart.width, chart.height + bottom - 24, bottom};
+  Svg svg(chart.width, frame.height + line_height * static_cast<double>(legend_lines(names, chart.width)));
+  const Axis y(values, chart.y.is_logarithmic, frame.y_end(), top);
+  draw_y(svg, frame, y, chart.title, chart.y.label, chart.rules);
+  const double zero = y.is_logarithmic() ? frame.y_end() : y.at(0);
+  for (std::size_t c = 0; c < chart.categories.size(); ++c) {
+    const double begin = left + slot * (static_cast<double>(c) + 0.1);
+    const double width = slot * 0.8 / static_cast<double>(std::max<std::size_t>(chart.bars[c].size(), 1));
+    for (std::size_t b = 0; b < chart.bars[c].size(); ++b) {
+      if (!chart.bars[c][b]) continue;
+      const Sample& sample = *chart.bars[c][b];
+      const double x = begin + width * static_cast<double>(b);
+      const double end = y.at(sample.y);
+      svg.bar(x, std::min(end, zero), std::max(1.0, width - 1), std::max(0.5, std::abs(zero - end)), palette(b), title_of(chart.names.size() > b ? chart.names[b] : "", chart.categories[c], sample));
+      draw_whisker(svg, x + (width - 1) / 2, sample, y);
+    }
+    const double middle = left + slot * (static_cast<double>(c) + 0.5);
+    if (is_turned) svg.text(middle + 4, frame.y_end() + 12, chart.categories[c].substr(0, 30), "end", "tick", -45);
+    else svg.text(middle, frame.y_end() + 16, chart.categories[c], "middle", "tick");
+  }
+  svg.line(left, zero, frame.x_end(), zero, "axis");
+  draw_legend(svg, names, colours, chart.width, frame.height + 6);
+  return svg.take(chart.title);
+}
+
+}  // namespace takt::chart

@@ -1,0 +1,78 @@
+// Charts: plain data that becomes an <svg> element.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace takt::chart {
+
+/// A point of a curve, with the ends of its interval if it has one.
+struct Sample {
+  double x = 0;
+  double y = 0;
+  std::optional<double> low;
+  std::optional<double> high;
+};
+
+struct Series {
+  std::string name;               ///< empty: no entry in the legend
+  std::vector<Sample> samples;    ///< joined in their order, unless they are only marks
+  bool is_joined = true;
+  std::string colour;             ///< empty: one of the palette
+};
+
+struct Scale {
+  std::string label;
+  bool is_logarithmic = false;
+};
+
+/// A horizontal line, such as a limit.
+struct Rule {
+  double y = 0;
+  std::string text;
+};
+
+/// Curves or points over numbers.
+struct LineChart {
+  std::string title;
+  Scale x;
+  Scale y;
+  std::vector<Series> series;
+  std::vector<Rule> rules;
+  double width = 560;
+  double height = 300;
+};
+std::string draw(const LineChart& chart);
+
+/// One group of bars for each category, one bar of a group for each name.
+struct BarChart {
+  std::string title;
+  std::vector<std::string> categories;
+  std::vector<std::string> names;                             ///< of the bars of a group; one, empty: no legend
+  std::vector<std::vector<std::optional<Sample>>> bars;       ///< by category, then name; x is not used; none: no bar
+  Scale y;
+  std::vector<Rule> rules;
+  double width = 560;
+  double height = 300;
+};
+std::string draw(const BarChart& chart);
+
+/// A cell for each pair of categories, the darker the greater.
+struct HeatMap {
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+  std::vector<std::string> columns;
+  std::vector<std::string> rows;
+  std::vector<std::vector<std::optional<double>>> cells;      ///< by row, then column; none: hatched grey
+  std::vector<std::vector<bool>> marked;                      ///< cells with a red frame; empty: none
+  std::string unit;
+  bool is_logarithmic = false;
+};
+std::string draw(const HeatMap& chart);
+
+/// The colour of the n-th series; told apart by people who see few colours too (Okabe and Ito).
+std::string palette(std::size_t n);
+
+}  // namespace takt::chart

@@ -1,0 +1,221 @@
+#include "study/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "chart/svg.hpp"
+#include "study/effects.hpp"
+#include "study/magnitude.hpp"
+#include "study/report_charts.hpp"
+
+namespace takt::study {
+namespace {
+
+using chart::escaped;
+
+constexpr std::size_t most_charts = 60;     // of one kind
+constexpr std::size_t most_rows = 40;       // of a table
+constexpr std::size_t best_and_worst = 5;
+
+constexpr const char* page_style =
+    "body{font:14px/1.45 system-ui,sans-serif;color:#222;max-width:1180px;margin:24px auto;padding:0 16px}h1{font-size:22px}h2{font-size:17px;margin-top:32px;border-bottom:1px solid #ddd}"
+    "table{border-collapse:collapse;margin:8px 0}td,th{padding:3px 10px;border-bottom:1px solid #eee;text-align:left;font-variant-numeric:tabular-nums}th{font-weight:600;background:#f6f6f6}"
+    "td.n{text-align:right}.charts{display:flex;flex-wrap:wrap;gap:14px}.charts>svg{max-width:100%;height:auto}.fail{color:#c0392b}.note{color:#666}pre{white-space:pre-wrap;margin:0;font-size:12px}\n";
+
+struct Counts {
+  std::size_t done = 0;
+  std::size_t passing = 0;
+  std::map<Status, std::size_t> troubled;
+};
+
+Counts counts_of(const Content& content) {
+  Counts counts;
+  for (std::size_t row = 0; row < content.rows(); ++row) {
+    if (content.status[row] == Status::done) ++counts.done;
+    else ++counts.troubled[content.status[row]];
+    counts.passing += content.passes[row] ? 1 : 0;
+  }
+  return counts;
+}
+
+class Page {
+ public:
+  explicit Page(const Content& content) : content_(content) {}
+
+  std::string take() {
+    head();
+    main_effects();
+    responses();
+    heat_maps();
+    best_and_worst_variants();
+    fronts();
+    where_limits_break();
+    troubles();
+    return std::move(html_) + "</body></html>\n";
+  }
+
+ private:
+  void add(const std::string& text) { html_ += text; }
+  void section(const std::string& title, const std::string& note = "") {
+    add("<h2>" + escaped(title) + "</h2>\n");
+    if (!note.empty()) add("<p class=\"note\">" + escaped(note) + "</p>\n");
+  }
+  void charts(const std::string& title, const std::string& note, const std::string& all) {
+    if (all.empty()) return;
+    section(title, note);
+    add("<div class=\"charts\">\n" + all + "</div>\n");
+  }
+
+  void head() {
+    const Counts counts = counts_of(content_);
+    add("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">");
+    add("<link rel=\"icon\" href=\"data:,\"><title>" + escaped(content_.header.name) + "</title><style>" + page_style + std::string(chart::style_sheet()) + "</style></head><body>\n");
+    add("<h1>" + escaped(content_.header.name) + "</h1>\n<table>\n");
+    const auto row = [&](const std::string& name, const std::string& value) { add("<tr><th>" + escaped(name) + "</th><td>" + escaped(value) + "</td></tr>\n"); };
+    row("points", fmt::format("{} of {}: {} variants, {} replications", content_.rows(), content_.header.points(), content_.variants.size(), content_.header.replications));
+    std::string troubled;
+    for (const auto& [status, count] : counts.troubled) troubled += fmt::format(", {} {}", count, name_of(status));
+    row("results", fmt::format("{} pass, {} do not{}", counts.passing, counts.done - counts.passing, troubled));
+    std::string limits;
+    for (const PlannedLimit& limit : content_.limits) limits += (limits.empty() ? "" : ", ") + limit.text;
+    row("limits", limits.empty() ? "those of the scenario" : limits);
+    row("CPU time", fmt::format("{:.1f} s", content_.cpu_seconds));
+    row("configuration", content_.header.digest + ", takt " + content_.header.takt);
+    add("</table>\n<table><tr><th>factor</th><th>levels</th></tr>\n");
+    for (const ContentFactor& factor : content_.factors) {
+      std::string levels;
+      for (std::size_t i = 0; i < std::min<std::size_t>(factor.texts.size(), 12); ++i) levels += (i == 0 ? "" : ", ") + factor.texts[i];
+      if (factor.texts.size() > 12) levels += fmt::format(" ... ({} in all)", factor.texts.size());
+      add("<tr><td>" + escaped(factor.name) + "</td><td>" + escaped(levels) + "</td></tr>\n");
+    }
+    add("</table>\n");
+  }
+
+  void main_effects() {
+    std::string all;
+    std::size_t count = 0;
+    for (std::size_t m = 0; m < content_.measures.size(); ++m)
+      for (std::size_t f = 0; f < content_.factors.size() && count < most_charts; ++f, ++count) all += main_effect_chart(content_, f, m);
+    charts("Main effects", "Each level's mean over everything else. Whiskers: 95 % confidence intervals of the mean over the replications (Student).", all);
+  }
+
+  void responses() {
+    std::string all;
+    std::size_t count = 0;
+    for (std::size_t m = 0; m < content_.measures.size(); ++m)
+      for (std::size_t x = 0; x < content_.factors.size(); ++x)
+        for (std::size_t c = 0; c < content_.factors.size() && count < most_charts; ++c) {
+          if (c == x) continue;
+          const std::string one = response_chart(content_, x, c, m);
+          count += one.empty() ? 0 : 1;
+          all += one;
+        }
+    charts("Response curves", "Means over the factors that are not named, with 95 % confidence intervals (Student).", all);
+  }
+
+  void heat_maps() {
+    std::string all;
+    std::size_t count = 0;
+    for (std::size_t m = 0; m < content_.measures.size(); ++m)
+      for (std::size_t a = 0; a < content_.factors.size(); ++a)
+        for (std::size_t b = a + 1; b < content_.factors.size() && count < most_charts; ++b, ++count) all += heat_map_chart(content_, a, b, m);
+    charts("Heat maps", "Means over the factors that are not named. Red frame: some point in there does not pass.", all);
+  }
+
+  void best_and_worst_variants() {
+    section("Best and worst variants", "By the mean over the replications; least and greatest in brackets.");
+    for (std::size_t m = 0; m < content_.measures.size(); ++m) {
+      const ContentMeasure& measure = content_.measures[m];
+      const std::vector<Summary> summaries = by_variant(content_, m);
+      std::vector<std::uint32_t> order;
+      for (std::uint32_t v = 0; v < summaries.size(); ++v)
+        if (summaries[v].count > 0) order.push_back(v);
+      const auto is_better = [&](std::uint32_t a, std::uint32_t b) {
+        if (summaries[a].mean == summaries[b].mean) return a < b;
+        return measure.lower_is_better ? summaries[a].mean < summaries[b].mean : summaries[a].mean > summaries[b].mean;
+      };
+      const std::size_t shown = std::min(order.size(), 2 * best_and_worst);
+      const std::size_t best = std::min(best_and_worst, shown);
+      std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(best), order.end(), is_better);
+      const auto worst_first = [&](std::uint32_t a, std::uint32_t b) { return is_better(b, a); };
+      std::partial_sort(order.begin() + static_cast<std::ptrdiff_t>(best), order.begin() + static_cast<std::ptrdiff_t>(shown), order.end(), worst_first);
+      add("<table><tr><th>" + escaped(label_of(measure)) + "</th><th></th><th>variant</th></tr>\n");
+      for (std::size_t i = 0; i < shown; ++i) {
+        const Summary& summary = summaries[order[i]];
+        add(fmt::format("<tr><td class=\"n\">{} ({} to {})</td><td>{}</td><td>{}</td></tr>\n", short_number(summary.mean), short_number(summary.min), short_number(summary.max), i < best ? "best" : "worst",
+                        escaped(content_.name_of(order[i]))));
+      }
+      add("</table>\n");
+    }
+  }
+
+  void fronts() {
+    std::string all;
+    std::size_t count = 0;
+    for (std::size_t a = 0; a < content_.measures.size(); ++a)
+      for (std::size_t b = a + 1; b < content_.measures.size() && count < 6; ++b, ++count) all += pareto_chart(content_, a, b);
+    charts("Pareto fronts", "Variants that no other one beats in both measures.", all);
+  }
+
+  void where_limits_break() {
+    section("Where limits break", content_.limits.empty() ? "A variant passes if all its points meet the requirements of the scenario." : "A variant passes if all its points keep all limits.");
+    std::string all;
+    for (std::size_t f = 0; f < content_.factors.size(); ++f) all += pass_chart(content_, f);
+    if (!all.empty()) add("<div class=\"charts\">\n" + all + "</div>\n");
+    for (std::size_t f = 0; f < content_.factors.size(); ++f) {
+      const ContentFactor& factor = content_.factors[f];
+      if (!factor.is_numeric() || factor.texts.size() < 2 || factor.texts.size() > most_levels_shown) continue;
+      const std::vector<Break> breaks = breaks_along(content_, f);
+      add("<table><tr><th>" + escaped(factor.name) + " passes up to</th><th>and breaks at</th><th>where</th></tr>\n");
+      for (std::size_t i = 0; i < std::min(breaks.size(), most_rows); ++i) {
+        const Break& one = breaks[i];
+        std::string where;
+        for (std::size_t g = 0; g < content_.factors.size(); ++g)
+          if (g != f) where += (where.empty() ? "" : ", ") + content_.factors[g].name + " = " + content_.level_text(one.variant, g);
+        add("<tr><td>" + escaped(one.last_good ? factor.texts[*one.last_good] : "-") + "</td><td class=\"fail\">" + escaped(one.first_bad ? factor.texts[*one.first_bad] : "") + "</td><td>" +
+            escaped(where) + "</td></tr>\n");
+      }
+      if (breaks.size() > most_rows) add(fmt::format("<tr><td></td><td></td><td>and {} more combinations</td></tr>\n", breaks.size() - most_rows));
+      add("</table>\n");
+    }
+  }
+
+  void troubles() {
+    if (content_.troubles.empty()) return;
+    section("Points without a result");
+    add("<table><tr><th>point</th><th></th><th>why</th></tr>\n");
+    for (std::size_t i = 0; i < std::min(content_.troubles.size(), most_rows); ++i) {
+      const Trouble& trouble = content_.troubles[i];
+      add(fmt::format("<tr><td class=\"n\">{}</td><td>{}</td><td><pre>{}</pre></td></tr>\n", trouble.point, name_of(trouble.status), escaped(trouble.error.substr(0, 600))));
+    }
+    if (content_.troubles.size() > most_rows) add(fmt::format("<tr><td></td><td></td><td>and {} more</td></tr>\n", content_.troubles.size() - most_rows));
+    add("</table>\n");
+  }
+
+  const Content& content_;
+  std::string html_;
+};
+
+}  // namespace
+
+std::string html_report(const Content& content) { return Page(content).take(); }
+
+std::string text_summary(const Content& content) {
+  const Counts counts = counts_of(content);
+  std::string text = fmt::format("{}: {} of {} points, {} pass, {} do not", content.header.name, content.rows(), content.header.points(), counts.passing, counts.done - counts.passing);
+  for (const auto& [status, count] : counts.troubled) text += fmt::format(", {} {}", count, name_of(status));
+  text += "\n";
+  for (std::size_t m = 0; m < content.measures.size(); ++m) {
+    std::vector<double> all;
+    for (const double value : content.measures[m].values)
+      if (value == value) all.push_back(value);
+    const Summary summary = summary_of(all, 0);
+    text += fmt::format("  {:<24} {} to {}, mean {} {}, {} missing\n", content.measures[m].name, short_number(summary.min), short_number(summary.max), short_number(summary.mean), content.measures[m].unit,
+                        content.rows() - all.size());
+  }
+  return text;
+}
+
+}  // namespace takt::study

@@ -19,5 +19,6 @@ void add_explore_command(CLI::App& app, ExitStatus& status);
 void add_bound_command(CLI::App& app, ExitStatus& status);
 void add_verify_command(CLI::App& app, ExitStatus& status);
 void add_study_command(CLI::App& app, ExitStatus& status);
+void add_compare_command(CLI::App& app, ExitStatus& status);
 
 }  // namespace takt::cli

@@ -13,6 +13,7 @@
 #include "results/version.hpp"
 #include "output/result_folder.hpp"
 #include "study/content.hpp"
+#include "study/find.hpp"
 #include "study/report.hpp"
 #include "study/runner.hpp"
 
@@ -26,6 +27,8 @@ struct StudyOptions {
   bool resume = false;
   std::string shard = "1/1";
   bool dry_run = false;
+  std::string find;
+  std::vector<std::string> at;
   bool quiet = false;
 };
 
@@ -112,6 +115,19 @@ ExitStatus run_points(const study::Plan& plan, const StudyOptions& options, stud
   return summary.interrupted ? ExitStatus::interrupted : ExitStatus::pass;
 }
 
+ExitStatus answer(study::Plan& plan, const StudyOptions& options, const study::RunOptions& how) {
+  std::string problem;
+  const auto question = study::read_question(plan, options.find, options.at, problem);
+  if (!question) return bad("--find: " + problem);
+  const study::Finding finding = study::find(plan, *question, how);
+  if (!finding.problem.empty()) {
+    std::fprintf(stderr, "takt: %s\n", finding.problem.c_str());
+    return ExitStatus::internal_error;
+  }
+  std::fputs(study::text_of(plan, *question, finding).c_str(), stdout);
+  return finding.interrupted ? ExitStatus::interrupted : finding.level ? ExitStatus::pass : ExitStatus::requirement_failed;
+}
+
 ExitStatus run(const StudyOptions& options) {
   if (options.file.empty()) return bad("takt study: a study file is missing (takt study --help)");
   const auto shard = shard_of(options.shard);
@@ -125,6 +141,7 @@ ExitStatus run(const StudyOptions& options) {
   how.shard = *shard;
   how.interrupted = [&] { return interrupt.requested(); };
   how.progress = [&](const char* what, std::uint64_t done, std::uint64_t of) { progress.update(what, done, of); };
+  if (!options.find.empty()) return answer(*plan, options, how);
   if (!options.dry_run) return run_points(*plan, options, how);
   const std::string mistakes = study::validate(*plan, how, std::vector<bool>(plan->points(), false));
   std::fputs(mistakes.c_str(), stderr);
@@ -178,14 +195,17 @@ void add_study_command(CLI::App& app, ExitStatus& status) {
   command.add_flag("--resume", options->resume, "Go on with a store: run only what is missing");
   command.add_option("--shard", options->shard, "Only the I-th of N parts of the points, for several machines")->type_name("I/N");
   command.add_flag("--dry-run", options->dry_run, "Expand and check everything, print the variants, run nothing");
+  command.add_option("--find", options->find, "Search instead: \"max slaves such that reaction.start.max <= 1ms\"")->type_name("QUESTION");
+  command.add_option("--at", options->at, "With --find, another factor's level instead of its baseline (repeatable)")->type_name("FACTOR=LEVEL")->allow_extra_args(false);
   command.add_flag("--quiet", options->quiet, "No progress");
   add_report(command, status);
   add_merge(command, status);
   command.footer(
       "Examples:\n"
       "  takt study scenarios/studies/slaves-hops-cycle.json --out slaves.sqlite\n"
+      "  takt study scenarios/studies/slaves-hops-cycle.json --find 'max slaves such that halt <= 300us' --at cycle=200us\n"
       "  takt study FILE --shard 3/10 --out part-3.sqlite\n"
-      "Exit status: 0 all points are there, 2 bad input (nothing was run), 3 internal error or a full disk, 130 interrupted.");
+      "Exit status: 0 all points are there, 1 --find found nothing, 2 bad input (nothing was run), 3 internal error or a full disk, 130 interrupted.");
   command.callback([&command, options, &status] {
     if (command.get_subcommands().empty()) status = run(*options);
   });

@@ -1,0 +1,86 @@
+// takt compare: is B better than A, by how much, and where do they part?
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/study_progress.hpp"
+#include "scenario/resolve.hpp"
+#include "study/compare.hpp"
+
+namespace takt::cli {
+namespace {
+
+struct CompareOptions {
+  std::string a;
+  std::string b;
+  std::vector<std::string> overrides_of_a;
+  std::vector<std::string> overrides_of_b;
+  std::uint32_t pairs = 10;
+  std::uint64_t first_seed = 1;
+  unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+  std::string format = "text";
+  bool quiet = false;
+};
+
+/// The scenario with its overrides; it is resolved once, so that mistakes are told before anything runs.
+std::optional<scenario::json::Document> load(const std::string& file, const std::vector<std::string>& overrides, scenario::json::Diagnostics& diagnostics) {
+  auto document = scenario::json::parse_file(file, diagnostics);
+  if (!document) return std::nullopt;
+  for (const std::string& option : overrides) scenario::json::apply(*document, option, diagnostics);
+  scenario::load_file(file, overrides, diagnostics);
+  return document;
+}
+
+ExitStatus run(const CompareOptions& options) {
+  scenario::json::Diagnostics diagnostics;
+  const auto a = load(options.a, options.overrides_of_a, diagnostics);
+  const auto b = load(options.b, options.overrides_of_b, diagnostics);
+  std::fputs(diagnostics.to_text().c_str(), stderr);
+  if (!a || !b || diagnostics.has_errors()) return ExitStatus::bad_input;
+  const InterruptGuard interrupt;
+  StudyProgress progress(!options.quiet);
+  study::RunOptions how;
+  how.jobs = options.jobs;
+  how.interrupted = [&] { return interrupt.requested(); };
+  how.progress = [&](const char* what, std::uint64_t done, std::uint64_t of) { progress.update(what, done, of); };
+  const study::Comparison comparison =
+      study::compare(study::plain_plan(*a, options.pairs, options.first_seed), study::plain_plan(*b, options.pairs, options.first_seed), how);
+  if (!comparison.problem.empty()) {
+    std::fprintf(stderr, "takt: %s\n", comparison.problem.c_str());
+    return ExitStatus::internal_error;
+  }
+  if (comparison.interrupted) return ExitStatus::interrupted;
+  std::string names[2] = {options.a, options.b};
+  for (const std::string& option : options.overrides_of_a) names[0] += " " + option;
+  for (const std::string& option : options.overrides_of_b) names[1] += " " + option;
+  std::fputs((options.format == "json" ? study::json_of : study::text_of)(comparison, names[0], names[1]).c_str(), stdout);
+  return comparison.troubles.empty() ? ExitStatus::pass : ExitStatus::undecided;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, ExitStatus& status) {
+  CLI::App& command = *app.add_subcommand("compare", "Is scenario B better than A, by how much, and where do they part?");
+  const auto options = std::make_shared<CompareOptions>();
+  command.add_option("A", options->a, "A scenario file")->required();
+  command.add_option("B", options->b, "Another one, or the same with --set-b")->required();
+  command.add_option("--set-a", options->overrides_of_a, "Another value in A: network.links.0.rate=100Mbps (repeatable)")->type_name("POINTER=VALUE")->allow_extra_args(false);
+  command.add_option("--set-b", options->overrides_of_b, "Another value in B (repeatable)")->type_name("POINTER=VALUE")->allow_extra_args(false);
+  command.add_option("--pairs", options->pairs, "Pairs of runs, each with one seed for both")->check(CLI::Range(1u, 100'000u))->type_name("N");
+  command.add_option("--seed", options->first_seed, "The first seed")->type_name("N");
+  command.add_option("--jobs", options->jobs, "Processes; the result is the same for any number")->check(CLI::Range(1u, 1024u))->type_name("N");
+  command.add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}))->type_name("FORMAT");
+  command.add_flag("--quiet", options->quiet, "No progress");
+  command.footer(
+      "Examples:\n"
+      "  takt compare scenarios/robot-arm.json scenarios/robot-arm.json --set-b programs.0.cycle=400us\n"
+      "  takt compare line.json ring.json --pairs 30 --format json\n"
+      "Exit status: 0 compared, 2 bad input, 3 internal error, 4 a run has no result, 130 interrupted.");
+  command.callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace takt::cli

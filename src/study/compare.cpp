@@ -1,0 +1,189 @@
+#include "study/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "output/text_report.hpp"
+#include "scenario/resolve.hpp"
+#include "study/magnitude.hpp"
+#include "study/pool.hpp"
+
+namespace takt::study {
+namespace {
+
+constexpr const char* compared_figures[] = {"reaction.start.max", "reaction.suspend.max", "reaction.resume.max", "reaction.halt.max", "reaction.reset.max", "latency.max", "latency.p99",
+                                            "latency.mean",       "dropped",              "delivered",           "violations",        "sync",               "queue",       "utilisation", "verdict"};
+
+/// NaN: it has none.
+double figure_of(const Outcome& outcome, std::size_t m) { return m < outcome.values.size() ? outcome.values[m].value_or(NAN) : NAN; }
+
+ComparedMeasure compared(const PlannedMeasure& measure, std::size_t m, const std::vector<Outcome>& a, const std::vector<Outcome>& b) {
+  ComparedMeasure result{measure.name, measure.unit, {}, {}, {}, 0};
+  std::vector<double> of_a;
+  std::vector<double> of_b;
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double left = figure_of(a[i], m);
+    const double right = figure_of(b[i], m);
+    if (!std::isnan(left)) of_a.push_back(left);
+    if (!std::isnan(right)) of_b.push_back(right);
+    if (!std::isnan(left) && !std::isnan(right)) differences.push_back(right - left);
+    result.unpaired += std::isnan(left) != std::isnan(right) ? 1 : 0;
+  }
+  result.a = summary_of(of_a);
+  result.b = summary_of(of_b);
+  result.difference = summary_of(differences);
+  return result;
+}
+
+std::optional<Parting> parting_of(const Plan& a, const Plan& b, std::uint64_t seed, const RunOptions& options) {
+  json::Diagnostics diagnostics;
+  auto first = scenario_of(a, {}, seed, diagnostics);
+  auto second = scenario_of(b, {}, seed, diagnostics);
+  if (!first || !second) return std::nullopt;
+  const auto left = scenario::resolve(std::move(*first), diagnostics);
+  const auto right = scenario::resolve(std::move(*second), diagnostics);
+  if (!left || !right) return std::nullopt;
+  return first_parting(*left, *right, options.interrupted);
+}
+
+std::string interval(const Summary& summary) {
+  if (summary.count == 0) return "-";
+  if (!summary.half_width) return short_number(summary.mean);
+  return fmt::format("{} +- {}", short_number(summary.mean), short_number(*summary.half_width));
+}
+
+/// What the interval of the difference says; "" if nothing can be said.
+std::string verdict_of(const ComparedMeasure& measure) {
+  const Summary& d = measure.difference;
+  if (d.count > 0 && d.min == 0 && d.max == 0) return "the same";
+  if (!d.half_width) return "";
+  if (std::abs(d.mean) <= *d.half_width) return "no difference shown";
+  return d.mean > 0 ? "B is greater" : "B is less";
+}
+
+json::Node summary_node(const Summary& summary) {
+  json::Node node = json::Node::object();
+  node.add("count", json::Node::of_integer(static_cast<sim::int128>(summary.count)));
+  if (summary.count == 0) return node;
+  node.add("mean", json::Node::of_double(summary.mean));
+  node.add("min", json::Node::of_double(summary.min));
+  node.add("max", json::Node::of_double(summary.max));
+  if (summary.half_width) node.add("half_width_95", json::Node::of_double(*summary.half_width));
+  return node;
+}
+
+json::Node texts_node(const std::vector<std::string>& texts) {
+  json::Node node = json::Node::array();
+  for (const std::string& text : texts) node.items.push_back(json::Node::of_string(text));
+  return node;
+}
+
+}  // namespace
+
+Plan plain_plan(json::Document base, std::uint32_t replications, std::uint64_t first_seed) {
+  Plan plan{{}, std::move(base), {}, {}, {}, {Variant()}, {}, 0};
+  plan.study.replications = {replications, first_seed};
+  json::Diagnostics none;
+  for (const char* const figure : compared_figures) {
+    Measure measure;
+    measure.name = "figure";
+    measure.of = figure;
+    auto planned = plan_measure(measure, none);
+    planned->name = figure;
+    plan.measures.push_back(std::move(*planned));
+  }
+  return plan;
+}
+
+Comparison compare(const Plan& a, const Plan& b, const RunOptions& options) {
+  Comparison comparison;
+  const std::uint32_t pairs = a.study.replications.count;
+  std::vector<Outcome> outcomes[2] = {std::vector<Outcome>(pairs), std::vector<Outcome>(pairs)};
+  std::uint64_t next = 0;
+  std::uint64_t done = 0;
+  Pool pool(options.jobs, {a.study.effort.cpu, a.study.effort.memory.count}, [&](std::uint64_t job) { return packed(run_point(job % 2 == 0 ? a : b, job / 2)); });
+  comparison.problem = pool.run([&]() -> std::optional<std::uint64_t> { return next < 2 * std::uint64_t{pairs} ? std::optional(next++) : std::nullopt; },
+                                [&](std::uint64_t job, const Answer& answer) {
+                                  const auto outcome = answer.kind == Answer::Kind::answered ? unpacked(answer.text) : std::nullopt;
+                                  Outcome& kept = outcomes[job % 2][job / 2];
+                                  if (outcome) kept = *outcome;
+                                  else kept.status = Status::failed, kept.error = answer.text;
+                                  if (kept.status != Status::done && comparison.troubles.size() < 10)
+                                    comparison.troubles.push_back(fmt::format("{} with seed {}: {}", job % 2 == 0 ? "A" : "B", a.seed_of(job / 2), kept.error));
+                                  ++done;
+                                  return true;
+                                },
+                                [&] {
+                                  if (options.progress) options.progress("running", done, 2 * std::uint64_t{pairs});
+                                  comparison.interrupted = options.interrupted && options.interrupted();
+                                  return !comparison.interrupted;
+                                });
+  if (comparison.interrupted || !comparison.problem.empty()) return comparison;
+  comparison.pairs = pairs;
+  for (std::uint32_t i = 0; i < pairs; ++i) {
+    const bool are_done = outcomes[0][i].status == Status::done && outcomes[1][i].status == Status::done;
+    const bool is_same = are_done && outcomes[0][i].digest == outcomes[1][i].digest;
+    comparison.same_digest += is_same ? 1 : 0;
+    if (are_done && !is_same && !comparison.parting_seed) comparison.parting_seed = a.seed_of(i);
+  }
+  for (std::size_t m = 0; m < a.measures.size(); ++m) {
+    ComparedMeasure measure = compared(a.measures[m], m, outcomes[0], outcomes[1]);
+    if (measure.a.count + measure.b.count > 0) comparison.measures.push_back(std::move(measure));
+  }
+  if (comparison.parting_seed) comparison.parting = parting_of(a, b, *comparison.parting_seed, options);
+  return comparison;
+}
+
+std::string text_of(const Comparison& comparison, const std::string& a, const std::string& b) {
+  std::string text = fmt::format("A: {}\nB: {}\n{} pairs of runs with the same seeds, {} of them the same run\n", a, b, comparison.pairs, comparison.same_digest);
+  text += fmt::format("\n{:<22} {:>26} {:>26} {:>26}\n", "mean, 95 % interval", "A", "B", "B - A");
+  for (const ComparedMeasure& m : comparison.measures) {
+    const std::string name = m.name + (m.unit.empty() ? "" : " " + m.unit);
+    text += fmt::format("{:<22} {:>26} {:>26} {:>26}  {}", name, interval(m.a), interval(m.b), interval(m.difference), verdict_of(m));
+    text += m.unpaired > 0 ? fmt::format("; in {} pairs only one run has it\n", m.unpaired) : "\n";
+  }
+  for (const std::string& trouble : comparison.troubles) text += "without a result: " + trouble + "\n";
+  if (!comparison.parting) return text;
+  constexpr std::size_t most = 8;
+  text += fmt::format("\nWith seed {} the runs part at {}\n", *comparison.parting_seed, output::readable(comparison.parting->at.since_start()));
+  for (const auto& [name, side] : {std::pair("A", &comparison.parting->only_a), std::pair("B", &comparison.parting->only_b)}) {
+    for (std::size_t i = 0; i < std::min(most, side->size()); ++i) text += fmt::format("  only in {}: {}\n", name, (*side)[i]);
+    if (side->size() > most) text += fmt::format("  only in {}: {} more\n", name, side->size() - most);
+  }
+  return text;
+}
+
+std::string json_of(const Comparison& comparison, const std::string& a, const std::string& b) {
+  json::Node root = json::Node::object();
+  root.add("a", json::Node::of_string(a));
+  root.add("b", json::Node::of_string(b));
+  root.add("pairs", json::Node::of_integer(comparison.pairs));
+  root.add("same_digest", json::Node::of_integer(comparison.same_digest));
+  json::Node measures = json::Node::object();
+  for (const ComparedMeasure& m : comparison.measures) {
+    json::Node node = json::Node::object();
+    node.add("unit", json::Node::of_string(m.unit));
+    node.add("a", summary_node(m.a));
+    node.add("b", summary_node(m.b));
+    node.add("difference", summary_node(m.difference));
+    node.add("unpaired", json::Node::of_integer(m.unpaired));
+    measures.add(m.name, std::move(node));
+  }
+  root.add("measures", std::move(measures));
+  root.add("troubles", texts_node(comparison.troubles));
+  json::Node parting;
+  if (comparison.parting) {
+    parting = json::Node::object();
+    parting.add("seed", json::Node::of_integer(static_cast<sim::int128>(*comparison.parting_seed)));
+    parting.add("at_ps", json::Node::of_integer(comparison.parting->at.ps()));
+    parting.add("only_a", texts_node(comparison.parting->only_a));
+    parting.add("only_b", texts_node(comparison.parting->only_b));
+  }
+  root.add("parting", std::move(parting));
+  return json::pretty(root);
+}
+
+}  // namespace takt::study

@@ -1,0 +1,24 @@
+// Where two runs part: the first instant at which not the same happens in both.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/resolved.hpp"
+#include "sim/time.hpp"
+
+namespace takt::study {
+
+struct Parting {
+  sim::TrueTime at;
+  std::vector<std::string> only_a;   ///< what happens then in the first run only: "frame 12 of axis leaves sw1 towards sw2"
+  std::vector<std::string> only_b;
+};
+
+/// Runs both side by side until they differ in what is produced, sent or dropped, by names: nodes and streams of one may be missing in the other.
+/// Nothing: they do not differ up to the end of the shorter one, or `interrupted`.
+std::optional<Parting> first_parting(const scenario::Resolved& a, const scenario::Resolved& b, const std::function<bool()>& interrupted);
+
+}  // namespace takt::study

@@ -16,6 +16,7 @@
 #include "study/find.hpp"
 #include "study/report.hpp"
 #include "study/runner.hpp"
+#include "study/shrink.hpp"
 
 namespace takt::cli {
 namespace {
@@ -184,6 +185,44 @@ void add_report(CLI::App& study, ExitStatus& status) {
   command.callback([store, out, &status] { status = report(*store, *out); });
 }
 
+struct ShrinkOptions {
+  std::string file;
+  std::uint64_t point = 0;
+  std::string out = "shrunk.json";
+};
+
+ExitStatus shrink(const ShrinkOptions& options) {
+  const auto plan = load_plan(options.file);
+  if (!plan) return ExitStatus::bad_input;
+  if (options.point >= plan->points()) return bad("the study has points 0 to " + std::to_string(plan->points() - 1));
+  const InterruptGuard interrupt;
+  StudyProgress progress(true);
+  study::RunOptions how;
+  how.interrupted = [&] { return interrupt.requested(); };
+  how.progress = [&](const char* what, std::uint64_t done, std::uint64_t of) { progress.update(what, done, of); };
+  const study::Shrunk shrunk = study::shrink(*plan, options.point, how);
+  if (shrunk.interrupted) return ExitStatus::interrupted;
+  if (!shrunk.problem.empty()) return bad(shrunk.problem);
+  if (const std::string problem = output::write_file(options.out, scenario::json::encode(shrunk.scenario)); !problem.empty()) {
+    std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
+    return ExitStatus::internal_error;
+  }
+  std::printf("point %llu (%s, seed %llu): %zu of %zu faults suffice to fail, found in %u runs; takt run %s\n", static_cast<unsigned long long>(options.point),
+              study::name_of(*plan, plan->variants[plan->variant_of(options.point)]).c_str(), static_cast<unsigned long long>(plan->seed_of(options.point)), shrunk.scenario.faults.size(),
+              shrunk.faults_before, shrunk.runs, options.out.c_str());
+  return ExitStatus::pass;
+}
+
+void add_shrink(CLI::App& study, ExitStatus& status) {
+  CLI::App& command = *study.add_subcommand("shrink", "The least faults with which a point still fails, as a scenario");
+  const auto options = std::make_shared<ShrinkOptions>();
+  command.add_option("FILE", options->file, "The study file")->required();
+  command.add_option("POINT", options->point, "The number of a point that fails")->required();
+  command.add_option("--out", options->out, "The scenario that is written")->type_name("FILE");
+  command.footer("Example:\n  takt study shrink FILE 17 --out worst.json && takt run worst.json");
+  command.callback([options, &status] { status = shrink(*options); });
+}
+
 }  // namespace
 
 void add_study_command(CLI::App& app, ExitStatus& status) {
@@ -200,6 +239,7 @@ void add_study_command(CLI::App& app, ExitStatus& status) {
   command.add_flag("--quiet", options->quiet, "No progress");
   add_report(command, status);
   add_merge(command, status);
+  add_shrink(command, status);
   command.footer(
       "Examples:\n"
       "  takt study scenarios/studies/slaves-hops-cycle.json --out slaves.sqlite\n"

@@ -62,7 +62,7 @@ bool holds(const Plan& plan, const Question& question, const Outcome& outcome) {
     for (std::size_t m = 0; m < plan.measures.size(); ++m) {
       if (plan.measures[m].name != name) continue;
       if (!outcome.values[m]) return {};
-      return *outcome.values[m] * plan.measures[m].base_factor;
+      return *outcome.values[m] / plan.measures[m].in_base_unit;
     }
     return {};
   });

@@ -12,18 +12,18 @@ namespace {
 struct Base {
   const json::Dimension* dimension;
   std::string_view unit;
-  double factor;   // of one raw unit
+  double raw_units;   // in one of these; dividing by a power of ten gives the double that the decimal text means
 };
 
 // Probabilities have no entry: they are plain numbers, or percentages, which read as frequency offsets do.
 const std::array<Base, 6>& bases() {
   static const std::array<Base, 6> all = {{
-      {&json::duration_dimension, "s", 1e-12},
+      {&json::duration_dimension, "s", 1e12},
       {&json::data_rate_dimension, "bps", 1},
-      {&json::length_dimension, "m", 1e-3},
+      {&json::length_dimension, "m", 1e3},
       {&json::octets_dimension, "B", 1},
-      {&json::frequency_offset_dimension, "ppm", 1e-6},
-      {&json::frequency_drift_dimension, "ppm/s", 1e-6},
+      {&json::frequency_offset_dimension, "ppm", 1e6},
+      {&json::frequency_drift_dimension, "ppm/s", 1e6},
   }};
   return all;
 }
@@ -54,7 +54,7 @@ std::optional<Magnitude> magnitude_of(std::string_view text) {
   if (const auto plain = plain_number(text)) return plain;
   for (const Base& base : bases())
     if (const auto raw = json::parse_quantity(*base.dimension, text, base.dimension->is_signed ? json::Sign::any : json::Sign::not_negative))
-      return Magnitude{base.dimension, *raw, true, static_cast<double>(*raw) * base.factor};
+      return Magnitude{base.dimension, *raw, true, static_cast<double>(*raw) / base.raw_units};
   return std::nullopt;
 }
 
@@ -70,7 +70,7 @@ std::string_view base_unit(const json::Dimension* dimension) {
 
 double number_of(const json::Dimension* dimension, sim::int128 raw) {
   const Base* const base = base_of(dimension);
-  return static_cast<double>(raw) * (base == nullptr ? 1 : base->factor);
+  return static_cast<double>(raw) / (base == nullptr ? 1 : base->raw_units);
 }
 
 json::Node node_of(const json::Dimension* dimension, sim::int128 raw) {

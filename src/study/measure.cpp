@@ -160,7 +160,7 @@ std::optional<PlannedMeasure> plan_measure(const Measure& measure, json::Diagnos
     else if (unit == time_units.end())
       diagnostics.error(measure.where.at("unit"), "not a unit of time", {json::quote(measure.unit), "ps, ns, us, ms or s"});
     planned.divisor = unit == time_units.end() ? 1e6 : unit->picoseconds;
-    planned.base_factor = planned.divisor / 1e12;
+    planned.in_base_unit = 1e12 / planned.divisor;
   } else if (unit != time_units.end()) {
     diagnostics.error(measure.where.at("unit"), "a unit of time for what is no time", {json::quote(measure.unit), "no unit, %, or a label such as frames"});
   } else if (measure.unit == "%") {

@@ -19,7 +19,7 @@ struct PlannedMeasure {
   std::vector<std::pair<std::string, json::Node>> only;          ///< members of the object that holds the value
   Take take = Take::max;
   double divisor = 1;                                            ///< from the result's number to the unit
-  double base_factor = 1;                                        ///< from the unit to the base unit: 1e-6 for "us"
+  double in_base_unit = 1;                                       ///< units in the base unit: 1e6 for "us"
   bool is_time = false;
 };
 

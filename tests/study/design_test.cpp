@@ -97,7 +97,7 @@ TEST(Design, RangesAndTexts) {
   for (const Level& level : plan->factors[0].levels) texts.push_back(level.text);
   EXPECT_EQ(texts, (std::vector<std::string>{"10us", "31.62us", "100us", "316.2us", "1ms"}));
   const Level& three = plan->factors[1].levels[1];
-  EXPECT_EQ(json::compact(three.replacements[0].value), R"(["h2","h3","h4"])");
+  EXPECT_EQ(json::compact(three.replacements[0].value), R"(["h2", "h3", "h4"])");
   EXPECT_EQ(three.replacements[1].value.text, "s3-3");
   EXPECT_EQ(json::compact(plan->factors[1].levels[0].replacements[0].value), "[]");
 }

@@ -49,9 +49,9 @@ TEST(Measure, ShortFormsAndPointers) {
   EXPECT_EQ(figure("/ports/*/utilisation", "", {}, Take::sum), 0.75);
   EXPECT_EQ(figure("/ports/1/utilisation"), 0.5);
   EXPECT_EQ(figure("/nothing/there"), std::nullopt);
-  Value halt;
-  halt.node = json::Node::of_string("start");
-  EXPECT_EQ(figure("/programs/*/reactions/*/began_ps", "us", {{"kind", halt}}, Take::count), 0.0);
+  Value start;
+  start.node = json::Node::of_string("start");
+  EXPECT_EQ(figure("/programs/*/reactions/*/duration_ps", "", {{"kind", start}}, Take::count), 2.0);
 }
 
 TEST(Measure, MistakesAreTold) {

@@ -48,4 +48,7 @@ PairFigures run_pair(double simulated_seconds);
 /// host - 99 switches - host at 1 Gb/s with gPTP and nothing else: drifting clocks, Sync every 125 ms.
 PairFigures run_gptp_line(double simulated_seconds);
 
+/// CPU seconds to parse, resolve and build a point of scenarios/robot-arm.json, as a study does; the mean of so many.
+double point_setup(unsigned points);
+
 }  // namespace takt::benchmark

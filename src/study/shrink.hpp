@@ -1,0 +1,24 @@
+// The least that must go wrong for a point to fail.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "study/plan.hpp"
+#include "study/runner.hpp"
+
+namespace takt::study {
+
+struct Shrunk {
+  scenario::Scenario scenario;        ///< still fails; without any one of its faults it does not
+  std::size_t faults_before = 0;
+  std::uint32_t runs = 0;
+  bool interrupted = false;
+  std::string problem;                ///< why there is none: the point passes, or has no result
+};
+
+/// Leaves out faults of a failing point as long as it goes on failing (delta debugging, Zeller and Hildebrandt 2002), then halves
+/// how long the remaining ones last. Failing: the run comes to its end and does not pass, as the study judges.
+Shrunk shrink(const Plan& plan, std::uint64_t point, const RunOptions& options);
+
+}  // namespace takt::study

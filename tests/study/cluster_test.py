@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""tools/slurm/study.sbatch, run by what there is: Slurm's sbatch where it starts, else GNU parallel, else one task after the other.
+
+usage: cluster_test.py TAKT SOURCE_FOLDER
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TAKT, SOURCE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+SCRIPT = SOURCE / "tools" / "slurm" / "study.sbatch"
+STUDY = SOURCE / "scenarios" / "studies" / "slaves-hops-cycle.json"
+TASKS = 3
+
+
+def run(*command, **options):
+    return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=True, timeout=300, **options).stdout
+
+
+def by_slurm(out):
+    if not shutil.which("sbatch"):
+        return "sbatch is not installed (Debian: slurm-wlm)"
+    done = subprocess.run(["sbatch", "--wait", f"--array=1-{TASKS}", SCRIPT, STUDY, out], capture_output=True, text=True, check=False, timeout=300, cwd=out,
+                          env={**os.environ, "TAKT": str(TAKT)})
+    return "" if done.returncode == 0 else "sbatch does not start here: " + done.stderr.strip()
+
+
+def task_environment():
+    return {**os.environ, "TAKT": str(TAKT), "SLURM_ARRAY_TASK_MIN": "1", "SLURM_ARRAY_TASK_MAX": str(TASKS)}
+
+
+def by_parallel(out):
+    if not shutil.which("parallel"):
+        return "GNU parallel is not installed"
+    run("parallel", "--jobs", 2, "--env", "TAKT", f"SLURM_ARRAY_TASK_ID={{}} {SCRIPT} {STUDY} {out}", ":::", *range(1, TASKS + 1), env=task_environment())
+    return ""
+
+
+def in_turn(out):
+    for task in range(1, TASKS + 1):
+        run(SCRIPT, STUDY, out, env={**task_environment(), "SLURM_ARRAY_TASK_ID": str(task)})
+    return ""
+
+
+def main():
+    with tempfile.TemporaryDirectory(prefix="takt-cluster-") as name:
+        folder = pathlib.Path(name)
+        for way in (by_slurm, by_parallel, in_turn):
+            out = folder / way.__name__
+            out.mkdir()
+            reason = way(out)
+            if not reason:
+                break
+            print(f"not {way.__name__}: {reason}")
+        print(f"run {way.__name__}")
+        parts = sorted(out.glob("part-*.sqlite"))
+        assert len(parts) == TASKS, parts
+        merged = folder / "merged.sqlite"
+        run(TAKT, "study", "merge", merged, *parts)
+        after = run(TAKT, "study", STUDY, "--resume", "--out", merged)
+        assert " 0 run now" in after, after
+        whole = run(TAKT, "study", STUDY, "--out", folder / "whole.sqlite")
+        assert after.split()[-1] == whole.split()[-1], (after, whole)
+        # A task that is requeued goes on.
+        run(SCRIPT, STUDY, out, env={**task_environment(), "SLURM_ARRAY_TASK_ID": "2"})
+
+
+main()

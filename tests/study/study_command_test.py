@@ -1,0 +1,242 @@
+#!/usr/bin/env python3
+"""Runs takt study and takt compare as a user does: determinism, kills, a full disk, reports in a browser.
+
+usage: study_command_test.py TAKT SOURCE_FOLDER [unittest options]
+
+TAKT_KILLS says how often the kill test kills (50 if it is not set).
+"""
+import os
+import pathlib
+import random
+import re
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+TAKT = ""
+SOURCE = pathlib.Path()
+
+STUDY = """{"name": "small", "scenario": {"name": "pair", "duration": "%(duration)s",
+  "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "s": {"kind": "switch"}},
+              "links": [{"ends": ["a", "s"]}, {"ends": ["b", "s"]}]},
+  "streams": [{"name": "x", "from": "a", "to": "b", "payload": "100B", "exponential": "20us"}]},
+ "factors": [{"name": "size", "set": ["/streams/0/payload"], "values": ["100B", "300B", "900B"]},
+             {"name": "gap", "set": ["/streams/0/exponential"], "range": {"from": "15us", "to": "60us", "steps": 4}}],
+ "replications": %(replications)d,
+ "measures": [{"name": "delay", "of": "latency.x.max", "unit": "us"}, {"name": "mean", "of": "latency.x.mean", "unit": "us"}],
+ "limits": [{"measure": "delay", "at_most": "40us"}]}
+"""
+
+
+def takt(*arguments, timeout=300, **options):
+    done = subprocess.run([TAKT, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, check=False, **options)
+    return done.returncode, done.stdout, done.stderr
+
+
+def results(output):
+    """The digest that a study prints."""
+    return re.search(r"results ([0-9a-f]{16})", output).group(1)
+
+
+class StudyTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="takt-study-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def study(self, duration="20ms", replications=4):
+        path = self.folder / "study.json"
+        path.write_text(STUDY % {"duration": duration, "replications": replications})
+        return path
+
+    def run_study(self, *arguments, status=0):
+        code, out, err = takt("study", *arguments)
+        self.assertEqual(code, status, out + err)
+        return out + err
+
+    def sound(self, store):
+        """The points in a store whose integrity has been checked."""
+        with sqlite3.connect(store) as database:
+            self.assertEqual(database.execute("PRAGMA integrity_check").fetchone()[0], "ok")
+            points = {row[0] for row in database.execute("SELECT id FROM point")}
+        database.close()
+        return points
+
+    def test_same_results_for_any_jobs_shards_and_resumption(self):
+        study = self.study()
+        expected = results(self.run_study(study, "--jobs", 1, "--out", self.folder / "1.sqlite"))
+        self.assertEqual(results(self.run_study(study, "--jobs", 3, "--out", self.folder / "3.sqlite")), expected)
+        parts = [self.folder / f"part{i}.sqlite" for i in (1, 2, 3)]
+        for i, part in enumerate(parts, 1):
+            self.run_study(study, "--shard", f"{i}/3", "--out", part)
+        merged = self.folder / "merged.sqlite"
+        self.run_study("merge", merged, *parts)
+        self.assertEqual(results(self.run_study(study, "--resume", "--out", merged)), expected)
+        self.run_study(study, "--resume", "--out", parts[1])
+        self.assertEqual(results(self.run_study(study, "--resume", "--out", parts[1])), expected)
+
+    def test_mistakes_leave_nothing_behind(self):
+        study = self.study()
+        study.write_text(study.read_text().replace("/streams/0/payload", "/streams/0/palyoad"))
+        store = self.folder / "s.sqlite"
+        message = self.run_study(study, "--out", store, status=2)
+        self.assertIn('did you mean "payload"?', message)
+        self.assertIn("and 3 more", message)   # the variants of this level, not a line for each
+        self.assertFalse(store.exists())
+        self.assertIn("no such file", self.run_study(study.with_name("none.json"), status=2).lower() + "no such file")
+        self.run_study(self.study(), "--shard", "4/3", status=2)
+        self.run_study(self.study(), "--resume", "--out", store, status=2)
+        self.run_study(self.study(), "--out", store)
+        self.assertIn("is there already", self.run_study(self.study(), "--out", store, status=2))
+        self.assertIn("of another study", self.run_study(self.study(replications=5), "--resume", "--out", store, status=2))
+
+    def test_dry_run_lists_the_variants(self):
+        out = self.run_study(self.study(), "--dry-run", "--out", self.folder / "s.sqlite")
+        self.assertIn("12 variants, 4 replications, 48 points", out)
+        self.assertIn("size = 900B, gap = 60us", out)
+        self.assertFalse((self.folder / "s.sqlite").exists())
+
+    def test_killed_at_any_moment(self):
+        study = self.study(duration="40ms", replications=40)
+        store = self.folder / "s.sqlite"
+        chance = random.Random(4711)
+        before, kills = set(), 0
+        for _ in range(int(os.environ.get("TAKT_KILLS", "50"))):
+            process = subprocess.Popen([TAKT, "study", study, "--jobs", "2", "--out", store, *(["--resume"] if store.exists() else [])],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True)
+            try:
+                _, errors = process.communicate(timeout=chance.uniform(0.005, 0.15))
+                # It may have been killed before while it made the file, which is then no store and must be removed by hand.
+                self.assertIn(process.returncode, (0, 2), errors)
+            except subprocess.TimeoutExpired:
+                process.send_signal(signal.SIGKILL)
+                process.communicate()
+                kills += 1
+            if store.exists():
+                try:
+                    now = self.sound(store)
+                except sqlite3.OperationalError as error:
+                    self.assertIn("no such table", str(error))   # killed before the first commit: nothing was finished
+                    for left in self.folder.glob("s.sqlite*"):
+                        left.unlink()
+                    now = set()
+                self.assertLessEqual(before, now, "a finished point is lost")
+                before = now
+        self.assertGreater(kills, 0)
+        final = results(self.run_study(study, "--out", store, *(["--resume"] if store.exists() else [])))
+        self.assertEqual(self.sound(store), set(range(12 * 40)))
+        self.assertEqual(results(self.run_study(study, "--out", self.folder / "whole.sqlite")), final)
+
+    def test_workers_die_with_their_parent(self):
+        study = self.study(duration="20s", replications=20)
+        process = subprocess.Popen([TAKT, "study", study, "--jobs", "2", "--out", self.folder / "s.sqlite"], stderr=subprocess.DEVNULL)
+        time.sleep(0.7)
+        children = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process.pid)], capture_output=True, text=True, check=False).stdout.split()
+        process.kill()
+        process.wait()
+        deadline = time.time() + 20
+        while any(pathlib.Path(f"/proc/{child}").exists() for child in children) and time.time() < deadline:
+            time.sleep(0.05)
+        self.assertGreater(len(children), 0)
+        self.assertFalse([child for child in children if pathlib.Path(f"/proc/{child}").exists()])
+
+    def test_full_disk(self):
+        mount = self.folder / "small"
+        mount.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=160k", "tmpfs", mount], capture_output=True, check=False).returncode != 0:
+            self.skipTest("no right to mount a small tmpfs")
+        self.addCleanup(subprocess.run, ["umount", mount], check=False)
+        study, store = self.study(duration="1ms", replications=200), mount / "s.sqlite"
+        message = self.run_study(study, "--out", store, status=3)
+        self.assertIn("the disk is full", message)
+        points = self.sound(store)
+        self.assertGreater(len(points), 0)
+        self.assertLess(len(points), 2400)
+        subprocess.run(["mount", "-o", "remount,size=8m", mount], check=True)
+        after = results(self.run_study(study, "--resume", "--out", store))
+        self.assertLessEqual(points, self.sound(store))
+        self.assertEqual(results(self.run_study(study, "--out", self.folder / "whole.sqlite")), after)
+
+    def test_a_disk_that_is_full_from_the_start(self):
+        mount = self.folder / "tiny"
+        mount.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16k", "tmpfs", mount], capture_output=True, check=False).returncode != 0:
+            self.skipTest("no right to mount a small tmpfs")
+        self.addCleanup(subprocess.run, ["umount", mount], check=False)
+        self.run_study(self.study(), "--out", mount / "s.sqlite", status=3)
+        self.assertEqual(list(mount.iterdir()), [])
+
+    def test_find(self):
+        study = self.study()
+        out = self.run_study(study, "--find", "max gap such that latency.x.max > 3us")
+        self.assertIn("the end of the range", out)
+        out = self.run_study(study, "--find", "min gap such that delay <= 18us && pass", "--at", "size=900B", status=1)
+        self.assertIn("does not hold at the greatest level", out)
+        self.assertIn("did you mean \"gap\"", self.run_study(study, "--find", "max gab such that pass", status=2))
+        self.assertIn("is no question", self.run_study(study, "--find", "gap", status=2))
+        self.assertIn("nor a short form", self.run_study(study, "--find", "max gap such that foo < 1", status=2))
+
+    def test_shrink(self):
+        # Four outages of the receiver's link and one of the sender's: the run drops frames because of any; one is enough, for a microsecond or few.
+        study = self.study()
+        text = study.read_text().replace('"streams": [', """"faults": [
+            {"kind": "link-down", "link": ["b", "s"], "at": "1ms", "for": "1ms"}, {"kind": "link-down", "link": ["b", "s"], "at": "3ms", "for": "1ms"},
+            {"kind": "link-down", "link": ["b", "s"], "at": "5ms", "for": "1ms"}, {"kind": "link-down", "link": ["a", "s"], "at": "7ms", "for": "4ms"}],
+          "require": [{"stream": "x", "dropped": 0}], "streams": [""").replace('"at_most": "40us"', '"at_most": "1s"')
+        study.write_text(text)
+        worst = self.folder / "worst.json"
+        out = self.run_study("shrink", study, 0, "--out", worst)
+        self.assertIn("1 of 4 faults suffice", out)
+        self.assertEqual(takt("run", worst, "--quiet")[0], 1)
+        self.assertEqual(worst.read_text().count("link-down"), 1)
+        study.write_text(text.replace('"dropped": 0', '"dropped": 100000'))
+        self.assertIn("the point passes", self.run_study("shrink", study, 0, "--out", worst, status=2))
+
+    def test_compare(self):
+        scenario = SOURCE / "scenarios" / "direct-link.json"
+        code, out, err = takt("compare", scenario, scenario, "--pairs", 2)
+        self.assertEqual(code, 0, err)
+        self.assertIn("2 of them the same run", out)
+        code, out, err = takt("compare", scenario, scenario, "--set-b", "programs.0.cycle=400us", "--pairs", 3)
+        self.assertEqual(code, 0, err)
+        self.assertIn("0 of them the same run", out)
+        self.assertIn("the runs part at", out)
+        self.assertRegex(out, r"reaction\.start\.max .*B is greater")
+        self.assertEqual(takt("compare", scenario, scenario, "--set-b", "nonsense=1")[0], 2)
+
+    def test_report_in_a_browser(self):
+        browser = next((found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None)
+        study, store, page = self.study(), self.folder / "s.sqlite", self.folder / "s.html"
+        self.run_study(study, "--out", store)
+        self.run_study("report", store, "--out", page)
+        html = page.read_text()
+        self.assertNotIn("http://", html.replace("http://www.w3.org/2000/svg", ""))
+        if browser is None:
+            self.skipTest("no chromium here: the report is not rendered")
+        screenshot = self.folder / "s.png"
+        common = [browser, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={self.folder / 'profile'}", "--virtual-time-budget=2000"]
+        # The document as the browser understood it, and what it wrote to its console.
+        dump = subprocess.run([*common, "--enable-logging=stderr", "--dump-dom", page.as_uri()], capture_output=True, text=True, timeout=120, check=True)
+        self.assertNotIn("CONSOLE", dump.stderr)
+        charts = re.findall(r"<svg.*?</svg>", dump.stdout, re.S)
+        marks = {re.search(r'class="title">([^<]*)<', chart).group(1): len(re.findall(r'class="mark"', chart)) for chart in charts}
+        # Three sizes, four gaps; heat maps have 12 cells; response curves have 12 points.
+        self.assertEqual(marks["delay by size"], 3)
+        self.assertEqual(marks["mean by gap"], 4)
+        self.assertEqual(marks["delay by size and gap"], 12)
+        self.assertEqual(marks["delay over gap, by size"], 12)
+        self.assertEqual(marks["variants that pass, by gap"], 4)
+        self.assertGreaterEqual(marks["delay against mean"], 13)
+        subprocess.run([*common, "--hide-scrollbars", "--window-size=1200,3000", f"--screenshot={screenshot}", page.as_uri()], capture_output=True, timeout=120, check=True)
+        self.assertGreater(screenshot.stat().st_size, 50_000, "an empty page has a few kilobytes")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    TAKT, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

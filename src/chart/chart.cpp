@@ -13,7 +13,7 @@ namespace {
 
 constexpr double left = 64;
 constexpr double top = 26;
-constexpr double right = 14;
+constexpr double right = 26;
 constexpr double line_height = 15;
 
 /// The frame that line and bar charts share: title, y axis with its grid, legend below.
@@ -53,13 +53,17 @@ void draw_legend(Svg& svg, const std::vector<std::string>& names, const std::vec
   }
 }
 
-void draw_y(Svg& svg, const Frame& frame, const Axis& axis, const std::string& title, const std::string& label, const std::vector<Rule>& rules) {
+void draw_y(Svg& svg, const Frame& frame, const Axis& axis, const std::string& title, const std::string& label) {
   svg.text(left, 15, title, "start", "title");
   for (const Tick& tick : axis.ticks()) {
     svg.line(left, axis.at(tick.value), frame.x_end(), axis.at(tick.value), "grid");
     svg.text(left - 6, axis.at(tick.value) + 4, tick.text, "end", "tick");
   }
   svg.text(13, (top + frame.y_end()) / 2, label, "middle", "label", -90);
+}
+
+/// Over what the chart shows, else bars would hide them.
+void draw_rules(Svg& svg, const Frame& frame, const Axis& axis, const std::vector<Rule>& rules) {
   for (const Rule& rule : rules) {
     if (rule.y < axis.low() || rule.y > axis.high()) continue;
     svg.line(left, axis.at(rule.y), frame.x_end(), axis.at(rule.y), "limit");
@@ -110,10 +114,10 @@ std::string draw(const LineChart& chart) {
   }
   const double legend_height = line_height * static_cast<double>(legend_lines(names, chart.width));
   const Frame frame{chart.width, chart.height, 40};
-  Svg svg(chart.width, chart.height + legend_height);
+  Svg svg(chart.width, chart.height + legend_height + 3);
   const Axis x(xs, chart.x.is_logarithmic, left, frame.x_end());
   const Axis y(ys, chart.y.is_logarithmic, frame.y_end(), top);
-  draw_y(svg, frame, y, chart.title, chart.y.label, chart.rules);
+  draw_y(svg, frame, y, chart.title, chart.y.label);
   svg.line(left, frame.y_end(), frame.x_end(), frame.y_end(), "axis");
   for (const Tick& tick : x.ticks()) {
     svg.line(x.at(tick.value), frame.y_end(), x.at(tick.value), frame.y_end() + 4, "axis");
@@ -130,7 +134,8 @@ std::string draw(const LineChart& chart) {
       svg.circle(x.at(sample.x), y.at(sample.y), series.is_joined ? 3 : 3.5, colours[s], title_of(series.name, number_text(sample.x), sample));
     }
   }
-  draw_legend(svg, names, legend_colours, chart.width, chart.height + 6);
+  draw_rules(svg, frame, y, chart.rules);
+  draw_legend(svg, names, legend_colours, chart.width, chart.height + 9);
   return svg.take(chart.title);
 }
 
@@ -152,7 +157,7 @@ std::string draw(const BarChart& chart) {
   const Frame frame{chart.width, chart.height + bottom - 24, bottom};
   Svg svg(chart.width, frame.height + line_height * static_cast<double>(legend_lines(names, chart.width)));
   const Axis y(values, chart.y.is_logarithmic, frame.y_end(), top);
-  draw_y(svg, frame, y, chart.title, chart.y.label, chart.rules);
+  draw_y(svg, frame, y, chart.title, chart.y.label);
   const double zero = y.is_logarithmic() ? frame.y_end() : y.at(0);
   for (std::size_t c = 0; c < chart.categories.size(); ++c) {
     const double begin = left + slot * (static_cast<double>(c) + 0.1);
@@ -170,6 +175,7 @@ std::string draw(const BarChart& chart) {
     else svg.text(middle, frame.y_end() + 16, chart.categories[c], "middle", "tick");
   }
   svg.line(left, zero, frame.x_end(), zero, "axis");
+  draw_rules(svg, frame, y, chart.rules);
   draw_legend(svg, names, colours, chart.width, frame.height + 6);
   return svg.take(chart.title);
 }

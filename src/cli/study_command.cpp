@@ -35,7 +35,6 @@ struct StudyOptions {
 
 /// "2/10"; nothing if it is not that.
 std::optional<study::Shard> shard_of(const std::string& text) {
-  study::Shard shard;
   char rest = '\0';
   unsigned long long index = 0;
   unsigned long long count = 0;

@@ -72,6 +72,36 @@ const json::Object& describe(json::Type<LinkFailures>) {
   return table;
 }
 
+const json::Enumeration& describe(json::Type<Shape>) {
+  static constexpr json::EnumName names[] = {
+      name(Shape::comb, "comb", "a line of switches, from each of which hangs a line of \"teeth\" more"),
+      name(Shape::random, "random", "a random connected graph with this mean degree and no double links"),
+      name(Shape::dual_star, "dual-star", "two cores, each joined to every other switch: two paths without a common switch, for redundant streams"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Shape>("a topology of studies", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<TopologyLevel>) {
+  static constexpr json::Field fields[] = {
+      optional<&TopologyLevel::shape>("topology", "The shape; line, ring, star, tree and mesh are generators of the scenario itself, see \"patches\"."),
+      optional<&TopologyLevel::graphml>("graphml", "A GraphML file beside the study."),
+      optional<&TopologyLevel::switches>("switches", "Switches of the spine, of a random graph, or besides the two cores.", {.min = 1, .max = 10'000}),
+      optional<&TopologyLevel::teeth>("teeth", "Switches of each tooth of a comb.", {.max = 10'000}),
+      optional<&TopologyLevel::degree>("degree", "Mean number of links of a switch to others, of a random graph.", {.min = 1.0, .max = 1000.0}),
+      optional<&TopologyLevel::seed>("seed", "The seed of a random graph."),
+      optional<&TopologyLevel::hosts_per_switch>("hosts_per_switch", "Hosts h1, h2 ... at each switch but the cores.", {.max = 1000}),
+      optional<&TopologyLevel::os>("os", "The operating system of the hosts."),
+      optional<&TopologyLevel::rate>("rate", "Of all links that do not say it."),
+      optional<&TopologyLevel::length>("length", "Of all links that do not say it."),
+      optional<&TopologyLevel::forwarding_delay>("forwarding_delay", "Of all switches."),
+  };
+  static constexpr std::string_view kinds[] = {"topology", "graphml"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(kinds)};
+  static constexpr json::Object table = json::object<TopologyLevel>("topology_level", "A network that replaces that of the scenario.", fields, {.groups = groups});
+  return table;
+}
+
 const json::Object& describe(json::Type<Factor>) {
   static constexpr json::Field fields[] = {
       required<&Factor::name>("name", "Unique; letters, digits and _.", {.min_length = 1, .max_length = 60}),
@@ -79,10 +109,11 @@ const json::Object& describe(json::Type<Factor>) {
       optional<&Factor::values>("values", "The levels.", {.min_items = 1, .max_items = most_levels}),
       optional<&Factor::range>("range", "The levels, from one to another."),
       optional<&Factor::patches>("patches", "Named levels, each an object of JSON pointers and what is put there.", {.min_items = 1, .max_items = 1000}),
+      optional<&Factor::topologies>("topologies", "Named levels, each a network that replaces that of the scenario.", {.min_items = 1, .max_items = 1000}),
       optional<&Factor::link_failures>("link_failures", "The levels are no failure and the failures of links between switches."),
       optional<&Factor::baseline>("baseline", "The level that is kept while another factor varies (one-at-a-time)."),
   };
-  static constexpr std::string_view kinds[] = {"values", "range", "patches", "link_failures"};
+  static constexpr std::string_view kinds[] = {"values", "range", "patches", "topologies", "link_failures"};
   static constexpr json::Group groups[] = {json::exactly_one_of(kinds)};
   static constexpr json::Object table = json::object<Factor>("factor", "Something that varies.", fields, {.groups = groups});
   return table;

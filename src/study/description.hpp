@@ -57,6 +57,25 @@ struct LinkFailures {
   bool operator==(const LinkFailures&) const = default;
 };
 
+enum class Shape : std::uint8_t { comb, random, dual_star };
+
+/// A whole network as a level: what the generators of scenarios do not have, or a GraphML file.
+struct TopologyLevel {
+  json::Source where;
+  std::optional<Shape> shape;
+  std::optional<std::string> graphml;      ///< a file beside the study
+  std::optional<std::uint32_t> switches;   ///< of the spine of a comb; all of a random one; the leaves of a dual star
+  std::optional<std::uint32_t> teeth;      ///< switches that hang in a line from each one of the spine
+  std::optional<double> degree;            ///< mean number of links to other switches
+  std::uint64_t seed = 1;                  ///< of a random one
+  std::uint32_t hosts_per_switch = 1;
+  std::string os = "none";
+  sim::DataRate rate{1'000'000'000};
+  sim::Length length{10'000};
+  sim::Duration forwarding_delay;
+  bool operator==(const TopologyLevel&) const = default;
+};
+
 struct Factor {
   json::Source where;
   std::string name;
@@ -64,6 +83,7 @@ struct Factor {
   std::optional<std::vector<Value>> values;
   std::optional<Range> range;
   std::optional<json::NameMap<Patch>> patches;
+  std::optional<json::NameMap<TopologyLevel>> topologies;
   std::optional<LinkFailures> link_failures;
   std::optional<Value> baseline;     ///< one-at-a-time: the level that the others keep; the first one if absent
   bool operator==(const Factor&) const = default;
@@ -138,6 +158,8 @@ const json::Object& describe(json::Type<Setting>);
 const json::Enumeration& describe(json::Type<Scale>);
 const json::Object& describe(json::Type<Range>);
 const json::Object& describe(json::Type<LinkFailures>);
+const json::Enumeration& describe(json::Type<Shape>);
+const json::Object& describe(json::Type<TopologyLevel>);
 const json::Object& describe(json::Type<Factor>);
 const json::Enumeration& describe(json::Type<DesignKind>);
 const json::Object& describe(json::Type<Design>);

@@ -6,8 +6,8 @@
 
 namespace takt::study {
 
-/// The levels of a factor as it is written, without those of link failures, which depend on the others.
-PlannedFactor plan_factor(const Factor& factor, json::Diagnostics& diagnostics);
+/// The levels of a factor as it is written, without those of link failures, which depend on the others. `folder` is where the study lies.
+PlannedFactor plan_factor(const Factor& factor, const std::string& folder, json::Diagnostics& diagnostics);
 
 /// The level at a share (0 to 1) of the factor's range. Precondition: it has one, without mistakes.
 Level level_between(const Factor& factor, double share, json::Diagnostics& diagnostics);

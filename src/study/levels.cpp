@@ -6,6 +6,7 @@
 
 #include "study/design.hpp"
 #include "study/magnitude.hpp"
+#include "study/topologies.hpp"
 
 namespace takt::study {
 namespace {
@@ -32,7 +33,7 @@ std::string filled(const std::string& pattern, std::string_view word) {
 
 class FactorPlanner {
  public:
-  FactorPlanner(const Factor& factor, json::Diagnostics& diagnostics) : factor_(factor), diagnostics_(diagnostics) {}
+  FactorPlanner(const Factor& factor, const std::string& folder, json::Diagnostics& diagnostics) : factor_(factor), folder_(folder), diagnostics_(diagnostics) {}
 
   PlannedFactor plan() {
     planned_.name = factor_.name;
@@ -43,6 +44,9 @@ class FactorPlanner {
     if (factor_.range) add_range(*factor_.range);
     if (factor_.patches)
       for (const auto& [name, patch] : *factor_.patches) add_patch(name, patch);
+    if (factor_.topologies)
+      for (const auto& [name, topology] : *factor_.topologies)
+        planned_.levels.push_back({name, std::nullopt, {{"/network", network_of(topology, folder_, diagnostics_), fmt::format("factor {} = {}", factor_.name, name)}}});
     for (std::size_t i = 0; i < planned_.levels.size(); ++i)
       for (std::size_t j = 0; j < i && planned_.levels.size() <= 1000; ++j)
         if (planned_.levels[i].text == planned_.levels[j].text)
@@ -183,18 +187,19 @@ class FactorPlanner {
   }
 
   const Factor& factor_;
+  std::string folder_;   // in which files of the study lie
   json::Diagnostics& diagnostics_;
   PlannedFactor planned_;
 };
 
 }  // namespace
 
-PlannedFactor plan_factor(const Factor& factor, json::Diagnostics& diagnostics) { return FactorPlanner(factor, diagnostics).plan(); }
+PlannedFactor plan_factor(const Factor& factor, const std::string& folder, json::Diagnostics& diagnostics) { return FactorPlanner(factor, folder, diagnostics).plan(); }
 
 Level level_between(const Factor& factor, double share, json::Diagnostics& diagnostics) {
   const auto from = magnitude_of(factor.range->from.node);
   const auto to = magnitude_of(factor.range->to.node);
-  return FactorPlanner(factor, diagnostics).level_of(FactorPlanner::value_between(*factor.range, *from, *to, share), factor.range->where.place());
+  return FactorPlanner(factor, {}, diagnostics).level_of(FactorPlanner::value_between(*factor.range, *from, *to, share), factor.range->where.place());
 }
 
 }  // namespace takt::study

@@ -39,7 +39,7 @@ void check_names(const Study& study, json::Diagnostics& diagnostics) {
 }
 
 /// What the digest is of: all that decides what the points are and what is measured, but not what a run may take.
-std::string text_of(const Study& study, const json::Document& base) {
+std::string text_of(const Study& study, const std::vector<PlannedFactor>& factors, const json::Document& base) {
   Study decisive = study;
   decisive.schema.reset();
   decisive.description.reset();
@@ -47,6 +47,12 @@ std::string text_of(const Study& study, const json::Document& base) {
   decisive.scenario.reset();
   decisive.effort = {};
   json::Node node = json::encode_value(decisive);
+  // What a GraphML file says, too.
+  json::Node networks = json::Node::array();
+  for (std::size_t f = 0; f < factors.size(); ++f)
+    if (study.factors[f].topologies)
+      for (const Level& level : factors[f].levels) networks.items.push_back(level.replacements.front().value);
+  if (!networks.items.empty()) node.add("networks", std::move(networks));
   node.add("scenario", base.root());
   return json::compact(node);
 }
@@ -64,7 +70,7 @@ std::unique_ptr<Plan> load_plan(const std::string& path, json::Diagnostics& diag
   auto plan = std::make_unique<Plan>(Plan{study, base.value_or(json::Document(json::Node::object(), path)), {}, {}, {}, {}, {}, 0});
   std::optional<std::size_t> failures;
   for (std::size_t i = 0; i < study.factors.size(); ++i) {
-    plan->factors.push_back(plan_factor(study.factors[i], diagnostics));
+    plan->factors.push_back(plan_factor(study.factors[i], std::filesystem::path(path).parent_path().string(), diagnostics));
     if (!study.factors[i].link_failures) continue;
     if (failures) diagnostics.error(study.factors[i].where.at("link_failures"), "a second factor of link failures", {"", "at most one; \"at_once\": 2 fails pairs of links"});
     failures = i;
@@ -80,7 +86,7 @@ std::unique_ptr<Plan> load_plan(const std::string& path, json::Diagnostics& diag
   if (plan->points() > most_points)
     diagnostics.error(study.where.place(), "too many points", {fmt::format("{} variants with {} replications", plan->variants.size(), study.replications.count), fmt::format("at most {}", most_points)});
   if (diagnostics.has_errors()) return nullptr;
-  plan->text = text_of(study, *base);
+  plan->text = text_of(study, plan->factors, *base);
   plan->digest = hash_of(plan->text);
   return plan;
 }

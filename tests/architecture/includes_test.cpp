@@ -51,7 +51,7 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/scenario/", below});
     list.push_back({"src/chart/", chart});
     // Beside the questions, but its points are results as result.json has them, and its report is drawn.
-    list.push_back({"src/study/", all_of({below, questions, results, output, chart})});
+    list.push_back({"src/study/", all_of({below, questions, results, output, chart, study})});
     for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, results})});
     list.push_back({"src/results/", all_of({below, results})});
     list.push_back({"src/output/", all_of({below, questions, results, output})});

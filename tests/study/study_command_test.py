@@ -100,6 +100,16 @@ class StudyTest(unittest.TestCase):
         self.assertIn("size = 900B, gap = 60us", out)
         self.assertFalse((self.folder / "s.sqlite").exists())
 
+    def test_shipped_studies_are_sound(self):
+        studies = sorted(path for path in (SOURCE / "scenarios" / "studies").glob("*.json") if path.name != "takt-study.schema.json")
+        self.assertEqual(len(studies), 4)
+        for study in studies:
+            with self.subTest(study.name):
+                self.run_study(study, "--dry-run", "--quiet")
+
+    def test_schema_is_the_shipped_one(self):
+        self.assertEqual(takt("schema", "--study")[1], (SOURCE / "scenarios" / "studies" / "takt-study.schema.json").read_text())
+
     def test_killed_at_any_moment(self):
         study = self.study(duration="40ms", replications=40)
         store = self.folder / "s.sqlite"

@@ -111,7 +111,7 @@ class Status(CliTest):
 
     def test_check_of_sound_scenarios(self):
         for file in sorted(SCENARIOS.rglob("*.json")):
-            if file.name == "takt.schema.json":
+            if file.name == "takt.schema.json" or file.parent.name == "studies":
                 continue
             with self.subTest(file=file.name):
                 status, out, err = takt("check", file)

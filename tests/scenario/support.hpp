@@ -45,6 +45,7 @@ inline std::vector<std::string> shipped_names() {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
     const fs::path& path = entry.path();
     if (path.extension() != ".json" || path.filename() == "takt.schema.json") continue;
+    if (path.lexically_relative(folder).generic_string().starts_with("studies/")) continue;   // they are studies, not scenarios
     names.push_back(path.lexically_relative(folder).replace_extension().generic_string());
   }
   std::sort(names.begin(), names.end());

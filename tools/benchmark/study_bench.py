@@ -7,7 +7,8 @@ import subprocess
 import tempfile
 
 STUDY = """{"name": "bench", "base": "%(base)s",
- "factors": [{"name": "payload", "set": ["/streams/0/payload"], "values": ["600B", "800B", "1000B", "1200B"]}],
+ "factors": [{"name": "payload", "set": ["/streams/0/payload"], "values": ["600B", "800B", "1000B", "1200B"]},
+             {"name": "duration", "set": ["/duration"], "values": ["20s"]}],
  "replications": %(replications)d, "measures": [{"name": "start", "of": "reaction.start.max", "unit": "ms"}]}"""
 
 MANY = """{"name": "many", "base": "%(base)s",

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "chart/chart.hpp"
+#include "study/chart/chart.hpp"
 #include "study/effects.hpp"
 
 namespace takt::study {

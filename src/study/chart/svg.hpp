@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace takt::chart {
+namespace takt::study::chart {
 
 /// & < > " and ' as entities, for text and attributes of HTML and SVG.
 std::string escaped(std::string_view text);
@@ -38,4 +38,4 @@ class Svg {
 /// The style sheet that the elements need, once for a page (or for a file of one picture).
 std::string_view style_sheet();
 
-}  // namespace takt::chart
+}  // namespace takt::study::chart

@@ -1,14 +1,14 @@
-#include "chart/chart.hpp"
+#include "study/chart/chart.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-#include "chart/axis.hpp"
-#include "chart/svg.hpp"
+#include "study/chart/axis.hpp"
+#include "study/chart/svg.hpp"
 
-namespace takt::chart {
+namespace takt::study::chart {
 namespace {
 
 constexpr double left = 64;
@@ -180,4 +180,4 @@ std::string draw(const BarChart& chart) {
   return svg.take(chart.title);
 }
 
-}  // namespace takt::chart
+}  // namespace takt::study::chart

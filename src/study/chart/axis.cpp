@@ -1,11 +1,11 @@
-#include "chart/axis.hpp"
+#include "study/chart/axis.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace takt::chart {
+namespace takt::study::chart {
 namespace {
 
 /// 1, 2 or 5 times a power of ten, not below `least`.
@@ -70,4 +70,4 @@ std::vector<Tick> Axis::ticks() const {
   return all;
 }
 
-}  // namespace takt::chart
+}  // namespace takt::study::chart

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace takt::chart {
+namespace takt::study::chart {
 
 struct Tick {
   double value = 0;
@@ -38,4 +38,4 @@ class Axis {
 /// Few digits, without trailing zeros; 1e6 and beyond with an exponent.
 std::string number_text(double value);
 
-}  // namespace takt::chart
+}  // namespace takt::study::chart

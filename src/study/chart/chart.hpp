@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace takt::chart {
+namespace takt::study::chart {
 
 /// A point of a curve, with the ends of its interval if it has one.
 struct Sample {
@@ -75,4 +75,4 @@ std::string draw(const HeatMap& chart);
 /// The colour of the n-th series; told apart by people who see few colours too (Okabe and Ito).
 std::string palette(std::size_t n);
 
-}  // namespace takt::chart
+}  // namespace takt::study::chart

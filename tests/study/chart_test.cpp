@@ -1,14 +1,14 @@
 // Axes have round ticks that hold all figures; charts have one mark for each figure.
-#include "chart/chart.hpp"
+#include "study/chart/chart.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "chart/axis.hpp"
-#include "chart/svg.hpp"
+#include "study/chart/axis.hpp"
+#include "study/chart/svg.hpp"
 
-namespace takt::chart {
+namespace takt::study::chart {
 namespace {
 
 std::size_t count(const std::string& text, const std::string& part) {
@@ -102,4 +102,4 @@ TEST(HeatMap, HasACellForEachPair) {
 TEST(Svg, EscapesWhatWouldEndAnElement) { EXPECT_EQ(escaped("<a b=\"c\">&'"), "&lt;a b=&quot;c&quot;&gt;&amp;&#39;"); }
 
 }  // namespace
-}  // namespace takt::chart
+}  // namespace takt::study::chart

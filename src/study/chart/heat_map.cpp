@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chart/axis.hpp"
-#include "chart/chart.hpp"
-#include "chart/svg.hpp"
+#include "study/chart/axis.hpp"
+#include "study/chart/chart.hpp"
+#include "study/chart/svg.hpp"
 
-namespace takt::chart {
+namespace takt::study::chart {
 namespace {
 
 struct Colour {
@@ -81,4 +81,4 @@ std::string draw(const HeatMap& chart) {
   return svg.take(chart.title);
 }
 
-}  // namespace takt::chart
+}  // namespace takt::study::chart

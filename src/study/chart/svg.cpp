@@ -1,10 +1,10 @@
-#include "chart/svg.hpp"
+#include "study/chart/svg.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-namespace takt::chart {
+namespace takt::study::chart {
 
 std::string escaped(std::string_view text) {
   std::string safe;
@@ -66,4 +66,4 @@ std::string_view style_sheet() {
          "svg .curve{fill:none;stroke-width:1.8}svg .area{stroke:none;opacity:.15}svg .note{fill:#777}svg .mark{cursor:default}svg .on-dark{fill:#fff}\n";
 }
 
-}  // namespace takt::chart
+}  // namespace takt::study::chart

@@ -1,7 +1,6 @@
 #include "node/config.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 #include "scenario/json/suggest.hpp"
@@ -9,11 +8,6 @@
 namespace takt::node {
 namespace {
 
-using uadp::BuiltInType;
-
-constexpr std::array<BuiltInType, 11> built_in_types = {
-    BuiltInType::Boolean, BuiltInType::SByte, BuiltInType::Byte,   BuiltInType::Int16, BuiltInType::UInt16, BuiltInType::Int32,
-    BuiltInType::UInt32,  BuiltInType::Int64, BuiltInType::UInt64, BuiltInType::Float, BuiltInType::Double};
 constexpr std::uint32_t most_octets = 1472;  // what UDP over IPv4 leaves of an Ethernet frame
 
 /// Checks what the fields of a file mean together.
@@ -28,11 +22,11 @@ class Checker {
     check_participants();
     check_times();
     wire::EndpointSettings settings;
-    settings.handshake.variant = program.variant == Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
+    settings.handshake.variant = variant_of(program.variant);
     settings.handshake.index = index_of(config_.node, config_.where.at("node"));
     settings.handshake.role = settings.handshake.index == 0 ? handshake::Role::Master : handshake::Role::Slave;
     settings.handshake.slaves = static_cast<std::uint8_t>(program.slaves.size());
-    settings.handshake.subscription = program.subscription == Subscription::star ? handshake::Subscription::Star : handshake::Subscription::AllToAll;
+    settings.handshake.subscription = subscription_of(program.subscription);
     settings.cycle = program.cycle;
     settings.offset = program.offset;
     settings.receive_timeout = program.receive_timeout.value_or(program.cycle * 10);
@@ -78,13 +72,9 @@ class Checker {
     shape.first_publisher_id = program.publisher_id;
     std::set<std::string_view> names = {"state"};
     for (const ProcessData& data : program.process_data) {
-      wire::DataSetShape data_set;
-      data_set.name = data.name;
-      data_set.from = index_of(data.from, data.where.at("from"));
+      wire::DataSetShape data_set = data_set_shape_of(data, index_of(data.from, data.where.at("from")));
       if (!names.insert(data.name).second)
         diagnostics_.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set (\"state\" is taken)"});
-      for (const auto& [name, field] : data.fields)
-        data_set.fields.push_back({name, built_in_types[static_cast<std::size_t>(field.type)], field.count});
       const std::uint32_t octets = wire::process_data_octets(wire::octets_of(data_set));
       if (octets > most_octets)
         diagnostics_.error(data.where.at("fields"), "more than one frame", {std::to_string(octets) + " octets", "at most " + std::to_string(most_octets)});
@@ -99,8 +89,6 @@ class Checker {
 };
 
 }  // namespace
-
-program::Method method_of(Method method) { return program::methods[static_cast<std::size_t>(method)].method; }
 
 std::unique_ptr<LoadedConfig> load_config(const std::string& path, json::Diagnostics& diagnostics) {
   const auto document = json::parse_file(path, diagnostics);

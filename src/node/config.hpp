@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "program/method.hpp"
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
+#include "vocabulary/protocol.hpp"
 #include "wire/program_endpoint.hpp"
 
 namespace takt::node {
@@ -18,26 +18,16 @@ namespace takt::node {
 namespace json = scenario::json;
 using sim::Duration;
 
-enum class Variant : std::uint8_t { robust, paper };
-enum class Publish : std::uint8_t { cyclic, on_change };
-enum class Subscription : std::uint8_t { star, all_to_all };
-enum class DataType : std::uint8_t { boolean, sbyte, byte, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
+// The words that scenario files have too.
+using vocabulary::DataField;
+using vocabulary::DataType;
+using vocabulary::Method;
+using vocabulary::ProcessData;
+using vocabulary::Publish;
+using vocabulary::Subscription;
+using vocabulary::Variant;
+
 enum class ClockName : std::uint8_t { monotonic, tai };
-enum class Method : std::uint8_t { start, suspend, resume, halt, reset };
-
-struct DataField {
-  DataType type = DataType::float64;
-  std::uint16_t count = 1;
-  bool operator==(const DataField&) const = default;
-};
-
-struct ProcessData {
-  json::Source where;
-  std::string name;
-  std::string from;
-  json::NameMap<DataField> fields;
-  bool operator==(const ProcessData&) const = default;
-};
 
 /// As in a scenario; the same for all nodes of the group.
 struct Program {
@@ -98,22 +88,13 @@ struct Config {
   bool operator==(const Config&) const = default;
 };
 
-const json::Enumeration& describe(json::Type<Variant>);
-const json::Enumeration& describe(json::Type<Publish>);
-const json::Enumeration& describe(json::Type<Subscription>);
-const json::Enumeration& describe(json::Type<DataType>);
 const json::Enumeration& describe(json::Type<ClockName>);
-const json::Enumeration& describe(json::Type<Method>);
-const json::Object& describe(json::Type<DataField>);
-const json::Object& describe(json::Type<ProcessData>);
 const json::Object& describe(json::Type<Program>);
 const json::Object& describe(json::Type<UdpTransport>);
 const json::Object& describe(json::Type<EthernetTransport>);
 const json::Tagged& describe(json::Type<Transport>);
 const json::Object& describe(json::Type<ScriptEntry>);
 const json::Object& describe(json::Type<Config>);
-
-program::Method method_of(Method method);
 
 /// A file that has been checked, and the endpoint that it asks for, but for the incarnation.
 struct LoadedConfig {

@@ -1,4 +1,4 @@
-// The vocabulary of node files. Names that scenario files have too mean the same.
+// The words of node files, besides those of src/vocabulary.
 #include "node/config.hpp"
 
 namespace takt::node {
@@ -11,65 +11,10 @@ using namespace sim::literals;  // NOLINT: units in limits
 
 }  // namespace
 
-const json::Enumeration& describe(json::Type<Variant>) {
-  static constexpr json::EnumName names[] = {name(Variant::robust, "robust", "agreement on intents"), name(Variant::paper, "paper", "states only")};
-  static constexpr json::Enumeration table = json::enumeration<Variant>("a handshake", names);
-  return table;
-}
-
-const json::Enumeration& describe(json::Type<Publish>) {
-  static constexpr json::EnumName names[] = {name(Publish::cyclic, "cyclic", "every cycle"), name(Publish::on_change, "on-change", "every cycle and at once when the state changes")};
-  static constexpr json::Enumeration table = json::enumeration<Publish>("a way of publishing", names);
-  return table;
-}
-
-const json::Enumeration& describe(json::Type<Subscription>) {
-  static constexpr json::EnumName names[] = {name(Subscription::star, "star", "the master hears all slaves, a slave the master"),
-                                             name(Subscription::all_to_all, "all-to-all", "everybody hears everybody")};
-  static constexpr json::Enumeration table = json::enumeration<Subscription>("a subscription", names);
-  return table;
-}
-
-const json::Enumeration& describe(json::Type<DataType>) {
-  static constexpr json::EnumName names[] = {
-      name(DataType::boolean, "Boolean", "1 octet"), name(DataType::sbyte, "SByte", "1 octet"),   name(DataType::byte, "Byte", "1 octet"),
-      name(DataType::int16, "Int16", "2 octets"),    name(DataType::uint16, "UInt16", "2 octets"), name(DataType::int32, "Int32", "4 octets"),
-      name(DataType::uint32, "UInt32", "4 octets"),  name(DataType::int64, "Int64", "8 octets"),   name(DataType::uint64, "UInt64", "8 octets"),
-      name(DataType::float32, "Float", "4 octets"),  name(DataType::float64, "Double", "8 octets")};
-  static constexpr json::Enumeration table = json::enumeration<DataType>("an OPC UA built-in type of fixed length", names);
-  return table;
-}
-
 const json::Enumeration& describe(json::Type<ClockName>) {
   static constexpr json::EnumName names[] = {name(ClockName::monotonic, "monotonic", "CLOCK_MONOTONIC; shared by nodes on one machine"),
                                              name(ClockName::tai, "tai", "CLOCK_TAI; shared by machines that gPTP synchronises")};
   static constexpr json::Enumeration table = json::enumeration<ClockName>("a clock", names);
-  return table;
-}
-
-const json::Enumeration& describe(json::Type<Method>) {
-  static constexpr json::EnumName names[] = {name(Method::start, "Start", ""), name(Method::suspend, "Suspend", ""), name(Method::resume, "Resume", ""),
-                                             name(Method::halt, "Halt", ""), name(Method::reset, "Reset", "")};
-  static constexpr json::Enumeration table = json::enumeration<Method>("a Program control method", names);
-  return table;
-}
-
-const json::Object& describe(json::Type<DataField>) {
-  static constexpr json::Field fields[] = {
-      required<&DataField::type>("type", "OPC UA built-in type."),
-      optional<&DataField::count>("count", "Number of values.", {.min = 1, .max = 1500}),
-  };
-  static constexpr json::Object table = json::object<DataField>("data_field", "One field of a data set.", fields, {.shorthand = "type"});
-  return table;
-}
-
-const json::Object& describe(json::Type<ProcessData>) {
-  static constexpr json::Field fields[] = {
-      required<&ProcessData::name>("name", "Unique in the program.", {.min_length = 1, .max_length = 200}),
-      required<&ProcessData::from>("from", "The participant that publishes it."),
-      required<&ProcessData::fields>("fields", "The fields of the data set.", {.min_items = 1, .max_items = 256}),
-  };
-  static constexpr json::Object table = json::object<ProcessData>("process_data", "A data set that is published every cycle while Running.", fields);
   return table;
 }
 

@@ -14,6 +14,7 @@
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
+#include "vocabulary/program.hpp"
 
 namespace takt::scenario {
 
@@ -248,25 +249,16 @@ struct Stream {
   bool operator==(const Stream&) const = default;
 };
 
-enum class Variant : std::uint8_t { robust, paper };
-enum class Publish : std::uint8_t { cyclic, on_change };
+// The words that node files have too.
+using vocabulary::DataField;
+using vocabulary::DataType;
+using vocabulary::Method;
+using vocabulary::ProcessData;
+using vocabulary::Publish;
+using vocabulary::Subscription;
+using vocabulary::Variant;
+
 enum class Violations : std::uint8_t { forbidden, reported };
-enum class Subscription : std::uint8_t { star, all_to_all };
-enum class DataType : std::uint8_t { boolean, sbyte, byte, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
-
-struct DataField {
-  DataType type = DataType::float64;
-  std::uint16_t count = 1;
-  bool operator==(const DataField&) const = default;
-};
-
-struct ProcessData {
-  json::Source where;
-  std::string name;
-  std::string from;
-  json::NameMap<DataField> fields;
-  bool operator==(const ProcessData&) const = default;
-};
 
 struct Program {
   json::Source where;
@@ -286,8 +278,6 @@ struct Program {
   std::vector<ProcessData> process_data;
   bool operator==(const Program&) const = default;
 };
-
-enum class Method : std::uint8_t { start, suspend, resume, halt, reset };
 
 /// Another gate list for a port.
 struct SetGates {
@@ -377,15 +367,8 @@ const json::Object& describe(json::Type<ExponentialGaps>);
 const json::Object& describe(json::Type<Bursts>);
 const json::Custom& describe(json::Type<Names>);
 const json::Object& describe(json::Type<Stream>);
-const json::Enumeration& describe(json::Type<Variant>);
-const json::Enumeration& describe(json::Type<Publish>);
 const json::Enumeration& describe(json::Type<Violations>);
-const json::Enumeration& describe(json::Type<Subscription>);
-const json::Enumeration& describe(json::Type<DataType>);
-const json::Object& describe(json::Type<DataField>);
-const json::Object& describe(json::Type<ProcessData>);
 const json::Object& describe(json::Type<Program>);
-const json::Enumeration& describe(json::Type<Method>);
 const json::Object& describe(json::Type<SetGates>);
 const json::Object& describe(json::Type<ScriptEntry>);
 const json::Enumeration& describe(json::Type<Reaction>);

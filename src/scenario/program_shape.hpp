@@ -6,8 +6,6 @@
 
 namespace takt::scenario {
 
-uadp::BuiltInType built_in_type_of(DataType type);
-
 wire::ProgramShape shape_of(const ResolvedProgram& program);
 
 }  // namespace takt::scenario

@@ -16,6 +16,7 @@
 #include "scenario/resolve_faults.hpp"
 #include "scenario/stream_builder.hpp"
 #include "scenario/trace_file.hpp"
+#include "vocabulary/protocol.hpp"
 #include "wire/program_format.hpp"
 
 namespace takt::scenario {
@@ -217,7 +218,7 @@ class Resolver {
     resolved.first_publisher_id = static_cast<std::uint16_t>(publishers_ + 1);
     publishers_ += resolved.participants.size();
 
-    const Octets state_octets{wire::state_octets(program.variant == Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper)};
+    const Octets state_octets{wire::state_octets(variant_of(program.variant))};
     for (std::uint8_t p = 0; p < resolved.participants.size(); ++p) {
       const auto stream = add_program_stream(program, resolved, p, "state", state_octets, program.where);
       if (!stream) return;

@@ -1,17 +1,11 @@
 #include "scenario/run.hpp"
 
-#include <array>
 #include <utility>
 
 #include "scenario/program_shape.hpp"
+#include "vocabulary/protocol.hpp"
 
 namespace takt::scenario {
-namespace {
-
-constexpr std::array<program::Method, 5> method_of = {program::Method::Start, program::Method::Suspend, program::Method::Resume,
-                                                      program::Method::Halt, program::Method::Reset};
-
-}  // namespace
 
 /// Calls the methods that the scenario's script asks for, before anything else of their instant.
 class Run::Script final : public sim::Component {
@@ -30,7 +24,7 @@ class Run::Script final : public sim::Component {
   void act(const ResolvedCall& call) {
     models::Process& process = *run_->programs_[call.program]->processes[call.participant];
     process.call([&](models::Application& application, models::HostServices& host) {
-      static_cast<ProgramApplication&>(application).call(host, method_of[static_cast<std::size_t>(call.method)]);
+      static_cast<ProgramApplication&>(application).call(host, method_of(call.method));
     });
   }
   void act(const ResolvedGates& change) { run_->network_.request_gates(change.node, change.port, change.gates); }
@@ -91,8 +85,7 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
     endpoint.handshake.index = static_cast<std::uint8_t>(p);
     endpoint.handshake.slaves = static_cast<std::uint8_t>(program.participants.size() - 1);
     endpoint.handshake.incarnation = 1;
-    endpoint.handshake.subscription =
-        description.subscription == Subscription::star ? handshake::Subscription::Star : handshake::Subscription::AllToAll;
+    endpoint.handshake.subscription = subscription_of(description.subscription);
     endpoint.format = format;
     endpoint.cycle = description.cycle;
     endpoint.offset = description.offset;

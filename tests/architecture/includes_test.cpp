@@ -24,6 +24,7 @@ const Prefixes results = {"results/"};
 const Prefixes output = {"output/"};
 const Prefixes cli = {"cli/"};
 const Prefixes node = {"node/"};
+const Prefixes vocabulary = {"vocabulary/"};
 
 Prefixes all_of(std::initializer_list<Prefixes> parts) {
   Prefixes sum;
@@ -41,9 +42,10 @@ const std::vector<Layer>& layers() {
   static const std::vector<Layer> all = [] {
     std::vector<Layer> list = {{"sim/", kernel}, {"models/", all_of({kernel, models})}};
     for (const std::string& folder : protocol) list.push_back({"src/" + folder, all_of({base, protocol})});
-    list.push_back({"src/node/", all_of({base, protocol, node, json})});
+    list.push_back({"src/vocabulary/", all_of({base, protocol, vocabulary, json})});
+    list.push_back({"src/node/", all_of({base, protocol, vocabulary, node, json})});
     list.push_back({"src/scenario/json/", all_of({base, json})});
-    const Prefixes below = all_of({kernel, models, protocol, scenario});
+    const Prefixes below = all_of({kernel, models, protocol, vocabulary, scenario});
     list.push_back({"src/scenario/", below});
     for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, results})});
     list.push_back({"src/results/", all_of({below, results})});
@@ -74,7 +76,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, vocabulary});
   return roots;
 }
 

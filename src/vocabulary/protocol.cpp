@@ -1,0 +1,39 @@
+#include "vocabulary/protocol.hpp"
+
+#include <array>
+
+namespace takt::vocabulary {
+namespace {
+
+using uadp::BuiltInType;
+
+constexpr std::array<BuiltInType, 11> built_in_types = {
+    BuiltInType::Boolean, BuiltInType::SByte, BuiltInType::Byte,   BuiltInType::Int16, BuiltInType::UInt16, BuiltInType::Int32,
+    BuiltInType::UInt32,  BuiltInType::Int64, BuiltInType::UInt64, BuiltInType::Float, BuiltInType::Double};
+static_assert(built_in_types.size() == static_cast<std::size_t>(DataType::float64) + 1);
+
+constexpr std::array<program::Method, 5> methods = {program::Method::Start, program::Method::Suspend, program::Method::Resume, program::Method::Halt,
+                                                    program::Method::Reset};
+static_assert(methods.size() == static_cast<std::size_t>(Method::reset) + 1);
+
+}  // namespace
+
+handshake::Variant variant_of(Variant variant) { return variant == Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper; }
+
+handshake::Subscription subscription_of(Subscription subscription) {
+  return subscription == Subscription::star ? handshake::Subscription::Star : handshake::Subscription::AllToAll;
+}
+
+program::Method method_of(Method method) { return methods[static_cast<std::size_t>(method)]; }
+
+BuiltInType built_in_type_of(DataType type) { return built_in_types[static_cast<std::size_t>(type)]; }
+
+wire::DataSetShape data_set_shape_of(const ProcessData& data, std::uint8_t from) {
+  wire::DataSetShape shape;
+  shape.name = data.name;
+  shape.from = from;
+  for (const auto& [name, field] : data.fields) shape.fields.push_back({name, built_in_type_of(field.type), field.count});
+  return shape;
+}
+
+}  // namespace takt::vocabulary

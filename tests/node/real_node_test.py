@@ -108,11 +108,11 @@ class NodeTest(unittest.TestCase):
         self.assertEqual(states(events), simulated(PROGRAM, CALLS))
         for node, log in events.items():
             self.assertEqual(log[-1]["event"], "end", node)
-            self.assertEqual(log[-1]["foreign"], 0, node)
+            self.assertEqual(log[-1]["statistics"]["foreign"], 0, node)
             causes = [e["cause"] for e in log if e["event"] == "intent"]
             self.assertTrue(all(cause == "command" for cause in causes), (node, causes))
         # Process data arrives while Running: about 400 and 300 ms of 5 ms cycles, besides the states.
-        self.assertGreater(events["left"][-1]["taken"], 50)
+        self.assertGreater(events["left"][-1]["statistics"]["taken"], 50)
 
 
 class Loopback(NodeTest):

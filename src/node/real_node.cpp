@@ -153,7 +153,9 @@ void RealNode::wake_cycle(sim::LocalTime now) {
   const std::int64_t cpu = cpu_ns();
   const std::int64_t used_ns = cpu - std::exchange(cpu_at_last_cycle_ns_, cpu);
   const std::uint64_t missed = endpoint_.missed_cycles() - missed_before;
-  (used_ns >= config_.program.cycle.ps() / 1000 ? cycles_.missed_by_code : cycles_.missed_by_system) += missed;
+  const std::uint64_t by_code = std::min(missed, static_cast<std::uint64_t>(used_ns / (config_.program.cycle.ps() / 1000)));
+  cycles_.missed_by_code += by_code;
+  cycles_.missed_by_system += missed - by_code;
 }
 
 void RealNode::take_requests() {

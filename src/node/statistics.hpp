@@ -34,8 +34,9 @@ class Distribution {
   std::array<std::uint32_t, 64 * steps> buckets_{};
 };
 
-/// How the cycle was kept. A cycle is missed if nothing was published in it. It is the code's fault if the thread has used a
-/// whole cycle of CPU time since the cycle before; otherwise the operating system did not let it run in time.
+/// How the cycle was kept. A cycle is missed if nothing was published in it. Of those missed at once as many are the code's fault as the
+/// thread has used whole cycles of CPU time since it published last; in the others the operating system did not let it run. (A hypervisor
+/// that takes the CPU away and does not say so makes the thread look busy.)
 struct CycleStatistics {
   Distribution late;                       ///< waking up for a cycle, against its instant (earlier by the launch lead, if there is one)
   std::uint64_t missed_by_code = 0;

@@ -13,5 +13,6 @@ int main() {
   takt::wire::StateMessage message;
   message.sender = 1;
   const auto read = format.decode(format.encode(message, octets));
-  return read && *read == takt::wire::ProgramMessage(message) ? 0 : 1;
+  const auto* const state = read ? std::get_if<takt::wire::StateMessage>(&*read) : nullptr;
+  return state != nullptr && *state == message ? 0 : 1;
 }

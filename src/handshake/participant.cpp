@@ -20,6 +20,10 @@ Outputs Participant<MaxPeers>::step(const Input& input) {
   if (robust && input.kind == Input::Kind::Received && robust_says_nothing_new(input)) {
     peers_[input.peer].sequence = input.sequence;
     outputs.arm_timeout = PeerSet{1} << input.peer;
+    if (machine_.state() != program::State::Ready && !machine_.initialising()) return outputs;
+    const std::uint32_t run_before = run_;
+    robust_barrier(outputs);  // moves there only
+    outputs.publish = outputs.change_count != 0 || run_ != run_before;
     return outputs;
   }
   const Word before = word();
@@ -60,16 +64,16 @@ Outputs Participant<MaxPeers>::step(const Input& input) {
   return outputs;
 }
 
-/// A word that robust_received would take without a change but the sequence number: what the peer said last, in the run and under the
-/// intent that stand here. In Ready and INIT the barrier may move at any word.
+/// A word of which robust_received would note the sequence number only: what the peer said last, under the intent that stands here, and
+/// no sign of a barrier that was taken without this participant.
 template <std::size_t MaxPeers>
 bool Participant<MaxPeers>::robust_says_nothing_new(const Input& input) const {
   TAKT_CHECK(input.peer < peer_count(), "a word comes from a peer");
   const Peer& peer = peers_[input.peer];
   const Word& word = input.word;
   const auto ahead = static_cast<std::int16_t>(static_cast<std::uint16_t>(input.sequence - peer.sequence));
-  const bool is_same = word.state == peer.state && word.run == peer.run && word.run == run_ && word.incarnation == peer.incarnation && word.intent == intent_;
-  return is_same && peer.sequence_known && ahead >= 0 && machine_.state() != program::State::Ready && !machine_.initialising();
+  const bool is_same = word.state == peer.state && word.run == peer.run && word.incarnation == peer.incarnation && word.intent == intent_;
+  return is_same && peer.sequence_known && ahead >= 0 && (is_master() || word.run == run_ || word.run != intent_.run);
 }
 
 template <std::size_t MaxPeers>

@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -27,8 +28,8 @@ def script_of(node):
     return [{"at": f"{at}ms", "call": call} for who, at, call in CALLS if who == node]
 
 
-def simulated(program, calls, duration="2s"):
-    """Transitions of each participant in a simulation of the same set-up."""
+def simulated(program, calls, duration="2s", see=lambda out: states_of_timeline(out / "timeline.json")):
+    """Transitions of each participant in a simulation of the same set-up, or what else `see` makes of its results."""
     nodes = {name: {"kind": "host"} for name in NODES} | {"sw": {"kind": "switch"}}
     program_there = {key: value for key, value in program.items() if key != "publisher_id"}
     scenario = {
@@ -40,9 +41,35 @@ def simulated(program, calls, duration="2s"):
         path = pathlib.Path(folder) / "s.json"
         path.write_text(json.dumps(scenario), encoding="utf-8")
         out = pathlib.Path(folder) / "out"
-        done = subprocess.run([TAKT, "run", str(path), "--out", str(out), "--timeline", "--quiet"], capture_output=True, text=True, check=False)
+        done = subprocess.run([TAKT, "run", str(path), "--out", str(out), "--timeline", "--pcap", "all", "--quiet"], capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr
-        return states_of_timeline(out / "timeline.json")
+        return see(out)
+
+
+def frames_of_pcap(path):
+    octets = path.read_bytes()
+    order = "<" if octets[:4] in (b"\x4d\x3c\xb2\xa1", b"\xd4\xc3\xb2\xa1") else ">"
+    at = 24
+    while at < len(octets):
+        size = struct.unpack_from(order + "I", octets, at + 8)[0]
+        yield octets[at + 16:at + 16 + size]
+        at += 16 + size
+
+
+def kinds_of_frames(path):
+    """Tagged UADP frames from the tag on, without padding; 0 for what each message or start of a node has anew: sequence numbers, runs, incarnations."""
+    lengths = {1: 42, 2: 24 + 16, 3: 24 + 8}  # by WriterGroupId: state, "targets", "actual"
+    kinds = set()
+    for frame in frames_of_pcap(path):
+        if frame[12:14] != b"\x81\x00" or frame[16:18] != b"\xb6\x2c":
+            continue
+        message = bytearray(frame[18:])
+        group = int.from_bytes(message[5:7], "little")
+        del message[lengths[group]:]
+        for begin, end in [(13, 15), (16, 18)] + ([(24, 32), (36, 40)] if group == 1 else [(20, 24)]):
+            message[begin:end] = bytes(end - begin)
+        kinds.add((frame[12:18] + message).hex())
+    return kinds
 
 
 def states_of_timeline(path):
@@ -314,7 +341,7 @@ class Namespaces(NodeTest):
     def captured(self, transport, fields):
         """Runs the group; what tshark dissects of the frames of its bridge, one line a frame, and complains of."""
         pcap = self.folder / "frames.pcap"
-        capture = subprocess.Popen(["tshark", "-q", "-i", f"{self.tag}v0", "-w", str(pcap), "-a", "duration:8"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        capture = subprocess.Popen(["tshark", "-q", "-i", f"{self.tag}v0", "-F", "pcap", "-w", str(pcap), "-a", "duration:8"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         self.addCleanup(capture.kill)
         for line in capture.stderr:
             if "Capturing" in line:
@@ -351,6 +378,10 @@ class Namespaces(NodeTest):
         transport = {"kind": "ethernet", "interface": "eth0", "vlan": 5, "pcp": 6}
         frames = self.captured(transport, ["eth.dst", "vlan.etype", "vlan.id", "vlan.priority"])
         self.assertEqual({tuple(frame) for frame in frames}, {("01:00:5e:7f:00:01", "0xb62c", "5", "6")})
+        # Octet for octet what the simulator sends: the same set of messages.
+        there = simulated(PROGRAM | {"vlan": 5, "pcp": 6}, CALLS, see=lambda out: kinds_of_frames(out / "all.pcap"))
+        self.assertEqual(kinds_of_frames(self.folder / "frames.pcap"), there)
+        self.assertGreater(len(there), 20)
 
     def test_launch_times(self):
         transport = {"kind": "ethernet", "interface": "eth0"}

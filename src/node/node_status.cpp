@@ -47,6 +47,7 @@ json::Node statistics_of(const NodeStatus& status) {
   const wire::EndpointCounts& counts = status.endpoint.counts();
   json::Node node = json::Node::object();
   node.add("late", of(status.cycles.late));
+  node.add("cpu", of(status.cycles.cpu));
   node.add("jitter_ns", number(status.cycles.late.greatest() - status.cycles.late.least()));
   node.add("missed_cycles", number(status.endpoint.missed_cycles()));
   node.add("missed_by_code", number(status.cycles.missed_by_code));
@@ -116,6 +117,7 @@ std::string status_text(const std::string& json) {
   out += fmt::format("\n  {:<22} {:>10} {:>11} {:>11} {:>11} {:>11}\n", "microseconds", "count", "min", "mean", "p99", "max");
   const json::Node& statistics = *root.find("statistics");
   out += line_of("late for the cycle", statistics.find("late"));
+  out += line_of("CPU time of a cycle", statistics.find("cpu"));
   for (std::size_t p = 0; peers != nullptr && p < peers->items.size(); ++p) {
     out += line_of("answer of " + scalar(peers->items[p].find("name")), peers->items[p].find("answer"));
     out += line_of("round trip to " + scalar(peers->items[p].find("name")), peers->items[p].find("round_trip"));

@@ -152,6 +152,7 @@ void RealNode::wake_cycle(sim::LocalTime now) {
   socket_->set_launch_time(0);
   const std::int64_t cpu = cpu_ns();
   const std::int64_t used_ns = cpu - std::exchange(cpu_at_last_cycle_ns_, cpu);
+  cycles_.cpu.add(used_ns);
   const std::uint64_t missed = endpoint_.missed_cycles() - missed_before;
   const std::uint64_t by_code = std::min(missed, static_cast<std::uint64_t>(used_ns / (config_.program.cycle.ps() / 1000)));
   cycles_.missed_by_code += by_code;

@@ -39,6 +39,7 @@ class Distribution {
 /// that takes the CPU away and does not say so makes the thread look busy.)
 struct CycleStatistics {
   Distribution late;                       ///< waking up for a cycle, against its instant (earlier by the launch lead, if there is one)
+  Distribution cpu;                        ///< CPU time of the thread from publishing to publishing
   std::uint64_t missed_by_code = 0;
   std::uint64_t missed_by_system = 0;
 };

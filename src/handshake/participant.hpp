@@ -95,6 +95,7 @@ class Participant {
   // robust.cpp
   void robust_command(program::Method method, Outputs& outputs);
   void robust_received(const Input& input, Outputs& outputs);
+  bool robust_says_nothing_new(const Input& input) const;
   void robust_silent(std::size_t peer, Outputs& outputs);
   bool robust_may_start() const;
   bool robust_may_suspend() const;

@@ -87,6 +87,7 @@ void ProgramEndpoint::receive(EndpointHost& host, uadp::Octets network_message) 
 void ProgramEndpoint::receive_state(EndpointHost& host, std::size_t peer, const StateMessage& message) {
   if (!is_new(states_[peer], message.sequence, message.word.incarnation, host.now())) return;
   ++counts_.taken;
+  host.heard(peer, message.word);
   step(host, Input::received(peer, message.word, message.sequence));
 }
 

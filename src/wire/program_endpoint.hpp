@@ -27,6 +27,8 @@ class EndpointHost : public pubsub::PublishedData {
   virtual void stepped(const handshake::Outputs& outputs, const handshake::Word& after) = 0;
   /// Process data has come that the application may use.
   virtual void process_data(const ProcessDataMessage& message) = 0;
+  /// A state of a peer has been taken.
+  virtual void heard(std::size_t peer, const handshake::Word& word) { static_cast<void>(peer), static_cast<void>(word); }
   /// Puts the user's fields of an own data set, all zeros so far.
   virtual void fill(std::uint8_t data_set, std::span<std::byte> fields) { static_cast<void>(data_set), static_cast<void>(fields); }
   /// `paper` has no run; what goes with its process data instead. No participant reads it.
@@ -71,6 +73,8 @@ class ProgramEndpoint {
   /// An alarm has come due.
   void wake(EndpointHost& host, std::size_t alarm);
 
+  /// The alarm at which it publishes.
+  static constexpr std::size_t cycle_alarm = 0;
   static constexpr std::size_t alarm_count(std::size_t peers) { return first_peer_alarm + peers; }
   std::size_t alarm_count() const { return alarm_count(participant_.peer_count()); }
 
@@ -81,7 +85,6 @@ class ProgramEndpoint {
   std::uint64_t missed_cycles() const { return missed_cycles_; }
 
  private:
-  static constexpr std::size_t cycle_alarm = 0;
   static constexpr std::size_t initialised_alarm = 1;
   static constexpr std::size_t first_peer_alarm = 2;  // one for each peer: its MessageReceiveTimeout
 

@@ -24,6 +24,7 @@ const Prefixes results = {"results/"};
 const Prefixes output = {"output/"};
 const Prefixes cli = {"cli/"};
 const Prefixes node = {"node/"};
+const Prefixes emulate = {"emulate/"};
 const Prefixes vocabulary = {"vocabulary/"};
 
 Prefixes all_of(std::initializer_list<Prefixes> parts) {
@@ -51,8 +52,9 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/results/", all_of({below, results})});
     list.push_back({"src/output/", all_of({below, questions, results, output})});
     list.push_back({"src/property/", all_of({below, questions, results, output, {"property/"}})});
-    list.push_back({"src/cli/", all_of({below, questions, results, output, node, cli})});
-    list.push_back({"src/main.cpp", all_of({below, questions, results, output, node, cli})});
+    list.push_back({"src/emulate/", all_of({below, node, emulate})});
+    list.push_back({"src/cli/", all_of({below, questions, results, output, node, emulate, cli})});
+    list.push_back({"src/main.cpp", all_of({below, questions, results, output, node, emulate, cli})});
     return list;
   }();
   return all;
@@ -77,7 +79,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, vocabulary, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, emulate, vocabulary, {"property/"}});
   return roots;
 }
 

@@ -21,7 +21,7 @@ struct Sighting {
 class Search {
  public:
   Search(const Question& question, const Watcher& watcher)
-      : watcher_(watcher), model_(question), store_(question.slaves, question.states) {}
+      : watcher_(watcher), model_(question), store_(model_.shape(), question.states) {}
 
   /// False if the result would depend on the names of slaves: try again without symmetry.
   bool run(Answer& answer) {
@@ -91,8 +91,8 @@ class Search {
       ++answer_.quiescent;
       if (!model_.settled(state)) see(model_.anybody_down(state) ? Property::F1 : Property::L1, position, false);
     }
-    // Commands and faults come after the network actions; restarts of those who are down are free.
-    for (const Action& action : model_.actions().subspan(network.size())) take(state, position, action, false);
+    for (const Action& action : model_.calls(state)) take(state, position, action, false);
+    for (const Action& action : model_.faults(state)) take(state, position, action, false);
   }
 
   bool take(const State& state, Position position, Action action, bool network) {

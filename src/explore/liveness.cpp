@@ -5,6 +5,7 @@
 
 #include "explore/components.hpp"
 #include "explore/hash_index.hpp"
+#include "explore/recurrence.hpp"
 #include "sim/check.hpp"
 
 namespace takt::explore {
@@ -50,45 +51,14 @@ class Graph {
   std::vector<Edge> edges_;
 };
 
-/// The steps that participants take when they hear, initialise or miss somebody, without the group around them.
-class MemberGraph {
- public:
-  explicit MemberGraph(const Members& members) : first_(members.size() + 1, 0) {
-    members.each_network_step([&](MemberId from, MemberId to) { first_[from + 1] += from != to ? 1U : 0U; });
-    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-    to_.resize(first_.back());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    members.each_network_step([&](MemberId from, MemberId to) {
-      if (from != to) to_[next[from]++] = to;
-    });
-  }
-  void successors(MemberId from, std::vector<std::uint32_t>& to) const {
-    to.assign(to_.begin() + static_cast<std::ptrdiff_t>(first_[from]), to_.begin() + static_cast<std::ptrdiff_t>(first_[from + 1]));
-  }
-
- private:
-  std::vector<std::uint32_t> first_;
-  std::vector<MemberId> to_;
-};
-
-/// Which states may lie on a cycle of network steps. On registers a cycle needs somebody who goes round by himself: as long as nobody
-/// changes, each channel is written once at most, and the delayed copy comes once.
+/// Which states may lie on a cycle of network steps: on registers those with somebody who can go round.
 class Suspects {
  public:
   Suspects(const Model& model, const StateStore& store) : store_(&store), participants_(model.question().slaves + 1U) {
     all_ = model.question().network == Network::channels;
     if (all_) return;
-    const Members& members = model.members();
-    MemberGraph graph(members);
-    goes_round_.resize(members.size(), false);
-    Components<MemberGraph> components(graph, members.size());
-    for (MemberId member = 0; member < members.size(); ++member) {
-      components.from(member, [&](const std::vector<MemberId>& component) {
-        if (component.size() < 2) return;
-        for (const MemberId each : component) goes_round_[each] = true;
-        any_ = true;
-      });
-    }
+    goes_round_ = members_that_go_round(model.members(), model.question().slaves);
+    any_ = std::find(goes_round_.begin(), goes_round_.end(), true) != goes_round_.end();
   }
   bool none() const { return !all_ && !any_; }
   bool contains(Position position) const {

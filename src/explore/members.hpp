@@ -70,13 +70,10 @@ class Members {
 
   MemberId renamed(MemberId member, std::size_t renaming) const { return renamed_[member * renamings_->size() + renaming]; }
   WordId renamed_word(WordId word, std::size_t renaming) const { return renamed_word_[word * renamings_->size() + renaming]; }
-  /// Calls seen(from, to) for each step that is remembered, but for those of calls and of Programs that end.
+  /// Calls seen(from, stimulus, to) for each step that is remembered.
   template <class Seen>
-  void each_network_step(Seen&& seen) const {
-    steps_.each([&](std::uint64_t key, std::uint64_t value) {
-      const auto kind = static_cast<handshake::Input::Kind>((key >> 28) & 0xFU);
-      if (kind != handshake::Input::Kind::Command && kind != handshake::Input::Kind::Finished) seen(static_cast<MemberId>(key >> 32), unpack(value).member);
-    });
+  void each_step(Seen&& seen) const {
+    steps_.each([&](std::uint64_t key, std::uint64_t value) { seen(static_cast<MemberId>(key >> 32), stimulus_of(key), unpack(value).member); });
   }
 
   /// False once a step did something else to slaves with other names: then they are not equal.
@@ -96,6 +93,9 @@ class Members {
   static std::uint64_t key_of(MemberId member, const Stimulus& stimulus) {
     return std::uint64_t{member} << 32 | static_cast<std::uint64_t>(stimulus.kind) << 28 | std::uint64_t{stimulus.what} << 20 |
            std::uint64_t{stimulus.word} << 1 | std::uint64_t{stimulus.overtaken};
+  }
+  static Stimulus stimulus_of(std::uint64_t key) {
+    return {static_cast<handshake::Input::Kind>((key >> 28) & 0xFU), static_cast<std::uint8_t>(key >> 20), static_cast<WordId>(key >> 1), (key & 1U) != 0};
   }
   static std::uint64_t pack(const Stepped& stepped) {
     return std::uint64_t{stepped.member} | std::uint64_t{stepped.effect} << 32 | std::uint64_t{stepped.data_counts} << 48;

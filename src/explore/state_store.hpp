@@ -44,7 +44,7 @@ class StateStore {
   std::uint64_t memory() const;
 
  private:
-  static constexpr std::size_t chunk_bits = 16;
+  static constexpr std::size_t chunk_bits = 17;
   static constexpr std::size_t chunk_size = std::size_t{1} << chunk_bits;
 
   const std::uint32_t* record(Position position) const { return &chunks_[position >> chunk_bits][(position & (chunk_size - 1)) * stride_]; }

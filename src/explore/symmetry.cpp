@@ -41,9 +41,14 @@ bool Model::names_matter(const State& state) const {
 }
 
 State Model::canonical(const State& state) {
-  if (renamings_.size() == 1 || names_matter(state)) return state;
+  if (renamings_.size() == 1) return state;
   std::array<std::uint64_t, most_slaves + 1> key{};
-  for (std::size_t i = 1; i <= question_.slaves; ++i) key[i] = sort_key(state, i);
+  bool rises = true;
+  for (std::size_t i = 1; i <= question_.slaves; ++i) {
+    key[i] = sort_key(state, i);
+    rises = rises && (i == 1 || key[i - 1] < key[i]);
+  }
+  if (rises || names_matter(state)) return state;
   State least = state;
   bool found = false;
   for (std::size_t r = 0; r < renamings_.size(); ++r) {

@@ -139,7 +139,7 @@ Liveness judge_cycles(Model& model, const StateStore& store, const Watcher& watc
   Components<SuspectGraph> components(graph, store.size());
   // From the end: most steps lead to later states, so the ways are short.
   for (auto root = static_cast<Position>(store.size()); root-- > 0;) {
-    if ((root & 0xFFFFU) == 0 && !watcher(store.size(), store.size() - root, 0)) {
+    if ((root & 0xFFFFU) == 0 && !watcher({store.size(), store.size() - root, 0, store.memory(), true})) {
       liveness.interrupted = true;
       return liveness;
     }

@@ -138,6 +138,7 @@ std::uint16_t Members::effect_of(const Participant& before, const Participant& a
   effect.raised = outputs.raised && question_.variant == Variant::Paper;  // `robust` says it in the words
   if (effect.raised) effect.kind = outputs.raised_kind;
   if (!are_transitions(before.state(), outputs.changes())) effect.properties.insert(Property::S5);
+  if (stimulus.kind == Input::Kind::PeerSilent && before.state() != PublishedState::Halted) effect.properties.insert(Property::silence);
   if (stimulus.kind == Input::Kind::PeerSilent && after.state() != PublishedState::Halted) effect.properties.insert(Property::F1);
   const bool robust = question_.variant == Variant::Robust;
   if (robust && stimulus.kind == Input::Kind::Received && !outputs.ignored && words_[stimulus.word].state == PublishedState::Running &&

@@ -74,7 +74,7 @@ class Search {
     if (!model_.symmetric()) ended_ = true;
     if (expanded_ - watched_ >= 0x8000) {
       watched_ = expanded_;
-      if (!watcher_(store_.size(), expanded_, depth_)) {
+      if (!watcher_({store_.size(), expanded_, depth_, store_.memory(), false})) {
         ended_ = true;
         answer_.interrupted = true;
       }
@@ -176,6 +176,10 @@ class Search {
     for (std::size_t p = 0; p < property_count; ++p) {
       const auto property = static_cast<Property>(p);
       Verdict& verdict = answer_.verdicts[p];
+      if (is_of_silence(property) && !model_.question().asks_for_silence()) {
+        verdict = Verdict::not_asked;
+        continue;
+      }
       if (must_always_hold(property)) {
         verdict = seen_.contains(property) ? Verdict::violated : Verdict::holds;
         const bool is_liveness = property == Property::L1 || property == Property::F1;
@@ -211,7 +215,7 @@ class Search {
 }  // namespace
 
 bool Answer::all_hold() const {
-  return std::all_of(verdicts.begin(), verdicts.end(), [](Verdict each) { return each == Verdict::holds || each == Verdict::reached; });
+  return std::all_of(verdicts.begin(), verdicts.end(), [](Verdict each) { return each == Verdict::holds || each == Verdict::reached || each == Verdict::not_asked; });
 }
 
 bool Answer::any_violated() const {

@@ -25,7 +25,7 @@ Question question(Variant variant, std::uint8_t slaves, std::uint32_t commands, 
 }
 
 Answer ask(const Question& question) {
-  return explore(question, [](std::uint64_t, std::uint64_t, std::uint32_t) { return true; });
+  return explore(question, [](const Progress&) { return true; });
 }
 
 std::string verdicts(const Answer& answer) {
@@ -127,7 +127,7 @@ TEST(Limits, StatesAndDepth) {
 }
 
 TEST(Limits, CanBeInterrupted) {
-  const Answer answer = explore(question(Variant::Robust, 2, 2, 1, every_fault), [](std::uint64_t, std::uint64_t, std::uint32_t) { return false; });
+  const Answer answer = explore(question(Variant::Robust, 2, 2, 1, every_fault), [](const Progress&) { return false; });
   EXPECT_TRUE(answer.interrupted);
   EXPECT_FALSE(answer.exhausted);
 }

@@ -87,6 +87,7 @@ std::string json_report(const std::string& program, const Question& question, co
       {"calls", std::to_string(question.commands)},
       {"states", std::to_string(answer.states)},
       {"steps", std::to_string(answer.transitions)},
+      {"quiescent", std::to_string(answer.quiescent)},
       {"depth", std::to_string(answer.depth)},
       {"cpu_s", fixed(cpu_s, 3)},
       {"exhausted", yes(answer.exhausted)},

@@ -4,7 +4,7 @@
 usage: mutants.py --sources FOLDER --compiler CXX --archives A.a... --probe PROBE.o --tests TEST.o... [--gtest LIB...]
                   [--only NAME] [--print]
 
-Each entry of mutants.json replaces a piece of text that occurs exactly once in a copy of src/handshake/FILE. Only that file is
+Each edit of mutants.json replaces a piece of text that occurs exactly once in a copy of src/handshake/FILE. Only that file is
 compiled anew; the object goes before the library that holds the right one. A mutant that survives the explorer is shown
 to the property tests of the handshake. Exit status 0: all were killed by what mutants.json says kills them.
 """
@@ -21,10 +21,15 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 def mutated(sources, mutant):
-    text = (sources / "src" / "handshake" / mutant["file"]).read_text(encoding="utf-8")
-    if text.count(mutant["from"]) != 1:
-        sys.exit(f"mutants: \"{mutant['name']}\": the text to replace occurs {text.count(mutant['from'])} times in {mutant['file']}: {mutant['from']!r}")
-    return text.replace(mutant["from"], mutant["to"])
+    """The changed files, by name."""
+    texts = {}
+    for edit in mutant["edits"]:
+        name = edit["file"]
+        text = texts.get(name) or (sources / "src" / "handshake" / name).read_text(encoding="utf-8")
+        if text.count(edit["from"]) != 1:
+            sys.exit(f"mutants: \"{mutant['name']}\": the text to replace occurs {text.count(edit['from'])} times in {name}: {edit['from']!r}")
+        texts[name] = text.replace(edit["from"], edit["to"])
+    return texts
 
 
 def run(command, timeout):
@@ -37,15 +42,17 @@ def run(command, timeout):
 
 def killer_of(options, mutant, folder):
     """What kills the mutant: a property, "check", a test's name; None if it survives. And the question, for people."""
-    source = folder / mutant["file"]
-    source.write_text(mutated(options.sources, mutant), encoding="utf-8")
-    made = folder / "mutant.o"
-    includes = ["-I", options.sources, "-I", options.sources / "src"]
-    status, _, err = run([options.compiler, "-std=c++20", "-O1", *includes, "-c", source, "-o", made], 300)
-    if status != 0:
-        return "does not compile", err[:2000]
+    made = []
+    for name, text in mutated(options.sources, mutant).items():
+        source = folder / name
+        source.write_text(text, encoding="utf-8")
+        made.append(source.with_suffix(".o"))
+        includes = ["-I", options.sources, "-I", options.sources / "src"]
+        status, _, err = run([options.compiler, "-std=c++20", "-O1", *includes, "-c", source, "-o", made[-1]], 300)
+        if status != 0:
+            return "does not compile", err[:2000]
     probe = folder / "probe"
-    status, _, err = run([options.compiler, options.probe, made, *options.archives, "-o", probe], 300)
+    status, _, err = run([options.compiler, options.probe, *made, *options.archives, "-o", probe], 300)
     if status != 0:
         return "does not link", err[:2000]
     status, out, _ = run([probe], 300)
@@ -57,7 +64,7 @@ def killer_of(options, mutant, folder):
     if lines[-1].startswith("killed "):
         return lines[-1].split()[1], lines[-2]
     tests = folder / "tests"
-    status, _, err = run([options.compiler, *options.tests, made, *options.archives, *options.gtest, "-lpthread", "-o", tests], 300)
+    status, _, err = run([options.compiler, *options.tests, *made, *options.archives, *options.gtest, "-lpthread", "-o", tests], 300)
     if status != 0:
         return "does not link", err[:2000]
     status, out, _ = run([tests, "--gtest_fail_fast", "--gtest_brief=1"], 300)
@@ -80,7 +87,7 @@ def main():
     options = parser.parse_args()
     mutants = json.loads((HERE / "mutants.json").read_text(encoding="utf-8"))
     if options.only:
-        mutants = [each for each in mutants if options.only in each["name"]]
+        mutants = [each for each in mutants if options.only in each["name"] or options.only == each["killed_by"]]
 
     def judged(mutant):
         with tempfile.TemporaryDirectory(prefix="takt-mutant-") as folder:

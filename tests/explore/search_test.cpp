@@ -126,10 +126,12 @@ TEST(Robust, HoldsOnChannelsAndWithAllToAllSubscription) {
     EXPECT_EQ(verdicts(apart), verdicts(answer));
   };
   for (const NetworkCase& each : cases) check(each, question(Variant::Robust, each.slaves, 1, 1, every_fault));
+#ifdef NDEBUG
   constexpr Fault crash[] = {Fault::crash};
-  check({2, 1, Subscription::Star, 0, 0}, question(Variant::Robust, 2, 1, 1, crash));
-  check({2, 2, Subscription::Star, 0, 0}, question(Variant::Robust, 2, 1, 0, {}));
+  check({2, 1, Subscription::Star, 37751, 74500}, question(Variant::Robust, 2, 1, 1, crash));
+  check({2, 2, Subscription::Star, 12842, 25264}, question(Variant::Robust, 2, 1, 0, {}));
   check({2, 0, Subscription::AllToAll, 582170, 1117007}, question(Variant::Robust, 2, 1, 1, crash));
+#endif
 }
 
 // What fails on registers fails on channels and with all-to-all subscription, too.

@@ -20,7 +20,7 @@ constexpr std::size_t most_nodes = 250;  // of the topology: each is a namespace
 /// Members of a scenario's Program that a node's file has too, and those that are said otherwise there or not at all.
 constexpr std::array<std::string_view, 11> shared = {"name",    "variant",      "master",          "slaves",         "cycle",       "offset",
                                                      "publish", "subscription", "receive_timeout", "initialisation", "process_data"};
-constexpr std::array<std::string_view, 3> translated = {"pcp", "vlan", "violations"};
+constexpr std::array<std::string_view, 4> translated = {"pcp", "vlan", "violations", "phases"};
 
 template <class Range>
 bool holds(const Range& range, std::string_view text) {
@@ -89,7 +89,10 @@ class Planner {
     const scenario::Program& description = *resolved_.programs[number].description;
     json::Node file = json::Node::object();
     file.add("node", json::Node::of_string(participant == 0 ? description.master : description.slaves[participant - 1]));
-    file.add("program", program_file);
+    json::Node program = program_file;
+    std::erase_if(program.members, [](const json::Member& member) { return member.key == "offset"; });
+    program.add("offset", json::encode_value(resolved_.programs[number].phases[participant]));
+    file.add("program", std::move(program));
     json::Node& transport = file.add("transport", json::Node::object());
     transport.add("kind", json::Node::of_string("ethernet"));
     transport.add("interface", json::Node::of_string("eth0"));

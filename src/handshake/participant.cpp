@@ -155,6 +155,24 @@ void Participant<MaxPeers>::sort_all_peers() {
 }
 
 template <std::size_t MaxPeers>
+auto Participant<MaxPeers>::renamed(std::span<const std::uint8_t> to) const -> Participant {
+  TAKT_CHECK(to.size() > config_.slaves && to[0] == 0, "a new index for each participant, and the master stays the master");
+  Participant result = *this;
+  result.config_.index = to[config_.index];
+  result.intent_.origin = intent_.origin < to.size() ? to[intent_.origin] : intent_.origin;
+  result.ready_ = 0;
+  result.running_ = 0;
+  for (std::size_t peer = 0; peer < peer_count(); ++peer) {
+    const std::size_t other = result.peer_of(to[participant_of(peer)]);
+    TAKT_CHECK(other < peer_count(), "no two participants have one index");
+    result.peers_[other] = peers_[peer];
+    result.ready_ |= (ready_ >> peer & 1U) << other;
+    result.running_ |= (running_ >> peer & 1U) << other;
+  }
+  return result;
+}
+
+template <std::size_t MaxPeers>
 std::uint64_t Participant<MaxPeers>::hash() const {
   std::uint64_t digest = 0xCBF29CE484222325ULL;
   const auto mix = [&digest](std::uint64_t value) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 
 #include "handshake/io.hpp"
@@ -64,6 +65,13 @@ class Participant {
   /// The same for process data that carries the run of its sender by itself (a message without a word). Not for
   /// `paper`.
   bool process_data_counts(std::size_t peer, std::uint32_t sender_run) const;
+
+  /// The same participant in a group whose participants have other indices: `to[i]` is the new index of participant i. A
+  /// permutation of 0 to slaves, which leaves the master 0. Its own index, the origin of its intent and the order of its peers
+  /// change, nothing else; a search uses it to see slaves that play the same part as equal.
+  Participant renamed(std::span<const std::uint8_t> to) const;
+  /// As if no transition had been taken yet: no later step depends on the last one, so a search need not tell such values apart.
+  void forget_last_transition() { machine_.forget_last_transition(); }
 
   bool operator==(const Participant&) const = default;
   /// Equal values have equal hashes; the same on every machine.

@@ -119,7 +119,9 @@ class RouteMaker {
     if (filter == ingress.stream_filters.end()) return;
     if (!filter->stream_gate.is_none()) set_gate(hop, config, ingress.stream_gates[filter->stream_gate.value]);
     if (!filter->flow_meter.is_none()) set_meter(hop, ingress.flow_meters[filter->flow_meter.value].meter);
-    if (!filter->ats_scheduler.is_none()) set_ats(hop, ingress, filter->ats_scheduler.value, node, in_port, priority);
+    // Only a class that is sent by eligibility times minds them.
+    if (!filter->ats_scheduler.is_none() && hop.lowest_class == hop.highest_class && models::contains(config.shaping.timed, hop.highest_class))
+      set_ats(hop, ingress, filter->ats_scheduler.value, node, in_port, priority);
   }
 
   static void set_gate(Hop& hop, const models::PortConfig& config, const models::StreamGateConfig& gate) {

@@ -1,7 +1,7 @@
 #include "analysis/port_bound.hpp"
 
 #include <algorithm>
-#include <memory>
+#include <limits>
 
 #include "analysis/class_demand.hpp"
 #include "analysis/gate_windows.hpp"
@@ -30,6 +30,8 @@ class PortAnalysis {
       : model_(model), traffic_(traffic), config_(*model.config), octet_(model.octet_time), gap_(octet_ * models::inter_packet_gap.count) {
     bound_.flows.resize(traffic.flows.size());
     for (TrafficClass q = 0; q < traffic_class_count; ++q) demands_.emplace_back(traffic, models::with(0, q), octet_);
+    shaped_rate_.fill(std::numeric_limits<double>::infinity());
+    shaped_burst_.fill(std::numeric_limits<double>::infinity());
     if (config_.shaping.gates) gates_.emplace_back(with_hold(*config_.shaping.gates));
     for (const models::GateConfig& gates : model.more_gates) gates_.emplace_back(with_hold(gates));
   }
@@ -148,7 +150,7 @@ class PortAnalysis {
     for (int step = 0; step < most_steps; ++step) {
       Ps need = service.is_shaped ? rounded_up((static_cast<double>(sum(before, cuts(q, time))) + service.credit) / service.idle_share)
                                   : sum(service.blocked, before, interference(q, time));
-      if (contains(model_.unordered, q)) need = sum(need, demands_[q].work(time));
+      if (contains(model_.unordered, q)) need = sum(need - std::min(before, need), std::max(before, demands_[q].work(time)));
       const Ps next = through_gates(service, need);
       if (next > longest_search_ps) return unbounded_ps;
       if (next <= time) return time;

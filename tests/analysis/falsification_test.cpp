@@ -88,6 +88,12 @@ struct Total {
   std::map<std::size_t, std::size_t> by_mix;
 };
 
+// TAKT_FALSIFICATION_SHOW=17 prints network 17.
+TEST(Falsification, DISABLED_ShowsANetwork) {
+  const char* const wanted = std::getenv("TAKT_FALSIFICATION_SHOW");
+  if (wanted != nullptr) std::fputs(network(static_cast<std::size_t>(std::atoi(wanted))).c_str(), stdout);
+}
+
 /// Phases as drawn, all at once, all at the listeners at once, then changed one by one where that brings some stream nearer to its bound.
 void drive(std::size_t number, const BoundOptions& options, Total& total) {
   const std::string text = network(number);

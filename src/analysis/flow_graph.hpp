@@ -24,7 +24,9 @@ struct GraphPort {
 
 /// How ATS holds a flow back before a hop.
 struct AtsHold {
-  std::uint64_t group = 0;           ///< flows with the same number share a scheduler group; 0: nothing is known
+  bool is_minded = true;             ///< the class is sent by eligibility times; if not, the flow only moves on the times of its group
+  bool is_shared = false;            ///< several streams take the tokens of the scheduler
+  std::uint64_t group = 0;           ///< flows with the same number share a scheduler group, and wait for each other
   ArrivalPattern shaped;             ///< what leaves the scheduler
   std::int64_t bits = 0;             ///< of a frame, as the scheduler counts them
   std::int64_t burst_bits = 0;

@@ -55,6 +55,7 @@ struct Hop {
 struct Flow {
   models::StreamIndex stream;           ///< none: gPTP at one port
   FrameArrivals source;                 ///< at the egress queue of the talker
+  std::optional<ArrivalPhase> produced = {};   ///< when frames are produced, if that is known
   Ps worst_source = 0;                  ///< from production to the egress queue
   Ps best_source = 0;
   bool may_miss_launch = false;         ///< the operating system may hand a frame over after its launch time

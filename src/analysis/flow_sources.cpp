@@ -71,6 +71,8 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, c
     flow.best_source = os.transmit.least().ps();
   }
   pattern.jitter = sum(pattern.jitter, flow.worst_source - flow.best_source);
+  if (const auto* const periodic = std::get_if<models::PeriodicSchedule>(&talker.schedule); periodic != nullptr && clock.is_synchronised)
+    flow.produced = ArrivalPhase{periodic->offset.ps() - clock.error, periodic->period.ps(), periodic->jitter.ps() + 2 * clock.error};
   if (talker.babbles) graph.assumptions.add(Assumption::listed_faults_only);
   flow.source = FrameArrivals(pattern);
   graph.flows.push_back(std::move(flow));
@@ -86,6 +88,9 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
     flow.worst_source = os.transmit.greatest().ps();
     flow.best_source = os.transmit.least().ps();
     const Ps jitter = sum(os.wake_up.greatest().ps() - os.wake_up.least().ps() + 2 * clock.error, flow.worst_source - flow.best_source);
+    const Ps wake_up = os.wake_up.greatest().ps() - os.wake_up.least().ps();
+    if (frames == 1 && clock.is_synchronised)
+      flow.produced = ArrivalPhase{program.description->offset.ps() + os.wake_up.least().ps() - clock.error, program.description->cycle.ps(), wake_up + 2 * clock.error};
     flow.source = FrameArrivals({std::max<Ps>(1, shortest(program.description->cycle.ps(), clock)), frames, 0, jitter});
     graph.flows.push_back(std::move(flow));
   };

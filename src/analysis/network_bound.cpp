@@ -90,7 +90,10 @@ class FixedPoint {
       is_due_[p] = false;
       changed = true;
       const std::vector<std::uint32_t>& hops = graph_.ports[p].hops;
-      for (std::size_t i = 0; i < hops.size(); ++i) traffic_[p].flows[i].arrivals = arrivals_[hops[i]];
+      for (std::size_t i = 0; i < hops.size(); ++i) {
+        traffic_[p].flows[i].arrivals = arrivals_[hops[i]];
+        traffic_[p].flows[i].phase = phase_of(hops[i]);
+      }
       result_.ports[p] = bound_port(graph_.models[p], traffic_[p]);
       for (std::size_t i = 0; i < hops.size(); ++i) {
         HopResult& hop = result_.hops[hops[i]];
@@ -145,6 +148,18 @@ class FixedPoint {
     result.worst = worst;
     arrivals_[h] = std::move(arrivals);
     is_due_[hop.port] = true;   // and with it the hops behind
+  }
+
+  /// When the frames of a flow come to a hop, if that is known. A flow whose frames are doubled has no such times.
+  std::optional<ArrivalPhase> phase_of(std::uint32_t h) const {
+    const Flow& flow = graph_.flows[graph_.hops[h].flow];
+    const HopResult& result = result_.hops[h];
+    if (!flow.produced || !is_bounded(result.worst)) return std::nullopt;
+    for (const std::uint32_t each : flow.hops)
+      if (graph_.ports[graph_.hops[each].port].may_double) return std::nullopt;
+    // Clocks may drift a little on the way.
+    const Ps drift = scaled_up(result.worst, graph_.models[graph_.hops[h].port].clock.rate_ppt, 1'000'000'000'000);
+    return ArrivalPhase{flow.produced->first + result.best - drift, flow.produced->period, sum(flow.produced->width + 2 * drift, result.worst - result.best)};
   }
 
   static bool same(const FrameArrivals& a, const FrameArrivals& b) {

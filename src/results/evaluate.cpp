@@ -22,6 +22,7 @@ std::string cause_name(handshake::Alarm alarm) {
     case handshake::Alarm::PeerSilent: return "silent peer";
     case handshake::Alarm::PeerRestarted: return "restarted peer";
     case handshake::Alarm::Mismatch: return "mismatch";
+    case handshake::Alarm::OtherGroup: return "nested group";
   }
   return "?";
 }

@@ -44,7 +44,9 @@ auto Coupling::next(const GroupView& outer, const GroupView& inner) -> std::opti
   inner_state_ = inner.state;
 
   std::optional<Step> step;
-  const bool starts = outer.intent.kind == IntentKind::Start && outer.intent.run != started_for_;
+  // A reset of the former inner run can overrule the inner start; then it is started again.
+  const bool overruled = outer.run != outer.intent.run && inner.state == ready && inner.may_start;
+  const bool starts = outer.intent.kind == IntentKind::Start && (outer.intent.run != started_for_ || overruled);
   if (starts && (outer.state == init || outer.state == ready)) {
     if (inner.may_start) started_for_ = outer.intent.run;
     step = Step{Side::Inner, Input::command(inner.may_start ? Method::Start : Method::Halt)};
@@ -72,7 +74,11 @@ auto Coupling::pass_barriers(const GroupView& outer, const GroupView& inner) con
   if (outer.may_run && inner.state == running) return Step{Side::Outer, Input::released(outer.run)};
   // One group has finished while the other one was within its barrier.
   if (outer.may_run && inner.state == ready) return Step{Side::Outer, Input::finished()};
-  if (outer.state == ready && !outer_starts && inner_starts) return Step{Side::Inner, Input::finished()};
+  if (outer.state == ready && !outer_starts && inner_starts) {
+    // A reset of the former run that has overruled the start finds inner participants that are in neither run: only a halt remains.
+    const bool can_follow = inner.run == inner.intent.run || inner.peers_ready;
+    return Step{Side::Inner, can_follow ? Input::finished() : Input::command(Method::Halt)};
+  }
   return std::nullopt;
 }
 

@@ -84,6 +84,11 @@ Node programs_of(const results::RunResult& result) {
     Node reactions = Node::array();
     for (const results::ReactionResult& r : p.reactions) reactions.items.push_back(reaction_node(r));
     node.add("reactions", std::move(reactions));
+    if (!p.tree_reactions.empty()) {
+      Node tree = Node::array();
+      for (const results::ReactionResult& r : p.tree_reactions) tree.items.push_back(reaction_node(r));
+      node.add("tree_reactions", std::move(tree));
+    }
     Node states = Node::object();
     for (std::size_t i = 0; i < p.participants.size(); ++i) states.add(p.participants[i], Node::of_string(p.states[i]));
     node.add("states", std::move(states));

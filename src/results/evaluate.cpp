@@ -50,6 +50,36 @@ StreamResult result_of(const models::Stream& stream, bool of_program) {
   return result;
 }
 
+ReactionResult result_of(const handshake::Reaction& reaction, std::string initiator) {
+  ReactionResult one;
+  one.kind = kind_name(reaction.kind);
+  one.initiator = std::move(initiator);
+  one.cause = cause_name(reaction.alarm);
+  one.began = reaction.began;
+  if (reaction.outcome == handshake::ReactionOutcome::Completed) one.completed = reaction.completed;
+  one.superseded = reaction.outcome == handshake::ReactionOutcome::Superseded;
+  return one;
+}
+
+/// What the tree says whose outermost program this is.
+void add_tree(const scenario::Run& run, std::size_t index, ProgramResult& result) {
+  const auto name = [&](std::uint32_t program, std::uint8_t participant) {
+    const ResolvedProgram& of = run.resolved().programs[program];
+    return of.name + "/" + run.resolved().topology.nodes[of.participants[participant].value].name;
+  };
+  for (const auto& tree : run.trees()) {
+    if (tree->programs().front() != index) continue;
+    for (const handshake::Reaction& reaction : tree->reactions()) {
+      const auto [program, participant] = tree->initiator_of(reaction);
+      result.tree_reactions.push_back(result_of(reaction, name(program, participant)));
+    }
+    for (const scenario::TreeMonitor::Violation& each : tree->violations())
+      result.violations.push_back({each.time, std::string(handshake::name_of(each.violation.violation.invariant)) + " of the tree",
+                                   name(tree->programs()[each.violation.group], each.violation.violation.participant),
+                                   std::string(handshake::text_of(each.violation.violation.finding))});
+  }
+}
+
 ProgramResult result_of(const scenario::Run& run, std::size_t index) {
   const ResolvedProgram& program = run.resolved().programs[index];
   const scenario::ProgramMonitor& monitor = run.monitor(index);
@@ -61,19 +91,11 @@ ProgramResult result_of(const scenario::Run& run, std::size_t index) {
     result.participants.push_back(run.resolved().topology.nodes[program.participants[p].value].name);
     result.states.emplace_back(handshake::name_of(run.state(index, p)));
   }
-  for (const handshake::Reaction& reaction : monitor.reactions()) {
-    ReactionResult one;
-    one.kind = kind_name(reaction.kind);
-    one.initiator = result.participants[reaction.initiator];
-    one.cause = cause_name(reaction.alarm);
-    one.began = reaction.began;
-    if (reaction.outcome == handshake::ReactionOutcome::Completed) one.completed = reaction.completed;
-    one.superseded = reaction.outcome == handshake::ReactionOutcome::Superseded;
-    result.reactions.push_back(std::move(one));
-  }
+  for (const handshake::Reaction& reaction : monitor.reactions()) result.reactions.push_back(result_of(reaction, result.participants[reaction.initiator]));
   for (const scenario::ViolationRecord& violation : monitor.violations())
     result.violations.push_back({violation.time, std::string(handshake::name_of(violation.violation.invariant)),
                                  result.participants[violation.violation.participant], std::string(handshake::text_of(violation.violation.finding))});
+  add_tree(run, index, result);
   result.violations_allowed = program.description->violations == scenario::Violations::reported;
   for (const scenario::StateRecord& record : monitor.history())
     result.timeline.push_back({record.time, record.participant, "", std::string(handshake::name_of(record.change.to))});
@@ -134,13 +156,13 @@ class Judge {
   void reaction(const scenario::Requirement& requirement) {
     RequirementResult verdict;
     const std::string kind(scenario::spelling(*requirement.reaction));
-    verdict.text = "reaction " + kind + (requirement.program ? " of " + *requirement.program : "") + " within " + json_text(*requirement.within);
+    verdict.text = "reaction " + kind + (requirement.tree ? " of the tree" : "") + (requirement.program ? " of " + *requirement.program : "") + " within " + json_text(*requirement.within);
     verdict.limit = *requirement.within;
     std::size_t seen = 0;
     std::size_t incomplete = 0;
     for (const ProgramResult& program : result_.programs) {
       if (requirement.program && program.name != *requirement.program) continue;
-      for (const ReactionResult& one : program.reactions) {
+      for (const ReactionResult& one : requirement.tree ? program.tree_reactions : program.reactions) {
         if (one.kind != kind || one.superseded) continue;
         ++seen;
         if (!one.completed)

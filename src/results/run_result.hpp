@@ -58,7 +58,7 @@ struct StreamResult {
 
 struct ReactionResult {
   std::string kind;
-  std::string initiator;
+  std::string initiator;                   ///< node; of a tree: program, '/', node
   std::string cause;                       ///< "command", or why it began by itself
   TrueTime began;
   std::optional<TrueTime> completed;
@@ -88,6 +88,7 @@ struct ProgramResult {
   std::vector<std::string> participants;   ///< node names, the master first
   std::vector<std::string> states;         ///< at the end
   std::vector<ReactionResult> reactions;
+  std::vector<ReactionResult> tree_reactions;  ///< of it and all that are nested in it; the outermost program of a tree only
   std::vector<ViolationResult> violations;
   bool violations_allowed = false;
   std::vector<TimelineEntry> timeline;

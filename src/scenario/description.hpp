@@ -274,6 +274,7 @@ struct Program {
   Variant variant = Variant::robust;
   std::string master;
   std::vector<std::string> slaves;
+  std::optional<std::string> within;
   Duration cycle;
   Duration offset;
   Publish publish = Publish::cyclic;
@@ -315,6 +316,7 @@ struct Requirement {
   std::optional<Reaction> reaction;
   std::optional<std::string> program;
   std::optional<Duration> within;
+  bool tree = false;
   std::optional<std::string> stream;
   std::optional<Duration> latency;
   std::optional<Duration> jitter;

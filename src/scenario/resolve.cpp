@@ -14,6 +14,7 @@
 #include "scenario/resolve_egress.hpp"
 #include "scenario/resolve_ingress.hpp"
 #include "scenario/resolve_faults.hpp"
+#include "scenario/resolve_nesting.hpp"
 #include "scenario/stream_builder.hpp"
 #include "scenario/trace_file.hpp"
 #include "wire/program_format.hpp"
@@ -38,6 +39,7 @@ class Resolver {
     check_names();
     for (const Stream& stream : r_.scenario.streams) add_stream(stream);
     for (const Program& program : r_.scenario.programs) add_program(program);
+    resolve_nesting(r_, diagnostics_);
     resolve_demand(r_, diagnostics_);
     resolve_ingress(r_, diagnostics_);
     check_cut_through(r_, diagnostics_);
@@ -345,6 +347,10 @@ class Resolver {
     // In the paper's handshake all participants may be started from outside; `robust` begins a run at the master.
     if (*entry.call == Method::start && *participant != 0 && program->variant == Variant::robust) {
       diagnostics_.error(entry.where.at("on"), "Start at a slave", {json::quote(*entry.on), "the master, " + json::quote(program->master)});
+      return;
+    }
+    if (*entry.call == Method::start && program->within) {
+      diagnostics_.error(entry.where.at("program"), "Start of a nested program", {json::quote(program->name), "the outermost program, which starts it"});
       return;
     }
     const auto found = std::find_if(r_.programs.begin(), r_.programs.end(), [&](const ResolvedProgram& p) { return p.description == program; });

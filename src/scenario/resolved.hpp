@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -44,6 +45,13 @@ struct ResolvedProgram {
   std::vector<ResolvedProcessData> process_data;
   Duration receive_timeout;
   std::uint16_t first_publisher_id = 1;                 ///< of the master
+  /// Nested: its master is a slave of this program.
+  struct Outer {
+    std::uint32_t program = 0;                          ///< in Resolved::programs
+    std::uint8_t participant = 0;
+  };
+  std::optional<Outer> outer = {};
+  std::set<std::uint8_t> nested = {};                   ///< participants whose nodes are in an outer or inner program, too
 };
 
 struct ResolvedCall {

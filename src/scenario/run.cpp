@@ -1,9 +1,11 @@
 #include "scenario/run.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "scenario/program_shape.hpp"
+#include "scenario/resolve_nesting.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -56,6 +58,7 @@ Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle)
     : resolved_(&resolved), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan) {
   simulation_.set_tie_shuffle(tie_shuffle);
   for (std::uint32_t i = 0; i < resolved.programs.size(); ++i) add_program(i, resolved.programs[i]);
+  nest_programs();
   script_ = std::make_unique<Script>(*this, simulation_);
   watch_clocks();
   network_.start();
@@ -93,6 +96,7 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
     endpoint.handshake.incarnation = 1;
     endpoint.handshake.subscription =
         description.subscription == Subscription::star ? handshake::Subscription::Star : handshake::Subscription::AllToAll;
+    endpoint.handshake.nested = program.nested.contains(static_cast<std::uint8_t>(p));
     endpoint.format = format;
     endpoint.cycle = description.cycle;
     endpoint.offset = description.offset;
@@ -108,6 +112,25 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
   }
   connect_streams(program, *live);
   programs_.push_back(std::move(live));
+}
+
+void Run::nest_programs() {
+  for (std::size_t i = 0; i < programs_.size(); ++i)
+    if (const auto& outer = resolved_->programs[i].outer)
+      nestings_.push_back(ProgramApplication::nest(*programs_[outer->program]->applications[outer->participant], *programs_[i]->applications[0]));
+  for (const std::vector<std::uint32_t>& tree : trees_of(*resolved_)) {
+    std::vector<handshake::TreeGroup> groups;
+    for (const std::uint32_t number : tree) {
+      handshake::TreeGroup group{resolved_->programs[number].participants.size(), 0, 0};
+      if (const auto& outer = resolved_->programs[number].outer) {
+        group.outer = static_cast<std::size_t>(std::find(tree.begin(), tree.end(), outer->program) - tree.begin());
+        group.outer_index = outer->participant;
+      }
+      groups.push_back(group);
+    }
+    trees_.push_back(std::make_unique<TreeMonitor>(simulation_, tree, std::move(groups)));
+    for (std::size_t g = 0; g < tree.size(); ++g) programs_[tree[g]]->monitor->set_tree(*trees_.back(), g);
+  }
 }
 
 void Run::crash_programs(models::NodeIndex node) {

@@ -25,6 +25,8 @@ class Run {
   sim::Simulation& simulation() { return simulation_; }
   const sim::Simulation& simulation() const { return simulation_; }
   const models::Network& network() const { return network_; }
+  /// Of trees of nested programs.
+  const std::vector<std::unique_ptr<TreeMonitor>>& trees() const { return trees_; }
   const ProgramMonitor& monitor(std::size_t program) const { return *programs_[program]->monitor; }
   /// Null without gPTP.
   const ClockMonitor* clocks() const { return clock_monitor_.get(); }
@@ -48,6 +50,7 @@ class Run {
 
   void watch_clocks();
   void add_program(std::uint32_t number, const ResolvedProgram& program);
+  void nest_programs();
   void crash_programs(models::NodeIndex node);
   void connect_streams(const ResolvedProgram& program, const LiveProgram& live);
 
@@ -55,6 +58,8 @@ class Run {
   sim::Simulation simulation_;
   models::Network network_;
   std::vector<std::unique_ptr<LiveProgram>> programs_;
+  std::vector<std::unique_ptr<wire::Nesting>> nestings_;
+  std::vector<std::unique_ptr<TreeMonitor>> trees_;
   std::unique_ptr<Script> script_;
   std::unique_ptr<ClockMonitor> clock_monitor_;
 };

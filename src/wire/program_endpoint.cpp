@@ -4,6 +4,8 @@
 #include <bit>
 #include <utility>
 
+#include "wire/nesting.hpp"
+
 namespace takt::wire {
 namespace {
 
@@ -34,6 +36,7 @@ void ProgramEndpoint::forget(std::uint32_t incarnation) {
   data_sequence_.assign(data_.size(), 0);
   state_sequence_ = 0;
   initialisation_run_ = 0;
+  if (nesting_ != nullptr) nesting_->forget();
 }
 
 void ProgramEndpoint::start(EndpointHost& host) {
@@ -48,7 +51,7 @@ void ProgramEndpoint::wake(EndpointHost& host, std::size_t alarm) {
   if (alarm == cycle_alarm)
     cycle(host);
   else if (alarm == initialised_alarm)
-    step(host, Input::initialised(initialisation_run_));
+    nesting_ == nullptr ? static_cast<void>(step(host, Input::initialised(initialisation_run_))) : nesting_->initialised(*this, initialisation_run_);
   else
     step(host, Input::peer_silent(alarm - first_peer_alarm));
 }
@@ -125,6 +128,7 @@ Outputs ProgramEndpoint::step(EndpointHost& host, const Input& input) {
   for (handshake::PeerSet peers = outputs.arm_timeout; peers != 0; peers &= peers - 1)
     host.set_alarm(first_peer_alarm + static_cast<std::size_t>(std::countr_zero(peers)), host.now() + settings_.receive_timeout);
   if (outputs.publish && settings_.publish_on_change) publish_state(host);
+  if (nesting_ != nullptr) nesting_->settle();
   return outputs;
 }
 

@@ -16,6 +16,8 @@
 
 namespace takt::wire {
 
+class Nesting;
+
 /// What an endpoint asks of the machine it is on, and tells it. A message goes to the Destination with its WriterGroupId.
 class EndpointHost : public pubsub::PublishedData {
  public:
@@ -62,6 +64,9 @@ class ProgramEndpoint {
   /// It loses its memory, as in a crash, and is another incarnation. Publishes again after `start`.
   void forget(std::uint32_t incarnation);
 
+  /// Its node is in another group, too (nesting.hpp).
+  void join(Nesting* nesting) { nesting_ = nesting; }
+
   /// A method call by a client or the user of this node; what came of it.
   program::StatusCode call(EndpointHost& host, program::Method method);
   /// The local process has ended by itself.
@@ -81,6 +86,7 @@ class ProgramEndpoint {
   std::uint64_t missed_cycles() const { return missed_cycles_; }
 
  private:
+  friend class Nesting;  // takes steps here that follow from the other group
   static constexpr std::size_t cycle_alarm = 0;
   static constexpr std::size_t initialised_alarm = 1;
   static constexpr std::size_t first_peer_alarm = 2;  // one for each peer: its MessageReceiveTimeout
@@ -111,6 +117,7 @@ class ProgramEndpoint {
   std::int64_t next_cycle_ = 0;
   std::uint64_t missed_cycles_ = 0;
   EndpointCounts counts_;
+  Nesting* nesting_ = nullptr;
   std::array<std::byte, 1500> buffer_;
 };
 

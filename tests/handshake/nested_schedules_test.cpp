@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -136,9 +137,7 @@ std::string silence(Tree& tree, std::size_t silent_node) {
   return {};
 }
 
-/// What is wrong with a schedule; empty if nothing.
-std::string run(const std::vector<Action>& schedule, const Shape& shape, bool begin_running, bool* ran = nullptr) {
-  World world(shape);
+std::string judge(World& world, const std::vector<Action>& schedule, bool begin_running, bool* ran) {
   Tree& tree = world.tree;
   if (begin_running) {
     tree.call(0, 0, program::Method::Start);
@@ -169,6 +168,16 @@ std::string run(const std::vector<Action>& schedule, const Shape& shape, bool be
   if (!tree.agreed()) return "L1 after silence: no agreement\n" + tree.describe();
   if (!tree.observer.violations().empty()) return "violation after silence\n" + tree.describe();
   return {};
+}
+
+/// What is wrong with a schedule; empty if nothing.
+std::string run(const std::vector<Action>& schedule, const Shape& shape, bool begin_running, bool* ran = nullptr) {
+  World world(shape);
+  try {
+    return judge(world, schedule, begin_running, ran);
+  } catch (const std::exception& failure) {
+    return failure.what() + std::string("\n") + world.tree.describe();
+  }
 }
 
 /// Leaves out whatever is not needed for the failure, in ever smaller pieces.

@@ -142,6 +142,69 @@ TEST(Nested, ASuspendWithinTheOuterBarrierIsPassedOnWhenThatIsOver) {
   EXPECT_TRUE(tree.all_in(Suspended) && tree.agreed()) << tree.describe();
 }
 
+/// Cell with a nested machine and a plain slave, which is Running while the machine has not heard that the cell's master is Ready.
+Tree within_the_barrier() {
+  Tree tree({{3, 0, 0}, {3, 0, 1}});
+  tree.call(0, 0, Method::Start);
+  tree.tell_all(0, 0);
+  for (int i = 0; i < 3; ++i) {
+    for (std::size_t n = 0; n < tree.participants(); ++n)
+      if (tree.initialising(n)) tree.initialised(n);
+    for (std::size_t i2 = 0; i2 < 3; ++i2) tree.tell_all(1, i2);
+    tree.tell_all(0, 1);
+    tree.tell_all(0, 2);
+  }
+  EXPECT_EQ(tree.member(0, 0).state(), Ready) << tree.describe();
+  EXPECT_EQ(tree.member(0, 1).state(), Ready) << tree.describe();
+  EXPECT_EQ(tree.member(1, 0).state(), HaltedInit) << tree.describe();
+  tree.deliver(tree.message(0, 0, 2));
+  EXPECT_EQ(tree.member(0, 2).state(), Running) << tree.describe();
+  return tree;
+}
+
+TEST(Nested, AFinishOutsideEndsAnInnerBarrierThatHasNotBegun) {
+  Tree tree = within_the_barrier();
+  tree.step(0, 2, Input::finished());
+  tree.tell_all(0, 2);
+  tree.tell_all(0, 0);
+  EXPECT_EQ(tree.member(1, 0).state(), Ready) << tree.describe();
+  tree.rounds(3);
+  EXPECT_TRUE(tree.all_in(Ready) && tree.agreed()) << tree.describe();
+  EXPECT_TRUE(tree.observer.violations().empty()) << tree.describe();
+}
+
+TEST(Nested, AFinishInsideEndsTheOuterBarrier) {
+  Tree tree = within_the_barrier();
+  tree.deliver(tree.message(0, 0, 1));
+  tree.tell_all(1, 0);
+  ASSERT_EQ(tree.member(1, 1).state(), Running) << tree.describe();
+  ASSERT_EQ(tree.member(0, 1).state(), Ready) << tree.describe();
+  tree.step(1, 1, Input::finished());
+  tree.rounds(3);
+  EXPECT_TRUE(tree.all_in(Ready) && tree.agreed()) << tree.describe();
+  EXPECT_TRUE(tree.observer.violations().empty()) << tree.describe();
+}
+
+TEST(Nested, AnInnerResetThatOverrulesTheStartDelaysIt) {
+  Tree tree({{2, 0, 0}, {3, 0, 1}});
+  tree.call(0, 0, Method::Start);
+  tree.rounds(8);
+  ASSERT_EQ(tree.call(0, 0, Method::Suspend), StatusCode::Good);
+  tree.rounds(4);
+  ASSERT_TRUE(tree.all_in(Suspended)) << tree.describe();
+  // Both ends reset at the same time; the later words of the inner slave meet a start with its number.
+  ASSERT_EQ(tree.call(1, 2, Method::Reset), StatusCode::Good);
+  ASSERT_EQ(tree.call(0, 1, Method::Reset), StatusCode::Good);
+  const TreeMessage late = tree.message(1, 2, 0);
+  tree.tell_all(0, 1);
+  ASSERT_EQ(tree.call(0, 0, Method::Start), StatusCode::Good) << tree.describe();
+  tree.tell_all(0, 0);
+  tree.deliver(late);
+  tree.rounds(8);
+  EXPECT_TRUE(tree.all_in(Running) && tree.agreed()) << tree.describe();
+  EXPECT_TRUE(tree.observer.violations().empty()) << tree.describe();
+}
+
 TEST(Nested, TheValueIsCopiedComparedAndHashed) {
   const Config outer{Variant::Robust, Role::Slave, 1, 1, 1, Subscription::Star, false};
   const Config inner{Variant::Robust, Role::Master, 0, 1, 1, Subscription::Star, false};

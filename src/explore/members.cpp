@@ -108,7 +108,8 @@ Input Members::input_of(const Participant& value, const Stimulus& stimulus) cons
     case Input::Kind::Finished: return Input::finished();
     case Input::Kind::PeerSilent: return Input::peer_silent(stimulus.what);
     case Input::Kind::Released:
-    case Input::Kind::PeerReplaced: break;  // of nested groups and of changing members, which are not explored
+    case Input::Kind::PeerReplaced:
+    case Input::Kind::PeerLeft: break;  // of nested groups and of changing members, which are not explored
   }
   return Input::finished();
 }

@@ -18,7 +18,7 @@ using PeerSet = std::uint64_t;
 
 /// One input of a step; made by the named functions.
 struct Input {
-  enum class Kind : std::uint8_t { Command, Received, Initialised, Finished, PeerSilent, Released, PeerReplaced };
+  enum class Kind : std::uint8_t { Command, Received, Initialised, Finished, PeerSilent, Released, PeerReplaced, PeerLeft };
 
   Kind kind = Kind::Finished;
   program::Method method = program::Method::Halt;  ///< Command
@@ -69,6 +69,13 @@ struct Input {
     input.run = run;
     return input;
   }
+  /// The node behind a peer is gone: the group halts. At the master.
+  static constexpr Input peer_left(std::size_t peer) {
+    Input input;
+    input.kind = Kind::PeerLeft;
+    input.peer = static_cast<std::uint8_t>(peer);
+    return input;
+  }
   /// From now on another one is this peer: whatever was heard of the former one is forgotten. At the master in Halted; else
   /// it changes nothing.
   static constexpr Input peer_replaced(std::size_t peer) {
@@ -93,6 +100,7 @@ struct StateChange {
 enum class Alarm : std::uint8_t {
   None,
   PeerSilent,     ///< a peer's MessageReceiveTimeout expired
+  PeerLeft,       ///< a peer's node has left the group, or has begun another life
   PeerRestarted,  ///< a peer's incarnation changed
   Mismatch,       ///< an intent that cannot be followed from here, so somebody's history is not mine
   OtherGroup,     ///< the group that this one is nested in, or that is nested in it, has done the same

@@ -35,6 +35,10 @@ Outputs Participant<MaxPeers>::step(const Input& input) {
     case Input::Kind::Released:
       if (config_.nested && input.run == run_ && may_run()) move_to(PublishedState::Running, outputs);
       break;
+    case Input::Kind::PeerLeft:
+      TAKT_CHECK(is_master() && input.peer < peer_count() && robust, "the master's peers leave");
+      if (state() != PublishedState::Halted) raise_alarm(Alarm::PeerLeft, intent_.number, outputs);
+      break;
     case Input::Kind::PeerReplaced:
       TAKT_CHECK(is_master() && input.peer < peer_count(), "the master's peers are replaced");
       if (machine_.at_rest()) {

@@ -209,6 +209,7 @@ template void Participant<4>::robust_received(const Input&, Outputs&);
 template void Participant<4>::robust_silent(std::size_t, Outputs&);
 template void Participant<4>::raise(IntentKind, std::uint32_t, Outputs&);
 template void Participant<4>::robust_barrier(Outputs&);
+template void Participant<4>::raise_alarm(Alarm, std::uint32_t, Outputs&);
 template bool Participant<4>::robust_may_start() const;
 template bool Participant<4>::robust_may_suspend() const;
 template void Participant<64>::robust_command(Method, Outputs&);
@@ -216,6 +217,7 @@ template void Participant<64>::robust_received(const Input&, Outputs&);
 template void Participant<64>::robust_silent(std::size_t, Outputs&);
 template void Participant<64>::raise(IntentKind, std::uint32_t, Outputs&);
 template void Participant<64>::robust_barrier(Outputs&);
+template void Participant<64>::raise_alarm(Alarm, std::uint32_t, Outputs&);
 template bool Participant<64>::robust_may_start() const;
 template bool Participant<64>::robust_may_suspend() const;
 

@@ -22,6 +22,8 @@ Binder::Binder(std::span<const SkillId> roles, std::size_t candidates, bool rest
 
 void Binder::announced(std::uint8_t candidate, const Announcement& announcement) {
   TAKT_CHECK(candidate < candidate_count_, "an announcement is one of a candidate");
+  // A late one of a former life says nothing; but after silence the clock that gave the life may have been set back.
+  if (candidates_[candidate].here && is_later_life(candidates_[candidate].last.life, announcement.life)) return;
   candidates_[candidate].last = announcement;
   candidates_[candidate].here = true;
 }
@@ -34,7 +36,7 @@ void Binder::role_silent(std::size_t role) {
 
 bool Binder::present(std::uint8_t candidate) const {
   const Candidate& each = candidates_[candidate];
-  return each.here && !each.last.leaving && each.last.life != each.used_life;
+  return each.here && !each.last.leaving && (each.used_life == 0 || is_later_life(each.last.life, each.used_life));
 }
 
 bool Binder::is_lost(std::size_t role) const {
@@ -132,12 +134,12 @@ auto Candidate::table(std::span<const Binding> bindings, std::uint32_t used_life
     const Binding& mine = bindings[*role_];
     if (mine.candidate == number_ && mine.life == announcement_.life) return Change::None;
     role_.reset();
-    ++announcement_.life;
+    announcement_.life = next_life(announcement_.life);
     if (announcement_.leaving) joined_ = false;
     announcement_.leaving = false;
     return Change::Released;
   }
-  if (announcement_.life == used_life) ++announcement_.life;
+  if (used_life != 0 && !is_later_life(announcement_.life, used_life)) announcement_.life = next_life(used_life);
   if (!joined_) return Change::None;
   for (std::size_t role = 0; role < bindings.size(); ++role) {
     if (bindings[role].candidate != number_ || bindings[role].life != announcement_.life) continue;

@@ -23,9 +23,13 @@ inline constexpr std::size_t most_skills = 8;
 using SkillId = std::uint32_t;
 SkillId skill_id(std::string_view name);
 
+/// Lives of a node have 24 bits and an order as of serial numbers. 0 is none.
+constexpr bool is_later_life(std::uint32_t life, std::uint32_t than) { return static_cast<std::int32_t>((life - than) << 8) > 0; }
+constexpr std::uint32_t next_life(std::uint32_t life) { return life % 0xFFFFFFU + 1; }
+
 /// What a node says of itself. A life serves in one role once: whoever was let go begins another one.
 struct Announcement {
-  std::uint32_t life = 0;                       ///< never 0; another one after each restart and after each release
+  std::uint32_t life = 0;                       ///< never 0; a later one after each restart and after each release
   bool leaving = false;                         ///< asks to be let go
   std::array<SkillId, most_skills> skills{};    ///< 0: no more
   bool operator==(const Announcement&) const = default;
@@ -96,7 +100,7 @@ class Binder {
  private:
   struct Candidate {
     Announcement last;
-    std::uint32_t used_life = 0;  ///< has been bound and let go; 0: none
+    std::uint32_t used_life = 0;  ///< the latest that was bound and let go; 0: none
     bool here = false;
     bool operator==(const Candidate&) const = default;
   };

@@ -100,7 +100,7 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
   std::fputs(diagnostics.to_text().c_str(), stderr);
   if (!resolved) return {};
   for (const scenario::Program& program : resolved->scenario.programs) {
-    const std::size_t slaves = options.slaves.value_or(static_cast<unsigned>(program.slaves.size()));
+    const std::size_t slaves = options.slaves.value_or(static_cast<unsigned>(program.slaves.size() + program.roles.size()));
     if (slaves > explore::most_slaves) {
       std::fprintf(stderr, "takt: Program %s has %zu slaves; at most %zu can be explored: give --slaves N to explore a smaller group with its variant\n",
                    program.name.c_str(), slaves, explore::most_slaves);

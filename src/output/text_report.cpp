@@ -116,10 +116,23 @@ std::string reactions_part(const std::vector<results::ReactionResult>& reactions
   return out;
 }
 
+constexpr std::size_t most_bindings = 40;
+
+std::string bindings_part(const ProgramResult& program) {
+  std::string out = "\n  Roles (which node got them, and when)\n";
+  std::size_t shown = 0;
+  for (const results::BindingResult& each : program.bindings) {
+    if (shown++ == most_bindings) return out + fmt::format("  ... {} more bindings\n", program.bindings.size() - most_bindings);
+    out += fmt::format("  {:>16}  {:<16} {}\n", readable(each.at.since_start()), each.role, each.node.empty() ? "nobody" : each.node);
+  }
+  return out;
+}
+
 std::string program_part(const ProgramResult& program) {
   std::string out = heading(fmt::format("Program {}: {} handshake, master {}, {} slave{}, cycle {}", program.name, program.variant,
                                         program.participants.front(), program.participants.size() - 1,
                                         program.participants.size() == 2 ? "" : "s", readable(program.cycle)));
+  if (!program.bindings.empty()) out += bindings_part(program).substr(1) + "\n";
   if (program.timeline.empty()) return out + "  nothing was called\n";
   out += program.participants.size() <= most_columns ? columns_timeline(program) : list_timeline(program);
   if (program.timeline.size() > most_timeline_rows) out += fmt::format("  ... {} changes of state in all\n", program.changes);

@@ -66,7 +66,7 @@ ReactionResult result_of(const handshake::Reaction& reaction, std::string initia
 void add_tree(const scenario::Run& run, std::size_t index, ProgramResult& result) {
   const auto name = [&](std::uint32_t program, std::uint8_t participant) {
     const ResolvedProgram& of = run.resolved().programs[program];
-    return of.name + "/" + run.resolved().topology.nodes[of.participants[participant].value].name;
+    return of.name + "/" + of.participant_names[participant];
   };
   for (const auto& tree : run.trees()) {
     if (tree->programs().front() != index) continue;
@@ -88,8 +88,8 @@ ProgramResult result_of(const scenario::Run& run, std::size_t index) {
   result.name = program.name;
   result.variant = std::string(scenario::spelling(program.description->variant));
   result.cycle = program.description->cycle;
-  for (std::size_t p = 0; p < program.participants.size(); ++p) {
-    result.participants.push_back(run.resolved().topology.nodes[program.participants[p].value].name);
+  for (std::size_t p = 0; p < program.participant_names.size(); ++p) {
+    result.participants.push_back(program.participant_names[p]);
     result.states.emplace_back(handshake::name_of(run.state(index, p)));
   }
   for (const handshake::Reaction& reaction : monitor.reactions()) result.reactions.push_back(result_of(reaction, result.participants[reaction.initiator]));
@@ -97,6 +97,10 @@ ProgramResult result_of(const scenario::Run& run, std::size_t index) {
     result.violations.push_back({violation.time, std::string(handshake::name_of(violation.violation.invariant)),
                                  result.participants[violation.violation.participant], std::string(handshake::text_of(violation.violation.finding))});
   add_tree(run, index, result);
+  if (const scenario::PlugMonitor* const roles = run.roles(index))
+    for (const scenario::BindingRecord& record : roles->history())
+      result.bindings.push_back({record.time, program.participant_names[record.role + std::size_t{1}],
+                                 record.candidate ? run.resolved().topology.nodes[program.candidates[*record.candidate].node.value].name : ""});
   result.violations_allowed = program.description->violations == scenario::Violations::reported;
   for (const scenario::StateRecord& record : monitor.history())
     result.timeline.push_back({record.time, record.participant, "", std::string(handshake::name_of(record.change.to))});

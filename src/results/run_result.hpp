@@ -81,6 +81,13 @@ struct TimelineEntry {
   std::string state;                       ///< the new state, or empty
 };
 
+/// A role of a program got a node, or lost it.
+struct BindingResult {
+  TrueTime at;
+  std::string role;
+  std::string node;                        ///< empty: nobody
+};
+
 struct ProgramResult {
   std::string name;
   std::string variant;
@@ -89,6 +96,7 @@ struct ProgramResult {
   std::vector<std::string> states;         ///< at the end
   std::vector<ReactionResult> reactions;
   std::vector<ReactionResult> tree_reactions;  ///< of it and all that are nested in it; the outermost program of a tree only
+  std::vector<BindingResult> bindings;     ///< of a program with roles, in the order of time
   std::vector<ViolationResult> violations;
   bool violations_allowed = false;
   std::vector<TimelineEntry> timeline;

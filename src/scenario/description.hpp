@@ -11,6 +11,7 @@
 #include "scenario/description_clocks.hpp"
 #include "scenario/description_faults.hpp"
 #include "scenario/description_ingress.hpp"
+#include "scenario/description_plug.hpp"
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -149,6 +150,7 @@ struct HostNode {
   TrafficClasses traffic_classes = TrafficClasses::standard;
   Queues queues;
   std::vector<Egress> egress;
+  std::vector<std::string> offers = {};
   bool operator==(const HostNode&) const = default;
 };
 
@@ -275,6 +277,11 @@ struct Program {
   std::string master;
   std::vector<std::string> slaves;
   std::optional<std::string> within;
+  std::vector<Role> roles = {};
+  std::vector<std::string> candidates = {};
+  std::vector<std::string> absent = {};
+  std::optional<Duration> announce_every = {};
+  OnReplacement on_replacement = OnReplacement::stay_halted;
   Duration cycle;
   Duration offset;
   Publish publish = Publish::cyclic;
@@ -305,6 +312,8 @@ struct ScriptEntry {
   std::optional<std::string> program;
   std::optional<Method> call;
   std::optional<std::string> on;
+  std::optional<std::string> join = {};
+  std::optional<std::string> leave = {};
   std::optional<SetGates> set_gates;
   bool operator==(const ScriptEntry&) const = default;
 };

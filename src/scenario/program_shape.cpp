@@ -28,6 +28,7 @@ wire::ProgramShape shape_of(const ResolvedProgram& program) {
   shape.variant = description.variant == Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
   shape.participants.push_back(description.master);
   shape.participants.insert(shape.participants.end(), description.slaves.begin(), description.slaves.end());
+  for (const Role& role : description.roles) shape.participants.push_back(role.name);
   shape.first_publisher_id = program.first_publisher_id;
   for (std::size_t d = 0; d < program.process_data.size(); ++d) {
     wire::DataSetShape data_set;

@@ -46,7 +46,9 @@ class Nester {
     if (!is_new)
       diagnostics_.error(place, "two programs nested at one slave", {json::quote(program.name) + " and " + json::quote(taken->second) + " at " + json::quote(program.master), "one"});
     for (const Program* each : {&program, outer})
-      if (each->variant == Variant::paper && refused_.insert(each->name).second)
+      if (!each->roles.empty() && refused_.insert(each->name).second)
+        diagnostics_.error(each->where.at("roles"), "roles in nested programs", {"\"roles\" of " + json::quote(each->name), "\"slaves\" for both programs"});
+      else if (each->variant == Variant::paper && refused_.insert(each->name).second)
         diagnostics_.error(each->where.at("variant"), "nesting with the handshake of the paper", {"\"paper\", whose states alone do not tell one run from the next", "\"robust\" for both programs"});
   }
 

@@ -6,6 +6,7 @@
 
 #include "models/network.hpp"
 #include "scenario/clock_monitor.hpp"
+#include "scenario/plug_application.hpp"
 #include "scenario/program_application.hpp"
 #include "scenario/program_monitor.hpp"
 #include "scenario/resolved.hpp"
@@ -33,8 +34,12 @@ class Run {
   /// Takes the series of clock offsets from now on. Precondition: there is gPTP.
   void set_clock_sink(ClockSampleSink* sink) { clock_monitor_->set_sink(sink); }
   handshake::PublishedState state(std::size_t program, std::size_t participant) const {
-    return programs_[program]->applications[participant]->state();
+    const LiveProgram& live = *programs_[program];
+    if (!live.roles) return live.applications[participant]->state();
+    return participant == 0 ? live.plug_master->state() : live.roles->state(participant - 1);
   }
+  /// Null for a program without roles.
+  const PlugMonitor* roles(std::size_t program) const { return programs_[program]->roles.get(); }
 
   sim::TrueTime end() const { return sim::TrueTime() + resolved_->scenario.duration; }
   /// Goes on for at most about `max_events` events. True when the scenario's duration is over.
@@ -43,13 +48,18 @@ class Run {
  private:
   struct LiveProgram {
     std::unique_ptr<ProgramMonitor> monitor;
-    std::vector<models::Process*> processes;              // by participant
-    std::vector<ProgramApplication*> applications;
+    std::vector<models::Process*> processes;              // by participant; with roles the master and the candidates
+    std::vector<ProgramApplication*> applications;        // none with roles
+    std::unique_ptr<PlugMonitor> roles;                   // only with roles
+    PlugMasterApplication* plug_master = nullptr;
+    std::vector<CandidateApplication*> candidates;
   };
   class Script;
 
   void watch_clocks();
   void add_program(std::uint32_t number, const ResolvedProgram& program);
+  wire::EndpointSettings endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) const;
+  void add_program_with_roles(std::uint32_t number, const ResolvedProgram& program);
   void nest_programs();
   void crash_programs(models::NodeIndex node);
   void connect_streams(const ResolvedProgram& program, const LiveProgram& live);

@@ -135,7 +135,7 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
   std::fputs(diagnostics.to_text().c_str(), stderr);
   if (!resolved) return {};
   for (const scenario::Program& program : resolved->scenario.programs) {
-    const std::size_t slaves = options.slaves.value_or(static_cast<unsigned>(program.slaves.size()));
+    const std::size_t slaves = options.slaves.value_or(static_cast<unsigned>(program.slaves.size() + program.roles.size()));
     const handshake::Variant variant = program.variant == scenario::Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
     if (!add(program.name, slaves, variant, program.subscription == scenario::Subscription::all_to_all)) return {};
   }

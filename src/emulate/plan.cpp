@@ -71,6 +71,10 @@ class Planner {
 
   void add_program(std::uint32_t number) {
     const scenario::ResolvedProgram& program = resolved_.programs[number];
+    if (!program.description->roles.empty()) {
+      plan_.refusals.push_back("program " + program.name + " has \"roles\", which real nodes do not know");
+      return;
+    }
     const json::Node written = json::encode_value(*program.description);
     const json::Node usual = json::encode_value(scenario::Program{});
     json::Node file = json::Node::object();
@@ -130,6 +134,7 @@ class Planner {
   void add(sim::Duration, const scenario::ResolvedGates&) { left_out_.insert("gate lists"); }
   void add(sim::Duration, const scenario::ResolvedStuckGate&) { left_out_.insert("stuck gates"); }
   void add(sim::Duration, const scenario::ResolvedClockFault&) { left_out_.insert("faults of clocks"); }
+  void add(sim::Duration, const scenario::ResolvedPlug&) {}  // the Program's roles are refused already
   void add(sim::Duration, const scenario::ResolvedRoutes&) { left_out_.insert("rerouting"); }
 
   void note_what_is_left_out() {

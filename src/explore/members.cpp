@@ -110,6 +110,9 @@ Input Members::input_of(const Participant& value, const Stimulus& stimulus) cons
     case Input::Kind::Initialised: return Input::initialised(value.intent().run);
     case Input::Kind::Finished: return Input::finished();
     case Input::Kind::PeerSilent: return Input::peer_silent(stimulus.what);
+    case Input::Kind::Released:
+    case Input::Kind::PeerReplaced:
+    case Input::Kind::PeerLeft: break;  // of nested groups and of changing members, which are not explored
   }
   return Input::finished();
 }

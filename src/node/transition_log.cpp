@@ -12,7 +12,9 @@ std::string_view name_of(handshake::Alarm alarm) {
     case handshake::Alarm::None: return "command";
     case handshake::Alarm::PeerSilent: return "silent peer";
     case handshake::Alarm::PeerRestarted: return "restarted peer";
+    case handshake::Alarm::PeerLeft: return "peer left";
     case handshake::Alarm::Mismatch: return "mismatch";
+    case handshake::Alarm::OtherGroup: return "nested group";
   }
   return "?";
 }

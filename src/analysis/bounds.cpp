@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "analysis/network_bound.hpp"
-#include "analysis/reaction_bound.hpp"
+#include "analysis/program_reactions.hpp"
 
 namespace takt::analysis {
 namespace {
@@ -30,7 +30,12 @@ class StreamBounds {
     }
     for (const Flow& flow : graph_.flows) take(flow, bounds[flow.stream.value]);
     for (StreamBound& bound : bounds)
-      if (bound.least == Duration::max()) bound.least = Duration();
+      if (bound.least == Duration::max()) {
+        bound.least = Duration();
+        bound.latency.reset();
+        bound.loses_nothing = false;
+        bound.reason = "nothing is known of when it is sent";
+      }
     return bounds;
   }
 
@@ -149,7 +154,7 @@ class RequirementBounds {
     RequirementBound worst;
     worst.duration = Duration();
     for (const ReactionBound& bound : bounds_.reactions) {
-      if (bound.kind != *requirement.reaction || (requirement.program && r_.programs[bound.program].name != *requirement.program)) continue;
+      if (bound.kind != *requirement.reaction || bound.of_tree != requirement.tree || (requirement.program && r_.programs[bound.program].name != *requirement.program)) continue;
       worst.assumptions.add(bound.assumptions);
       if (!bound.bound && worst.reason.empty()) worst.reason = bound.reason;
       worst.duration = worst.duration && bound.bound ? std::optional(std::max(*worst.duration, *bound.bound)) : std::nullopt;

@@ -52,6 +52,7 @@ struct ReactionPart {
 struct ReactionBound {
   std::size_t program = 0;                    ///< in resolved.programs
   scenario::Reaction kind = scenario::Reaction::start;
+  bool of_tree = false;                       ///< of the Program and all that are nested in it
   std::optional<sim::Duration> bound;         ///< from the call to the moment at which all have reached the state
   std::vector<ReactionPart> parts;            ///< of the slowest chain; they sum up to the bound
   std::string reason;
@@ -73,7 +74,7 @@ struct RequirementBound {
 
 struct Bounds {
   std::vector<StreamBound> streams;           ///< by stream index
-  std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset
+  std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset; of the outermost one of a tree then those of the tree
   std::vector<SilenceBound> silences;         ///< of each program
   /// One for each limit of each requirement of the scenario, in order: a requirement on a stream may have several.
   struct Requirement {

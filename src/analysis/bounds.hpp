@@ -43,6 +43,15 @@ struct StreamBound {
   Assumptions assumptions;
 };
 
+/// One queue of an egress port, and what may be in it or on the wire.
+struct QueueBound {
+  models::NodeIndex node;
+  std::uint16_t port = 0;
+  models::TrafficClass traffic_class = 0;
+  std::optional<std::uint64_t> bits;          ///< preambles and gaps included
+  std::optional<std::uint64_t> frames;
+};
+
 /// A part of a reaction's bound, in the order in which they happen.
 struct ReactionPart {
   std::string what;
@@ -74,6 +83,7 @@ struct RequirementBound {
 
 struct Bounds {
   std::vector<StreamBound> streams;           ///< by stream index
+  std::vector<QueueBound> queues;             ///< of classes that carry something
   std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset; of the outermost one of a tree then those of the tree
   std::vector<SilenceBound> silences;         ///< of each program
   /// One for each limit of each requirement of the scenario, in order: a requirement on a stream may have several.

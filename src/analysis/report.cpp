@@ -114,6 +114,16 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
     node.add("assumptions", nodes_of(stream.assumptions));
     streams.items.push_back(std::move(node));
   }
+  Node& queues = root.add("queues", Node::array());
+  for (const QueueBound& queue : bounds.queues) {
+    Node node = Node::object();
+    node.add("node", Node::of_string(resolved.plan.nodes[queue.node.value].name));
+    node.add("port", Node::of_integer(queue.port));
+    node.add("class", Node::of_integer(queue.traffic_class));
+    node.add("backlog_bits", queue.bits ? Node::of_integer(static_cast<sim::int128>(*queue.bits)) : Node());
+    node.add("backlog_frames", queue.frames ? Node::of_integer(static_cast<sim::int128>(*queue.frames)) : Node());
+    queues.items.push_back(std::move(node));
+  }
   Node& reactions = root.add("reactions", Node::array());
   for (const ReactionBound& reaction : bounds.reactions) {
     Node node = Node::object();

@@ -84,6 +84,8 @@ struct Total {
   std::size_t networks = 0;
   std::size_t compared = 0;
   std::size_t unbounded = 0;
+  std::size_t queues = 0;
+  std::size_t full_queues = 0;
   std::size_t violations = 0;
   std::string first;
   std::vector<double> shares;      // of each stream, at the worst phases that were found
@@ -113,6 +115,8 @@ void drive(std::size_t number, const BoundOptions& options, Total& total) {
     Verdict verdict = judge(run, bound(*shifted, options));
     for (const std::string& violation : judge(run, free_bounds).violations) verdict.violations.push_back(violation + " (whatever the phases)");
     total.violations += verdict.violations.size();
+    total.queues += verdict.queues;
+    total.full_queues += verdict.full_queues;
     if (std::getenv("TAKT_FALSIFICATION_ALL") != nullptr)
       for (const std::string& violation : verdict.violations) std::printf("network %zu, mix %zu: %s\n", number, number % mixes().size(), violation.c_str());
     if (total.first.empty() && !verdict.violations.empty()) total.first = "network " + std::to_string(number) + ": " + verdict.violations.front() + "\n" + text;
@@ -158,11 +162,12 @@ TEST(Falsification, NoBoundIsExceeded) {
   EXPECT_GE(total.networks, networks() * 8 / 10) << "too many networks are refused";
   EXPECT_EQ(total.by_mix.size(), mixes().size());
   EXPECT_GT(total.compared, 2 * total.unbounded) << "too few bounds are finite to say anything";
+  EXPECT_GT(total.full_queues, total.queues / 4) << "bounds of queues that are never reached say nothing";
   // The bounds are worth something: half of the streams come to 60 % of them.
   ASSERT_FALSE(total.shares.empty());
   EXPECT_GT(total.shares[total.shares.size() / 2], 0.5);
-  std::printf("%zu networks, %zu bounds, %zu streams unbounded; simulated / bound: median %.2f, quartiles %.2f and %.2f\n", total.networks, total.compared, total.unbounded,
-              total.shares[total.shares.size() / 2], total.shares[total.shares.size() / 4], total.shares[total.shares.size() * 3 / 4]);
+  std::printf("%zu networks, %zu bounds, %zu streams unbounded; simulated / bound: median %.2f, quartiles %.2f and %.2f; %zu of %zu queues full\n", total.networks, total.compared, total.unbounded,
+              total.shares[total.shares.size() / 2], total.shares[total.shares.size() / 4], total.shares[total.shares.size() * 3 / 4], total.full_queues, total.queues);
 }
 
 // Without packetiser frames are fluids that leave a port as they come.

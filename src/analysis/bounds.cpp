@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "analysis/network_bound.hpp"
-#include "analysis/reaction_bound.hpp"
+#include "analysis/program_reactions.hpp"
 
 namespace takt::analysis {
 namespace {
@@ -11,6 +11,22 @@ namespace {
 using sim::Duration;
 
 std::optional<Duration> duration_of(Ps ps) { return is_bounded(ps) ? std::optional(Duration::from_ps(ps)) : std::nullopt; }
+
+std::uint64_t bits_of(Ps work, const GraphPort& port) { return static_cast<std::uint64_t>(8 * ((work + port.octet_time - 1) / port.octet_time)); }
+
+std::vector<QueueBound> queue_bounds(const FlowGraph& graph, const NetworkResult& network) {
+  std::vector<QueueBound> queues;
+  for (std::size_t p = 0; p < graph.ports.size(); ++p)
+    for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q) {
+      const PortClassBound& bound = network.ports[p].classes[q];
+      if (!bound.is_used) continue;
+      queues.push_back({graph.ports[p].node, graph.ports[p].number, q, {}, {}});
+      if (!is_bounded(bound.backlog)) continue;
+      queues.back().bits = bits_of(bound.backlog, graph.ports[p]);
+      queues.back().frames = static_cast<std::uint64_t>(bound.backlog_frames);
+    }
+  return queues;
+}
 
 class StreamBounds {
  public:
@@ -30,7 +46,12 @@ class StreamBounds {
     }
     for (const Flow& flow : graph_.flows) take(flow, bounds[flow.stream.value]);
     for (StreamBound& bound : bounds)
-      if (bound.least == Duration::max()) bound.least = Duration();
+      if (bound.least == Duration::max()) {
+        bound.least = Duration();
+        bound.latency.reset();
+        bound.loses_nothing = false;
+        bound.reason = "nothing is known of when it is sent";
+      }
     return bounds;
   }
 
@@ -86,7 +107,7 @@ class StreamBounds {
     made.port = port.number;
     made.name = r_.plan.nodes[port.node.value].name + ":" + std::to_string(port.number) + " to " + r_.plan.nodes[port.peer.value].name;
     made.delay = duration_of(result.delay);
-    if (is_bounded(traffic_class.backlog)) made.backlog_bits = static_cast<std::uint64_t>(8 * ((traffic_class.backlog + port.octet_time - 1) / port.octet_time));
+    if (is_bounded(traffic_class.backlog)) made.backlog_bits = bits_of(traffic_class.backlog, port);
     if (!made.delay && reason.empty()) {
       const std::string& why = !hop.unsupported.empty() ? hop.unsupported : !result.reason.empty() ? result.reason : traffic_class.reason;
       reason = "at " + made.name + ", class " + std::to_string(hop.highest_class) + ": " + (why.empty() ? "unbounded" : why);
@@ -149,7 +170,7 @@ class RequirementBounds {
     RequirementBound worst;
     worst.duration = Duration();
     for (const ReactionBound& bound : bounds_.reactions) {
-      if (bound.kind != *requirement.reaction || (requirement.program && r_.programs[bound.program].name != *requirement.program)) continue;
+      if (bound.kind != *requirement.reaction || bound.of_tree != requirement.tree || (requirement.program && r_.programs[bound.program].name != *requirement.program)) continue;
       worst.assumptions.add(bound.assumptions);
       if (!bound.bound && worst.reason.empty()) worst.reason = bound.reason;
       worst.duration = worst.duration && bound.bound ? std::optional(std::max(*worst.duration, *bound.bound)) : std::nullopt;
@@ -179,6 +200,7 @@ Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
   Bounds bounds;
   bounds.rounds = network.rounds;
   bounds.streams = StreamBounds(resolved, graph, network).make();
+  bounds.queues = queue_bounds(graph, network);
   if (!resolved.plan.impairments.empty())   // chance loses frames
     for (StreamBound& stream : bounds.streams) stream.loses_nothing = false;
   for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) bounds.streams[redundancy.stream.value].loses_nothing = false;   // copies are

@@ -43,6 +43,15 @@ struct StreamBound {
   Assumptions assumptions;
 };
 
+/// One queue of an egress port, and what may be in it or on the wire.
+struct QueueBound {
+  models::NodeIndex node;
+  std::uint16_t port = 0;
+  models::TrafficClass traffic_class = 0;
+  std::optional<std::uint64_t> bits;          ///< preambles and gaps included
+  std::optional<std::uint64_t> frames;
+};
+
 /// A part of a reaction's bound, in the order in which they happen.
 struct ReactionPart {
   std::string what;
@@ -52,6 +61,7 @@ struct ReactionPart {
 struct ReactionBound {
   std::size_t program = 0;                    ///< in resolved.programs
   scenario::Reaction kind = scenario::Reaction::start;
+  bool of_tree = false;                       ///< of the Program and all that are nested in it
   std::optional<sim::Duration> bound;         ///< from the call to the moment at which all have reached the state
   std::vector<ReactionPart> parts;            ///< of the slowest chain; they sum up to the bound
   std::string reason;
@@ -73,7 +83,8 @@ struct RequirementBound {
 
 struct Bounds {
   std::vector<StreamBound> streams;           ///< by stream index
-  std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset
+  std::vector<QueueBound> queues;             ///< of classes that carry something
+  std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset; of the outermost one of a tree then those of the tree
   std::vector<SilenceBound> silences;         ///< of each program
   /// One for each limit of each requirement of the scenario, in order: a requirement on a stream may have several.
   struct Requirement {

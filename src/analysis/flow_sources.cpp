@@ -12,8 +12,8 @@ namespace takt::analysis {
 namespace {
 
 constexpr std::int64_t one = 1'000'000'000'000;
-/// State messages in a cycle of a participant that publishes on change: the cyclic one, and Assumption::program_publishes.
-constexpr std::int64_t state_messages_in_a_cycle = 5;
+/// Messages of one kind in a cycle of a participant that publishes on change: the cyclic one, and Assumption::program_publishes.
+constexpr std::int64_t messages_in_a_cycle = 5;
 
 template <class... Cases>
 struct Overloaded : Cases... {
@@ -89,25 +89,49 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, b
   graph.flows.push_back(std::move(flow));
 }
 
+void add_published(const scenario::Resolved& r, models::NodeIndex node, models::StreamIndex stream, Ps every, std::int64_t frames, const BoundOptions& options, FlowGraph& graph) {
+  const ClockQuality clock = clock_quality(r, node, options);
+  const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
+  Flow flow;
+  flow.stream = stream;
+  flow.worst_source = os.transmit.greatest().ps();
+  flow.best_source = os.transmit.least().ps();
+  const Ps jitter = sum(os.wake_up.greatest().ps() - os.wake_up.least().ps() + 2 * clock.error, flow.worst_source - flow.best_source);
+  flow.source = FrameArrivals({std::max<Ps>(1, shortest(every, clock)), frames, 0, jitter});
+  graph.flows.push_back(std::move(flow));
+}
+
+/// With roles: whoever gets or loses one, or hears of it, publishes at once; afterwards its cycles begin anew.
+void add_roles(const scenario::Resolved& r, const scenario::ResolvedProgram& program, const BoundOptions& options, FlowGraph& graph) {
+  const Ps cycle = program.description->cycle.ps();
+  const auto add = [&](models::NodeIndex node, models::StreamIndex stream) { add_published(r, node, stream, cycle, messages_in_a_cycle, options, graph); };
+  graph.assumptions.add(Assumption::program_publishes);
+  add(program.participants[0], program.state_streams[0]);
+  add(program.participants[0], program.table_stream);
+  for (const scenario::ResolvedProcessData& data : program.process_data)
+    if (data.from == 0) add(program.participants[0], data.stream);
+  for (const scenario::ResolvedCandidate& candidate : program.candidates) {
+    add(candidate.node, candidate.announcements);
+    add(candidate.node, candidate.state);
+    for (const auto& stream : candidate.data)
+      if (stream) add(candidate.node, *stream);
+  }
+}
+
 void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& program, const BoundOptions& options, FlowGraph& graph) {
+  if (program.has_roles()) return add_roles(r, program, options, graph);
   const auto add = [&](std::uint8_t participant, models::StreamIndex stream, std::int64_t frames) {
     const models::NodeIndex node = program.participants[participant];
+    add_published(r, node, stream, program.description->cycle.ps(), frames, options, graph);
     const ClockQuality clock = clock_quality(r, node, options);
     const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
-    Flow flow;
-    flow.stream = stream;
-    flow.worst_source = os.transmit.greatest().ps();
-    flow.best_source = os.transmit.least().ps();
-    const Ps jitter = sum(os.wake_up.greatest().ps() - os.wake_up.least().ps() + 2 * clock.error, flow.worst_source - flow.best_source);
     const Ps wake_up = os.wake_up.greatest().ps() - os.wake_up.least().ps();
     if (frames == 1 && clock.is_synchronised && scenario::promises_phase(*program.description, r.plan.nodes[node.value].name))
-      flow.produced = ArrivalPhase{program.phases[participant].ps() + os.wake_up.least().ps() - clock.error, program.description->cycle.ps(), wake_up + 2 * clock.error};
-    flow.source = FrameArrivals({std::max<Ps>(1, shortest(program.description->cycle.ps(), clock)), frames, 0, jitter});
-    graph.flows.push_back(std::move(flow));
+      graph.flows.back().produced = ArrivalPhase{program.phases[participant].ps() + os.wake_up.least().ps() - clock.error, program.description->cycle.ps(), wake_up + 2 * clock.error};
   };
   const bool on_change = program.description->publish == scenario::Publish::on_change;
   if (on_change) graph.assumptions.add(Assumption::program_publishes);
-  for (std::uint8_t p = 0; p < program.participants.size(); ++p) add(p, program.state_streams[p], on_change ? state_messages_in_a_cycle : 1);
+  for (std::uint8_t p = 0; p < program.participants.size(); ++p) add(p, program.state_streams[p], on_change ? messages_in_a_cycle : 1);
   for (const scenario::ResolvedProcessData& data : program.process_data) add(data.from, data.stream, 1);
 }
 

@@ -29,6 +29,7 @@ class FixedPoint {
       for (const std::uint32_t hop : flow.hops) arrive(hop);
     // What still grows after many rounds is unbounded; with that known, the others settle.
     while (!settle()) give_up_what_grows();
+    for (std::uint32_t p = 0; p < graph_.ports.size(); ++p) count_held_frames(p);
     return std::move(result_);
   }
 
@@ -215,6 +216,36 @@ class FixedPoint {
     FrameArrivals arrivals = arrivals_[parent].delayed(is_bounded(before.delay) ? before.delay - before.least_delay : unbounded_ps);
     if (hop.metered) arrivals.add(*hop.metered);
     return arrivals;
+  }
+
+  /// Frames wait for their eligibility times in the queue: there they are from before the scheduler until they are sent.
+  void count_held_frames(std::uint32_t p) {
+    const auto held_in = [&](models::TrafficClass q) {
+      return std::any_of(graph_.ports[p].hops.begin(), graph_.ports[p].hops.end(), [&](std::uint32_t h) { return is_held(graph_.hops[h]) && graph_.hops[h].highest_class == q; });
+    };
+    for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q) {
+      PortClassBound& bound = result_.ports[p].classes[q];
+      if (!held_in(q) || !is_bounded(bound.backlog)) continue;
+      Ps work = 0;
+      std::int64_t frames = 0;
+      for (const std::uint32_t h : graph_.ports[p].hops) {
+        const Hop& hop = graph_.hops[h];
+        if (q < hop.lowest_class || hop.highest_class < q) continue;
+        FrameArrivals arrivals = arrivals_[h];
+        Ps stays = sum(result_.hops[h].delay, models::inter_packet_gap.count * graph_.ports[p].octet_time);
+        if (is_held(hop) && !hop.parents.empty()) {
+          const std::uint32_t parent = hop.parents.front();
+          arrivals = arrivals_at_scheduler(hop, parent);
+          stays = sum(stays, delay_with_hold(hop, parent) - result_.hops[parent].least_delay);
+        }
+        const bool is_known = arrivals.is_limited() && is_bounded(stays) && hop.parents.size() <= 1;
+        const std::int64_t count = is_known ? arrivals.count(stays) : 0;
+        work = is_known ? sum(work, product(graph_.ports[p].octet_time * models::wire_length(hop.frame).count, count)) : unbounded_ps;
+        frames += count;
+      }
+      bound.backlog = work;
+      bound.backlog_frames = frames;
+    }
   }
 
   void give_up_what_grows() {

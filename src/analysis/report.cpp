@@ -38,7 +38,7 @@ Node nodes_of(const Assumptions& assumptions) {
 }
 
 std::string requirement_text(const scenario::Requirement& requirement, const std::string& what) {
-  if (what == "reaction") return fmt::format("reaction {} within {}", scenario::spelling(*requirement.reaction), text_of(requirement.within));
+  if (what == "reaction") return fmt::format("reaction {}{} within {}", scenario::spelling(*requirement.reaction), requirement.tree ? " of the tree" : "", text_of(requirement.within));
   if (what == "latency") return fmt::format("stream {} latency at most {}", *requirement.stream, text_of(requirement.latency));
   if (what == "jitter") return fmt::format("stream {} jitter at most {}", *requirement.stream, text_of(requirement.jitter));
   if (what == "dropped") return fmt::format("stream {} drops at most {}", *requirement.stream, *requirement.dropped);
@@ -67,7 +67,7 @@ std::string reactions_text(const Bounds& bounds, const scenario::Resolved& r, co
   std::string text;
   for (const ReactionBound& reaction : bounds.reactions) {
     if (text.empty()) text = "\nReactions: from the call until all have reached the state\n";
-    text += fmt::format("  {:<22} {:<9} {:>16}{}{}\n", r.programs[reaction.program].name, scenario::spelling(reaction.kind), text_of(reaction.bound),
+    text += fmt::format("  {:<22} {:<9} {:>16}{}{}\n", r.programs[reaction.program].name + (reaction.of_tree ? " and within" : ""), scenario::spelling(reaction.kind), text_of(reaction.bound),
                         numbers_of(reaction.assumptions, all), reaction.reason.empty() ? "" : "  " + reaction.reason);
     for (const ReactionPart& part : reaction.parts) text += fmt::format("    {:<28} {:>18}\n", part.what, text_of(part.duration));
   }
@@ -114,11 +114,22 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
     node.add("assumptions", nodes_of(stream.assumptions));
     streams.items.push_back(std::move(node));
   }
+  Node& queues = root.add("queues", Node::array());
+  for (const QueueBound& queue : bounds.queues) {
+    Node node = Node::object();
+    node.add("node", Node::of_string(resolved.plan.nodes[queue.node.value].name));
+    node.add("port", Node::of_integer(queue.port));
+    node.add("class", Node::of_integer(queue.traffic_class));
+    node.add("backlog_bits", queue.bits ? Node::of_integer(static_cast<sim::int128>(*queue.bits)) : Node());
+    node.add("backlog_frames", queue.frames ? Node::of_integer(static_cast<sim::int128>(*queue.frames)) : Node());
+    queues.items.push_back(std::move(node));
+  }
   Node& reactions = root.add("reactions", Node::array());
   for (const ReactionBound& reaction : bounds.reactions) {
     Node node = Node::object();
     node.add("program", Node::of_string(resolved.programs[reaction.program].name));
     node.add("kind", Node::of_string(scenario::spelling(reaction.kind)));
+    node.add("tree", Node::of_bool(reaction.of_tree));
     node.add("bound_ps", picoseconds(reaction.bound));
     node.add("reason", Node::of_string(reaction.reason));
     Node parts = Node::array();

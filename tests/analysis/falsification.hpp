@@ -1,6 +1,7 @@
 // Runs a scenario and holds what happened against what analysis says can happen.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,13 +16,34 @@ struct Verdict {
   std::vector<std::string> violations;   ///< empty if every bound held
   std::size_t compared = 0;              ///< streams with a bound that were delivered
   std::size_t unbounded = 0;             ///< streams without one that were delivered
+  std::size_t queues = 0;                ///< ports with bounds of all their queues that were used
+  std::size_t full_queues = 0;           ///< of those, with as many frames in a queue as there may be, but for the one on the wire
   double tightest = 0;                   ///< the greatest simulated latency as a share of its bound
   std::vector<double> shares;            ///< of all streams with a bound
 };
 
 inline std::string microseconds(sim::Duration value) { return std::to_string(static_cast<double>(value.ps()) / 1e6) + " us"; }
 
-/// Streams only: reactions are compared where Programs are.
+/// The most frames that waited in one queue of each port, against what may be in the port's queues.
+inline void judge_queues(const scenario::Run& run, const Bounds& bounds, Verdict& verdict) {
+  std::map<std::pair<std::uint32_t, std::uint16_t>, std::optional<std::uint64_t>> most;
+  for (const QueueBound& queue : bounds.queues) {
+    const auto [port, is_new] = most.try_emplace({queue.node.value, queue.port}, queue.frames);
+    if (!is_new) port->second = port->second && queue.frames ? std::optional(std::max(*port->second, *queue.frames)) : std::nullopt;
+  }
+  for (const auto& [where, frames] : most) {
+    const models::EgressPort& port = run.network().ports(models::NodeIndex{where.first})[where.second];
+    if (port.frames_sent() == 0 || !frames) continue;
+    const std::uint64_t peak = port.queues().peak_frames();
+    ++verdict.queues;
+    if (peak + 1 >= *frames) ++verdict.full_queues;   // one of them is on the wire
+    if (peak > *frames)
+      verdict.violations.push_back(run.resolved().plan.nodes[where.first].name + ":" + std::to_string(where.second) + ": " + std::to_string(peak) + " frames in a queue, at most " +
+                                   std::to_string(*frames));
+  }
+}
+
+/// Streams and queues: reactions are compared where Programs are.
 inline Verdict judge(const scenario::Run& run, const Bounds& bounds) {
   Verdict verdict;
   for (std::size_t s = 0; s < bounds.streams.size(); ++s) {
@@ -40,6 +62,7 @@ inline Verdict judge(const scenario::Run& run, const Bounds& bounds) {
     if (stream.latency.maximum() > *bound.latency)
       verdict.violations.push_back(bound.name + ": simulated " + microseconds(stream.latency.maximum()) + " of at most " + microseconds(*bound.latency));
   }
+  judge_queues(run, bounds, verdict);
   return verdict;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "scenario/resolve.hpp"
 #include "scenario/run.hpp"
 
@@ -59,10 +61,29 @@ TEST(ReactionBound, NestedByHand) {
   EXPECT_EQ(run_bound(outer), MaxPlus(47));
   EXPECT_EQ(start_bound(outer), MaxPlus(194));
   EXPECT_EQ(spread_bound(outer), MaxPlus(24));
+  // A suspend may come when all are Running, but the outer slave has not heard so of its master: it waits for that, 20, and goes on for 20.
+  EXPECT_EQ(spread_bound(outer, Spread::after_barriers), MaxPlus(40));
   // A third level, within the inner slave.
   outer.inner[0].group.inner.push_back({1, star({{1, 2}}, 1'000)});
   EXPECT_EQ(start_bound(outer), MaxPlus((20 + 3 + 1'003 + 4 + 20) + (20 + 3 + 3 + 4 + 20)));
   EXPECT_EQ(spread_bound(outer), MaxPlus(4 + 2 + 20));
+  EXPECT_EQ(spread_bound(outer, Spread::after_barriers), MaxPlus(40));
+}
+
+TEST(ReactionBound, PartsNameTheSlowestChainAndSumUp) {
+  ReactionGroup outer = star({{20, 20}, {21, 21}}, 100);
+  outer.names = {"m", "a", "b"};
+  ReactionGroup inner = star({{3, 4}}, 200);
+  inner.names = {"a", "x"};
+  outer.inner.push_back({1, inner});
+  const auto text_of = [](const std::vector<ReactionPart>& parts) {
+    std::string text;
+    for (const ReactionPart& part : parts) text += part.what + " " + std::to_string(part.duration.ps()) + ", ";
+    return text;
+  };
+  EXPECT_EQ(text_of(ready_parts(outer)), "a hears of INIT 20, x hears of INIT 3, x initialises 200, a hears of Ready 4, m hears of Ready 20, ");
+  EXPECT_EQ(text_of(run_parts(outer)), "a hears of Ready 20, x hears of Ready 3, a hears of Running 4, m hears of Running 20, ");
+  EXPECT_EQ(text_of(spread_parts(outer)), "a hears of x 4, m hears of a 20, b hears of m 21, ");
 }
 
 TEST(ReactionBound, UnboundedNotificationsAreToldFromMissingOnes) {
@@ -121,6 +142,46 @@ TEST(ReactionBound, HoldsInTheSimulatorAtAllPhases) {
           EXPECT_GT(slowest[0].ps(), bounds[0].bound->ps() / 2) << variant << subscription;
         }
       }
+}
+
+// Three levels, called at all phases of the cycles, and suspended as soon as all run: nothing exceeds the bounds of the groups or of the tree.
+TEST(ReactionBound, HoldsForNestedGroupsAtAllPhases) {
+  std::map<std::tuple<std::size_t, scenario::Reaction, bool>, std::pair<sim::Duration, sim::Duration>> slowest;   // and the bound
+  for (int phase = 0; phase < 1000; phase += 29) {
+    const auto at = [&](int entry, int microseconds) { return "/script/" + std::to_string(entry) + "/at=" + std::to_string(microseconds) + "us"; };
+    scenario::json::Diagnostics diagnostics;
+    const auto resolved = scenario::load_file(
+        std::string(TAKT_SOURCE_DIR) + "/scenarios/programs/nested-cell.json",
+        {"/duration=150ms", at(0, 5'000 + phase), at(1, 10'500 + phase * 5), at(2, 30'000 + phase * 3), at(3, 50'000 + phase), at(4, 70'000 + phase * 7), at(5, 90'000 + phase),
+         at(6, 120'000 + phase), at(7, 130'000 + phase), "/script/1/program=axis", phase % 2 == 0 ? "/script/1/on=drive1" : "/script/1/on=axis1"},
+        diagnostics);
+    ASSERT_TRUE(resolved) << diagnostics.to_text();
+    const Bounds bounds = bound(*resolved);
+    scenario::Run run(*resolved);
+    run.advance();
+    for (const ReactionBound& reaction : bounds.reactions) {
+      ASSERT_TRUE(reaction.bound);
+      sim::Duration sum;
+      for (const ReactionPart& part : reaction.parts) sum += part.duration;
+      EXPECT_EQ(sum, *reaction.bound);
+      const auto seen = reaction.of_tree ? run.trees().front()->reactions() : run.monitor(reaction.program).reactions();
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        // Nothing is said of what comes before the last call is over.
+        const bool is_alone = i == 0 || (seen[i - 1].outcome == handshake::ReactionOutcome::Completed && seen[i - 1].completed <= seen[i].began);
+        if (!is_alone || seen[i].outcome != handshake::ReactionOutcome::Completed || handshake::name_of(seen[i].kind) != std::string_view(scenario::spelling(reaction.kind))) continue;
+        auto& [longest, limit] = slowest[{reaction.program, reaction.kind, reaction.of_tree}];
+        longest = std::max(longest, seen[i].completed - seen[i].began);
+        limit = *reaction.bound;
+      }
+    }
+  }
+  EXPECT_EQ(slowest.size(), 20u);   // five of each program and of the tree
+  double tightest = 0;
+  for (const auto& [which, of] : slowest) {
+    EXPECT_LE(of.first, of.second) << std::get<0>(which) << scenario::spelling(std::get<1>(which)) << std::get<2>(which);
+    if (std::get<2>(which)) tightest = std::max(tightest, static_cast<double>(of.first.ps()) / static_cast<double>(of.second.ps()));
+  }
+  EXPECT_GT(tightest, 0.6);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "explore/tree_model.hpp"
+#include "sim/check.hpp"
 
 namespace takt::explore {
 namespace {
@@ -38,8 +39,12 @@ class Drawing {
     text += trimmed(states(state) + "at the beginning: " + beginning.name);
     for (std::size_t i = 0; i < trace.actions.size(); ++i) {
       if (trace.cycle != 0 && i + trace.cycle == trace.actions.size()) text += trimmed(lifelines(state) + "from here on again and again:");
-      model_.act(state, trace.actions[i], next);
       text += trimmed(line(state, i + 1, trace.actions[i]) + sentence(state, trace.actions[i]));
+      try {
+        model_.act(state, trace.actions[i], next);
+      } catch (const sim::InvariantBroken& broken) {
+        return text + trimmed(lifelines(state) + "breaks " + broken.what());
+      }
       if (states(next.state) != states(state)) text += trimmed(states(next.state));
       for (std::size_t p = 0; p < property_count; ++p) {
         const auto property = static_cast<Property>(p);

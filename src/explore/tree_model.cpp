@@ -79,16 +79,17 @@ State TreeModel::switched_on() {
   return state;
 }
 
-/// One that joins is absent from switched on until it comes up, so there is no other rest to begin in.
+/// One that joins is down when all others are switched on; in the other rests it has joined.
 void TreeModel::make_beginnings() {
   const std::vector<Rest> rests{{"switched on", PublishedState::Halted, {}},
                                 {"Running", PublishedState::Running, {Method::Start}},
                                 {"Suspended", PublishedState::Suspended, {Method::Start, Method::Suspend}},
                                 {"Ready after a reset", PublishedState::Ready, {Method::Start, Method::Suspend, Method::Reset}}};
-  const bool is_first_only = question_.beginnings != Beginnings::all || question_.joining;
-  for (const Rest& rest : std::span(rests).first(is_first_only ? 1 : rests.size())) {
-    Beginning beginning{question_.joining ? "switched on, but for the one that joins" : rest.name, {}, switched_on()};
+  for (const Rest& rest : std::span(rests).first(question_.beginnings == Beginnings::all ? rests.size() : 1)) {
+    Beginning beginning{rest.name, {}, switched_on()};
     beginning.state.set_commands_left(most_commands);
+    if (question_.joining && rest.calls.empty()) beginning.name += ", but for the one that joins";
+    if (question_.joining && !rest.calls.empty()) take(beginning, {ActionKind::restart, static_cast<std::uint8_t>(tree_.joining_node()), 0});
     for (const Method method : rest.calls) {
       take(beginning, {ActionKind::call, 0, static_cast<std::uint8_t>(program::index_of(method))});
       settle(beginning);

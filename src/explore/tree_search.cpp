@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "explore/components.hpp"
+#include "explore/tree_chart.hpp"
 #include "explore/tree_model.hpp"
 #include "sim/check.hpp"
 
@@ -71,7 +72,7 @@ class Search {
 
   /// True if it leads to another state.
   bool take(const State& state, Position position, Action action) {
-    if (!model_.act(state, action, next_)) return false;
+    if (!act(state, position, action)) return false;
     ++answer_.transitions;
     if ((next_.properties.bits & ~seen_.bits) != 0) {
       for (std::size_t p = 0; p < property_count; ++p)
@@ -83,6 +84,17 @@ class Search {
     else if (inserted.position <= position && is_network(action.kind)) loops_back_ = true;
     if (inserted.is_new && !seen_.contains(Property::all_running) && model_.all_running(next_.state)) see(Property::all_running, inserted.position);
     return true;
+  }
+
+  /// A broken CHECK of the handshake (both groups of a node are in step) is told with the run that leads to it.
+  bool act(const State& state, Position position, Action action) {
+    try {
+      return model_.act(state, action, next_);
+    } catch (const sim::InvariantBroken& broken) {
+      Trace trace = way_to(position);
+      trace.actions.push_back(action);
+      throw sim::InvariantBroken(std::string(broken.what()) + "\n\n" + tree_chart(model_.question(), model_.beginnings()[trace.beginning], trace));
+    }
   }
 
   void see(Property property, Position position, std::optional<Action> then = std::nullopt) {

@@ -34,6 +34,8 @@ struct ExploreOptions {
   std::string beginnings = "all";
   bool no_symmetry = false;
   bool no_finish = false;
+  bool nested = false;
+  std::optional<unsigned> inner_slaves;
   bool quiet = false;
   std::string out;
   std::string format = "text";
@@ -93,6 +95,24 @@ std::string set_network(const std::string& text, explore::Question& question) {
   return {};
 }
 
+/// What is asked for with --nested or --joining and cannot be explored; empty if all can.
+std::string not_in_trees(const explore::Question& question, const ExploreOptions& options) {
+  std::string wrong;
+  const auto refuse = [&wrong](bool is_wrong, const std::string& what) {
+    if (is_wrong) wrong += (wrong.empty() ? "" : "; ") + what;
+  };
+  refuse(options.inner_slaves.has_value() && !options.nested, "--inner-slaves says the size of the inner group of --nested");
+  if (!question.is_tree()) return wrong;
+  refuse(question.variant != handshake::Variant::Robust, "paper knows neither nested groups nor joining slaves");
+  refuse(question.subscription != handshake::Subscription::Star, "nested groups and joining slaves are explored in stars");
+  refuse(question.network != explore::Network::registers, "nested groups and joining slaves are explored on registers");
+  refuse(question.faults.contains(explore::Fault::duplicate) || question.faults.contains(explore::Fault::reorder),
+         "nested groups and joining slaves are explored with loss, crash, restart and timeout");
+  refuse(question.nested() && question.slaves > explore::most_outer_slaves, "nested groups have at most " + std::to_string(explore::most_outer_slaves) + " outer slaves");
+  refuse(!options.out.empty(), "findings with nested groups or joining slaves are drawn as charts, not written as scenarios (--out)");
+  return wrong;
+}
+
 /// What is to be explored: the group of the options, or each Program of the scenario. Empty after a mistake.
 std::vector<Subject> subjects_of(const ExploreOptions& options) {
   std::vector<Subject> subjects;
@@ -119,7 +139,12 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
       return false;
     }
     question.variant = variant_of(variant);
-    question.commands = options.calls.value_or(usual_calls(question.slaves));
+    if (options.nested) question.inner_slaves = static_cast<std::uint8_t>(options.inner_slaves.value_or(1));
+    question.commands = options.calls.value_or(usual_calls(question.nested() ? question.slaves + question.inner_slaves : question.slaves));
+    if (const std::string wrong = not_in_trees(question, options); !wrong.empty()) {
+      std::fprintf(stderr, "takt: %s: %s\n", name.c_str(), wrong.c_str());
+      return false;
+    }
     subjects.push_back({std::move(name), question});
     return true;
   };
@@ -262,6 +287,11 @@ void add_explore_command(CLI::App& app, ExitStatus& status) {
   command.add_option("--beginnings", options->beginnings, "Where runs begin: all (wherever a group can rest) or switched-on")
       ->check(CLI::IsMember({"all", "switched-on"}))
       ->capture_default_str();
+  command.add_flag("--nested", options->nested, "The last slave is the master of an inner group, too (robust, star, registers; loss, crash, restart, timeout)");
+  command.add_option("--inner-slaves", options->inner_slaves, "Slaves of the inner group (default 1)")
+      ->check(CLI::Range(1U, static_cast<unsigned>(explore::most_inner_slaves)))
+      ->type_name("N");
+  command.add_flag("--joining", options->question.joining, "The last slave is down at the beginning and comes up at any time, or never (where --nested can be explored)");
   command.add_flag("--no-finish", options->no_finish, "No Program ends by itself");
   command.add_flag("--no-symmetry", options->no_symmetry, "Tell equal slaves apart");
   command.add_option("--out", options->out, "Write a scenario for each violation into this folder")->type_name("DIR");
@@ -273,6 +303,7 @@ void add_explore_command(CLI::App& app, ExitStatus& status) {
       "  takt explore --slaves 1 --variant paper --out findings\n"
       "  takt explore scenarios/robot-arm.json --faults restart,timeout --format json\n"
       "  takt explore --slaves 2 --faults loss,reorder --network channels=2\n"
+      "  takt explore --slaves 1 --nested --faults crash --calls 2\n"
       "Ctrl-C ends the search and prints what was found until then.\n"
       "Exit status: 0 all hold, 1 violated, not reached or not decided, 2 bad input, 130 interrupted before a violation was found.");
   command.callback([options, &status] { status = run(*options); });

@@ -14,9 +14,6 @@ using handshake::StateChange;
 using handshake::Variant;
 using handshake::Word;
 
-namespace {
-
-/// S5 as the observer judges it: the changes of a step follow each other and stand in the table.
 bool are_transitions(PublishedState from, std::span<const StateChange> changes) {
   for (const StateChange& change : changes) {
     if (change.from != from) return false;
@@ -30,8 +27,6 @@ bool are_transitions(PublishedState from, std::span<const StateChange> changes) 
   }
   return true;
 }
-
-}  // namespace
 
 Members::Members(const Question& question, const Renamings& renamings) : question_(question), renamings_(&renamings) {
   words_.append(Word{});  // no_word
@@ -213,13 +208,13 @@ WordId Members::intern_word(const Word& word) {
   return static_cast<WordId>(id);
 }
 
-std::size_t Members::HashOfWord::operator()(const Word& word) const {
+std::size_t HashOfWord::operator()(const Word& word) const {
   std::uint64_t digest = mixed(std::uint64_t{word.incarnation} << 32 | word.run);
   digest = mixed(digest ^ (std::uint64_t{word.intent.number} << 32 | word.intent.run));
   return mixed(digest ^ (handshake::index_of(word.state) | handshake::index_of(word.intent.kind) << 8 | std::uint64_t{word.intent.origin} << 16));
 }
 
-std::size_t Members::HashOfEffect::operator()(const Effect& effect) const {
+std::size_t HashOfEffect::operator()(const Effect& effect) const {
   std::uint64_t digest = mixed(std::uint64_t{effect.run} << 32 | effect.properties.bits);
   for (const StateChange& change : effect.change)
     digest = mixed(digest ^ (change.transition | handshake::index_of(change.from) << 8 | handshake::index_of(change.to) << 16));

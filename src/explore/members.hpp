@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "explore/ghost.hpp"
@@ -32,6 +33,16 @@ struct Stepped {
   std::uint16_t effect = 0;     ///< 0: nothing to see
   bool data_counts = false;     ///< process data in the message reaches the application
 };
+
+struct HashOfWord {
+  std::size_t operator()(const handshake::Word& word) const;
+};
+struct HashOfEffect {
+  std::size_t operator()(const Effect& effect) const;
+};
+
+/// S5 as the observer judges it: the changes of a step follow each other and stand in the table.
+bool are_transitions(handshake::PublishedState from, std::span<const handshake::StateChange> changes);
 
 class Members {
  public:
@@ -83,13 +94,6 @@ class Members {
   struct HashOfValue {
     std::size_t operator()(const Participant& value) const { return mixed(value.hash()); }
   };
-  struct HashOfWord {
-    std::size_t operator()(const handshake::Word& word) const;
-  };
-  struct HashOfEffect {
-    std::size_t operator()(const Effect& effect) const;
-  };
-
   static std::uint64_t key_of(MemberId member, const Stimulus& stimulus) {
     return std::uint64_t{member} << 32 | static_cast<std::uint64_t>(stimulus.kind) << 28 | std::uint64_t{stimulus.what} << 20 |
            std::uint64_t{stimulus.word} << 1 | std::uint64_t{stimulus.overtaken};

@@ -4,6 +4,7 @@
 
 #include "explore/chart.hpp"
 #include "explore/replay.hpp"
+#include "explore/tree_chart.hpp"
 
 namespace takt::explore {
 namespace {
@@ -39,8 +40,9 @@ std::string verdict_line(const Answer& answer, std::size_t p) {
 }
 
 std::string counter_example(const Question& question, const Answer& answer, Property property, const Trace& trace) {
+  const Beginning& beginning = answer.beginnings[trace.beginning];
   std::string text = "\n" + std::string(name_of(property)) + " is violated: " + std::string(property_texts[index_of(property)]) + "\n\n" +
-                     chart(question, replay(question, answer.beginnings[trace.beginning], trace));
+                     (question.is_tree() ? tree_chart(question, beginning, trace) : chart(question, replay(question, beginning, trace)));
   if (property == Property::L1 || property == Property::F1) text += trace.cycle == 0 ? "      and nothing changes any more\n" : "      and so for ever\n";
   return text;
 }
@@ -51,8 +53,10 @@ std::string question_line(const Question& question) {
   const std::string faults = fault_list(question, "", ", ", "");
   const std::string network = question.network == Network::registers ? "" : ", channels of " + std::to_string(question.capacity);
   const std::string subscription = question.subscription == handshake::Subscription::Star ? "" : ", all-to-all";
+  const std::string inner = !question.nested() ? "" : ", the last of them master of " + std::to_string(question.inner_slaves) + (question.inner_slaves == 1 ? " inner slave" : " inner slaves");
+  const std::string joining = !question.joining ? "" : question.nested() ? ", the last inner slave joins" : ", the last slave joins";
   const std::string beginnings = question.beginnings == Beginnings::all ? "" : ", switched on";
-  return variant_name(question.variant) + ", 1 master and " + std::to_string(question.slaves) + (question.slaves == 1 ? " slave" : " slaves") + subscription + network + beginnings +
+  return variant_name(question.variant) + ", 1 master and " + std::to_string(question.slaves) + (question.slaves == 1 ? " slave" : " slaves") + inner + joining + subscription + network + beginnings +
          "; in a run at most " +
          std::to_string(question.commands) + " calls and " +
          (faults.empty() ? "no fault" : std::to_string(question.fault_budget) + (question.fault_budget == 1 ? " fault of: " : " faults of: ") + faults);
@@ -80,6 +84,9 @@ std::string json_report(const std::string& program, const Question& question, co
       {"variant", quoted(variant_name(question.variant))},
       {"slaves", std::to_string(question.slaves)},
       {"subscription", quoted(question.subscription == handshake::Subscription::Star ? "star" : "all-to-all")},
+      {"nested", yes(question.nested())},
+      {"inner_slaves", std::to_string(question.inner_slaves)},
+      {"joining", yes(question.joining)},
       {"network", quoted(question.network == Network::registers ? "registers" : "channels=" + std::to_string(question.capacity))},
       {"beginnings", quoted(question.beginnings == Beginnings::all ? "all" : "switched-on")},
       {"faults", "[" + fault_list(question, "\"", ", ", "\"") + "]"},

@@ -5,6 +5,7 @@
 
 #include "explore/liveness.hpp"
 #include "explore/trace_builder.hpp"
+#include "explore/tree_search.hpp"
 
 namespace takt::explore {
 namespace {
@@ -223,6 +224,7 @@ bool Answer::any_violated() const {
 }
 
 Answer explore(const Question& question, const Watcher& watcher) {
+  if (question.is_tree()) return explore_tree(question, watcher);
   Answer answer;
   if (Search(question, watcher).run(answer)) return answer;
   Question plain = question;

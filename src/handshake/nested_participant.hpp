@@ -48,6 +48,12 @@ class NestedParticipant {
   const Participant<MaxInnerPeers>& inner() const { return inner_; }
   const Coupling& coupling() const { return coupling_; }
 
+  /// Participant::forget_last_transition of both.
+  void forget_last_transition() {
+    outer_.forget_last_transition();
+    inner_.forget_last_transition();
+  }
+
   bool operator==(const NestedParticipant&) const = default;
   std::uint64_t hash() const { return (outer_.hash() * 31 + inner_.hash()) * 31 + coupling_.hash(); }
 

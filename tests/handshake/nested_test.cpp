@@ -205,6 +205,52 @@ TEST(Nested, AnInnerResetThatOverrulesTheStartDelaysIt) {
   EXPECT_TRUE(tree.observer.violations().empty()) << tree.describe();
 }
 
+/// Found by the explorer: an inner slave has reset by itself, the node has finished, and the outer group starts anew.
+TEST(Nested, AnOverruledInnerStartIsRepeated) {
+  Tree tree({{2, 0, 0}, {2, 0, 1}});
+  tree.call(0, 0, Method::Start);
+  tree.rounds(8);
+  ASSERT_TRUE(tree.all_in(Running)) << tree.describe();
+  ASSERT_EQ(tree.call(1, 1, Method::Suspend), StatusCode::Good);
+  ASSERT_EQ(tree.call(1, 1, Method::Reset), StatusCode::Good);
+  const TreeMessage late = tree.message(1, 1, 0);
+  tree.step(0, 1, Input::finished());
+  tree.tell_all(0, 1);
+  ASSERT_EQ(tree.call(0, 0, Method::Start), StatusCode::Good) << tree.describe();
+  tree.tell_all(0, 0);
+  tree.deliver(late);
+  EXPECT_EQ(tree.member(1, 0).intent().kind, IntentKind::Start) << tree.describe();
+  tree.rounds(8);
+  EXPECT_TRUE(tree.all_in(Running) && tree.agreed()) << tree.describe();
+  EXPECT_TRUE(tree.observer.violations().empty()) << tree.describe();
+}
+
+/// A node is prepared when its inner slaves are Ready and its own two initialisations have ended, those of this run.
+TEST(Nested, ANodeIsNotReadyBeforeItHasInitialisedBothItsSides) {
+  for (const bool again : {false, true})
+    for (const std::size_t slower : {1u, 2u}) {
+      SCOPED_TRACE(testing::Message() << "side " << slower << (again ? " in the second run" : ""));
+      Tree tree({{2, 0, 0}, {2, 0, 1}});
+      if (again) {
+        tree.call(0, 0, Method::Start);
+        tree.rounds(8);
+        tree.call(0, 0, Method::Halt);
+        tree.rounds(4);
+      }
+      tree.call(0, 0, Method::Start);
+      for (int i = 0; i < 4; ++i) {
+        for (std::size_t number = 0; number < tree.participants(); ++number)
+          if (number != slower && tree.initialising(number)) tree.initialised(number);
+        for (std::size_t group : {0u, 1u})
+          for (std::size_t index : {0u, 1u}) tree.tell_all(group, index);
+      }
+      ASSERT_EQ(tree.member(1, 1).state(), Ready) << tree.describe();
+      EXPECT_EQ(tree.member(0, 1).state(), HaltedInit) << tree.describe();
+      tree.initialised(slower);
+      EXPECT_EQ(tree.member(0, 1).state(), Ready) << tree.describe();
+    }
+}
+
 TEST(Nested, TheValueIsCopiedComparedAndHashed) {
   const Config outer{Variant::Robust, Role::Slave, 1, 1, 1, Subscription::Star, false};
   const Config inner{Variant::Robust, Role::Master, 0, 1, 1, Subscription::Star, false};

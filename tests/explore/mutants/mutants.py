@@ -62,6 +62,8 @@ def killer_of(options, mutant, folder):
     if status != 0:
         return "CHECK", lines[-1]
     if lines[-1].startswith("killed "):
+        if mutant.get("chart", "") not in out:
+            return "another chart", out
         return lines[-1].split()[1], lines[-2]
     tests = folder / "tests"
     status, _, err = run([options.compiler, *options.tests, *made, *options.archives, *options.gtest, "-lpthread", "-o", tests], 300)

@@ -14,6 +14,7 @@
 #include "scenario/resolve_egress.hpp"
 #include "scenario/resolve_ingress.hpp"
 #include "scenario/resolve_faults.hpp"
+#include "scenario/resolve_replies.hpp"
 #include "scenario/stream_builder.hpp"
 #include "scenario/trace_file.hpp"
 #include "vocabulary/protocol.hpp"
@@ -38,6 +39,7 @@ class Resolver {
     builder_ = &builder;
     check_names();
     for (const Stream& stream : r_.scenario.streams) add_stream(stream);
+    check_processing(r_.topology, diagnostics_);
     for (const Program& program : r_.scenario.programs) add_program(program);
     resolve_demand(r_, diagnostics_);
     resolve_ingress(r_, diagnostics_);
@@ -234,6 +236,7 @@ class Resolver {
       resolved.state_streams.push_back(*stream);
     }
     for (const ProcessData& data : program.process_data) add_process_data(program, data, resolved);
+    resolve_replies(r_.topology, resolved, diagnostics_);
     r_.programs.push_back(std::move(resolved));
   }
 
@@ -247,6 +250,7 @@ class Resolver {
     if (!participant) return;
     made.from = *participant;
     for (const auto& [name, field] : data.fields) made.field_octets += static_cast<std::uint32_t>(uadp::fixed_octets(built_in_type_of(field.type))) * field.count;
+    for (const auto& [name, field] : data.fields) made.values += field.count;
     const auto stream = add_program_stream(program, resolved, *participant, data.name,
                                            Octets{wire::process_data_octets(made.field_octets)}, data.where);
     if (!stream) return;

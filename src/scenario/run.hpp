@@ -48,6 +48,7 @@ class Run {
 
   void watch_clocks();
   void add_program(std::uint32_t number, const ResolvedProgram& program);
+  void add_replies(const ResolvedProgram& program, std::size_t participant, ProgramApplication::Settings& settings) const;
   void crash_programs(models::NodeIndex node);
   void connect_streams(const ResolvedProgram& program, const LiveProgram& live);
 

@@ -95,7 +95,7 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
   for (std::size_t d = 0; d < program.process_data.size(); ++d) {
     const scenario::ResolvedProcessData& data = program.process_data[d];
     add(data.from, data.stream, 1);
-    const auto reply = std::find_if(program.replies.begin(), program.replies.end(), [&](const scenario::ResolvedReply& one) { return one.with == d; });
+    const auto reply = std::find_if(program.replies.begin(), program.replies.end(), [&](const scenario::ResolvedReply& answer) { return answer.with == d; });
     if (reply == program.replies.end()) continue;
     // A reply follows its request, whose latency is not known here. But who replies works at one message after the other.
     Flow& flow = graph.flows.back();

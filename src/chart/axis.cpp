@@ -27,7 +27,7 @@ std::vector<Axis::Mark> Axis::marks() const {
   const double rough = (greatest_ - least_) / 5;
   const double decade = std::pow(10, std::floor(std::log10(rough)));
   const double step = rough / decade < 1.5 ? decade : rough / decade < 3.5 ? 2 * decade : rough / decade < 7.5 ? 5 * decade : 10 * decade;
-  for (double k = std::ceil(least_ / step - 1e-9); k * step <= greatest_ + step * 1e-9; ++k) marks.push_back({k * step, fmt::format("{:g}", k * step)});
+  for (double k = std::ceil(least_ / step - 1e-9); k * step <= greatest_ + step * 1e-9; ++k) marks.push_back({k * step + 0.0, fmt::format("{:g}", k * step + 0.0)});
   return marks;
 }
 

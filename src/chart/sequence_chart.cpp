@@ -8,7 +8,7 @@
 namespace takt::chart {
 
 std::string sequence_chart(const SequenceChart& chart) {
-  constexpr double margin = 110;
+  constexpr double margin = 210;
   constexpr double gap = 320;
   constexpr double first_row = 130;
   constexpr double row_height = 34;
@@ -25,7 +25,7 @@ std::string sequence_chart(const SequenceChart& chart) {
   };
   const auto x_of = [&](std::size_t participant) { return margin + 110 + gap * static_cast<double>(participant); };
   const double end = first_row + row_height * static_cast<double>(rows.size());
-  const double width = x_of(chart.participants.size() - 1) + 160;
+  const double width = x_of(chart.participants.size() - 1) + 190;
   Svg svg(width, end + 20);
   svg.text({20, 26}, chart.title, {.size = 15, .bold = true});
   for (std::size_t p = 0; p < chart.participants.size(); ++p) {
@@ -35,14 +35,12 @@ std::string sequence_chart(const SequenceChart& chart) {
     svg.text({x_of(p), 75}, chart.states[p], {.size = 11, .anchor = Anchor::middle});
   }
   for (const std::int64_t row : rows)
-    if (chart.label) svg.text({margin - 10, y_of(row) + 4}, chart.label(row), {.size = 11, .anchor = Anchor::end, .colour = "#777"});
+    if (chart.label) svg.text({20, y_of(row) + 4}, chart.label(row), {.size = 11, .anchor = Anchor::start, .colour = "#777"});
   for (const SequenceMessage& message : chart.messages) {
     const Point from{x_of(message.from), y_of(message.sent)};
     const Point to{x_of(message.to), y_of(message.received)};
     svg.line(from, to, {.colour = "#333", .width = 1.2, .dashed = true, .arrow = true});
-    const double middle = (from.x + to.x) / 2;
-    svg.rectangle({middle - 4.0 * static_cast<double>(message.text.size()), (from.y + to.y) / 2 - 17}, 8.0 * static_cast<double>(message.text.size()), 14, "#ffffff");
-    svg.text({middle, (from.y + to.y) / 2 - 6}, message.text, {.size = 11, .anchor = Anchor::middle});
+    svg.text({(from.x + to.x) / 2, (from.y + to.y) / 2 - 9}, message.text, {.size = 11, .anchor = Anchor::middle});
   }
   for (const SequenceStep& step : chart.steps) {
     const bool leftmost = step.participant == 0;

@@ -23,7 +23,7 @@ std::string escaped(std::string_view text) {
 
 std::string attributes(const Stroke& stroke) {
   return fmt::format(R"(fill="none" stroke="{}" stroke-width="{:.1f}"{}{})", stroke.colour, stroke.width, stroke.dashed ? R"( stroke-dasharray="6 4")" : "",
-                     stroke.arrow ? R"( marker-end="url(#arrow)")" : "");
+                     stroke.arrow ? R"-( marker-end="url(#arrow)")-" : "");
 }
 
 }  // namespace

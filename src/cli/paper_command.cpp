@@ -50,7 +50,7 @@ void add_paper_command(CLI::App& app, ExitStatus& status) {
   command.require_subcommand(1);
   CLI::App& programs = *command.add_subcommand("programs", "Real-time capable OPC-UA Programs over TSN for distributed industrial control");
   const auto options = std::make_shared<PaperOptions>();
-  programs.add_flag("--short", options->programs.is_short, "A minute of work instead of an hour of simulated time for each row");
+  programs.add_flag("--short", options->programs.is_short, "Three minutes of simulated time for each row instead of an hour");
   programs.add_option("--out", options->out, "Write report, figures (SVG) and scenarios into this folder")->type_name("DIR");
   programs.add_option("--scenarios", options->programs.scenarios, "Where its scenarios are (scenarios/papers/programs)")->type_name("DIR");
   programs.add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}))->type_name("FORMAT");

@@ -59,7 +59,7 @@ bool add(const ProgramsOptions& options, BeyondTable table, const std::vector<Pl
 }  // namespace
 
 bool go_beyond(const ProgramsOptions& options, Reproduction& made, scenario::json::Diagnostics& diagnostics) {
-  const int rounds = options.is_short ? 12 : 200;
+  const int rounds = options.is_short ? 40 : 400;
   return add(options, {"beyond-slaves", "Reaction time by number of slaves (one switch, cycle 200 us)", "slaves", {}}, plants_by_slaves(rounds), made, diagnostics) &&
          add(options, {"beyond-topology", "Reaction time by topology and switches to the farthest slave (three slaves, cycle 200 us)", "topology", {}},
              plants_by_topology(rounds), made, diagnostics) &&

@@ -24,7 +24,7 @@ handshake::PublishedState state_at(const scenario::ProgramMonitor& monitor, std:
   return state;
 }
 
-std::string name_of(handshake::PublishedState state) { return std::string(handshake::name_of(state)); }
+std::string text_of(handshake::PublishedState state) { return std::string(handshake::name_of(state)); }
 
 /// The message by which each other participant hears of a change: the first that was sent after it.
 std::vector<const LoggedMessage*> notifications(const MessageLog& log, const scenario::StateRecord& change) {
@@ -69,9 +69,9 @@ std::string sequence_of(const scenario::Run& run, const MessageLog& log, const E
   drawn.label = [zero](std::int64_t time) { return "+" + microseconds(time - zero); };
   for (std::size_t p = 0; p < program.participants.size(); ++p) {
     drawn.participants.push_back(run.resolved().topology.nodes[program.participants[p].value].name);
-    drawn.states.push_back(name_of(state_at(monitor, p, excerpt.from - sim::Duration::from_ps(1))));
+    drawn.states.push_back(text_of(state_at(monitor, p, excerpt.from - sim::Duration::from_ps(1))));
   }
-  drawn.steps.push_back({zero, excerpt.caller, excerpt.call});
+  std::string before = excerpt.call + ": ";   // stands with what it causes
   int number = 0;
   std::set<const LoggedMessage*> shown;
   sim::TrueTime end = excerpt.from;
@@ -84,10 +84,11 @@ std::string sequence_of(const scenario::Run& run, const MessageLog& log, const E
       ++number;
       return excerpt.side == 0 ? fmt::format("({}) {}", number, text) : fmt::format("({}{}) {}", number, excerpt.side, text);
     };
-    drawn.steps.push_back({record.time.ps(), record.participant, numbered(name_of(record.change.to))});
+    drawn.steps.push_back({record.time.ps(), record.participant, before + numbered(text_of(record.change.to))});
+    before.clear();
     for (const LoggedMessage* message : notifications(log, record)) {
       if (!shown.insert(message).second) continue;
-      const std::string text = name_of(state_at(monitor, message->from, message->sent));
+      const std::string text = text_of(state_at(monitor, message->from, message->sent));
       const bool is_answer = excerpt.side == 0 ? number >= 7 : number >= 3;
       drawn.messages.push_back({message->sent.ps(), message->received.ps(), message->from, message->to, is_answer ? text : numbered(text)});
       end = std::max(end, message->received);
@@ -96,7 +97,7 @@ std::string sequence_of(const scenario::Run& run, const MessageLog& log, const E
   if (excerpt.side == 0)
     for (std::size_t from = 0; from < program.participants.size(); ++from) {
       const auto first = std::find_if(log.messages().begin(), log.messages().end(),
-                                      [&](const LoggedMessage& m) { return !m.is_state && m.from == from && m.sent >= excerpt.from && m.received >= end; });
+                                      [&](const LoggedMessage& m) { return !m.is_state && m.from == from && m.sent > end; });
       if (first != log.messages().end()) drawn.messages.push_back({first->sent.ps(), first->received.ps(), first->from, first->to, "(8) process data"});
     }
   return chart::sequence_chart(drawn);

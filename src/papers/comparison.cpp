@@ -9,7 +9,7 @@
 namespace takt::papers {
 
 std::string_view name_of(Standing standing) {
-  constexpr std::array<std::string_view, 4> names = {"calibrated", "predicted", "claim", "information"};
+  constexpr std::array<std::string_view, 4> names = {"calibrated", "predicted", "claim", "flaw of the paper"};
   return names[static_cast<std::size_t>(standing)];
 }
 

@@ -12,7 +12,7 @@ enum class Standing {
   calibrated,   ///< the model was fitted to this figure: it says nothing about the model
   predicted,    ///< it was not
   claim,        ///< a statement of the paper
-  information,  ///< no verdict
+  flaw,         ///< of the paper: it contradicts itself, and the run shows it; holds means that it does
 };
 std::string_view name_of(Standing standing);
 
@@ -22,7 +22,7 @@ struct Comparison {
   std::string reproduced;
   std::optional<double> deviation;   ///< (reproduced - published) / published
   std::optional<double> tolerance;   ///< of the deviation, either way
-  Standing standing = Standing::information;
+  Standing standing = Standing::claim;
   bool holds = true;
   std::string remark;
 };

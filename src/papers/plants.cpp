@@ -31,7 +31,8 @@ Duration spread(std::uint64_t k, Duration whole) {
 
 class Builder {
  public:
-  Builder(const std::string& name, Duration cycle) {
+  /// All participants publish at the beginning of the cycle, or spread over it.
+  Builder(const std::string& name, Duration cycle, bool are_aligned = false) : are_aligned_(are_aligned) {
     scenario_.name = name;
     program_.name = "group";
     program_.cycle = cycle;
@@ -53,7 +54,7 @@ class Builder {
     const std::string name = program_.master.empty() ? "master" : fmt::format("slave{}", program_.slaves.size() + 1);
     scenario_.network.nodes.emplace_back(name, participant_host());
     link(name, at);
-    program_.phases.emplace_back(name, spread(program_.phases.size() + 1, program_.cycle));
+    program_.phases.emplace_back(name, are_aligned_ ? Duration() : spread(program_.phases.size() + 1, program_.cycle));
     (program_.master.empty() ? program_.master : program_.slaves.emplace_back()) = name;
   }
   std::string add_host(const std::string& name, const std::string& at) {
@@ -92,6 +93,7 @@ class Builder {
  private:
   Scenario scenario_;
   scenario::Program program_;
+  bool are_aligned_;
   int switches_ = 0;
 };
 
@@ -160,10 +162,10 @@ scenario::Egress egress_of(Mechanism mechanism) {
   scenario::Gates gates;
   scenario::GateEntry alone;
   alone.open = {6, 7};
-  alone.interval = 30_us;
+  alone.interval = 40_us;
   scenario::GateEntry all;
   all.open = {0, 1, 2, 3, 4, 5, 6, 7};
-  all.interval = 970_us;
+  all.interval = 960_us;
   gates.entries = {alone, all};
   egress.gates = gates;
   if (mechanism == Mechanism::gates_and_preemption) {
@@ -176,7 +178,7 @@ scenario::Egress egress_of(Mechanism mechanism) {
 Plant loaded(Mechanism mechanism, int percent, int rounds) {
   constexpr const char* names[] = {"priority", "gates", "preemption"};
   const char* const name = names[static_cast<std::size_t>(mechanism)];
-  Builder builder(fmt::format("programs-{}-{}", name, percent), 1_ms);
+  Builder builder(fmt::format("programs-{}-{}", name, percent), 1_ms, true);
   std::vector<std::string> switches;
   for (int i = 0; i < 3; ++i) {
     switches.push_back(builder.add_switch());

@@ -19,7 +19,7 @@ namespace takt::papers {
 
 struct ProgramsOptions {
   std::string scenarios = "scenarios/papers/programs";   ///< the folder of the scenarios
-  bool is_short = false;                                 ///< a minute of work instead of hours of simulated time
+  bool is_short = false;                                 ///< three minutes of simulated time instead of an hour, and fewer rounds
   bool beyond = true;                                    ///< the open questions too
   std::function<void(const std::string&)> progress;      ///< told what is done next; may be empty
 };

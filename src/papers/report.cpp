@@ -82,7 +82,7 @@ std::string write(const std::filesystem::path& path, const std::string& text) {
 }  // namespace
 
 std::string text_report(const Reproduction& made) {
-  std::string out = fmt::format("Distributed Programs over TSN, reproduced{}\n\n  {:<48}{:>20}{:>22}{:>20}  verdict\n", made.is_short ? " (short: a minute, not an hour)" : "",
+  std::string out = fmt::format("Distributed Programs over TSN, reproduced{}\n\n  {:<48}{:>20}{:>22}{:>20}  verdict\n", made.is_short ? " (short: three minutes, not an hour)" : "",
                                 "", "published", "reproduced", "deviation");
   for (const Comparison& c : made.comparisons) {
     out += fmt::format("  {:<48}{:>20}{:>22}{:>20}  {}, {}\n", c.what, c.published, c.reproduced, deviation_text(c), c.holds ? "holds" : "MISSED", name_of(c.standing));

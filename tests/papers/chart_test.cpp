@@ -48,8 +48,8 @@ TEST(SequenceChart, MessagesGoFromRowToRow) {
   chart.states = {"Ready", "Ready"};
   chart.steps = {{0, 0, "Start"}};
   chart.messages = {{0, 5, 0, 1, "hello"}};
-  // Two rows, 34 pixels apart, from 130 on; lines of life 320 apart, from 220 on.
-  EXPECT_NE(sequence_chart(chart).find(R"(x1="220.0" y1="130.0" x2="540.0" y2="164.0")"), std::string::npos) << sequence_chart(chart);
+  // Two rows, 34 pixels apart, from 130 on; lines of life 320 apart, from 320 on.
+  EXPECT_NE(sequence_chart(chart).find(R"(x1="320.0" y1="130.0" x2="640.0" y2="164.0")"), std::string::npos) << sequence_chart(chart);
 }
 
 TEST(BarChart, WithoutALimitThereIsNoLine) {

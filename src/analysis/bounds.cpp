@@ -181,6 +181,7 @@ Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
   bounds.streams = StreamBounds(resolved, graph, network).make();
   if (!resolved.plan.impairments.empty())   // chance loses frames
     for (StreamBound& stream : bounds.streams) stream.loses_nothing = false;
+  for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) bounds.streams[redundancy.stream.value].loses_nothing = false;   // copies are
   add_reactions(resolved, options, bounds);
   RequirementBounds(resolved, bounds).make();
   return bounds;

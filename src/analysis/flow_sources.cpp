@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/promises.hpp"
 
 namespace takt::analysis {
 namespace {
@@ -55,7 +58,15 @@ ArrivalPattern pattern_of(const models::TalkerPlan& talker, const ClockQuality& 
                     talker.schedule);
 }
 
-void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, const BoundOptions& options, FlowGraph& graph) {
+/// Streams whose talkers begin when the scenario says, not just somewhere in their periods.
+std::set<std::string_view> streams_with_phases(const scenario::Scenario& scenario) {
+  std::set<std::string_view> names;
+  for (const scenario::Stream& stream : scenario.streams)
+    if (scenario::promises_phase(stream)) names.insert(stream.name);
+  return names;
+}
+
+void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, bool has_phase, const BoundOptions& options, FlowGraph& graph) {
   const models::NodeIndex node = r.plan.streams[talker.stream.value].talker;
   const ClockQuality clock = clock_quality(r, node, options);
   const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
@@ -71,6 +82,8 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, c
     flow.best_source = os.transmit.least().ps();
   }
   pattern.jitter = sum(pattern.jitter, flow.worst_source - flow.best_source);
+  if (const auto* const periodic = std::get_if<models::PeriodicSchedule>(&talker.schedule); periodic != nullptr && has_phase && clock.is_synchronised)
+    flow.produced = ArrivalPhase{periodic->offset.ps() - clock.error, periodic->period.ps(), periodic->jitter.ps() + 2 * clock.error};
   if (talker.babbles) graph.assumptions.add(Assumption::listed_faults_only);
   flow.source = FrameArrivals(pattern);
   graph.flows.push_back(std::move(flow));
@@ -86,6 +99,9 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
     flow.worst_source = os.transmit.greatest().ps();
     flow.best_source = os.transmit.least().ps();
     const Ps jitter = sum(os.wake_up.greatest().ps() - os.wake_up.least().ps() + 2 * clock.error, flow.worst_source - flow.best_source);
+    const Ps wake_up = os.wake_up.greatest().ps() - os.wake_up.least().ps();
+    if (frames == 1 && clock.is_synchronised && scenario::promises_phase(*program.description, r.plan.nodes[node.value].name))
+      flow.produced = ArrivalPhase{program.phases[participant].ps() + os.wake_up.least().ps() - clock.error, program.description->cycle.ps(), wake_up + 2 * clock.error};
     flow.source = FrameArrivals({std::max<Ps>(1, shortest(program.description->cycle.ps(), clock)), frames, 0, jitter});
     graph.flows.push_back(std::move(flow));
   };
@@ -99,6 +115,7 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
     if (reply == program.replies.end()) continue;
     // A reply follows its request, whose latency is not known here. But who replies works at one message after the other.
     Flow& flow = graph.flows.back();
+    flow.produced.reset();
     const scenario::ResolvedProcessing& processing = program.processing[data.from];
     const Ps work = processing.per_message.least().ps() + processing.per_field.least().ps() * static_cast<Ps>(program.process_data[reply->to].values);
     flow.source = work > 0 ? FrameArrivals({work, 1, 0, flow.worst_source - flow.best_source}) : FrameArrivals(at_any_time());
@@ -110,7 +127,9 @@ Ps interval_ps(int log_seconds) { return rounded_up(std::ldexp(1e12, log_seconds
 }  // namespace
 
 void add_flows(const scenario::Resolved& resolved, const BoundOptions& options, FlowGraph& graph) {
-  for (const models::TalkerPlan& talker : resolved.plan.talkers) add_talker(resolved, talker, options, graph);
+  const std::set<std::string_view> with_phases = streams_with_phases(resolved.scenario);
+  for (const models::TalkerPlan& talker : resolved.plan.talkers)
+    add_talker(resolved, talker, with_phases.contains(resolved.plan.streams[talker.stream.value].name), options, graph);
   for (const scenario::ResolvedProgram& program : resolved.programs) add_program(resolved, program, options, graph);
 }
 

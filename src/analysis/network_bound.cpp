@@ -20,7 +20,7 @@ class FixedPoint {
     result_.hops.resize(graph.hops.size());
     result_.ports.resize(graph.ports.size());
     for (const Hop& hop : graph.hops)
-      if (hop.ats && hop.ats->group != 0) ats_groups_[hop.ats->group].push_back(static_cast<std::uint32_t>(&hop - graph.hops.data()));
+      if (hop.ats) ats_groups_[hop.ats->group].push_back(static_cast<std::uint32_t>(&hop - graph.hops.data()));
     for (std::uint32_t p = 0; p < graph.ports.size(); ++p) lay_out_traffic(p);
   }
 
@@ -47,7 +47,7 @@ class FixedPoint {
       flow.highest_class = hop.highest_class;
       flow.uses_cqf = hop.uses_cqf;
       // Frames that a scheduler has held come when they are eligible, not as their link brought them.
-      if (hop.parents.size() == 1 && !hop.is_copied_here && !hop.ats) {
+      if (hop.parents.size() == 1 && !hop.is_copied_here && !is_held(hop)) {
         const std::uint32_t from = graph_.hops[hop.parents.front()].port;
         const auto [known, is_new] = link_of.try_emplace(from, traffic.links.size());
         if (is_new) {
@@ -71,6 +71,8 @@ class FixedPoint {
     }
   }
 
+  static bool is_held(const Hop& hop) { return hop.ats && hop.ats->is_minded; }
+
   bool settle() {
     for (int round = 0; round < most_rounds; ++round) {
       if (!one_round()) return true;
@@ -88,7 +90,10 @@ class FixedPoint {
       is_due_[p] = false;
       changed = true;
       const std::vector<std::uint32_t>& hops = graph_.ports[p].hops;
-      for (std::size_t i = 0; i < hops.size(); ++i) traffic_[p].flows[i].arrivals = arrivals_[hops[i]];
+      for (std::size_t i = 0; i < hops.size(); ++i) {
+        traffic_[p].flows[i].arrivals = arrivals_[hops[i]];
+        traffic_[p].flows[i].phase = phase_of(hops[i]);
+      }
       result_.ports[p] = bound_port(graph_.models[p], traffic_[p]);
       for (std::size_t i = 0; i < hops.size(); ++i) {
         HopResult& hop = result_.hops[hops[i]];
@@ -99,7 +104,7 @@ class FixedPoint {
       // Schedulers that share a group wait for each other's frames, so all of them are looked at once all delays here are known.
       for (const std::uint32_t h : hops)
         for (const std::uint32_t child : graph_.hops[h].children) {
-          if (graph_.hops[child].ats && graph_.hops[child].ats->group != 0)
+          if (graph_.hops[child].ats)
             for (const std::uint32_t other : ats_groups_.at(graph_.hops[child].ats->group)) arrive(other);
           else
             arrive(child);
@@ -135,7 +140,7 @@ class FixedPoint {
       arrivals = flow.source.delayed(hop.parents.empty() ? 0 : own_jitter);
     }
     if (hop.metered) arrivals.add(*hop.metered);
-    if (hop.ats) arrivals.add(hop.ats->shaped);
+    if (is_held(hop)) arrivals.add(hop.ats->shaped);
     if (!hop.parents.empty() && graph_.ports[graph_.hops[hop.parents.front()].port].may_double) arrivals = doubled(arrivals);
     if (is_known_[h] && result.best == best && result.worst == worst && same(arrivals, arrivals_[h])) return;
     is_known_[h] = true;
@@ -143,6 +148,18 @@ class FixedPoint {
     result.worst = worst;
     arrivals_[h] = std::move(arrivals);
     is_due_[hop.port] = true;   // and with it the hops behind
+  }
+
+  /// When the frames of a flow come to a hop, if that is known. A flow whose frames are doubled has no such times.
+  std::optional<ArrivalPhase> phase_of(std::uint32_t h) const {
+    const Flow& flow = graph_.flows[graph_.hops[h].flow];
+    const HopResult& result = result_.hops[h];
+    if (!flow.produced || !is_bounded(result.worst)) return std::nullopt;
+    for (const std::uint32_t each : flow.hops)
+      if (graph_.ports[graph_.hops[each].port].may_double) return std::nullopt;
+    // Clocks may drift a little on the way.
+    const Ps drift = scaled_up(result.worst, graph_.models[graph_.hops[h].port].clock.rate_ppt, 1'000'000'000'000);
+    return ArrivalPhase{flow.produced->first + result.best - drift, flow.produced->period, sum(flow.produced->width + 2 * drift, result.worst - result.best)};
   }
 
   static bool same(const FrameArrivals& a, const FrameArrivals& b) {
@@ -167,15 +184,15 @@ class FixedPoint {
   /// time lets them be.
   Ps delay_with_hold(const Hop& hop, std::uint32_t parent) const {
     const Ps delay = result_.hops[parent].delay;
-    if (!hop.ats) return delay;
-    if (hop.ats->group == 0) return sum(delay, hop.ats->longest_residence);
-    const Ps hold = ats_groups_.at(hop.ats->group).size() == 1 ? longest_hold(arrivals_at_scheduler(hop, parent), hop.ats->bits, hop.ats->burst_bits, hop.ats->rate) : unbounded_ps;
+    if (!is_held(hop)) return delay;
+    const bool is_alone = ats_groups_.at(hop.ats->group).size() == 1 && !hop.ats->is_shared;
+    const Ps hold = is_alone ? longest_hold(arrivals_at_scheduler(hop, parent), hop.ats->bits, hop.ats->burst_bits, hop.ats->rate) : unbounded_ps;
     const Ps held = sum(delay, std::min(hop.ats->longest_residence, hold));
     const ClockQuality& clock = graph_.models[hop.port].clock;
     Ps longest = delay;
     for (const std::uint32_t other : ats_groups_.at(hop.ats->group)) {
       const Hop& sibling = graph_.hops[other];
-      if (sibling.parents.size() != 1 || clock.rate_ppt != 0 || clock.error != 0) return held;
+      if (sibling.parents.size() != 1 || sibling.ats->is_shared || clock.rate_ppt != 0 || clock.error != 0) return held;
       const Hop& before = graph_.hops[sibling.parents.front()];
       const Hop& mine = graph_.hops[parent];
       const PortModel& port = graph_.models[before.port];
@@ -189,7 +206,7 @@ class FixedPoint {
 
   /// The hop before has shaped the flow to a bucket that is no greater.
   static bool is_shaped_alike(const Hop& before, const AtsHold& bucket) {
-    return before.ats && before.ats->bits == bucket.bits && before.ats->burst_bits <= bucket.burst_bits && before.ats->rate <= bucket.rate;
+    return is_held(before) && before.ats->bits == bucket.bits && before.ats->burst_bits <= bucket.burst_bits && before.ats->rate <= bucket.rate;
   }
 
   /// The arrival curve of a flow where it comes out of the link before this hop.

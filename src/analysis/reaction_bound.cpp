@@ -52,27 +52,41 @@ MaxPlus run_bound(const ReactionGroup& group) { return there_and_back(group, wit
 
 MaxPlus start_bound(const ReactionGroup& group) { return ready_bound(group) * run_bound(group); }
 
-MaxPlus spread_bound(const ReactionGroup& group) {
+std::vector<SpreadStep> slowest_spread(const ReactionGroup& group) {
   std::vector<std::vector<std::pair<std::size_t, Ps>>> heard_from(1);
   lay_out(group, 0, heard_from, [](const auto& g, std::size_t master, auto& all, const auto& self) -> void { lay_out(g, master, all, self); });
   // Whoever hears first acts: the shortest of the longest ways. Few participants, so by relaxation from each.
-  MaxPlus latest = MaxPlus::one();
-  for (std::size_t from = 0; from < heard_from.size(); ++from) {
-    std::vector<Ps> at(heard_from.size(), unbounded_ps);
-    at[from] = 0;
-    for (std::size_t round = 0; round < heard_from.size(); ++round) {
-      bool changed = false;
-      for (std::size_t i = 0; i < heard_from.size(); ++i)
-        for (const auto& [peer, ps] : heard_from[i])
-          if (const Ps heard = sum(at[peer], ps); heard < at[i]) {
-            at[i] = heard;
+  const std::size_t n = heard_from.size();
+  std::vector<SpreadStep> slowest;
+  Ps latest = -1;
+  for (std::size_t origin = 0; origin < n; ++origin) {
+    std::vector<Ps> at(n, unbounded_ps);
+    std::vector<SpreadStep> last(n);
+    at[origin] = 0;
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t to = 0; to < n; ++to)
+        for (const auto& [from, ps] : heard_from[to])
+          if (const Ps heard = sum(at[from], ps); heard < at[to]) {
+            at[to] = heard;
+            last[to] = {from, to, MaxPlus(ps)};
             changed = true;
           }
-      if (!changed) break;
     }
-    for (const Ps ps : at) latest += MaxPlus(ps);
+    const auto to = static_cast<std::size_t>(std::max_element(at.begin(), at.end()) - at.begin());
+    if (at[to] <= latest) continue;
+    latest = at[to];
+    slowest.clear();
+    if (!is_bounded(latest)) return {{origin, to, MaxPlus::unbounded()}};
+    for (std::size_t step = to; step != origin; step = last[step].from) slowest.insert(slowest.begin(), last[step]);
   }
-  return latest;
+  return slowest;
+}
+
+MaxPlus spread_bound(const ReactionGroup& group) {
+  MaxPlus all = MaxPlus::one();
+  for (const SpreadStep& step : slowest_spread(group)) all *= step.takes;
+  return all;
 }
 
 namespace {
@@ -173,27 +187,8 @@ class ProgramReactions {
     add_part(made, name(0) + " hears of Running", group_.notify(0, last).ps());
   }
 
-  /// The slowest pair, over the master if they do not hear each other sooner.
   void add_spread_parts(ReactionBound& made) const {
-    const std::size_t n = program_.participants.size();
-    Ps longest = -1;
-    for (std::size_t from = 0; from < n; ++from) {
-      for (std::size_t to = 0; to < n; ++to) {
-        if (from == to) continue;
-        const Ps direct = group_.notify(to, from).happens() ? group_.notify(to, from).ps() : unbounded_ps;
-        const bool has_detour = from != 0 && to != 0;
-        const Ps detour = has_detour ? sum(group_.notify(0, from).ps(), group_.notify(to, 0).ps()) : unbounded_ps;
-        if (std::min(direct, detour) <= longest) continue;
-        longest = std::min(direct, detour);
-        made.parts.clear();
-        if (direct <= detour) {
-          add_part(made, name(to) + " hears of " + name(from), direct);
-        } else {
-          add_part(made, name(0) + " hears of " + name(from), group_.notify(0, from).ps());
-          add_part(made, name(to) + " hears of " + name(0), group_.notify(to, 0).ps());
-        }
-      }
-    }
+    for (const SpreadStep& step : slowest_spread(group_)) add_part(made, name(step.to) + " hears of " + name(step.from), step.takes.ps());
   }
 
   const scenario::Resolved& r_;

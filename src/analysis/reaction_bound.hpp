@@ -32,6 +32,14 @@ MaxPlus ready_bound(const ReactionGroup& group);
 MaxPlus run_bound(const ReactionGroup& group);
 /// From Start at the master to the moment at which everybody is Running.
 MaxPlus start_bound(const ReactionGroup& group);
+/// One participant hears of another; numbered from the outermost master on, each group's slaves after its master.
+struct SpreadStep {
+  std::size_t from = 0;
+  std::size_t to = 0;
+  MaxPlus takes;
+};
+/// The slowest way of a call from where it is made to the last who hears of it.
+std::vector<SpreadStep> slowest_spread(const ReactionGroup& group);
 /// From a call at any participant, of any of the groups, until the last of all has heard of it: halt, suspend, resume, reset.
 MaxPlus spread_bound(const ReactionGroup& group);
 

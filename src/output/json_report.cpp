@@ -105,6 +105,22 @@ Node programs_of(const results::RunResult& result) {
     Node reactions = Node::array();
     for (const results::ReactionResult& r : p.reactions) reactions.items.push_back(reaction_node(r));
     node.add("reactions", std::move(reactions));
+    if (!p.tree_reactions.empty()) {
+      Node tree = Node::array();
+      for (const results::ReactionResult& r : p.tree_reactions) tree.items.push_back(reaction_node(r));
+      node.add("tree_reactions", std::move(tree));
+    }
+    if (!p.bindings.empty()) {
+      Node bindings = Node::array();
+      for (const results::BindingResult& b : p.bindings) {
+        Node binding = Node::object();
+        binding.add("at_ps", picoseconds(b.at));
+        binding.add("role", Node::of_string(b.role));
+        binding.add("node", b.node.empty() ? Node() : Node::of_string(b.node));
+        bindings.items.push_back(std::move(binding));
+      }
+      node.add("bindings", std::move(bindings));
+    }
     Node states = Node::object();
     for (std::size_t i = 0; i < p.participants.size(); ++i) states.add(p.participants[i], Node::of_string(p.states[i]));
     node.add("states", std::move(states));

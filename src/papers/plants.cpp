@@ -154,6 +154,41 @@ Plant star(bool has_arms, int rounds) {
   return {fmt::format("star {}", hops), builder.finish(rounds, fmt::format("A star; {} switches from the master to each slave.", hops))};
 }
 
+/// Three participants on one switch.
+Scenario small_group(const std::string& name, Duration cycle, int rounds, const std::string& description) {
+  Builder builder(name, cycle);
+  const std::string middle = builder.add_switch();
+  for (int p = 0; p < 3; ++p) builder.add_participant(middle);
+  return builder.finish(rounds, description);
+}
+
+/// The first slave becomes the master of a group of two more, at 200 us; what the last slave did is done by the last one of those.
+Scenario nested_groups(int rounds) {
+  Scenario scenario = small_group("programs-nested", 1_ms, rounds, "A group at 1 ms, one slave of which is the master of a group at 200 us.");
+  scenario::Program inner;
+  inner.name = "inner";
+  inner.within = scenario.programs.front().name;
+  inner.master = scenario.programs.front().slaves.front();
+  inner.cycle = 200_us;
+  for (const char* const name : {"inner1", "inner2"}) {
+    scenario.network.nodes.emplace_back(name, participant_host());
+    scenario::Link link;
+    link.ends = {name, "sw1"};
+    link.length = sim::Length(10'000);
+    scenario.network.links.push_back(link);
+    inner.slaves.emplace_back(name);
+    inner.phases.emplace_back(name, spread(inner.phases.size() + 2, inner.cycle));
+  }
+  inner.phases.emplace_back(inner.master, spread(1, inner.cycle));
+  for (scenario::ScriptEntry& entry : scenario.script) {
+    if (!entry.on) continue;
+    entry.program = inner.name;
+    entry.on = inner.slaves.back();
+  }
+  scenario.programs.push_back(inner);
+  return scenario;
+}
+
 enum class Mechanism { strict_priority, gates, gates_and_preemption };
 
 scenario::Egress egress_of(Mechanism mechanism) {
@@ -233,6 +268,12 @@ std::vector<Plant> plants_by_load(int rounds) {
   for (const Mechanism mechanism : {Mechanism::strict_priority, Mechanism::gates, Mechanism::gates_and_preemption})
     for (const int percent : {0, 50, 90}) plants.push_back(loaded(mechanism, percent, rounds));
   return plants;
+}
+
+std::vector<Plant> plants_by_nesting(int rounds) {
+  return {{"1 ms alone", small_group("programs-outer", 1_ms, rounds, "The outer group alone.")},
+          {"200 us alone", small_group("programs-inner", 200_us, rounds, "The inner group alone.")},
+          {"200 us in 1 ms", nested_groups(rounds)}};
 }
 
 }  // namespace takt::papers

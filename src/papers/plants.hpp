@@ -20,4 +20,7 @@ std::vector<Plant> plants_by_topology(int rounds);
 /// Best-effort load of 0, 50 and 90 % of each link: strict priority, gates, gates and preemption.
 std::vector<Plant> plants_by_load(int rounds);
 
+/// A group at 1 ms, one at 200 us, and the second within the first.
+std::vector<Plant> plants_by_nesting(int rounds);
+
 }  // namespace takt::papers

@@ -58,7 +58,7 @@ struct StreamResult {
 
 struct ReactionResult {
   std::string kind;
-  std::string initiator;
+  std::string initiator;                   ///< node; of a tree: program, '/', node
   std::string cause;                       ///< "command", or why it began by itself
   TrueTime began;
   std::optional<TrueTime> completed;
@@ -91,6 +91,13 @@ struct TimelineEntry {
   std::string state;                       ///< the new state, or empty
 };
 
+/// A role of a program got a node, or lost it.
+struct BindingResult {
+  TrueTime at;
+  std::string role;
+  std::string node;                        ///< empty: nobody
+};
+
 struct ProgramResult {
   std::string name;
   std::string variant;
@@ -98,6 +105,8 @@ struct ProgramResult {
   std::vector<std::string> participants;   ///< node names, the master first
   std::vector<std::string> states;         ///< at the end
   std::vector<ReactionResult> reactions;
+  std::vector<ReactionResult> tree_reactions;  ///< of it and all that are nested in it; the outermost program of a tree only
+  std::vector<BindingResult> bindings;     ///< of a program with roles, in the order of time
   std::vector<ViolationResult> violations;
   bool violations_allowed = false;
   std::vector<TimelineEntry> timeline;
@@ -113,6 +122,7 @@ struct RequirementResult {
   RequirementKind kind{};
   std::string subject;                     ///< the stream, the Program or the node; empty: all Programs or all nodes
   std::string reaction;                    ///< "start", "halt" ..., if it is one
+  bool of_tree = false;                    ///< of a Program and all that are nested in it
   std::optional<std::uint64_t> count_limit;  ///< most dropped, fewest delivered
   std::string text;
   Verdict verdict = Verdict::pass;

@@ -11,6 +11,7 @@
 #include "scenario/description_clocks.hpp"
 #include "scenario/description_faults.hpp"
 #include "scenario/description_ingress.hpp"
+#include "scenario/description_plug.hpp"
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -163,6 +164,7 @@ struct HostNode {
   Queues queues;
   std::vector<Egress> egress;
   std::optional<Processing> processing = {};
+  std::vector<std::string> offers = {};
   bool operator==(const HostNode&) const = default;
 };
 
@@ -287,6 +289,12 @@ struct Program {
   Variant variant = Variant::robust;
   std::string master;
   std::vector<std::string> slaves;
+  std::optional<std::string> within;
+  std::vector<Role> roles = {};
+  std::vector<std::string> candidates = {};
+  std::vector<std::string> absent = {};
+  std::optional<Duration> announce_every = {};
+  OnReplacement on_replacement = OnReplacement::stay_halted;
   Duration cycle;
   std::optional<Duration> offset;    ///< the same
   json::NameMap<Duration> phases;    ///< of single participants
@@ -317,6 +325,8 @@ struct ScriptEntry {
   std::optional<std::string> program;
   std::optional<Method> call;
   std::optional<std::string> on;
+  std::optional<std::string> join = {};
+  std::optional<std::string> leave = {};
   std::optional<SetGates> set_gates;
   bool operator==(const ScriptEntry&) const = default;
 };
@@ -328,6 +338,7 @@ struct Requirement {
   std::optional<Reaction> reaction;
   std::optional<std::string> program;
   std::optional<Duration> within;
+  bool tree = false;
   std::optional<std::string> stream;
   std::optional<Duration> latency;
   std::optional<Duration> jitter;

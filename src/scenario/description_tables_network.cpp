@@ -238,6 +238,7 @@ const json::Object& describe(json::Type<HostNode>) {
       optional<&HostNode::queues>("queues", "The queues of the network interface."),
       optional<&HostNode::egress>("egress", "Gates and shapers of the network interfaces.", {.max_items = 16}),
       optional<&HostNode::processing>("processing", "How long Programs work at process data before they reply."),
+      optional<&HostNode::offers>("offers", "Skills that the node announces to programs with roles that need one of them.", {.max_items = 8}),
   };
   static constexpr json::Object table = json::object<HostNode>("host", "An end station.", fields);
   return table;

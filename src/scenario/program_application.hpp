@@ -7,6 +7,7 @@
 #include "models/host/application.hpp"
 #include "scenario/program_monitor.hpp"
 #include "scenario/reply_worker.hpp"
+#include "wire/nesting.hpp"
 #include "wire/program_endpoint.hpp"
 
 namespace takt::scenario {
@@ -21,6 +22,13 @@ class ProgramApplication final : public models::Application, private wire::Endpo
   };
 
   ProgramApplication(Settings settings, ProgramMonitor& monitor);
+
+  /// Joins two participants on one host; both outlive what is returned, which outlives their use.
+  static std::unique_ptr<wire::Nesting> nest(ProgramApplication& outer, ProgramApplication& inner) {
+    wire::EndpointHost& outer_host = outer;
+    wire::EndpointHost& inner_host = inner;
+    return std::make_unique<wire::Nesting>(outer.endpoint_, outer_host, inner.endpoint_, inner_host);
+  }
 
   /// A method call by a client or the user of this node.
   void call(models::HostServices& host, program::Method method);

@@ -9,6 +9,7 @@
 #include "handshake/invariants.hpp"
 #include "handshake/reaction.hpp"
 #include "scenario/round_trips.hpp"
+#include "scenario/tree_monitor.hpp"
 #include "sim/simulation.hpp"
 
 namespace takt::scenario {
@@ -38,6 +39,9 @@ class ProgramMonitor {
  public:
   /// `number` tells programs apart in the digest. At most `most_records` changes of state are kept for the time line.
   ProgramMonitor(sim::Simulation& simulation, std::uint32_t number, handshake::Variant variant, std::size_t participants);
+
+  /// Its program is group number `group` of a tree.
+  void set_tree(TreeMonitor& tree, std::size_t group) { tree_ = &tree, group_ = group; }
 
   void on_step(std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after);
   void on_call(std::size_t participant, program::Method method, program::StatusCode status);
@@ -70,6 +74,8 @@ class ProgramMonitor {
   void note_violations();
 
   sim::Simulation* simulation_;
+  TreeMonitor* tree_ = nullptr;
+  std::size_t group_ = 0;
   std::uint32_t number_;
   handshake::GroupObserver observer_;
   handshake::ReactionTracker tracker_;

@@ -1,5 +1,5 @@
 // Bounds must be falsifiable: random small networks with every shaper are driven towards their bounds; a simulated value above one fails, and a wrong
-// bound is caught. TAKT_FALSIFICATION_NETWORKS=2000 looks at more networks.
+// bound is caught. TAKT_FALSIFICATION_NETWORKS=8000 looks at more networks, TAKT_FALSIFICATION_ALL=1 prints all violations, TAKT_FALSIFICATION_SHOW=17 network 17.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,8 +61,7 @@ std::string network(std::size_t number) {
   std::string text = property::scenario_text(wishes);
   text = std::regex_replace(text, std::regex("\"exponential\": \"[0-9]+us\""), "\"every\": \"700us\"");
   text = std::regex_replace(text, std::regex("\"every\": \"(100|125|250)us\""), "\"every\": \"500us\"");
-  // Lists run from the start: before their base time nothing is promised.
-  return std::regex_replace(text, std::regex("\"base_time\": \"[^-\"][^\"]*\""), "\"base_time\": \"0ns\"");
+  return text;
 }
 
 std::unique_ptr<scenario::Resolved> load(const std::string& text, const std::vector<std::string>& overrides) {
@@ -72,9 +71,12 @@ std::unique_ptr<scenario::Resolved> load(const std::string& text, const std::vec
 
 using Offsets = std::vector<std::int64_t>;   // of streams, in nanoseconds
 
+/// Talkers begin when all gate lists run: before, gates are open, and nothing is promised.
+constexpr std::int64_t lists_run_ns = 4'000'000;
+
 std::vector<std::string> overrides_of(const Offsets& offsets) {
-  std::vector<std::string> overrides;
-  for (std::size_t s = 0; s < offsets.size(); ++s) overrides.push_back("/streams/" + std::to_string(s) + "/offset=" + std::to_string(offsets[s]) + "ns");
+  std::vector<std::string> overrides{"/duration=8ms"};
+  for (std::size_t s = 0; s < offsets.size(); ++s) overrides.push_back("/streams/" + std::to_string(s) + "/offset=" + std::to_string(lists_run_ns + offsets[s]) + "ns");
   return overrides;
 }
 
@@ -102,7 +104,8 @@ void drive(std::size_t number, const BoundOptions& options, Total& total) {
   const auto attempt = [&](const std::vector<std::string>& overrides) {
     const auto shifted = load(text, overrides);
     if (!shifted) return false;
-    const Verdict verdict = simulate(*shifted, bounds);
+    // Bounds may use the phases that a scenario gives.
+    const Verdict verdict = simulate(*shifted, bound(*shifted, options));
     total.violations += verdict.violations.size();
     if (std::getenv("TAKT_FALSIFICATION_ALL") != nullptr)
       for (const std::string& violation : verdict.violations) std::printf("network %zu, mix %zu: %s\n", number, number % mixes().size(), violation.c_str());
@@ -113,7 +116,9 @@ void drive(std::size_t number, const BoundOptions& options, Total& total) {
     if (is_better || greatest.compared + greatest.unbounded == 0) greatest = verdict;
     return is_better;
   };
-  attempt({});
+  Offsets drawn(streams, 0);
+  for (std::size_t s = 0; s < streams; ++s) drawn[s] = resolved->scenario.streams[s].offset.ps() / 1000;
+  attempt(overrides_of(drawn));
   attempt(overrides_of(best));
   Offsets together(streams, 0);
   sim::Duration latest;
@@ -141,11 +146,12 @@ Total drive_all(std::size_t count, const BoundOptions& options) {
 }
 
 TEST(Falsification, NoBoundIsExceeded) {
+  if (const char* const wanted = std::getenv("TAKT_FALSIFICATION_SHOW")) std::fputs(network(static_cast<std::size_t>(std::atoi(wanted))).c_str(), stdout);
   const Total total = drive_all(networks(), {});
   EXPECT_EQ(total.violations, 0u) << total.first;
   EXPECT_GE(total.networks, networks() * 8 / 10) << "too many networks are refused";
   EXPECT_EQ(total.by_mix.size(), mixes().size());
-  EXPECT_GT(total.compared, 3 * total.unbounded) << "too few bounds are finite to say anything";
+  EXPECT_GT(total.compared, 2 * total.unbounded) << "too few bounds are finite to say anything";
   // The bounds are worth something: half of the streams come to 60 % of them.
   ASSERT_FALSE(total.shares.empty());
   EXPECT_GT(total.shares[total.shares.size() / 2], 0.5);

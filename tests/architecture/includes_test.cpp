@@ -24,6 +24,7 @@ const Prefixes results = {"results/"};
 const Prefixes output = {"output/"};
 const Prefixes cli = {"cli/"};
 const Prefixes node = {"node/"};
+const Prefixes emulate = {"emulate/"};
 const Prefixes vocabulary = {"vocabulary/"};
 const Prefixes chart = {"chart/"};
 const Prefixes papers = {"papers/"};
@@ -55,8 +56,9 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/chart/", chart});
     list.push_back({"src/papers/", all_of({below, questions, results, chart, papers})});
     list.push_back({"src/property/", all_of({below, questions, results, output, {"property/"}})});
-    list.push_back({"src/cli/", all_of({below, questions, results, output, node, papers, cli})});
-    list.push_back({"src/main.cpp", all_of({below, questions, results, output, node, papers, cli})});
+    list.push_back({"src/emulate/", all_of({below, node, emulate})});
+    list.push_back({"src/cli/", all_of({below, questions, results, output, node, emulate, papers, cli})});
+    list.push_back({"src/main.cpp", all_of({below, questions, results, output, node, emulate, papers, cli})});
     return list;
   }();
   return all;
@@ -81,7 +83,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, vocabulary, chart, papers, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, emulate, vocabulary, chart, papers, {"property/"}});
   return roots;
 }
 

@@ -1,7 +1,7 @@
 // One measured run of one workload, as a line of JSON; tools/bench calls it again and again, in turn with others.
 //
 //   takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION
-//            | tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS
+//            | tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS | bound SWITCHES STREAMS
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -15,7 +15,7 @@ using namespace takt::benchmark;  // NOLINT
 
 int usage() {
   std::fputs("usage: takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION |\n"
-             "       tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS\n", stderr);
+             "       tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS | bound SWITCHES STREAMS\n", stderr);
   return 2;
 }
 
@@ -50,6 +50,9 @@ int main(int argc, char** argv) {
   } else if ((workload == "pair" || workload == "gptp-line") && argc == 3) {
     const PairFigures f = workload == "pair" ? run_pair(std::atof(argv[2])) : run_gptp_line(std::atof(argv[2]));
     std::printf(R"({"cpu_s": %.9f, "simulated_s": %.9f})" "\n", f.cpu_seconds, f.simulated_seconds);
+  } else if (workload == "bound" && argc == 4) {
+    const BoundFigures f = run_bound(number(argv[2]), number(argv[3]));
+    std::printf(R"({"cpu_s": %.9f, "load_cpu_s": %.9f, "streams": %zu, "bounded": %zu, "rounds": %d})" "\n", f.cpu_seconds, f.load_cpu_seconds, f.streams, f.bounded, f.rounds);
   } else {
     return usage();
   }

@@ -48,4 +48,14 @@ PairFigures run_pair(double simulated_seconds);
 /// host - 99 switches - host at 1 Gb/s with gPTP and nothing else: drifting clocks, Sync every 125 ms.
 PairFigures run_gptp_line(double simulated_seconds);
 
+struct BoundFigures {
+  double cpu_seconds = 0;          ///< from the text of the scenario to all bounds
+  double load_cpu_seconds = 0;     ///< the part before the analysis
+  std::size_t streams = 0;
+  std::size_t bounded = 0;         ///< those with a finite bound
+  int rounds = 0;
+};
+/// A mesh of that many switches (a multiple of 10) with that many streams across it, bounded.
+BoundFigures run_bound(unsigned switches, unsigned streams);
+
 }  // namespace takt::benchmark

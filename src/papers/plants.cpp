@@ -46,7 +46,7 @@ class Builder {
   void link(const std::string& a, const std::string& b) {
     scenario::Link made;
     made.ends = {a, b};
-    made.length = sim::Length(10'000);
+    made.length = sim::Length{10'000};
     scenario_.network.links.push_back(made);
   }
   /// The first participant is the master.
@@ -174,7 +174,7 @@ Scenario nested_groups(int rounds) {
     scenario.network.nodes.emplace_back(name, participant_host());
     scenario::Link link;
     link.ends = {name, "sw1"};
-    link.length = sim::Length(10'000);
+    link.length = sim::Length{10'000};
     scenario.network.links.push_back(link);
     inner.slaves.emplace_back(name);
     inner.phases.emplace_back(name, spread(inner.phases.size() + 2, inner.cycle));

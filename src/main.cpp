@@ -33,6 +33,7 @@ ExitStatus main_with(int argc, char** argv) {
   takt::cli::add_explore_command(app, status);
   takt::cli::add_bound_command(app, status);
   takt::cli::add_verify_command(app, status);
+  takt::cli::add_paper_command(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

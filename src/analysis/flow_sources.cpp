@@ -132,7 +132,18 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
   const bool on_change = program.description->publish == scenario::Publish::on_change;
   if (on_change) graph.assumptions.add(Assumption::program_publishes);
   for (std::uint8_t p = 0; p < program.participants.size(); ++p) add(p, program.state_streams[p], on_change ? messages_in_a_cycle : 1);
-  for (const scenario::ResolvedProcessData& data : program.process_data) add(data.from, data.stream, 1);
+  for (std::size_t d = 0; d < program.process_data.size(); ++d) {
+    const scenario::ResolvedProcessData& data = program.process_data[d];
+    add(data.from, data.stream, 1);
+    const auto reply = std::find_if(program.replies.begin(), program.replies.end(), [&](const scenario::ResolvedReply& answer) { return answer.with == d; });
+    if (reply == program.replies.end()) continue;
+    // A reply follows its request, whose latency is not known here. But who replies works at one message after the other.
+    Flow& flow = graph.flows.back();
+    flow.produced.reset();
+    const scenario::ResolvedProcessing& processing = program.processing[data.from];
+    const Ps work = processing.per_message.least().ps() + processing.per_field.least().ps() * static_cast<Ps>(program.process_data[reply->to].values);
+    flow.source = work > 0 ? FrameArrivals({work, 1, 0, flow.worst_source - flow.best_source}) : FrameArrivals(at_any_time());
+  }
 }
 
 Ps interval_ps(int log_seconds) { return rounded_up(std::ldexp(1e12, log_seconds)); }

@@ -20,5 +20,6 @@ void add_emulate_command(CLI::App& app, ExitStatus& status);
 void add_explore_command(CLI::App& app, ExitStatus& status);
 void add_bound_command(CLI::App& app, ExitStatus& status);
 void add_verify_command(CLI::App& app, ExitStatus& status);
+void add_paper_command(CLI::App& app, ExitStatus& status);
 
 }  // namespace takt::cli

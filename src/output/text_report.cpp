@@ -139,6 +139,11 @@ std::string program_part(const ProgramResult& program) {
   if (!program.reactions.empty()) out += "\n  Reactions (from the call until all are there)\n" + reactions_part(program.reactions);
   if (!program.tree_reactions.empty()) out += "\n  Reactions of the whole tree (until all in nested programs are there, too)\n" + reactions_part(program.tree_reactions);
   if (program.process_data_received > 0) out += fmt::format("  {} process data messages reached their applications\n", program.process_data_received);
+  for (const results::RoundTripResult& trip : program.round_trips) {
+    if (!trip.time) continue;
+    out += fmt::format("  round trip {} -> {}: {} of them, min {}, mean {}, max {}, standard deviation {}\n", trip.request, trip.reply, trip.count, readable(trip.time->min),
+                       readable(trip.time->mean), readable(trip.time->max), readable(trip.time->stddev));
+  }
   std::size_t shown = 0;
   for (const results::ViolationResult& violation : program.violations) {
     if (shown++ == 0) out += "\n  Violated invariants\n";

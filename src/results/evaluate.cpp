@@ -33,6 +33,20 @@ LatencySummary summary_of(const sim::Histogram& histogram) {
           histogram.percentile(99, 100), histogram.maximum(), histogram.standard_deviation()};
 }
 
+std::vector<RoundTripResult> round_trips_of(const scenario::ProgramMonitor& monitor, const ResolvedProgram& program) {
+  std::vector<RoundTripResult> all;
+  if (!monitor.round_trips()) return all;
+  for (std::size_t i = 0; i < program.replies.size(); ++i) {
+    const sim::Histogram& histogram = monitor.round_trips()->histogram(i);
+    RoundTripResult one{program.process_data[program.replies[i].to].name, program.process_data[program.replies[i].with].name, histogram.count(), {}, {}, {}};
+    if (!histogram.empty()) one.time = summary_of(histogram);
+    if (const sim::Histogram& one_way = monitor.round_trips()->one_way(i); !one_way.empty()) one.one_way = summary_of(one_way);
+    histogram.for_each_bucket([&](Duration from, Duration to, std::uint64_t n) { one.histogram.push_back({from, to, n}); });
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
 StreamResult result_of(const models::Stream& stream, bool of_program) {
   StreamResult result;
   result.name = stream.name;
@@ -115,6 +129,7 @@ ProgramResult result_of(const scenario::Run& run, std::size_t index) {
   });
   result.changes = monitor.changes();
   result.process_data_received = monitor.process_data_received();
+  result.round_trips = round_trips_of(monitor, program);
   return result;
 }
 

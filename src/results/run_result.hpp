@@ -73,6 +73,16 @@ struct ViolationResult {
   std::string text;
 };
 
+/// From publishing process data to receiving what answers it.
+struct RoundTripResult {
+  std::string request;                     ///< data set
+  std::string reply;                       ///< data set
+  std::uint64_t count = 0;
+  std::optional<LatencySummary> time;      ///< none if nothing was answered
+  std::optional<LatencySummary> one_way;   ///< from publishing to the end of the work at the request
+  std::vector<HistogramBucket> histogram;
+};
+
 /// A row of the time line: a call, or a change of state.
 struct TimelineEntry {
   TrueTime at;
@@ -102,6 +112,7 @@ struct ProgramResult {
   std::vector<TimelineEntry> timeline;
   std::uint64_t changes = 0;               ///< of state, in all; the time line keeps the first ones
   std::uint64_t process_data_received = 0;
+  std::vector<RoundTripResult> round_trips;
 };
 
 /// What a requirement is about.

@@ -144,6 +144,7 @@ const json::Object& describe(json::Type<Program>) {
       optional<&Program::vlan>("vlan", "VLAN of its messages.", {.max = 4094}),
       optional<&Program::violations>("violations", "What a violated invariant means for the verdict."),
       optional<&Program::process_data>("process_data", "Data sets that the participants exchange.", {.max_items = 256}),
+      optional<&Program::replies>("replies", "Process data that answers other process data at once.", {.max_items = 256}),
   };
   static constexpr std::string_view members[] = {"slaves", "roles"};
   static constexpr json::Group groups[] = {json::exactly_one_of(members)};

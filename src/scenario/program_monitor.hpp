@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "handshake/invariants.hpp"
 #include "handshake/reaction.hpp"
+#include "scenario/round_trips.hpp"
 #include "scenario/tree_monitor.hpp"
 #include "sim/simulation.hpp"
 
@@ -48,6 +50,18 @@ class ProgramMonitor {
   void on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in);
   std::uint32_t sending_run(std::size_t participant) const { return observer_.sending_run(participant); }
 
+  /// The round trips of replies are measured.
+  void set_round_trips(const ResolvedProgram& program) { round_trips_.emplace(program); }
+  void on_published(std::size_t data_set, std::uint16_t sequence) {
+    if (round_trips_) round_trips_->on_published(static_cast<std::uint8_t>(data_set), sequence, simulation_->now());
+  }
+  void on_replied(std::size_t reply, std::uint16_t sequence, std::uint16_t request) { round_trips_->on_replied(reply, sequence, request, simulation_->now()); }
+  void on_data_received(std::uint8_t data_set, std::uint16_t sequence, std::size_t to) {
+    if (round_trips_) round_trips_->on_received(data_set, sequence, to, simulation_->now());
+  }
+  /// Nothing without replies.
+  const std::optional<RoundTrips>& round_trips() const { return round_trips_; }
+
   std::span<const handshake::Reaction> reactions() const { return tracker_.reactions(); }
   const std::vector<StateRecord>& history() const { return history_; }
   std::uint64_t changes() const { return changes_; }
@@ -70,6 +84,7 @@ class ProgramMonitor {
   std::vector<CallRecord> calls_;
   std::vector<ViolationRecord> violations_;
   std::uint64_t process_data_received_ = 0;
+  std::optional<RoundTrips> round_trips_;
 };
 
 }  // namespace takt::scenario

@@ -14,6 +14,7 @@
 #include "scenario/resolve_egress.hpp"
 #include "scenario/resolve_ingress.hpp"
 #include "scenario/resolve_faults.hpp"
+#include "scenario/resolve_replies.hpp"
 #include "scenario/resolve_nesting.hpp"
 #include "scenario/resolve_plug.hpp"
 #include "scenario/stream_builder.hpp"
@@ -40,6 +41,7 @@ class Resolver {
     builder_ = &builder;
     check_names();
     for (const Stream& stream : r_.scenario.streams) add_stream(stream);
+    check_processing(r_.topology, diagnostics_);
     for (const Program& program : r_.scenario.programs) add_program(program);
     resolve_nesting(r_, diagnostics_);
     check_candidates(r_, diagnostics_);
@@ -211,6 +213,8 @@ class Resolver {
     };
     if (program.offset) check_phase(*program.offset, program.where.at("offset"));
     if (!program.roles.empty()) {
+      if (!program.replies.empty())
+        diagnostics_.error(program.where.at("replies"), "replies in a program with roles", {"\"replies\" beside \"roles\"", "\"slaves\", whose replies are measured"});
       resolved.phases.assign(program.roles.size() + 1, program.offset.value_or(Duration()));
       resolve_roles(r_, *builder_, std::move(resolved), publishers_, diagnostics_);
       return;
@@ -245,6 +249,7 @@ class Resolver {
       resolved.state_streams.push_back(*stream);
     }
     for (const ProcessData& data : program.process_data) add_process_data(program, data, resolved);
+    resolve_replies(r_.topology, resolved, diagnostics_);
     r_.programs.push_back(std::move(resolved));
   }
 
@@ -258,6 +263,7 @@ class Resolver {
     if (!participant) return;
     made.from = *participant;
     for (const auto& [name, field] : data.fields) made.field_octets += static_cast<std::uint32_t>(uadp::fixed_octets(built_in_type_of(field.type))) * field.count;
+    for (const auto& [name, field] : data.fields) made.values += field.count;
     const auto stream = add_program_stream(program, resolved, *participant, data.name,
                                            Octets{wire::process_data_octets(made.field_octets)}, data.where);
     if (!stream) return;

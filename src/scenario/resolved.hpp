@@ -34,7 +34,19 @@ struct ResolvedProcessData {
   std::string name;
   std::uint8_t from = 0;             ///< participant
   std::uint32_t field_octets = 0;
+  std::uint32_t values = 0;          ///< single ones, in all fields
   models::StreamIndex stream;
+};
+
+/// Data sets of one program: `with` is published when `to` has come and was worked at.
+struct ResolvedReply {
+  std::uint8_t to = 0;
+  std::uint8_t with = 0;
+};
+
+struct ResolvedProcessing {
+  sim::Distribution per_message = sim::Distribution::constant({});
+  sim::Distribution per_field = sim::Distribution::constant({});
 };
 
 /// A node that may have a role of a program.
@@ -54,6 +66,8 @@ struct ResolvedProgram {
   std::vector<std::string> participant_names;           ///< nodes, or roles
   std::vector<models::StreamIndex> state_streams;       ///< of each participant
   std::vector<ResolvedProcessData> process_data;
+  std::vector<ResolvedReply> replies;                   ///< as in the description
+  std::vector<ResolvedProcessing> processing;           ///< by participant; empty without replies
   std::vector<Duration> phases;                         ///< of publishing, by participant
   Duration receive_timeout;
   std::uint16_t first_publisher_id = 1;                 ///< of the master

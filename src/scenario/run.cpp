@@ -101,6 +101,14 @@ void Run::watch_clocks() {
 
 Run::~Run() = default;
 
+/// What the participant answers at once, instead of publishing it every cycle.
+void Run::add_replies(const ResolvedProgram& program, std::size_t participant, ProgramApplication::Settings& settings) const {
+  const std::string path = resolved_->topology.nodes[program.participants[participant].value].name + "/" + program.name;
+  settings.replies.emplace(program, static_cast<std::uint8_t>(participant), resolved_->scenario.seed, path);
+  settings.endpoint.on_demand.assign(program.process_data.size(), false);
+  for (const ResolvedReply& reply : program.replies) settings.endpoint.on_demand[reply.with] = true;
+}
+
 wire::EndpointSettings Run::endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) const {
   const Program& description = *program.description;
   wire::EndpointSettings endpoint;
@@ -134,10 +142,12 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
     settings.endpoint = endpoint_settings(program, p, format);
     settings.state_stream = program.state_streams[p];
     for (const ResolvedProcessData& data : program.process_data) settings.data_streams.push_back(data.stream);
+    if (!program.replies.empty()) add_replies(program, p, settings);
     auto application = std::make_unique<ProgramApplication>(std::move(settings), *live->monitor);
     live->applications.push_back(application.get());
     live->processes.push_back(&network_.add_process(program.participants[p], program.name, std::move(application)));
   }
+  if (!program.replies.empty()) live->monitor->set_round_trips(program);
   connect_streams(program, *live);
   programs_.push_back(std::move(live));
 }

@@ -58,6 +58,7 @@ class Run {
 
   void watch_clocks();
   void add_program(std::uint32_t number, const ResolvedProgram& program);
+  void add_replies(const ResolvedProgram& program, std::size_t participant, ProgramApplication::Settings& settings) const;
   wire::EndpointSettings endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) const;
   void add_program_with_roles(std::uint32_t number, const ResolvedProgram& program);
   void nest_programs();

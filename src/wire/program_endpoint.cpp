@@ -151,15 +151,21 @@ void ProgramEndpoint::publish_state(EndpointHost& host) {
   host.publish(settings_.format->encode(message, buffer_), {state_writer_group, settings_.priority});
 }
 
-void ProgramEndpoint::publish_process_data(EndpointHost& host) {
+bool ProgramEndpoint::publish_data(EndpointHost& host, std::uint8_t data_set) {
+  if (participant_.state() != handshake::PublishedState::Running) return false;
   const bool has_runs = settings_.handshake.variant == handshake::Variant::Robust;
   const std::uint32_t run = has_runs ? participant_.run() : host.run_of_paper();
+  const uadp::Octets octets =
+      settings_.format->encode(ProcessDataMessage{settings_.handshake.index, data_set, data_sequence_[data_set]++, run, {}}, buffer_);
+  host.fill(data_set, std::span(buffer_).subspan(process_data_octets(0), octets.size() - process_data_octets(0)));
+  host.publish(octets, {static_cast<std::uint16_t>(first_data_writer_group + data_set), settings_.priority});
+  return true;
+}
+
+void ProgramEndpoint::publish_process_data(EndpointHost& host) {
   for (std::size_t d = 0; d < data_sequence_.size(); ++d) {
-    const auto number = static_cast<std::uint8_t>(d);
     if (settings_.format->shape().data_sets[d].from != settings_.handshake.index) continue;
-    const uadp::Octets octets = settings_.format->encode(ProcessDataMessage{settings_.handshake.index, number, data_sequence_[d]++, run, {}}, buffer_);
-    host.fill(number, std::span(buffer_).subspan(process_data_octets(0), octets.size() - process_data_octets(0)));
-    host.publish(octets, {static_cast<std::uint16_t>(first_data_writer_group + d), settings_.priority});
+    if (settings_.on_demand.empty() || !settings_.on_demand[d]) publish_data(host, static_cast<std::uint8_t>(d));
   }
 }
 

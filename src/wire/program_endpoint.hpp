@@ -45,6 +45,7 @@ struct EndpointSettings {
   sim::Duration offset;           ///< into the cycle, which begins at multiples of `cycle`
   sim::Duration receive_timeout;  ///< MessageReceiveTimeout
   sim::Duration initialisation;   ///< how long INIT takes
+  std::vector<bool> on_demand;    ///< by data set: published by `publish_data` only; empty: all every cycle
   bool publish_on_change = false;
   std::uint8_t priority = 0;      ///< of its messages
 };
@@ -90,6 +91,10 @@ class ProgramEndpoint {
   program::StatusCode call(EndpointHost& host, program::Method method);
   /// The local process has ended by itself.
   void finished(EndpointHost& host) { step(host, handshake::Input::finished()); }
+  /// Publishes an own data set now, if the participant is Running. False if it is not.
+  bool publish_data(EndpointHost& host, std::uint8_t data_set);
+  /// Of the message of an own data set that was published last.
+  std::uint16_t last_data_sequence(std::size_t data_set) const { return static_cast<std::uint16_t>(data_sequence_[data_set] - 1); }
   /// A NetworkMessage has come; of whom and whether it is sound is found out here.
   void receive(EndpointHost& host, uadp::Octets network_message);
   /// An alarm has come due.

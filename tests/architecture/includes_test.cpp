@@ -26,6 +26,8 @@ const Prefixes cli = {"cli/"};
 const Prefixes node = {"node/"};
 const Prefixes emulate = {"emulate/"};
 const Prefixes vocabulary = {"vocabulary/"};
+const Prefixes chart = {"chart/"};
+const Prefixes papers = {"papers/"};
 
 Prefixes all_of(std::initializer_list<Prefixes> parts) {
   Prefixes sum;
@@ -51,10 +53,12 @@ const std::vector<Layer>& layers() {
     for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, results})});
     list.push_back({"src/results/", all_of({below, results})});
     list.push_back({"src/output/", all_of({below, questions, results, output})});
+    list.push_back({"src/chart/", chart});
+    list.push_back({"src/papers/", all_of({below, questions, results, chart, papers})});
     list.push_back({"src/property/", all_of({below, questions, results, output, {"property/"}})});
     list.push_back({"src/emulate/", all_of({below, node, emulate})});
-    list.push_back({"src/cli/", all_of({below, questions, results, output, node, emulate, cli})});
-    list.push_back({"src/main.cpp", all_of({below, questions, results, output, node, emulate, cli})});
+    list.push_back({"src/cli/", all_of({below, questions, results, output, node, emulate, papers, cli})});
+    list.push_back({"src/main.cpp", all_of({below, questions, results, output, node, emulate, papers, cli})});
     return list;
   }();
   return all;
@@ -79,7 +83,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, emulate, vocabulary, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, emulate, vocabulary, chart, papers, {"property/"}});
   return roots;
 }
 

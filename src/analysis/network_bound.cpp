@@ -30,6 +30,7 @@ class FixedPoint {
     // What still grows after many rounds is unbounded; with that known, the others settle.
     while (!settle()) give_up_what_grows();
     for (std::uint32_t p = 0; p < graph_.ports.size(); ++p) count_held_frames(p);
+    result_.arrivals = std::move(arrivals_);
     return std::move(result_);
   }
 
@@ -63,10 +64,10 @@ class FixedPoint {
       }
       traffic.flows.push_back(std::move(flow));
     }
-    if (const auto messages = gptp_messages(r_, port.node)) {
+    for (const GptpMessages& messages : gptp_messages(r_, port.node)) {
       PortFlow flow;
-      flow.arrivals = messages->arrivals;
-      flow.frame = messages->frame;
+      flow.arrivals = messages.arrivals;
+      flow.frame = messages.frame;
       flow.lowest_class = flow.highest_class = graph_.models[p].config->traffic_class_of_priority[7];
       traffic.flows.push_back(std::move(flow));
     }

@@ -4,6 +4,7 @@
 
 #include "analysis/network_bound.hpp"
 #include "analysis/program_reactions.hpp"
+#include "analysis/separated_flow.hpp"
 
 namespace takt::analysis {
 namespace {
@@ -30,7 +31,7 @@ std::vector<QueueBound> queue_bounds(const FlowGraph& graph, const NetworkResult
 
 class StreamBounds {
  public:
-  StreamBounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network) : r_(resolved), graph_(graph), network_(network) {}
+  StreamBounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network) : r_(resolved), graph_(graph), network_(network), separated_(resolved, graph, network) {}
 
   std::vector<StreamBound> make() {
     std::vector<StreamBound> bounds(r_.streams.size());
@@ -40,7 +41,7 @@ class StreamBounds {
       bounds[s].index = models::StreamIndex{static_cast<std::uint32_t>(s)};
       bounds[s].by_listener.assign(plan.listeners.size(), Duration());
       bounds[s].least = Duration::max();
-      bounds[s].latency = Duration();
+      bounds[s].latency = bounds[s].total_flow = bounds[s].separated_flow = Duration();
       bounds[s].assumptions = graph_.assumptions;
       bounds[s].loses_nothing = true;
     }
@@ -48,7 +49,7 @@ class StreamBounds {
     for (StreamBound& bound : bounds)
       if (bound.least == Duration::max()) {
         bound.least = Duration();
-        bound.latency.reset();
+        bound.latency = bound.total_flow = bound.separated_flow = std::nullopt;
         bound.loses_nothing = false;
         bound.reason = "nothing is known of when it is sent";
       }
@@ -66,14 +67,20 @@ class StreamBounds {
         const Ps latency = sum(hop.worst, hop.delay, propagation, receive.greatest().ps());
         const Ps least = sum(hop.best, hop.least_delay, propagation, receive.least().ps());
         bound.least = std::min(bound.least, Duration::from_ps(least));
-        bound.by_listener[l] = later(bound.by_listener[l], duration_of(latency));
-        const bool is_worst = bound.hops.empty() || (bound.latency && (!is_bounded(latency) || Duration::from_ps(latency) > *bound.latency));
-        bound.latency = later(bound.latency, duration_of(latency));
+        const SeparatedFlowBound separated = separated_.bound(last);
+        const Ps second = sum(separated.latency, receive.greatest().ps());
+        if (bound.separated_flow_reason.empty()) bound.separated_flow_reason = separated.reason;
+        bound.separated_flow = later(bound.separated_flow, duration_of(second));
+        bound.by_listener[l] = later(bound.by_listener[l], duration_of(std::min(latency, second)));
+        bound.latency = later(bound.latency, duration_of(std::min(latency, second)));
+        const bool is_worst = bound.hops.empty() || (bound.total_flow && (!is_bounded(latency) || Duration::from_ps(latency) > *bound.total_flow));
+        bound.total_flow = later(bound.total_flow, duration_of(latency));
         if (!is_worst) continue;
         bound.listener = plan.listeners[l];
         take_hops(last, bound);
       }
     }
+    if (bound.latency) bound.reason.clear();   // whatever one of the two analyses says
     bound.loses_nothing = bound.loses_nothing && !flow.may_miss_launch;
     for (const std::uint32_t h : flow.hops) bound.loses_nothing = bound.loses_nothing && has_room(graph_.hops[h]);
   }
@@ -137,6 +144,7 @@ class StreamBounds {
   const scenario::Resolved& r_;
   const FlowGraph& graph_;
   const NetworkResult& network_;
+  SeparatedFlows separated_;
 };
 
 class RequirementBounds {

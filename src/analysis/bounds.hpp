@@ -33,7 +33,10 @@ struct HopBound {
 struct StreamBound {
   std::string name;
   models::StreamIndex index;
-  std::optional<sim::Duration> latency;       ///< from production to delivery, at any listener
+  std::optional<sim::Duration> latency;       ///< from production to delivery, at any listener: the lesser of the two analyses
+  std::optional<sim::Duration> total_flow;    ///< the same by total-flow analysis, the sum of the hops
+  std::optional<sim::Duration> separated_flow;   ///< and by separated-flow analysis, where that applies
+  std::string separated_flow_reason;          ///< why it does not
   sim::Duration least;                        ///< no delivered frame is faster
   models::NodeIndex listener;                 ///< the one that the bound is of
   std::vector<std::optional<sim::Duration>> by_listener;   ///< as in the plan

@@ -157,24 +157,22 @@ void add_flows(const scenario::Resolved& resolved, const BoundOptions& options, 
   for (const scenario::ResolvedProgram& program : resolved.programs) add_program(resolved, program, options, graph);
 }
 
-std::optional<GptpMessages> gptp_messages(const scenario::Resolved& resolved, models::NodeIndex node) {
+std::vector<GptpMessages> gptp_messages(const scenario::Resolved& resolved, models::NodeIndex node) {
   const auto& stations = resolved.plan.gptp;
-  if (node.value >= stations.size() || !stations[node.value]) return std::nullopt;
+  if (node.value >= stations.size() || !stations[node.value]) return {};
   const models::gptp::StationPlan& plan = resolved.plan.gptp_stations[*stations[node.value]];
   // Request, response and its follow-up of the link delay; Sync, Follow_Up and Announce of each domain.
+  const auto domains = static_cast<std::int64_t>(plan.instances.size());
   int shortest = plan.link.log_pdelay_req_interval;
-  std::int64_t kinds = 3;
-  for (const models::gptp::InstanceConfig& instance : plan.instances) {
-    shortest = std::min({shortest, instance.log_sync_interval, instance.log_announce_interval});
-    kinds += 3;
-  }
+  for (const models::gptp::InstanceConfig& instance : plan.instances) shortest = std::min({shortest, instance.log_sync_interval, instance.log_announce_interval});
   const std::size_t nodes = static_cast<std::size_t>(std::count_if(stations.begin(), stations.end(), [](const auto& station) { return station.has_value(); }));
-  // The longest is an Announce with the path over all nodes: 68 octets and 8 for each.
-  const std::size_t announce = 68 + 8 * std::min<std::size_t>(nodes, 179);
-  GptpMessages messages;
-  messages.arrivals = FrameArrivals({interval_ps(shortest) / 2, kinds, 0, 0});
-  messages.frame = models::frame_length(sim::Octets{static_cast<std::uint32_t>(std::max<std::size_t>(76, announce))}, false);
-  return messages;
+  const auto messages = [&](std::int64_t frames, std::size_t octets) {
+    return GptpMessages{FrameArrivals({interval_ps(shortest) / 2, frames, 0, 0}), models::frame_length(sim::Octets{static_cast<std::uint32_t>(octets)}, false)};
+  };
+  // A Follow_Up has 76 octets, an Announce 68 and 8 for each node on the path; all others are shorter.
+  std::vector<GptpMessages> all{messages(3 + 2 * domains, 76)};
+  if (domains > 0) all.push_back(messages(domains, 68 + 8 * std::min<std::size_t>(nodes, models::gptp::Announce::longest_path_trace)));
+  return all;
 }
 
 }  // namespace takt::analysis

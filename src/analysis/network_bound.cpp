@@ -4,6 +4,7 @@
 #include <map>
 
 #include "analysis/flow_sources.hpp"
+#include "models/egress/class_set.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "sim/check.hpp"
 
@@ -22,6 +23,8 @@ class FixedPoint {
     for (const Hop& hop : graph.hops)
       if (hop.ats) ats_groups_[hop.ats->group].push_back(static_cast<std::uint32_t>(&hop - graph.hops.data()));
     for (std::uint32_t p = 0; p < graph.ports.size(); ++p) lay_out_traffic(p);
+    header_after_.resize(graph.ports.size());
+    for (std::uint32_t p = 0; p < graph.ports.size(); ++p) header_after_[p] = header_of_all(p);
   }
 
   NetworkResult run() {
@@ -30,6 +33,7 @@ class FixedPoint {
     // What still grows after many rounds is unbounded; with that known, the others settle.
     while (!settle()) give_up_what_grows();
     for (std::uint32_t p = 0; p < graph_.ports.size(); ++p) count_held_frames(p);
+    result_.arrivals = std::move(arrivals_);
     return std::move(result_);
   }
 
@@ -63,13 +67,50 @@ class FixedPoint {
       }
       traffic.flows.push_back(std::move(flow));
     }
-    if (const auto messages = gptp_messages(r_, port.node)) {
+    for (const GptpMessages& messages : gptp_messages(r_, port.node)) {
       PortFlow flow;
-      flow.arrivals = messages->arrivals;
-      flow.frame = messages->frame;
+      flow.arrivals = messages.arrivals;
+      flow.frame = messages.frame;
       flow.lowest_class = flow.highest_class = graph_.models[p].config->traffic_class_of_priority[7];
       traffic.flows.push_back(std::move(flow));
     }
+  }
+
+  /// Whether a port cuts all frames through whatever happens: they come by one link of the same rate, which keeps them a gap apart, and nothing else asks for the port. Then the
+  /// last bit leaves so much after it has come as the header takes to be there.
+  std::optional<Ps> header_of_all(std::uint32_t p) const {
+    const GraphPort& port = graph_.ports[p];
+    const PortModel& model = graph_.models[p];
+    const models::PortConfig& config = *model.config;
+    const models::NodePlan& node = r_.plan.nodes[port.node.value];
+    if (port.hops.empty() || !model.counts_packets || config.preemption || config.untagged || !is_plain(config.shaping) || !model.more_gates.empty() || model.cqf || node.ingress) return std::nullopt;
+    if (!gptp_messages(r_, port.node).empty()) return std::nullopt;
+    for (std::size_t other = 0; other < graph_.ports.size(); ++other)   // eligibility times ask for the last bit
+      if (graph_.ports[other].node == port.node && graph_.models[other].config->shaping.timed != 0) return std::nullopt;
+    const Ps header = port.octet_time * (node.cut_through_header + models::vlan_tag).count;
+    for (const std::uint32_t h : port.hops) {
+      const Hop& hop = graph_.hops[h];
+      const models::StreamIndex stream = graph_.flows[hop.flow].stream;
+      if (!hop.headers_come_first || hop.parents.size() != 1 || hop.is_copied_here || hop.lowest_class != hop.highest_class || !hop.unsupported.empty()) return std::nullopt;
+      const std::uint32_t from = graph_.hops[hop.parents.front()].port;
+      if (from != graph_.hops[graph_.hops[port.hops.front()].parents.front()].port) return std::nullopt;
+      const GraphPort& link = graph_.ports[from];
+      if (link.octet_time != port.octet_time || link.may_double || graph_.models[from].config->preemption) return std::nullopt;
+      for (std::uint32_t before = h; !graph_.hops[before].parents.empty();) {   // the header of an untagged frame is shorter
+        before = graph_.hops[before].parents.front();
+        if (graph_.models[graph_.hops[before].port].config->untagged) return std::nullopt;
+      }
+      const bool is_redundant = std::any_of(r_.redundancies.begin(), r_.redundancies.end(), [&](const scenario::ResolvedRedundancy& each) { return each.stream == stream; });
+      if (is_redundant || !r_.plan.streams[stream.value].priority || !models::contains(config.cut_through, hop.highest_class)) return std::nullopt;
+      if (header >= port.octet_time * (models::wire_length(hop.frame) - models::inter_packet_gap).count) return std::nullopt;
+    }
+    return header;
+  }
+  static bool is_plain(const models::ShapingConfig& shaping) {
+    const auto is_limited = [](const sim::Octets& sdu) { return sdu.count != 0; };
+    const auto is_shaped = [](const auto& shaper) { return shaper.has_value(); };
+    return !shaping.gates && shaping.timed == 0 && std::none_of(shaping.shapers.begin(), shaping.shapers.end(), is_shaped) &&
+           std::none_of(shaping.queue_max_sdu.begin(), shaping.queue_max_sdu.end(), is_limited);
   }
 
   static bool is_held(const Hop& hop) { return hop.ats && hop.ats->is_minded; }
@@ -99,6 +140,10 @@ class FixedPoint {
       for (std::size_t i = 0; i < hops.size(); ++i) {
         HopResult& hop = result_.hops[hops[i]];
         const PortFlowBound& bound = result_.ports[p].flows[i];
+        if (header_after_[p]) {
+          hop.delay = hop.least_delay = hop.reason.empty() ? *header_after_[p] : unbounded_ps;
+          continue;
+        }
         hop.delay = graph_.hops[hops[i]].unsupported.empty() && hop.reason.empty() ? bound.delay : unbounded_ps;
         hop.least_delay = bound.least_delay;
       }
@@ -127,7 +172,8 @@ class FixedPoint {
         const HopResult& before = result_.hops[parent];
         const GraphPort& port = graph_.ports[graph_.hops[parent].port];
         const Ps on_the_way = sum(port.propagation, r_.plan.nodes[graph_.ports[hop.port].node.value].forwarding_delay.ps());
-        best = std::min(best, sum(before.best, hop.headers_come_first ? 0 : before.least_delay, on_the_way));
+        const bool may_be_cut = hop.headers_come_first && !header_after_[hop.port];
+        best = std::min(best, sum(before.best, may_be_cut ? before_the_header(parent) : before.least_delay, on_the_way));
         worst = std::max(worst, sum(before.worst, delay_with_hold(hop, parent), on_the_way));
       }
     }
@@ -149,6 +195,13 @@ class FixedPoint {
     result.worst = worst;
     arrivals_[h] = std::move(arrivals);
     is_due_[hop.port] = true;   // and with it the hops behind
+  }
+
+  /// From the arrival at a port to the first bit on the wire, at least. Frames that are always cut through begin before they have come.
+  Ps before_the_header(std::uint32_t h) const {
+    const GraphPort& port = graph_.ports[graph_.hops[h].port];
+    const std::optional<Ps>& header = header_after_[graph_.hops[h].port];
+    return header ? *header - port.octet_time * (models::wire_length(graph_.hops[h].frame) - models::inter_packet_gap).count : 0;
   }
 
   /// When the frames of a flow come to a hop, if that is known. A flow whose frames are doubled has no such times.
@@ -258,6 +311,7 @@ class FixedPoint {
   const FlowGraph& graph_;
   std::vector<FrameArrivals> arrivals_;        // by hop
   std::vector<PortTraffic> traffic_;           // by port
+  std::vector<std::optional<Ps>> header_after_;   // by port: all of its frames are cut through, so long after they have come
   std::vector<bool> is_due_;                   // by port
   std::vector<bool> is_known_;                 // by hop
   std::map<std::uint64_t, std::vector<std::uint32_t>> ats_groups_;

@@ -22,6 +22,7 @@ using models::traffic_class_count;
 constexpr Ps longest_search_ps = 100'000'000'000'000;   // 100 s
 constexpr int most_steps = 100'000;
 constexpr std::size_t most_bends = 20'000;
+constexpr std::size_t most_jumps_of_others = 50;
 /// Stretches in which work grows slower than the port sends are looked at so many times.
 constexpr Ps looks_at_a_slope = 32;
 
@@ -367,7 +368,7 @@ void PortAnalysis::bound_flows(TrafficClass q, const Service& service, Ps busy) 
     PortFlowBound& made = bound_.flows[f];
     const bool was_bounded_elsewhere = q != flow.highest_class;
     Ps delay = longest[work];
-    if (!waits.empty()) delay = std::min(delay, sum(waits[scheduled++], works[work] - gap_));
+    if (!waits.empty() && flow.phase) delay = std::min(delay, sum(waits[scheduled++], works[work] - gap_));
     made.delay = was_bounded_elsewhere ? std::max(made.delay, delay) : delay;
     made.least_delay = model_.counts_packets ? works[work] - gap_ : 0;
     class_delay_[q] = std::max(class_delay_[q], delay);
@@ -381,15 +382,32 @@ void PortAnalysis::bound_flows(TrafficClass q, const Service& service, Ps busy) 
   bound.backlog_frames = demand.frames(sum(class_delay_[q], gap_));
 }
 
-/// Where all frames of a gated class come at known phases, on the time that the gates follow too: how long each flow waits. Empty otherwise.
+/// Where frames of a gated class come at known phases, on the time that the gates follow too: how long each of these flows waits. Empty otherwise.
 std::vector<Ps> PortAnalysis::waits_at_phases(TrafficClass q, const Service& service, Ps busy) const {
   if (!is_gated(q) || service.is_shaped || is_preemptable(q) || contains(config_.shaping.timed, q) || !model_.clock.is_synchronised || !model_.counts_packets) return {};
   std::vector<ScheduledFlow> flows;
+  std::vector<std::pair<const FrameArrivals*, Ps>> at_any_time;
+  UnscheduledWork others;
   for (const PortFlow& flow : traffic_.flows) {
     if (q < flow.lowest_class || flow.highest_class < q || is_in_cqf(flow.highest_class)) continue;
-    if (!flow.phase) return {};
-    flows.push_back({flow.phase->first, flow.phase->period, flow.phase->width, octet_ * models::wire_length(flow.frame).count});
+    const Ps work = octet_ * models::wire_length(flow.frame).count;
+    if (flow.phase) {
+      flows.push_back({flow.phase->first, flow.phase->period, flow.phase->width, work});
+      continue;
+    }
+    if (!flow.arrivals.is_limited()) return {};
+    at_any_time.emplace_back(&flow.arrivals, work);
+    for (Ps jump = flow.arrivals.next_jump(0); jump <= busy; jump = flow.arrivals.next_jump(jump)) {
+      others.jumps.push_back(jump);
+      if (others.jumps.size() > most_jumps_of_others) return {};
+    }
   }
+  std::sort(others.jumps.begin(), others.jumps.end());
+  others.in = [&](Ps length) {
+    Ps all = 0;
+    for (const auto& [arrivals, work] : at_any_time) all = sum(all, product(work, arrivals->count(length)));
+    return all;
+  };
   std::vector<Ps> longest(flows.size(), 0);
   for (const GateCycle& gates : gates_) {
     // Clocks that are off by their error, and drift while a frame waits.
@@ -409,7 +427,7 @@ std::vector<Ps> PortAnalysis::waits_at_phases(TrafficClass q, const Service& ser
       }
       return unbounded_ps;
     };
-    const std::optional<std::vector<Ps>> waits = longest_waits(flows, gates.cycle(), windows.ends(), busy, start);
+    const std::optional<std::vector<Ps>> waits = longest_waits(flows, gates.cycle(), windows.ends(), busy, start, others);
     if (!waits) return {};
     for (std::size_t f = 0; f < flows.size(); ++f) longest[f] = std::max(longest[f], (*waits)[f]);
   }

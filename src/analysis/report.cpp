@@ -53,12 +53,13 @@ std::string requirement_answer(const RequirementBound& bound) {
 }
 
 std::string streams_text(const Bounds& bounds, const scenario::Resolved& r, const std::vector<Assumption>& all) {
-  std::string text = "Streams: the longest latency from production to delivery; of each port the longest delay and the greatest backlog of the class\n";
+  std::string text = "Streams: the longest latency from production to delivery, by total-flow and by separated-flow analysis; of each port the longest delay and the greatest backlog of the class\n";
   for (const StreamBound& stream : bounds.streams) {
-    text += fmt::format("  {:<32} {:>16}  to {}{}{}\n", stream.name, text_of(stream.latency), r.plan.nodes[stream.listener.value].name,
+    const std::string second = stream.separated_flow ? text_of(stream.separated_flow) : "-";
+    text += fmt::format("  {:<32} {:>16} {:>16}  to {}{}{}\n", stream.name, text_of(stream.total_flow), second, r.plan.nodes[stream.listener.value].name,
                         numbers_of(stream.assumptions, all), stream.reason.empty() ? "" : "  " + stream.reason);
     for (const HopBound& hop : stream.hops)
-      text += fmt::format("    {:<30} {:>16}  {}\n", hop.name, text_of(hop.delay), hop.backlog_bits ? fmt::format("{} bits", *hop.backlog_bits) : "unbounded");
+      text += fmt::format("    {:<30} {:>16} {:>16}  {}\n", hop.name, text_of(hop.delay), "", hop.backlog_bits ? fmt::format("{} bits", *hop.backlog_bits) : "unbounded");
   }
   return text;
 }
@@ -98,6 +99,9 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
     Node node = Node::object();
     node.add("name", Node::of_string(stream.name));
     node.add("bound_ps", picoseconds(stream.latency));
+    node.add("tfa_ps", picoseconds(stream.total_flow));
+    node.add("sfa_ps", picoseconds(stream.separated_flow));
+    node.add("sfa_reason", Node::of_string(stream.separated_flow_reason));
     node.add("least_ps", Node::of_integer(stream.least.ps()));
     node.add("listener", Node::of_string(resolved.plan.nodes[stream.listener.value].name));
     node.add("reason", Node::of_string(stream.reason));

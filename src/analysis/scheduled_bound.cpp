@@ -29,7 +29,7 @@ std::optional<Ps> hyperperiod(const std::vector<ScheduledFlow>& flows, Ps cycle)
 
 }  // namespace
 
-std::optional<std::vector<Ps>> longest_waits(const std::vector<ScheduledFlow>& flows, Ps cycle, const std::vector<Ps>& ends, Ps busy, const StartFrom& start) {
+std::optional<std::vector<Ps>> longest_waits(const std::vector<ScheduledFlow>& flows, Ps cycle, const std::vector<Ps>& ends, Ps busy, const StartFrom& start, const UnscheduledWork& others) {
   const std::optional<Ps> all = hyperperiod(flows, cycle);
   if (!all || flows.empty() || !is_bounded(busy)) return std::nullopt;
   // The frames of one hyperperiod, and before them those of a busy period; earlier ones may still come late.
@@ -53,17 +53,21 @@ std::optional<std::vector<Ps>> longest_waits(const std::vector<ScheduledFlow>& f
     std::vector<Ps> instants{mine.earliest};
     for (const Arrival& other : arrivals) {
       if (other.earliest > mine.earliest && other.earliest <= mine.latest) instants.push_back(other.earliest);
-      if (other.latest > mine.earliest && other.latest <= mine.latest) instants.push_back(other.latest);
+      for (const Ps jump : others.jumps)
+        if (other.latest + jump > mine.earliest && other.latest + jump <= mine.latest) instants.push_back(other.latest + jump);
     }
     for (const Ps end : ends) {
-      const Ps past = (mine.earliest - end) % cycle;
-      for (Ps at = mine.earliest - past - (past < 0 ? cycle : 0); at <= mine.latest; at += cycle)
-        for (const Ps x : {at, at + 1})
-          if (x > mine.earliest && x <= mine.latest) instants.push_back(x);
+      for (const Ps jump : others.jumps) {
+        const Ps past = (mine.earliest - end - jump) % cycle;
+        for (Ps at = mine.earliest - past - (past < 0 ? cycle : 0); at <= mine.latest; at += cycle)
+          for (const Ps x : {at, at + 1})
+            if (x > mine.earliest && x <= mine.latest) instants.push_back(x);
+      }
       if (instants.size() > most_frames) return std::nullopt;
     }
     for (const Ps x : instants) {
-      std::vector<Ps> begins{x};
+      std::vector<Ps> begins;
+      for (const Ps jump : others.jumps) begins.push_back(x - jump);
       for (auto y = std::lower_bound(latest.begin(), latest.end(), x - busy); y != latest.end() && *y <= x; ++y) begins.push_back(*y);
       for (const Ps y : begins) {
         if (++looks > most_looks) return std::nullopt;
@@ -72,6 +76,7 @@ std::optional<std::vector<Ps>> longest_waits(const std::vector<ScheduledFlow>& f
           if (other.earliest > x) break;
           if (other.latest >= y) before = sum(before, other.work);
         }
+        before = sum(before, others.in(x - y));
         const Ps started = start(y, std::max<Ps>(0, before));
         if (!is_bounded(started)) return std::nullopt;
         waits[mine.flow] = std::max(waits[mine.flow], started + y - x);

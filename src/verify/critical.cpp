@@ -44,7 +44,7 @@ CriticalInstants::CriticalInstants(const Resolved& resolved, std::span<const Fre
     timing.period = stream.every ? *stream.every : stream.burst ? stream.burst->every : Duration();
   }
   for (const scenario::ResolvedProgram& program : resolved.programs) {
-    if (program.has_roles()) continue;   // who publishes what changes at run time
+    if (program.has_roles()) continue;   // its members have no phases of their own
     for (std::size_t p = 0; p < program.state_streams.size(); ++p)
       timings_[program.state_streams[p].value] = {program.phases[p], program.description->cycle, {}};
     for (const scenario::ResolvedProcessData& data : program.process_data)
@@ -61,7 +61,7 @@ std::vector<std::size_t> CriticalInstants::streams_moved_by(std::size_t f) const
   if (freedom.kind == Freedom::Kind::talker) {
     for (std::size_t s = 0; s < resolved_->plan.streams.size(); ++s)
       if (resolved_->plan.streams[s].name == resolved_->scenario.streams[freedom.item].name) found.push_back(s);
-  } else if (freedom.kind == Freedom::Kind::publisher && !resolved_->programs[freedom.item].has_roles()) {
+  } else if (freedom.kind == Freedom::Kind::publisher) {
     const scenario::ResolvedProgram& program = resolved_->programs[freedom.item];
     found.push_back(program.state_streams[freedom.participant].value);
     for (const scenario::ResolvedProcessData& data : program.process_data)

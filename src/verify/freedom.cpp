@@ -27,7 +27,7 @@ void add_talkers(const Scenario& scenario, std::vector<Freedom>& found) {
 void add_publishers(const Scenario& scenario, std::vector<Freedom>& found) {
   for (std::size_t p = 0; p < scenario.programs.size(); ++p) {
     const Program& program = scenario.programs[p];
-    if (!program.roles.empty()) continue;   // "phases" names slaves, and there are none
+    if (!program.roles.empty()) continue;   // who takes part, and since when, is settled in the run
     for (std::size_t participant = 0; participant <= program.slaves.size(); ++participant) {
       const std::string& name = participant_name(program, participant);
       if (!scenario::promises_phase(program, name)) found.push_back({Freedom::Kind::publisher, p, participant, program.cycle, "phase of " + program.name + " on " + name});

@@ -18,6 +18,9 @@ struct Verdict {
   std::size_t unbounded = 0;             ///< streams without one that were delivered
   std::size_t queues = 0;                ///< ports with bounds of all their queues that were used
   std::size_t full_queues = 0;           ///< of those, with as many frames in a queue as there may be, but for the one on the wire
+  std::size_t second_opinions = 0;       ///< streams with a bound by separated-flow analysis
+  std::size_t wrong_second_opinions = 0;
+  std::size_t better_second_opinions = 0;   ///< that is less than that by total-flow analysis
   double tightest = 0;                   ///< the greatest simulated latency as a share of its bound
   std::vector<double> shares;            ///< of all streams with a bound
 };
@@ -55,12 +58,18 @@ inline Verdict judge(const scenario::Run& run, const Bounds& bounds) {
     ++(bound.latency ? verdict.compared : verdict.unbounded);
     if (stream.latency.minimum() < bound.least)
       verdict.violations.push_back(bound.name + ": " + microseconds(stream.latency.minimum()) + " is less than the least, " + microseconds(bound.least));
+    if (bound.separated_flow && stream.latency.maximum() > *bound.separated_flow) ++verdict.wrong_second_opinions;
+    for (const auto& [which, latency] : {std::pair("total-flow", bound.total_flow), std::pair("separated-flow", bound.separated_flow)})
+      if (latency && stream.latency.maximum() > *latency)
+        verdict.violations.push_back(bound.name + ": simulated " + microseconds(stream.latency.maximum()) + " of at most " + microseconds(*latency) + " by " + which + " analysis");
+    if (bound.separated_flow) {
+      ++verdict.second_opinions;
+      if (!bound.total_flow || *bound.separated_flow < *bound.total_flow) ++verdict.better_second_opinions;
+    }
     if (!bound.latency) continue;
     const double share = static_cast<double>(stream.latency.maximum().ps()) / static_cast<double>(bound.latency->ps());
     verdict.shares.push_back(share);
     verdict.tightest = std::max(verdict.tightest, share);
-    if (stream.latency.maximum() > *bound.latency)
-      verdict.violations.push_back(bound.name + ": simulated " + microseconds(stream.latency.maximum()) + " of at most " + microseconds(*bound.latency));
   }
   judge_queues(run, bounds, verdict);
   return verdict;

@@ -38,7 +38,7 @@ struct Case {
 TEST(Tree, HoldsInEveryOrder) {
   const Case cases[] = {
 #ifndef NDEBUG
-      {tree(1, 1, false, 1, {}), 3041},
+      {tree(1, 1, false, 1, {}), 2492},
 #else
       {tree(1, 1, false, 2, {}), 47057},
       {tree(1, 1, false, 2, {Fault::crash}), 230190},

@@ -1,6 +1,7 @@
 #include "analysis/bounds.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "analysis/network_bound.hpp"
 #include "analysis/program_reactions.hpp"
@@ -31,7 +32,13 @@ std::vector<QueueBound> queue_bounds(const FlowGraph& graph, const NetworkResult
 
 class StreamBounds {
  public:
-  StreamBounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network) : r_(resolved), graph_(graph), network_(network), separated_(resolved, graph, network) {}
+  StreamBounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network) : r_(resolved), graph_(graph), network_(network), separated_(resolved, graph, network) {
+    std::set<std::uint32_t> redundant;
+    for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) redundant.insert(redundancy.stream.value);
+    for (const Flow& flow : graph.flows)
+      if (redundant.contains(flow.stream.value))
+        for (const std::uint32_t h : flow.hops) ports_of_members_.insert(graph.hops[h].port);
+  }
 
   std::vector<StreamBound> make() {
     std::vector<StreamBound> bounds(r_.streams.size());
@@ -124,6 +131,8 @@ class StreamBounds {
 
   /// Nothing on the way drops frames of the hop: queues hold the backlog, no gate or meter polices.
   bool has_room(const Hop& hop) const {
+    // Members of a redundant stream may come in longer bursts than the backlog counts.
+    if (ports_of_members_.contains(hop.port)) return false;
     const models::PortConfig& config = *graph_.models[hop.port].config;
     for (models::TrafficClass q = hop.lowest_class; q <= hop.highest_class; ++q) {
       const PortClassBound& bound = network_.ports[hop.port].classes[q];
@@ -141,6 +150,7 @@ class StreamBounds {
     return !ingress.stream_filters.empty() || !ingress.recoveries.empty();
   }
 
+  std::set<std::uint32_t> ports_of_members_;   // ports that members of redundant streams cross
   const scenario::Resolved& r_;
   const FlowGraph& graph_;
   const NetworkResult& network_;

@@ -101,6 +101,7 @@ std::string not_in_trees(const explore::Question& question, const ExploreOptions
   const auto refuse = [&wrong](bool is_wrong, const std::string& what) {
     if (is_wrong) wrong += (wrong.empty() ? "" : "; ") + what;
   };
+  refuse(options.nested && !options.scenario.empty(), "--nested goes with --slaves N; the Programs of a scenario are explored one by one");
   refuse(options.inner_slaves.has_value() && !options.nested, "--inner-slaves says the size of the inner group of --nested");
   if (!question.is_tree()) return wrong;
   refuse(question.variant != handshake::Variant::Robust, "paper knows neither nested groups nor joining slaves");

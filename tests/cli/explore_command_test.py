@@ -74,6 +74,26 @@ class Answers(unittest.TestCase):
             self.assertTrue(answer["exhausted"], options)
         self.assertEqual(answer["beginnings"], "switched-on")
 
+    def test_nested_groups_and_joining_slaves(self):
+        for options, inner, joining in ((("--nested",), 1, False), (("--nested", "--inner-slaves", 2, "--calls", 1), 2, False), (("--joining", "--faults", "crash,restart"), 0, True),
+                                        (("--nested", "--joining", "--calls", 1), 1, True)):
+            status, out, err = explore("--slaves", 1, *options, "--format", "json")
+            answer = json.loads(out)
+            self.assertEqual((status, err), (0, ""), options)
+            self.assertEqual([key for key in NAMED if key not in answer], [])
+            self.assertEqual((answer["nested"], answer["inner_slaves"], answer["joining"]), (inner > 0, inner, joining), options)
+            self.assertTrue(answer["exhausted"])
+        self.assertIn("the last inner slave joins", explore("--slaves", 1, "--nested", "--joining", "--calls", 1)[1])
+
+    def test_what_trees_cannot_do_is_refused(self):
+        for options in (("--nested", "--variant", "paper"), ("--joining", "--network", "channels=1"), ("--nested", "--subscription", "all-to-all"), ("--joining", "--faults", "reorder"),
+                        ("--inner-slaves", 1), ("--nested", "--inner-slaves", 3), ("--nested", "--out", "nowhere")):
+            status, out, err = explore("--slaves", 1, *options)
+            self.assertEqual((status, out), (2, ""), options)
+            self.assertNotEqual(err, "", options)
+        self.assertEqual(explore("--slaves", 3, "--nested")[0], 2)
+        self.assertEqual(explore(SCENARIOS / "direct-link.json", "--nested")[0], 2)
+
     def test_octets_a_state(self):
         _, out, _ = explore("--slaves", 3, "--faults", "loss", "--format", "json")
         self.assertLessEqual(json.loads(out)["octets_per_state"], 64)

@@ -111,17 +111,17 @@ class Watched : public testing::Test {
 };
 
 TEST_F(Watched, ARightStartViolatesNothing) {
-  for (const std::size_t who : {0, 1, 3}) init(who);
+  for (const std::size_t who : {0U, 1U, 3U}) init(who);
   started();
   PropertySet all;
-  for (const std::size_t who : {3, 1, 0}) all.bits |= ready(who, who == 3 ? inner : outer).bits;
+  for (const std::size_t who : {3U, 1U, 0U}) all.bits |= ready(who, who == 3 ? inner : outer).bits;
   all.bits |= ready(2, inner).bits;
   all.bits |= running(3, inner).bits | running(2, inner).bits | running(1, outer).bits | running(0, outer).bits;
   EXPECT_EQ(all.bits, 0U);
 }
 
 TEST_F(Watched, RunningBeforeTheOuterMasterWasReadyIsSeen) {
-  for (const std::size_t who : {0, 1, 3}) init(who);
+  for (const std::size_t who : {0U, 1U, 3U}) init(who);
   started();
   ready(3, inner);
   ready(1, outer);
@@ -130,15 +130,15 @@ TEST_F(Watched, RunningBeforeTheOuterMasterWasReadyIsSeen) {
 }
 
 TEST_F(Watched, ANodeThatIsReadyBeforeItsInnerGroupIsSeen) {
-  for (const std::size_t who : {0, 1, 3}) init(who);
+  for (const std::size_t who : {0U, 1U, 3U}) init(who);
   started();
   EXPECT_TRUE(ready(1, outer).contains(Property::S1));
 }
 
 TEST_F(Watched, ANodeThatRunsBeforeItsInnerGroupIsSeen) {
-  for (const std::size_t who : {0, 1, 3}) init(who);
+  for (const std::size_t who : {0U, 1U, 3U}) init(who);
   started();
-  for (const std::size_t who : {3, 1, 0}) ready(who, who == 3 ? inner : outer);
+  for (const std::size_t who : {3U, 1U, 0U}) ready(who, who == 3 ? inner : outer);
   EXPECT_TRUE(running(1, outer).contains(Property::S2));
 }
 

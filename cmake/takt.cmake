@@ -17,6 +17,9 @@ if(TAKT_FUZZ)
   target_link_options(takt_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
+# Where installed headers are (cmake/install.cmake).
+set(TAKT_INCLUDE_FOLDER include/takt)
+
 # takt_library(NAME SOURCES a.cpp ... LINKS other ...): one layer of the house; it links only what the layer may use.
 # Headers are included from the repository's root ("sim/time.hpp") or from src/ ("handshake/participant.hpp").
 function(takt_library name)
@@ -24,12 +27,12 @@ function(takt_library name)
   if(ARG_SOURCES)
     add_library(${name} STATIC ${ARG_SOURCES})
     target_link_libraries(${name} PUBLIC ${ARG_LINKS} PRIVATE takt_options ${ARG_PRIVATE_LINKS})
-    target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(${name} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR};${PROJECT_SOURCE_DIR}/src>" $<INSTALL_INTERFACE:${TAKT_INCLUDE_FOLDER}>)
     target_compile_features(${name} PUBLIC cxx_std_20)
   else()
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE ${ARG_LINKS})
-    target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(${name} INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR};${PROJECT_SOURCE_DIR}/src>" $<INSTALL_INTERFACE:${TAKT_INCLUDE_FOLDER}>)
     target_compile_features(${name} INTERFACE cxx_std_20)
   endif()
 endfunction()

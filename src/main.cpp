@@ -28,11 +28,14 @@ ExitStatus main_with(int argc, char** argv) {
   takt::cli::add_schema_command(app, status);
   takt::cli::add_program_command(app, status);
   takt::cli::add_node_command(app, status);
+  takt::cli::add_ctl_command(app, status);
+  takt::cli::add_emulate_command(app, status);
   takt::cli::add_explore_command(app, status);
   takt::cli::add_bound_command(app, status);
   takt::cli::add_verify_command(app, status);
   takt::cli::add_study_command(app, status);
   takt::cli::add_compare_command(app, status);
+  takt::cli::add_paper_command(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

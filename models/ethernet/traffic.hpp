@@ -23,6 +23,7 @@ enum class Occurrence : std::uint32_t {
   resumed = 7,   ///< the first bit of the preamble of a continuation leaves a port; see TransmissionDetail (trace only)
   clock_step = 10,    ///< a servo has stepped a node's clock; what = the step (digest only)
   gates_changed = 9,  ///< a port was told of other gates, or one of its gates breaks (trace only)
+  received = 11,  ///< a frame reaches the applications of a host; what = frame, detail = stream and node (trace only)
   dequeued = 8,  ///< a frame leaves a queue, to be sent or because it is given up (trace only)
 };
 

@@ -21,6 +21,8 @@ class HostServices {
   /// Wakes the application at `time` plus the operating system's wake-up latency; replaces the alarm's earlier setting.
   virtual void set_alarm(AlarmId alarm, sim::LocalTime time) = 0;
   virtual void cancel_alarm(AlarmId alarm) = 0;
+  /// Wakes the application by the alarm when it has worked for so long (of true time, without the operating system's wake-up latency).
+  virtual void work(AlarmId alarm, sim::Duration duration) = 0;
   /// Sends the octets on a stream of which this host is the talker.
   virtual void send(StreamIndex stream, std::span<const std::byte> payload) = 0;
 };

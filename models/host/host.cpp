@@ -89,6 +89,8 @@ void Host::deliver(sim::Simulation& simulation, FrameIndex index) {
     return;
   }
   traffic_->count_delivery(frame, node_, simulation);
+  if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
+    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::received), id(), index.value, static_cast<std::uint64_t>(frame.stream.value) << 32 | node_.value});
   if (listener->process != nullptr && !frame.payload.is_none())
     listener->process->receive(frame.stream, traffic_->payload(frame.payload).view());
   traffic_->release(index);

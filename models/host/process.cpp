@@ -57,6 +57,12 @@ void Process::set_alarm(AlarmId id, sim::LocalTime time) {
   alarm.timer.arm(*simulation_, source_, std::max(clock_->true_at(time), simulation_->now()).plus_saturated(alarm.latency));
 }
 
+void Process::work(AlarmId id, sim::Duration duration) {
+  Alarm& alarm = alarms_[id];
+  alarm.time = sim::LocalTime();   // no clock moves it
+  alarm.timer.arm(*simulation_, source_, simulation_->now().plus_saturated(duration));
+}
+
 void Process::clock_changed() {
   for (Alarm& alarm : alarms_) {
     // One that has expired and waits for the operating system only is past the clock.

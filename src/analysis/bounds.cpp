@@ -1,9 +1,11 @@
 #include "analysis/bounds.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "analysis/network_bound.hpp"
-#include "analysis/reaction_bound.hpp"
+#include "analysis/program_reactions.hpp"
+#include "analysis/separated_flow.hpp"
 
 namespace takt::analysis {
 namespace {
@@ -12,9 +14,31 @@ using sim::Duration;
 
 std::optional<Duration> duration_of(Ps ps) { return is_bounded(ps) ? std::optional(Duration::from_ps(ps)) : std::nullopt; }
 
+std::uint64_t bits_of(Ps work, const GraphPort& port) { return static_cast<std::uint64_t>(8 * ((work + port.octet_time - 1) / port.octet_time)); }
+
+std::vector<QueueBound> queue_bounds(const FlowGraph& graph, const NetworkResult& network) {
+  std::vector<QueueBound> queues;
+  for (std::size_t p = 0; p < graph.ports.size(); ++p)
+    for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q) {
+      const PortClassBound& bound = network.ports[p].classes[q];
+      if (!bound.is_used) continue;
+      queues.push_back({graph.ports[p].node, graph.ports[p].number, q, {}, {}});
+      if (!is_bounded(bound.backlog)) continue;
+      queues.back().bits = bits_of(bound.backlog, graph.ports[p]);
+      queues.back().frames = static_cast<std::uint64_t>(bound.backlog_frames);
+    }
+  return queues;
+}
+
 class StreamBounds {
  public:
-  StreamBounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network) : r_(resolved), graph_(graph), network_(network) {}
+  StreamBounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network) : r_(resolved), graph_(graph), network_(network), separated_(resolved, graph, network) {
+    std::set<std::uint32_t> redundant;
+    for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) redundant.insert(redundancy.stream.value);
+    for (const Flow& flow : graph.flows)
+      if (redundant.contains(flow.stream.value))
+        for (const std::uint32_t h : flow.hops) ports_of_members_.insert(graph.hops[h].port);
+  }
 
   std::vector<StreamBound> make() {
     std::vector<StreamBound> bounds(r_.streams.size());
@@ -24,13 +48,18 @@ class StreamBounds {
       bounds[s].index = models::StreamIndex{static_cast<std::uint32_t>(s)};
       bounds[s].by_listener.assign(plan.listeners.size(), Duration());
       bounds[s].least = Duration::max();
-      bounds[s].latency = Duration();
+      bounds[s].latency = bounds[s].total_flow = bounds[s].separated_flow = Duration();
       bounds[s].assumptions = graph_.assumptions;
       bounds[s].loses_nothing = true;
     }
     for (const Flow& flow : graph_.flows) take(flow, bounds[flow.stream.value]);
     for (StreamBound& bound : bounds)
-      if (bound.least == Duration::max()) bound.least = Duration();
+      if (bound.least == Duration::max()) {
+        bound.least = Duration();
+        bound.latency = bound.total_flow = bound.separated_flow = std::nullopt;
+        bound.loses_nothing = false;
+        bound.reason = "nothing is known of when it is sent";
+      }
     return bounds;
   }
 
@@ -45,14 +74,20 @@ class StreamBounds {
         const Ps latency = sum(hop.worst, hop.delay, propagation, receive.greatest().ps());
         const Ps least = sum(hop.best, hop.least_delay, propagation, receive.least().ps());
         bound.least = std::min(bound.least, Duration::from_ps(least));
-        bound.by_listener[l] = later(bound.by_listener[l], duration_of(latency));
-        const bool is_worst = bound.hops.empty() || (bound.latency && (!is_bounded(latency) || Duration::from_ps(latency) > *bound.latency));
-        bound.latency = later(bound.latency, duration_of(latency));
+        const SeparatedFlowBound separated = separated_.bound(last);
+        const Ps second = sum(separated.latency, receive.greatest().ps());
+        if (bound.separated_flow_reason.empty()) bound.separated_flow_reason = separated.reason;
+        bound.separated_flow = later(bound.separated_flow, duration_of(second));
+        bound.by_listener[l] = later(bound.by_listener[l], duration_of(std::min(latency, second)));
+        bound.latency = later(bound.latency, duration_of(std::min(latency, second)));
+        const bool is_worst = bound.hops.empty() || (bound.total_flow && (!is_bounded(latency) || Duration::from_ps(latency) > *bound.total_flow));
+        bound.total_flow = later(bound.total_flow, duration_of(latency));
         if (!is_worst) continue;
         bound.listener = plan.listeners[l];
         take_hops(last, bound);
       }
     }
+    if (bound.latency) bound.reason.clear();   // whatever one of the two analyses says
     bound.loses_nothing = bound.loses_nothing && !flow.may_miss_launch;
     for (const std::uint32_t h : flow.hops) bound.loses_nothing = bound.loses_nothing && has_room(graph_.hops[h]);
   }
@@ -86,7 +121,7 @@ class StreamBounds {
     made.port = port.number;
     made.name = r_.plan.nodes[port.node.value].name + ":" + std::to_string(port.number) + " to " + r_.plan.nodes[port.peer.value].name;
     made.delay = duration_of(result.delay);
-    if (is_bounded(traffic_class.backlog)) made.backlog_bits = static_cast<std::uint64_t>(8 * ((traffic_class.backlog + port.octet_time - 1) / port.octet_time));
+    if (is_bounded(traffic_class.backlog)) made.backlog_bits = bits_of(traffic_class.backlog, port);
     if (!made.delay && reason.empty()) {
       const std::string& why = !hop.unsupported.empty() ? hop.unsupported : !result.reason.empty() ? result.reason : traffic_class.reason;
       reason = "at " + made.name + ", class " + std::to_string(hop.highest_class) + ": " + (why.empty() ? "unbounded" : why);
@@ -96,6 +131,8 @@ class StreamBounds {
 
   /// Nothing on the way drops frames of the hop: queues hold the backlog, no gate or meter polices.
   bool has_room(const Hop& hop) const {
+    // Members of a redundant stream may come in longer bursts than the backlog counts.
+    if (ports_of_members_.contains(hop.port)) return false;
     const models::PortConfig& config = *graph_.models[hop.port].config;
     for (models::TrafficClass q = hop.lowest_class; q <= hop.highest_class; ++q) {
       const PortClassBound& bound = network_.ports[hop.port].classes[q];
@@ -113,9 +150,11 @@ class StreamBounds {
     return !ingress.stream_filters.empty() || !ingress.recoveries.empty();
   }
 
+  std::set<std::uint32_t> ports_of_members_;   // ports that members of redundant streams cross
   const scenario::Resolved& r_;
   const FlowGraph& graph_;
   const NetworkResult& network_;
+  SeparatedFlows separated_;
 };
 
 class RequirementBounds {
@@ -149,7 +188,7 @@ class RequirementBounds {
     RequirementBound worst;
     worst.duration = Duration();
     for (const ReactionBound& bound : bounds_.reactions) {
-      if (bound.kind != *requirement.reaction || (requirement.program && r_.programs[bound.program].name != *requirement.program)) continue;
+      if (bound.kind != *requirement.reaction || bound.of_tree != requirement.tree || (requirement.program && r_.programs[bound.program].name != *requirement.program)) continue;
       worst.assumptions.add(bound.assumptions);
       if (!bound.bound && worst.reason.empty()) worst.reason = bound.reason;
       worst.duration = worst.duration && bound.bound ? std::optional(std::max(*worst.duration, *bound.bound)) : std::nullopt;
@@ -179,8 +218,10 @@ Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
   Bounds bounds;
   bounds.rounds = network.rounds;
   bounds.streams = StreamBounds(resolved, graph, network).make();
+  bounds.queues = queue_bounds(graph, network);
   if (!resolved.plan.impairments.empty())   // chance loses frames
     for (StreamBound& stream : bounds.streams) stream.loses_nothing = false;
+  for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) bounds.streams[redundancy.stream.value].loses_nothing = false;   // copies are
   add_reactions(resolved, options, bounds);
   RequirementBounds(resolved, bounds).make();
   return bounds;

@@ -33,7 +33,10 @@ struct HopBound {
 struct StreamBound {
   std::string name;
   models::StreamIndex index;
-  std::optional<sim::Duration> latency;       ///< from production to delivery, at any listener
+  std::optional<sim::Duration> latency;       ///< from production to delivery, at any listener: the lesser of the two analyses
+  std::optional<sim::Duration> total_flow;    ///< the same by total-flow analysis, the sum of the hops
+  std::optional<sim::Duration> separated_flow;   ///< and by separated-flow analysis, where that applies
+  std::string separated_flow_reason;          ///< why it does not
   sim::Duration least;                        ///< no delivered frame is faster
   models::NodeIndex listener;                 ///< the one that the bound is of
   std::vector<std::optional<sim::Duration>> by_listener;   ///< as in the plan
@@ -41,6 +44,15 @@ struct StreamBound {
   bool loses_nothing = false;                 ///< queues have room for every backlog and nothing else drops its frames
   std::string reason;                         ///< why there is no bound
   Assumptions assumptions;
+};
+
+/// One queue of an egress port, and what may be in it or on the wire.
+struct QueueBound {
+  models::NodeIndex node;
+  std::uint16_t port = 0;
+  models::TrafficClass traffic_class = 0;
+  std::optional<std::uint64_t> bits;          ///< preambles and gaps included
+  std::optional<std::uint64_t> frames;
 };
 
 /// A part of a reaction's bound, in the order in which they happen.
@@ -52,6 +64,7 @@ struct ReactionPart {
 struct ReactionBound {
   std::size_t program = 0;                    ///< in resolved.programs
   scenario::Reaction kind = scenario::Reaction::start;
+  bool of_tree = false;                       ///< of the Program and all that are nested in it
   std::optional<sim::Duration> bound;         ///< from the call to the moment at which all have reached the state
   std::vector<ReactionPart> parts;            ///< of the slowest chain; they sum up to the bound
   std::string reason;
@@ -73,7 +86,8 @@ struct RequirementBound {
 
 struct Bounds {
   std::vector<StreamBound> streams;           ///< by stream index
-  std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset
+  std::vector<QueueBound> queues;             ///< of classes that carry something
+  std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset; of the outermost one of a tree then those of the tree
   std::vector<SilenceBound> silences;         ///< of each program
   /// One for each limit of each requirement of the scenario, in order: a requirement on a stream may have several.
   struct Requirement {

@@ -53,16 +53,18 @@ PortModel model_of(const scenario::Resolved& r, const GraphPort& port, const Bou
   return model;
 }
 
-/// At a host, frames without launch times go before those that wait for theirs.
+/// In a class that is sent by eligibility times, frames without one go before those that wait for theirs.
 void note_unordered_classes(const scenario::Resolved& r, FlowGraph& graph) {
   for (std::size_t p = 0; p < graph.ports.size(); ++p) {
     const models::ClassSet timed = graph.models[p].config->shaping.timed;
-    if (timed == 0 || r.plan.nodes[graph.ports[p].node.value].kind != models::NodeKind::host) continue;
+    const bool is_host = r.plan.nodes[graph.ports[p].node.value].kind == models::NodeKind::host;
     for (const std::uint32_t h : graph.ports[p].hops) {
       const Hop& hop = graph.hops[h];
       const models::StreamIndex stream = graph.flows[hop.flow].stream;
-      const bool launches = std::any_of(r.plan.talkers.begin(), r.plan.talkers.end(), [&](const models::TalkerPlan& t) { return t.stream == stream && t.launch && !t.babbles; });
-      if (models::contains(timed, hop.highest_class) && !launches) graph.models[p].unordered = models::with(graph.models[p].unordered, hop.highest_class);
+      const auto launches = [&](const models::TalkerPlan& talker) { return talker.stream == stream && talker.launch && !talker.babbles; };
+      const bool has_times = is_host ? std::any_of(r.plan.talkers.begin(), r.plan.talkers.end(), launches) : hop.ats && hop.ats->is_minded;
+      for (models::TrafficClass q = hop.lowest_class; q <= hop.highest_class; ++q)
+        if (models::contains(timed, q) && !has_times) graph.models[p].unordered = models::with(graph.models[p].unordered, q);
     }
   }
 }

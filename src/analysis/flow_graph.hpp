@@ -24,7 +24,9 @@ struct GraphPort {
 
 /// How ATS holds a flow back before a hop.
 struct AtsHold {
-  std::uint64_t group = 0;           ///< flows with the same number share a scheduler group; 0: nothing is known
+  bool is_minded = true;             ///< the class is sent by eligibility times; if not, the flow only moves on the times of its group
+  bool is_shared = false;            ///< several streams take the tokens of the scheduler
+  std::uint64_t group = 0;           ///< flows with the same number share a scheduler group, and wait for each other
   ArrivalPattern shaped;             ///< what leaves the scheduler
   std::int64_t bits = 0;             ///< of a frame, as the scheduler counts them
   std::int64_t burst_bits = 0;
@@ -53,6 +55,7 @@ struct Hop {
 struct Flow {
   models::StreamIndex stream;           ///< none: gPTP at one port
   FrameArrivals source;                 ///< at the egress queue of the talker
+  std::optional<ArrivalPhase> produced = {};   ///< when frames are produced, if that is known
   Ps worst_source = 0;                  ///< from production to the egress queue
   Ps best_source = 0;
   bool may_miss_launch = false;         ///< the operating system may hand a frame over after its launch time

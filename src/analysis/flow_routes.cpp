@@ -119,7 +119,9 @@ class RouteMaker {
     if (filter == ingress.stream_filters.end()) return;
     if (!filter->stream_gate.is_none()) set_gate(hop, config, ingress.stream_gates[filter->stream_gate.value]);
     if (!filter->flow_meter.is_none()) set_meter(hop, ingress.flow_meters[filter->flow_meter.value].meter);
-    if (!filter->ats_scheduler.is_none()) set_ats(hop, ingress, filter->ats_scheduler.value, node, in_port, priority);
+    if (filter->ats_scheduler.is_none()) return;
+    set_ats(hop, ingress, filter->ats_scheduler.value, node, in_port, priority);
+    hop.ats->is_minded = hop.lowest_class == hop.highest_class && models::contains(config.shaping.timed, hop.highest_class);
   }
 
   static void set_gate(Hop& hop, const models::PortConfig& config, const models::StreamGateConfig& gate) {
@@ -159,8 +161,7 @@ class RouteMaker {
     hold.group = (static_cast<std::uint64_t>(node) + 1) << 32 | within;
     const sim::Duration residence = is_named ? ingress.ats_groups[scheduler.group.value].maximum_residence_time : ingress.maximum_residence_time;
     if (residence != sim::Duration::max()) hold.longest_residence = residence.ps();
-    // Frames of several streams take the tokens of one bucket in turn: none is known to keep to it alone.
-    hold.group = shares_scheduler(node, number) ? 0 : hold.group;
+    hold.is_shared = shares_scheduler(node, number);
     hop.ats = hold;
   }
 

@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/promises.hpp"
 
 namespace takt::analysis {
 namespace {
 
 constexpr std::int64_t one = 1'000'000'000'000;
-/// State messages in a cycle of a participant that publishes on change: the cyclic one, and Assumption::program_publishes.
-constexpr std::int64_t state_messages_in_a_cycle = 5;
+/// Messages of one kind in a cycle of a participant that publishes on change: the cyclic one, and Assumption::program_publishes.
+constexpr std::int64_t messages_in_a_cycle = 5;
 
 template <class... Cases>
 struct Overloaded : Cases... {
@@ -55,7 +58,15 @@ ArrivalPattern pattern_of(const models::TalkerPlan& talker, const ClockQuality& 
                     talker.schedule);
 }
 
-void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, const BoundOptions& options, FlowGraph& graph) {
+/// Streams whose talkers begin when the scenario says, not just somewhere in their periods.
+std::set<std::string_view> streams_with_phases(const scenario::Scenario& scenario) {
+  std::set<std::string_view> names;
+  for (const scenario::Stream& stream : scenario.streams)
+    if (scenario::promises_phase(stream)) names.insert(stream.name);
+  return names;
+}
+
+void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, bool has_phase, const BoundOptions& options, FlowGraph& graph) {
   const models::NodeIndex node = r.plan.streams[talker.stream.value].talker;
   const ClockQuality clock = clock_quality(r, node, options);
   const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
@@ -71,28 +82,68 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, c
     flow.best_source = os.transmit.least().ps();
   }
   pattern.jitter = sum(pattern.jitter, flow.worst_source - flow.best_source);
+  if (const auto* const periodic = std::get_if<models::PeriodicSchedule>(&talker.schedule); periodic != nullptr && has_phase && clock.is_synchronised)
+    flow.produced = ArrivalPhase{periodic->offset.ps() - clock.error, periodic->period.ps(), periodic->jitter.ps() + 2 * clock.error};
   if (talker.babbles) graph.assumptions.add(Assumption::listed_faults_only);
   flow.source = FrameArrivals(pattern);
   graph.flows.push_back(std::move(flow));
 }
 
+void add_published(const scenario::Resolved& r, models::NodeIndex node, models::StreamIndex stream, Ps every, std::int64_t frames, const BoundOptions& options, FlowGraph& graph) {
+  const ClockQuality clock = clock_quality(r, node, options);
+  const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
+  Flow flow;
+  flow.stream = stream;
+  flow.worst_source = os.transmit.greatest().ps();
+  flow.best_source = os.transmit.least().ps();
+  const Ps jitter = sum(os.wake_up.greatest().ps() - os.wake_up.least().ps() + 2 * clock.error, flow.worst_source - flow.best_source);
+  flow.source = FrameArrivals({std::max<Ps>(1, shortest(every, clock)), frames, 0, jitter});
+  graph.flows.push_back(std::move(flow));
+}
+
+/// With roles: whoever gets or loses one, or hears of it, publishes at once; afterwards its cycles begin anew.
+void add_roles(const scenario::Resolved& r, const scenario::ResolvedProgram& program, const BoundOptions& options, FlowGraph& graph) {
+  const Ps cycle = program.description->cycle.ps();
+  const auto add = [&](models::NodeIndex node, models::StreamIndex stream) { add_published(r, node, stream, cycle, messages_in_a_cycle, options, graph); };
+  graph.assumptions.add(Assumption::program_publishes);
+  add(program.participants[0], program.state_streams[0]);
+  add(program.participants[0], program.table_stream);
+  for (const scenario::ResolvedProcessData& data : program.process_data)
+    if (data.from == 0) add(program.participants[0], data.stream);
+  for (const scenario::ResolvedCandidate& candidate : program.candidates) {
+    add(candidate.node, candidate.announcements);
+    add(candidate.node, candidate.state);
+    for (const auto& stream : candidate.data)
+      if (stream) add(candidate.node, *stream);
+  }
+}
+
 void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& program, const BoundOptions& options, FlowGraph& graph) {
+  if (program.has_roles()) return add_roles(r, program, options, graph);
   const auto add = [&](std::uint8_t participant, models::StreamIndex stream, std::int64_t frames) {
     const models::NodeIndex node = program.participants[participant];
+    add_published(r, node, stream, program.description->cycle.ps(), frames, options, graph);
     const ClockQuality clock = clock_quality(r, node, options);
     const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
-    Flow flow;
-    flow.stream = stream;
-    flow.worst_source = os.transmit.greatest().ps();
-    flow.best_source = os.transmit.least().ps();
-    const Ps jitter = sum(os.wake_up.greatest().ps() - os.wake_up.least().ps() + 2 * clock.error, flow.worst_source - flow.best_source);
-    flow.source = FrameArrivals({std::max<Ps>(1, shortest(program.description->cycle.ps(), clock)), frames, 0, jitter});
-    graph.flows.push_back(std::move(flow));
+    const Ps wake_up = os.wake_up.greatest().ps() - os.wake_up.least().ps();
+    if (frames == 1 && clock.is_synchronised && scenario::promises_phase(*program.description, r.plan.nodes[node.value].name))
+      graph.flows.back().produced = ArrivalPhase{program.phases[participant].ps() + os.wake_up.least().ps() - clock.error, program.description->cycle.ps(), wake_up + 2 * clock.error};
   };
   const bool on_change = program.description->publish == scenario::Publish::on_change;
   if (on_change) graph.assumptions.add(Assumption::program_publishes);
-  for (std::uint8_t p = 0; p < program.participants.size(); ++p) add(p, program.state_streams[p], on_change ? state_messages_in_a_cycle : 1);
-  for (const scenario::ResolvedProcessData& data : program.process_data) add(data.from, data.stream, 1);
+  for (std::uint8_t p = 0; p < program.participants.size(); ++p) add(p, program.state_streams[p], on_change ? messages_in_a_cycle : 1);
+  for (std::size_t d = 0; d < program.process_data.size(); ++d) {
+    const scenario::ResolvedProcessData& data = program.process_data[d];
+    add(data.from, data.stream, 1);
+    const auto reply = std::find_if(program.replies.begin(), program.replies.end(), [&](const scenario::ResolvedReply& answer) { return answer.with == d; });
+    if (reply == program.replies.end()) continue;
+    // A reply follows its request, whose latency is not known here. But who replies works at one message after the other.
+    Flow& flow = graph.flows.back();
+    flow.produced.reset();
+    const scenario::ResolvedProcessing& processing = program.processing[data.from];
+    const Ps work = processing.per_message.least().ps() + processing.per_field.least().ps() * static_cast<Ps>(program.process_data[reply->to].values);
+    flow.source = work > 0 ? FrameArrivals({work, 1, 0, flow.worst_source - flow.best_source}) : FrameArrivals(at_any_time());
+  }
 }
 
 Ps interval_ps(int log_seconds) { return rounded_up(std::ldexp(1e12, log_seconds)); }
@@ -100,28 +151,28 @@ Ps interval_ps(int log_seconds) { return rounded_up(std::ldexp(1e12, log_seconds
 }  // namespace
 
 void add_flows(const scenario::Resolved& resolved, const BoundOptions& options, FlowGraph& graph) {
-  for (const models::TalkerPlan& talker : resolved.plan.talkers) add_talker(resolved, talker, options, graph);
+  const std::set<std::string_view> with_phases = streams_with_phases(resolved.scenario);
+  for (const models::TalkerPlan& talker : resolved.plan.talkers)
+    add_talker(resolved, talker, with_phases.contains(resolved.plan.streams[talker.stream.value].name), options, graph);
   for (const scenario::ResolvedProgram& program : resolved.programs) add_program(resolved, program, options, graph);
 }
 
-std::optional<GptpMessages> gptp_messages(const scenario::Resolved& resolved, models::NodeIndex node) {
+std::vector<GptpMessages> gptp_messages(const scenario::Resolved& resolved, models::NodeIndex node) {
   const auto& stations = resolved.plan.gptp;
-  if (node.value >= stations.size() || !stations[node.value]) return std::nullopt;
+  if (node.value >= stations.size() || !stations[node.value]) return {};
   const models::gptp::StationPlan& plan = resolved.plan.gptp_stations[*stations[node.value]];
   // Request, response and its follow-up of the link delay; Sync, Follow_Up and Announce of each domain.
+  const auto domains = static_cast<std::int64_t>(plan.instances.size());
   int shortest = plan.link.log_pdelay_req_interval;
-  std::int64_t kinds = 3;
-  for (const models::gptp::InstanceConfig& instance : plan.instances) {
-    shortest = std::min({shortest, instance.log_sync_interval, instance.log_announce_interval});
-    kinds += 3;
-  }
+  for (const models::gptp::InstanceConfig& instance : plan.instances) shortest = std::min({shortest, instance.log_sync_interval, instance.log_announce_interval});
   const std::size_t nodes = static_cast<std::size_t>(std::count_if(stations.begin(), stations.end(), [](const auto& station) { return station.has_value(); }));
-  // The longest is an Announce with the path over all nodes: 68 octets and 8 for each.
-  const std::size_t announce = 68 + 8 * std::min<std::size_t>(nodes, 179);
-  GptpMessages messages;
-  messages.arrivals = FrameArrivals({interval_ps(shortest) / 2, kinds, 0, 0});
-  messages.frame = models::frame_length(sim::Octets{static_cast<std::uint32_t>(std::max<std::size_t>(76, announce))}, false);
-  return messages;
+  const auto messages = [&](std::int64_t frames, std::size_t octets) {
+    return GptpMessages{FrameArrivals({interval_ps(shortest) / 2, frames, 0, 0}), models::frame_length(sim::Octets{static_cast<std::uint32_t>(octets)}, false)};
+  };
+  // A Follow_Up has 76 octets, an Announce 68 and 8 for each node on the path; all others are shorter.
+  std::vector<GptpMessages> all{messages(3 + 2 * domains, 76)};
+  if (domains > 0) all.push_back(messages(domains, 68 + 8 * std::min<std::size_t>(nodes, models::gptp::Announce::longest_path_trace)));
+  return all;
 }
 
 }  // namespace takt::analysis

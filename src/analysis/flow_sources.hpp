@@ -13,6 +13,6 @@ struct GptpMessages {
   FrameArrivals arrivals;
   sim::Octets frame{0};
 };
-std::optional<GptpMessages> gptp_messages(const scenario::Resolved& resolved, models::NodeIndex node);
+std::vector<GptpMessages> gptp_messages(const scenario::Resolved& resolved, models::NodeIndex node);
 
 }  // namespace takt::analysis

@@ -11,6 +11,7 @@ using models::TrafficClass;
 GateCycle::GateCycle(const models::GateConfig& gates) {
   const models::GateControlList list(gates.admin_control_list, gates.admin_cycle_time);
   cycle_ = list.cycle_time().ps();
+  base_ = gates.admin_base_time.ps();
   for (TrafficClass q = 0; q < models::traffic_class_count; ++q) {
     open_[q] = list.open_share(q).open.ps();
     if (open_[q] == cycle_) {
@@ -50,6 +51,37 @@ Ps GateCycle::overhang(TrafficClass q, TrafficClass other, Ps frame, Ps gap) con
     if (is_open_at(other, from)) longest = std::max(longest, std::min(frame, sum(close_after(other, from) - from, gap)));
   }
   return longest;
+}
+
+PhasedSupply::PhasedSupply(const GateCycle& gates, TrafficClass q, Ps base, Ps lost_at_start, Ps lost_at_end) : cycle_(gates.cycle()), base_(base) {
+  for (const GateWindow& window : gates.windows(q))
+    if (const GateWindow left{window.from + lost_at_start, window.until - lost_at_end}; left.from <= left.until) {
+      windows_.push_back(left);
+      usable_ += left.until - left.from;
+    }
+}
+
+std::vector<Ps> PhasedSupply::ends() const {
+  std::vector<Ps> all;
+  for (const GateWindow& window : windows_) all.push_back(base_ + window.until);
+  return all;
+}
+
+Ps PhasedSupply::time_from(Ps from, Ps need) const {
+  if (windows_.empty() || !is_bounded(need) || (usable_ == 0 && need > 0)) return unbounded_ps;
+  const std::int64_t whole = need > 0 ? (need - 1) / usable_ : 0;
+  Ps rest = need - whole * usable_;
+  Ps at = (from - base_) % cycle_;
+  if (at < 0) at += cycle_;
+  // A window may reach over the end of the cycle in which it began: look from the cycle before on.
+  for (Ps start = -cycle_;; start += cycle_)
+    for (const GateWindow& window : windows_) {
+      const Ps begin = std::max(at, start + window.from);
+      const Ps end = start + window.until;
+      if (begin > end) continue;
+      if (rest <= end - begin) return sum(begin + rest - at, product(cycle_, whole));
+      rest -= end - begin;
+    }
 }
 
 PeriodicSupply::PeriodicSupply(const GateCycle& gates, TrafficClass q, Ps lost_at_start, Ps lost_at_end, std::int64_t rate_ppt) {

@@ -22,6 +22,8 @@ class GateCycle {
   explicit GateCycle(const models::GateConfig& gates);
 
   Ps cycle() const { return cycle_; }
+  /// When a cycle begins.
+  Ps base() const { return base_; }
   bool is_always_open(models::TrafficClass q) const { return open_[q] == cycle_; }
   Ps open(models::TrafficClass q) const { return open_[q]; }
   const std::vector<GateWindow>& windows(models::TrafficClass q) const { return windows_[q]; }
@@ -36,8 +38,26 @@ class GateCycle {
   Ps close_after(models::TrafficClass q, Ps time) const;
 
   Ps cycle_ = 0;
+  Ps base_ = 0;
   std::array<Ps, models::traffic_class_count> open_{};
   std::array<std::vector<GateWindow>, models::traffic_class_count> windows_;
+};
+
+/// Stretches of usable time at known phases.
+class PhasedSupply {
+ public:
+  /// `base` is when a cycle of the list begins.
+  PhasedSupply(const GateCycle& gates, models::TrafficClass q, Ps base, Ps lost_at_start, Ps lost_at_end);
+  /// The time from `from` on in which `need` of usable time passes. Unbounded if there is none.
+  Ps time_from(Ps from, Ps need) const;
+  /// When the windows of a cycle end.
+  std::vector<Ps> ends() const;
+
+ private:
+  Ps cycle_ = 0;
+  Ps base_ = 0;
+  Ps usable_ = 0;
+  std::vector<GateWindow> windows_;
 };
 
 /// Stretches of usable time that repeat.

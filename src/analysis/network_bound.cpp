@@ -4,6 +4,7 @@
 #include <map>
 
 #include "analysis/flow_sources.hpp"
+#include "models/egress/class_set.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "sim/check.hpp"
 
@@ -20,8 +21,10 @@ class FixedPoint {
     result_.hops.resize(graph.hops.size());
     result_.ports.resize(graph.ports.size());
     for (const Hop& hop : graph.hops)
-      if (hop.ats && hop.ats->group != 0) ats_groups_[hop.ats->group].push_back(static_cast<std::uint32_t>(&hop - graph.hops.data()));
+      if (hop.ats) ats_groups_[hop.ats->group].push_back(static_cast<std::uint32_t>(&hop - graph.hops.data()));
     for (std::uint32_t p = 0; p < graph.ports.size(); ++p) lay_out_traffic(p);
+    header_after_.resize(graph.ports.size());
+    for (std::uint32_t p = 0; p < graph.ports.size(); ++p) header_after_[p] = header_of_all(p);
   }
 
   NetworkResult run() {
@@ -29,6 +32,8 @@ class FixedPoint {
       for (const std::uint32_t hop : flow.hops) arrive(hop);
     // What still grows after many rounds is unbounded; with that known, the others settle.
     while (!settle()) give_up_what_grows();
+    for (std::uint32_t p = 0; p < graph_.ports.size(); ++p) count_held_frames(p);
+    result_.arrivals = std::move(arrivals_);
     return std::move(result_);
   }
 
@@ -47,7 +52,7 @@ class FixedPoint {
       flow.highest_class = hop.highest_class;
       flow.uses_cqf = hop.uses_cqf;
       // Frames that a scheduler has held come when they are eligible, not as their link brought them.
-      if (hop.parents.size() == 1 && !hop.is_copied_here && !hop.ats) {
+      if (hop.parents.size() == 1 && !hop.is_copied_here && !is_held(hop)) {
         const std::uint32_t from = graph_.hops[hop.parents.front()].port;
         const auto [known, is_new] = link_of.try_emplace(from, traffic.links.size());
         if (is_new) {
@@ -62,14 +67,53 @@ class FixedPoint {
       }
       traffic.flows.push_back(std::move(flow));
     }
-    if (const auto messages = gptp_messages(r_, port.node)) {
+    for (const GptpMessages& messages : gptp_messages(r_, port.node)) {
       PortFlow flow;
-      flow.arrivals = messages->arrivals;
-      flow.frame = messages->frame;
+      flow.arrivals = messages.arrivals;
+      flow.frame = messages.frame;
       flow.lowest_class = flow.highest_class = graph_.models[p].config->traffic_class_of_priority[7];
       traffic.flows.push_back(std::move(flow));
     }
   }
+
+  /// Whether a port cuts all frames through whatever happens: they come by one link of the same rate, which keeps them a gap apart, and nothing else asks for the port. Then the
+  /// last bit leaves so much after it has come as the header takes to be there.
+  std::optional<Ps> header_of_all(std::uint32_t p) const {
+    const GraphPort& port = graph_.ports[p];
+    const PortModel& model = graph_.models[p];
+    const models::PortConfig& config = *model.config;
+    const models::NodePlan& node = r_.plan.nodes[port.node.value];
+    if (port.hops.empty() || !model.counts_packets || config.preemption || config.untagged || !is_plain(config.shaping) || !model.more_gates.empty() || model.cqf || node.ingress) return std::nullopt;
+    if (!gptp_messages(r_, port.node).empty()) return std::nullopt;
+    for (std::size_t other = 0; other < graph_.ports.size(); ++other)   // eligibility times ask for the last bit
+      if (graph_.ports[other].node == port.node && graph_.models[other].config->shaping.timed != 0) return std::nullopt;
+    const Ps header = port.octet_time * (node.cut_through_header + models::vlan_tag).count;
+    for (const std::uint32_t h : port.hops) {
+      const Hop& hop = graph_.hops[h];
+      const models::StreamIndex stream = graph_.flows[hop.flow].stream;
+      if (!hop.headers_come_first || hop.parents.size() != 1 || hop.is_copied_here || hop.lowest_class != hop.highest_class || !hop.unsupported.empty()) return std::nullopt;
+      const std::uint32_t from = graph_.hops[hop.parents.front()].port;
+      if (from != graph_.hops[graph_.hops[port.hops.front()].parents.front()].port) return std::nullopt;
+      const GraphPort& link = graph_.ports[from];
+      if (link.octet_time != port.octet_time || link.may_double || graph_.models[from].config->preemption) return std::nullopt;
+      for (std::uint32_t before = h; !graph_.hops[before].parents.empty();) {   // the header of an untagged frame is shorter
+        before = graph_.hops[before].parents.front();
+        if (graph_.models[graph_.hops[before].port].config->untagged) return std::nullopt;
+      }
+      const bool is_redundant = std::any_of(r_.redundancies.begin(), r_.redundancies.end(), [&](const scenario::ResolvedRedundancy& each) { return each.stream == stream; });
+      if (is_redundant || !r_.plan.streams[stream.value].priority || !models::contains(config.cut_through, hop.highest_class)) return std::nullopt;
+      if (header >= port.octet_time * (models::wire_length(hop.frame) - models::inter_packet_gap).count) return std::nullopt;
+    }
+    return header;
+  }
+  static bool is_plain(const models::ShapingConfig& shaping) {
+    const auto is_limited = [](const sim::Octets& sdu) { return sdu.count != 0; };
+    const auto is_shaped = [](const auto& shaper) { return shaper.has_value(); };
+    return !shaping.gates && shaping.timed == 0 && std::none_of(shaping.shapers.begin(), shaping.shapers.end(), is_shaped) &&
+           std::none_of(shaping.queue_max_sdu.begin(), shaping.queue_max_sdu.end(), is_limited);
+  }
+
+  static bool is_held(const Hop& hop) { return hop.ats && hop.ats->is_minded; }
 
   bool settle() {
     for (int round = 0; round < most_rounds; ++round) {
@@ -88,18 +132,25 @@ class FixedPoint {
       is_due_[p] = false;
       changed = true;
       const std::vector<std::uint32_t>& hops = graph_.ports[p].hops;
-      for (std::size_t i = 0; i < hops.size(); ++i) traffic_[p].flows[i].arrivals = arrivals_[hops[i]];
+      for (std::size_t i = 0; i < hops.size(); ++i) {
+        traffic_[p].flows[i].arrivals = arrivals_[hops[i]];
+        traffic_[p].flows[i].phase = phase_of(hops[i]);
+      }
       result_.ports[p] = bound_port(graph_.models[p], traffic_[p]);
       for (std::size_t i = 0; i < hops.size(); ++i) {
         HopResult& hop = result_.hops[hops[i]];
         const PortFlowBound& bound = result_.ports[p].flows[i];
+        if (header_after_[p]) {
+          hop.delay = hop.least_delay = hop.reason.empty() ? *header_after_[p] : unbounded_ps;
+          continue;
+        }
         hop.delay = graph_.hops[hops[i]].unsupported.empty() && hop.reason.empty() ? bound.delay : unbounded_ps;
         hop.least_delay = bound.least_delay;
       }
       // Schedulers that share a group wait for each other's frames, so all of them are looked at once all delays here are known.
       for (const std::uint32_t h : hops)
         for (const std::uint32_t child : graph_.hops[h].children) {
-          if (graph_.hops[child].ats && graph_.hops[child].ats->group != 0)
+          if (graph_.hops[child].ats)
             for (const std::uint32_t other : ats_groups_.at(graph_.hops[child].ats->group)) arrive(other);
           else
             arrive(child);
@@ -121,7 +172,8 @@ class FixedPoint {
         const HopResult& before = result_.hops[parent];
         const GraphPort& port = graph_.ports[graph_.hops[parent].port];
         const Ps on_the_way = sum(port.propagation, r_.plan.nodes[graph_.ports[hop.port].node.value].forwarding_delay.ps());
-        best = std::min(best, sum(before.best, hop.headers_come_first ? 0 : before.least_delay, on_the_way));
+        const bool may_be_cut = hop.headers_come_first && !header_after_[hop.port];
+        best = std::min(best, sum(before.best, may_be_cut ? before_the_header(parent) : before.least_delay, on_the_way));
         worst = std::max(worst, sum(before.worst, delay_with_hold(hop, parent), on_the_way));
       }
     }
@@ -135,7 +187,7 @@ class FixedPoint {
       arrivals = flow.source.delayed(hop.parents.empty() ? 0 : own_jitter);
     }
     if (hop.metered) arrivals.add(*hop.metered);
-    if (hop.ats) arrivals.add(hop.ats->shaped);
+    if (is_held(hop)) arrivals.add(hop.ats->shaped);
     if (!hop.parents.empty() && graph_.ports[graph_.hops[hop.parents.front()].port].may_double) arrivals = doubled(arrivals);
     if (is_known_[h] && result.best == best && result.worst == worst && same(arrivals, arrivals_[h])) return;
     is_known_[h] = true;
@@ -143,6 +195,25 @@ class FixedPoint {
     result.worst = worst;
     arrivals_[h] = std::move(arrivals);
     is_due_[hop.port] = true;   // and with it the hops behind
+  }
+
+  /// From the arrival at a port to the first bit on the wire, at least. Frames that are always cut through begin before they have come.
+  Ps before_the_header(std::uint32_t h) const {
+    const GraphPort& port = graph_.ports[graph_.hops[h].port];
+    const std::optional<Ps>& header = header_after_[graph_.hops[h].port];
+    return header ? *header - port.octet_time * (models::wire_length(graph_.hops[h].frame) - models::inter_packet_gap).count : 0;
+  }
+
+  /// When the frames of a flow come to a hop, if that is known. A flow whose frames are doubled has no such times.
+  std::optional<ArrivalPhase> phase_of(std::uint32_t h) const {
+    const Flow& flow = graph_.flows[graph_.hops[h].flow];
+    const HopResult& result = result_.hops[h];
+    if (!flow.produced || !is_bounded(result.worst)) return std::nullopt;
+    for (const std::uint32_t each : flow.hops)
+      if (graph_.ports[graph_.hops[each].port].may_double) return std::nullopt;
+    // Clocks may drift a little on the way.
+    const Ps drift = scaled_up(result.worst, graph_.models[graph_.hops[h].port].clock.rate_ppt, 1'000'000'000'000);
+    return ArrivalPhase{flow.produced->first + result.best - drift, flow.produced->period, sum(flow.produced->width + 2 * drift, result.worst - result.best)};
   }
 
   static bool same(const FrameArrivals& a, const FrameArrivals& b) {
@@ -167,15 +238,15 @@ class FixedPoint {
   /// time lets them be.
   Ps delay_with_hold(const Hop& hop, std::uint32_t parent) const {
     const Ps delay = result_.hops[parent].delay;
-    if (!hop.ats) return delay;
-    if (hop.ats->group == 0) return sum(delay, hop.ats->longest_residence);
-    const Ps hold = ats_groups_.at(hop.ats->group).size() == 1 ? longest_hold(arrivals_at_scheduler(hop, parent), hop.ats->bits, hop.ats->burst_bits, hop.ats->rate) : unbounded_ps;
+    if (!is_held(hop)) return delay;
+    const bool is_alone = ats_groups_.at(hop.ats->group).size() == 1 && !hop.ats->is_shared;
+    const Ps hold = is_alone ? longest_hold(arrivals_at_scheduler(hop, parent), hop.ats->bits, hop.ats->burst_bits, hop.ats->rate) : unbounded_ps;
     const Ps held = sum(delay, std::min(hop.ats->longest_residence, hold));
     const ClockQuality& clock = graph_.models[hop.port].clock;
     Ps longest = delay;
     for (const std::uint32_t other : ats_groups_.at(hop.ats->group)) {
       const Hop& sibling = graph_.hops[other];
-      if (sibling.parents.size() != 1 || clock.rate_ppt != 0 || clock.error != 0) return held;
+      if (sibling.parents.size() != 1 || sibling.ats->is_shared || clock.rate_ppt != 0 || clock.error != 0) return held;
       const Hop& before = graph_.hops[sibling.parents.front()];
       const Hop& mine = graph_.hops[parent];
       const PortModel& port = graph_.models[before.port];
@@ -189,7 +260,7 @@ class FixedPoint {
 
   /// The hop before has shaped the flow to a bucket that is no greater.
   static bool is_shaped_alike(const Hop& before, const AtsHold& bucket) {
-    return before.ats && before.ats->bits == bucket.bits && before.ats->burst_bits <= bucket.burst_bits && before.ats->rate <= bucket.rate;
+    return is_held(before) && before.ats->bits == bucket.bits && before.ats->burst_bits <= bucket.burst_bits && before.ats->rate <= bucket.rate;
   }
 
   /// The arrival curve of a flow where it comes out of the link before this hop.
@@ -198,6 +269,36 @@ class FixedPoint {
     FrameArrivals arrivals = arrivals_[parent].delayed(is_bounded(before.delay) ? before.delay - before.least_delay : unbounded_ps);
     if (hop.metered) arrivals.add(*hop.metered);
     return arrivals;
+  }
+
+  /// Frames wait for their eligibility times in the queue: there they are from before the scheduler until they are sent.
+  void count_held_frames(std::uint32_t p) {
+    const auto held_in = [&](models::TrafficClass q) {
+      return std::any_of(graph_.ports[p].hops.begin(), graph_.ports[p].hops.end(), [&](std::uint32_t h) { return is_held(graph_.hops[h]) && graph_.hops[h].highest_class == q; });
+    };
+    for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q) {
+      PortClassBound& bound = result_.ports[p].classes[q];
+      if (!held_in(q) || !is_bounded(bound.backlog)) continue;
+      Ps work = 0;
+      std::int64_t frames = 0;
+      for (const std::uint32_t h : graph_.ports[p].hops) {
+        const Hop& hop = graph_.hops[h];
+        if (q < hop.lowest_class || hop.highest_class < q) continue;
+        FrameArrivals arrivals = arrivals_[h];
+        Ps stays = sum(result_.hops[h].delay, models::inter_packet_gap.count * graph_.ports[p].octet_time);
+        if (is_held(hop) && !hop.parents.empty()) {
+          const std::uint32_t parent = hop.parents.front();
+          arrivals = arrivals_at_scheduler(hop, parent);
+          stays = sum(stays, delay_with_hold(hop, parent) - result_.hops[parent].least_delay);
+        }
+        const bool is_known = arrivals.is_limited() && is_bounded(stays) && hop.parents.size() <= 1;
+        const std::int64_t count = is_known ? arrivals.count(stays) : 0;
+        work = is_known ? sum(work, product(graph_.ports[p].octet_time * models::wire_length(hop.frame).count, count)) : unbounded_ps;
+        frames += count;
+      }
+      bound.backlog = work;
+      bound.backlog_frames = frames;
+    }
   }
 
   void give_up_what_grows() {
@@ -210,6 +311,7 @@ class FixedPoint {
   const FlowGraph& graph_;
   std::vector<FrameArrivals> arrivals_;        // by hop
   std::vector<PortTraffic> traffic_;           // by port
+  std::vector<std::optional<Ps>> header_after_;   // by port: all of its frames are cut through, so long after they have come
   std::vector<bool> is_due_;                   // by port
   std::vector<bool> is_known_;                 // by hop
   std::map<std::uint64_t, std::vector<std::uint32_t>> ats_groups_;

@@ -19,6 +19,7 @@ struct HopResult {
 
 struct NetworkResult {
   std::vector<HopResult> hops;
+  std::vector<FrameArrivals> arrivals;   ///< by hop, at the port
   std::vector<PortBound> ports;   ///< of the last round
   int rounds = 0;
 };

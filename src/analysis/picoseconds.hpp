@@ -38,6 +38,7 @@ constexpr Ps scaled_down(Ps a, std::int64_t numerator, std::int64_t denominator)
 
 /// What was worked out in floating point by a few dozen operations, rounded up beyond their error.
 inline Ps rounded_up(double ps) {
+  if (!(ps < static_cast<double>(unbounded_ps))) return unbounded_ps;
   const double up = std::ceil(ps + std::fabs(ps) * 1e-12) + 1;
   return up < static_cast<double>(unbounded_ps) ? static_cast<Ps>(up) : unbounded_ps;
 }

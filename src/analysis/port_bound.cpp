@@ -1,10 +1,11 @@
 #include "analysis/port_bound.hpp"
 
 #include <algorithm>
-#include <memory>
+#include <limits>
 
 #include "analysis/class_demand.hpp"
 #include "analysis/gate_windows.hpp"
+#include "analysis/scheduled_bound.hpp"
 #include "models/egress/class_set.hpp"
 #include "models/egress/preemption.hpp"
 #include "models/ethernet/sizes.hpp"
@@ -21,6 +22,7 @@ using models::traffic_class_count;
 constexpr Ps longest_search_ps = 100'000'000'000'000;   // 100 s
 constexpr int most_steps = 100'000;
 constexpr std::size_t most_bends = 20'000;
+constexpr std::size_t most_jumps_of_others = 50;
 /// Stretches in which work grows slower than the port sends are looked at so many times.
 constexpr Ps looks_at_a_slope = 32;
 
@@ -30,6 +32,8 @@ class PortAnalysis {
       : model_(model), traffic_(traffic), config_(*model.config), octet_(model.octet_time), gap_(octet_ * models::inter_packet_gap.count) {
     bound_.flows.resize(traffic.flows.size());
     for (TrafficClass q = 0; q < traffic_class_count; ++q) demands_.emplace_back(traffic, models::with(0, q), octet_);
+    shaped_rate_.fill(std::numeric_limits<double>::infinity());
+    shaped_burst_.fill(std::numeric_limits<double>::infinity());
     if (config_.shaping.gates) gates_.emplace_back(with_hold(*config_.shaping.gates));
     for (const models::GateConfig& gates : model.more_gates) gates_.emplace_back(with_hold(gates));
   }
@@ -148,7 +152,7 @@ class PortAnalysis {
     for (int step = 0; step < most_steps; ++step) {
       Ps need = service.is_shaped ? rounded_up((static_cast<double>(sum(before, cuts(q, time))) + service.credit) / service.idle_share)
                                   : sum(service.blocked, before, interference(q, time));
-      if (contains(model_.unordered, q)) need = sum(need, demands_[q].work(time));
+      if (contains(model_.unordered, q)) need = sum(need - std::min(before, need), std::max(before, demands_[q].work(time)));
       const Ps next = through_gates(service, need);
       if (next > longest_search_ps) return unbounded_ps;
       if (next <= time) return time;
@@ -189,6 +193,7 @@ class PortAnalysis {
   bool make_shaped(TrafficClass q, Service& service, std::string& reason);
   void bound_class(TrafficClass q);
   void bound_flows(TrafficClass q, const Service& service, Ps busy);
+  std::vector<Ps> waits_at_phases(TrafficClass q, const Service& service, Ps busy) const;
   void bound_cqf();
   void set_unbounded(TrafficClass q, std::string reason) { bound_.classes[q].reason = std::move(reason); }
 
@@ -354,16 +359,19 @@ void PortAnalysis::bound_flows(TrafficClass q, const Service& service, Ps busy) 
       for (Ps at = from; at < until; at += step) look(at, std::min(at + step, until));
     }
   }
+  const std::vector<Ps> waits = waits_at_phases(q, service, busy);
   class_delay_[q] = 0;
-  for (std::size_t f = 0; f < traffic_.flows.size(); ++f) {
+  for (std::size_t f = 0, scheduled = 0; f < traffic_.flows.size(); ++f) {
     const PortFlow& flow = traffic_.flows[f];
     if (q < flow.lowest_class || flow.highest_class < q || is_in_cqf(flow.highest_class)) continue;
     const auto work = static_cast<std::size_t>(std::lower_bound(works.begin(), works.end(), octet_ * models::wire_length(flow.frame).count) - works.begin());
     PortFlowBound& made = bound_.flows[f];
     const bool was_bounded_elsewhere = q != flow.highest_class;
-    made.delay = was_bounded_elsewhere ? std::max(made.delay, longest[work]) : longest[work];
+    Ps delay = longest[work];
+    if (!waits.empty() && flow.phase) delay = std::min(delay, sum(waits[scheduled++], works[work] - gap_));
+    made.delay = was_bounded_elsewhere ? std::max(made.delay, delay) : delay;
     made.least_delay = model_.counts_packets ? works[work] - gap_ : 0;
-    class_delay_[q] = std::max(class_delay_[q], longest[work]);
+    class_delay_[q] = std::max(class_delay_[q], delay);
   }
   if (!is_bounded(class_delay_[q])) {
     bound.reason = "the link is too full to tell";
@@ -372,6 +380,58 @@ void PortAnalysis::bound_flows(TrafficClass q, const Service& service, Ps busy) 
   // What is in the queue, or on the wire, has come within the longest delay and the gap behind the frame.
   bound.backlog = demand.work(sum(class_delay_[q], gap_));
   bound.backlog_frames = demand.frames(sum(class_delay_[q], gap_));
+}
+
+/// Where frames of a gated class come at known phases, on the time that the gates follow too: how long each of these flows waits. Empty otherwise.
+std::vector<Ps> PortAnalysis::waits_at_phases(TrafficClass q, const Service& service, Ps busy) const {
+  if (!is_gated(q) || service.is_shaped || is_preemptable(q) || contains(config_.shaping.timed, q) || !model_.clock.is_synchronised || !model_.counts_packets) return {};
+  std::vector<ScheduledFlow> flows;
+  std::vector<std::pair<const FrameArrivals*, Ps>> at_any_time;
+  UnscheduledWork others;
+  for (const PortFlow& flow : traffic_.flows) {
+    if (q < flow.lowest_class || flow.highest_class < q || is_in_cqf(flow.highest_class)) continue;
+    const Ps work = octet_ * models::wire_length(flow.frame).count;
+    if (flow.phase) {
+      flows.push_back({flow.phase->first, flow.phase->period, flow.phase->width, work});
+      continue;
+    }
+    if (!flow.arrivals.is_limited()) return {};
+    at_any_time.emplace_back(&flow.arrivals, work);
+    for (Ps jump = flow.arrivals.next_jump(0); jump <= busy; jump = flow.arrivals.next_jump(jump)) {
+      others.jumps.push_back(jump);
+      if (others.jumps.size() > most_jumps_of_others) return {};
+    }
+  }
+  std::sort(others.jumps.begin(), others.jumps.end());
+  others.in = [&](Ps length) {
+    Ps all = 0;
+    for (const auto& [arrivals, work] : at_any_time) all = sum(all, product(work, arrivals->count(length)));
+    return all;
+  };
+  std::vector<Ps> longest(flows.size(), 0);
+  for (const GateCycle& gates : gates_) {
+    // Clocks that are off by their error, and drift while a frame waits.
+    const Ps error = model_.clock.error + scaled_up(sum(gates.cycle(), busy), model_.clock.rate_ppt, 1'000'000'000'000);
+    const PhasedSupply windows(gates, q, gates.base(), overhang(gates, q) + error, demands_[q].longest() - gap_ + error);
+    const StartFrom start = [&](Ps from, Ps before) {
+      Ps time = 0;
+      for (int step = 0; step < most_steps; ++step) {
+        Ps need = sum(service.blocked, before);
+        // The busy period begins with a frame of this class, so any other class may have a backlog then.
+        for (TrafficClass h = 0; h < traffic_class_count; ++h)
+          if (h != q && !demands_[h].is_empty() && goes_before(h, q) && overlap(q, h)) need = sum(need, demands_[h].work(sum(time, class_delay_[h])));
+        const Ps next = windows.time_from(from, need);
+        if (next > longest_search_ps) return unbounded_ps;
+        if (next <= time) return time;
+        time = next;
+      }
+      return unbounded_ps;
+    };
+    const std::optional<std::vector<Ps>> waits = longest_waits(flows, gates.cycle(), windows.ends(), busy, start, others);
+    if (!waits) return {};
+    for (std::size_t f = 0; f < flows.size(); ++f) longest[f] = std::max(longest[f], (*waits)[f]);
+  }
+  return longest;
 }
 
 /// What comes in a cycle is sent in the next one but (buffers - 2), if it fits.

@@ -29,8 +29,16 @@ struct IncomingLink {
   bool is_mixed = false;          ///< frames are preempted or cut through there: one more frame may come at the same time
 };
 
+/// When the frames of a flow come, if that is known: between first + k * period and `width` later.
+struct ArrivalPhase {
+  Ps first = 0;
+  Ps period = 0;
+  Ps width = 0;
+};
+
 struct PortFlow {
   FrameArrivals arrivals;
+  std::optional<ArrivalPhase> phase = {};
   sim::Octets frame{0};                      ///< DA to FCS
   models::TrafficClass lowest_class = 0;     ///< two where cyclic queuing and forwarding takes turns
   models::TrafficClass highest_class = 0;

@@ -1,14 +1,10 @@
 #include "analysis/reaction_bound.hpp"
 
 #include <algorithm>
-#include <array>
-
-#include "analysis/flow_graph.hpp"
 
 namespace takt::analysis {
 namespace {
 
-using scenario::Reaction;
 using sim::Duration;
 
 /// By participant: what an inner group adds between hearing and being ready to answer.
@@ -31,18 +27,52 @@ MaxPlus there_and_back(const ReactionGroup& group, const std::vector<MaxPlus>& p
   return (up * acts * down)(0, 0);
 }
 
-/// All participants of a tree of groups as one matrix of notifications; an inner master is its outer slave.
-void lay_out(const ReactionGroup& group, std::size_t master, std::vector<std::vector<std::pair<std::size_t, Ps>>>& heard_from, const auto& self) {
+/// All participants of a tree of groups; an inner master is its outer slave.
+struct Layout {
+  struct Way {
+    std::size_t from = 0;
+    Ps takes = 0;
+    Ps not_before = 0;   // after the call
+  };
+  std::vector<std::vector<Way>> heard_from{1};   // by participant
+  std::vector<std::string> names;
+};
+
+void lay_out(const ReactionGroup& group, std::size_t master, Spread spread, Layout& layout) {
+  if (master == 0 && !group.names.empty()) layout.names = {group.names.front()};
   std::vector<std::size_t> number{master};
   for (std::size_t s = 1; s < group.initialise.size(); ++s) {
-    number.push_back(heard_from.size());
-    heard_from.emplace_back();
+    number.push_back(layout.heard_from.size());
+    layout.heard_from.emplace_back();
+    if (!group.names.empty()) layout.names.push_back(group.names[s]);
   }
+  const auto is_nested = [&](std::size_t p) { return std::any_of(group.inner.begin(), group.inner.end(), [&](const auto& inner) { return inner.slave == p; }); };
   for (std::size_t i = 0; i < number.size(); ++i)
-    for (std::size_t j = 0; j < number.size(); ++j)
-      if (i != j && group.notify(i, j).happens()) heard_from[number[i]].push_back({number[j], group.notify(i, j).ps()});
-  for (const ReactionGroup::Inner& inner : group.inner) self(inner.group, number[inner.slave], heard_from, self);
+    for (std::size_t j = 0; j < number.size(); ++j) {
+      if (i == j || !group.notify(i, j).happens()) continue;
+      const bool waits = spread == Spread::after_barriers && j != 0 && is_nested(j) && group.notify(j, 0).happens();
+      layout.heard_from[number[i]].push_back({number[j], group.notify(i, j).ps(), waits ? group.notify(j, 0).ps() : 0});
+    }
+  for (const ReactionGroup::Inner& inner : group.inner) lay_out(inner.group, number[inner.slave], spread, layout);
 }
+
+const ReactionGroup* inner_at(const ReactionGroup& group, std::size_t slave) {
+  for (const ReactionGroup::Inner& inner : group.inner)
+    if (inner.slave == slave) return &inner.group;
+  return nullptr;
+}
+
+/// The slave whose way there and back takes longest.
+std::size_t slowest_slave(const ReactionGroup& group, const std::vector<MaxPlus>& part) {
+  std::size_t slowest = 1;
+  const auto chain = [&](std::size_t s) { return group.notify(s, 0) * part[s] * group.notify(0, s); };
+  for (std::size_t s = 1; s < group.initialise.size(); ++s)
+    if (chain(s) > chain(slowest)) slowest = s;
+  return slowest;
+}
+
+void append(std::vector<ReactionPart>& parts, std::vector<ReactionPart> more) { parts.insert(parts.end(), more.begin(), more.end()); }
+ReactionPart part_of(std::string what, MaxPlus takes) { return {std::move(what), Duration::from_ps(takes.ps())}; }
 
 }  // namespace
 
@@ -52,164 +82,71 @@ MaxPlus run_bound(const ReactionGroup& group) { return there_and_back(group, wit
 
 MaxPlus start_bound(const ReactionGroup& group) { return ready_bound(group) * run_bound(group); }
 
-MaxPlus spread_bound(const ReactionGroup& group) {
-  std::vector<std::vector<std::pair<std::size_t, Ps>>> heard_from(1);
-  lay_out(group, 0, heard_from, [](const auto& g, std::size_t master, auto& all, const auto& self) -> void { lay_out(g, master, all, self); });
-  // Whoever hears first acts: the shortest of the longest ways. Few participants, so by relaxation from each.
-  MaxPlus latest = MaxPlus::one();
-  for (std::size_t from = 0; from < heard_from.size(); ++from) {
-    std::vector<Ps> at(heard_from.size(), unbounded_ps);
-    at[from] = 0;
-    for (std::size_t round = 0; round < heard_from.size(); ++round) {
-      bool changed = false;
-      for (std::size_t i = 0; i < heard_from.size(); ++i)
-        for (const auto& [peer, ps] : heard_from[i])
-          if (const Ps heard = sum(at[peer], ps); heard < at[i]) {
-            at[i] = heard;
-            changed = true;
-          }
-      if (!changed) break;
-    }
-    for (const Ps ps : at) latest += MaxPlus(ps);
-  }
-  return latest;
+std::vector<ReactionPart> ready_parts(const ReactionGroup& group) {
+  const std::vector<MaxPlus> part = with_inner(group, group.initialise, ready_bound);
+  const std::size_t s = slowest_slave(group, part);
+  const std::string& master = group.names.front();
+  if (group.initialise[0] > there_and_back(group, part)) return {part_of(master + " initialises", group.initialise[0])};
+  std::vector<ReactionPart> parts{part_of(group.names[s] + " hears of INIT", group.notify(s, 0))};
+  if (group.initialise[s] == part[s])
+    parts.push_back(part_of(group.names[s] + " initialises", part[s]));
+  else
+    append(parts, ready_parts(*inner_at(group, s)));
+  parts.push_back(part_of(master + " hears of Ready", group.notify(0, s)));
+  return parts;
 }
 
-namespace {
+std::vector<ReactionPart> run_parts(const ReactionGroup& group) {
+  const std::size_t s = slowest_slave(group, with_inner(group, std::vector(group.initialise.size(), MaxPlus::one()), run_bound));
+  std::vector<ReactionPart> parts{part_of(group.names[s] + " hears of Ready", group.notify(s, 0))};
+  if (const ReactionGroup* const inner = inner_at(group, s)) append(parts, run_parts(*inner));
+  parts.push_back(part_of(group.names.front() + " hears of Running", group.notify(0, s)));
+  return parts;
+}
 
-constexpr std::array<Reaction, 5> all_reactions = {Reaction::start, Reaction::halt, Reaction::suspend, Reaction::resume, Reaction::reset};
-
-class ProgramReactions {
- public:
-  ProgramReactions(const scenario::Resolved& r, std::size_t number, const BoundOptions& options, Bounds& bounds)
-      : r_(r), number_(number), program_(r.programs[number]), options_(options), bounds_(bounds) {}
-
-  void make() {
-    const std::size_t n = program_.participants.size();
-    group_.notify = MaxPlusMatrix(n, n);
-    for (std::size_t p = 0; p < n; ++p) {
-      const Ps initialisation = stretched(p, program_.description->initialisation.ps());
-      group_.initialise.push_back(MaxPlus(sum(initialisation, os_of(p).wake_up.greatest().ps())));
-      add_notifications(p);
+std::vector<SpreadStep> slowest_spread(const ReactionGroup& group, Spread spread) {
+  Layout layout;
+  lay_out(group, 0, spread, layout);
+  // Whoever hears first acts: the shortest of the longest ways. Few participants, so by relaxation from each.
+  const std::size_t n = layout.heard_from.size();
+  std::vector<SpreadStep> slowest;
+  Ps latest = -1;
+  for (std::size_t origin = 0; origin < n; ++origin) {
+    std::vector<Ps> at(n, unbounded_ps);
+    std::vector<std::size_t> before(n, origin);
+    at[origin] = 0;
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t to = 0; to < n; ++to)
+        for (const Layout::Way& way : layout.heard_from[to])
+          if (const Ps heard = sum(std::max(at[way.from], way.not_before), way.takes); heard < at[to]) {
+            at[to] = heard;
+            before[to] = way.from;
+            changed = true;
+          }
     }
-    for (const Reaction kind : all_reactions) add(kind);
-    const MaxPlus spread = spread_bound(group_);
-    SilenceBound silence{number_, {}};
-    Ps time_out = 0;
-    for (std::size_t p = 0; p < n; ++p) time_out = std::max(time_out, sum(stretched(p, program_.receive_timeout.ps()), os_of(p).wake_up.greatest().ps()));
-    Ps last_word = 0;   // that is still under way when the peer falls silent
-    for (std::size_t j = 0; j < n; ++j)
-      for (const auto& latency : bounds_.streams[program_.state_streams[j].value].by_listener) last_word = latency ? std::max(last_word, latency->ps()) : unbounded_ps;
-    if (const Ps all = sum(last_word, time_out, spread.ps()); is_bounded(all)) silence.bound = Duration::from_ps(all);
-    bounds_.silences.push_back(silence);
+    const auto to = static_cast<std::size_t>(std::max_element(at.begin(), at.end()) - at.begin());
+    if (at[to] <= latest) continue;
+    latest = at[to];
+    slowest.clear();
+    if (!is_bounded(latest)) return {{origin, to, MaxPlus::unbounded()}};
+    for (std::size_t step = to; step != origin; step = before[step]) slowest.insert(slowest.begin(), {before[step], step, MaxPlus(at[step] - at[before[step]])});
   }
+  return slowest;
+}
 
- private:
-  const models::OsLatency& os_of(std::size_t p) const { return r_.plan.os_latencies[r_.plan.nodes[program_.participants[p].value].os_latency]; }
-  Ps stretched(std::size_t p, Ps local) const {
-    const ClockQuality clock = clock_quality(r_, program_.participants[p], options_);
-    return sum(scaled_up(local, 1'000'000'000'000 + clock.rate_ppt, 1'000'000'000'000), 2 * clock.error);
-  }
-  Ps publish_wait(std::size_t p) const {
-    if (program_.description->publish == scenario::Publish::on_change) return 0;
-    return sum(stretched(p, program_.description->cycle.ps()), os_of(p).wake_up.greatest().ps());
-  }
+std::vector<ReactionPart> spread_parts(const ReactionGroup& group, Spread spread) {
+  Layout layout;
+  lay_out(group, 0, spread, layout);
+  std::vector<ReactionPart> parts;
+  for (const SpreadStep& step : slowest_spread(group, spread)) parts.push_back(part_of(layout.names[step.to] + " hears of " + layout.names[step.from], step.takes));
+  return parts;
+}
 
-  void add_notifications(std::size_t from) {
-    const StreamBound& stream = bounds_.streams[program_.state_streams[from].value];
-    const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
-    for (std::size_t l = 0; l < plan.listeners.size(); ++l) {
-      const auto to = static_cast<std::size_t>(std::find(program_.participants.begin(), program_.participants.end(), plan.listeners[l]) - program_.participants.begin());
-      if (to == program_.participants.size()) continue;
-      const Ps latency = stream.by_listener[l] ? stream.by_listener[l]->ps() : unbounded_ps;
-      group_.notify(to, from) = MaxPlus(sum(publish_wait(from), latency));
-      if (!stream.latency && reason_.empty()) reason_ = "stream " + stream.name + " is unbounded: " + stream.reason;
-      assumptions_.add(stream.assumptions);
-    }
-  }
-
-  void add(Reaction kind) {
-    ReactionBound made;
-    made.program = number_;
-    made.kind = kind;
-    made.assumptions = assumptions_;
-    made.assumptions.add(Assumption::no_loss);
-    made.assumptions.add(Assumption::one_command);
-    if (program_.description->variant == scenario::Variant::paper) made.assumptions.add(Assumption::sampled_states);
-    const MaxPlus whole = kind == Reaction::start ? start_bound(group_) : spread_bound(group_);
-    if (kind == Reaction::start) {
-      made.assumptions.add(Assumption::initialisation);
-      add_start_parts(made);
-    } else {
-      add_spread_parts(made);
-    }
-    if (is_bounded(whole.ps()))
-      made.bound = Duration::from_ps(whole.ps());
-    else
-      made.reason = reason_.empty() ? "a notification is unbounded" : reason_;
-    if (!made.bound) made.parts.clear();
-    bounds_.reactions.push_back(std::move(made));
-  }
-
-  const std::string& name(std::size_t p) const { return r_.topology.nodes[program_.participants[p].value].name; }
-  void add_part(ReactionBound& made, std::string what, Ps ps) const { made.parts.push_back({std::move(what), Duration::from_ps(ps)}); }
-
-  void add_start_parts(ReactionBound& made) const {
-    const auto chain = [&](std::size_t s, Ps middle) { return sum(group_.notify(s, 0).ps(), middle, group_.notify(0, s).ps()); };
-    std::size_t slowest = 1;
-    std::size_t last = 1;
-    for (std::size_t s = 1; s < program_.participants.size(); ++s) {
-      if (chain(s, group_.initialise[s].ps()) > chain(slowest, group_.initialise[slowest].ps())) slowest = s;
-      if (chain(s, 0) > chain(last, 0)) last = s;
-    }
-    if (group_.initialise[0].ps() > chain(slowest, group_.initialise[slowest].ps())) {
-      add_part(made, name(0) + " initialises", group_.initialise[0].ps());
-    } else {
-      add_part(made, name(slowest) + " hears of INIT", group_.notify(slowest, 0).ps());
-      add_part(made, name(slowest) + " initialises", group_.initialise[slowest].ps());
-      add_part(made, name(0) + " hears of Ready", group_.notify(0, slowest).ps());
-    }
-    add_part(made, name(last) + " hears of Ready", group_.notify(last, 0).ps());
-    add_part(made, name(0) + " hears of Running", group_.notify(0, last).ps());
-  }
-
-  /// The slowest pair, over the master if they do not hear each other sooner.
-  void add_spread_parts(ReactionBound& made) const {
-    const std::size_t n = program_.participants.size();
-    Ps longest = -1;
-    for (std::size_t from = 0; from < n; ++from) {
-      for (std::size_t to = 0; to < n; ++to) {
-        if (from == to) continue;
-        const Ps direct = group_.notify(to, from).happens() ? group_.notify(to, from).ps() : unbounded_ps;
-        const bool has_detour = from != 0 && to != 0;
-        const Ps detour = has_detour ? sum(group_.notify(0, from).ps(), group_.notify(to, 0).ps()) : unbounded_ps;
-        if (std::min(direct, detour) <= longest) continue;
-        longest = std::min(direct, detour);
-        made.parts.clear();
-        if (direct <= detour) {
-          add_part(made, name(to) + " hears of " + name(from), direct);
-        } else {
-          add_part(made, name(0) + " hears of " + name(from), group_.notify(0, from).ps());
-          add_part(made, name(to) + " hears of " + name(0), group_.notify(to, 0).ps());
-        }
-      }
-    }
-  }
-
-  const scenario::Resolved& r_;
-  std::size_t number_;
-  const scenario::ResolvedProgram& program_;
-  const BoundOptions& options_;
-  Bounds& bounds_;
-  ReactionGroup group_;
-  Assumptions assumptions_;
-  std::string reason_;
-};
-
-}  // namespace
-
-void add_reactions(const scenario::Resolved& resolved, const BoundOptions& options, Bounds& bounds) {
-  for (std::size_t p = 0; p < resolved.programs.size(); ++p) ProgramReactions(resolved, p, options, bounds).make();
+MaxPlus spread_bound(const ReactionGroup& group, Spread spread) {
+  MaxPlus all = MaxPlus::one();
+  for (const SpreadStep& step : slowest_spread(group, spread)) all *= step.takes;
+  return all;
 }
 
 }  // namespace takt::analysis

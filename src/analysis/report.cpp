@@ -38,7 +38,7 @@ Node nodes_of(const Assumptions& assumptions) {
 }
 
 std::string requirement_text(const scenario::Requirement& requirement, const std::string& what) {
-  if (what == "reaction") return fmt::format("reaction {} within {}", scenario::spelling(*requirement.reaction), text_of(requirement.within));
+  if (what == "reaction") return fmt::format("reaction {}{} within {}", scenario::spelling(*requirement.reaction), requirement.tree ? " of the tree" : "", text_of(requirement.within));
   if (what == "latency") return fmt::format("stream {} latency at most {}", *requirement.stream, text_of(requirement.latency));
   if (what == "jitter") return fmt::format("stream {} jitter at most {}", *requirement.stream, text_of(requirement.jitter));
   if (what == "dropped") return fmt::format("stream {} drops at most {}", *requirement.stream, *requirement.dropped);
@@ -53,12 +53,13 @@ std::string requirement_answer(const RequirementBound& bound) {
 }
 
 std::string streams_text(const Bounds& bounds, const scenario::Resolved& r, const std::vector<Assumption>& all) {
-  std::string text = "Streams: the longest latency from production to delivery; of each port the longest delay and the greatest backlog of the class\n";
+  std::string text = "Streams: the longest latency from production to delivery, by total-flow and by separated-flow analysis; of each port the longest delay and the greatest backlog of the class\n";
   for (const StreamBound& stream : bounds.streams) {
-    text += fmt::format("  {:<32} {:>16}  to {}{}{}\n", stream.name, text_of(stream.latency), r.plan.nodes[stream.listener.value].name,
+    const std::string second = stream.separated_flow ? text_of(stream.separated_flow) : "-";
+    text += fmt::format("  {:<32} {:>16} {:>16}  to {}{}{}\n", stream.name, text_of(stream.total_flow), second, r.plan.nodes[stream.listener.value].name,
                         numbers_of(stream.assumptions, all), stream.reason.empty() ? "" : "  " + stream.reason);
     for (const HopBound& hop : stream.hops)
-      text += fmt::format("    {:<30} {:>16}  {}\n", hop.name, text_of(hop.delay), hop.backlog_bits ? fmt::format("{} bits", *hop.backlog_bits) : "unbounded");
+      text += fmt::format("    {:<30} {:>16} {:>16}  {}\n", hop.name, text_of(hop.delay), "", hop.backlog_bits ? fmt::format("{} bits", *hop.backlog_bits) : "unbounded");
   }
   return text;
 }
@@ -67,7 +68,7 @@ std::string reactions_text(const Bounds& bounds, const scenario::Resolved& r, co
   std::string text;
   for (const ReactionBound& reaction : bounds.reactions) {
     if (text.empty()) text = "\nReactions: from the call until all have reached the state\n";
-    text += fmt::format("  {:<22} {:<9} {:>16}{}{}\n", r.programs[reaction.program].name, scenario::spelling(reaction.kind), text_of(reaction.bound),
+    text += fmt::format("  {:<22} {:<9} {:>16}{}{}\n", r.programs[reaction.program].name + (reaction.of_tree ? " and within" : ""), scenario::spelling(reaction.kind), text_of(reaction.bound),
                         numbers_of(reaction.assumptions, all), reaction.reason.empty() ? "" : "  " + reaction.reason);
     for (const ReactionPart& part : reaction.parts) text += fmt::format("    {:<28} {:>18}\n", part.what, text_of(part.duration));
   }
@@ -98,6 +99,9 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
     Node node = Node::object();
     node.add("name", Node::of_string(stream.name));
     node.add("bound_ps", picoseconds(stream.latency));
+    node.add("tfa_ps", picoseconds(stream.total_flow));
+    node.add("sfa_ps", picoseconds(stream.separated_flow));
+    node.add("sfa_reason", Node::of_string(stream.separated_flow_reason));
     node.add("least_ps", Node::of_integer(stream.least.ps()));
     node.add("listener", Node::of_string(resolved.plan.nodes[stream.listener.value].name));
     node.add("reason", Node::of_string(stream.reason));
@@ -114,11 +118,22 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
     node.add("assumptions", nodes_of(stream.assumptions));
     streams.items.push_back(std::move(node));
   }
+  Node& queues = root.add("queues", Node::array());
+  for (const QueueBound& queue : bounds.queues) {
+    Node node = Node::object();
+    node.add("node", Node::of_string(resolved.plan.nodes[queue.node.value].name));
+    node.add("port", Node::of_integer(queue.port));
+    node.add("class", Node::of_integer(queue.traffic_class));
+    node.add("backlog_bits", queue.bits ? Node::of_integer(static_cast<sim::int128>(*queue.bits)) : Node());
+    node.add("backlog_frames", queue.frames ? Node::of_integer(static_cast<sim::int128>(*queue.frames)) : Node());
+    queues.items.push_back(std::move(node));
+  }
   Node& reactions = root.add("reactions", Node::array());
   for (const ReactionBound& reaction : bounds.reactions) {
     Node node = Node::object();
     node.add("program", Node::of_string(resolved.programs[reaction.program].name));
     node.add("kind", Node::of_string(scenario::spelling(reaction.kind)));
+    node.add("tree", Node::of_bool(reaction.of_tree));
     node.add("bound_ps", picoseconds(reaction.bound));
     node.add("reason", Node::of_string(reaction.reason));
     Node parts = Node::array();

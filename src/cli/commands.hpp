@@ -15,10 +15,13 @@ void add_check_command(CLI::App& app, ExitStatus& status);
 void add_schema_command(CLI::App& app, ExitStatus& status);
 void add_program_command(CLI::App& app, ExitStatus& status);
 void add_node_command(CLI::App& app, ExitStatus& status);
+void add_ctl_command(CLI::App& app, ExitStatus& status);
+void add_emulate_command(CLI::App& app, ExitStatus& status);
 void add_explore_command(CLI::App& app, ExitStatus& status);
 void add_bound_command(CLI::App& app, ExitStatus& status);
 void add_verify_command(CLI::App& app, ExitStatus& status);
 void add_study_command(CLI::App& app, ExitStatus& status);
 void add_compare_command(CLI::App& app, ExitStatus& status);
+void add_paper_command(CLI::App& app, ExitStatus& status);
 
 }  // namespace takt::cli

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -28,8 +29,13 @@ struct ExploreOptions {
   std::vector<std::string> faults;
   explore::Question question;
   std::optional<std::uint32_t> calls;
+  std::optional<std::string> subscription;
+  std::string network = "registers";
+  std::string beginnings = "all";
   bool no_symmetry = false;
   bool no_finish = false;
+  bool nested = false;
+  std::optional<unsigned> inner_slaves;
   bool quiet = false;
   std::string out;
   std::string format = "text";
@@ -45,28 +51,68 @@ std::uint32_t usual_calls(unsigned slaves) { return slaves == 1 ? 4 : slaves == 
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// One line on standard error, where a terminal is.
+/// One line on standard error, where a terminal is, five times a second.
 class Line {
  public:
-  explicit Line(bool is_wanted) : is_wanted_(is_wanted && ::isatty(STDERR_FILENO) == 1) {}
+  explicit Line(bool is_wanted) : is_wanted_(is_wanted && ::isatty(STDERR_FILENO) == 1), began_(cpu_seconds()) {}
   ~Line() {
     if (is_drawn_) std::fputs("\r\033[K", stderr);
   }
   Line(const Line&) = delete;
   Line& operator=(const Line&) = delete;
-  void show(std::uint64_t found, std::uint64_t expanded, std::uint32_t depth) {
+  void show(const explore::Progress& now) {
     if (!is_wanted_) return;
+    const double spent = cpu_seconds() - began_;
+    if (is_drawn_ && spent < drawn_ + 0.2) return;
     is_drawn_ = true;
-    if (depth != 0)
-      std::fprintf(stderr, "\rdepth %u: %.1f M states, %.1f M to go\033[K", depth, static_cast<double>(found) / 1e6, static_cast<double>(found - expanded) / 1e6);
+    drawn_ = spent;
+    const auto states = static_cast<double>(now.states);
+    if (now.in_cycles)
+      std::fprintf(stderr, "\rcycles: %.0f %% of %.1f M states\033[K", 100.0 * static_cast<double>(now.done) / states, states / 1e6);
     else
-      std::fprintf(stderr, "\rcycles: %.0f %% of %.1f M states\033[K", 100.0 * static_cast<double>(expanded) / static_cast<double>(found), static_cast<double>(found) / 1e6);
+      std::fprintf(stderr, "\rdepth %u: %.1f M states, %.1f M to go, %.2f M a second, %.0f MB\033[K", now.depth, states / 1e6,
+                   static_cast<double>(now.states - now.done) / 1e6, states / 1e6 / std::max(spent, 0.001), static_cast<double>(now.octets) / 1e6);
   }
 
  private:
   bool is_wanted_;
+  double began_;
+  double drawn_ = 0;
   bool is_drawn_ = false;
 };
+
+/// "registers", "channels" or "channels=N"; says what is wrong.
+std::string set_network(const std::string& text, explore::Question& question) {
+  if (text == "registers") return {};
+  constexpr std::string_view channels = "channels";
+  if (!text.starts_with(channels)) return "expected registers or channels=N, found " + text;
+  question.network = explore::Network::channels;
+  if (text.size() == channels.size()) return {};
+  const std::string capacity = text.substr(channels.size());
+  if (capacity.size() != 2 || capacity[0] != '=' || capacity[1] < '1' || capacity[1] > '0' + explore::most_capacity)
+    return "expected channels=1 to channels=" + std::to_string(explore::most_capacity) + ", found " + text;
+  question.capacity = static_cast<std::uint8_t>(capacity[1] - '0');
+  return {};
+}
+
+/// What is asked for with --nested or --joining and cannot be explored; empty if all can.
+std::string not_in_trees(const explore::Question& question, const ExploreOptions& options) {
+  std::string wrong;
+  const auto refuse = [&wrong](bool is_wrong, const std::string& what) {
+    if (is_wrong) wrong += (wrong.empty() ? "" : "; ") + what;
+  };
+  refuse(options.nested && !options.scenario.empty(), "--nested goes with --slaves N; the Programs of a scenario are explored one by one");
+  refuse(options.inner_slaves.has_value() && !options.nested, "--inner-slaves says the size of the inner group of --nested");
+  if (!question.is_tree()) return wrong;
+  refuse(question.variant != handshake::Variant::Robust, "paper knows neither nested groups nor joining slaves");
+  refuse(question.subscription != handshake::Subscription::Star, "nested groups and joining slaves are explored in stars");
+  refuse(question.network != explore::Network::registers, "nested groups and joining slaves are explored on registers");
+  refuse(question.faults.contains(explore::Fault::duplicate) || question.faults.contains(explore::Fault::reorder),
+         "nested groups and joining slaves are explored with loss, crash, restart and timeout");
+  refuse(question.nested() && question.slaves > explore::most_outer_slaves, "nested groups have at most " + std::to_string(explore::most_outer_slaves) + " outer slaves");
+  refuse(!options.out.empty(), "findings with nested groups or joining slaves are drawn as charts, not written as scenarios (--out)");
+  return wrong;
+}
 
 /// What is to be explored: the group of the options, or each Program of the scenario. Empty after a mistake.
 std::vector<Subject> subjects_of(const ExploreOptions& options) {
@@ -81,32 +127,43 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
     if (!options.variant) return otherwise;
     return *options.variant == "paper" ? handshake::Variant::Paper : handshake::Variant::Robust;
   };
-  const auto add = [&](std::string name, std::size_t slaves, handshake::Variant variant) {
+  set_network(options.network, question);
+  if (options.beginnings == "switched-on") question.beginnings = explore::Beginnings::switched_on;
+  const auto add = [&](std::string name, std::size_t slaves, handshake::Variant variant, bool all_to_all) {
     question.slaves = static_cast<std::uint8_t>(slaves);
+    if (options.subscription) all_to_all = *options.subscription == "all-to-all";
+    question.subscription = all_to_all ? handshake::Subscription::AllToAll : handshake::Subscription::Star;
+    const std::size_t most = all_to_all ? explore::most_slaves_all_to_all : explore::most_slaves;
+    if (slaves > most) {
+      std::fprintf(stderr, "takt: %s has %zu slaves%s; at most %zu can be explored: give --slaves N to explore a smaller group with its variant\n", name.c_str(), slaves,
+                   all_to_all ? " with all-to-all subscription" : "", most);
+      return false;
+    }
     question.variant = variant_of(variant);
-    question.commands = options.calls.value_or(usual_calls(question.slaves));
+    if (options.nested) question.inner_slaves = static_cast<std::uint8_t>(options.inner_slaves.value_or(1));
+    question.commands = options.calls.value_or(usual_calls(question.nested() ? question.slaves + question.inner_slaves : question.slaves));
+    if (const std::string wrong = not_in_trees(question, options); !wrong.empty()) {
+      std::fprintf(stderr, "takt: %s: %s\n", name.c_str(), wrong.c_str());
+      return false;
+    }
     subjects.push_back({std::move(name), question});
+    return true;
   };
   if (options.scenario.empty()) {
     if (!options.slaves) {
       std::fputs("takt: explore needs a scenario or --slaves N\n", stderr);
       return {};
     }
-    add("group", *options.slaves, handshake::Variant::Robust);
-    return subjects;
+    return add("group", *options.slaves, handshake::Variant::Robust, false) ? subjects : std::vector<Subject>{};
   }
   scenario::json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(options.scenario, {}, diagnostics);
   std::fputs(diagnostics.to_text().c_str(), stderr);
   if (!resolved) return {};
   for (const scenario::Program& program : resolved->scenario.programs) {
-    const std::size_t slaves = options.slaves.value_or(static_cast<unsigned>(program.slaves.size()));
-    if (slaves > explore::most_slaves) {
-      std::fprintf(stderr, "takt: Program %s has %zu slaves; at most %zu can be explored: give --slaves N to explore a smaller group with its variant\n",
-                   program.name.c_str(), slaves, explore::most_slaves);
-      return {};
-    }
-    add(program.name, slaves, program.variant == scenario::Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper);
+    const std::size_t slaves = options.slaves.value_or(static_cast<unsigned>(program.slaves.size() + program.roles.size()));
+    const handshake::Variant variant = program.variant == scenario::Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
+    if (!add(program.name, slaves, variant, program.subscription == scenario::Subscription::all_to_all)) return {};
   }
   if (subjects.empty()) std::fputs("takt: the scenario has no Programs to explore\n", stderr);
   return subjects;
@@ -170,25 +227,33 @@ ExitStatus run(const ExploreOptions& options) {
   if (subjects.empty()) return ExitStatus::bad_input;
   const InterruptGuard interrupt;
   ExitStatus status = ExitStatus::pass;
+  std::vector<std::string> pages;
   for (const Subject& subject : subjects) {
     const double began = cpu_seconds();
     explore::Answer answer;
     {
       Line line(!options.quiet);
-      answer = explore::explore(subject.question, [&](std::uint64_t found, std::uint64_t expanded, std::uint32_t depth) {
-        line.show(found, expanded, depth);
+      answer = explore::explore(subject.question, [&](const explore::Progress& progress) {
+        line.show(progress);
         return !interrupt.requested();
       });
     }
     const double spent = cpu_seconds() - began;
-    const bool is_json = options.format == "json";
-    const std::string page = is_json ? explore::json_report(subject.question, answer, spent) : explore::text_report(subject.question, answer, spent);
-    if (!is_json && subjects.size() > 1) std::printf("Program %s\n", subject.name.c_str());
-    std::fputs(page.c_str(), stdout);
+    if (options.format == "json") {
+      pages.push_back(explore::json_report(options.scenario.empty() ? "" : subject.name, subject.question, answer, spent));
+    } else {
+      if (subjects.size() > 1) std::printf("Program %s\n", subject.name.c_str());
+      std::fputs(explore::text_report(subject.question, answer, spent).c_str(), stdout);
+    }
     if (!options.out.empty() && !write_findings(subject, answer, options.out)) return ExitStatus::internal_error;
-    if (answer.interrupted && !answer.any_violated()) return ExitStatus::interrupted;
-    if (!answer.all_hold()) status = ExitStatus::requirement_failed;
+    if (!answer.all_hold()) status = answer.interrupted && !answer.any_violated() && status == ExitStatus::pass ? ExitStatus::interrupted : ExitStatus::requirement_failed;
+    if (answer.interrupted) break;
   }
+  // One document: an object for one Program, an array of such objects for a scenario with several.
+  std::string document;
+  for (const std::string& page : pages) document += (document.empty() ? "" : ",\n") + page;
+  if (subjects.size() > 1 && !pages.empty()) document = "[\n" + document + "\n]";
+  if (!document.empty()) std::puts(document.c_str());
   return status;
 }
 
@@ -213,6 +278,21 @@ void add_explore_command(CLI::App& app, ExitStatus& status) {
       ->check(CLI::Range(std::uint64_t{1}, explore::most_states))
       ->type_name("STATES")
       ->capture_default_str();
+  command.add_option("--network", options->network, "How words travel: registers (the last word, as cyclic publishing gives) or channels=N (N messages in flight, default 2)")
+      ->check([](const std::string& text) {
+        explore::Question unused;
+        return set_network(text, unused);
+      })
+      ->capture_default_str();
+  command.add_option("--subscription", options->subscription, "Who hears whom (default: star, or the scenario's)")->check(CLI::IsMember({"star", "all-to-all"}));
+  command.add_option("--beginnings", options->beginnings, "Where runs begin: all (wherever a group can rest) or switched-on")
+      ->check(CLI::IsMember({"all", "switched-on"}))
+      ->capture_default_str();
+  command.add_flag("--nested", options->nested, "The last slave is the master of an inner group, too (robust, star, registers; loss, crash, restart, timeout)");
+  command.add_option("--inner-slaves", options->inner_slaves, "Slaves of the inner group (default 1)")
+      ->check(CLI::Range(1U, static_cast<unsigned>(explore::most_inner_slaves)))
+      ->type_name("N");
+  command.add_flag("--joining", options->question.joining, "The last slave is down at the beginning and comes up at any time, or never (where --nested can be explored)");
   command.add_flag("--no-finish", options->no_finish, "No Program ends by itself");
   command.add_flag("--no-symmetry", options->no_symmetry, "Tell equal slaves apart");
   command.add_option("--out", options->out, "Write a scenario for each violation into this folder")->type_name("DIR");
@@ -223,7 +303,10 @@ void add_explore_command(CLI::App& app, ExitStatus& status) {
       "  takt explore --slaves 2 --variant robust --faults loss,crash\n"
       "  takt explore --slaves 1 --variant paper --out findings\n"
       "  takt explore scenarios/robot-arm.json --faults restart,timeout --format json\n"
-      "Exit status: 0 all hold, 1 violated, not reached or not decided, 2 bad input, 130 interrupted.");
+      "  takt explore --slaves 2 --faults loss,reorder --network channels=2\n"
+      "  takt explore --slaves 1 --nested --faults crash --calls 2\n"
+      "Ctrl-C ends the search and prints what was found until then.\n"
+      "Exit status: 0 all hold, 1 violated, not reached or not decided, 2 bad input, 130 interrupted before a violation was found.");
   command.callback([options, &status] { status = run(*options); });
 }
 

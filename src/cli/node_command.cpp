@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
+#include "node/built_in_values.hpp"
 #include "node/real_node.hpp"
 
 namespace takt::cli {
@@ -18,16 +19,18 @@ ExitStatus run_node(const std::string& file, bool is_check) {
   if (!loaded) return ExitStatus::bad_input;
   if (is_check) return ExitStatus::pass;
   std::string problem;
-  const auto live = node::RealNode::make(*loaded, stdout, problem);
+  std::string warnings;
+  node::BuiltInValues values(loaded->config, loaded->endpoint.format->shape(), stdout);
+  const auto live = node::RealNode::make(*loaded, stdout, &values, problem, warnings);
   if (!live) {
     std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
     return ExitStatus::internal_error;
   }
-  if (loaded->config.realtime)
-    if (const std::string refused = node::ask_for_real_time(); !refused.empty())
-      std::fprintf(stderr, "takt: warning: without real time: %s\n", refused.c_str());
+  for (std::size_t begin = 0; begin < warnings.size(); begin = warnings.find('\n', begin) + 1)
+    std::fprintf(stderr, "takt: warning: %s\n", warnings.substr(begin, warnings.find('\n', begin) - begin).c_str());
   const InterruptGuard interrupt;
   live->run([](const void* guard) { return static_cast<const InterruptGuard*>(guard)->requested(); }, &interrupt);
+  std::fputs(node::status_text(live->status()).c_str(), stderr);
   return ExitStatus::pass;
 }
 
@@ -43,7 +46,8 @@ void add_node_command(CLI::App& app, ExitStatus& status) {
       "Examples:\n"
       "  takt node left.json                     runs until its duration is over, or until SIGINT or SIGTERM\n"
       "  takt node left.json | jq 'select(.event == \"transition\")'\n"
-      "Standard output is one JSON object a line: transitions, calls, intents, and statistics at the end.\n"
+      "Standard output is one JSON object a line: transitions, calls, intents, received values if asked for, and statistics at the end,\n"
+      "which standard error has as text. takt ctl speaks to a node while it runs.\n"
       "Exit status: 0 ended or stopped, 2 bad input, 3 the machine does not let it (port, interface, permission).");
   command.callback([file, is_check, &status] { status = run_node(*file, *is_check); });
 }

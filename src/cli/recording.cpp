@@ -83,11 +83,18 @@ std::string Recording::close() {
 void Recording::write_states() {
   for (std::size_t p = 0; p < run_->resolved().programs.size(); ++p) {
     const scenario::ResolvedProgram& program = run_->resolved().programs[p];
-    for (std::size_t i = 0; i < program.participants.size(); ++i) {
-      const auto track = timeline_->add_state_track("program " + program.name, run_->resolved().topology.nodes[program.participants[i].value].name);
+    for (std::size_t i = 0; i < program.participant_names.size(); ++i) {
+      const auto track = timeline_->add_state_track("program " + program.name, program.participant_names[i]);
       timeline_->change_state(track, sim::TrueTime(), handshake::name_of(handshake::PublishedState::Halted));
       for (const scenario::StateRecord& record : run_->monitor(p).history())
         if (record.participant == i) timeline_->change_state(track, record.time, handshake::name_of(record.change.to));
+    }
+    for (std::size_t role = 0; run_->roles(p) != nullptr && role + 1 < program.participant_names.size(); ++role) {
+      const auto track = timeline_->add_state_track("program " + program.name, program.participant_names[role + 1] + " is");
+      timeline_->change_state(track, sim::TrueTime(), "nobody");
+      for (const scenario::BindingRecord& record : run_->roles(p)->history())
+        if (record.role == role)
+          timeline_->change_state(track, record.time, record.candidate ? run_->resolved().topology.nodes[program.candidates[*record.candidate].node.value].name : "nobody");
     }
   }
 }

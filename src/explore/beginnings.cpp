@@ -1,5 +1,6 @@
 // The states in which runs begin: every state in which a group can rest, each reached by calls at the master over a
 // prompt network.
+#include <span>
 #include <utility>
 
 #include "explore/model.hpp"
@@ -24,7 +25,8 @@ void Model::make_beginnings() {
                                 {"Running", PublishedState::Running, {Method::Start}},
                                 {"Suspended", PublishedState::Suspended, {Method::Start, Method::Suspend}},
                                 {"Ready after a reset", PublishedState::Ready, {Method::Start, Method::Suspend, Method::Reset}}};
-  for (const Rest& rest : rests) {
+  const std::size_t wanted = question_.beginnings == Beginnings::all ? rests.size() : 1;
+  for (const Rest& rest : std::span(rests).first(wanted)) {
     Beginning beginning{rest.name, {}, switched_on()};
     beginning.state.set_commands_left(most_commands);
     for (const Method method : rest.calls) {
@@ -41,7 +43,7 @@ void Model::make_beginnings() {
 }
 
 State Model::switched_on() {
-  State state(question_.slaves);
+  State state(shape_);
   for (std::size_t i = 0; i <= question_.slaves; ++i) state.set_member(i, members_.fresh(i, 1));
   state.set_ghost(intern_ghost(Ghost(question_.variant, question_.slaves + 1U)));
   return state;
@@ -56,10 +58,9 @@ void Model::take(Beginning& beginning, Action action) {
 
 /// Everybody initialises, publishes and hears in turn.
 void Model::settle(Beginning& beginning) {
-  const auto slaves = static_cast<std::uint8_t>(question_.slaves);
   for (int round = 0; round < 6; ++round) {
-    for (std::uint8_t i = 0; i <= slaves; ++i) take(beginning, {ActionKind::initialised, i, 0});
-    for (std::uint8_t c = 0; c < 2 * slaves; ++c) {
+    for (std::uint8_t i = 0; i <= question_.slaves; ++i) take(beginning, {ActionKind::initialised, i, 0});
+    for (std::uint8_t c = 0; c < wiring_.size(); ++c) {
       take(beginning, {ActionKind::send, c, 0});
       take(beginning, {ActionKind::receive, c, 0});
     }

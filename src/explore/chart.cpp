@@ -31,7 +31,7 @@ std::string lifelines(const Told& told) {
 }
 
 /// The drawing of a step: an arrow for what is heard, a mark for everything else.
-std::string drawing(const Told& told, std::size_t slaves, std::size_t step) {
+std::string drawing(const Told& told, const Wiring& wiring, std::size_t step) {
   std::string line = lifelines(told);
   line.replace(0, margin, number(step));
   const ActionKind kind = told.action.kind;
@@ -40,8 +40,8 @@ std::string drawing(const Told& told, std::size_t slaves, std::size_t step) {
     line[margin + column * told.actor] = kind == ActionKind::send ? 'o' : kind == ActionKind::crash ? 'X' : '*';
     return line;
   }
-  const std::size_t from = margin + column * sender_of(told.action.who, slaves);
-  const std::size_t to = margin + column * receiver_of(told.action.who, slaves);
+  const std::size_t from = margin + column * wiring.sender(told.channel);
+  const std::size_t to = margin + column * wiring.receiver(told.channel);
   for (std::size_t i = std::min(from, to) + 1; i < std::max(from, to); ++i)
     if (line[i] == ' ') line[i] = '-';
   (from < to ? line[to - 1] : line[to + 1]) = from < to ? '>' : '<';
@@ -64,12 +64,12 @@ std::string trimmed(std::string line) {
 
 std::string participant_name(std::size_t participant) { return participant == 0 ? "master" : "slave " + std::to_string(participant); }
 
-std::string sentence(const Told& told, std::size_t slaves) {
+std::string sentence(const Told& told, const Wiring& wiring) {
   const std::string who = participant_name(told.action.who);
   const std::string actor = participant_name(told.actor);
-  const std::string from = participant_name(sender_of(told.action.who % (2 * slaves), slaves));
-  const std::string to = participant_name(receiver_of(told.action.who % (2 * slaves), slaves));
-  const std::string peer = participant_name(told.action.who == 0 ? told.action.what + 1U : 0);
+  const std::string from = participant_name(wiring.sender(told.channel));
+  const std::string to = participant_name(wiring.receiver(told.channel));
+  const std::string peer = participant_name(peer_participant(told.action.who, told.action.what));
   switch (told.action.kind) {
     case ActionKind::send: return actor + " publishes to " + to + ": " + text_of(told.word);
     case ActionKind::receive: return to + " hears " + from + ": " + text_of(told.word);
@@ -80,7 +80,9 @@ std::string sentence(const Told& told, std::size_t slaves) {
     case ActionKind::finish: return "the Program of " + who + " ends by itself";
     case ActionKind::lose: return "fault: lost between " + from + " and " + to + ": " + text_of(told.word);
     case ActionKind::duplicate: return "fault: duplicated between " + from + " and " + to;
-    case ActionKind::reorder: return "fault: overtaken between " + from + " and " + to + " by " + text_of(told.word);
+    case ActionKind::reorder:
+      return told.is_overtaking ? "fault: overtaken between " + from + " and " + to + " by " + text_of(told.word)
+                                : "fault: delayed between " + from + " and " + to + ": " + text_of(told.word);
     case ActionKind::crash: return "fault: " + who + " crashes";
     case ActionKind::restart: return "fault: " + who + " restarts without memory";
     case ActionKind::timeout: return "fault: " + who + " hears nothing of " + peer + " in time";
@@ -90,6 +92,7 @@ std::string sentence(const Told& told, std::size_t slaves) {
 
 std::string chart(const Question& question, const Story& story) {
   const std::size_t participants = question.slaves + 1U;
+  const Wiring wiring(question);
   std::string text(margin, ' ');
   for (std::size_t i = 0; i < participants; ++i) text += padded(participant_name(i), column);
   text = trimmed(text);
@@ -101,7 +104,7 @@ std::string chart(const Question& question, const Story& story) {
   std::size_t step = 0;
   for (const Told& told : story.steps) {
     if (story.cycle != 0 && step + story.cycle == story.steps.size()) text += trimmed(lifelines(before) + "from here on again and again:");
-    text += trimmed(drawing(told, question.slaves, ++step) + sentence(told, question.slaves));
+    text += trimmed(drawing(told, wiring, ++step) + sentence(told, wiring));
     if (told.states != before.states || told.down != before.down) text += trimmed(states(told));
     for (const handshake::Violation& violation : told.violations)
       text += trimmed(lifelines(told) + "violates " + std::string(handshake::name_of(violation.invariant)) + ": " +

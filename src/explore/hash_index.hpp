@@ -82,6 +82,12 @@ class Memo {
       if (slots_[slot].key == absent) return absent;
     }
   }
+  /// Calls seen(key, value) for each entry.
+  template <class Seen>
+  void each(Seen&& seen) const {
+    for (const Slot& slot : slots_)
+      if (slot.key != absent) seen(slot.key, slot.value);
+  }
   void insert(std::uint64_t key, std::uint64_t value) {
     TAKT_CHECK(key != absent && value != absent, "the marker of free slots is neither key nor value");
     if (2 * (used_ + 1) > slots_.size()) grow();

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <deque>
 
+#include "explore/components.hpp"
+#include "explore/hash_index.hpp"
+#include "explore/recurrence.hpp"
 #include "sim/check.hpp"
 
 namespace takt::explore {
@@ -48,93 +51,75 @@ class Graph {
   std::vector<Edge> edges_;
 };
 
-/// Tarjan's strongly connected components, without recursion.
-class Components {
+/// Which states may lie on a cycle of network steps: on registers those with somebody who can go round.
+class Suspects {
  public:
-  Components(Graph& graph, const StateStore& store)
-      : graph_(&graph), index_(store.size(), 0), low_(store.size(), 0), on_stack_(store.size(), false) {}
-
-  /// Calls found(component) for each component.
-  template <class Found>
-  void from(Position root, Found&& found) {
-    if (index_[root] != 0) return;
-    open(root);
-    while (!frames_.empty()) {
-      Frame& frame = frames_.back();
-      if (frame.next < frame.to.size()) {
-        const Position to = frame.to[frame.next++];
-        if (to == frame.state) continue;
-        if (index_[to] == 0) {
-          open(to);
-        } else if (on_stack_[to]) {
-          low_[frame.state] = std::min(low_[frame.state], index_[to]);
-        }
-        continue;
-      }
-      const Position done = frame.state;
-      frames_.pop_back();
-      if (!frames_.empty()) low_[frames_.back().state] = std::min(low_[frames_.back().state], low_[done]);
-      if (low_[done] == index_[done]) found(close(done));
-    }
+  Suspects(const Model& model, const StateStore& store) : store_(&store), participants_(model.question().slaves + 1U) {
+    all_ = model.question().network == Network::channels;
+    if (all_) return;
+    goes_round_ = members_that_go_round(model.members(), model.question().slaves);
+    any_ = std::find(goes_round_.begin(), goes_round_.end(), true) != goes_round_.end();
+  }
+  bool none() const { return !all_ && !any_; }
+  bool contains(Position position) const {
+    if (all_) return true;
+    const State state = (*store_)[position];
+    for (std::size_t i = 0; i < participants_; ++i)
+      if (goes_round_[state.member(i)]) return true;
+    return false;
   }
 
  private:
-  struct Frame {
-    Position state;
-    std::vector<Position> to;
-    std::size_t next = 0;
-  };
-  void open(Position state) {
-    index_[state] = low_[state] = ++count_;
-    stack_.push_back(state);
-    on_stack_[state] = true;
-    frames_.push_back({state, {}, 0});
-    graph_->successors(state, frames_.back().to);
-  }
-  std::vector<Position> close(Position root) {
-    std::vector<Position> component;
-    do {
-      component.push_back(stack_.back());
-      on_stack_[stack_.back()] = false;
-      stack_.pop_back();
-    } while (component.back() != root);
-    std::sort(component.begin(), component.end());
-    return component;
+  const StateStore* store_;
+  std::size_t participants_;
+  std::vector<bool> goes_round_;
+  bool all_ = false;
+  bool any_ = false;
+};
+
+/// The suspects and the steps between them.
+class SuspectGraph {
+ public:
+  SuspectGraph(Graph& graph, const Suspects& suspects) : graph_(&graph), suspects_(&suspects) {}
+  void successors(Position from, std::vector<Position>& to) {
+    graph_->successors(from, to);
+    to.erase(std::remove_if(to.begin(), to.end(), [&](Position each) { return each == from || !suspects_->contains(each); }), to.end());
   }
 
+ private:
   Graph* graph_;
-  std::vector<std::uint32_t> index_;
-  std::vector<std::uint32_t> low_;
-  std::vector<bool> on_stack_;
-  std::vector<Position> stack_;
-  std::vector<Frame> frames_;
-  std::uint32_t count_ = 0;
+  const Suspects* suspects_;
 };
 
 bool contains(const std::vector<Position>& component, Position state) { return std::binary_search(component.begin(), component.end(), state); }
 
-/// Each action leads from some state of the component into it. With symmetry names do not count, so it is enough if one
-/// action of each sort does: more components are called fair than are.
-bool is_fair(Graph& graph, const std::vector<Position>& component, const Model& model) {
+/// Each action leads from some state of the component into it. With symmetry states stand for others with other names, so the
+/// component is walked once more by names, from one of its states; whatever can be reached so is one component, for the
+/// way from a state to itself under other names leads back in the end.
+bool is_fair(Model& model, const StateStore& store, const std::vector<Position>& component) {
+  struct HashOfState {
+    std::size_t operator()(const State& state) const { return state.hash(); }
+  };
   const std::span<const Action> actions = model.network_actions();
   std::vector<bool> stays(actions.size(), false);
-  std::vector<Position> to;
-  for (const Position state : component) {
-    graph.successors(state, to);
-    for (std::size_t a = 0; a < actions.size(); ++a) stays[a] = stays[a] || contains(component, to[a]);
+  std::size_t missing = actions.size();
+  Interner<State, HashOfState> seen;
+  seen.intern(store[component.front()]);
+  Next next;
+  for (std::size_t i = 0; i < seen.size() && missing != 0; ++i) {
+    const State from = seen[i];
+    for (std::size_t a = 0; a < actions.size(); ++a) {
+      const bool moves = model.act(from, actions[a], next) && !(next.state == from);
+      if (moves) {
+        const State stored = model.canonical(next.state);
+        if (!contains(component, store.find(stored, stored.hash()))) continue;
+        seen.intern(next.state);
+      }
+      if (!stays[a]) --missing;
+      stays[a] = true;
+    }
   }
-  const auto sort_of = [&](const Action& action) {
-    if (!model.question().symmetry) return action;
-    const bool is_channel = action.kind == ActionKind::send || action.kind == ActionKind::receive;
-    const bool of_slave = is_channel ? action.who < model.question().slaves : action.who != 0;
-    return Action{action.kind, static_cast<std::uint8_t>(of_slave ? 1 : 0), 0};
-  };
-  for (const Action& wanted : actions) {
-    bool found = false;
-    for (std::size_t a = 0; a < actions.size(); ++a) found = found || (stays[a] && sort_of(actions[a]) == sort_of(wanted));
-    if (!found) return false;
-  }
-  return true;
+  return missing == 0;
 }
 
 /// Keeps the cycle that is found first in the search, which has the shortest way to it.
@@ -147,19 +132,23 @@ void keep(std::optional<FairCycle>& best, Position outside, const std::vector<Po
 
 Liveness judge_cycles(Model& model, const StateStore& store, const Watcher& watcher) {
   Liveness liveness;
-  Graph graph(model, store);
-  Components components(graph, store);
+  const Suspects suspects(model, store);
+  if (suspects.none()) return liveness;
+  Graph steps(model, store);
+  SuspectGraph graph(steps, suspects);
+  Components<SuspectGraph> components(graph, store.size());
   // From the end: most steps lead to later states, so the ways are short.
   for (auto root = static_cast<Position>(store.size()); root-- > 0;) {
-    if ((root & 0xFFFFU) == 0 && !watcher(store.size(), store.size() - root, 0)) {
+    if ((root & 0xFFFFU) == 0 && !watcher({store.size(), store.size() - root, 0, store.memory(), true})) {
       liveness.interrupted = true;
       return liveness;
     }
+    if (!suspects.contains(root)) continue;
     components.from(root, [&](const std::vector<Position>& component) {
       if (component.size() < 2) return;
       liveness.cyclic_states += component.size();
       const auto outside = std::find_if(component.begin(), component.end(), [&](Position each) { return !model.settled(store[each]); });
-      if (outside == component.end() || !is_fair(graph, component, model)) return;
+      if (outside == component.end() || !is_fair(model, store, component)) return;
       keep(model.anybody_down(store[*outside]) ? liveness.unhalted : liveness.unsettled, *outside, component);
     });
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "explore/wiring.hpp"
 #include "sim/check.hpp"
 
 namespace takt::explore {
@@ -13,9 +14,6 @@ using handshake::StateChange;
 using handshake::Variant;
 using handshake::Word;
 
-namespace {
-
-/// S5 as the observer judges it: the changes of a step follow each other and stand in the table.
 bool are_transitions(PublishedState from, std::span<const StateChange> changes) {
   for (const StateChange& change : changes) {
     if (change.from != from) return false;
@@ -30,18 +28,17 @@ bool are_transitions(PublishedState from, std::span<const StateChange> changes) 
   return true;
 }
 
-}  // namespace
-
 Members::Members(const Question& question, const Renamings& renamings) : question_(question), renamings_(&renamings) {
   words_.append(Word{});  // no_word
   renamed_word_.assign(renamings.size(), no_word);
   word_orbit_.push_back(0);
+  rank_.push_back(0);
   effects_.intern(Effect{});  // nothing
 }
 
 handshake::Config Members::config(std::size_t index, std::uint32_t incarnation) const {
   return {question_.variant, index == 0 ? handshake::Role::Master : handshake::Role::Slave, static_cast<std::uint8_t>(index),
-          question_.slaves, incarnation};
+          question_.slaves, incarnation, question_.subscription};
 }
 
 MemberId Members::fresh(std::size_t index, std::uint32_t incarnation) {
@@ -77,10 +74,10 @@ Stepped Members::step_anew(MemberId member, const Stimulus& stimulus) {
 /// Of two intents that differ in their origin the greater wins, whatever the names were: that changes words but not what
 /// anybody does, and is no effect.
 void Members::compare_under_other_names(MemberId member, const Stimulus& stimulus, const Stepped& stepped) {
-  const bool at_master = traits_[member].index == 0;
+  const std::size_t participant = traits_[member].index;
   for (std::size_t r = 1; r < renamings_->size(); ++r) {
     const MemberId other = renamed(member, r);
-    const Stimulus there = renamed_stimulus(stimulus, at_master, r);
+    const Stimulus there = renamed_stimulus(stimulus, participant, r);
     if (steps_.find(key_of(other, there)) != Memo::absent) continue;
     const Stepped same = step_value(other, there);
     steps_.insert(key_of(other, there), pack(same));
@@ -92,6 +89,7 @@ Stepped Members::step_value(MemberId member, const Stimulus& stimulus) {
   const Participant before = values_[member];
   Participant after = before;
   const Outputs outputs = after.step(input_of(before, stimulus));
+  after.forget_last_transition();
   Stepped stepped;
   stepped.member = intern(after);
   if (stimulus.kind == Input::Kind::Received)
@@ -107,14 +105,21 @@ Input Members::input_of(const Participant& value, const Stimulus& stimulus) cons
     case Input::Kind::Initialised: return Input::initialised(value.intent().run);
     case Input::Kind::Finished: return Input::finished();
     case Input::Kind::PeerSilent: return Input::peer_silent(stimulus.what);
+    case Input::Kind::Released:
+    case Input::Kind::PeerReplaced:
+    case Input::Kind::PeerLeft: break;  // of nested groups and of changing members, which are not explored
   }
   return Input::finished();
 }
 
-Stimulus Members::renamed_stimulus(const Stimulus& stimulus, bool at_master, std::size_t renaming) const {
+Stimulus Members::renamed_stimulus(const Stimulus& stimulus, std::size_t participant, std::size_t renaming) const {
   Stimulus result = stimulus;
+  const std::array<std::uint8_t, most_participants>& to = (*renamings_)[renaming].to;
   const bool has_peer = stimulus.kind == Input::Kind::Received || stimulus.kind == Input::Kind::PeerSilent;
-  if (has_peer && at_master) result.what = static_cast<std::uint8_t>((*renamings_)[renaming].to[stimulus.what + 1U] - 1U);
+  if (has_peer) {
+    const std::uint8_t other = to[peer_participant(participant, stimulus.what)];
+    result.what = static_cast<std::uint8_t>(other < to[participant] ? other : other - 1);
+  }
   result.word = renamed_word(stimulus.word, renaming);
   return result;
 }
@@ -131,6 +136,7 @@ std::uint16_t Members::effect_of(const Participant& before, const Participant& a
   effect.raised = outputs.raised && question_.variant == Variant::Paper;  // `robust` says it in the words
   if (effect.raised) effect.kind = outputs.raised_kind;
   if (!are_transitions(before.state(), outputs.changes())) effect.properties.insert(Property::S5);
+  if (stimulus.kind == Input::Kind::PeerSilent && before.state() != PublishedState::Halted) effect.properties.insert(Property::silence);
   if (stimulus.kind == Input::Kind::PeerSilent && after.state() != PublishedState::Halted) effect.properties.insert(Property::F1);
   const bool robust = question_.variant == Variant::Robust;
   if (robust && stimulus.kind == Input::Kind::Received && !outputs.ignored && words_[stimulus.word].state == PublishedState::Running &&
@@ -146,7 +152,7 @@ MemberId Members::intern(const Participant& value) {
   if (member < traits_.size()) return member;
   std::vector<MemberId> images;
   for (std::size_t r = 0; r < renamings_->size(); ++r) {
-    images.push_back(values_.intern(explore::renamed(value, (*renamings_)[r])));
+    images.push_back(values_.intern(value.renamed((*renamings_)[r].to)));
     if (images.back() == traits_.size()) add_traits(images.back());
   }
   add_images(images);
@@ -189,6 +195,10 @@ WordId Members::intern_word(const Word& word) {
   TAKT_CHECK(words_.size() <= 0x10000, "an exploration has at most 65535 different words: allow fewer calls or faults");
   renamed_word_.resize(words_.size() * count, no_word);
   word_orbit_.resize(words_.size(), 0);
+  for (std::size_t i = rank_.size(); i < words_.size(); ++i) {
+    const handshake::Intent& intent = words_[i].intent;
+    rank_.push_back(intent.origin == 0 ? 0 : std::uint64_t{intent.number} << 16 | handshake::index_of(intent.kind) << 8 | intent.origin);
+  }
   const std::uint32_t orbit = *std::min_element(images.begin(), images.end());
   for (std::size_t r = 0; r < count; ++r) {
     word_orbit_[images[r]] = orbit;
@@ -198,13 +208,13 @@ WordId Members::intern_word(const Word& word) {
   return static_cast<WordId>(id);
 }
 
-std::size_t Members::HashOfWord::operator()(const Word& word) const {
+std::size_t HashOfWord::operator()(const Word& word) const {
   std::uint64_t digest = mixed(std::uint64_t{word.incarnation} << 32 | word.run);
   digest = mixed(digest ^ (std::uint64_t{word.intent.number} << 32 | word.intent.run));
   return mixed(digest ^ (handshake::index_of(word.state) | handshake::index_of(word.intent.kind) << 8 | std::uint64_t{word.intent.origin} << 16));
 }
 
-std::size_t Members::HashOfEffect::operator()(const Effect& effect) const {
+std::size_t HashOfEffect::operator()(const Effect& effect) const {
   std::uint64_t digest = mixed(std::uint64_t{effect.run} << 32 | effect.properties.bits);
   for (const StateChange& change : effect.change)
     digest = mixed(digest ^ (change.transition | handshake::index_of(change.from) << 8 | handshake::index_of(change.to) << 16));

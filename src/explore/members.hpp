@@ -4,17 +4,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "explore/ghost.hpp"
 #include "explore/hash_index.hpp"
 #include "explore/question.hpp"
-#include "explore/renamed_participant.hpp"
 #include "explore/renaming.hpp"
 #include "handshake/participant.hpp"
 
 namespace takt::explore {
 
+using Participant = handshake::Participant<most_slaves>;
 using MemberId = std::uint32_t;
 using WordId = std::uint16_t;  ///< 0: no word
 inline constexpr WordId no_word = 0;
@@ -32,6 +33,16 @@ struct Stepped {
   std::uint16_t effect = 0;     ///< 0: nothing to see
   bool data_counts = false;     ///< process data in the message reaches the application
 };
+
+struct HashOfWord {
+  std::size_t operator()(const handshake::Word& word) const;
+};
+struct HashOfEffect {
+  std::size_t operator()(const Effect& effect) const;
+};
+
+/// S5 as the observer judges it: the changes of a step follow each other and stand in the table.
+bool are_transitions(handshake::PublishedState from, std::span<const handshake::StateChange> changes);
 
 class Members {
  public:
@@ -63,10 +74,19 @@ class Members {
   const handshake::Word& word(WordId word) const { return words_[word]; }
   std::size_t word_count() const { return words_.size(); }
   std::uint32_t word_orbit(WordId word) const { return word_orbit_[word]; }
+  /// Number, kind and (last octet) origin of its intent; 0 if the master is the origin. Of two that differ in the last octet
+  /// only the greater depends on names.
+  std::uint64_t rank(WordId word) const { return rank_[word]; }
   const Effect& effect(std::uint16_t effect) const { return effects_[effect]; }
 
   MemberId renamed(MemberId member, std::size_t renaming) const { return renamed_[member * renamings_->size() + renaming]; }
   WordId renamed_word(WordId word, std::size_t renaming) const { return renamed_word_[word * renamings_->size() + renaming]; }
+  /// Calls seen(from, stimulus, to) for each step that is remembered.
+  template <class Seen>
+  void each_step(Seen&& seen) const {
+    steps_.each([&](std::uint64_t key, std::uint64_t value) { seen(static_cast<MemberId>(key >> 32), stimulus_of(key), unpack(value).member); });
+  }
+
   /// False once a step did something else to slaves with other names: then they are not equal.
   bool symmetric() const { return symmetric_; }
 
@@ -74,16 +94,12 @@ class Members {
   struct HashOfValue {
     std::size_t operator()(const Participant& value) const { return mixed(value.hash()); }
   };
-  struct HashOfWord {
-    std::size_t operator()(const handshake::Word& word) const;
-  };
-  struct HashOfEffect {
-    std::size_t operator()(const Effect& effect) const;
-  };
-
   static std::uint64_t key_of(MemberId member, const Stimulus& stimulus) {
     return std::uint64_t{member} << 32 | static_cast<std::uint64_t>(stimulus.kind) << 28 | std::uint64_t{stimulus.what} << 20 |
            std::uint64_t{stimulus.word} << 1 | std::uint64_t{stimulus.overtaken};
+  }
+  static Stimulus stimulus_of(std::uint64_t key) {
+    return {static_cast<handshake::Input::Kind>((key >> 28) & 0xFU), static_cast<std::uint8_t>(key >> 20), static_cast<WordId>(key >> 1), (key & 1U) != 0};
   }
   static std::uint64_t pack(const Stepped& stepped) {
     return std::uint64_t{stepped.member} | std::uint64_t{stepped.effect} << 32 | std::uint64_t{stepped.data_counts} << 48;
@@ -94,7 +110,7 @@ class Members {
 
   handshake::Config config(std::size_t index, std::uint32_t incarnation) const;
   handshake::Input input_of(const Participant& value, const Stimulus& stimulus) const;
-  Stimulus renamed_stimulus(const Stimulus& stimulus, bool at_master, std::size_t renaming) const;
+  Stimulus renamed_stimulus(const Stimulus& stimulus, std::size_t participant, std::size_t renaming) const;
   Stepped step_anew(MemberId member, const Stimulus& stimulus);
   Stepped step_value(MemberId member, const Stimulus& stimulus);
   void compare_under_other_names(MemberId member, const Stimulus& stimulus, const Stepped& stepped);
@@ -112,6 +128,7 @@ class Members {
   Interner<handshake::Word, HashOfWord> words_;
   std::vector<WordId> renamed_word_;
   std::vector<std::uint32_t> word_orbit_;
+  std::vector<std::uint64_t> rank_;
   Interner<Effect, HashOfEffect> effects_;
   Memo steps_;
   std::vector<std::vector<MemberId>> down_;  ///< by incarnation and index

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "explore/action.hpp"
+#include "explore/contents.hpp"
 #include "explore/ghost.hpp"
 #include "explore/members.hpp"
 #include "explore/property.hpp"
 #include "explore/question.hpp"
 #include "explore/renaming.hpp"
 #include "explore/state.hpp"
+#include "explore/wiring.hpp"
 
 namespace takt::explore {
 
@@ -38,9 +40,20 @@ class Model {
 
   const Question& question() const { return question_; }
   const std::vector<Beginning>& beginnings() const { return beginnings_; }
+  const Wiring& wiring() const { return wiring_; }
+  const Shape& shape() const { return shape_; }
   /// Network actions first, calls then, faults last.
   std::span<const Action> actions() const { return actions_; }
   std::span<const Action> network_actions() const { return {actions_.data(), network_count_}; }
+  /// Of the adversary, those that a state may allow: nothing that was left out is possible in it.
+  std::span<const Action> calls(const State& state) const {
+    return {actions_.data() + network_count_, state.commands_left() == 0 ? 0 : fault_begin_ - network_count_};
+  }
+  std::span<const Action> faults(const State& state) const {
+    const std::size_t begin = state.faults_left() == 0 ? restart_begin_ : fault_begin_;  // whoever is down may come up for nothing
+    const std::size_t end = state.faults_left() == 0 ? restart_end_ : actions_.size();
+    return {actions_.data() + begin, end - begin};
+  }
 
   /// False if the action is not possible, or changes nothing.
   bool act(const State& state, Action action, Next& next);
@@ -69,22 +82,35 @@ class Model {
   void settle(Beginning& beginning);
   void take(Beginning& beginning, Action action);
 
-  bool send(std::size_t channel, Next& next) const;
-  bool receive(std::size_t channel, Next& next);
-  bool deliver_late(Next& next);
-  bool call(std::size_t participant, std::size_t method, Next& next);
-  bool finish(std::size_t participant, Next& next);
-  bool lose(std::size_t channel, Next& next) const;
-  bool keep_copy(std::size_t channel, bool overtaken, Next& next) const;
-  bool crash(std::size_t participant, Next& next);
-  bool restart(std::size_t participant, Next& next);
-  bool expire(std::size_t participant, std::size_t peer, bool peer_is_down, Next& next);
+  bool initialised(const State& state, std::size_t participant, Next& next);
+  bool call(const State& state, std::size_t participant, std::size_t method, Next& next);
+  bool finish(const State& state, std::size_t participant, Next& next);
+  bool fault(const State& state, Action action, Next& next);
+  bool crash(const State& state, std::size_t participant, Next& next);
+  bool restart(const State& state, std::size_t participant, Next& next);
+  bool expire(const State& state, std::size_t participant, std::size_t peer, bool peer_is_down, Next& next);
+
+  // network_registers.cpp and network_channels.cpp
+  bool act_on_registers(const State& state, Action action, Next& next);
+  bool act_on_channels(const State& state, Action action, Next& next);
+  bool publish_to_register(const State& state, std::size_t channel, Next& next) const;
+  bool sample(const State& state, std::size_t channel, Next& next);
+  bool sample_late(const State& state, Next& next);
+  bool empty_register(const State& state, std::size_t channel, Next& next) const;
+  bool keep_copy(const State& state, std::size_t channel, bool overtaken, Next& next) const;
+  bool publish_to_channel(const State& state, std::size_t channel, Next& next);
+  bool hear(const State& state, std::size_t channel, std::size_t position, Next& next);
+  bool change_content(const State& state, Action action, Next& next);
+  bool forget_channel(std::size_t channel, Next& next) const;
+  void outdate(std::size_t participant, Next& next);
+  bool says_what_its_sender_says(const State& state, std::size_t channel) const;
 
   bool step(std::size_t participant, const Stimulus& stimulus, Next& next, bool& data_counts);
   bool step(std::size_t participant, const Stimulus& stimulus, Next& next) {
     bool data_counts = false;
     return step(participant, stimulus, next, data_counts);
   }
+  void end_round(const State& state, Next& next);
   void watch(std::size_t participant, std::uint16_t effect, Next& next);
   std::uint32_t intern_ghost(const Ghost& ghost);
   bool at_rest(const State& state) const;
@@ -94,13 +120,20 @@ class Model {
   bool names_matter(const State& state) const;
 
   Question question_;
+  Wiring wiring_;
+  Shape shape_;
   Renamings renamings_;
   Members members_;
+  Contents contents_;
   Interner<Ghost, HashOfGhost> ghosts_;
   std::vector<std::uint32_t> renamed_ghost_;  ///< by ghost and renaming
   Memo watched_;                               ///< (ghost, participant, effect) -> (ghost, violated)
   std::vector<Action> actions_;
+  std::vector<std::uint8_t> renamed_channel_;  ///< by channel and renaming
   std::size_t network_count_ = 0;
+  std::size_t fault_begin_ = 0;
+  std::size_t restart_begin_ = 0;
+  std::size_t restart_end_ = 0;
   std::vector<Beginning> beginnings_;
 };
 

@@ -9,13 +9,13 @@
 namespace takt::explore {
 
 /// The first seven must always hold; the others must be reached sometimes, or a proof says nothing.
-enum class Property : std::uint8_t { S1, S2, S3, S4, S5, F1, L1, all_running, T1, T2, T3, T4, T5, T6, T7, T8, T9 };
+enum class Property : std::uint8_t { S1, S2, S3, S4, S5, F1, L1, all_running, T1, T2, T3, T4, T5, T6, T7, T8, T9, silence };
 
-inline constexpr std::size_t property_count = 17;
+inline constexpr std::size_t property_count = 18;
 inline constexpr std::array<std::string_view, property_count> property_names{
     "S1", "S2", "S3", "S4", "S5", "F1", "L1", "all_running",
     "HaltedToReady", "ReadyToRunning", "RunningToHalted", "RunningToReady", "RunningToSuspended",
-    "SuspendedToRunning", "SuspendedToHalted", "SuspendedToReady", "ReadyToHalted"};
+    "SuspendedToRunning", "SuspendedToHalted", "SuspendedToReady", "ReadyToHalted", "silence"};
 inline constexpr std::array<std::string_view, property_count> property_texts{
     "nobody is Running in a run before all were Ready in it",
     "the master is Running only after all slaves were",
@@ -26,10 +26,12 @@ inline constexpr std::array<std::string_view, property_count> property_texts{
     "without new calls and faults all reach the state that was asked for",
     "everybody is Running at once",
     "transition 1 fires", "transition 2 fires", "transition 3 fires", "transition 4 fires", "transition 5 fires",
-    "transition 6 fires", "transition 7 fires", "transition 8 fires", "transition 9 fires"};
+    "transition 6 fires", "transition 7 fires", "transition 8 fires", "transition 9 fires", "a time-out expires at one who is not Halted"};
 
 constexpr std::size_t index_of(Property property) { return static_cast<std::size_t>(property); }
 constexpr std::string_view name_of(Property property) { return property_names[index_of(property)]; }
+/// Asked only where somebody may crash or a time-out may expire.
+constexpr bool is_of_silence(Property property) { return property == Property::F1 || property == Property::silence; }
 constexpr bool must_always_hold(Property property) { return property <= Property::L1; }
 constexpr Property transition_property(std::size_t number) { return static_cast<Property>(index_of(Property::T1) + number - 1); }
 
@@ -47,8 +49,9 @@ enum class Verdict : std::uint8_t {
   reached,
   unreached,
   unknown,  ///< the search ended before it could be decided
+  not_asked,  ///< nobody can fall silent here, so there is nothing to say about silence
 };
-inline constexpr std::array<std::string_view, 5> verdict_names{"holds", "violated", "reached", "unreached", "unknown"};
+inline constexpr std::array<std::string_view, 6> verdict_names{"holds", "violated", "reached", "unreached", "unknown", "not asked"};
 constexpr std::string_view name_of(Verdict verdict) { return verdict_names[static_cast<std::size_t>(verdict)]; }
 
 }  // namespace takt::explore

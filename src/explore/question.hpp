@@ -29,9 +29,26 @@ inline constexpr std::uint32_t most_commands = 12;
 inline constexpr std::uint32_t most_faults = 7;
 inline constexpr std::uint64_t most_states = 0xFFFF'FFF0ULL;
 
+/// How words travel. `registers`: each channel holds the last published word, as cyclic publishing and sampling does.
+/// `channels`: each channel holds the messages in flight, at most `capacity`, and each is heard once.
+enum class Network : std::uint8_t { registers, channels };
+/// Where runs begin: in every state in which a group can rest, or only where everybody has just been switched on.
+enum class Beginnings : std::uint8_t { all, switched_on };
+
+inline constexpr std::uint8_t most_capacity = 4;
+/// With all-to-all subscription a group has n (n + 1) channels.
+inline constexpr std::size_t most_slaves_all_to_all = 3;
+/// With an inner group: outer slaves, of which the last one is the node, and slaves of the inner group.
+inline constexpr std::size_t most_outer_slaves = 2;
+inline constexpr std::size_t most_inner_slaves = 2;
+
 struct Question {
   handshake::Variant variant = handshake::Variant::Robust;
-  std::uint8_t slaves = 1;           ///< 1 to most_slaves
+  std::uint8_t slaves = 1;           ///< 1 to most_slaves, with all-to-all subscription to most_slaves_all_to_all
+  handshake::Subscription subscription = handshake::Subscription::Star;
+  Network network = Network::registers;
+  std::uint8_t capacity = 2;         ///< `channels`: messages in flight in each of them, 1 to most_capacity
+  Beginnings beginnings = Beginnings::all;
   FaultSet faults;
   std::uint32_t fault_budget = 1;    ///< faults in a run, of all classes together
   std::uint32_t commands = 2;        ///< accepted method calls and ends of the Program in a run, after its beginning
@@ -39,7 +56,16 @@ struct Question {
   std::uint32_t depth = ~0U;         ///< steps after the beginning
   std::uint64_t states = 100'000'000;  ///< to store at most
   bool symmetry = true;              ///< slaves that play the same part are one state
+  std::uint8_t inner_slaves = 0;     ///< 0: one group. Else the last slave is the master of an inner group with so many slaves
+  bool joining = false;              ///< the last slave (of the inner group, if there is one) is down at the beginning, and comes up at any time or never
   bool operator==(const Question&) const = default;
+  bool nested() const { return inner_slaves != 0; }
+  /// Explored by the model of groups in groups (tree_model.hpp): `robust`, star, registers, no delayed copies, slaves told apart.
+  bool is_tree() const { return nested() || joining; }
+  /// Somebody may fall silent, so that F1 says something.
+  constexpr bool asks_for_silence() const {
+    return joining || (fault_budget > 0 && (faults.contains(Fault::crash) || faults.contains(Fault::timeout)));
+  }
 };
 
 }  // namespace takt::explore

@@ -19,8 +19,10 @@ struct Told {
   std::vector<handshake::PublishedState> states;  ///< of all, after it
   std::vector<bool> down;
   std::size_t actor = 0;          ///< who steps, or whose message it is
+  std::size_t channel = 0;        ///< on which it was published or heard
   handshake::Word word;           ///< published or heard
   bool has_word = false;
+  bool is_overtaking = false;     ///< the word overtakes another one at once
   std::vector<handshake::Violation> violations;  ///< found in this step
 };
 

@@ -4,6 +4,7 @@
 
 #include "explore/chart.hpp"
 #include "explore/replay.hpp"
+#include "explore/tree_chart.hpp"
 
 namespace takt::explore {
 namespace {
@@ -39,8 +40,9 @@ std::string verdict_line(const Answer& answer, std::size_t p) {
 }
 
 std::string counter_example(const Question& question, const Answer& answer, Property property, const Trace& trace) {
+  const Beginning& beginning = answer.beginnings[trace.beginning];
   std::string text = "\n" + std::string(name_of(property)) + " is violated: " + std::string(property_texts[index_of(property)]) + "\n\n" +
-                     chart(question, replay(question, answer.beginnings[trace.beginning], trace));
+                     (question.is_tree() ? tree_chart(question, beginning, trace) : chart(question, replay(question, beginning, trace)));
   if (property == Property::L1 || property == Property::F1) text += trace.cycle == 0 ? "      and nothing changes any more\n" : "      and so for ever\n";
   return text;
 }
@@ -49,7 +51,13 @@ std::string counter_example(const Question& question, const Answer& answer, Prop
 
 std::string question_line(const Question& question) {
   const std::string faults = fault_list(question, "", ", ", "");
-  return variant_name(question.variant) + ", 1 master and " + std::to_string(question.slaves) + (question.slaves == 1 ? " slave" : " slaves") + "; in a run at most " +
+  const std::string network = question.network == Network::registers ? "" : ", channels of " + std::to_string(question.capacity);
+  const std::string subscription = question.subscription == handshake::Subscription::Star ? "" : ", all-to-all";
+  const std::string inner = !question.nested() ? "" : ", the last of them master of " + std::to_string(question.inner_slaves) + (question.inner_slaves == 1 ? " inner slave" : " inner slaves");
+  const std::string joining = !question.joining ? "" : question.nested() ? ", the last inner slave joins" : ", the last slave joins";
+  const std::string beginnings = question.beginnings == Beginnings::all ? "" : ", switched on";
+  return variant_name(question.variant) + ", 1 master and " + std::to_string(question.slaves) + (question.slaves == 1 ? " slave" : " slaves") + inner + joining + subscription + network + beginnings +
+         "; in a run at most " +
          std::to_string(question.commands) + " calls and " +
          (faults.empty() ? "no fault" : std::to_string(question.fault_budget) + (question.fault_budget == 1 ? " fault of: " : " faults of: ") + faults);
 }
@@ -61,7 +69,8 @@ std::string text_report(const Question& question, const Answer& answer, double c
           (answer.symmetry ? "slaves are equal" : "slaves are told apart") + "\n";
   text += answer.exhausted ? "The whole space was searched.\n"
                            : answer.interrupted ? "Interrupted: what was found until then.\n" : "Not the whole space was searched: the limit of states or depth was reached.\n";
-  for (std::size_t p = 0; p < property_count; ++p) text += verdict_line(answer, p);
+  for (std::size_t p = 0; p < property_count; ++p)
+    if (answer.verdicts[p] != Verdict::not_asked) text += verdict_line(answer, p);
   for (std::size_t p = 0; p < property_count; ++p)
     if (answer.verdicts[p] == Verdict::violated && answer.traces[p]) text += counter_example(question, answer, static_cast<Property>(p), *answer.traces[p]);
   const bool is_new = answer.chase && answer.traces[index_of(Property::L1)] && answer.traces[index_of(Property::L1)]->cycle == 0;
@@ -69,16 +78,41 @@ std::string text_report(const Question& question, const Answer& answer, double c
   return text;
 }
 
-std::string json_report(const Question& question, const Answer& answer, double cpu_s) {
-  std::string text = "{\n  \"variant\": \"" + variant_name(question.variant) + "\",\n  \"slaves\": " + std::to_string(question.slaves) + ",\n  \"faults\": [" +
-                     fault_list(question, "\"", ", ", "\"") + "],\n  \"fault_budget\": " + std::to_string(question.fault_budget) + ",\n  \"calls\": " +
-                     std::to_string(question.commands) + ",\n  \"states\": " + std::to_string(answer.states) + ",\n  \"steps\": " + std::to_string(answer.transitions) +
-                     ",\n  \"depth\": " + std::to_string(answer.depth) + ",\n  \"cpu_s\": " + fixed(cpu_s, 3) + ",\n  \"exhausted\": " + yes(answer.exhausted) +
-                     ",\n  \"interrupted\": " + yes(answer.interrupted) + ",\n  \"symmetry\": " + yes(answer.symmetry) + ",\n  \"octets\": " + std::to_string(answer.octets) +
-                     ",\n  \"properties\": {";
-  for (std::size_t p = 0; p < property_count; ++p)
-    text += (p == 0 ? "\n    \"" : ",\n    \"") + std::string(property_names[p]) + "\": \"" + std::string(name_of(answer.verdicts[p])) + "\"";
-  return text + "\n  }\n}\n";
+std::string json_report(const std::string& program, const Question& question, const Answer& answer, double cpu_s) {
+  const auto quoted = [](std::string_view text) { return "\"" + std::string(text) + "\""; };
+  const std::vector<std::pair<std::string, std::string>> members{
+      {"variant", quoted(variant_name(question.variant))},
+      {"slaves", std::to_string(question.slaves)},
+      {"subscription", quoted(question.subscription == handshake::Subscription::Star ? "star" : "all-to-all")},
+      {"nested", yes(question.nested())},
+      {"inner_slaves", std::to_string(question.inner_slaves)},
+      {"joining", yes(question.joining)},
+      {"network", quoted(question.network == Network::registers ? "registers" : "channels=" + std::to_string(question.capacity))},
+      {"beginnings", quoted(question.beginnings == Beginnings::all ? "all" : "switched-on")},
+      {"faults", "[" + fault_list(question, "\"", ", ", "\"") + "]"},
+      {"fault_budget", std::to_string(question.fault_budget)},
+      {"calls", std::to_string(question.commands)},
+      {"states", std::to_string(answer.states)},
+      {"steps", std::to_string(answer.transitions)},
+      {"quiescent", std::to_string(answer.quiescent)},
+      {"depth", std::to_string(answer.depth)},
+      {"cpu_s", fixed(cpu_s, 3)},
+      {"exhausted", yes(answer.exhausted)},
+      {"interrupted", yes(answer.interrupted)},
+      {"symmetry", yes(answer.symmetry)},
+      {"octets", std::to_string(answer.octets)},
+      {"octets_per_state", fixed(static_cast<double>(answer.octets) / static_cast<double>(answer.states), 1)}};
+  std::string text = "{";
+  if (!program.empty()) text += "\n  \"program\": " + quoted(program) + ",";
+  for (const auto& [key, value] : members) text += "\n  " + quoted(key) + ": " + value + ",";
+  text += "\n  \"properties\": {";
+  bool first = true;
+  for (std::size_t p = 0; p < property_count; ++p) {
+    if (answer.verdicts[p] == Verdict::not_asked) continue;
+    text += (first ? "\n    " : ",\n    ") + quoted(property_names[p]) + ": " + quoted(name_of(answer.verdicts[p]));
+    first = false;
+  }
+  return text + "\n  }\n}";
 }
 
 }  // namespace takt::explore

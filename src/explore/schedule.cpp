@@ -20,8 +20,8 @@ std::string node_of(std::size_t participant) { return participant == 0 ? "master
 /// Finds a time for each step. The run is walked once; only the order of what depends on each other counts.
 class Scheduler {
  public:
-  Scheduler(const Question& question, std::vector<Told> steps) : slaves_(question.slaves), steps_(std::move(steps)) {
-    heard_.resize(2 * slaves_);
+  Scheduler(const Question& question, std::vector<Told> steps) : slaves_(question.slaves), wiring_(question), steps_(std::move(steps)) {
+    heard_.resize(wiring_.size());
     since_.resize(slaves_ + 1, 0);
     initialising_.resize(slaves_ + 1, 0);
     state_.resize(slaves_ + 1, handshake::PublishedState::Halted);
@@ -71,7 +71,7 @@ class Scheduler {
         crashes_.push_back({now_, told.action.who, std::nullopt});
         break;
       case ActionKind::restart: restart(told); break;
-      default: missing_.push_back(sentence(told, slaves_)); break;
+      default: missing_.push_back(sentence(told, wiring_)); break;
     }
   }
 
@@ -106,8 +106,8 @@ class Scheduler {
 
   void hear(std::size_t step) {
     const Told& told = steps_[step];
-    const std::size_t channel = told.action.who;
-    const std::size_t sender = sender_of(channel, slaves_);
+    const std::size_t channel = told.channel;
+    const std::size_t sender = wiring_.sender(channel);
     const bool changes = step == 0 || steps_[step - 1].states != told.states || !told.violations.empty() || told.word.state != last_heard(step);
     if (!changes) return;  // it hears what it knows
     std::int64_t sent = flight_ >= 0 && now_ <= flight_ * period + flight ? flight_ : -1;
@@ -115,7 +115,7 @@ class Scheduler {
     if (!in_flight) {
       sent = (now_ - 1) / period;  // the arrival may be of the last publishing, if the sender has said it then
       if (sent < 0 || sent * period + flight < now_ || since_[sender] >= sent * period || taken(channel, sent)) sent = (now_ / period) + 1;
-      if (told.word.state != state_[sender]) missing_.push_back("a message that is under way while its sender goes on: " + sentence(told, slaves_));
+      if (told.word.state != state_[sender]) missing_.push_back("a message that is under way while its sender goes on: " + sentence(told, wiring_));
     }
     now_ = sent * period + flight;
     heard_[channel].push_back(sent);
@@ -124,7 +124,7 @@ class Scheduler {
 
   void initialise(const Told& told) {
     const std::int64_t due = initialising_[told.action.who] + initialisation;
-    if (due < now_) missing_.push_back("an initialisation that takes longer than others: " + sentence(told, slaves_));
+    if (due < now_) missing_.push_back("an initialisation that takes longer than others: " + sentence(told, wiring_));
     now_ = std::max(now_, due);
     changed(told);
   }
@@ -159,7 +159,7 @@ class Scheduler {
   }
   handshake::PublishedState last_heard(std::size_t step) const {
     for (std::size_t i = step; i-- > 0;)
-      if (steps_[i].action.kind == ActionKind::receive && steps_[i].action.who == steps_[step].action.who) return steps_[i].word.state;
+      if (steps_[i].action.kind == ActionKind::receive && steps_[i].channel == steps_[step].channel) return steps_[i].word.state;
     return handshake::PublishedState::Halted;
   }
   bool taken(std::size_t channel, std::int64_t sent) const { return !heard_[channel].empty() && heard_[channel].back() >= sent; }
@@ -170,6 +170,7 @@ class Scheduler {
     handshake::PublishedState was;
   };
   std::size_t slaves_;
+  Wiring wiring_;
   std::vector<Told> steps_;
   std::int64_t now_ = 0;
   std::int64_t flight_ = -1;                  ///< the period whose messages are pinned
@@ -213,6 +214,7 @@ std::string list(const std::vector<std::string>& items) {
 ScenarioText scenario_of(const Question& question, const Story& story, Property property, const std::string& name) {
   std::vector<Told> steps = story.opening_steps;
   steps.insert(steps.end(), story.steps.begin(), story.steps.end());
+  const Wiring wiring(question);
   Scheduler scheduler(question, std::move(steps));
   scheduler.run();
   const std::int64_t until = (scheduler.end() / period + 1) * period - 1;
@@ -236,7 +238,7 @@ ScenarioText scenario_of(const Question& question, const Story& story, Property 
   }
   std::vector<std::string> faults;
   for (std::size_t c = 0; c < 2U * question.slaves; ++c)
-    add_losses(faults, sender_of(c, question.slaves), receiver_of(c, question.slaves), scheduler.heard(c), until);
+    add_losses(faults, wiring.sender(c), wiring.receiver(c), scheduler.heard(c), until);
   for (const Scheduler::Crash& crash : scheduler.crashes())
     faults.push_back("{\"kind\": \"crash\", \"node\": \"" + node_of(crash.node) + "\", \"at\": " + microseconds(crash.at) +
                      (crash.lasts ? ", \"for\": " + microseconds(*crash.lasts) : "") + "}");
@@ -247,6 +249,7 @@ ScenarioText scenario_of(const Question& question, const Story& story, Property 
 
   ScenarioText text;
   text.missing = scheduler.missing();
+  if (question.subscription == handshake::Subscription::AllToAll) text.missing.push_back("which of the other slaves hears a slave's message");
   std::string head = "// Found by takt explore: " + std::string(name_of(property)) + ", " + std::string(property_texts[index_of(property)]) + ", is violated.\n//\n";
   const std::string drawn = chart(question, story);
   for (std::size_t begin = 0; begin < drawn.size();) {
@@ -257,7 +260,7 @@ ScenarioText scenario_of(const Question& question, const Story& story, Property 
   text.json = head + "{\n  \"$schema\": \"../takt.schema.json\",\n  \"name\": \"" + name + "\",\n  \"duration\": " + microseconds(duration) +
               ",\n  \"network\": {\n    \"nodes\": {" + nodes + "\n    },\n    \"links\": [" + links + "\n    ]\n  },\n  \"programs\": [\n    {\n" +
               "      \"name\": \"group\",\n      \"variant\": \"" + (question.variant == handshake::Variant::Paper ? "paper" : "robust") +
-              "\",\n      \"master\": \"master\",\n      \"slaves\": [" + slaves + "],\n      \"cycle\": " + microseconds(period) +
+              "\"," + (question.subscription == handshake::Subscription::AllToAll ? "\n      \"subscription\": \"all-to-all\"," : "") + "\n      \"master\": \"master\",\n      \"slaves\": [" + slaves + "],\n      \"cycle\": " + microseconds(period) +
               ",\n      \"receive_timeout\": \"100ms\",\n      \"initialisation\": " + microseconds(initialisation) +
               ",\n      \"process_data\": " + list(data) + "\n    }\n  ],\n  \"script\": " + list(script) + ",\n  \"faults\": " + list(faults) +
               ",\n  \"require\": " + list(require) + "\n}\n";

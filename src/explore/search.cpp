@@ -5,6 +5,7 @@
 
 #include "explore/liveness.hpp"
 #include "explore/trace_builder.hpp"
+#include "explore/tree_search.hpp"
 
 namespace takt::explore {
 namespace {
@@ -21,7 +22,7 @@ struct Sighting {
 class Search {
  public:
   Search(const Question& question, const Watcher& watcher)
-      : watcher_(watcher), model_(question), store_(question.slaves, question.states) {}
+      : watcher_(watcher), model_(question), store_(model_.shape(), question.states) {}
 
   /// False if the result would depend on the names of slaves: try again without symmetry.
   bool run(Answer& answer) {
@@ -74,7 +75,7 @@ class Search {
     if (!model_.symmetric()) ended_ = true;
     if (expanded_ - watched_ >= 0x8000) {
       watched_ = expanded_;
-      if (!watcher_(store_.size(), expanded_, depth_)) {
+      if (!watcher_({store_.size(), expanded_, depth_, store_.memory(), false})) {
         ended_ = true;
         answer_.interrupted = true;
       }
@@ -91,8 +92,8 @@ class Search {
       ++answer_.quiescent;
       if (!model_.settled(state)) see(model_.anybody_down(state) ? Property::F1 : Property::L1, position, false);
     }
-    // Commands and faults come after the network actions; restarts of those who are down are free.
-    for (const Action& action : model_.actions().subspan(network.size())) take(state, position, action, false);
+    for (const Action& action : model_.calls(state)) take(state, position, action, false);
+    for (const Action& action : model_.faults(state)) take(state, position, action, false);
   }
 
   bool take(const State& state, Position position, Action action, bool network) {
@@ -176,6 +177,10 @@ class Search {
     for (std::size_t p = 0; p < property_count; ++p) {
       const auto property = static_cast<Property>(p);
       Verdict& verdict = answer_.verdicts[p];
+      if (is_of_silence(property) && !model_.question().asks_for_silence()) {
+        verdict = Verdict::not_asked;
+        continue;
+      }
       if (must_always_hold(property)) {
         verdict = seen_.contains(property) ? Verdict::violated : Verdict::holds;
         const bool is_liveness = property == Property::L1 || property == Property::F1;
@@ -211,7 +216,7 @@ class Search {
 }  // namespace
 
 bool Answer::all_hold() const {
-  return std::all_of(verdicts.begin(), verdicts.end(), [](Verdict each) { return each == Verdict::holds || each == Verdict::reached; });
+  return std::all_of(verdicts.begin(), verdicts.end(), [](Verdict each) { return each == Verdict::holds || each == Verdict::reached || each == Verdict::not_asked; });
 }
 
 bool Answer::any_violated() const {
@@ -219,6 +224,7 @@ bool Answer::any_violated() const {
 }
 
 Answer explore(const Question& question, const Watcher& watcher) {
+  if (question.is_tree()) return explore_tree(question, watcher);
   Answer answer;
   if (Search(question, watcher).run(answer)) return answer;
   Question plain = question;

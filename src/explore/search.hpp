@@ -15,8 +15,15 @@
 
 namespace takt::explore {
 
-/// Asked now and then with the states found so far, those expanded, and the depth; false ends the search.
-using Watcher = std::function<bool(std::uint64_t found, std::uint64_t expanded, std::uint32_t depth)>;
+struct Progress {
+  std::uint64_t states = 0;     ///< found so far
+  std::uint64_t done = 0;       ///< of them: expanded, or (in_cycles) judged
+  std::uint32_t depth = 0;
+  std::uint64_t octets = 0;     ///< of states and their table
+  bool in_cycles = false;       ///< all were found; cycles are judged
+};
+/// Asked now and then; false ends the search, and the answer is partial.
+using Watcher = std::function<bool(const Progress&)>;
 
 /// A run, concrete: slaves keep their names.
 struct Trace {

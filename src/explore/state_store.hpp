@@ -6,9 +6,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
+#include "explore/pages.hpp"
 #include "explore/state.hpp"
 
 namespace takt::explore {
@@ -18,8 +18,8 @@ class StateStore {
   using Position = std::uint32_t;
   static constexpr Position nowhere = ~Position{0};
 
-  /// At most `capacity` states of a group with so many slaves.
-  StateStore(std::size_t slaves, std::uint64_t capacity);
+  /// At most `capacity` states of this shape.
+  StateStore(const Shape& shape, std::uint64_t capacity);
 
   std::size_t size() const { return size_; }
   bool is_full() const { return size_ >= capacity_; }
@@ -44,7 +44,7 @@ class StateStore {
   std::uint64_t memory() const;
 
  private:
-  static constexpr std::size_t chunk_bits = 14;
+  static constexpr std::size_t chunk_bits = 17;
   static constexpr std::size_t chunk_size = std::size_t{1} << chunk_bits;
 
   const std::uint32_t* record(Position position) const { return &chunks_[position >> chunk_bits][(position & (chunk_size - 1)) * stride_]; }
@@ -55,7 +55,7 @@ class StateStore {
   bool holds(Position position, const State& state) const;
   void grow();
 
-  std::size_t slaves_;
+  Shape shape_;
   std::size_t words_;
   std::size_t stride_;  ///< words of a record: the state, and its parent
   std::uint64_t capacity_;
@@ -63,8 +63,9 @@ class StateStore {
   std::uint32_t tag_mask_ = 0;
   unsigned slot_shift_ = 0;
   std::size_t size_ = 0;
-  std::vector<std::unique_ptr<std::uint32_t[]>> chunks_;
-  std::vector<std::uint32_t> slots_;  ///< (position + 1) and tag; 0 is free
+  std::vector<Pages> chunks_;
+  std::size_t slot_count_ = 0;
+  Pages slots_;  ///< (position + 1) and tag; 0 is free
 };
 
 }  // namespace takt::explore

@@ -9,34 +9,46 @@ namespace takt::explore {
 std::uint64_t Model::sort_key(const State& state, std::size_t slave) const {
   const std::size_t up = slave - 1;
   const std::size_t down = up + question_.slaves;
-  return std::uint64_t{members_[state.member(slave)].orbit} << 32 ^ std::uint64_t{members_.word_orbit(state.reg(up))} << 16 ^
-         members_.word_orbit(state.reg(down));
+  const std::uint64_t member = std::uint64_t{members_[state.member(slave)].orbit} << 32;
+  if (question_.network == Network::channels) return member ^ std::uint64_t{contents_.orbit(state.content(up))} << 16 ^ contents_.orbit(state.content(down));
+  return member ^ std::uint64_t{members_.word_orbit(state.reg(up))} << 16 ^ members_.word_orbit(state.reg(down));
 }
 
 /// Two intents that differ in their origin only: which of them is greater depends on names.
 bool Model::names_matter(const State& state) const {
-  std::array<std::uint64_t, 3 * most_slaves + 2> seen{};
+  std::array<std::uint64_t, most_participants + most_capacity * most_channels + 1> seen{};
   std::size_t count = 0;
   const auto clashes = [&](WordId word) {
-    const handshake::Intent& intent = members_.word(word).intent;
-    if (intent.origin == 0) return false;
-    const std::uint64_t rank = std::uint64_t{intent.number} << 16 | handshake::index_of(intent.kind) << 8;
+    const std::uint64_t rank = members_.rank(word);
+    if (rank == 0) return false;
     for (std::size_t i = 0; i < count; ++i)
-      if ((seen[i] ^ rank) < 0x100 && seen[i] != (rank | intent.origin)) return true;
-    seen[count++] = rank | intent.origin;
+      if ((seen[i] ^ rank) < 0x100 && seen[i] != rank) return true;
+    seen[count++] = rank;
     return false;
   };
   for (std::size_t i = 0; i <= question_.slaves; ++i)
     if (clashes(members_[state.member(i)].word)) return true;
-  for (std::size_t c = 0; c < 2U * question_.slaves; ++c)
-    if (clashes(state.reg(c))) return true;
-  return clashes(state.late_word());
+  for (std::size_t c = 0; c < wiring_.size(); ++c) {
+    if (question_.network == Network::registers) {
+      if (clashes(state.reg(c))) return true;
+      continue;
+    }
+    const Content& content = contents_[state.content(c)];
+    for (std::size_t i = 0; i < content.size(); ++i)
+      if (clashes(content[i].word)) return true;
+  }
+  return state.late() != Late::none && clashes(state.late_word());
 }
 
 State Model::canonical(const State& state) {
-  if (renamings_.size() == 1 || names_matter(state)) return state;
+  if (renamings_.size() == 1) return state;
   std::array<std::uint64_t, most_slaves + 1> key{};
-  for (std::size_t i = 1; i <= question_.slaves; ++i) key[i] = sort_key(state, i);
+  bool rises = true;
+  for (std::size_t i = 1; i <= question_.slaves; ++i) {
+    key[i] = sort_key(state, i);
+    rises = rises && (i == 1 || key[i - 1] < key[i]);
+  }
+  if (rises || names_matter(state)) return state;
   State least = state;
   bool found = false;
   for (std::size_t r = 0; r < renamings_.size(); ++r) {
@@ -54,11 +66,13 @@ State Model::renamed(const State& state, std::size_t renaming) const {
   const Renaming& names = renamings_[renaming];
   const std::size_t slaves = question_.slaves;
   State result = state;
-  const auto channel = [&](std::size_t c) {
-    return c < slaves ? static_cast<std::size_t>(names.to[c + 1]) - 1 : static_cast<std::size_t>(names.to[c - slaves + 1]) - 1 + slaves;
-  };
+  const auto channel = [&](std::size_t c) { return static_cast<std::size_t>(renamed_channel_[c * renamings_.size() + renaming]); };
   for (std::size_t i = 0; i <= slaves; ++i) result.set_member(names.to[i], members_.renamed(state.member(i), renaming));
-  for (std::size_t c = 0; c < 2 * slaves; ++c) {
+  for (std::size_t c = 0; c < wiring_.size(); ++c) {
+    if (question_.network == Network::channels) {
+      result.set_content(channel(c), contents_.renamed(state.content(c), renaming));
+      continue;
+    }
     result.set_reg(channel(c), members_.renamed_word(state.reg(c), renaming));
     if (state.any_outdated()) result.set_outdated(channel(c), state.outdated(c));
   }

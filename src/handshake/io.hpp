@@ -18,13 +18,14 @@ using PeerSet = std::uint64_t;
 
 /// One input of a step; made by the named functions.
 struct Input {
-  enum class Kind : std::uint8_t { Command, Received, Initialised, Finished, PeerSilent };
+  enum class Kind : std::uint8_t { Command, Received, Initialised, Finished, PeerSilent, Released, PeerReplaced, PeerLeft };
 
   Kind kind = Kind::Finished;
   program::Method method = program::Method::Halt;  ///< Command
   std::uint8_t peer = 0;                           ///< Received, PeerSilent: index of the peer, not of the participant
   std::uint16_t sequence = 0;                      ///< Received: sequence number of the message, wraps
-  std::uint32_t run = 0;                           ///< Initialised
+  std::uint32_t run = 0;                           ///< Initialised, Released
+  bool coupled = false;                            ///< Command, Finished: passed on from the other group of this node
   Word word;                                       ///< Received
 
   /// A client or the user calls a method here.
@@ -61,6 +62,28 @@ struct Input {
     input.peer = static_cast<std::uint8_t>(peer);
     return input;
   }
+  /// The inner group of a nested slave is Running, so the slave may be so too, in this run.
+  static constexpr Input released(std::uint32_t run) {
+    Input input;
+    input.kind = Kind::Released;
+    input.run = run;
+    return input;
+  }
+  /// The node behind a peer is gone: the group halts. At the master.
+  static constexpr Input peer_left(std::size_t peer) {
+    Input input;
+    input.kind = Kind::PeerLeft;
+    input.peer = static_cast<std::uint8_t>(peer);
+    return input;
+  }
+  /// From now on another one is this peer: whatever was heard of the former one is forgotten. At the master in Halted; else
+  /// it changes nothing.
+  static constexpr Input peer_replaced(std::size_t peer) {
+    Input input;
+    input.kind = Kind::PeerReplaced;
+    input.peer = static_cast<std::uint8_t>(peer);
+    return input;
+  }
 };
 
 /// A change of the local state. `transition` is the number of the OPC UA transition, or 0 where only the substate
@@ -77,8 +100,10 @@ struct StateChange {
 enum class Alarm : std::uint8_t {
   None,
   PeerSilent,     ///< a peer's MessageReceiveTimeout expired
+  PeerLeft,       ///< a peer's node has left the group, or has begun another life
   PeerRestarted,  ///< a peer's incarnation changed
   Mismatch,       ///< an intent that cannot be followed from here, so somebody's history is not mine
+  OtherGroup,     ///< the group that this one is nested in, or that is nested in it, has done the same
 };
 
 /// What the host has to do after a step, in the order of the fields.

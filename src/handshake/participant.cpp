@@ -9,41 +9,52 @@ Participant<MaxPeers>::Participant(const Config& config) : config_(config) {
   TAKT_CHECK(config.slaves >= 1, "a group has at least one slave");
   TAKT_CHECK((config.role == Role::Master) == (config.index == 0), "the master is participant 0, a slave is not");
   TAKT_CHECK(config.index <= config.slaves, "a participant's index is within its group");
+  TAKT_CHECK(!config.nested || config.variant == Variant::Robust, "the states alone cannot join two groups");
   TAKT_CHECK(peer_count() <= MaxPeers, "a participant has room for all its peers");
 }
 
 template <std::size_t MaxPeers>
 Outputs Participant<MaxPeers>::step(const Input& input) {
   const bool robust = config_.variant == Variant::Robust;
-  const Word before = word();
   Outputs outputs;
+  // Nearly all steps are these, once a cycle for each peer.
+  if (robust && input.kind == Input::Kind::Received && robust_says_nothing_new(input)) {
+    peers_[input.peer].sequence = input.sequence;
+    outputs.arm_timeout = PeerSet{1} << input.peer;
+    if (machine_.state() != program::State::Ready && !machine_.initialising()) return outputs;
+    const std::uint32_t run_before = run_;
+    robust_barrier(outputs);  // moves there only
+    outputs.publish = outputs.change_count != 0 || run_ != run_before;
+    return outputs;
+  }
+  const Word before = word();
   switch (input.kind) {
     case Input::Kind::Command:
-      robust ? robust_command(input.method, outputs) : paper_command(input.method, outputs);
+      // A nested group is started through the group that it is nested in.
+      if (config_.nested && is_master() && input.method == program::Method::Start && !input.coupled)
+        outputs.status = program::StatusCode::BadInvalidState;
+      else
+        robust ? robust_command(input.method, outputs) : paper_command(input.method, outputs);
       break;
     case Input::Kind::Received:
       TAKT_CHECK(input.peer < peer_count(), "a word comes from a peer");
       robust ? robust_received(input, outputs) : paper_received(input, outputs);
       break;
-    case Input::Kind::Initialised:
-      if (!machine_.initialising() || input.run != intent_.run) break;
-      if (is_master()) {
-        initialised_ = true;
-        robust ? robust_barrier(outputs) : paper_barrier(outputs);
-      } else {
-        run_ = intent_.run;
-        move_to(PublishedState::Ready, outputs);
-      }
+    case Input::Kind::Initialised: initialised(input.run, outputs); break;
+    case Input::Kind::Finished: finished(input.coupled, outputs); break;
+    case Input::Kind::Released:
+      if (config_.nested && input.run == run_ && may_run()) move_to(PublishedState::Running, outputs);
       break;
-    case Input::Kind::Finished:
-      if (machine_.state() != program::State::Running) break;
-      if (robust) {
-        raise(IntentKind::Finish, intent_.number, outputs);
-      } else {
-        outputs.raised = true;
-        outputs.raised_kind = IntentKind::Finish;
+    case Input::Kind::PeerLeft:
+      TAKT_CHECK(is_master() && input.peer < peer_count() && robust, "the master's peers leave");
+      if (state() != PublishedState::Halted) raise_alarm(Alarm::PeerLeft, intent_.number, outputs);
+      break;
+    case Input::Kind::PeerReplaced:
+      TAKT_CHECK(is_master() && input.peer < peer_count(), "the master's peers are replaced");
+      if (machine_.at_rest()) {
+        peers_[input.peer] = {};
+        sort_peer(input.peer);
       }
-      move_to(PublishedState::Ready, outputs);
       break;
     case Input::Kind::PeerSilent:
       TAKT_CHECK(input.peer < peer_count(), "only a peer falls silent");
@@ -51,7 +62,56 @@ Outputs Participant<MaxPeers>::step(const Input& input) {
       break;
   }
   outputs.publish = word() != before;
+  if (input.coupled && outputs.raised) outputs.alarm = Alarm::OtherGroup;
   return outputs;
+}
+
+/// A word of which robust_received would note the sequence number only: what the peer said last, under the intent that stands here, and
+/// no sign of a barrier that was taken without this participant.
+template <std::size_t MaxPeers>
+bool Participant<MaxPeers>::robust_says_nothing_new(const Input& input) const {
+  TAKT_CHECK(input.peer < peer_count(), "a word comes from a peer");
+  const Peer& peer = peers_[input.peer];
+  const Word& word = input.word;
+  const auto ahead = static_cast<std::int16_t>(static_cast<std::uint16_t>(input.sequence - peer.sequence));
+  const bool is_same = word.state == peer.state && word.run == peer.run && word.incarnation == peer.incarnation && word.intent == intent_;
+  return is_same && peer.sequence_known && ahead >= 0 && (is_master() || word.run == run_ || word.run != intent_.run);
+}
+
+/// One that is nested may be Ready already: then the run that it is to be Ready in has waited for the other group.
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::initialised(std::uint32_t run, Outputs& outputs) {
+  const bool joins = config_.nested && state() == PublishedState::Ready && intent_.kind == IntentKind::Start && run_ != intent_.run;
+  if ((!machine_.initialising() && !joins) || run != intent_.run) return;
+  if (is_master()) {
+    initialised_ = true;
+    config_.variant == Variant::Robust ? robust_barrier(outputs) : paper_barrier(outputs);
+  } else {
+    run_ = intent_.run;
+    move_to(PublishedState::Ready, outputs);
+  }
+}
+
+template <std::size_t MaxPeers>
+void Participant<MaxPeers>::finished(bool coupled, Outputs& outputs) {
+  // The other group may have finished within its own barrier, while this one is still in its.
+  const bool in_barrier = coupled && config_.nested && intent_.kind == IntentKind::Start && state() != PublishedState::Halted &&
+                          (is_master() ? run_ == intent_.run || peers_ready() : may_run());
+  if (machine_.state() != program::State::Running && !in_barrier) return;
+  if (config_.variant == Variant::Robust) {
+    if (in_barrier) run_ = intent_.run;
+    raise(IntentKind::Finish, intent_.number, outputs);
+  } else {
+    outputs.raised = true;
+    outputs.raised_kind = IntentKind::Finish;
+  }
+  move_to(PublishedState::Ready, outputs);
+}
+
+template <std::size_t MaxPeers>
+bool Participant<MaxPeers>::may_run() const {
+  return !is_master() && intent_.kind == IntentKind::Start && state() == PublishedState::Ready && run_ == intent_.run &&
+         ((ready_ | running_) & 1U) != 0;
 }
 
 template <std::size_t MaxPeers>
@@ -133,6 +193,24 @@ void Participant<MaxPeers>::sort_all_peers() {
 }
 
 template <std::size_t MaxPeers>
+auto Participant<MaxPeers>::renamed(std::span<const std::uint8_t> to) const -> Participant {
+  TAKT_CHECK(to.size() > config_.slaves && to[0] == 0, "a new index for each participant, and the master stays the master");
+  Participant result = *this;
+  result.config_.index = to[config_.index];
+  result.intent_.origin = intent_.origin < to.size() ? to[intent_.origin] : intent_.origin;
+  result.ready_ = 0;
+  result.running_ = 0;
+  for (std::size_t peer = 0; peer < peer_count(); ++peer) {
+    const std::size_t other = result.peer_of(to[participant_of(peer)]);
+    TAKT_CHECK(other < peer_count(), "no two participants have one index");
+    result.peers_[other] = peers_[peer];
+    result.ready_ |= (ready_ >> peer & 1U) << other;
+    result.running_ |= (running_ >> peer & 1U) << other;
+  }
+  return result;
+}
+
+template <std::size_t MaxPeers>
 std::uint64_t Participant<MaxPeers>::hash() const {
   std::uint64_t digest = 0xCBF29CE484222325ULL;
   const auto mix = [&digest](std::uint64_t value) {
@@ -140,7 +218,7 @@ std::uint64_t Participant<MaxPeers>::hash() const {
     digest ^= digest >> 29;
   };
   const auto byte = [](auto value) { return static_cast<std::uint64_t>(static_cast<std::uint8_t>(value)); };
-  mix(byte(config_.variant) | byte(config_.role) << 8 | byte(config_.index) << 16 | byte(config_.slaves) << 24 |
+  mix(byte(config_.variant) | byte(config_.role) << 8 | byte(config_.nested) << 9 | byte(config_.index) << 16 | byte(config_.slaves) << 24 |
       byte(config_.subscription) << 31 | std::uint64_t{config_.incarnation} << 32);
   mix(byte(state()) | byte(machine_.last_transition()) << 8 | byte(initialised_) << 16 | byte(intent_.kind) << 24 |
       std::uint64_t{intent_.number} << 32);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 
 #include "handshake/io.hpp"
@@ -28,6 +29,8 @@ struct Config {
   std::uint8_t slaves = 1;        ///< of the group, at least 1
   std::uint32_t incarnation = 0;  ///< another one after each restart; `paper` does not publish it
   Subscription subscription = Subscription::Star;  ///< the same for all of the group
+  /// Joined to another group on this node, in which it has the other role (coupling.hpp). `robust` only.
+  bool nested = false;
   constexpr bool operator==(const Config&) const = default;
 };
 
@@ -65,6 +68,25 @@ class Participant {
   /// `paper`.
   bool process_data_counts(std::size_t peer, std::uint32_t sender_run) const;
 
+  /// The same participant in a group whose participants have other indices: `to[i]` is the new index of participant i. A
+  /// permutation of 0 to slaves, which leaves the master 0. Its own index, the origin of its intent and the order of its peers
+  /// change, nothing else; a search uses it to see slaves that play the same part as equal.
+  Participant renamed(std::span<const std::uint8_t> to) const;
+  /// As if no transition had been taken yet: no later step depends on the last one, so a search need not tell such values apart.
+  void forget_last_transition() { machine_.forget_last_transition(); }
+  /// Master: all slaves are Ready in the run that is being started.
+  bool peers_ready() const { return intent_.kind == IntentKind::Start && ready_ == all_peers(); }
+  /// Slave: Ready in the run that is being started, and the master is so too.
+  bool may_run() const;
+  /// A Suspend would be accepted here now. Not for `paper`.
+  bool may_suspend() const { return robust_may_suspend(); }
+  /// Master: a Start would be accepted here now. Not for `paper`.
+  bool may_start() const { return robust_may_start(); }
+  /// Master: the initialisation for the run that is being started has ended, but not all slaves are Ready.
+  bool waits_initialised() const { return initialised_; }
+  /// The last word heard of a peer said so; false if it was never heard.
+  bool peer_heard_in(std::size_t peer, PublishedState state) const { return peers_[peer].heard && peers_[peer].state == state; }
+
   bool operator==(const Participant&) const = default;
   /// Equal values have equal hashes; the same on every machine.
   std::uint64_t hash() const;
@@ -88,6 +110,8 @@ class Participant {
   // participant.cpp: shared by both variants
   void move_to(PublishedState target, Outputs& outputs);
   void enter_init(Outputs& outputs);
+  void initialised(std::uint32_t run, Outputs& outputs);
+  void finished(bool coupled, Outputs& outputs);
   void record(std::uint8_t transition, PublishedState from, Outputs& outputs);
   void sort_peer(std::size_t peer);
   void sort_all_peers();
@@ -95,6 +119,7 @@ class Participant {
   // robust.cpp
   void robust_command(program::Method method, Outputs& outputs);
   void robust_received(const Input& input, Outputs& outputs);
+  bool robust_says_nothing_new(const Input& input) const;
   void robust_silent(std::size_t peer, Outputs& outputs);
   bool robust_may_start() const;
   bool robust_may_suspend() const;

@@ -12,7 +12,7 @@ void ReactionTracker::on_step(std::size_t participant, const Outputs& outputs, c
   if (outputs.raised) {
     Reaction reaction;
     reaction.kind = outputs.raised_kind;
-    reaction.initiator = static_cast<std::uint8_t>(participant);
+    reaction.initiator = static_cast<std::uint16_t>(participant);
     reaction.alarm = outputs.alarm;
     reaction.began = at;
     begin(reaction, after.intent);

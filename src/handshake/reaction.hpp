@@ -22,7 +22,7 @@ enum class ReactionOutcome : std::uint8_t {
 
 struct Reaction {
   IntentKind kind = IntentKind::Halt;
-  std::uint8_t initiator = 0;   ///< participant
+  std::uint16_t initiator = 0;  ///< participant
   Alarm alarm = Alarm::None;    ///< not None: a halt that nobody commanded
   ReactionOutcome outcome = ReactionOutcome::Pending;
   sim::TrueTime began;
@@ -42,13 +42,13 @@ class ReactionTracker {
   /// intent (number not 0), the lesser of the two is superseded, whichever began first.
   void begin(const Reaction& reaction, const Intent& intent);
   void move(std::size_t participant, PublishedState to, sim::TrueTime at);
+  /// Completes what all have reached already, which `move` does by itself.
+  void complete_those_reached(sim::TrueTime at);
 
   /// All reactions in the order in which they began.
   std::span<const Reaction> reactions() const { return reactions_; }
 
  private:
-  void complete_those_reached(sim::TrueTime at);
-
   struct Open {
     std::size_t reaction;  ///< position in reactions_
     Intent intent;

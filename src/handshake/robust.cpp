@@ -150,7 +150,8 @@ void Participant<MaxPeers>::adopt(const Intent& intent, Outputs& outputs) {
   }
   intent_ = intent;
   sort_all_peers();
-  if (intent.kind == IntentKind::Start && state() == ready) run_ = intent.run;
+  // One that is nested joins the new run when the other group is ready for it (Initialised).
+  if (intent.kind == IntentKind::Start && state() == ready && !config_.nested) run_ = intent.run;
   move_to(*target, outputs);
 }
 
@@ -187,15 +188,16 @@ void Participant<MaxPeers>::robust_silent(std::size_t peer, Outputs& outputs) {
 template <std::size_t MaxPeers>
 void Participant<MaxPeers>::robust_barrier(Outputs& outputs) {
   if (intent_.kind != IntentKind::Start) return;
-  const bool in_run = run_ == intent_.run;
   if (!is_master()) {
-    const bool master_ready = ((ready_ | running_) & 1U) != 0;
-    if (state() == ready && in_run && master_ready) move_to(running, outputs);
+    if (may_run() && !config_.nested) move_to(running, outputs);  // nested: Released
     return;
   }
-  const bool may_be_ready = (state() == init && initialised_) || (state() == ready && !in_run);
+  const bool in_run = run_ == intent_.run;
+  const bool has_initialised = initialised_ || (state() == ready && !config_.nested);
+  const bool may_be_ready = has_initialised && (state() == init || (state() == ready && !in_run));
   if (may_be_ready && ready_ == all_peers()) {
     run_ = intent_.run;
+    initialised_ = false;
     move_to(ready, outputs);
   } else if (state() == ready && in_run && running_ == all_peers()) {
     move_to(running, outputs);
@@ -207,10 +209,16 @@ template void Participant<4>::robust_received(const Input&, Outputs&);
 template void Participant<4>::robust_silent(std::size_t, Outputs&);
 template void Participant<4>::raise(IntentKind, std::uint32_t, Outputs&);
 template void Participant<4>::robust_barrier(Outputs&);
+template void Participant<4>::raise_alarm(Alarm, std::uint32_t, Outputs&);
+template bool Participant<4>::robust_may_start() const;
+template bool Participant<4>::robust_may_suspend() const;
 template void Participant<64>::robust_command(Method, Outputs&);
 template void Participant<64>::robust_received(const Input&, Outputs&);
 template void Participant<64>::robust_silent(std::size_t, Outputs&);
 template void Participant<64>::raise(IntentKind, std::uint32_t, Outputs&);
 template void Participant<64>::robust_barrier(Outputs&);
+template void Participant<64>::raise_alarm(Alarm, std::uint32_t, Outputs&);
+template bool Participant<64>::robust_may_start() const;
+template bool Participant<64>::robust_may_suspend() const;
 
 }  // namespace takt::handshake

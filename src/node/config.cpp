@@ -21,6 +21,7 @@ class Checker {
     participants_.insert(participants_.end(), program.slaves.begin(), program.slaves.end());
     check_participants();
     check_times();
+    check_sources();
     wire::EndpointSettings settings;
     settings.handshake.variant = variant_of(program.variant);
     settings.handshake.index = index_of(config_.node, config_.where.at("node"));
@@ -53,6 +54,25 @@ class Checker {
     if (program.receive_timeout && *program.receive_timeout <= program.cycle)
       diagnostics_.error(program.where.at("receive_timeout"), "a time-out within one cycle",
                          {json::to_text(*program.receive_timeout), "more than the cycle of " + json::to_text(program.cycle)});
+  }
+
+  void check_sources() {
+    for (const Source& source : config_.sources) {
+      const auto& all = config_.program.process_data;
+      const auto found = std::find_if(all.begin(), all.end(), [&](const ProcessData& data) { return data.name == source.data_set; });
+      if (found == all.end() || found->from != config_.node) {
+        std::vector<std::string_view> names;
+        for (const ProcessData& data : all)
+          if (data.from == config_.node) names.push_back(data.name);
+        diagnostics_.error(source.where.at("data_set"), "not published here", {json::quote(source.data_set), "a data set from " + json::quote(config_.node), json::suggest(source.data_set, names)});
+      } else if (source.field && std::none_of(found->fields.begin(), found->fields.end(), [&](const auto& field) { return field.first == *source.field; })) {
+        std::vector<std::string_view> names;
+        for (const auto& field : found->fields) names.push_back(field.first);
+        diagnostics_.error(source.where.at("field"), "no such field", {json::quote(*source.field), "a field of " + json::quote(source.data_set), json::suggest(*source.field, names)});
+      }
+    }
+    if (config_.launch_lead && *config_.launch_lead >= config_.program.cycle)
+      diagnostics_.error(config_.where.at("launch_lead"), "a lead of more than the cycle", {json::to_text(*config_.launch_lead), "less than " + json::to_text(config_.program.cycle)});
   }
 
   std::uint8_t index_of(const std::string& name, const json::Place& place) {

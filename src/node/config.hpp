@@ -76,6 +76,21 @@ struct ScriptEntry {
   bool operator==(const ScriptEntry&) const = default;
 };
 
+enum class SourceKind : std::uint8_t { counter, constant, sine };
+
+/// Where values of an own data set come from. Integers are rounded, and kept within their range.
+struct Source {
+  json::Source where;
+  std::string data_set;
+  std::optional<std::string> field;  ///< all fields without
+  SourceKind kind = SourceKind::counter;
+  double value = 0;      ///< constant: it; counter: the first; sine: around which
+  double step = 1;       ///< counter: from message to message
+  double amplitude = 1;  ///< sine
+  Duration period = Duration::from_ps(1'000'000'000'000);  ///< sine; its phase is 0 at multiples on the clock
+  bool operator==(const Source&) const = default;
+};
+
 struct Config {
   json::Source where;
   std::string node;
@@ -84,6 +99,10 @@ struct Config {
   ClockName clock = ClockName::monotonic;
   std::optional<Duration> duration;
   bool realtime = false;
+  std::optional<Duration> launch_lead;
+  std::optional<std::string> control;
+  std::vector<Source> sources;
+  std::optional<Duration> log_values_every;
   std::vector<ScriptEntry> script;
   bool operator==(const Config&) const = default;
 };
@@ -94,6 +113,8 @@ const json::Object& describe(json::Type<UdpTransport>);
 const json::Object& describe(json::Type<EthernetTransport>);
 const json::Tagged& describe(json::Type<Transport>);
 const json::Object& describe(json::Type<ScriptEntry>);
+const json::Enumeration& describe(json::Type<SourceKind>);
+const json::Object& describe(json::Type<Source>);
 const json::Object& describe(json::Type<Config>);
 
 /// A file that has been checked, and the endpoint that it asks for, but for the incarnation.

@@ -74,6 +74,28 @@ const json::Object& describe(json::Type<ScriptEntry>) {
   return table;
 }
 
+const json::Enumeration& describe(json::Type<SourceKind>) {
+  static constexpr json::EnumName names[] = {name(SourceKind::counter, "counter", "value, value + step, ... from message to message"),
+                                             name(SourceKind::constant, "constant", "value"),
+                                             name(SourceKind::sine, "sine", "value + amplitude * sin(2 pi t / period)")};
+  static constexpr json::Enumeration table = json::enumeration<SourceKind>("a kind of source", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<Source>) {
+  static constexpr json::Field fields[] = {
+      required<&Source::data_set>("data_set", "A data set that this node publishes."),
+      optional<&Source::field>("field", "Only this field; all fields if absent."),
+      required<&Source::kind>("kind", "What the values do."),
+      optional<&Source::value>("value", "The constant, the counter's first value, or what the sine goes around."),
+      optional<&Source::step>("step", "Of a counter."),
+      optional<&Source::amplitude>("amplitude", "Of a sine."),
+      optional<&Source::period>("period", "Of a sine.", {.min = 1_us, .max = 3600_s}),
+  };
+  static constexpr json::Object table = json::object<Source>("source", "Where values of an own data set come from.", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<Config>) {
   static constexpr json::Field fields[] = {
       required<&Config::node>("node", "Which participant this node is."),
@@ -82,6 +104,11 @@ const json::Object& describe(json::Type<Config>) {
       optional<&Config::clock>("clock", "The clock that the nodes share."),
       optional<&Config::duration>("duration", "How long it runs; until a signal if absent.", {.min = 1_ms, .max = 3600_s}),
       optional<&Config::realtime>("realtime", "Ask for SCHED_FIFO and locked memory; a warning where that is not permitted."),
+      optional<&Config::launch_lead>("launch_lead", "Publish so long before the cycle's instant and let the kernel hold the message back until then (SO_TXTIME); a warning where it cannot.",
+                                     {.min = 1_us, .max = 1_s}),
+      optional<&Config::control>("control", "Path of the control socket; \"\" for none. If absent, takt-NODE.sock where the user's run-time files are.", {.max_length = 107}),
+      optional<&Config::sources>("sources", "Values of own data sets; fields without a source are 0.", {.max_items = 10'000}),
+      optional<&Config::log_values_every>("log_values_every", "Log values that are received, each data set at most so often; 0 is each message.", {.max = 3600_s}),
       optional<&Config::script>("script", "Methods that are called at this node.", {.max_items = 10'000}),
   };
   static constexpr json::Object table = json::object<Config>("node", "A participant of a Program on this machine.", fields);

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "node/launch_time.hpp"
 #include "node/socket.hpp"
 
 namespace takt::node {
@@ -44,12 +45,13 @@ unsigned get16(const std::byte* at) { return std::to_integer<unsigned>(at[0]) <<
 class EthernetSocket final : public Socket {
  public:
   /// `header` is all before the NetworkMessage.
-  EthernetSocket(FileDescriptor fd, uadp::Octets header) : fd_(std::move(fd)), header_octets_(header.size()) {
+  EthernetSocket(FileDescriptor fd, uadp::Octets header, int interface) : fd_(std::move(fd)), header_octets_(header.size()), interface_(interface) {
     std::copy(header.begin(), header.end(), frame_.begin());
   }
 
   int file_descriptor() const override { return fd_.number(); }
   std::uint64_t send_failures() const override { return failures_; }
+  std::string enable_launch_times(ClockName clock) override { return node::enable_launch_times(fd_.number(), clock, interface_); }
 
   void publish(uadp::Octets message, const pubsub::Destination&) override {
     if (message.size() > frame_.size() - header_octets_) {
@@ -58,7 +60,7 @@ class EthernetSocket final : public Socket {
     }
     std::copy(message.begin(), message.end(), frame_.begin() + static_cast<std::ptrdiff_t>(header_octets_));
     const std::size_t size = header_octets_ + message.size();
-    if (::send(fd_.number(), frame_.data(), size, MSG_DONTWAIT) != static_cast<ssize_t>(size)) ++failures_;
+    if (!send_at(fd_.number(), uadp::Octets(frame_).first(size), nullptr, 0, launch_ns_)) ++failures_;
   }
 
   uadp::Octets next() override {
@@ -78,6 +80,7 @@ class EthernetSocket final : public Socket {
  private:
   FileDescriptor fd_;
   std::size_t header_octets_;
+  int interface_;
   std::array<std::byte, 1518> frame_{};
   std::array<std::byte, 2048> received_{};
   std::uint64_t failures_ = 0;
@@ -124,7 +127,7 @@ std::unique_ptr<Socket> open_socket(const EthernetTransport& transport, std::str
     octets += 4;
   }
   put16(header.data() + octets, wire::uadp_ether_type);
-  return std::make_unique<EthernetSocket>(std::move(fd), uadp::Octets(header).first(octets + 2));
+  return std::make_unique<EthernetSocket>(std::move(fd), uadp::Octets(header).first(octets + 2), own.sll_ifindex);
 }
 
 }  // namespace takt::node

@@ -31,6 +31,13 @@ class Socket : public pubsub::PublishedData, public pubsub::SubscribedData {
   virtual int file_descriptor() const = 0;
   /// Messages that the kernel did not take.
   virtual std::uint64_t send_failures() const = 0;
+  /// From now on messages may have launch times, on this clock. Returns what is in the way, or "".
+  virtual std::string enable_launch_times(ClockName clock) = 0;
+  /// Messages that are published now leave at this time of that clock; 0: at once.
+  void set_launch_time(std::int64_t ns) { launch_ns_ = ns; }
+
+ protected:
+  std::int64_t launch_ns_ = 0;
 };
 
 /// Null, and `problem` says why, if the machine does not give what the transport needs.

@@ -12,7 +12,9 @@ std::string_view name_of(handshake::Alarm alarm) {
     case handshake::Alarm::None: return "command";
     case handshake::Alarm::PeerSilent: return "silent peer";
     case handshake::Alarm::PeerRestarted: return "restarted peer";
+    case handshake::Alarm::PeerLeft: return "peer left";
     case handshake::Alarm::Mismatch: return "mismatch";
+    case handshake::Alarm::OtherGroup: return "nested group";
   }
   return "?";
 }
@@ -40,17 +42,10 @@ void TransitionLog::raised(std::int64_t time, handshake::IntentKind kind, handsh
 }
 
 void TransitionLog::called(std::int64_t time, program::Method method, program::StatusCode status) {
-  write(file_, fmt::format("{{\"time_ns\": {}, \"event\": \"call\", \"method\": \"{}\", \"good\": {}}}\n", time, program::name_of(method),
-                           program::is_good(status)));
+  write(file_, fmt::format("{{\"time_ns\": {}, \"event\": \"call\", \"method\": \"{}\", \"good\": {}, \"status\": \"{}\"}}\n", time, program::name_of(method),
+                           program::is_good(status), program::name_of(status)));
 }
 
-void TransitionLog::ended(std::int64_t time, const wire::ProgramEndpoint& endpoint, const Wakening& wakening, std::uint64_t send_failures) {
-  const wire::EndpointCounts& counts = endpoint.counts();
-  const std::int64_t mean = wakening.count == 0 ? 0 : wakening.sum_ns / static_cast<std::int64_t>(wakening.count);
-  write(file_, fmt::format("{{\"time_ns\": {}, \"event\": \"end\", \"state\": \"{}\", \"taken\": {}, \"foreign\": {}, \"unsubscribed\": {}, \"stale\": {}, "
-                           "\"not_running\": {}, \"missed_cycles\": {}, \"wake_ups\": {}, \"late_mean_ns\": {}, \"late_max_ns\": {}, \"send_failures\": {}}}\n",
-                           time, handshake::name_of(endpoint.participant().state()), counts.taken, counts.foreign, counts.unsubscribed, counts.stale,
-                           counts.not_running, endpoint.missed_cycles(), wakening.count, mean, wakening.greatest_ns, send_failures));
-}
+void TransitionLog::ended(const NodeStatus& status) { write(file_, "{\"event\": \"end\", " + to_json(status).substr(1) + "\n"); }
 
 }  // namespace takt::node

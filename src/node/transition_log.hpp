@@ -5,7 +5,8 @@
 #include <string_view>
 
 #include "handshake/io.hpp"
-#include "wire/program_endpoint.hpp"
+#include "node/node_status.hpp"
+#include "program/method.hpp"
 
 namespace takt::node {
 
@@ -20,12 +21,7 @@ class TransitionLog {
   void raised(std::int64_t time, handshake::IntentKind kind, handshake::Alarm alarm);
   void called(std::int64_t time, program::Method method, program::StatusCode status);
 
-  struct Wakening {
-    std::uint64_t count = 0;
-    std::int64_t greatest_ns = 0;  ///< how late
-    std::int64_t sum_ns = 0;
-  };
-  void ended(std::int64_t time, const wire::ProgramEndpoint& endpoint, const Wakening& wakening, std::uint64_t send_failures);
+  void ended(const NodeStatus& status);
 
  private:
   std::FILE* file_;

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <vector>
 
+#include "node/launch_time.hpp"
 #include "node/socket.hpp"
 
 namespace takt::node {
@@ -39,16 +40,16 @@ bool parse_address(const std::string& text, std::uint16_t default_port, sockaddr
 
 class UdpSocket final : public Socket {
  public:
-  UdpSocket(FileDescriptor fd, std::vector<sockaddr_in> destinations) : fd_(std::move(fd)), destinations_(std::move(destinations)) {}
+  UdpSocket(FileDescriptor fd, std::vector<sockaddr_in> destinations, int interface)
+      : fd_(std::move(fd)), destinations_(std::move(destinations)), interface_(interface) {}
 
   int file_descriptor() const override { return fd_.number(); }
   std::uint64_t send_failures() const override { return failures_; }
+  std::string enable_launch_times(ClockName clock) override { return node::enable_launch_times(fd_.number(), clock, interface_); }
 
   void publish(uadp::Octets message, const pubsub::Destination&) override {
-    for (const sockaddr_in& to : destinations_) {
-      const ssize_t sent = ::sendto(fd_.number(), message.data(), message.size(), MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to), sizeof to);
-      if (sent != static_cast<ssize_t>(message.size())) ++failures_;
-    }
+    for (const sockaddr_in& to : destinations_)
+      if (!send_at(fd_.number(), message, reinterpret_cast<const sockaddr*>(&to), sizeof to, launch_ns_)) ++failures_;
   }
 
   uadp::Octets next() override {
@@ -64,6 +65,7 @@ class UdpSocket final : public Socket {
  private:
   FileDescriptor fd_;
   std::vector<sockaddr_in> destinations_;
+  int interface_;  ///< 0: the kernel's choice
   std::array<std::byte, 1500> buffer_{};
   std::uint64_t failures_ = 0;
 };
@@ -106,7 +108,7 @@ std::unique_ptr<Socket> open_socket(const UdpTransport& transport, std::string& 
     if (!parse_address(text, transport.port, to)) return fail("not an IPv4 address, or address:port: " + text);
     if (IN_MULTICAST(ntohl(to.sin_addr.s_addr)) && !set_up_multicast(fd.number(), to.sin_addr, interface)) return fail(what_failed("multicast group " + text));
   }
-  return std::make_unique<UdpSocket>(std::move(fd), std::move(destinations));
+  return std::make_unique<UdpSocket>(std::move(fd), std::move(destinations), interface);
 }
 
 }  // namespace takt::node

@@ -38,6 +38,37 @@ Node requirements_of(const results::RunResult& result) {
   return array;
 }
 
+Node summary_node(const results::LatencySummary& summary) {
+  Node node = Node::object();
+  node.add("min", picoseconds(summary.min));
+  node.add("mean", picoseconds(summary.mean));
+  node.add("p50", picoseconds(summary.p50));
+  node.add("p99", picoseconds(summary.p99));
+  node.add("max", picoseconds(summary.max));
+  node.add("stddev", picoseconds(summary.stddev));
+  return node;
+}
+
+Node round_trips_of(const results::ProgramResult& program) {
+  Node all = Node::object();
+  for (const results::RoundTripResult& r : program.round_trips) {
+    Node node = Node::object();
+    node.add("request", Node::of_string(r.request));
+    node.add("count", integer(r.count));
+    node.add("time_ps", r.time ? summary_node(*r.time) : Node());
+    node.add("one_way_ps", r.one_way ? summary_node(*r.one_way) : Node());
+    Node histogram = Node::array();
+    for (const results::HistogramBucket& bucket : r.histogram) {
+      Node row = Node::array();
+      row.items = {picoseconds(bucket.from), picoseconds(bucket.to), integer(bucket.count)};
+      histogram.items.push_back(std::move(row));
+    }
+    node.add("histogram_ps", std::move(histogram));
+    all.add(r.reply, std::move(node));
+  }
+  return all;
+}
+
 Node streams_of(const results::RunResult& result) {
   Node all = Node::object();
   for (const results::StreamResult& s : result.streams) {
@@ -48,17 +79,7 @@ Node streams_of(const results::RunResult& result) {
     node.add("copies", integer(s.copies));
     node.add("in_flight", integer(s.in_flight));
     node.add("listeners", integer(s.listeners));
-    Node latency;
-    if (s.latency) {
-      latency = Node::object();
-      latency.add("min", picoseconds(s.latency->min));
-      latency.add("mean", picoseconds(s.latency->mean));
-      latency.add("p50", picoseconds(s.latency->p50));
-      latency.add("p99", picoseconds(s.latency->p99));
-      latency.add("max", picoseconds(s.latency->max));
-      latency.add("stddev", picoseconds(s.latency->stddev));
-    }
-    node.add("latency_ps", std::move(latency));
+    node.add("latency_ps", s.latency ? summary_node(*s.latency) : Node());
     all.add(s.name, std::move(node));
   }
   return all;
@@ -84,6 +105,22 @@ Node programs_of(const results::RunResult& result) {
     Node reactions = Node::array();
     for (const results::ReactionResult& r : p.reactions) reactions.items.push_back(reaction_node(r));
     node.add("reactions", std::move(reactions));
+    if (!p.tree_reactions.empty()) {
+      Node tree = Node::array();
+      for (const results::ReactionResult& r : p.tree_reactions) tree.items.push_back(reaction_node(r));
+      node.add("tree_reactions", std::move(tree));
+    }
+    if (!p.bindings.empty()) {
+      Node bindings = Node::array();
+      for (const results::BindingResult& b : p.bindings) {
+        Node binding = Node::object();
+        binding.add("at_ps", picoseconds(b.at));
+        binding.add("role", Node::of_string(b.role));
+        binding.add("node", b.node.empty() ? Node() : Node::of_string(b.node));
+        bindings.items.push_back(std::move(binding));
+      }
+      node.add("bindings", std::move(bindings));
+    }
     Node states = Node::object();
     for (std::size_t i = 0; i < p.participants.size(); ++i) states.add(p.participants[i], Node::of_string(p.states[i]));
     node.add("states", std::move(states));
@@ -108,6 +145,7 @@ Node programs_of(const results::RunResult& result) {
     node.add("timeline", std::move(timeline));
     node.add("changes", integer(p.changes));
     node.add("process_data_received", integer(p.process_data_received));
+    if (!p.round_trips.empty()) node.add("round_trips", round_trips_of(p));
     all.add(p.name, std::move(node));
   }
   return all;

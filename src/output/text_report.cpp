@@ -101,12 +101,12 @@ std::string list_timeline(const ProgramResult& program) {
   return out;
 }
 
-std::string reactions_part(const ProgramResult& program) {
+std::string reactions_part(const std::vector<results::ReactionResult>& reactions) {
   std::string out;
   std::size_t shown = 0;
-  for (const results::ReactionResult& reaction : program.reactions) {
+  for (const results::ReactionResult& reaction : reactions) {
     if (++shown > most_reactions) {
-      out += fmt::format("  ... {} more reactions\n", program.reactions.size() - most_reactions);
+      out += fmt::format("  ... {} more reactions\n", reactions.size() - most_reactions);
       break;
     }
     const std::string duration = reaction.completed ? readable(*reaction.duration()) : reaction.superseded ? "superseded" : "not complete";
@@ -116,15 +116,34 @@ std::string reactions_part(const ProgramResult& program) {
   return out;
 }
 
+constexpr std::size_t most_bindings = 40;
+
+std::string bindings_part(const ProgramResult& program) {
+  std::string out = "\n  Roles (which node got them, and when)\n";
+  std::size_t shown = 0;
+  for (const results::BindingResult& each : program.bindings) {
+    if (shown++ == most_bindings) return out + fmt::format("  ... {} more bindings\n", program.bindings.size() - most_bindings);
+    out += fmt::format("  {:>16}  {:<16} {}\n", readable(each.at.since_start()), each.role, each.node.empty() ? "nobody" : each.node);
+  }
+  return out;
+}
+
 std::string program_part(const ProgramResult& program) {
   std::string out = heading(fmt::format("Program {}: {} handshake, master {}, {} slave{}, cycle {}", program.name, program.variant,
                                         program.participants.front(), program.participants.size() - 1,
                                         program.participants.size() == 2 ? "" : "s", readable(program.cycle)));
+  if (!program.bindings.empty()) out += bindings_part(program).substr(1) + "\n";
   if (program.timeline.empty()) return out + "  nothing was called\n";
   out += program.participants.size() <= most_columns ? columns_timeline(program) : list_timeline(program);
   if (program.timeline.size() > most_timeline_rows) out += fmt::format("  ... {} changes of state in all\n", program.changes);
-  if (!program.reactions.empty()) out += "\n  Reactions (from the call until all are there)\n" + reactions_part(program);
+  if (!program.reactions.empty()) out += "\n  Reactions (from the call until all are there)\n" + reactions_part(program.reactions);
+  if (!program.tree_reactions.empty()) out += "\n  Reactions of the whole tree (until all in nested programs are there, too)\n" + reactions_part(program.tree_reactions);
   if (program.process_data_received > 0) out += fmt::format("  {} process data messages reached their applications\n", program.process_data_received);
+  for (const results::RoundTripResult& trip : program.round_trips) {
+    if (!trip.time) continue;
+    out += fmt::format("  round trip {} -> {}: {} of them, min {}, mean {}, max {}, standard deviation {}\n", trip.request, trip.reply, trip.count, readable(trip.time->min),
+                       readable(trip.time->mean), readable(trip.time->max), readable(trip.time->stddev));
+  }
   std::size_t shown = 0;
   for (const results::ViolationResult& violation : program.violations) {
     if (shown++ == 0) out += "\n  Violated invariants\n";

@@ -52,6 +52,9 @@ class Machine {
     initialising_ = false;
   }
 
+  /// As if no transition had been taken. The last one is told to clients; no step depends on it.
+  constexpr void forget_last_transition() { last_transition_ = 0; }
+
   constexpr bool operator==(const Machine&) const = default;
 
  private:

@@ -21,7 +21,9 @@ std::string cause_name(handshake::Alarm alarm) {
     case handshake::Alarm::None: return "command";
     case handshake::Alarm::PeerSilent: return "silent peer";
     case handshake::Alarm::PeerRestarted: return "restarted peer";
+    case handshake::Alarm::PeerLeft: return "peer left";
     case handshake::Alarm::Mismatch: return "mismatch";
+    case handshake::Alarm::OtherGroup: return "nested group";
   }
   return "?";
 }
@@ -29,6 +31,20 @@ std::string cause_name(handshake::Alarm alarm) {
 LatencySummary summary_of(const sim::Histogram& histogram) {
   return {histogram.minimum(),         histogram.mean(),    histogram.percentile(50, 100),
           histogram.percentile(99, 100), histogram.maximum(), histogram.standard_deviation()};
+}
+
+std::vector<RoundTripResult> round_trips_of(const scenario::ProgramMonitor& monitor, const ResolvedProgram& program) {
+  std::vector<RoundTripResult> all;
+  if (!monitor.round_trips()) return all;
+  for (std::size_t i = 0; i < program.replies.size(); ++i) {
+    const sim::Histogram& histogram = monitor.round_trips()->histogram(i);
+    RoundTripResult one{program.process_data[program.replies[i].to].name, program.process_data[program.replies[i].with].name, histogram.count(), {}, {}, {}};
+    if (!histogram.empty()) one.time = summary_of(histogram);
+    if (const sim::Histogram& one_way = monitor.round_trips()->one_way(i); !one_way.empty()) one.one_way = summary_of(one_way);
+    histogram.for_each_bucket([&](Duration from, Duration to, std::uint64_t n) { one.histogram.push_back({from, to, n}); });
+    all.push_back(std::move(one));
+  }
+  return all;
 }
 
 StreamResult result_of(const models::Stream& stream, bool of_program) {
@@ -49,6 +65,36 @@ StreamResult result_of(const models::Stream& stream, bool of_program) {
   return result;
 }
 
+ReactionResult result_of(const handshake::Reaction& reaction, std::string initiator) {
+  ReactionResult one;
+  one.kind = kind_name(reaction.kind);
+  one.initiator = std::move(initiator);
+  one.cause = cause_name(reaction.alarm);
+  one.began = reaction.began;
+  if (reaction.outcome == handshake::ReactionOutcome::Completed) one.completed = reaction.completed;
+  one.superseded = reaction.outcome == handshake::ReactionOutcome::Superseded;
+  return one;
+}
+
+/// What the tree says whose outermost program this is.
+void add_tree(const scenario::Run& run, std::size_t index, ProgramResult& result) {
+  const auto name = [&](std::uint32_t program, std::uint8_t participant) {
+    const ResolvedProgram& of = run.resolved().programs[program];
+    return of.name + "/" + of.participant_names[participant];
+  };
+  for (const auto& tree : run.trees()) {
+    if (tree->programs().front() != index) continue;
+    for (const handshake::Reaction& reaction : tree->reactions()) {
+      const auto [program, participant] = tree->initiator_of(reaction);
+      result.tree_reactions.push_back(result_of(reaction, name(program, participant)));
+    }
+    for (const scenario::TreeMonitor::Violation& each : tree->violations())
+      result.violations.push_back({each.time, std::string(handshake::name_of(each.violation.violation.invariant)) + " of the tree",
+                                   name(tree->programs()[each.violation.group], each.violation.violation.participant),
+                                   std::string(handshake::text_of(each.violation.violation.finding))});
+  }
+}
+
 ProgramResult result_of(const scenario::Run& run, std::size_t index) {
   const ResolvedProgram& program = run.resolved().programs[index];
   const scenario::ProgramMonitor& monitor = run.monitor(index);
@@ -56,23 +102,19 @@ ProgramResult result_of(const scenario::Run& run, std::size_t index) {
   result.name = program.name;
   result.variant = std::string(scenario::spelling(program.description->variant));
   result.cycle = program.description->cycle;
-  for (std::size_t p = 0; p < program.participants.size(); ++p) {
-    result.participants.push_back(run.resolved().topology.nodes[program.participants[p].value].name);
+  for (std::size_t p = 0; p < program.participant_names.size(); ++p) {
+    result.participants.push_back(program.participant_names[p]);
     result.states.emplace_back(handshake::name_of(run.state(index, p)));
   }
-  for (const handshake::Reaction& reaction : monitor.reactions()) {
-    ReactionResult one;
-    one.kind = kind_name(reaction.kind);
-    one.initiator = result.participants[reaction.initiator];
-    one.cause = cause_name(reaction.alarm);
-    one.began = reaction.began;
-    if (reaction.outcome == handshake::ReactionOutcome::Completed) one.completed = reaction.completed;
-    one.superseded = reaction.outcome == handshake::ReactionOutcome::Superseded;
-    result.reactions.push_back(std::move(one));
-  }
+  for (const handshake::Reaction& reaction : monitor.reactions()) result.reactions.push_back(result_of(reaction, result.participants[reaction.initiator]));
   for (const scenario::ViolationRecord& violation : monitor.violations())
     result.violations.push_back({violation.time, std::string(handshake::name_of(violation.violation.invariant)),
                                  result.participants[violation.violation.participant], std::string(handshake::text_of(violation.violation.finding))});
+  add_tree(run, index, result);
+  if (const scenario::PlugMonitor* const roles = run.roles(index))
+    for (const scenario::BindingRecord& record : roles->history())
+      result.bindings.push_back({record.time, program.participant_names[record.role + std::size_t{1}],
+                                 record.candidate ? run.resolved().topology.nodes[program.candidates[*record.candidate].node.value].name : ""});
   result.violations_allowed = program.description->violations == scenario::Violations::reported;
   for (const scenario::StateRecord& record : monitor.history())
     result.timeline.push_back({record.time, record.participant, "", std::string(handshake::name_of(record.change.to))});
@@ -87,6 +129,7 @@ ProgramResult result_of(const scenario::Run& run, std::size_t index) {
   });
   result.changes = monitor.changes();
   result.process_data_received = monitor.process_data_received();
+  result.round_trips = round_trips_of(monitor, program);
   return result;
 }
 
@@ -136,13 +179,14 @@ class Judge {
     verdict.kind = RequirementKind::reaction;
     verdict.subject = requirement.program.value_or("");
     verdict.reaction = kind;
-    verdict.text = "reaction " + kind + (requirement.program ? " of " + *requirement.program : "") + " within " + json_text(*requirement.within);
+    verdict.of_tree = requirement.tree;
+    verdict.text = "reaction " + kind + (requirement.tree ? " of the tree" : "") + (requirement.program ? " of " + *requirement.program : "") + " within " + json_text(*requirement.within);
     verdict.limit = *requirement.within;
     std::size_t seen = 0;
     std::size_t incomplete = 0;
     for (const ProgramResult& program : result_.programs) {
       if (requirement.program && program.name != *requirement.program) continue;
-      for (const ReactionResult& one : program.reactions) {
+      for (const ReactionResult& one : requirement.tree ? program.tree_reactions : program.reactions) {
         if (one.kind != kind || one.superseded) continue;
         ++seen;
         if (!one.completed)

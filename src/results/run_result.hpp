@@ -58,7 +58,7 @@ struct StreamResult {
 
 struct ReactionResult {
   std::string kind;
-  std::string initiator;
+  std::string initiator;                   ///< node; of a tree: program, '/', node
   std::string cause;                       ///< "command", or why it began by itself
   TrueTime began;
   std::optional<TrueTime> completed;
@@ -73,12 +73,29 @@ struct ViolationResult {
   std::string text;
 };
 
+/// From publishing process data to receiving what answers it.
+struct RoundTripResult {
+  std::string request;                     ///< data set
+  std::string reply;                       ///< data set
+  std::uint64_t count = 0;
+  std::optional<LatencySummary> time;      ///< none if nothing was answered
+  std::optional<LatencySummary> one_way;   ///< from publishing to the end of the work at the request
+  std::vector<HistogramBucket> histogram;
+};
+
 /// A row of the time line: a call, or a change of state.
 struct TimelineEntry {
   TrueTime at;
   std::uint8_t participant = 0;
   std::string call;                        ///< method and status, or empty
   std::string state;                       ///< the new state, or empty
+};
+
+/// A role of a program got a node, or lost it.
+struct BindingResult {
+  TrueTime at;
+  std::string role;
+  std::string node;                        ///< empty: nobody
 };
 
 struct ProgramResult {
@@ -88,11 +105,14 @@ struct ProgramResult {
   std::vector<std::string> participants;   ///< node names, the master first
   std::vector<std::string> states;         ///< at the end
   std::vector<ReactionResult> reactions;
+  std::vector<ReactionResult> tree_reactions;  ///< of it and all that are nested in it; the outermost program of a tree only
+  std::vector<BindingResult> bindings;     ///< of a program with roles, in the order of time
   std::vector<ViolationResult> violations;
   bool violations_allowed = false;
   std::vector<TimelineEntry> timeline;
   std::uint64_t changes = 0;               ///< of state, in all; the time line keeps the first ones
   std::uint64_t process_data_received = 0;
+  std::vector<RoundTripResult> round_trips;
 };
 
 /// What a requirement is about.
@@ -102,6 +122,7 @@ struct RequirementResult {
   RequirementKind kind{};
   std::string subject;                     ///< the stream, the Program or the node; empty: all Programs or all nodes
   std::string reaction;                    ///< "start", "halt" ..., if it is one
+  bool of_tree = false;                    ///< of a Program and all that are nested in it
   std::optional<std::uint64_t> count_limit;  ///< most dropped, fewest delivered
   std::string text;
   Verdict verdict = Verdict::pass;

@@ -11,6 +11,7 @@
 #include "scenario/description_clocks.hpp"
 #include "scenario/description_faults.hpp"
 #include "scenario/description_ingress.hpp"
+#include "scenario/description_plug.hpp"
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -27,6 +28,8 @@ using namespace sim::literals;  // NOLINT: units in default values
 // Not within Latency: clang takes a class with default values for complete only behind the class around it.
 struct WeibullLatency { Duration scale; double shape = 1; bool operator==(const WeibullLatency&) const = default; };
 struct LogNormalLatency { Duration median; double sigma = 1; bool operator==(const LogNormalLatency&) const = default; };
+/// Rare values instead of those of the distribution, all of an interval equally likely.
+struct LatencyTail { json::Source where; Duration from; Duration to; double per_million = 1; bool operator==(const LatencyTail&) const = default; };
 
 /// A time that passes in a host: fixed, or drawn from a distribution.
 struct Latency {
@@ -47,6 +50,8 @@ struct Latency {
   std::optional<std::vector<Point>> table;
   Duration min;
   std::optional<Duration> max;
+  using Tail = LatencyTail;
+  std::optional<LatencyTail> tail;
   bool operator==(const Latency&) const = default;
 };
 
@@ -60,6 +65,14 @@ struct OperatingSystem {
   std::optional<Latency> receive;
   std::optional<Latency> wake_up;
   bool operator==(const OperatingSystem&) const = default;
+};
+
+/// How long a Program's application works at process data that has come before it replies.
+struct Processing {
+  json::Source where;
+  std::optional<Latency> per_message;
+  std::optional<Latency> per_field;
+  bool operator==(const Processing&) const = default;
 };
 
 enum class TrafficClasses : std::uint8_t { standard, identity };
@@ -150,6 +163,8 @@ struct HostNode {
   TrafficClasses traffic_classes = TrafficClasses::standard;
   Queues queues;
   std::vector<Egress> egress;
+  std::optional<Processing> processing = {};
+  std::vector<std::string> offers = {};
   bool operator==(const HostNode&) const = default;
 };
 
@@ -260,12 +275,26 @@ using vocabulary::Variant;
 
 enum class Violations : std::uint8_t { forbidden, reported };
 
+/// Process data that is published when other process data has come and has been worked at, not every cycle.
+struct Reply {
+  json::Source where;
+  std::string to;
+  std::string with;
+  bool operator==(const Reply&) const = default;
+};
+
 struct Program {
   json::Source where;
   std::string name;
   Variant variant = Variant::robust;
   std::string master;
   std::vector<std::string> slaves;
+  std::optional<std::string> within;
+  std::vector<Role> roles = {};
+  std::vector<std::string> candidates = {};
+  std::vector<std::string> absent = {};
+  std::optional<Duration> announce_every = {};
+  OnReplacement on_replacement = OnReplacement::stay_halted;
   Duration cycle;
   std::optional<Duration> offset;    ///< the same
   json::NameMap<Duration> phases;    ///< of single participants
@@ -277,6 +306,7 @@ struct Program {
   std::uint16_t vlan = 0;
   Violations violations = Violations::forbidden;
   std::vector<ProcessData> process_data;
+  std::vector<Reply> replies = {};
   bool operator==(const Program&) const = default;
 };
 
@@ -295,6 +325,8 @@ struct ScriptEntry {
   std::optional<std::string> program;
   std::optional<Method> call;
   std::optional<std::string> on;
+  std::optional<std::string> join = {};
+  std::optional<std::string> leave = {};
   std::optional<SetGates> set_gates;
   bool operator==(const ScriptEntry&) const = default;
 };
@@ -306,6 +338,7 @@ struct Requirement {
   std::optional<Reaction> reaction;
   std::optional<std::string> program;
   std::optional<Duration> within;
+  bool tree = false;
   std::optional<std::string> stream;
   std::optional<Duration> latency;
   std::optional<Duration> jitter;
@@ -343,6 +376,9 @@ const json::Object& describe(json::Type<Latency::Exponential>);
 const json::Object& describe(json::Type<Latency::Weibull>);
 const json::Object& describe(json::Type<Latency::LogNormal>);
 const json::Object& describe(json::Type<Latency::Point>);
+const json::Object& describe(json::Type<LatencyTail>);
+const json::Object& describe(json::Type<Processing>);
+const json::Object& describe(json::Type<Reply>);
 const json::Enumeration& describe(json::Type<OsProfile>);
 const json::Object& describe(json::Type<OperatingSystem>);
 const json::Enumeration& describe(json::Type<TrafficClasses>);

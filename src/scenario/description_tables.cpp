@@ -125,7 +125,13 @@ const json::Object& describe(json::Type<Program>) {
       required<&Program::name>("name", "Unique among streams and programs.", {.min_length = 1, .max_length = 200}),
       optional<&Program::variant>("variant", "Which handshake synchronises the participants."),
       required<&Program::master>("master", "The host of the master."),
-      required<&Program::slaves>("slaves", "The hosts of the slaves.", {.min_items = 1, .max_items = 64}),
+      optional<&Program::slaves>("slaves", "The hosts of the slaves.", {.min_items = 1, .max_items = 64}),
+      optional<&Program::roles>("roles", "Roles instead of slaves: each is bound to a node that announces the skill it needs.", {.min_items = 1, .max_items = 64}),
+      optional<&Program::candidates>("candidates", "The only hosts that may have a role; all that offer a skill it needs if absent.", {.max_items = 64}),
+      optional<&Program::absent>("absent", "Candidates that announce themselves only when the script lets them join.", {.max_items = 64}),
+      optional<&Program::announce_every>("announce_every", "Interval of announcements; who misses three is gone. 10 cycles if absent.", {.min = 1_us, .max = 3600_s}),
+      optional<&Program::on_replacement>("on_replacement", "What follows when a node that was lost in a start or a run has been replaced."),
+      optional<&Program::within>("within", "The program in which this one is nested: its master is a slave there, and it is started, suspended, resumed, reset and halted with it."),
       required<&Program::cycle>("cycle", "Publishing interval of state and process data.", {.min = 1_us, .max = 3600_s}),
       optional<&Program::offset>("offset", "Phase of publishing within the cycle; 0 in a run if absent, and then any for the search for the worst case.", {.max = 3600_s}),
       optional<&Program::phases>("phases", "Other phases of single participants, by host.", {.max_items = 65, .items = {.max = 3600_s}}),
@@ -138,8 +144,11 @@ const json::Object& describe(json::Type<Program>) {
       optional<&Program::vlan>("vlan", "VLAN of its messages.", {.max = 4094}),
       optional<&Program::violations>("violations", "What a violated invariant means for the verdict."),
       optional<&Program::process_data>("process_data", "Data sets that the participants exchange.", {.max_items = 256}),
+      optional<&Program::replies>("replies", "Process data that answers other process data at once.", {.max_items = 256}),
   };
-  static constexpr json::Object table = json::object<Program>("program", "A distributed OPC UA Program: one master, its slaves, their handshake.", fields);
+  static constexpr std::string_view members[] = {"slaves", "roles"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(members)};
+  static constexpr json::Object table = json::object<Program>("program", "A distributed OPC UA Program: one master, its slaves, their handshake.", fields, {.groups = groups});
   return table;
 }
 
@@ -159,9 +168,11 @@ const json::Object& describe(json::Type<ScriptEntry>) {
       optional<&ScriptEntry::program>("program", "The program whose method is called."),
       optional<&ScriptEntry::call>("call", "The method."),
       optional<&ScriptEntry::on>("on", "The participant on which it is called; the master if absent."),
+      optional<&ScriptEntry::join>("join", "A candidate of a program's roles that begins to announce itself."),
+      optional<&ScriptEntry::leave>("leave", "A candidate that leaves; if it has a role, the group halts first."),
       optional<&ScriptEntry::set_gates>("set_gates", "Another gate list for ports."),
   };
-  static constexpr std::string_view actions[] = {"call", "set_gates"};
+  static constexpr std::string_view actions[] = {"call", "set_gates", "join", "leave"};
   static constexpr json::Group groups[] = {json::exactly_one_of(actions)};
   static constexpr json::Object table = json::object<ScriptEntry>("script_entry", "Something that is done at a certain time.", fields, {.groups = groups});
   return table;
@@ -184,6 +195,7 @@ const json::Object& describe(json::Type<Requirement>) {
       optional<&Requirement::reaction>("reaction", "Every such reaction ends within the time given by within, and there is at least one."),
       optional<&Requirement::program>("program", "Only of this program."),
       optional<&Requirement::within>("within", "Longest reaction.", {.max = longest}),
+      optional<&Requirement::tree>("tree", "The reaction of the program and all that are nested in it: until everybody in the tree is there."),
       optional<&Requirement::stream>("stream", "The stream that is meant."),
       optional<&Requirement::latency>("latency", "Longest time from production to delivery.", {.max = longest}),
       optional<&Requirement::jitter>("jitter", "Largest difference between two latencies.", {.max = longest}),

@@ -78,6 +78,7 @@ const json::Object& describe(json::Type<Latency>) {
       optional<&Latency::table>("table", "Measured values with their frequencies.", {.min_items = 1, .max_items = most_names}),
       optional<&Latency::min>("min", "Smaller values are raised to this one.", {.max = longest_step}),
       optional<&Latency::max>("max", "Greater values are cut to this one.", {.max = longest_step}),
+      optional<&Latency::tail>("tail", "Rare values instead of those."),
   };
   static constexpr std::string_view kinds[] = {"fixed", "uniform", "normal", "exponential", "weibull", "log_normal", "table"};
   static constexpr json::Group groups[] = {json::exactly_one_of(kinds)};
@@ -236,6 +237,8 @@ const json::Object& describe(json::Type<HostNode>) {
       optional<&HostNode::traffic_classes>("traffic_classes", "Which priority is sent in which queue."),
       optional<&HostNode::queues>("queues", "The queues of the network interface."),
       optional<&HostNode::egress>("egress", "Gates and shapers of the network interfaces.", {.max_items = 16}),
+      optional<&HostNode::processing>("processing", "How long Programs work at process data before they reply."),
+      optional<&HostNode::offers>("offers", "Skills that the node announces to programs with roles that need one of them.", {.max_items = 8}),
   };
   static constexpr json::Object table = json::object<HostNode>("host", "An end station.", fields);
   return table;

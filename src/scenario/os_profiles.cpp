@@ -68,7 +68,9 @@ Distribution distribution_of(const BodyAndTail& d) {
 
 }  // namespace
 
-sim::Distribution distribution_of(const Latency& latency, json::Diagnostics& diagnostics) {
+namespace {
+
+Distribution body_of(const Latency& latency, json::Diagnostics& diagnostics) {
   const Duration greatest = latency.max.value_or(longest_latency);
   if (latency.min > greatest) {
     diagnostics.error(latency.where.at("min"), "min above max", {json::to_text(latency.min), "at most " + json::to_text(greatest)});
@@ -99,6 +101,22 @@ sim::Distribution distribution_of(const Latency& latency, json::Diagnostics& dia
     diagnostics.error(latency.where.at("table"), "a table without weight", {"weights that are all 0", "at least one positive weight"});
   }
   return Distribution::constant({});
+}
+
+}  // namespace
+
+sim::Distribution distribution_of(const Latency& latency, json::Diagnostics& diagnostics) {
+  Distribution body = body_of(latency, diagnostics);
+  if (!latency.tail) return body;
+  const LatencyTail& tail = *latency.tail;
+  if (tail.from > tail.to) {
+    diagnostics.error(tail.where.place(), "an empty interval", {json::to_text(tail.from) + " to " + json::to_text(tail.to), "from at most to"});
+    return body;
+  }
+  const auto parts_per_billion = static_cast<std::uint32_t>(tail.per_million * 1000 + 0.5);
+  const Duration least = std::min(body.least(), tail.from);
+  const Duration greatest = std::max(body.greatest(), tail.to);
+  return Distribution::mixture(std::move(body), Distribution::uniform(tail.from, tail.to), parts_per_billion).clamped(least, greatest);
 }
 
 models::OsLatency os_latency_of(const OperatingSystem& os, json::Diagnostics& diagnostics) {

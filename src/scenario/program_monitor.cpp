@@ -16,6 +16,7 @@ void ProgramMonitor::on_step(std::size_t participant, const handshake::Outputs& 
   // Most steps change nothing: a word that says the same as the one before.
   if (outputs.change_count == 0 && !outputs.publish && !outputs.raised) return;
   observer_.on_step(participant, outputs, after);
+  if (tree_ != nullptr) tree_->on_step(group_, participant, outputs, after);
   tracker_.on_step(participant, outputs, after, simulation_->now());
   for (const handshake::StateChange& change : outputs.changes()) {
     ++changes_;
@@ -34,6 +35,7 @@ void ProgramMonitor::on_call(std::size_t participant, program::Method method, pr
 
 void ProgramMonitor::on_crash(std::size_t participant, handshake::PublishedState before) {
   observer_.on_restart(participant);
+  if (tree_ != nullptr) tree_->on_crash(group_, participant);
   tracker_.on_restart(participant, simulation_->now());
   simulation_->digest().add(crashed, static_cast<std::uint64_t>(number_) << 32 | participant, simulation_->now(), static_cast<std::uint64_t>(before));
   if (before == handshake::PublishedState::Halted) return;

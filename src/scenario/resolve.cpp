@@ -14,6 +14,9 @@
 #include "scenario/resolve_egress.hpp"
 #include "scenario/resolve_ingress.hpp"
 #include "scenario/resolve_faults.hpp"
+#include "scenario/resolve_replies.hpp"
+#include "scenario/resolve_nesting.hpp"
+#include "scenario/resolve_plug.hpp"
 #include "scenario/stream_builder.hpp"
 #include "scenario/trace_file.hpp"
 #include "vocabulary/protocol.hpp"
@@ -38,7 +41,10 @@ class Resolver {
     builder_ = &builder;
     check_names();
     for (const Stream& stream : r_.scenario.streams) add_stream(stream);
+    check_processing(r_.topology, diagnostics_);
     for (const Program& program : r_.scenario.programs) add_program(program);
+    resolve_nesting(r_, diagnostics_);
+    check_candidates(r_, diagnostics_);
     resolve_demand(r_, diagnostics_);
     resolve_ingress(r_, diagnostics_);
     check_cut_through(r_, diagnostics_);
@@ -206,11 +212,20 @@ class Resolver {
         diagnostics_.error(place, "an offset beyond the cycle", {json::to_text(phase), "less than " + json::to_text(program.cycle)});
     };
     if (program.offset) check_phase(*program.offset, program.where.at("offset"));
+    if (!program.roles.empty()) {
+      if (!program.replies.empty())
+        diagnostics_.error(program.where.at("replies"), "replies in a program with roles", {"\"replies\" beside \"roles\"", "\"slaves\", whose replies are measured"});
+      resolved.phases.assign(program.roles.size() + 1, program.offset.value_or(Duration()));
+      resolve_roles(r_, *builder_, std::move(resolved), publishers_, diagnostics_);
+      return;
+    }
+    refuse_without_roles(program, diagnostics_);
     std::set<std::string_view> seen;
     const auto add_participant = [&](const std::string& name, const json::Place& place) {
       if (!seen.insert(name).second)
         diagnostics_.error(place, "a host twice in one program", {json::quote(name), "each participant on a host of its own"});
       if (const auto host = builder_->host(name, place)) resolved.participants.push_back(models::NodeIndex{*host});
+      resolved.participant_names.push_back(name);
     };
     add_participant(program.master, program.where.at("master"));
     for (std::size_t i = 0; i < program.slaves.size(); ++i) add_participant(program.slaves[i], program.where.at("slaves", i));
@@ -234,6 +249,7 @@ class Resolver {
       resolved.state_streams.push_back(*stream);
     }
     for (const ProcessData& data : program.process_data) add_process_data(program, data, resolved);
+    resolve_replies(r_.topology, resolved, diagnostics_);
     r_.programs.push_back(std::move(resolved));
   }
 
@@ -247,6 +263,7 @@ class Resolver {
     if (!participant) return;
     made.from = *participant;
     for (const auto& [name, field] : data.fields) made.field_octets += static_cast<std::uint32_t>(uadp::fixed_octets(built_in_type_of(field.type))) * field.count;
+    for (const auto& [name, field] : data.fields) made.values += field.count;
     const auto stream = add_program_stream(program, resolved, *participant, data.name,
                                            Octets{wire::process_data_octets(made.field_octets)}, data.where);
     if (!stream) return;
@@ -283,8 +300,11 @@ class Resolver {
     if (name == program.master) return std::uint8_t{0};
     const auto found = std::find(program.slaves.begin(), program.slaves.end(), name);
     if (found != program.slaves.end()) return static_cast<std::uint8_t>(found - program.slaves.begin() + 1);
+    for (std::size_t i = 0; i < program.roles.size(); ++i)
+      if (program.roles[i].name == name) return static_cast<std::uint8_t>(i + 1);
     std::vector<std::string_view> names{program.master};
     names.insert(names.end(), program.slaves.begin(), program.slaves.end());
+    for (const Role& role : program.roles) names.push_back(role.name);
     diagnostics_.error(place, "not a participant of the program", {json::quote(name), "the master or a slave of " + json::quote(program.name), json::suggest(name, names)});
     return std::nullopt;
   }
@@ -303,10 +323,11 @@ class Resolver {
     if (r_.scenario.duration > Duration() && entry.at > r_.scenario.duration)  // 0: refused by the table
       diagnostics_.warning(entry.where.at("at"), "after the end of the simulation", {json::to_text(entry.at), "at most " + json::to_text(r_.scenario.duration)});
     if (entry.call) add_call(entry);
-    if (!entry.set_gates) return;
+    if (entry.join || entry.leave) resolve_plug_action(r_, entry, diagnostics_);
+    if (entry.call || (!entry.set_gates && !entry.join && !entry.leave)) return;
     for (const auto& [present, name] : {std::pair(entry.program.has_value(), "program"), std::pair(entry.on.has_value(), "on")})
       if (present) diagnostics_.error(entry.where.at(name), "does not belong to this action", {json::quote(name), "\"call\" with it"});
-    add_gates(entry);
+    if (entry.set_gates) add_gates(entry);
   }
 
   void add_gates(const ScriptEntry& entry) {
@@ -355,6 +376,10 @@ class Resolver {
     // In the paper's handshake all participants may be started from outside; `robust` begins a run at the master.
     if (*entry.call == Method::start && *participant != 0 && program->variant == Variant::robust) {
       diagnostics_.error(entry.where.at("on"), "Start at a slave", {json::quote(*entry.on), "the master, " + json::quote(program->master)});
+      return;
+    }
+    if (*entry.call == Method::start && program->within) {
+      diagnostics_.error(entry.where.at("program"), "Start of a nested program", {json::quote(program->name), "the outermost program, which starts it"});
       return;
     }
     const auto found = std::find_if(r_.programs.begin(), r_.programs.end(), [&](const ResolvedProgram& p) { return p.description == program; });

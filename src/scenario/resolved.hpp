@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -33,24 +34,67 @@ struct ResolvedProcessData {
   std::string name;
   std::uint8_t from = 0;             ///< participant
   std::uint32_t field_octets = 0;
+  std::uint32_t values = 0;          ///< single ones, in all fields
   models::StreamIndex stream;
+};
+
+/// Data sets of one program: `with` is published when `to` has come and was worked at.
+struct ResolvedReply {
+  std::uint8_t to = 0;
+  std::uint8_t with = 0;
+};
+
+struct ResolvedProcessing {
+  sim::Distribution per_message = sim::Distribution::constant({});
+  sim::Distribution per_field = sim::Distribution::constant({});
+};
+
+/// A node that may have a role of a program.
+struct ResolvedCandidate {
+  models::NodeIndex node;
+  std::vector<std::string> skills;                      ///< that it offers
+  bool is_absent = false;                               ///< at the beginning
+  models::StreamIndex announcements;
+  models::StreamIndex state;
+  std::vector<std::optional<models::StreamIndex>> data; ///< by data set, of those that a role it may have sends
 };
 
 struct ResolvedProgram {
   std::string name;
   const Program* description = nullptr;
-  std::vector<models::NodeIndex> participants;          ///< 0 the master, then the slaves
+  std::vector<models::NodeIndex> participants;          ///< 0 the master, then the slaves; with roles the master only
+  std::vector<std::string> participant_names;           ///< nodes, or roles
   std::vector<models::StreamIndex> state_streams;       ///< of each participant
   std::vector<ResolvedProcessData> process_data;
+  std::vector<ResolvedReply> replies;                   ///< as in the description
+  std::vector<ResolvedProcessing> processing;           ///< by participant; empty without replies
   std::vector<Duration> phases;                         ///< of publishing, by participant
   Duration receive_timeout;
   std::uint16_t first_publisher_id = 1;                 ///< of the master
+  std::vector<ResolvedCandidate> candidates = {};       ///< of its roles
+  models::StreamIndex table_stream = {};                ///< with roles: the bindings
+  Duration announce_every = {};
+  bool has_roles() const { return !description->roles.empty(); }
+  /// Nested: its master is a slave of this program.
+  struct Outer {
+    std::uint32_t program = 0;                          ///< in Resolved::programs
+    std::uint8_t participant = 0;
+  };
+  std::optional<Outer> outer = {};
+  std::set<std::uint8_t> nested = {};                   ///< participants whose nodes are in an outer or inner program, too
 };
 
 struct ResolvedCall {
   std::uint32_t program = 0;
   std::uint8_t participant = 0;
   Method method = Method::start;
+};
+
+/// A candidate begins to announce itself, or leaves.
+struct ResolvedPlug {
+  std::uint32_t program = 0;
+  std::uint8_t candidate = 0;
+  bool joins = false;
 };
 
 /// Another gate list for a port.
@@ -100,7 +144,7 @@ struct ResolvedClockFault {
 
 struct ResolvedAction {
   sim::TrueTime at;
-  std::variant<ResolvedCall, ResolvedGates, ResolvedLink, ResolvedNode, ResolvedStuckGate, ResolvedRoutes, ResolvedClockFault> what;
+  std::variant<ResolvedCall, ResolvedPlug, ResolvedGates, ResolvedLink, ResolvedNode, ResolvedStuckGate, ResolvedRoutes, ResolvedClockFault> what;
 };
 
 /// The demand on one direction of a link.

@@ -1,8 +1,12 @@
 #include "scenario/run.hpp"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "scenario/program_shape.hpp"
+#include "scenario/resolve_nesting.hpp"
+#include "scenario/resolve_plug.hpp"
 #include "vocabulary/protocol.hpp"
 
 namespace takt::scenario {
@@ -22,9 +26,34 @@ class Run::Script final : public sim::Component {
 
  private:
   void act(const ResolvedCall& call) {
+    const LiveProgram& live = *run_->programs_[call.program];
+    if (live.roles) {
+      call_role(live, call);
+      return;
+    }
     models::Process& process = *run_->programs_[call.program]->processes[call.participant];
     process.call([&](models::Application& application, models::HostServices& host) {
       static_cast<ProgramApplication&>(application).call(host, method_of(call.method));
+    });
+  }
+  /// With roles: on whoever has the role; nobody has it: refused.
+  static void call_role(const LiveProgram& live, const ResolvedCall& call) {
+    const program::Method method = vocabulary::method_of(call.method);
+    std::size_t process = 0;
+    if (call.participant != 0) {
+      const handshake::Binding& binding = live.roles->binding(call.participant - std::size_t{1});
+      if (!binding.bound()) {
+        live.monitor->on_call(call.participant, method, program::StatusCode::BadInvalidState);
+        return;
+      }
+      process = binding.candidate + std::size_t{1};
+    }
+    live.processes[process]->call([&](models::Application& application, models::HostServices& host) { static_cast<PlugApplication&>(application).call(host, method); });
+  }
+  void act(const ResolvedPlug& change) {
+    run_->programs_[change.program]->processes[change.candidate + std::size_t{1}]->call([&](models::Application& application, models::HostServices& host) {
+      auto& candidate = static_cast<CandidateApplication&>(application);
+      change.joins ? candidate.join(host) : candidate.leave(host);
     });
   }
   void act(const ResolvedGates& change) { run_->network_.request_gates(change.node, change.port, change.gates); }
@@ -50,6 +79,7 @@ Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle)
     : resolved_(&resolved), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan) {
   simulation_.set_tie_shuffle(tie_shuffle);
   for (std::uint32_t i = 0; i < resolved.programs.size(); ++i) add_program(i, resolved.programs[i]);
+  nest_programs();
   script_ = std::make_unique<Script>(*this, simulation_);
   watch_clocks();
   network_.start();
@@ -71,40 +101,131 @@ void Run::watch_clocks() {
 
 Run::~Run() = default;
 
-void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
+/// What the participant answers at once, instead of publishing it every cycle.
+void Run::add_replies(const ResolvedProgram& program, std::size_t participant, ProgramApplication::Settings& settings) const {
+  const std::string path = resolved_->topology.nodes[program.participants[participant].value].name + "/" + program.name;
+  settings.replies.emplace(program, static_cast<std::uint8_t>(participant), resolved_->scenario.seed, path);
+  settings.endpoint.on_demand.assign(program.process_data.size(), false);
+  for (const ResolvedReply& reply : program.replies) settings.endpoint.on_demand[reply.with] = true;
+}
+
+wire::EndpointSettings Run::endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) const {
   const Program& description = *program.description;
+  wire::EndpointSettings endpoint;
+  endpoint.handshake.variant = format->shape().variant;
+  endpoint.handshake.role = participant == 0 ? handshake::Role::Master : handshake::Role::Slave;
+  endpoint.handshake.index = static_cast<std::uint8_t>(participant);
+  endpoint.handshake.slaves = static_cast<std::uint8_t>(program.participant_names.size() - 1);
+  endpoint.handshake.incarnation = 1;
+  endpoint.handshake.subscription = description.subscription == Subscription::star ? handshake::Subscription::Star : handshake::Subscription::AllToAll;
+  endpoint.handshake.nested = program.nested.contains(static_cast<std::uint8_t>(participant));
+  endpoint.format = std::move(format);
+  endpoint.cycle = description.cycle;
+  endpoint.offset = program.phases[participant];
+  endpoint.receive_timeout = program.receive_timeout;
+  endpoint.initialisation = description.initialisation;
+  endpoint.publish_on_change = description.publish == Publish::on_change;
+  endpoint.priority = description.pcp;
+  return endpoint;
+}
+
+void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
+  if (program.has_roles()) {
+    add_program_with_roles(number, program);
+    return;
+  }
   auto live = std::make_unique<LiveProgram>();
   const auto format = std::make_shared<const wire::ProgramFormat>(shape_of(program));
-  const handshake::Variant variant = format->shape().variant;
-  live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, variant, program.participants.size());
+  live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, format->shape().variant, program.participants.size());
   for (std::size_t p = 0; p < program.participants.size(); ++p) {
     ProgramApplication::Settings settings;
-    wire::EndpointSettings& endpoint = settings.endpoint;
-    endpoint.handshake.variant = variant;
-    endpoint.handshake.role = p == 0 ? handshake::Role::Master : handshake::Role::Slave;
-    endpoint.handshake.index = static_cast<std::uint8_t>(p);
-    endpoint.handshake.slaves = static_cast<std::uint8_t>(program.participants.size() - 1);
-    endpoint.handshake.incarnation = 1;
-    endpoint.handshake.subscription = subscription_of(description.subscription);
-    endpoint.format = format;
-    endpoint.cycle = description.cycle;
-    endpoint.offset = program.phases[p];
-    endpoint.receive_timeout = program.receive_timeout;
-    endpoint.initialisation = description.initialisation;
-    endpoint.publish_on_change = description.publish == Publish::on_change;
-    endpoint.priority = description.pcp;
+    settings.endpoint = endpoint_settings(program, p, format);
     settings.state_stream = program.state_streams[p];
     for (const ResolvedProcessData& data : program.process_data) settings.data_streams.push_back(data.stream);
+    if (!program.replies.empty()) add_replies(program, p, settings);
     auto application = std::make_unique<ProgramApplication>(std::move(settings), *live->monitor);
     live->applications.push_back(application.get());
     live->processes.push_back(&network_.add_process(program.participants[p], program.name, std::move(application)));
   }
+  if (!program.replies.empty()) live->monitor->set_round_trips(program);
   connect_streams(program, *live);
   programs_.push_back(std::move(live));
 }
 
+void Run::add_program_with_roles(std::uint32_t number, const ResolvedProgram& program) {
+  auto live = std::make_unique<LiveProgram>();
+  wire::PlugShape shape;
+  shape.program = shape_of(program);
+  for (const Role& role : program.description->roles) shape.skills.push_back(handshake::skill_id(role.skill));
+  for (const ResolvedCandidate& each : program.candidates) shape.candidates.push_back(resolved_->topology.nodes[each.node.value].name);
+  const auto format = std::make_shared<const wire::ProgramFormat>(shape.program);
+  live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, handshake::Variant::Robust, program.participant_names.size());
+  live->roles = std::make_unique<PlugMonitor>(simulation_, number, *live->monitor, shape.skills.size());
+
+  wire::PlugSettings settings;
+  settings.format = std::make_shared<const wire::PlugFormat>(std::move(shape));
+  settings.announce_cycle = program.announce_every;
+  settings.announce_timeout = program.announce_every * announcements_missed + program.announce_every / 2;
+  settings.endpoint = endpoint_settings(program, 0, format);
+  PlugApplication::Streams streams{program.state_streams[0], program.table_stream, {}};
+  for (const ResolvedProcessData& data : program.process_data) streams.data.push_back(data.from == 0 ? std::optional(data.stream) : std::nullopt);
+  LiveProgram* const raw = live.get();
+  auto master = std::make_unique<PlugMasterApplication>(
+      settings, program.description->on_replacement == OnReplacement::restart, std::move(streams), *live->monitor, *live->roles,
+      [raw](const handshake::Binding& binding) { return binding.bound() ? raw->candidates[binding.candidate]->state_of(binding.life) : std::nullopt; });
+  live->plug_master = master.get();
+  models::Process& master_process = network_.add_process(program.participants[0], program.name, std::move(master));
+  live->processes.push_back(&master_process);
+
+  for (std::uint8_t c = 0; c < program.candidates.size(); ++c) {
+    const ResolvedCandidate& each = program.candidates[c];
+    settings.endpoint = endpoint_settings(program, 1, format);  // the index follows with the role
+    std::vector<handshake::SkillId> skills;
+    for (const std::string& skill : each.skills) skills.push_back(handshake::skill_id(skill));
+    auto application = std::make_unique<CandidateApplication>(settings, c, std::move(skills), !each.is_absent,
+                                                              PlugApplication::Streams{each.state, each.announcements, each.data}, *live->monitor, *live->roles);
+    live->candidates.push_back(application.get());
+    models::Process& process = network_.add_process(each.node, program.name, std::move(application));
+    live->processes.push_back(&process);
+    network_.listen(each.node, program.state_streams[0], &process);
+    network_.listen(each.node, program.table_stream, &process);
+    for (const ResolvedProcessData& data : program.process_data)
+      if (data.from == 0) network_.listen(each.node, data.stream, &process);
+    for (const models::StreamIndex stream : {each.state, each.announcements}) network_.listen(program.participants[0], stream, &master_process);
+    for (const auto& stream : each.data)
+      if (stream) network_.listen(program.participants[0], *stream, &master_process);
+  }
+  programs_.push_back(std::move(live));
+}
+
+void Run::nest_programs() {
+  for (std::size_t i = 0; i < programs_.size(); ++i)
+    if (const auto& outer = resolved_->programs[i].outer)
+      nestings_.push_back(ProgramApplication::nest(*programs_[outer->program]->applications[outer->participant], *programs_[i]->applications[0]));
+  for (const std::vector<std::uint32_t>& tree : trees_of(*resolved_)) {
+    std::vector<handshake::TreeGroup> groups;
+    for (const std::uint32_t number : tree) {
+      handshake::TreeGroup group{resolved_->programs[number].participants.size(), 0, 0};
+      if (const auto& outer = resolved_->programs[number].outer) {
+        group.outer = static_cast<std::size_t>(std::find(tree.begin(), tree.end(), outer->program) - tree.begin());
+        group.outer_index = outer->participant;
+      }
+      groups.push_back(group);
+    }
+    trees_.push_back(std::make_unique<TreeMonitor>(simulation_, tree, std::move(groups)));
+    for (std::size_t g = 0; g < tree.size(); ++g) programs_[tree[g]]->monitor->set_tree(*trees_.back(), g);
+  }
+}
+
 void Run::crash_programs(models::NodeIndex node) {
   for (std::size_t i = 0; i < programs_.size(); ++i) {
+    if (programs_[i]->roles) {
+      const ResolvedProgram& program = resolved_->programs[i];
+      if (program.participants[0] == node) programs_[i]->plug_master->crash();
+      for (std::size_t c = 0; c < program.candidates.size(); ++c)
+        if (program.candidates[c].node == node) programs_[i]->candidates[c]->crash();
+      continue;
+    }
     const std::vector<models::NodeIndex>& participants = resolved_->programs[i].participants;
     for (std::size_t p = 0; p < participants.size(); ++p)
       if (participants[p] == node) programs_[i]->applications[p]->crash();

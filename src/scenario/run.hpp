@@ -6,6 +6,7 @@
 
 #include "models/network.hpp"
 #include "scenario/clock_monitor.hpp"
+#include "scenario/plug_application.hpp"
 #include "scenario/program_application.hpp"
 #include "scenario/program_monitor.hpp"
 #include "scenario/resolved.hpp"
@@ -25,14 +26,20 @@ class Run {
   sim::Simulation& simulation() { return simulation_; }
   const sim::Simulation& simulation() const { return simulation_; }
   const models::Network& network() const { return network_; }
+  /// Of trees of nested programs.
+  const std::vector<std::unique_ptr<TreeMonitor>>& trees() const { return trees_; }
   const ProgramMonitor& monitor(std::size_t program) const { return *programs_[program]->monitor; }
   /// Null without gPTP.
   const ClockMonitor* clocks() const { return clock_monitor_.get(); }
   /// Takes the series of clock offsets from now on. Precondition: there is gPTP.
   void set_clock_sink(ClockSampleSink* sink) { clock_monitor_->set_sink(sink); }
   handshake::PublishedState state(std::size_t program, std::size_t participant) const {
-    return programs_[program]->applications[participant]->state();
+    const LiveProgram& live = *programs_[program];
+    if (!live.roles) return live.applications[participant]->state();
+    return participant == 0 ? live.plug_master->state() : live.roles->state(participant - 1);
   }
+  /// Null for a program without roles.
+  const PlugMonitor* roles(std::size_t program) const { return programs_[program]->roles.get(); }
 
   sim::TrueTime end() const { return sim::TrueTime() + resolved_->scenario.duration; }
   /// Goes on for at most about `max_events` events. True when the scenario's duration is over.
@@ -41,13 +48,20 @@ class Run {
  private:
   struct LiveProgram {
     std::unique_ptr<ProgramMonitor> monitor;
-    std::vector<models::Process*> processes;              // by participant
-    std::vector<ProgramApplication*> applications;
+    std::vector<models::Process*> processes;              // by participant; with roles the master and the candidates
+    std::vector<ProgramApplication*> applications;        // none with roles
+    std::unique_ptr<PlugMonitor> roles;                   // only with roles
+    PlugMasterApplication* plug_master = nullptr;
+    std::vector<CandidateApplication*> candidates;
   };
   class Script;
 
   void watch_clocks();
   void add_program(std::uint32_t number, const ResolvedProgram& program);
+  void add_replies(const ResolvedProgram& program, std::size_t participant, ProgramApplication::Settings& settings) const;
+  wire::EndpointSettings endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) const;
+  void add_program_with_roles(std::uint32_t number, const ResolvedProgram& program);
+  void nest_programs();
   void crash_programs(models::NodeIndex node);
   void connect_streams(const ResolvedProgram& program, const LiveProgram& live);
 
@@ -55,6 +69,8 @@ class Run {
   sim::Simulation simulation_;
   models::Network network_;
   std::vector<std::unique_ptr<LiveProgram>> programs_;
+  std::vector<std::unique_ptr<wire::Nesting>> nestings_;
+  std::vector<std::unique_ptr<TreeMonitor>> trees_;
   std::unique_ptr<Script> script_;
   std::unique_ptr<ClockMonitor> clock_monitor_;
 };

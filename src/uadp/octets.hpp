@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <type_traits>
 
@@ -24,6 +25,11 @@ template <class T>
   requires std::is_arithmetic_v<T> && (!std::same_as<T, bool>)
 inline T load_little_endian(const std::byte* at) {
   using Unsigned = detail::UnsignedOfSize<sizeof(T)>;
+  if constexpr (std::endian::native == std::endian::little) {
+    T copy;  // one load: the compiler does not always see it in the loop below
+    std::memcpy(&copy, at, sizeof copy);
+    return copy;
+  }
   Unsigned value = 0;
   for (std::size_t i = 0; i < sizeof(T); ++i)
     value = static_cast<Unsigned>(value | static_cast<Unsigned>(static_cast<Unsigned>(at[i]) << (8 * i)));
@@ -35,6 +41,10 @@ template <class T>
   requires std::is_arithmetic_v<T> && (!std::same_as<T, bool>)
 inline void store_little_endian(std::byte* at, T number) {
   using Unsigned = detail::UnsignedOfSize<sizeof(T)>;
+  if constexpr (std::endian::native == std::endian::little) {
+    std::memcpy(at, &number, sizeof number);
+    return;
+  }
   const auto value = std::bit_cast<Unsigned>(number);
   for (std::size_t i = 0; i < sizeof(T); ++i) at[i] = static_cast<std::byte>(value >> (8 * i));
 }

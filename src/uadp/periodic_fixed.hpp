@@ -7,6 +7,7 @@
 #include <cstring>
 #include <vector>
 
+#include "sim/check.hpp"
 #include "uadp/publisher_id.hpp"
 #include "uadp/raw_layout.hpp"
 
@@ -31,9 +32,9 @@ class PeriodicFixedLayout {
   /// DataSetOffset: octets from the begin of the NetworkMessage to a DataSetMessage.
   std::size_t data_set_offset(std::size_t data_set) const { return data_sets_[data_set].begin; }
   /// Octets from the begin of the NetworkMessage to a field.
-  std::size_t field_offset(std::size_t data_set, std::size_t field) const {
-    return data_sets_[data_set].begin + header_octets + data_sets_[data_set].layout.offset(field);
-  }
+  std::size_t field_offset(std::size_t data_set, std::size_t field) const { return data_sets_[data_set].field_offsets[field]; }
+  /// Of all fields of a DataSetMessage: what a loop over them should ask once.
+  std::span<const std::size_t> field_offsets(std::size_t data_set) const { return data_sets_[data_set].field_offsets; }
 
   /// Puts the constant octets and the sequence number of the group; the fields are zeros. `target` must have size() octets.
   void start(std::span<std::byte> target, std::uint16_t sequence_number) const;
@@ -60,11 +61,37 @@ class PeriodicFixedLayout {
  private:
   struct DataSet {
     std::size_t begin = 0;
-    RawLayout layout;
+    std::vector<std::size_t> field_offsets;
   };
   std::vector<std::byte> prototype_;
   std::size_t sequence_at_ = 0;  ///< the last two octets of the header
   std::vector<DataSet> data_sets_;
 };
+
+// Inline, for they are a few instructions each.
+
+inline void PeriodicFixedLayout::start(std::span<std::byte> target, std::uint16_t sequence_number) const {
+  TAKT_CHECK(target.size() >= prototype_.size(), "the target has room for the layout");
+  std::memcpy(target.data(), prototype_.data(), prototype_.size());
+  store_little_endian(target.data() + sequence_at_, sequence_number);
+}
+
+inline void PeriodicFixedLayout::set_header(std::span<std::byte> target, std::size_t data_set, std::uint16_t sequence_number, std::uint16_t status) const {
+  std::byte* const begin = target.data() + data_sets_[data_set].begin;
+  store_little_endian(begin + 1, sequence_number);
+  store_little_endian(begin + 3, status);
+}
+
+inline bool PeriodicFixedLayout::matches(Octets octets) const {
+  if (octets.size() < prototype_.size()) return false;
+  // Constant are the octets before the sequence number, 12 at least: in words that may overlap.
+  const std::size_t last = sequence_at_ - 8;
+  for (std::size_t at = 0; at < last; at += 8)
+    if (load_little_endian<std::uint64_t>(octets.data() + at) != load_little_endian<std::uint64_t>(prototype_.data() + at)) return false;
+  if (load_little_endian<std::uint64_t>(octets.data() + last) != load_little_endian<std::uint64_t>(prototype_.data() + last)) return false;
+  for (const DataSet& each : data_sets_)
+    if (octets[each.begin] != prototype_[each.begin]) return false;
+  return true;
+}
 
 }  // namespace takt::uadp

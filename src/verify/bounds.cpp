@@ -64,6 +64,8 @@ class Prover {
     const auto program = std::find_if(resolved_.programs.begin(), resolved_.programs.end(), [&](const scenario::ResolvedProgram& p) { return p.name == requirement.subject; });
     if (program == resolved_.programs.end()) return {{}, false, "no such Program", {}};
     if (program->description->violations == scenario::Violations::reported) return {{}, true, {}, {}};
+    if (program->has_roles()) return {{}, false, "who has a role is settled while the Program runs", {}};
+    if (!program->nested.empty()) return {{}, false, "takt explore looks at single groups, not at nodes that join two", {}};
     const std::size_t slaves = program->participants.size() - 1;
     if (slaves > explore::most_slaves) return {{}, false, "at most " + std::to_string(explore::most_slaves) + " slaves can be explored", {}};
     if (program->description->subscription != scenario::Subscription::star) return {{}, false, "takt explore --subscription all-to-all looks at it", {}};

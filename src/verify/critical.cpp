@@ -44,6 +44,7 @@ CriticalInstants::CriticalInstants(const Resolved& resolved, std::span<const Fre
     timing.period = stream.every ? *stream.every : stream.burst ? stream.burst->every : Duration();
   }
   for (const scenario::ResolvedProgram& program : resolved.programs) {
+    if (program.has_roles()) continue;   // its members have no phases of their own
     for (std::size_t p = 0; p < program.state_streams.size(); ++p)
       timings_[program.state_streams[p].value] = {program.phases[p], program.description->cycle, {}};
     for (const scenario::ResolvedProcessData& data : program.process_data)

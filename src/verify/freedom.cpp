@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scenario/promises.hpp"
 #include "sim/check.hpp"
 
 namespace takt::verify {
@@ -15,24 +16,21 @@ const std::string& participant_name(const Program& program, std::size_t particip
   return participant == 0 ? program.master : program.slaves[participant - 1];
 }
 
-bool has_phase(const Program& program, const std::string& participant) {
-  return program.offset || std::any_of(program.phases.begin(), program.phases.end(), [&](const auto& phase) { return phase.first == participant; });
-}
-
 void add_talkers(const Scenario& scenario, std::vector<Freedom>& found) {
   for (std::size_t s = 0; s < scenario.streams.size(); ++s) {
     const scenario::Stream& stream = scenario.streams[s];
     const Duration period = stream.every ? *stream.every : stream.burst ? stream.burst->every : Duration();
-    if (!stream.offset && period > Duration()) found.push_back({Freedom::Kind::talker, s, 0, period, "phase of " + stream.name});
+    if (!scenario::promises_phase(stream) && period > Duration()) found.push_back({Freedom::Kind::talker, s, 0, period, "phase of " + stream.name});
   }
 }
 
 void add_publishers(const Scenario& scenario, std::vector<Freedom>& found) {
   for (std::size_t p = 0; p < scenario.programs.size(); ++p) {
     const Program& program = scenario.programs[p];
+    if (!program.roles.empty()) continue;   // who takes part, and since when, is settled in the run
     for (std::size_t participant = 0; participant <= program.slaves.size(); ++participant) {
       const std::string& name = participant_name(program, participant);
-      if (!has_phase(program, name)) found.push_back({Freedom::Kind::publisher, p, participant, program.cycle, "phase of " + program.name + " on " + name});
+      if (!scenario::promises_phase(program, name)) found.push_back({Freedom::Kind::publisher, p, participant, program.cycle, "phase of " + program.name + " on " + name});
     }
   }
 }

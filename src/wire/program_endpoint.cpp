@@ -4,6 +4,8 @@
 #include <bit>
 #include <utility>
 
+#include "wire/nesting.hpp"
+
 namespace takt::wire {
 namespace {
 
@@ -34,6 +36,7 @@ void ProgramEndpoint::forget(std::uint32_t incarnation) {
   data_sequence_.assign(data_.size(), 0);
   state_sequence_ = 0;
   initialisation_run_ = 0;
+  if (nesting_ != nullptr) nesting_->forget();
 }
 
 void ProgramEndpoint::start(EndpointHost& host) {
@@ -48,7 +51,7 @@ void ProgramEndpoint::wake(EndpointHost& host, std::size_t alarm) {
   if (alarm == cycle_alarm)
     cycle(host);
   else if (alarm == initialised_alarm)
-    step(host, Input::initialised(initialisation_run_));
+    nesting_ == nullptr ? static_cast<void>(step(host, Input::initialised(initialisation_run_))) : nesting_->initialised(*this, initialisation_run_);
   else
     step(host, Input::peer_silent(alarm - first_peer_alarm));
 }
@@ -84,9 +87,21 @@ void ProgramEndpoint::receive(EndpointHost& host, uadp::Octets network_message) 
     receive_data(host, peer, std::get<ProcessDataMessage>(*message));
 }
 
+void ProgramEndpoint::expect(std::size_t peer, std::optional<std::uint32_t> incarnation) {
+  expected_[peer] = incarnation;
+  states_[peer] = {};
+}
+
+void ProgramEndpoint::expect_nobody() { expected_.assign(participant_.peer_count(), std::nullopt); }
+
 void ProgramEndpoint::receive_state(EndpointHost& host, std::size_t peer, const StateMessage& message) {
+  if (!expected_.empty() && expected_[peer] != message.word.incarnation) {
+    ++counts_.unsubscribed;
+    return;
+  }
   if (!is_new(states_[peer], message.sequence, message.word.incarnation, host.now())) return;
   ++counts_.taken;
+  host.heard(peer, message.word);
   step(host, Input::received(peer, message.word, message.sequence));
 }
 
@@ -102,15 +117,17 @@ void ProgramEndpoint::receive_data(EndpointHost& host, std::size_t peer, const P
   host.process_data(message);
 }
 
-/// After a silence of the time-out, and with another life of the sender, any number is the first.
 bool ProgramEndpoint::is_new(Arrivals& arrivals, std::uint16_t sequence, std::uint32_t life, sim::LocalTime now) {
-  if (arrivals.life != life || now - arrivals.last >= settings_.receive_timeout) arrivals.window.forget();
-  if (arrivals.window.take(sequence) != uadp::Sequence::newer) {
-    ++counts_.stale;
-    return false;
-  }
-  arrivals.life = life;
-  arrivals.last = now;
+  const bool is_new = arrivals.take(sequence, life, now, settings_.receive_timeout);
+  if (!is_new) ++counts_.stale;
+  return is_new;
+}
+
+bool Arrivals::take(std::uint16_t sequence, std::uint32_t of_life, sim::LocalTime now, sim::Duration timeout) {
+  if (life != of_life || now - last >= timeout) window.forget();
+  if (window.take(sequence) != uadp::Sequence::newer) return false;
+  life = of_life;
+  last = now;
   return true;
 }
 
@@ -125,6 +142,7 @@ Outputs ProgramEndpoint::step(EndpointHost& host, const Input& input) {
   for (handshake::PeerSet peers = outputs.arm_timeout; peers != 0; peers &= peers - 1)
     host.set_alarm(first_peer_alarm + static_cast<std::size_t>(std::countr_zero(peers)), host.now() + settings_.receive_timeout);
   if (outputs.publish && settings_.publish_on_change) publish_state(host);
+  if (nesting_ != nullptr) nesting_->settle();
   return outputs;
 }
 
@@ -133,15 +151,21 @@ void ProgramEndpoint::publish_state(EndpointHost& host) {
   host.publish(settings_.format->encode(message, buffer_), {state_writer_group, settings_.priority});
 }
 
-void ProgramEndpoint::publish_process_data(EndpointHost& host) {
+bool ProgramEndpoint::publish_data(EndpointHost& host, std::uint8_t data_set) {
+  if (participant_.state() != handshake::PublishedState::Running) return false;
   const bool has_runs = settings_.handshake.variant == handshake::Variant::Robust;
   const std::uint32_t run = has_runs ? participant_.run() : host.run_of_paper();
+  const uadp::Octets octets =
+      settings_.format->encode(ProcessDataMessage{settings_.handshake.index, data_set, data_sequence_[data_set]++, run, {}}, buffer_);
+  host.fill(data_set, std::span(buffer_).subspan(process_data_octets(0), octets.size() - process_data_octets(0)));
+  host.publish(octets, {static_cast<std::uint16_t>(first_data_writer_group + data_set), settings_.priority});
+  return true;
+}
+
+void ProgramEndpoint::publish_process_data(EndpointHost& host) {
   for (std::size_t d = 0; d < data_sequence_.size(); ++d) {
-    const auto number = static_cast<std::uint8_t>(d);
     if (settings_.format->shape().data_sets[d].from != settings_.handshake.index) continue;
-    const uadp::Octets octets = settings_.format->encode(ProcessDataMessage{settings_.handshake.index, number, data_sequence_[d]++, run, {}}, buffer_);
-    host.fill(number, std::span(buffer_).subspan(process_data_octets(0), octets.size() - process_data_octets(0)));
-    host.publish(octets, {static_cast<std::uint16_t>(first_data_writer_group + d), settings_.priority});
+    if (settings_.on_demand.empty() || !settings_.on_demand[d]) publish_data(host, static_cast<std::uint8_t>(d));
   }
 }
 

@@ -1,6 +1,7 @@
 // Runs a scenario and holds what happened against what analysis says can happen.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,31 +16,62 @@ struct Verdict {
   std::vector<std::string> violations;   ///< empty if every bound held
   std::size_t compared = 0;              ///< streams with a bound that were delivered
   std::size_t unbounded = 0;             ///< streams without one that were delivered
+  std::size_t queues = 0;                ///< ports with bounds of all their queues that were used
+  std::size_t full_queues = 0;           ///< of those, with as many frames in a queue as there may be, but for the one on the wire
+  std::size_t second_opinions = 0;       ///< streams with a bound by separated-flow analysis
+  std::size_t wrong_second_opinions = 0;
+  std::size_t better_second_opinions = 0;   ///< that is less than that by total-flow analysis
   double tightest = 0;                   ///< the greatest simulated latency as a share of its bound
   std::vector<double> shares;            ///< of all streams with a bound
 };
 
 inline std::string microseconds(sim::Duration value) { return std::to_string(static_cast<double>(value.ps()) / 1e6) + " us"; }
 
-/// Streams only: reactions are compared where Programs are.
+/// The most frames that waited in one queue of each port, against what may be in the port's queues.
+inline void judge_queues(const scenario::Run& run, const Bounds& bounds, Verdict& verdict) {
+  std::map<std::pair<std::uint32_t, std::uint16_t>, std::optional<std::uint64_t>> most;
+  for (const QueueBound& queue : bounds.queues) {
+    const auto [port, is_new] = most.try_emplace({queue.node.value, queue.port}, queue.frames);
+    if (!is_new) port->second = port->second && queue.frames ? std::optional(std::max(*port->second, *queue.frames)) : std::nullopt;
+  }
+  for (const auto& [where, frames] : most) {
+    const models::EgressPort& port = run.network().ports(models::NodeIndex{where.first})[where.second];
+    if (port.frames_sent() == 0 || !frames) continue;
+    const std::uint64_t peak = port.queues().peak_frames();
+    ++verdict.queues;
+    if (peak + 1 >= *frames) ++verdict.full_queues;   // one of them is on the wire
+    if (peak > *frames)
+      verdict.violations.push_back(run.resolved().plan.nodes[where.first].name + ":" + std::to_string(where.second) + ": " + std::to_string(peak) + " frames in a queue, at most " +
+                                   std::to_string(*frames));
+  }
+}
+
+/// Streams and queues: reactions are compared where Programs are.
 inline Verdict judge(const scenario::Run& run, const Bounds& bounds) {
   Verdict verdict;
   for (std::size_t s = 0; s < bounds.streams.size(); ++s) {
     const models::Stream& stream = run.network().traffic().streams()[s];
     const StreamBound& bound = bounds.streams[s];
-    if (bound.loses_nothing && bound.latency && stream.dropped_in_all() > 0)
+    if (bound.loses_nothing && bound.latency && !bound.assumptions.contains(Assumption::no_fault) && stream.dropped_in_all() > 0)
       verdict.violations.push_back(bound.name + ": " + std::to_string(stream.dropped_in_all()) + " frames dropped of a stream that loses none");
     if (stream.latency.empty()) continue;
     ++(bound.latency ? verdict.compared : verdict.unbounded);
     if (stream.latency.minimum() < bound.least)
       verdict.violations.push_back(bound.name + ": " + microseconds(stream.latency.minimum()) + " is less than the least, " + microseconds(bound.least));
+    if (bound.separated_flow && stream.latency.maximum() > *bound.separated_flow) ++verdict.wrong_second_opinions;
+    for (const auto& [which, latency] : {std::pair("total-flow", bound.total_flow), std::pair("separated-flow", bound.separated_flow)})
+      if (latency && stream.latency.maximum() > *latency)
+        verdict.violations.push_back(bound.name + ": simulated " + microseconds(stream.latency.maximum()) + " of at most " + microseconds(*latency) + " by " + which + " analysis");
+    if (bound.separated_flow) {
+      ++verdict.second_opinions;
+      if (!bound.total_flow || *bound.separated_flow < *bound.total_flow) ++verdict.better_second_opinions;
+    }
     if (!bound.latency) continue;
     const double share = static_cast<double>(stream.latency.maximum().ps()) / static_cast<double>(bound.latency->ps());
     verdict.shares.push_back(share);
     verdict.tightest = std::max(verdict.tightest, share);
-    if (stream.latency.maximum() > *bound.latency)
-      verdict.violations.push_back(bound.name + ": simulated " + microseconds(stream.latency.maximum()) + " of at most " + microseconds(*bound.latency));
   }
+  judge_queues(run, bounds, verdict);
   return verdict;
 }
 

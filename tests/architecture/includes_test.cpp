@@ -26,7 +26,9 @@ const Prefixes chart = {"chart/"};
 const Prefixes study = {"study/"};
 const Prefixes cli = {"cli/"};
 const Prefixes node = {"node/"};
+const Prefixes emulate = {"emulate/"};
 const Prefixes vocabulary = {"vocabulary/"};
+const Prefixes papers = {"papers/"};
 
 Prefixes all_of(std::initializer_list<Prefixes> parts) {
   Prefixes sum;
@@ -49,15 +51,17 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/scenario/json/", all_of({base, json})});
     const Prefixes below = all_of({kernel, models, protocol, vocabulary, scenario});
     list.push_back({"src/scenario/", below});
-    list.push_back({"src/chart/", chart});
     // Beside the questions, but its points are results as result.json has them, and its report is drawn.
-    list.push_back({"src/study/", all_of({below, questions, results, output, chart, study})});
+    list.push_back({"src/study/", all_of({below, questions, results, output, study})});
     for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, results})});
     list.push_back({"src/results/", all_of({below, results})});
     list.push_back({"src/output/", all_of({below, questions, results, output})});
+    list.push_back({"src/chart/", chart});
+    list.push_back({"src/papers/", all_of({below, questions, results, chart, papers})});
     list.push_back({"src/property/", all_of({below, questions, results, output, {"property/"}})});
-    list.push_back({"src/cli/", all_of({below, questions, study, results, output, node, cli})});
-    list.push_back({"src/main.cpp", all_of({below, questions, study, results, output, node, cli})});
+    list.push_back({"src/emulate/", all_of({below, node, emulate})});
+    list.push_back({"src/cli/", all_of({below, questions, study, results, output, node, emulate, papers, cli})});
+    list.push_back({"src/main.cpp", all_of({below, questions, study, results, output, node, emulate, papers, cli})});
     return list;
   }();
   return all;
@@ -82,7 +86,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, vocabulary, chart, study, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, emulate, vocabulary, chart, papers, study, {"property/"}});
   return roots;
 }
 

@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "explore/search.hpp"
 #include "scenario/resolve.hpp"
 #include "scenario/run.hpp"
 
@@ -62,6 +65,55 @@ TEST(Findings, AreSeenByARun) {
     EXPECT_TRUE(found) << name;
   }
   EXPECT_GE(seen, 9U);
+}
+
+/// One line of the table in scenarios/findings/README.md.
+struct Row {
+  std::string scenario;
+  std::string property;
+  Question question;
+};
+
+std::vector<Row> table() {
+  std::vector<Row> rows;
+  std::ifstream file(std::string(TAKT_SOURCE_DIR) + "/scenarios/findings/README.md");
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with("| `")) continue;
+    Row row;
+    row.scenario = line.substr(3, line.find('`', 3) - 3);
+    std::istringstream rest(line.substr(line.find('|', 3) + 1));
+    std::string bar;
+    rest >> row.property >> bar;
+    row.question.variant = handshake::Variant::Paper;
+    row.question.finishes = false;
+    for (std::string word; rest >> word && word != "|";) {
+      std::string value;
+      rest >> value;
+      if (word.ends_with("--slaves")) row.question.slaves = static_cast<std::uint8_t>(std::stoi(value));
+      if (word.ends_with("--calls")) row.question.commands = static_cast<std::uint32_t>(std::stoi(value));
+      if (word.ends_with("--faults") && value.starts_with("crash")) row.question.faults.insert(Fault::crash);
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// Each row has its scenario and each scenario its row, and the explorer still finds it with the options that stand there.
+TEST(Findings, StandInTheTable) {
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(TAKT_SOURCE_DIR) + "/scenarios/findings")) files += entry.path().extension() == ".json" ? 1U : 0U;
+  const std::vector<Row> rows = table();
+  EXPECT_EQ(rows.size(), files);
+  for (const Row& row : rows) {
+    SCOPED_TRACE(row.scenario);
+    EXPECT_TRUE(std::filesystem::exists(std::string(TAKT_SOURCE_DIR) + "/scenarios/findings/" + row.scenario + ".json"));
+    EXPECT_TRUE(row.scenario.ends_with(row.property));
+    const Answer answer = explore(row.question, [](const Progress&) { return true; });
+    for (std::size_t p = 0; p < property_count; ++p)
+      if (property_names[p] == row.property) {
+        EXPECT_EQ(answer.verdicts[p], Verdict::violated);
+      }
+  }
 }
 
 }  // namespace

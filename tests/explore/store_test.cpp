@@ -6,8 +6,14 @@
 namespace takt::explore {
 namespace {
 
-State state_number(std::size_t slaves, std::uint32_t number) {
-  State state(slaves);
+Shape star(std::uint8_t slaves) {
+  Question question;
+  question.slaves = slaves;
+  return Shape(question, Wiring(question).size());
+}
+
+State state_number(std::uint8_t slaves, std::uint32_t number) {
+  State state(star(slaves));
   state.set_member(0, number);
   state.set_ghost(number * 7);
   state.set_reg(1, static_cast<WordId>(number));
@@ -15,7 +21,7 @@ State state_number(std::size_t slaves, std::uint32_t number) {
 }
 
 TEST(StateStore, FindsEveryStateAgain) {
-  StateStore store(3, 1'000'000);
+  StateStore store(star(3), 1'000'000);
   constexpr std::uint32_t count = 200'000;
   for (std::uint32_t i = 0; i < count; ++i) {
     const State state = state_number(3, i);
@@ -36,7 +42,7 @@ TEST(StateStore, FindsEveryStateAgain) {
 }
 
 TEST(StateStore, HasALimit) {
-  StateStore store(1, 2);
+  StateStore store(star(1), 2);
   for (std::uint32_t i = 0; i < 2; ++i) store.insert(state_number(1, i), state_number(1, i).hash(), StateStore::nowhere);
   EXPECT_TRUE(store.is_full());
   const State third = state_number(1, 2);
@@ -46,18 +52,18 @@ TEST(StateStore, HasALimit) {
 
 // 64 octets a stored state for three slaves: 40 for the state, 4 for the way to it, and its share of the table.
 TEST(StateStore, IsSmall) {
-  StateStore store(3, 10'000'000);
+  StateStore store(star(3), 10'000'000);
   for (std::uint32_t i = 0; i < 3'000'000; ++i) store.insert(state_number(3, i), state_number(3, i).hash(), 0);
   EXPECT_LE(store.memory(), 64U * store.size());
 }
 
 TEST(State, FieldsDoNotTouchEachOther) {
-  State state(2);
+  State state(star(2));
   for (std::size_t c = 0; c < 4; ++c) state.set_reg(c, static_cast<WordId>(0xFF00U + c));
   state.set_late(Late::overtaken, 3, 0xABCD);
   state.set_commands_left(12);
   state.set_faults_left(7);
-  state.set_outdated(4, true);
+  state.set_outdated(State::late_data, true);
   state.set_reg(2, 5);
   EXPECT_EQ(state.reg(1), 0xFF01);
   EXPECT_EQ(state.reg(2), 5);
@@ -67,7 +73,7 @@ TEST(State, FieldsDoNotTouchEachOther) {
   EXPECT_EQ(state.late_word(), 0xABCD);
   EXPECT_EQ(state.commands_left(), 12U);
   EXPECT_EQ(state.faults_left(), 7U);
-  EXPECT_TRUE(state.outdated(4));
+  EXPECT_TRUE(state.outdated(State::late_data));
   EXPECT_FALSE(state.outdated(3));
 }
 

@@ -1,6 +1,7 @@
 // The rules of `robust` one by one.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <initializer_list>
 #include <limits>
 
@@ -333,6 +334,42 @@ TEST(Participant, EqualValuesHaveEqualHashes) {
   EXPECT_NE(one[1].hash(), other[1].hash());
   other.tell(1, 0);
   EXPECT_NE(one[0].hash(), other[0].hash());
+}
+
+// A group whose slaves have swapped their names does the same under the other names.
+TEST(Participant, RenamedDoesTheSameUnderOtherNames) {
+  const std::array<std::uint8_t, 4> to{0, 3, 1, 2};
+  const std::array<std::uint8_t, 4> back{0, 2, 3, 1};
+  for (const Variant variant : {Variant::Robust, Variant::Paper}) {
+    Group one = started(variant, 3);
+    Group other = started(variant, 3);
+    one.call(1, Method::Suspend);
+    other.call(to[1], Method::Suspend);
+    for (std::uint8_t i = 1; i <= 3; ++i) {
+      one.tell(i, 0);
+      other.tell(to[i], 0);
+    }
+    EXPECT_TRUE(one[0].renamed(to) == other[0]);
+    EXPECT_EQ(one[0].renamed(to).hash(), other[0].hash());
+    for (std::uint8_t i = 0; i <= 3; ++i) {
+      EXPECT_EQ(one[i].renamed(to).config().index, to[i]);
+      EXPECT_EQ(one[i].renamed(to).word(), other[to[i]].word()) << int{i};
+      EXPECT_TRUE(one[i].renamed(to).renamed(back) == one[i]);
+    }
+    EXPECT_FALSE(one[0].renamed(to) == one[0]);
+  }
+}
+
+TEST(Participant, NoStepDependsOnTheLastTransition) {
+  Group group = started(Variant::Robust, 1);
+  auto forgetful = group[0];
+  forgetful.forget_last_transition();
+  EXPECT_EQ(forgetful.machine().last_transition(), 0);
+  EXPECT_FALSE(forgetful == group[0]);
+  EXPECT_EQ(forgetful.word(), group[0].word());
+  auto mindful = group[0];
+  EXPECT_EQ(forgetful.step(Input::command(Method::Suspend)).change[0], mindful.step(Input::command(Method::Suspend)).change[0]);
+  EXPECT_TRUE(forgetful == mindful);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -27,8 +28,8 @@ def script_of(node):
     return [{"at": f"{at}ms", "call": call} for who, at, call in CALLS if who == node]
 
 
-def simulated(program, calls, duration="2s"):
-    """Transitions of each participant in a simulation of the same set-up."""
+def simulated(program, calls, duration="2s", see=lambda out: states_of_timeline(out / "timeline.json")):
+    """Transitions of each participant in a simulation of the same set-up, or what else `see` makes of its results."""
     nodes = {name: {"kind": "host"} for name in NODES} | {"sw": {"kind": "switch"}}
     program_there = {key: value for key, value in program.items() if key != "publisher_id"}
     scenario = {
@@ -40,9 +41,35 @@ def simulated(program, calls, duration="2s"):
         path = pathlib.Path(folder) / "s.json"
         path.write_text(json.dumps(scenario), encoding="utf-8")
         out = pathlib.Path(folder) / "out"
-        done = subprocess.run([TAKT, "run", str(path), "--out", str(out), "--timeline", "--quiet"], capture_output=True, text=True, check=False)
+        done = subprocess.run([TAKT, "run", str(path), "--out", str(out), "--timeline", "--pcap", "all", "--quiet"], capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr
-        return states_of_timeline(out / "timeline.json")
+        return see(out)
+
+
+def frames_of_pcap(path):
+    octets = path.read_bytes()
+    order = "<" if octets[:4] in (b"\x4d\x3c\xb2\xa1", b"\xd4\xc3\xb2\xa1") else ">"
+    at = 24
+    while at < len(octets):
+        size = struct.unpack_from(order + "I", octets, at + 8)[0]
+        yield octets[at + 16:at + 16 + size]
+        at += 16 + size
+
+
+def kinds_of_frames(path):
+    """Tagged UADP frames from the tag on, without padding; 0 for what each message or start of a node has anew: sequence numbers, runs, incarnations."""
+    lengths = {1: 42, 2: 24 + 16, 3: 24 + 8}  # by WriterGroupId: state, "targets", "actual"
+    kinds = set()
+    for frame in frames_of_pcap(path):
+        if frame[12:14] != b"\x81\x00" or frame[16:18] != b"\xb6\x2c":
+            continue
+        message = bytearray(frame[18:])
+        group = int.from_bytes(message[5:7], "little")
+        del message[lengths[group]:]
+        for begin, end in [(13, 15), (16, 18)] + ([(24, 32), (36, 40)] if group == 1 else [(20, 24)]):
+            message[begin:end] = bytes(end - begin)
+        kinds.add((frame[12:18] + message).hex())
+    return kinds
 
 
 def states_of_timeline(path):
@@ -62,10 +89,11 @@ def states_of_timeline(path):
 class Group:
     """The nodes of one test, started as processes."""
 
-    def __init__(self, test, folder, transport_of, prefix_of=lambda node: [], duration="2s", program=None, calls=True):
+    def __init__(self, test, folder, transport_of, prefix_of=lambda node: [], duration="2s", program=None, calls=True, more=None):
         self.processes = {}
         for node in NODES:
-            config = {"node": node, "program": program or PROGRAM, "transport": transport_of(node), "script": script_of(node) if calls else []}
+            config = {"node": node, "program": program or PROGRAM, "transport": transport_of(node), "script": script_of(node) if calls else [],
+                      "control": str(folder / f"{node}.sock")} | (more or {}).get(node, {})
             if duration:
                 config["duration"] = duration
             path = folder / f"{node}.json"
@@ -82,8 +110,10 @@ class Group:
     def events(self):
         """Waits for the ends; the events of each node."""
         events = {}
+        self.said = {}
         for node, process in self.processes.items():
             out, err = process.communicate(timeout=30)
+            self.said[node] = err
             assert process.returncode == 0, (node, process.returncode, out, err)
             events[node] = [json.loads(line) for line in out.splitlines()]
         return events
@@ -104,15 +134,15 @@ class NodeTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def expect_as_simulated(self, events):
-        self.assertEqual(states(events), simulated(PROGRAM, CALLS))
+    def expect_as_simulated(self, events, program=None):
+        self.assertEqual(states(events), simulated(program or PROGRAM, CALLS))
         for node, log in events.items():
             self.assertEqual(log[-1]["event"], "end", node)
-            self.assertEqual(log[-1]["foreign"], 0, node)
+            self.assertEqual(log[-1]["statistics"]["foreign"], 0, node)
             causes = [e["cause"] for e in log if e["event"] == "intent"]
             self.assertTrue(all(cause == "command" for cause in causes), (node, causes))
         # Process data arrives while Running: about 400 and 300 ms of 5 ms cycles, besides the states.
-        self.assertGreater(events["left"][-1]["taken"], 50)
+        self.assertGreater(events["left"][-1]["statistics"]["taken"], 50)
 
 
 class Loopback(NodeTest):
@@ -123,6 +153,35 @@ class Loopback(NodeTest):
         program = PROGRAM | {"subscription": "all-to-all", "publish": "on-change"}
         events = Group(self, self.folder, loopback, program=program).events()
         self.assertEqual(states(events), simulated(program, CALLS))
+
+    def test_paper(self):
+        program = PROGRAM | {"variant": "paper"}
+        self.expect_as_simulated(Group(self, self.folder, loopback, program=program).events(), program)
+
+    def test_values_travel(self):
+        more = {"plc": {"sources": [{"data_set": "targets", "kind": "counter", "value": 100, "step": 2}]}, "left": {"log_values_every": "0ns"},
+                "right": {"log_values_every": "200ms"}}
+        events = Group(self, self.folder, loopback, more=more).events()
+        values = [e["fields"]["x"] for e in events["left"] if e["event"] == "data" and e["data_set"] == "targets"]
+        self.assertGreater(len(values), 50)
+        self.assertTrue(all(x[0] == x[1] and x[0] >= 100 and x[0] % 2 == 0 for x in values), values)
+        self.assertEqual(values, sorted(values))
+        often = len([e for e in events["right"] if e["event"] == "data"])
+        self.assertTrue(1 <= often <= 12, often)  # of two data sets, in 700 ms
+
+    def test_statistics(self):
+        for log in Group(self, self.folder, loopback).events().values():
+            end = log[-1]
+            statistics = end["statistics"]
+            self.assertGreater(statistics["late"]["count"], 100)
+            self.assertLessEqual(statistics["late"]["min_ns"], statistics["late"]["mean_ns"])
+            self.assertEqual(statistics["jitter_ns"], statistics["late"]["max_ns"] - statistics["late"]["min_ns"])
+            self.assertEqual(statistics["missed_cycles"], statistics["missed_by_code"] + statistics["missed_by_system"])
+            for peer in end["peers"]:
+                self.assertGreater(peer["answer"]["count"], 100)
+                self.assertEqual(peer["state"], "Halted")
+        # Whoever raised an intent has seen the master's agreement come back.
+        self.assertGreater(log[-1]["peers"][0]["round_trip"]["count"], 0)
 
     def test_a_killed_node_halts_the_others(self):
         group = Group(self, self.folder, loopback, duration="1500ms")
@@ -145,6 +204,78 @@ class Loopback(NodeTest):
             self.assertEqual(log[-1]["event"], "end")
 
 
+class Control(NodeTest):
+    def ctl(self, node, request, *more):
+        done = subprocess.run([TAKT, "ctl", node if "/" in node else str(self.folder / f"{node}.sock"), request, *more], capture_output=True, text=True, timeout=30, check=False)
+        return done.returncode, done.stdout, done.stderr
+
+    def wait_for(self, node, state):
+        for _ in range(400):
+            code, out, _ = self.ctl(node, "status", "--format", "json")
+            if code == 0 and json.loads(out)["state"] == state and all(peer["state"] for peer in json.loads(out)["peers"]):
+                return
+            time.sleep(0.02)
+        self.fail(f"{node} is not {state}: {out}")
+
+    def test_methods_and_status(self):
+        group = Group(self, self.folder, loopback, duration=None, calls=False)
+        for node in NODES:
+            self.wait_for(node, "Halted")
+        self.assertEqual(self.ctl("plc", "suspend")[:2], (1, f"Suspend: Bad_InvalidState; {self.folder / 'plc.sock'} is Halted\n"))
+        self.assertEqual(self.ctl("left", "start")[0], 1)  # a slave does not start a robust group
+        for caller, request, state in (("plc", "start", "Running"), ("left", "suspend", "Suspended"), ("plc", "resume", "Running"),
+                                       ("right", "suspend", "Suspended"), ("right", "reset", "Ready"), ("plc", "start", "Running"), ("right", "halt", "Halted")):
+            code, out, err = self.ctl(caller, request)
+            self.assertEqual(code, 0, out + err)
+            self.assertIn("Good", out)
+            for node in NODES:
+                self.wait_for(node, state)
+        code, out, _ = self.ctl("plc", "status")
+        self.assertEqual(code, 0)
+        for text in ("plc: Halted, master of cell (robust)", "last intent: halt by right", "peer left: Halted", "late for the cycle", "round trip to right", "by the operating system"):
+            self.assertIn(text, out)
+        for process in group.processes.values():
+            process.send_signal(signal.SIGTERM)
+        for log in group.events().values():
+            self.assertEqual([e["status"] for e in log if e["event"] == "call"].count("Bad_InvalidState"), 1 if log[0]["node"] in ("plc", "left") else 0)
+        self.assertEqual(list(self.folder.glob("*.sock")), [])
+
+    def test_nobody_there(self):
+        code, out, err = self.ctl("plc", "status")
+        self.assertEqual((code, out), (3, ""))
+        self.assertIn("plc.sock", err)
+        self.assertEqual(self.ctl("plc", "stop")[0], 2)
+
+    def test_one_node_a_socket(self):
+        group = Group(self, self.folder, loopback, duration=None, calls=False)
+        self.wait_for("plc", "Halted")
+        self.assertEqual(oct((self.folder / "plc.sock").stat().st_mode)[-3:], "600")
+        again = subprocess.run([TAKT, "node", str(self.folder / "plc.json")], capture_output=True, text=True, timeout=30, check=False)
+        self.assertEqual((again.returncode, again.stdout), (3, ""))
+        self.assertIn("already", again.stderr)
+        # A killed node leaves its socket; the next one takes its place.
+        group.processes["plc"].kill()
+        group.processes.pop("plc").communicate()
+        self.assertTrue((self.folder / "plc.sock").exists())
+        process = subprocess.Popen([TAKT, "node", str(self.folder / "plc.json")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        group.processes["plc"] = process
+        self.wait_for("plc", "Halted")
+
+    def test_by_name(self):
+        environment = os.environ | {"XDG_RUNTIME_DIR": str(self.folder)}
+        config = {"node": "plc", "program": PROGRAM, "transport": loopback("plc"), "duration": "20s"}
+        (self.folder / "n.json").write_text(json.dumps(config), encoding="utf-8")
+        process = subprocess.Popen([TAKT, "node", str(self.folder / "n.json")], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        for _ in range(200):
+            done = subprocess.run([TAKT, "ctl", "plc", "start"], env=environment, capture_output=True, text=True, check=False)
+            if done.returncode == 0:
+                break
+            time.sleep(0.02)
+        self.assertEqual(done.stdout, "Start: Good; plc is Halted.INIT\n")
+
+
 class Mistakes(NodeTest):
     def run_node(self, text):
         path = self.folder / "n.json"
@@ -156,6 +287,14 @@ class Mistakes(NodeTest):
         status, out, err = self.run_node('{"node": "x"}')
         self.assertEqual((status, out), (2, ""))
         self.assertIn("n.json:1", err)
+
+    def test_sources(self):
+        config = {"node": "plc", "program": PROGRAM, "transport": loopback("plc"), "launch_lead": "5ms",
+                  "sources": [{"data_set": "actual", "kind": "counter"}, {"data_set": "targets", "field": "y", "kind": "sine"}]}
+        status, out, err = self.run_node(json.dumps(config))
+        self.assertEqual((status, out), (2, ""))
+        for text in ("not published here", "no such field", "a lead of more than the cycle"):
+            self.assertIn(text, err)
 
     def test_no_such_interface(self):
         config = {"node": "plc", "program": PROGRAM, "transport": {"kind": "udp", "interface": "nope0", "destinations": ["224.0.2.14"]}}
@@ -199,17 +338,65 @@ class Namespaces(NodeTest):
     def prefix(self, node):
         return ["ip", "netns", "exec", f"{self.tag}{node}"]
 
+    def captured(self, transport, fields):
+        """Runs the group; what tshark dissects of the frames of its bridge, one line a frame, and complains of."""
+        pcap = self.folder / "frames.pcap"
+        capture = subprocess.Popen(["tshark", "-q", "-i", f"{self.tag}v0", "-F", "pcap", "-w", str(pcap), "-a", "duration:8"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(capture.kill)
+        for line in capture.stderr:
+            if "Capturing" in line:
+                break
+        time.sleep(0.5)
+        events = Group(self, self.folder, lambda node: transport, self.prefix).events()
+        capture.send_signal(signal.SIGINT)
+        capture.communicate(timeout=30)
+        self.expect_as_simulated(events)
+        checks = ["-o", "ip.check_checksum:TRUE", "-o", "udp.check_checksum:TRUE"]
+        shown = subprocess.run(["tshark", "-r", str(pcap), *checks, "-Y", "udp.port == 4840 || eth.type == 0xb62c || vlan.etype == 0xb62c", "-T", "fields",
+                                *[part for field in fields for part in ("-e", field)]], capture_output=True, text=True, check=True)
+        bad = subprocess.run(["tshark", "-r", str(pcap), *checks, "-Y", "_ws.malformed || ip.checksum.status == 0 || udp.length.bad"], capture_output=True, text=True, check=False)
+        self.assertEqual(bad.stdout, "")
+        frames = [line.split("\t") for line in shown.stdout.splitlines()]
+        self.assertGreater(len(frames), 300)
+        return frames
+
+    # The state of a robust participant has 42 octets; UDP and IP say so.
     def test_udp_multicast(self):
-        transport = {"kind": "udp", "interface": "eth0", "destinations": ["239.0.2.14"]}
-        self.expect_as_simulated(Group(self, self.folder, lambda node: transport, self.prefix).events())
+        transport = {"kind": "udp", "interface": "eth0", "destinations": ["239.0.2.14"], "pcp": 5}
+        frames = self.captured(transport, ["ip.src", "ip.dst", "udp.dstport", "udp.length", "ip.len", "eth.dst", "ip.dsfield.dscp"])
+        self.assertEqual({frame[0] for frame in frames}, {"10.77.0.1", "10.77.0.2", "10.77.0.3"})
+        self.assertEqual({tuple(frame[1:3]) + tuple(frame[5:]) for frame in frames}, {("239.0.2.14", "4840", "01:00:5e:00:02:0e", "40")})
+        self.assertEqual({(int(frame[3]), int(frame[4])) for frame in frames}, {(8 + size, 28 + size) for size in (42, 24 + 16, 24 + 8)})
 
     def test_ethernet(self):
         transport = {"kind": "ethernet", "interface": "eth0"}
-        self.expect_as_simulated(Group(self, self.folder, lambda node: transport, self.prefix).events())
+        frames = self.captured(transport, ["eth.dst", "eth.type", "vlan.id", "frame.len"])
+        self.assertEqual({tuple(frame[:3]) for frame in frames}, {("01:00:5e:7f:00:01", "0xb62c", "")})
+        self.assertLessEqual({int(frame[3]) for frame in frames}, {14 + size for size in (42, 40, 32)})
 
     def test_ethernet_with_a_tag(self):
         transport = {"kind": "ethernet", "interface": "eth0", "vlan": 5, "pcp": 6}
-        self.expect_as_simulated(Group(self, self.folder, lambda node: transport, self.prefix).events())
+        frames = self.captured(transport, ["eth.dst", "vlan.etype", "vlan.id", "vlan.priority"])
+        self.assertEqual({tuple(frame) for frame in frames}, {("01:00:5e:7f:00:01", "0xb62c", "5", "6")})
+        # Octet for octet what the simulator sends: the same set of messages.
+        there = simulated(PROGRAM | {"vlan": 5, "pcp": 6}, CALLS, see=lambda out: kinds_of_frames(out / "all.pcap"))
+        self.assertEqual(kinds_of_frames(self.folder / "frames.pcap"), there)
+        self.assertGreater(len(there), 20)
+
+    def test_launch_times(self):
+        transport = {"kind": "ethernet", "interface": "eth0"}
+        more = {node: {"launch_lead": "1ms"} for node in NODES}
+        group = Group(self, self.folder, lambda node: transport, self.prefix, more=more)
+        self.expect_as_simulated(group.events())
+        self.assertIn("without launch times", group.said["plc"])
+        for node in NODES:
+            done = subprocess.run(["tc", "-n", f"{self.tag}{node}", "qdisc", "replace", "dev", "eth0", "root", "fq"], capture_output=True, text=True, check=False)
+            if done.returncode != 0:
+                print(f"\nskipped: no qdisc fq here: {done.stderr.strip()}", file=sys.stderr)
+                self.skipTest(done.stderr)
+        group = Group(self, self.folder, lambda node: transport, self.prefix, more=more)
+        self.expect_as_simulated(group.events())
+        self.assertNotIn("without launch times", group.said["plc"])
 
 
 if __name__ == "__main__":

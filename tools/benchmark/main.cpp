@@ -2,6 +2,7 @@
 //
 //   takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION
 //            | tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS | point-setup POINTS
+//            | bound SWITCHES STREAMS
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -15,7 +16,7 @@ using namespace takt::benchmark;  // NOLINT
 
 int usage() {
   std::fputs("usage: takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION |\n"
-             "       tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS | point-setup POINTS\n", stderr);
+             "       tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS | point-setup POINTS | bound SWITCHES STREAMS\n", stderr);
   return 2;
 }
 
@@ -52,6 +53,9 @@ int main(int argc, char** argv) {
     std::printf(R"({"cpu_s": %.9f, "simulated_s": %.9f})" "\n", f.cpu_seconds, f.simulated_seconds);
   } else if (workload == "point-setup" && argc == 3) {
     std::printf(R"({"cpu_s": %.9f})" "\n", point_setup(number(argv[2])));
+  } else if (workload == "bound" && argc == 4) {
+    const BoundFigures f = run_bound(number(argv[2]), number(argv[3]));
+    std::printf(R"({"cpu_s": %.9f, "load_cpu_s": %.9f, "streams": %zu, "bounded": %zu, "rounds": %d})" "\n", f.cpu_seconds, f.load_cpu_seconds, f.streams, f.bounded, f.rounds);
   } else {
     return usage();
   }

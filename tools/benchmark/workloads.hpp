@@ -51,4 +51,14 @@ PairFigures run_gptp_line(double simulated_seconds);
 /// CPU seconds to parse, resolve and build a point of scenarios/robot-arm.json, as a study does; the mean of so many.
 double point_setup(unsigned points);
 
+struct BoundFigures {
+  double cpu_seconds = 0;          ///< from the text of the scenario to all bounds
+  double load_cpu_seconds = 0;     ///< the part before the analysis
+  std::size_t streams = 0;
+  std::size_t bounded = 0;         ///< those with a finite bound
+  int rounds = 0;
+};
+/// A mesh of that many switches (a multiple of 10) with that many streams across it, bounded.
+BoundFigures run_bound(unsigned switches, unsigned streams);
+
 }  // namespace takt::benchmark

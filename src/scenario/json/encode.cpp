@@ -15,7 +15,10 @@ void encode_members(const Object& table, const void* value, Node& json) {
   for (const Field& field : table.fields) {
     const void* member = field.member(object);
     if (field.codec->is_absent != nullptr && field.codec->is_absent(member)) continue;
-    json.add(field.name, field.codec->encode(member));
+    Node encoded = field.codec->encode(member);
+    // An empty array where some items are asked for stands for "absent"; written, it would be refused.
+    if (!field.is_required && field.bounds.min_items > 0 && encoded.kind == Kind::array && encoded.items.empty()) continue;
+    json.add(field.name, std::move(encoded));
   }
 }
 

@@ -1,0 +1,199 @@
+#include "analysis/program_reactions.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "analysis/flow_graph.hpp"
+#include "analysis/reaction_bound.hpp"
+
+namespace takt::analysis {
+namespace {
+
+using scenario::Reaction;
+using sim::Duration;
+
+constexpr std::array<Reaction, 5> all_reactions = {Reaction::start, Reaction::halt, Reaction::suspend, Reaction::resume, Reaction::reset};
+constexpr const char* no_bound_with_roles = "who has a role is settled while the Program runs";
+
+Spread spread_of(Reaction kind) { return kind == Reaction::suspend ? Spread::after_barriers : Spread::at_once; }
+
+/// One Program, and what its notifications rest on.
+struct ProgramGroup {
+  ReactionGroup group;          // without those within
+  Assumptions assumptions;
+  std::string reason;           // why a notification is unbounded
+};
+
+class GroupMaker {
+ public:
+  GroupMaker(const scenario::Resolved& r, const scenario::ResolvedProgram& program, const BoundOptions& options, const Bounds& bounds)
+      : r_(r), program_(program), options_(options), bounds_(bounds) {}
+
+  ProgramGroup make() {
+    const std::size_t n = program_.participants.size();
+    made_.group.notify = MaxPlusMatrix(n, n);
+    for (std::size_t p = 0; p < n; ++p) {
+      made_.group.names.push_back(r_.topology.nodes[program_.participants[p].value].name);
+      made_.group.initialise.push_back(MaxPlus(sum(stretched(p, program_.description->initialisation.ps()), wake_up(p))));
+      add_notifications(p);
+    }
+    made_.assumptions.add(Assumption::no_loss);
+    made_.assumptions.add(Assumption::one_command);
+    if (program_.description->variant == scenario::Variant::paper) made_.assumptions.add(Assumption::sampled_states);
+    return std::move(made_);
+  }
+
+  /// From the last word of a peer that falls silent to the time-out of whoever notices it last.
+  Ps silence() const {
+    Ps time_out = 0;
+    for (std::size_t p = 0; p < program_.participants.size(); ++p) time_out = std::max(time_out, sum(stretched(p, program_.receive_timeout.ps()), wake_up(p)));
+    Ps last_word = 0;   // that is still under way when the peer falls silent
+    for (const models::StreamIndex stream : program_.state_streams)
+      for (const auto& latency : bounds_.streams[stream.value].by_listener) last_word = latency ? std::max(last_word, latency->ps()) : unbounded_ps;
+    return sum(last_word, time_out);
+  }
+
+ private:
+  Ps wake_up(std::size_t p) const { return r_.plan.os_latencies[r_.plan.nodes[program_.participants[p].value].os_latency].wake_up.greatest().ps(); }
+  Ps stretched(std::size_t p, Ps local) const {
+    const ClockQuality clock = clock_quality(r_, program_.participants[p], options_);
+    return sum(scaled_up(local, 1'000'000'000'000 + clock.rate_ppt, 1'000'000'000'000), 2 * clock.error);
+  }
+  Ps publish_wait(std::size_t p) const {
+    if (program_.description->publish == scenario::Publish::on_change) return 0;
+    return sum(stretched(p, program_.description->cycle.ps()), wake_up(p));
+  }
+
+  void add_notifications(std::size_t from) {
+    const StreamBound& stream = bounds_.streams[program_.state_streams[from].value];
+    const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
+    for (std::size_t l = 0; l < plan.listeners.size(); ++l) {
+      const auto to = static_cast<std::size_t>(std::find(program_.participants.begin(), program_.participants.end(), plan.listeners[l]) - program_.participants.begin());
+      if (to == program_.participants.size()) continue;
+      const Ps latency = stream.by_listener[l] ? stream.by_listener[l]->ps() : unbounded_ps;
+      made_.group.notify(to, from) = MaxPlus(sum(publish_wait(from), latency));
+      if (!stream.latency && made_.reason.empty()) made_.reason = "stream " + stream.name + " is unbounded: " + stream.reason;
+      made_.assumptions.add(stream.assumptions);
+    }
+  }
+
+  const scenario::Resolved& r_;
+  const scenario::ResolvedProgram& program_;
+  const BoundOptions& options_;
+  const Bounds& bounds_;
+  ProgramGroup made_;
+};
+
+class ScenarioReactions {
+ public:
+  ScenarioReactions(const scenario::Resolved& r, const BoundOptions& options, Bounds& bounds) : r_(r), options_(options), bounds_(bounds) {
+    for (const scenario::ResolvedProgram& program : r.programs) groups_.push_back(program.has_roles() ? ProgramGroup{} : GroupMaker(r, program, options, bounds).make());
+  }
+
+  void make() {
+    for (std::size_t p = 0; p < groups_.size(); ++p) {
+      if (r_.programs[p].has_roles()) {
+        for (const Reaction kind : all_reactions) bounds_.reactions.push_back({p, kind, false, {}, {}, no_bound_with_roles, {}});
+        bounds_.silences.push_back({p, {}});
+        continue;
+      }
+      for (const Reaction kind : all_reactions) add(p, kind);
+      SilenceBound silence{p, {}};
+      if (const Ps all = sum(GroupMaker(r_, r_.programs[p], options_, bounds_).silence(), spread_bound(groups_[p].group).ps()); is_bounded(all)) silence.bound = Duration::from_ps(all);
+      bounds_.silences.push_back(silence);
+      if (!r_.programs[p].outer && is_tree(p)) add_tree(p);
+    }
+  }
+
+ private:
+  bool is_tree(std::size_t root) const {
+    return std::any_of(r_.programs.begin(), r_.programs.end(), [&](const scenario::ResolvedProgram& program) { return program.outer && program.outer->program == root; });
+  }
+
+  /// The group with all that is nested in it.
+  ReactionGroup tree_of(std::size_t p) const {
+    ReactionGroup tree = groups_[p].group;
+    for (std::size_t inner = 0; inner < groups_.size(); ++inner)
+      if (const auto& outer = r_.programs[inner].outer; outer && outer->program == p) tree.inner.push_back({outer->participant, tree_of(inner)});
+    return tree;
+  }
+  void rest_on_tree(std::size_t p, ReactionBound& made) const {
+    made.assumptions.add(groups_[p].assumptions);
+    if (made.reason.empty()) made.reason = groups_[p].reason;
+    for (std::size_t inner = 0; inner < groups_.size(); ++inner)
+      if (const auto& outer = r_.programs[inner].outer; outer && outer->program == p) rest_on_tree(inner, made);
+  }
+
+  /// What the group itself takes. A halt and the like that comes from another group is one of its own from then on.
+  void add(std::size_t p, Reaction kind) {
+    ReactionBound made;
+    made.program = p;
+    made.kind = kind;
+    if (kind == Reaction::start)
+      return add_start(std::move(made));
+    made.assumptions = groups_[p].assumptions;
+    made.reason = groups_[p].reason;
+    take(made, spread_bound(groups_[p].group), [&] { return spread_parts(groups_[p].group); });
+  }
+
+  /// A nested group starts after the outermost one, and runs when that has let it: the bound counts from the outer start.
+  void add_start(ReactionBound made) {
+    std::size_t root = made.program;
+    MaxPlus heard = MaxPlus::one();
+    std::vector<ReactionPart> down;
+    while (const auto& outer = r_.programs[root].outer) {
+      const ReactionGroup& group = groups_[outer->program].group;
+      const MaxPlus step = group.notify(outer->participant, 0);
+      heard *= step;
+      if (is_bounded(step.ps())) down.insert(down.begin(), {group.names[outer->participant] + " hears of Ready", Duration::from_ps(step.ps())});
+      root = outer->program;
+    }
+    rest_on_tree(root, made);
+    made.assumptions.add(Assumption::initialisation);
+    const ReactionGroup whole = tree_of(root);
+    const ReactionGroup own = tree_of(made.program);
+    take(made, ready_bound(whole) * heard * run_bound(own), [&] {
+      std::vector<ReactionPart> parts = ready_parts(whole);
+      for (const std::vector<ReactionPart>& more : {down, run_parts(own)}) parts.insert(parts.end(), more.begin(), more.end());
+      return parts;
+    });
+  }
+
+  void add_tree(std::size_t root) {
+    const ReactionGroup whole = tree_of(root);
+    for (const Reaction kind : all_reactions) {
+      ReactionBound made;
+      made.program = root;
+      made.kind = kind;
+      made.of_tree = true;
+      if (kind == Reaction::start) {
+        add_start(std::move(made));   // the outermost master runs last of all
+        continue;
+      }
+      rest_on_tree(root, made);
+      take(made, spread_bound(whole, spread_of(kind)), [&] { return spread_parts(whole, spread_of(kind)); });
+    }
+  }
+
+  void take(ReactionBound& made, MaxPlus whole, const auto& parts) {
+    if (is_bounded(whole.ps())) {
+      made.bound = Duration::from_ps(whole.ps());
+      made.reason.clear();
+      made.parts = parts();
+    } else if (made.reason.empty()) {
+      made.reason = "a notification is unbounded";
+    }
+    bounds_.reactions.push_back(std::move(made));
+  }
+
+  const scenario::Resolved& r_;
+  const BoundOptions& options_;
+  Bounds& bounds_;
+  std::vector<ProgramGroup> groups_;   // by program
+};
+
+}  // namespace
+
+void add_reactions(const scenario::Resolved& resolved, const BoundOptions& options, Bounds& bounds) { ScenarioReactions(resolved, options, bounds).make(); }
+
+}  // namespace takt::analysis

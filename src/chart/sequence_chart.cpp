@@ -1,0 +1,54 @@
+#include "chart/sequence_chart.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "chart/svg.hpp"
+
+namespace takt::chart {
+
+std::string sequence_chart(const SequenceChart& chart) {
+  constexpr double margin = 210;
+  constexpr double gap = 320;
+  constexpr double first_row = 130;
+  constexpr double row_height = 34;
+  std::vector<std::int64_t> rows;
+  for (const SequenceStep& step : chart.steps) rows.push_back(step.time);
+  for (const SequenceMessage& message : chart.messages) {
+    rows.push_back(message.sent);
+    rows.push_back(message.received);
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  const auto y_of = [&](std::int64_t time) {
+    return first_row + row_height * static_cast<double>(std::lower_bound(rows.begin(), rows.end(), time) - rows.begin());
+  };
+  const auto x_of = [&](std::size_t participant) { return margin + 110 + gap * static_cast<double>(participant); };
+  const double end = first_row + row_height * static_cast<double>(rows.size());
+  const double width = x_of(chart.participants.size() - 1) + 190;
+  Svg svg(width, end + 20);
+  svg.text({20, 26}, chart.title, {.size = 15, .bold = true});
+  for (std::size_t p = 0; p < chart.participants.size(); ++p) {
+    svg.line({x_of(p), 80}, {x_of(p), end}, {.colour = "#999"});
+    svg.rectangle({x_of(p) - 65, 45}, 130, 36, "#eef3f8", "#1b6ca8", 4);
+    svg.text({x_of(p), 60}, chart.participants[p], {.size = 12, .anchor = Anchor::middle, .bold = true});
+    svg.text({x_of(p), 75}, chart.states[p], {.size = 11, .anchor = Anchor::middle});
+  }
+  for (const std::int64_t row : rows)
+    if (chart.label) svg.text({20, y_of(row) + 4}, chart.label(row), {.size = 11, .anchor = Anchor::start, .colour = "#777"});
+  for (const SequenceMessage& message : chart.messages) {
+    const Point from{x_of(message.from), y_of(message.sent)};
+    const Point to{x_of(message.to), y_of(message.received)};
+    svg.line(from, to, {.colour = "#333", .width = 1.2, .dashed = true, .arrow = true});
+    svg.text({(from.x + to.x) / 2, (from.y + to.y) / 2 - 9}, message.text, {.size = 11, .anchor = Anchor::middle});
+  }
+  for (const SequenceStep& step : chart.steps) {
+    const bool leftmost = step.participant == 0;
+    svg.rectangle({x_of(step.participant) - 5, y_of(step.time) - 9}, 10, 18, "#1b6ca8");
+    svg.text({x_of(step.participant) + (leftmost ? -12 : 12), y_of(step.time) + 4}, step.text,
+             {.size = 12, .anchor = leftmost ? Anchor::end : Anchor::start, .bold = true});
+  }
+  return svg.document();
+}
+
+}  // namespace takt::chart

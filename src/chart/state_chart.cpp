@@ -1,0 +1,45 @@
+#include "chart/state_chart.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "chart/svg.hpp"
+
+namespace takt::chart {
+namespace {
+
+constexpr double half_width = 62;
+constexpr double half_height = 24;
+
+/// Where the line from the centre of a box towards `target` leaves it.
+Point edge_of(const StateBox& box, Point target) {
+  const double dx = target.x - box.x;
+  const double dy = target.y - box.y;
+  const double scale = std::min(dx == 0 ? HUGE_VAL : half_width / std::abs(dx), dy == 0 ? HUGE_VAL : half_height / std::abs(dy));
+  return {box.x + dx * scale, box.y + dy * scale};
+}
+
+}  // namespace
+
+std::string state_chart(const std::string& title, const std::vector<StateBox>& states, const std::vector<TransitionArc>& arcs, double width, double height) {
+  Svg svg(width, height);
+  svg.text({20, 26}, title, {.size = 15, .bold = true});
+  for (const TransitionArc& arc : arcs) {
+    const StateBox& a = states[arc.from];
+    const StateBox& b = states[arc.to];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const double bow = 46;   // to the right of the way, so that there and back lie apart
+    const Point control{(a.x + b.x) / 2 - (b.y - a.y) / length * bow, (a.y + b.y) / 2 + (b.x - a.x) / length * bow};
+    svg.curve(edge_of(a, control), control, edge_of(b, control), {.width = 1.4, .dashed = arc.dashed, .arrow = true});
+    const Point label{(a.x + b.x) / 4 + control.x / 2, (a.y + b.y) / 4 + control.y / 2};
+    svg.rectangle({label.x - 3.6 * static_cast<double>(arc.text.size()), label.y - 9}, 7.2 * static_cast<double>(arc.text.size()), 16, "#fff");
+    svg.text({label.x, label.y + 4}, arc.text, {.size = 11, .anchor = Anchor::middle});
+  }
+  for (const StateBox& state : states) {
+    svg.rectangle({state.x - half_width, state.y - half_height}, 2 * half_width, 2 * half_height, "#eef3f8", "#1b6ca8", 10);
+    svg.text({state.x, state.y + 5}, state.name, {.size = 14, .anchor = Anchor::middle, .bold = true});
+  }
+  return svg.document();
+}
+
+}  // namespace takt::chart

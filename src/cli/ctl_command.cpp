@@ -1,0 +1,70 @@
+// takt ctl: speaks to a running node through its control socket.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "node/control_socket.hpp"
+#include "node/node_status.hpp"
+#include "scenario/json/document.hpp"
+
+namespace takt::cli {
+namespace {
+
+struct CtlOptions {
+  std::string node;
+  std::string request;
+  std::string format = "text";
+};
+
+std::string member(const scenario::json::Document& document, std::string_view key) {
+  const scenario::json::Node* const node = document.root().find(key);
+  return node == nullptr ? std::string() : node->text;
+}
+
+ExitStatus ask(const CtlOptions& options) {
+  std::string problem;
+  const auto answer = node::ask_node(options.node, options.request, problem);
+  if (!answer) {
+    std::fprintf(stderr, "takt: %s\n", problem.c_str());
+    return ExitStatus::internal_error;
+  }
+  scenario::json::Diagnostics diagnostics;
+  const auto document = scenario::json::parse(*answer, "answer", diagnostics);
+  if (!document || document->root().find("state") == nullptr) {
+    std::fprintf(stderr, "takt: not the answer of a node: %s\n", answer->c_str());
+    return ExitStatus::internal_error;
+  }
+  if (options.format == "json")
+    std::printf("%s\n", answer->c_str());
+  else if (options.request == "status")
+    std::fputs(node::status_text(*answer).c_str(), stdout);
+  else
+    std::printf("%s: %s; %s is %s\n", member(*document, "method").c_str(), member(*document, "status").c_str(), options.node.c_str(),
+                member(*document, "state").c_str());
+  return options.request == "status" || member(*document, "status") == "Good" ? ExitStatus::pass : ExitStatus::requirement_failed;
+}
+
+}  // namespace
+
+void add_ctl_command(CLI::App& app, ExitStatus& status) {
+  CLI::App& command = *app.add_subcommand("ctl", "Call a method of a running node, or ask for its status");
+  const auto options = std::make_shared<CtlOptions>();
+  command.add_option("NODE", options->node, "The node's name, or the path of its control socket")->required();
+  command.add_option("REQUEST", options->request, "start, suspend, resume, halt, reset or status")
+      ->required()
+      ->check(CLI::IsMember(std::vector<std::string>{"start", "suspend", "resume", "halt", "reset", "status"}));
+  command.add_option("--format", options->format, "text or json")->check(CLI::IsMember(std::vector<std::string>{"text", "json"}));
+  command.footer(
+      "Examples:\n"
+      "  takt ctl plc start\n"
+      "  takt ctl plc status --format json\n"
+      "  takt ctl /run/cell/left.sock halt\n"
+      "A method's answer is its StatusCode (OPC 10000-10) and the state behind it; the others of the group follow later.\n"
+      "Exit status: 0 Good, 1 another StatusCode, 2 bad input, 3 no such node.");
+  command.callback([options, &status] { status = ask(*options); });
+}
+
+}  // namespace takt::cli

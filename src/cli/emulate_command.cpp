@@ -1,0 +1,56 @@
+// takt emulate: a scenario on real nodes in network namespaces of this machine, compared with its simulated run.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/load.hpp"
+#include "emulate/emulation.hpp"
+
+namespace takt::cli {
+namespace {
+
+ExitStatus run_emulation(const ScenarioOptions& options, const std::string& keep) {
+  const auto resolved = load(options, true);
+  if (!resolved) return ExitStatus::bad_input;
+  const emulate::Plan plan = emulate::plan_of(*resolved);
+  for (const std::string& refusal : plan.refusals) std::fprintf(stderr, "takt: cannot emulate %s: %s\n", resolved->scenario.name.c_str(), refusal.c_str());
+  if (!plan.refusals.empty()) return ExitStatus::bad_input;
+  const InterruptGuard interrupt;
+  emulate::Settings settings;
+  settings.keep = keep;
+  settings.stop_requested = [](const void* guard) { return static_cast<const InterruptGuard*>(guard)->requested(); };
+  settings.context = &interrupt;
+  emulate::Result result;
+  std::string problem;
+  const bool done = emulate::emulate(*resolved, plan, settings, result, problem);
+  if (!done && !result.interrupted) {
+    std::fprintf(stderr, "takt: cannot emulate %s here: %s\n", resolved->scenario.name.c_str(), problem.c_str());
+    return ExitStatus::internal_error;
+  }
+  std::fputs((options.is_json() ? to_json(result, resolved->scenario.name) : to_text(result, resolved->scenario.name)).c_str(), stdout);
+  if (result.interrupted) return ExitStatus::interrupted;
+  return result.is_same() ? ExitStatus::pass : ExitStatus::requirement_failed;
+}
+
+}  // namespace
+
+void add_emulate_command(CLI::App& app, ExitStatus& status) {
+  CLI::App& command = *app.add_subcommand("emulate", "Run a scenario on real nodes in network namespaces and compare it with the simulated run");
+  const auto options = std::make_shared<ScenarioOptions>();
+  const auto keep = std::make_shared<std::string>();
+  add_scenario_options(command, *options);
+  command.add_option("--keep", *keep, "Keep the files and logs of the nodes in this folder")->type_name("FOLDER");
+  command.footer(
+      "Examples:\n"
+      "  sudo takt emulate scenarios/three-slaves-star.json\n"
+      "  sudo takt emulate scenarios/three-slaves-star.json --set programs.0.receive_timeout=1s     on a busy machine\n"
+      "Needs root. It lasts as long as the scenario does. Gates, shapers, streams, clocks and chance are left out and named.\n"
+      "Exit status: 0 the same order of transitions, 1 another one, 2 bad input or nothing that can be emulated, 3 the machine\n"
+      "does not permit it, 130 interrupted. Whatever happens, namespaces and nodes are removed.");
+  command.callback([options, keep, &status] { status = run_emulation(*options, *keep); });
+}
+
+}  // namespace takt::cli

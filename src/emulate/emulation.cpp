@@ -1,0 +1,305 @@
+#include "emulate/emulation.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "emulate/child.hpp"
+#include "emulate/machine.hpp"
+#include "node/control_socket.hpp"
+#include "scenario/json/document.hpp"
+#include "scenario/run.hpp"
+
+namespace takt::emulate {
+namespace {
+
+namespace json = scenario::json;
+namespace fs = std::filesystem;
+
+constexpr int start_timeout_ms = 20'000;
+constexpr int stop_timeout_ms = 5'000;
+constexpr std::int64_t slice_ns = 20'000'000;  // of waiting, between two looks at signals and nodes
+
+std::int64_t now_ns() {
+  timespec time = {};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
+}
+
+void sleep_until(std::int64_t ns) {
+  const timespec time = {static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
+  ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr);
+}
+
+std::string own_executable() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).string();
+}
+
+std::string text_of(const json::Node& object, std::string_view key) {
+  const json::Node* const node = object.find(key);
+  return node == nullptr ? std::string() : node->text;
+}
+
+std::optional<handshake::PublishedState> state_from(std::string_view name) {
+  for (std::size_t i = 0; i < handshake::published_state_count; ++i)
+    if (handshake::published_state_names[i] == name) return handshake::published_state_at(i);
+  return std::nullopt;
+}
+
+/// One node and what it does.
+struct LiveNode {
+  const PlannedNode* plan = nullptr;
+  std::string name;  ///< of the participant
+  std::string file;
+  std::string log;
+  std::string errors;
+  std::string socket;
+  std::unique_ptr<Child> child;  ///< null while its host is down
+};
+
+class Emulation {
+ public:
+  Emulation(const scenario::Resolved& resolved, const Plan& plan, const Settings& settings, Result& result, std::string& problem)
+      : resolved_(resolved), plan_(plan), settings_(settings), result_(result), problem_(problem) {}
+
+  bool run() {
+    machine_ = Machine::lay(plan_, problem_);
+    if (!machine_) return false;
+    write_files();
+    for (LiveNode& node : nodes_) start(node, false);
+    const bool done = wait_for_nodes() && run_script();
+    stop();
+    keep_files();
+    return done && collect();
+  }
+
+ private:
+  void write_files() {
+    for (const PlannedNode& planned : plan_.nodes) {
+      LiveNode& node = nodes_.emplace_back();
+      const std::string path = machine_->folder() + "/" + planned.name;
+      const scenario::Program& program = *resolved_.programs[planned.program].description;
+      node.plan = &planned;
+      node.name = planned.participant == 0 ? program.master : program.slaves[planned.participant - 1U];
+      node.file = path + ".json";
+      node.log = path + ".jsonl";
+      node.errors = path + ".err";
+      node.socket = path + ".sock";
+      std::string config = planned.config;
+      config.replace(config.find(control_mark), std::string(control_mark).size(), node.socket);
+      std::ofstream(node.file) << config;
+    }
+  }
+
+  void start(LiveNode& node, bool again) {
+    Child::Settings settings;
+    settings.command = {own_executable(), "node", node.file};
+    settings.network_namespace = machine_->namespace_of(node.plan->host);
+    settings.output = node.log;
+    settings.errors = node.errors;
+    settings.append = again;
+    node.child = std::make_unique<Child>(settings);
+  }
+
+  bool fail(std::string why) {
+    if (problem_.empty()) problem_ = std::move(why);
+    return false;
+  }
+  bool is_stopped() {
+    result_.interrupted = result_.interrupted || (settings_.stop_requested != nullptr && settings_.stop_requested(settings_.context));
+    return result_.interrupted;
+  }
+
+  bool check_nodes() {
+    for (LiveNode& node : nodes_) {
+      if (!node.child || node.child->is_running()) continue;
+      std::ifstream errors(node.errors);
+      std::string said((std::istreambuf_iterator<char>(errors)), {});
+      return fail("node " + node.name + " has ended: " + said);
+    }
+    return true;
+  }
+
+  /// Until each node has heard its peers: a bridge takes a second before it forwards.
+  bool wait_for_nodes() {
+    const std::int64_t until = now_ns() + std::int64_t{start_timeout_ms} * 1'000'000;
+    for (LiveNode& node : nodes_) {
+      std::string not_yet;
+      while (!has_heard_all(node, not_yet)) {
+        if (is_stopped() || !check_nodes()) return false;
+        if (now_ns() > until) return fail("node " + node.name + " does not start: " + not_yet);
+        sleep_until(now_ns() + slice_ns);
+      }
+    }
+    return true;
+  }
+
+  static bool has_heard_all(const LiveNode& node, std::string& not_yet) {
+    const auto status = node::ask_node(node.socket, "status", not_yet);
+    if (!status) return false;
+    json::Diagnostics diagnostics;
+    const auto document = json::parse(*status, "status", diagnostics);
+    const json::Node* const peers = document ? document->root().find("peers") : nullptr;
+    if (peers == nullptr) return false;
+    for (const json::Node& peer : peers->items) {
+      if (!text_of(peer, "state").empty()) continue;
+      not_yet = "it does not hear " + text_of(peer, "name");
+      return false;
+    }
+    return true;
+  }
+
+  /// Until `ns`, unless something happens.
+  bool wait_until(std::int64_t ns) {
+    while (now_ns() < ns) {
+      sleep_until(std::min(ns, now_ns() + slice_ns));
+      if (is_stopped() || !check_nodes()) return false;
+    }
+    return true;
+  }
+
+  bool run_script() {
+    const std::int64_t begin = now_ns();
+    for (const Action& action : plan_.actions) {
+      if (!wait_until(begin + action.at.ps() / 1000)) return false;
+      if (!std::visit([this](const auto& what) { return act(what); }, action.what)) return false;
+    }
+    return wait_until(begin + resolved_.scenario.duration.ps() / 1000);
+  }
+
+  bool act(const CallAction& call) {
+    LiveNode& node = nodes_[call.node];
+    std::string method(program::name_of(call.method));
+    if (!node.child) return note(method + " on " + node.name + " falls into its crash");
+    std::string request = method;
+    std::transform(request.begin(), request.end(), request.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::string problem;
+    const auto answer = node::ask_node(node.socket, request, problem);
+    if (!answer) return fail(method + " on " + node.name + ": " + problem);
+    json::Diagnostics diagnostics;
+    const auto document = json::parse(*answer, "answer", diagnostics);
+    const std::string status = document ? text_of(document->root(), "status") : *answer;
+    return status == "Good" || note(method + " on " + node.name + ": " + status);
+  }
+  bool act(const LinkAction& change) {
+    const std::string failed = machine_->set_cable(change.cable, change.up);
+    return failed.empty() || fail(failed);
+  }
+  bool act(const HostAction& change) {
+    for (LiveNode& node : nodes_) {
+      if (node.plan->host != change.host) continue;
+      if (change.up)
+        start(node, true);
+      else
+        node.child.reset();
+    }
+    return true;
+  }
+  bool note(std::string text) {
+    result_.notes.push_back(std::move(text));
+    return true;
+  }
+
+  void stop() {
+    for (LiveNode& node : nodes_)
+      if (node.child) node.child->send(SIGTERM);
+    for (LiveNode& node : nodes_)
+      if (node.child) node.child->wait(stop_timeout_ms);
+  }
+
+  void keep_files() {
+    if (settings_.keep.empty()) return;
+    std::error_code error;
+    fs::create_directories(settings_.keep, error);
+    for (const LiveNode& node : nodes_)
+      for (const std::string& file : {node.file, node.log, node.errors})
+        fs::copy_file(file, fs::path(settings_.keep) / fs::path(file).filename(), fs::copy_options::overwrite_existing, error);
+    if (error) note(settings_.keep + ": " + error.message());
+  }
+
+  bool collect() {
+    std::vector<History> emulated(resolved_.programs.size());
+    for (const LiveNode& node : nodes_)
+      if (!read_log(node, emulated[node.plan->program])) return false;
+    scenario::Run simulation(resolved_);
+    simulation.advance();
+    for (std::size_t p = 0; p < resolved_.programs.size(); ++p) {
+      const scenario::Program& program = *resolved_.programs[p].description;
+      std::vector<std::string> names = {program.master};
+      names.insert(names.end(), program.slaves.begin(), program.slaves.end());
+      result_.programs.push_back({program.name, compare(history_of(simulation.monitor(p)), emulated[p], names)});
+    }
+    return true;
+  }
+
+  static History history_of(const scenario::ProgramMonitor& monitor) {
+    History history;
+    for (const scenario::StateRecord& record : monitor.history()) history.changes.push_back({record.time.ps(), record.participant, record.change});
+    for (const scenario::CallRecord& call : monitor.calls())
+      if (program::is_good(call.status)) history.calls.push_back({call.time.ps(), call.participant, call.method});
+    return history;
+  }
+
+  /// A second start in a log means a crash before it; a log that stops without an end, one that was not followed by a start.
+  bool read_log(const LiveNode& node, History& history) {
+    std::ifstream log(node.log);
+    handshake::PublishedState state = handshake::PublishedState::Halted;
+    std::int64_t time = 0;
+    std::string status;
+    const std::uint8_t participant = node.plan->participant;
+    const auto crash = [&] {
+      if (state != handshake::PublishedState::Halted) history.changes.push_back({time, participant, {0, state, handshake::PublishedState::Halted}});
+      state = handshake::PublishedState::Halted;
+    };
+    for (std::string line; std::getline(log, line);) {
+      json::Diagnostics diagnostics;
+      const auto document = json::parse(line, node.log, diagnostics);
+      if (!document) continue;  // cut by a kill
+      const json::Node& event = document->root();
+      const std::string kind = text_of(event, "event");
+      if (const json::Node* const when = event.find("time_ns")) time = static_cast<std::int64_t>(json::integer_of(*when).value_or(0));
+      if (kind == "start") crash();
+      if (kind == "end") status = line;
+      if (kind != "transition") continue;
+      const auto from = state_from(text_of(event, "from"));
+      const auto to = state_from(text_of(event, "to"));
+      const json::Node* const number = event.find("number");
+      if (!from || !to || number == nullptr) return fail("the log of " + node.name + " cannot be read: " + line);
+      history.changes.push_back({time, participant, {static_cast<std::uint8_t>(json::integer_of(*number).value_or(0)), *from, *to}});
+      state = *to;
+    }
+    if (status.empty()) crash();
+    result_.nodes.push_back({node.name, status});
+    return true;
+  }
+
+  const scenario::Resolved& resolved_;
+  const Plan& plan_;
+  const Settings& settings_;
+  Result& result_;
+  std::string& problem_;
+  std::unique_ptr<Machine> machine_;
+  std::deque<LiveNode> nodes_;  // behind machine_, so that they end before it goes
+};
+
+}  // namespace
+
+bool Result::is_same() const {
+  return std::all_of(programs.begin(), programs.end(), [](const ProgramResult& each) { return each.comparison.is_same(); });
+}
+
+bool emulate(const scenario::Resolved& resolved, const Plan& plan, const Settings& settings, Result& result, std::string& problem) {
+  result.notes = plan.notes;
+  return Emulation(resolved, plan, settings, result, problem).run();
+}
+
+}  // namespace takt::emulate

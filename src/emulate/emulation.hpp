@@ -1,0 +1,43 @@
+// Runs a scenario on real nodes on this machine, and compares it with its simulated run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emulate/comparison.hpp"
+#include "emulate/plan.hpp"
+
+namespace takt::emulate {
+
+struct ProgramResult {
+  std::string name;
+  Comparison comparison;
+};
+
+struct NodeResult {
+  std::string name;    ///< participant
+  std::string status;  ///< the node's last status as JSON; "" if it was killed
+};
+
+struct Result {
+  std::vector<ProgramResult> programs;
+  std::vector<NodeResult> nodes;
+  std::vector<std::string> notes;   ///< what was left out, calls that were not Good
+  bool interrupted = false;
+  bool is_same() const;
+};
+
+struct Settings {
+  std::string keep;  ///< folder for the nodes' files and logs; "": they are removed
+  bool (*stop_requested)(const void* context) = nullptr;
+  const void* context = nullptr;
+};
+
+/// False, and `problem` says why, if the machine does not permit it or a node failed. Nothing is left on the machine in any case.
+bool emulate(const scenario::Resolved& resolved, const Plan& plan, const Settings& settings, Result& result, std::string& problem);
+
+/// For people, and for machines.
+std::string to_text(const Result& result, const std::string& scenario);
+std::string to_json(const Result& result, const std::string& scenario);
+
+}  // namespace takt::emulate

@@ -1,0 +1,64 @@
+// What has to be laid and started for a scenario: names, cables, node files, actions. Made without touching the machine.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "program/method.hpp"
+#include "scenario/resolved.hpp"
+
+namespace takt::emulate {
+
+/// A veth pair between the namespaces of two nodes of the topology.
+struct Cable {
+  struct End {
+    std::uint32_t node = 0;
+    std::string interface;
+  };
+  End a;
+  End b;
+  std::uint32_t link = 0;  ///< in the topology
+};
+
+/// A participant of a Program, which is a process on a host.
+struct PlannedNode {
+  std::uint32_t program = 0;
+  std::uint8_t participant = 0;
+  std::uint32_t host = 0;     ///< in the topology
+  std::string name;           ///< unique: what its file and its socket are called
+  std::string config;         ///< its file; the path of the control socket is still to be put for `control_mark`
+};
+inline constexpr const char* control_mark = "@CONTROL@";
+
+struct CallAction {
+  std::uint32_t node = 0;  ///< in Plan::nodes
+  program::Method method = program::Method::Start;
+};
+struct LinkAction {
+  std::uint32_t cable = 0;
+  bool up = false;
+};
+/// A host is killed, or starts again.
+struct HostAction {
+  std::uint32_t host = 0;
+  bool up = false;
+};
+struct Action {
+  sim::Duration at;  ///< after all nodes have started
+  std::variant<CallAction, LinkAction, HostAction> what;
+};
+
+struct Plan {
+  std::vector<bool> is_bridge;      ///< by node of the topology
+  std::vector<Cable> cables;
+  std::vector<PlannedNode> nodes;
+  std::vector<Action> actions;      ///< by time
+  std::vector<std::string> notes;   ///< what is left out, and why that may matter
+  std::vector<std::string> refusals;  ///< not empty: it cannot be emulated
+};
+
+Plan plan_of(const scenario::Resolved& resolved);
+
+}  // namespace takt::emulate

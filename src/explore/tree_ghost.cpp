@@ -1,0 +1,113 @@
+#include "explore/tree_ghost.hpp"
+
+#include "explore/hash_index.hpp"
+#include "sim/check.hpp"
+
+namespace takt::explore {
+
+using handshake::PublishedState;
+using handshake::StateChange;
+
+namespace {
+
+std::uint16_t bit(std::size_t participant) { return static_cast<std::uint16_t>(1U << participant); }
+
+/// All members of a group but the first `without`.
+std::uint16_t members_of(const TreeShape& shape, std::size_t group, std::size_t without) {
+  std::uint16_t set = 0;
+  for (std::size_t i = without; i < shape.size(group); ++i) set = static_cast<std::uint16_t>(set | bit(shape.number_of(group, i)));
+  return set;
+}
+bool contains_all(std::uint16_t set, std::uint16_t part) { return (set & part) == part; }
+
+}  // namespace
+
+TreeGhost::TreeGhost(const TreeShape& shape)
+    : groups_{Ghost(handshake::Variant::Robust, shape.size(0)), Ghost(handshake::Variant::Robust, shape.groups() == 2 ? shape.size(1) : 2)} {}
+
+PropertySet TreeGhost::on_effect(const TreeShape& shape, std::size_t participant, const TreeEffect& effect) {
+  const std::size_t group = shape.group_of(participant);
+  PropertySet violated = groups_[group].on_effect(shape.index_of(participant), effect.effect);
+  if (shape.groups() == 1) return violated;
+  if (effect.inner_run != 0) link(effect.inner_run, effect.outer_run);
+  const auto is_ready_now = [&](const StateChange& change) { return change.to == PublishedState::Ready; };
+  bool was_ready = effect.effect.joins;
+  for (std::size_t i = 0; i < effect.effect.change_count; ++i) was_ready = was_ready || is_ready_now(effect.effect.change[i]);
+  if (was_ready && !became_ready(shape, participant, effect.effect.run)) violated.insert(Property::S1);
+  for (std::size_t i = 0; i < effect.effect.change_count; ++i)
+    if (effect.effect.change[i].to == PublishedState::Running) violated.bits |= became_running(shape, participant, effect.effect.run).bits;
+  return violated;
+}
+
+void TreeGhost::on_restart(const TreeShape& shape, std::size_t participant) { groups_[shape.group_of(participant)].on_restart(shape.index_of(participant)); }
+
+/// False: a node before its inner group.
+bool TreeGhost::became_ready(const TreeShape& shape, std::size_t participant, std::uint32_t run) {
+  const std::uint32_t of_tree = tree_run(shape.group_of(participant), run);
+  if (of_tree == 0) return true;  // in a run of its group alone; there Running is forbidden
+  Facts& facts = facts_of(of_tree);
+  facts.ready = static_cast<std::uint16_t>(facts.ready | bit(participant));
+  const bool is_node = shape.group_of(participant) == 0 && shape.is_nested(shape.node_of(participant));
+  return !is_node || contains_all(facts.ready, members_of(shape, 1, 1));
+}
+
+PropertySet TreeGhost::became_running(const TreeShape& shape, std::size_t participant, std::uint32_t run) {
+  PropertySet violated;
+  const std::size_t group = shape.group_of(participant);
+  const std::uint32_t of_tree = tree_run(group, run);
+  if (of_tree == 0) {
+    violated.insert(Property::S1);
+    return violated;
+  }
+  Facts& facts = facts_of(of_tree);
+  facts.running = static_cast<std::uint16_t>(facts.running | bit(participant));
+  // A node is Ready as the slave of the outer group; the inner master shows INIT while it waits for the outer barrier.
+  const auto nodes = static_cast<std::uint16_t>(members_of(shape, 0, 0) | members_of(shape, 1, 1));
+  if (!contains_all(facts.ready, nodes)) violated.insert(Property::S1);
+  std::uint16_t below = 0;
+  if (group == 0 && shape.index_of(participant) == 0) below = static_cast<std::uint16_t>(members_of(shape, 0, 1) | members_of(shape, 1, 0));
+  if (group == 0 && shape.is_nested(shape.node_of(participant))) below = members_of(shape, 1, 0);
+  if (group == 1 && shape.index_of(participant) == 0) below = members_of(shape, 1, 1);
+  if (!contains_all(facts.running, below)) violated.insert(Property::S2);
+  return violated;
+}
+
+void TreeGhost::link(std::uint32_t inner, std::uint32_t outer) {
+  std::size_t at = 0;
+  while (at < link_count_ && links_[at].inner < inner) ++at;
+  if (at == link_count_ || links_[at].inner != inner) {
+    TAKT_CHECK(link_count_ < most_runs, "the runs of an exploration are few: a start costs a call");
+    for (std::size_t i = link_count_; i > at; --i) links_[i] = links_[i - 1];
+    ++link_count_;
+  }
+  links_[at] = {inner, outer};
+}
+
+/// 0 if it was started for none.
+std::uint32_t TreeGhost::tree_run(std::size_t group, std::uint32_t run) const {
+  if (group == 0) return run;
+  for (std::size_t i = 0; i < link_count_; ++i)
+    if (links_[i].inner == run) return links_[i].outer;
+  return 0;
+}
+
+auto TreeGhost::facts_of(std::uint32_t run) -> Facts& {
+  std::size_t at = 0;
+  while (at < facts_count_ && facts_[at].run < run) ++at;
+  if (at < facts_count_ && facts_[at].run == run) return facts_[at];
+  TAKT_CHECK(facts_count_ < most_runs, "the runs of an exploration are few: a start costs a call");
+  for (std::size_t i = facts_count_; i > at; --i) facts_[i] = facts_[i - 1];
+  ++facts_count_;
+  facts_[at] = Facts{run, 0, 0};
+  return facts_[at];
+}
+
+std::uint64_t TreeGhost::hash() const {
+  std::uint64_t digest = groups_[0].hash() * 31 + groups_[1].hash();
+  for (std::size_t i = 0; i < link_count_; ++i) digest = mixed(digest ^ (std::uint64_t{links_[i].inner} << 32 | links_[i].outer));
+  for (std::size_t i = 0; i < facts_count_; ++i)
+    digest = mixed(mixed(digest ^ facts_[i].run) ^ (std::uint64_t{facts_[i].ready} | std::uint64_t{facts_[i].running} << 16));
+  return mixed(digest);
+}
+
+}  // namespace takt::explore

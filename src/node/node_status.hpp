@@ -1,0 +1,28 @@
+// What a node says about itself: state, peers, statistics; as JSON for machines and as text for people.
+#pragma once
+
+#include <string>
+
+#include "node/config.hpp"
+#include "node/statistics.hpp"
+#include "wire/program_endpoint.hpp"
+
+namespace takt::node {
+
+/// All parts are the node's own.
+struct NodeStatus {
+  const Config& config;
+  const wire::ProgramEndpoint& endpoint;
+  const CycleStatistics& cycles;
+  const PeerWatch& peers;
+  std::uint64_t send_failures = 0;
+  sim::LocalTime now;
+  std::int64_t time_ns = 0;  ///< now, on the node's clock
+};
+
+/// {"node": ..., "program": ..., "state": ..., "peers": [...], "statistics": {...}}, on one line without a newline.
+std::string to_json(const NodeStatus& status);
+/// Some lines of text from what to_json made; the text itself if it is something else.
+std::string status_text(const std::string& json);
+
+}  // namespace takt::node

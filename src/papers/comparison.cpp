@@ -1,0 +1,28 @@
+#include "papers/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace takt::papers {
+
+std::string_view name_of(Standing standing) {
+  constexpr std::array<std::string_view, 4> names = {"calibrated", "predicted", "claim", "flaw of the paper"};
+  return names[static_cast<std::size_t>(standing)];
+}
+
+Comparison compare(std::string what, double published, double reproduced, std::string_view unit, int decimals, double tolerance, Standing standing) {
+  Comparison made;
+  made.what = std::move(what);
+  made.published = fmt::format("{:.{}f} {}", published, decimals, unit);
+  made.reproduced = fmt::format("{:.{}f} {}", reproduced, decimals, unit);
+  made.deviation = (reproduced - published) / published;
+  made.tolerance = tolerance;
+  made.standing = standing;
+  made.holds = std::abs(*made.deviation) <= tolerance;
+  return made;
+}
+
+}  // namespace takt::papers

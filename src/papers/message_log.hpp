@@ -1,0 +1,41 @@
+// Records which messages of a Program go from whom to whom, and when: what a message-sequence chart shows.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "scenario/run.hpp"
+#include "sim/trace.hpp"
+
+namespace takt::papers {
+
+struct LoggedMessage {
+  sim::TrueTime sent;
+  sim::TrueTime received;
+  std::size_t from = 0;   ///< participant
+  std::size_t to = 0;
+  bool is_state = false;
+};
+
+class MessageLog final : public sim::TraceSink {
+ public:
+  /// Of program `program` of the run. No frame of it may be lost or doubled.
+  MessageLog(const scenario::Run& run, std::size_t program);
+
+  void record(const sim::TraceRecord& record) override;
+  /// In the order of reception.
+  const std::vector<LoggedMessage>& messages() const { return messages_; }
+
+ private:
+  struct Source {
+    std::size_t from = 0;
+    bool is_state = false;
+  };
+  std::map<std::uint64_t, Source> streams_;
+  std::map<std::uint32_t, std::size_t> participants_;    // by node
+  std::map<std::uint64_t, sim::TrueTime> under_way_;     // by frame
+  std::vector<LoggedMessage> messages_;
+};
+
+}  // namespace takt::papers

@@ -1,0 +1,75 @@
+// On every shipped scenario nothing that happens exceeds its bound.
+#include <gtest/gtest.h>
+
+#include "analysis/bounds.hpp"
+#include "analysis/report.hpp"
+#include "tests/analysis/falsification.hpp"
+#include "tests/scenario/support.hpp"
+
+namespace takt::analysis {
+namespace {
+
+using scenario::test::shipped_names;
+
+/// Cut short: clocks that are followed for a minute.
+std::string duration_of(const std::string& name) { return name.starts_with("clocks/") ? "2s" : ""; }
+
+std::span<const handshake::Reaction> seen_by(const scenario::Run& run, const ReactionBound& reaction) {
+  if (!reaction.of_tree) return run.monitor(reaction.program).reactions();
+  for (const auto& tree : run.trees())
+    if (tree->programs().front() == reaction.program) return tree->reactions();
+  return {};
+}
+
+TEST(Sandwich, NothingExceedsItsBound) {
+  std::size_t reactions = 0;
+  std::size_t trees = 0;
+  test::Verdict all;
+  for (const std::string& name : shipped_names()) {
+    if (name.starts_with("findings/")) continue;   // they show the paper's handshake failing
+    const auto resolved = scenario::test::shipped(name, duration_of(name));
+    const Bounds bounds = bound(*resolved);
+    scenario::Run run(*resolved);
+    run.advance();
+    const test::Verdict verdict = test::judge(run, bounds);
+    for (const std::string& violation : verdict.violations) ADD_FAILURE() << name << ": " << violation;
+    all.compared += verdict.compared;
+    all.unbounded += verdict.unbounded;
+    for (const ReactionBound& reaction : bounds.reactions) {
+      if (resolved->programs[reaction.program].has_roles()) {
+        EXPECT_FALSE(reaction.bound) << name;
+        EXPECT_NE(reaction.reason, "") << name;
+        continue;
+      }
+      for (const handshake::Reaction& seen : seen_by(run, reaction)) {
+        if (handshake::name_of(seen.kind) != std::string_view(scenario::spelling(reaction.kind)) || seen.outcome != handshake::ReactionOutcome::Completed) continue;
+        ASSERT_TRUE(reaction.bound) << name;
+        EXPECT_LE(seen.completed - seen.began, *reaction.bound) << name << " " << handshake::name_of(seen.kind);
+        ++(reaction.of_tree ? trees : reactions);
+      }
+    }
+  }
+  EXPECT_GT(all.compared, 80u);
+  EXPECT_LT(all.unbounded, 15u);   // random gaps, and a gate that gets more than it lets through
+  EXPECT_GE(reactions, 20u);
+  EXPECT_GE(trees, 5u);
+}
+
+// The figures of the first page of the documentation.
+TEST(Sandwich, RobotArm) {
+  const auto resolved = scenario::test::shipped("robot-arm");
+  const Bounds bounds = bound(*resolved);
+  EXPECT_EQ(bounds.streams[0].name, "camera");
+  // camera: 1000 + 46 octets and a preamble of 8 at 1 Gb/s, 8.432 us, twice; at the second port behind three short frames of the robot... in all 18.512 us; cables of 25 m
+  // and 10 m, forwarding 1 us, and 50 us in the generator's operating system.
+  ASSERT_TRUE(bounds.streams[0].latency);
+  EXPECT_EQ(bounds.streams[0].hops.size(), 2u);
+  EXPECT_EQ(*bounds.streams[0].hops[0].delay, sim::Duration::from_ps(8'464'000));
+  ASSERT_EQ(bounds.requirements.size(), 7u);
+  for (const Bounds::Requirement& requirement : bounds.requirements) EXPECT_TRUE(requirement.bound.duration || requirement.bound.count) << requirement.what;
+  EXPECT_NE(text_report(*resolved, bounds).find("reaction start within 12ms"), std::string::npos);
+  EXPECT_NE(json_report(*resolved, bounds).find("\"bound_ps\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace takt::analysis

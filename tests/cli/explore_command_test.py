@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""takt explore as a user runs it: answers, exit statuses, one JSON document, Ctrl-C.
+
+usage: explore_command_test.py TAKT SOURCE_FOLDER [unittest options]
+"""
+import json
+import os
+import pathlib
+import pty
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+TAKT = ""
+SCENARIOS = pathlib.Path()
+
+TWO_PROGRAMS = """{"name": "two", "duration": "10ms", "network": {
+  "nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]},
+  "programs": [{"name": "first", "variant": "paper", "master": "a", "slaves": ["b"], "cycle": "1ms"},
+               {"name": "second", "master": "b", "slaves": ["a"], "cycle": "1ms"}]}
+"""
+NAMED = ("variant", "slaves", "faults", "states", "depth", "cpu_s", "exhausted", "properties")
+
+
+def explore(*arguments, timeout=300):
+    done = subprocess.run([TAKT, "explore", *map(str, arguments)], capture_output=True, text=True, timeout=timeout, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+class Answers(unittest.TestCase):
+    def test_one_group_is_one_object(self):
+        status, out, err = explore("--slaves", 1, "--faults", "loss,crash", "--format", "json")
+        answer = json.loads(out)
+        self.assertEqual((status, err), (0, ""))
+        self.assertEqual([key for key in NAMED if key not in answer], [])
+        self.assertNotIn("program", answer)
+        self.assertEqual(answer["faults"], ["loss", "crash"])
+        self.assertEqual({answer["properties"][p] for p in ("S1", "S2", "S3", "S4", "S5", "F1", "L1")}, {"holds"})
+        self.assertEqual({answer["properties"][p] for p in ("all_running", "silence", "HaltedToReady")}, {"reached"})
+
+    def test_silence_is_left_out_where_nobody_can_be_silent(self):
+        for faults in ((), ("--faults", "loss")):
+            _, out, _ = explore("--slaves", 1, *faults, "--format", "json")
+            self.assertNotIn("F1", json.loads(out)["properties"])
+            self.assertNotIn("F1 ", explore("--slaves", 1, *faults)[1])
+
+    def test_paper_is_violated(self):
+        status, out, _ = explore("--slaves", 1, "--variant", "paper", "--format", "json")
+        self.assertEqual(status, 1)
+        self.assertEqual(json.loads(out)["properties"]["S1"], "violated")
+
+    def test_several_programs_are_one_array(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "two.json"
+            path.write_text(TWO_PROGRAMS, encoding="utf-8")
+            status, out, _ = explore(path, "--format", "json")
+        answers = json.loads(out)
+        self.assertEqual(status, 1)
+        self.assertEqual([(each["program"], each["variant"]) for each in answers], [("first", "paper"), ("second", "robust")])
+
+    def test_one_program_is_one_object(self):
+        status, out, _ = explore(SCENARIOS / "direct-link.json", "--format", "json")
+        self.assertEqual(status, 0)
+        self.assertIn("program", json.loads(out))
+
+    def test_networks_and_subscriptions(self):
+        for options in (("--network", "channels=1"), ("--network", "channels"), ("--subscription", "all-to-all"), ("--beginnings", "switched-on", "--calls", 6, "--no-finish")):
+            status, out, _ = explore("--slaves", 1, "--faults", "loss", *options, "--format", "json")
+            answer = json.loads(out)
+            self.assertNotIn("violated", answer["properties"].values(), options)
+            self.assertTrue(answer["exhausted"], options)
+        self.assertEqual(answer["beginnings"], "switched-on")
+
+    def test_nested_groups_and_joining_slaves(self):
+        for options, inner, joining in ((("--nested",), 1, False), (("--nested", "--inner-slaves", 2, "--calls", 1), 2, False), (("--joining", "--faults", "crash,restart"), 0, True),
+                                        (("--nested", "--joining", "--calls", 1), 1, True)):
+            status, out, err = explore("--slaves", 1, *options, "--format", "json")
+            answer = json.loads(out)
+            self.assertEqual((status, err), (0, ""), options)
+            self.assertEqual([key for key in NAMED if key not in answer], [])
+            self.assertEqual((answer["nested"], answer["inner_slaves"], answer["joining"]), (inner > 0, inner, joining), options)
+            self.assertTrue(answer["exhausted"])
+        self.assertIn("the last inner slave joins", explore("--slaves", 1, "--nested", "--joining", "--calls", 1)[1])
+
+    def test_what_trees_cannot_do_is_refused(self):
+        for options in (("--nested", "--variant", "paper"), ("--joining", "--network", "channels=1"), ("--nested", "--subscription", "all-to-all"), ("--joining", "--faults", "reorder"),
+                        ("--inner-slaves", 1), ("--nested", "--inner-slaves", 3), ("--nested", "--out", "nowhere")):
+            status, out, err = explore("--slaves", 1, *options)
+            self.assertEqual((status, out), (2, ""), options)
+            self.assertNotEqual(err, "", options)
+        self.assertEqual(explore("--slaves", 3, "--nested")[0], 2)
+        self.assertEqual(explore(SCENARIOS / "direct-link.json", "--nested")[0], 2)
+
+    def test_octets_a_state(self):
+        _, out, _ = explore("--slaves", 3, "--faults", "loss", "--format", "json")
+        self.assertLessEqual(json.loads(out)["octets_per_state"], 64)
+
+    def test_mistakes(self):
+        for arguments in ((), ("--slaves", 9), ("--slaves", 1, "--network", "channels=9"), ("--slaves", 1, "--network", "pigeons"),
+                          ("--slaves", 4, "--subscription", "all-to-all"), ("--slaves", 1, "--faults", "fire"), ("nowhere.json",)):
+            status, out, err = explore(*arguments)
+            self.assertEqual((status, out), (2, ""), arguments)
+            self.assertNotEqual(err, "", arguments)
+
+
+class Interruption(unittest.TestCase):
+    LONG = ("--slaves", "3", "--calls", "4", "--faults", "loss,crash,restart", "--fault-budget", "3")
+
+    def test_a_partial_verdict_after_ctrl_c(self):
+        with subprocess.Popen([TAKT, "explore", *self.LONG, "--format", "json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
+            time.sleep(2)
+            running.send_signal(signal.SIGINT)
+            out, _ = running.communicate(timeout=120)
+        answer = json.loads(out)
+        self.assertEqual(running.returncode, 130)
+        self.assertTrue(answer["interrupted"])
+        self.assertFalse(answer["exhausted"])
+        self.assertGreater(answer["states"], 0)
+        self.assertEqual(answer["properties"]["L1"], "unknown")
+        self.assertEqual(answer["properties"]["S1"], "holds")
+
+    def test_progress_on_a_terminal(self):
+        main, terminal = pty.openpty()
+        with subprocess.Popen([TAKT, "explore", *self.LONG], stdout=subprocess.DEVNULL, stderr=terminal) as running:
+            os.close(terminal)
+            seen = b""
+            while b"M states" not in seen or b"a second" not in seen or b" MB" not in seen:
+                seen += os.read(main, 4096)
+            running.send_signal(signal.SIGINT)
+            running.wait(timeout=120)
+        os.close(main)
+        self.assertIn(b"depth", seen)
+
+
+if __name__ == "__main__":
+    TAKT = sys.argv[1]
+    SCENARIOS = pathlib.Path(sys.argv[2]) / "scenarios"
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

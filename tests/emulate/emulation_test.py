@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""Scenarios on real nodes in network namespaces take the transitions that they take in the simulator. Needs root.
+
+usage: emulation_test.py TAKT SOURCE_FOLDER
+"""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+TAKT = sys.argv[1]
+SOURCES = pathlib.Path(sys.argv[2])
+# Machines that test are busy: only a node that is gone is silent for so long.
+PATIENT = ["--set", "programs.0.receive_timeout=1s"]
+
+SMALL = {
+    "name": "small", "duration": "1500ms",
+    "network": {"nodes": {"plc": {"kind": "host"}, "left": {"kind": "host"}, "right": {"kind": "host"}, "a": {"kind": "switch"}, "b": {"kind": "switch"}},
+                "links": [{"ends": ["plc", "a"]}, {"ends": ["left", "a"]}, {"ends": ["a", "b"]}, {"ends": ["right", "b"]}]},
+    "programs": [{"name": "cell", "master": "plc", "slaves": ["left", "right"], "cycle": "5ms", "receive_timeout": "1s", "initialisation": "10ms"}],
+    "script": [{"at": "100.3ms", "program": "cell", "call": "Start"}, {"at": "500.3ms", "program": "cell", "call": "Suspend", "on": "left"},
+               {"at": "700.3ms", "program": "cell", "call": "Resume"}, {"at": "1000.3ms", "program": "cell", "call": "Halt", "on": "right"}]}
+
+
+def namespaces():
+    done = subprocess.run(["ip", "netns", "list"], capture_output=True, text=True, check=False)
+    return {line.split()[0] for line in done.stdout.splitlines() if line.startswith("takt-")}
+
+
+def why_not():
+    """Why the kernel does not permit namespaces here; None if it does."""
+    try:
+        done = subprocess.run(["ip", "netns", "add", "takt-probe"], capture_output=True, text=True, check=False)
+    except OSError as error:
+        return str(error)
+    subprocess.run(["ip", "netns", "del", "takt-probe"], capture_output=True, check=False)
+    return done.stderr.strip() if done.returncode != 0 else None
+
+
+class Emulation(unittest.TestCase):
+    def setUp(self):
+        reason = why_not()
+        if reason:
+            print(f"\nskipped: network namespaces are not permitted here: {reason}", file=sys.stderr)
+            self.skipTest(reason)
+        folder = tempfile.TemporaryDirectory(prefix="takt-emulation-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.before = namespaces()
+
+    def tearDown(self):
+        self.assertLessEqual(namespaces(), self.before, "namespaces are left")
+
+    def file(self, **changes):
+        path = self.folder / "s.json"
+        path.write_text(json.dumps(SMALL | changes), encoding="utf-8")
+        return str(path)
+
+    def emulate(self, *arguments, status=0):
+        done = subprocess.run([TAKT, "emulate", *arguments, "--format", "json"], capture_output=True, text=True, timeout=120, check=False)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return json.loads(done.stdout)
+
+    def test_three_slaves_around_a_switch(self):
+        result = self.emulate(str(SOURCES / "scenarios" / "three-slaves-star.json"), *PATIENT)
+        self.assertTrue(result["same"])
+        program = result["programs"][0]
+        self.assertEqual(program["orders"], 33)
+        self.assertEqual(program["violated"], [])
+        for participant in program["participants"]:  # the halt by the gripper has reached all
+            self.assertEqual(participant["emulated"], ["Halted.INIT", "Ready", "Running", "Suspended", "Running", "Halted", "Halted.INIT", "Ready", "Running"])
+        self.assertEqual([node["status"]["statistics"]["foreign"] for node in result["nodes"]], [0] * 4)
+
+    def test_two_switches_and_either_variant(self):
+        for variant in ("robust", "paper"):
+            program = SMALL["programs"][0] | {"variant": variant}
+            self.assertTrue(self.emulate(self.file(programs=[program]))["same"], variant)
+
+    # A crash is a SIGKILL: the others halt within the time-out, here as there.
+    def test_a_killed_node_halts_the_others(self):
+        program = SMALL["programs"][0] | {"receive_timeout": "300ms"}
+        keep = self.folder / "kept"
+        result = self.emulate(self.file(programs=[program], script=SMALL["script"][:1], faults=[{"kind": "crash", "node": "right", "at": "600ms"}]), "--keep", str(keep))
+        self.assertTrue(result["same"])
+        states = {each["name"]: each["emulated"] for each in result["programs"][0]["participants"]}
+        self.assertEqual(states["plc"][-2:], ["Running", "Halted"])
+        self.assertEqual(states["left"][-2:], ["Running", "Halted"])
+        logs = {name: [json.loads(line) for line in (keep / f"p0-{i}.jsonl").read_text(encoding="utf-8").splitlines()] for i, name in enumerate(("plc", "left"))}
+        causes = [event["cause"] for event in logs["plc"] if event["event"] == "intent" and event["kind"] == "halt"]
+        self.assertEqual(causes, ["silent peer"])
+        self.assertIsNone(result["nodes"][2]["status"])
+
+    def test_a_host_that_comes_back_is_another(self):
+        program = SMALL["programs"][0] | {"receive_timeout": "300ms"}
+        script = SMALL["script"][:1] + [{"at": "1800.3ms", "program": "cell", "call": "Start"}]
+        result = self.emulate(self.file(duration="2500ms", programs=[program], script=script, faults=[{"kind": "crash", "node": "right", "at": "600ms", "for": "800ms"}]))
+        self.assertTrue(result["same"], json.dumps(result["programs"]))
+
+    def test_a_difference_is_seen(self):
+        # Half a second without a link: with this time-out nodes halt, but the simulator is told otherwise by a second file.
+        program = SMALL["programs"][0] | {"receive_timeout": "100ms"}
+        path = self.file(programs=[program], script=SMALL["script"][:1])
+        process = subprocess.Popen([TAKT, "emulate", path, "--format", "json"], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        deadline = time.time() + 30
+        space = None
+        while not space and process.poll() is None and time.time() < deadline:
+            mine = {name for name in namespaces() if name.startswith(f"takt-{process.pid}-")}
+            space = f"takt-{process.pid}-2" if f"takt-{process.pid}-2" in mine else None
+            time.sleep(0.05)
+        # After the start has gone through: the cable of the third host is pulled.
+        self.wait_for_running(process.pid)
+        subprocess.run(["ip", "-n", space, "link", "set", "eth0", "down"], check=True)
+        out, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1, out)
+        self.assertFalse(json.loads(out)["same"])
+
+    def wait_for_running(self, pid):
+        socket = pathlib.Path(tempfile.gettempdir()) / f"takt-emulate-{pid}" / "p0-0.sock"
+        for _ in range(600):
+            done = subprocess.run([TAKT, "ctl", str(socket), "status", "--format", "json"], capture_output=True, text=True, check=False)
+            if done.returncode == 0 and json.loads(done.stdout)["state"] == "Running":
+                return
+            time.sleep(0.05)
+        self.fail("it does not run")
+
+    def test_signals_and_kills_leave_nothing(self):
+        for number, status in ((signal.SIGINT, 130), (signal.SIGTERM, 130)):
+            process = subprocess.Popen([TAKT, "emulate", self.file(duration="60s")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.wait_for_running(process.pid)
+            process.send_signal(number)
+            out, err = process.communicate(timeout=30)
+            self.assertEqual(process.returncode, status, out + err)
+            self.assertFalse([name for name in namespaces() if name.startswith(f"takt-{process.pid}-")])
+        process = subprocess.Popen([TAKT, "emulate", self.file(duration="60s")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.wait_for_running(process.pid)
+        process.kill()
+        process.wait()
+        left = {name for name in namespaces() if name.startswith(f"takt-{process.pid}-")}
+        self.assertTrue(left, "a kill cannot clean up")
+        self.assertTrue(self.emulate(self.file())["same"])  # the next start does
+        self.assertFalse(left & namespaces())
+        self.assertFalse((pathlib.Path(tempfile.gettempdir()) / f"takt-emulate-{process.pid}").exists())
+
+
+class Refusals(unittest.TestCase):
+    def emulate(self, path, prefix=()):
+        done = subprocess.run([*prefix, TAKT, "emulate", path], capture_output=True, text=True, timeout=60, check=False)
+        return done.returncode, done.stdout, done.stderr
+
+    def test_nothing_to_run(self):
+        with tempfile.TemporaryDirectory(prefix="takt-emulation-") as folder:
+            path = pathlib.Path(folder) / "s.json"
+            path.write_text(json.dumps({key: value for key, value in SMALL.items() if key not in ("programs", "script")}), encoding="utf-8")
+            status, out, err = self.emulate(str(path))
+        self.assertEqual((status, out), (2, ""))
+        self.assertIn("no Program", err)
+
+    def test_root_is_asked_for(self):
+        prefix = ["setpriv", "--reuid=65534", "--clear-groups"] if os.geteuid() == 0 else []
+        status, out, err = self.emulate(str(SOURCES / "scenarios" / "three-slaves-star.json"), prefix)
+        if "Permission denied" in err or "Errno 13" in err:
+            self.skipTest("another user cannot reach the program")
+        self.assertEqual((status, out), (3, ""), err)
+        self.assertIn("root", err)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

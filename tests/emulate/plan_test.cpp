@@ -1,0 +1,98 @@
+// What a scenario comes down to on a machine, without touching one.
+#include "emulate/plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "node/config.hpp"
+#include "scenario/resolve.hpp"
+
+namespace takt::emulate {
+namespace {
+
+std::string scenario(const std::string& nodes, const std::string& links, const std::string& more) {
+  return R"({"name": "s", "duration": "1s", "network": {"nodes": {"m": {"kind": "host"}, "a": {"kind": "host"}, "x": {"kind": "switch"})" + nodes +
+         R"(}, "links": [{"ends": ["m", "x"]}, )" + links + "]}" + more + "}";
+}
+const std::string program = R"(, "programs": [{"name": "p", "master": "m", "slaves": ["a"], "cycle": "1ms", "vlan": 7, "pcp": 5, "publish": "on-change"}])";
+
+struct Planned {
+  explicit Planned(const std::string& text) {
+    scenario::json::Diagnostics diagnostics;
+    resolved = scenario::load_text(text, "s.json", {}, diagnostics);
+    if (!resolved) throw std::runtime_error(diagnostics.to_text());
+    plan = plan_of(*resolved);
+  }
+  std::unique_ptr<scenario::Resolved> resolved;
+  Plan plan;
+};
+
+bool speaks_of(const std::vector<std::string>& texts, const std::string& what) {
+  for (const std::string& each : texts)
+    if (each.find(what) != std::string::npos) return true;
+  return false;
+}
+
+TEST(Plan, HostsSwitchesAndCables) {
+  const Planned planned(scenario("", R"({"ends": ["a", "x"]})", program + R"(, "script": [{"at": "500ms", "program": "p", "call": "Halt", "on": "a"}, {"at": "100ms", "program": "p", "call": "Start"}])"));
+  const Plan& plan = planned.plan;
+  EXPECT_TRUE(plan.refusals.empty());
+  EXPECT_EQ(plan.is_bridge, (std::vector<bool>{false, false, true}));
+  ASSERT_EQ(plan.cables.size(), 2u);
+  EXPECT_EQ(plan.cables[1].a.interface, "eth0");
+  EXPECT_EQ(plan.cables[1].b.interface, "p1");
+  ASSERT_EQ(plan.nodes.size(), 2u);
+  ASSERT_EQ(plan.actions.size(), 2u);
+  EXPECT_EQ(std::get<CallAction>(plan.actions[0].what).node, 0u);
+  EXPECT_EQ(std::get<CallAction>(plan.actions[1].what).node, 1u);
+  EXPECT_EQ(std::get<CallAction>(plan.actions[1].what).method, program::Method::Halt);
+}
+
+// Every file is sound, and says of the Program what the scenario says.
+TEST(Plan, FilesOfNodes) {
+  const Planned planned(scenario("", R"({"ends": ["a", "x"]})", program));
+  for (const PlannedNode& node : planned.plan.nodes) {
+    const std::string path = std::string(::testing::TempDir()) + "takt-planned.json";
+    std::ofstream(path) << node.config;
+    scenario::json::Diagnostics diagnostics;
+    const auto loaded = node::load_config(path, diagnostics);
+    std::filesystem::remove(path);
+    ASSERT_TRUE(loaded) << diagnostics.to_text();
+    EXPECT_EQ(loaded->endpoint.handshake.index, node.participant);
+    EXPECT_TRUE(loaded->endpoint.publish_on_change);
+    EXPECT_EQ(loaded->config.control, control_mark);
+    const auto& transport = std::get<node::EthernetTransport>(loaded->config.transport);
+    EXPECT_EQ(transport.vlan, 7);
+    EXPECT_EQ(transport.pcp, 5);
+  }
+}
+
+TEST(Plan, ARingIsOpened) {
+  const Planned planned(scenario(R"(, "y": {"kind": "switch"}, "z": {"kind": "switch"})",
+                                 R"({"ends": ["x", "y"]}, {"ends": ["y", "z"]}, {"ends": ["z", "x"]}, {"ends": ["a", "z"]})", program));
+  EXPECT_EQ(planned.resolved->topology.links.size(), 5u);
+  EXPECT_EQ(planned.plan.cables.size(), 4u);
+  EXPECT_TRUE(speaks_of(planned.plan.notes, "z - x"));
+}
+
+TEST(Plan, WhatIsLeftOutIsSaid) {
+  const Planned planned(scenario("", R"({"ends": ["a", "x"]})", program + R"(, "streams": [{"name": "t", "from": "m", "to": "a", "payload": "100B", "every": "1ms"}],
+ "faults": [{"kind": "frame-errors", "link": ["m", "x"], "loss": 0.1}])"));
+  EXPECT_TRUE(speaks_of(planned.plan.notes, "streams"));
+  EXPECT_TRUE(speaks_of(planned.plan.notes, "frame errors"));
+}
+
+TEST(Plan, CrashesAndCutsAreActions) {
+  const Planned planned(scenario("", R"({"ends": ["a", "x"]})", program + R"(, "faults": [{"kind": "crash", "node": "a", "at": "100ms", "for": "50ms"}, {"kind": "link-down", "link": ["m", "x"], "at": "300ms", "for": "1ms"}])"));
+  ASSERT_EQ(planned.plan.actions.size(), 4u);
+  EXPECT_FALSE(std::get<HostAction>(planned.plan.actions[0].what).up);
+  EXPECT_TRUE(std::get<HostAction>(planned.plan.actions[1].what).up);
+  EXPECT_EQ(std::get<LinkAction>(planned.plan.actions[2].what).cable, 0u);
+}
+
+TEST(Plan, WithoutAProgramThereIsNothingToRun) { EXPECT_FALSE(Planned(scenario("", R"({"ends": ["a", "x"]})", "")).plan.refusals.empty()); }
+
+}  // namespace
+}  // namespace takt::emulate

@@ -1,0 +1,113 @@
+// Nested programs and programs with roles on simulated hosts.
+#include <fmt/format.h>
+
+#include "results/evaluate.hpp"
+#include "support.hpp"
+
+namespace takt::scenario::test {
+namespace {
+
+using results::ProgramResult;
+using results::RunResult;
+
+RunResult run(const std::string& text) {
+  const auto resolved = sound(text);
+  LiveRun live(*resolved);
+  live.advance();
+  return results::evaluate(live, false);
+}
+
+std::string scenario(const std::string& nodes, const std::string& rest) {
+  std::string hosts;
+  std::string links;
+  for (const auto& [name, offers] : std::vector<std::pair<std::string, std::string>>{{"m", ""}, {"a", R"(, "offers": ["x"])"}, {"b", R"(, "offers": ["x"])"}, {"c", R"(, "offers": ["y"])"}}) {
+    hosts += fmt::format(R"("{}": {{"kind": "host", "os": "preempt-rt"{}}}, )", name, offers);
+    links += fmt::format(R"({}{{"ends": ["{}", "sw"]}})", links.empty() ? "" : ", ", name);
+  }
+  return fmt::format(R"({{"name": "g", "network": {{"nodes": {{{}{}"sw": {{"kind": "switch", "forwarding_delay": "1us"}}}}, "links": [{}]}}, {}}})", hosts, nodes, links, rest);
+}
+
+std::string nested(const std::string& script, const std::string& faults = "") {
+  return scenario("", R"("duration": "400ms", "programs": [{"name": "o", "master": "m", "slaves": ["a", "b"], "cycle": "1ms"},
+    {"name": "i", "within": "o", "master": "b", "slaves": ["c"], "cycle": "250us", "process_data": [{"name": "d", "from": "b", "fields": {"x": "Double"}}]}],
+    "script": [{"at": "10.1ms", "program": "o", "call": "Start"})" + script + "], \"faults\": [" + faults + "]");
+}
+
+void expect_all(const RunResult& result, const std::string& state) {
+  for (const ProgramResult& program : result.programs) {
+    for (const std::string& each : program.states) EXPECT_EQ(each, state) << program.name;
+    EXPECT_TRUE(program.violations.empty()) << program.name;
+  }
+}
+
+TEST(NestedPrograms, StartTogetherAndTheTreeHasAReactionOfItsOwn) {
+  const RunResult result = run(nested(""));
+  expect_all(result, "Running");
+  ASSERT_EQ(result.programs[0].tree_reactions.size(), 1u);
+  EXPECT_EQ(result.programs[0].tree_reactions[0].initiator, "o/m");
+  EXPECT_EQ(result.programs[0].tree_reactions[0].duration(), result.programs[0].reactions[0].duration()) << "the outer master is the last to run";
+  EXPECT_TRUE(result.programs[1].tree_reactions.empty());
+  EXPECT_EQ(result.programs[1].reactions[0].cause, "nested group");
+  EXPECT_GT(result.programs[1].process_data_received, 1000u);
+}
+
+TEST(NestedPrograms, EveryMethodPassesBothWays) {
+  expect_all(run(nested(R"(, {"at": "100.1ms", "program": "i", "call": "Suspend", "on": "c"})")), "Suspended");
+  expect_all(run(nested(R"(, {"at": "100.1ms", "program": "o", "call": "Suspend"}, {"at": "150.1ms", "program": "i", "call": "Resume", "on": "c"})")), "Running");
+  expect_all(run(nested(R"(, {"at": "100.1ms", "program": "o", "call": "Suspend", "on": "a"}, {"at": "150.1ms", "program": "i", "call": "Reset", "on": "b"})")), "Ready");
+  expect_all(run(nested(R"(, {"at": "100.1ms", "program": "i", "call": "Halt", "on": "c"})")), "Halted");
+  expect_all(run(nested(R"(, {"at": "100.1ms", "program": "o", "call": "Halt"})")), "Halted");
+}
+
+TEST(NestedPrograms, ACrashAnywhereHaltsTheTreeAndItStartsAgain) {
+  for (const char* node : {"m", "a", "b", "c"}) {
+    const std::string fault = fmt::format(R"({{"kind": "crash", "node": "{}", "at": "100ms", "for": "50ms"}})", node);
+    expect_all(run(nested("", fault)), "Halted");
+    expect_all(run(nested(R"(, {"at": "300.1ms", "program": "o", "call": "Start"})", fault)), "Running");
+  }
+}
+
+std::string with_roles(const std::string& script, const std::string& faults = "", const std::string& more = "") {
+  return scenario("", R"("duration": "400ms", "programs": [{"name": "p", "master": "m", "roles": [{"name": "r", "skill": "x"}, {"name": "s", "skill": "y"}],
+    "announce_every": "2ms", "cycle": "500us")" + more + R"(, "process_data": [{"name": "up", "from": "r", "fields": {"v": "Float"}}]}],
+    "script": [{"at": "20.1ms", "program": "p", "call": "Start"})" + script + "], \"faults\": [" + faults + "]");
+}
+
+std::vector<std::string> bindings(const RunResult& result) {
+  std::vector<std::string> all;
+  for (const results::BindingResult& each : result.programs[0].bindings) all.push_back(each.role + " " + each.node);
+  return all;
+}
+
+TEST(Roles, AreBoundAndRun) {
+  const RunResult result = run(with_roles(""));
+  expect_all(result, "Running");
+  EXPECT_EQ(bindings(result), (std::vector<std::string>{"r a", "s c"}));
+  EXPECT_GT(result.programs[0].process_data_received, 500u);
+}
+
+TEST(Roles, ASpareReplacesACrashedNode) {
+  const std::string crash = R"({"kind": "crash", "node": "a", "at": "100ms", "for": "200ms"})";
+  const RunResult stays = run(with_roles("", crash));
+  expect_all(stays, "Halted");
+  EXPECT_EQ(bindings(stays), (std::vector<std::string>{"r a", "s c", "r b"}));
+  expect_all(run(with_roles("", crash, R"(, "on_replacement": "restart")")), "Running");
+  expect_all(run(with_roles(R"(, {"at": "200.1ms", "program": "p", "call": "Start"})", crash)), "Running");
+}
+
+TEST(Roles, AbsentOnesJoinAndLeaversAreLetGo) {
+  const RunResult late = run(with_roles(R"(, {"at": "100ms", "join": "c"}, {"at": "150.1ms", "program": "p", "call": "Start"})", "", R"(, "absent": ["c"])"));
+  expect_all(late, "Running");
+  EXPECT_EQ(late.programs[0].reactions.size(), 1u) << "the first Start was refused";
+  const RunResult left = run(with_roles(R"(, {"at": "100ms", "leave": "c"})"));
+  expect_all(left, "Halted");
+  EXPECT_EQ(bindings(left), (std::vector<std::string>{"r a", "s c", "s "}));
+}
+
+TEST(Roles, ARestartedMasterBindsAnew) {
+  const std::string crash = R"({"kind": "crash", "node": "m", "at": "100ms", "for": "5ms"})";
+  expect_all(run(with_roles(R"(, {"at": "200.1ms", "program": "p", "call": "Start"})", crash)), "Running");
+}
+
+}  // namespace
+}  // namespace takt::scenario::test

@@ -43,14 +43,18 @@ TEST(Sandwich, NothingExceedsItsBound) {
       }
       for (const handshake::Reaction& seen : seen_by(run, reaction)) {
         if (handshake::name_of(seen.kind) != std::string_view(scenario::spelling(reaction.kind)) || seen.outcome != handshake::ReactionOutcome::Completed) continue;
-        ASSERT_TRUE(reaction.bound) << name;
+        if (!reaction.bound && !resolved->programs[reaction.program].replies.empty()) {
+          EXPECT_NE(reaction.reason, "") << name;   // replies may come without a least gap
+          continue;
+        }
+        ASSERT_TRUE(reaction.bound) << name << ": " << reaction.reason;
         EXPECT_LE(seen.completed - seen.began, *reaction.bound) << name << " " << handshake::name_of(seen.kind);
         ++(reaction.of_tree ? trees : reactions);
       }
     }
   }
   EXPECT_GT(all.compared, 80u);
-  EXPECT_LT(all.unbounded, 15u);   // random gaps, and a gate that gets more than it lets through
+  EXPECT_LT(all.unbounded, 20u);   // random gaps, replies without a least gap, and a gate that gets more than it lets through
   EXPECT_GE(reactions, 20u);
   EXPECT_GE(trees, 5u);
 }

@@ -140,7 +140,7 @@ void WireChecker::feed(const Recorded& recorded) {
   const sim::TraceRecord& record = recorded.record;
   const Ps now = record.time.ps();
   const auto occurrence = static_cast<Occurrence>(record.kind);
-  if (occurrence == Occurrence::produced) return;
+  if (occurrence == Occurrence::produced || occurrence == Occurrence::received) return;
   if (occurrence == Occurrence::drop) ++accounts_[recorded.frame.stream.value].dropped[record.detail];
   const std::uint32_t index = record.where.index < places_.size() ? places_[record.where.index].direction : 0xFFFF'FFFF;
   if (index == 0xFFFF'FFFF || occurrence == Occurrence::gates_changed) return;

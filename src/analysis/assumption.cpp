@@ -20,7 +20,7 @@ constexpr std::array<Text, static_cast<std::size_t>(Assumption::count)> texts = 
     {Assumption::gptp_traffic, "gptp-traffic", "A port sends each kind of gPTP message at most once in half of its interval, in each domain."},
     {Assumption::gates_in_force, "gates-in-force", "Gate lists run already, as they do from their base time on."},
     {Assumption::gates_do_not_change, "gates-do-not-change", "No frame waits while a gate list is exchanged for another; the bound holds for each list."},
-    {Assumption::elimination, "elimination", "Any one copy of a frame of a redundant stream may be the only one that comes; each frame passes the recovery once."},
+    {Assumption::elimination, "elimination", "Any one copy of a frame of a redundant stream may be the only one that comes; a recovery passes a frame once, or, where match recovery or a reset timer may forget it, each copy of it."},
     {Assumption::program_publishes, "changes-in-a-cycle", "A participant that publishes on change does so at most four times in a cycle, and so does whoever gives, gets or loses a role."},
     {Assumption::no_loss, "no-loss", "No message between participants is lost."},
     {Assumption::one_command, "one-command", "Nobody calls another method, and no alarm is raised, until all have reached the state."},

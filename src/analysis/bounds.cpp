@@ -1,7 +1,6 @@
 #include "analysis/bounds.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "analysis/network_bound.hpp"
 #include "analysis/program_reactions.hpp"
@@ -16,26 +15,14 @@ std::optional<Duration> duration_of(Ps ps) { return is_bounded(ps) ? std::option
 
 std::uint64_t bits_of(Ps work, const GraphPort& port) { return static_cast<std::uint64_t>(8 * ((work + port.octet_time - 1) / port.octet_time)); }
 
-/// Ports that members of redundant streams cross. They may come in longer bursts than a backlog counts.
-std::set<std::uint32_t> ports_of_members(const scenario::Resolved& resolved, const FlowGraph& graph) {
-  std::set<std::uint32_t> redundant;
-  for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) redundant.insert(redundancy.stream.value);
-  std::set<std::uint32_t> ports;
-  for (const Flow& flow : graph.flows)
-    if (redundant.contains(flow.stream.value))
-      for (const std::uint32_t h : flow.hops) ports.insert(graph.hops[h].port);
-  return ports;
-}
-
-std::vector<QueueBound> queue_bounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network) {
-  const std::set<std::uint32_t> unknown = ports_of_members(resolved, graph);
+std::vector<QueueBound> queue_bounds(const FlowGraph& graph, const NetworkResult& network) {
   std::vector<QueueBound> queues;
   for (std::size_t p = 0; p < graph.ports.size(); ++p)
     for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q) {
       const PortClassBound& bound = network.ports[p].classes[q];
       if (!bound.is_used) continue;
       queues.push_back({graph.ports[p].node, graph.ports[p].number, q, {}, {}});
-      if (!is_bounded(bound.backlog) || unknown.contains(static_cast<std::uint32_t>(p))) continue;
+      if (!is_bounded(bound.backlog)) continue;
       queues.back().bits = bits_of(bound.backlog, graph.ports[p]);
       queues.back().frames = static_cast<std::uint64_t>(bound.backlog_frames);
     }
@@ -44,7 +31,7 @@ std::vector<QueueBound> queue_bounds(const scenario::Resolved& resolved, const F
 
 class StreamBounds {
  public:
-  StreamBounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network) : r_(resolved), graph_(graph), network_(network), separated_(resolved, graph, network), ports_of_members_(ports_of_members(resolved, graph)) {}
+  StreamBounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network) : r_(resolved), graph_(graph), network_(network), separated_(resolved, graph, network) {}
 
   std::vector<StreamBound> make() {
     std::vector<StreamBound> bounds(r_.streams.size());
@@ -127,7 +114,7 @@ class StreamBounds {
     made.port = port.number;
     made.name = r_.plan.nodes[port.node.value].name + ":" + std::to_string(port.number) + " to " + r_.plan.nodes[port.peer.value].name;
     made.delay = duration_of(result.delay);
-    if (is_bounded(traffic_class.backlog) && !ports_of_members_.contains(hop.port)) made.backlog_bits = bits_of(traffic_class.backlog, port);
+    if (is_bounded(traffic_class.backlog)) made.backlog_bits = bits_of(traffic_class.backlog, port);
     if (!made.delay && reason.empty()) {
       const std::string& why = !hop.unsupported.empty() ? hop.unsupported : !result.reason.empty() ? result.reason : traffic_class.reason;
       reason = "at " + made.name + ", class " + std::to_string(hop.highest_class) + ": " + (why.empty() ? "unbounded" : why);
@@ -137,8 +124,6 @@ class StreamBounds {
 
   /// Nothing on the way drops frames of the hop: queues hold the backlog, no gate or meter polices.
   bool has_room(const Hop& hop) const {
-    // Members of a redundant stream may come in longer bursts than the backlog counts.
-    if (ports_of_members_.contains(hop.port)) return false;
     const models::PortConfig& config = *graph_.models[hop.port].config;
     for (models::TrafficClass q = hop.lowest_class; q <= hop.highest_class; ++q) {
       const PortClassBound& bound = network_.ports[hop.port].classes[q];
@@ -160,7 +145,6 @@ class StreamBounds {
   const FlowGraph& graph_;
   const NetworkResult& network_;
   SeparatedFlows separated_;
-  std::set<std::uint32_t> ports_of_members_;   // ports that members of redundant streams cross
 };
 
 class RequirementBounds {
@@ -224,7 +208,7 @@ Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
   Bounds bounds;
   bounds.rounds = network.rounds;
   bounds.streams = StreamBounds(resolved, graph, network).make();
-  bounds.queues = queue_bounds(resolved, graph, network);
+  bounds.queues = queue_bounds(graph, network);
   if (!resolved.plan.impairments.empty())   // chance loses frames
     for (StreamBound& stream : bounds.streams) stream.loses_nothing = false;
   for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) bounds.streams[redundancy.stream.value].loses_nothing = false;   // copies are

@@ -185,10 +185,11 @@ class FixedPoint {
       arrivals = arrivals_[hop.parents.front()].delayed(is_bounded(worst) ? own_jitter - (before.worst - before.best) : unbounded_ps);
     } else {
       arrivals = flow.source.delayed(hop.parents.empty() ? 0 : own_jitter);
+      if (hop.parents.size() > 1 && !passes_once(flow, own_jitter)) arrivals = multiplied(arrivals, static_cast<std::int64_t>(hop.parents.size()));
     }
     if (hop.metered) arrivals.add(*hop.metered);
     if (is_held(hop)) arrivals.add(hop.ats->shaped);
-    if (!hop.parents.empty() && graph_.ports[graph_.hops[hop.parents.front()].port].may_double) arrivals = doubled(arrivals);
+    if (!hop.parents.empty() && graph_.ports[graph_.hops[hop.parents.front()].port].may_double) arrivals = multiplied(arrivals, 2);
     if (is_known_[h] && result.best == best && result.worst == worst && same(arrivals, arrivals_[h])) return;
     is_known_[h] = true;
     result.best = best;
@@ -221,14 +222,23 @@ class FixedPoint {
       return x.period == y.period && x.frames == y.frames && x.gap == y.gap && x.jitter == y.jitter;
     });
   }
-  static FrameArrivals doubled(const FrameArrivals& arrivals) {
-    FrameArrivals twice;
+  static FrameArrivals multiplied(const FrameArrivals& arrivals, std::int64_t copies) {
+    FrameArrivals all;
     for (ArrivalPattern pattern : arrivals.patterns()) {
-      pattern.frames *= 2;
+      pattern.frames *= copies;
       pattern.gap = 0;
-      twice.add(pattern);
+      all.add(pattern);
     }
-    return twice;
+    return all;
+  }
+  /// Where the members of a stream meet, whose frames come within `spread` of each other: whether the recovery lets one copy of a frame through only. It forgets what has
+  /// passed when its reset timer expires, and match recovery (IEEE 802.1CB, 7.4.3.5) as soon as another frame has come.
+  bool passes_once(const Flow& flow, Ps spread) const {
+    const auto redundancy = std::find_if(r_.redundancies.begin(), r_.redundancies.end(), [&](const scenario::ResolvedRedundancy& each) { return each.stream == flow.stream; });
+    if (redundancy == r_.redundancies.end()) return true;
+    const scenario::Redundancy& description = *redundancy->description;
+    if (!is_bounded(spread) || spread >= description.reset_timeout.ps()) return false;
+    return description.algorithm != scenario::Recovery::match || (flow.source.is_limited() && flow.source.count(spread) <= 1);
   }
 
   /// The delay at the port before, with what the scheduler of this hop holds the frame after it.

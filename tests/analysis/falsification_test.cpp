@@ -181,6 +181,14 @@ TEST(Falsification, NoBoundIsExceeded) {
               total.shares[total.shares.size() / 2], total.shares[total.shares.size() / 4], total.shares[total.shares.size() * 3 / 4], total.full_queues, total.queues, total.second_opinions, total.better_second_opinions);
 }
 
+// Networks that once exceeded a bound, by number.
+TEST(Falsification, NetworksThatBrokeABound) {
+  Total total;
+  for (const std::size_t number : {2608u, 3688u, 4999u, 5259u}) drive(number, {}, total);   // match recovery passes copies that come in between each other
+  EXPECT_EQ(total.networks, 4u);
+  EXPECT_EQ(total.violations, 0u) << total.first;
+}
+
 // Without packetiser frames are fluids that leave a port as they come.
 TEST(Falsification, CatchesABoundWithoutPacketiser) {
   BoundOptions wrong;

@@ -9,18 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "dice.hpp"
+#include "schedule.hpp"
 #include "tree.hpp"
 
 namespace takt::handshake {
 namespace {
 
 enum class Act : std::uint8_t { Publish, Deliver, Duplicate, Drop, Initialised, Call, Finish, Silent, Restart };
-struct Action {
-  Act act = Act::Publish;
-  std::uint32_t a = 0;  ///< a participant or a message under way
-  std::uint32_t b = 0;
-};
+using Action = handshake::Action<Act>;   // a: a participant or a message under way
+
 constexpr const char* act_names[]{"publish", "deliver", "duplicate", "drop", "initialised", "call", "finish", "silent", "restart"};
 
 using Shape = std::vector<TreeGroup>;
@@ -69,19 +66,12 @@ class World {
     const auto [group, who] = tree.place(number);
     switch (action.act) {
       case Act::Publish: publish(group, who); break;
-      case Act::Deliver:
-        // Mostly the oldest ones in order, sometimes any one.
-        if (action.b % 8 == 0) {
-          if (!under_way.empty()) tree.deliver(take(action.a % under_way.size()));
-        } else {
-          for (std::uint32_t i = 0; i <= action.b % tree.participants() && !under_way.empty(); ++i) tree.deliver(take(0));
-        }
-        break;
+      case Act::Deliver: under_way.deliver(action.a, action.b, tree.participants(), [this](const TreeMessage& message) { tree.deliver(message); }); break;
       case Act::Duplicate:
         if (!under_way.empty()) tree.deliver(under_way[action.b % under_way.size()]);
         break;
       case Act::Drop:
-        if (!under_way.empty()) take(action.b % under_way.size());
+        if (!under_way.empty()) under_way.take(action.b % under_way.size());
         break;
       case Act::Initialised:
         if (tree.initialising(number)) tree.initialised(number);
@@ -95,20 +85,13 @@ class World {
       case Act::Restart: tree.restart(action.a % tree.nodes()); break;
     }
   }
-  TreeMessage take(std::size_t position) {
-    const TreeMessage message = under_way[position];
-    under_way.erase(under_way.begin() + static_cast<std::ptrdiff_t>(position));
-    return message;
-  }
-
   Tree tree;
-  std::vector<TreeMessage> under_way;
+  UnderWay<TreeMessage> under_way{60};
 
  private:
   void publish(std::size_t group, std::size_t from) {
     for (std::size_t peer = 0; peer < tree.member(group, from).peer_count(); ++peer) {
-      if (under_way.size() >= 60) take(0);
-      under_way.push_back(tree.message(group, from, tree.member(group, from).participant_of(peer)));
+      under_way.put(tree.message(group, from, tree.member(group, from).participant_of(peer)));
     }
   }
 };
@@ -150,7 +133,7 @@ std::string judge(World& world, const std::vector<Action>& schedule, bool begin_
     if (ran != nullptr && tree.all_in(PublishedState::Running)) *ran = true;
   }
   // The faults end: what is under way still arrives, then words are exchanged fairly.
-  while (!world.under_way.empty()) tree.deliver(world.take(0));
+  while (!world.under_way.empty()) tree.deliver(world.under_way.take(0));
   tree.rounds(20);
   if (!tree.observer.violations().empty()) return "violation at the end\n" + tree.describe();
   if (!tree.agreed()) return "L1: no agreement\n" + tree.describe();
@@ -180,27 +163,11 @@ std::string run(const std::vector<Action>& schedule, const Shape& shape, bool be
   }
 }
 
-/// Leaves out whatever is not needed for the failure, in ever smaller pieces.
-std::vector<Action> shrink(std::vector<Action> schedule, const Shape& shape, bool begin_running) {
-  for (std::size_t piece = schedule.size() / 2; piece > 0; piece /= 2) {
-    for (std::size_t from = 0; from + piece <= schedule.size();) {
-      std::vector<Action> shorter = schedule;
-      const auto first = shorter.begin() + static_cast<std::ptrdiff_t>(from);
-      shorter.erase(first, first + static_cast<std::ptrdiff_t>(piece));
-      if (run(shorter, shape, begin_running).empty()) from += piece;
-      else schedule = shorter;
-    }
-  }
-  return schedule;
-}
-
 std::string print(const Shape& shape, const std::vector<Action>& schedule) {
   std::string text;
   for (const TreeGroup& group : shape)
     text += "  group of " + std::to_string(group.participants) + " nested at " + std::to_string(group.outer) + "." + std::to_string(group.outer_index) + "\n";
-  for (const Action& action : schedule)
-    text += "  " + std::string(act_names[static_cast<std::size_t>(action.act)]) + " " + std::to_string(action.a) + " " + std::to_string(action.b) + "\n";
-  return text;
+  return text + handshake::print(schedule, act_names);
 }
 
 TEST(NestedSchedules, NothingBreaksAndTheTreeAgreesInTheEnd) {
@@ -216,7 +183,7 @@ TEST(NestedSchedules, NothingBreaksAndTheTreeAgreesInTheEnd) {
     const std::string wrong = run(schedule, shape, begin_running, &ran);
     if (!begin_running) that_ran += ran ? 1 : 0;
     if (wrong.empty()) continue;
-    const std::vector<Action> least = shrink(schedule, shape, begin_running);
+    const std::vector<Action> least = shrink(schedule, [&](const std::vector<Action>& shorter) { return run(shorter, shape, begin_running).empty(); });
     FAIL() << "seed " << seed << (begin_running ? ", running" : "") << ": " << wrong << "cut down to:\n"
            << print(shape, least) << run(least, shape, begin_running);
   }

@@ -10,18 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "dice.hpp"
+#include "schedule.hpp"
 #include "plug.hpp"
 
 namespace takt::handshake {
 namespace {
 
 enum class Act : std::uint8_t { Publish, Deliver, Duplicate, Drop, Initialised, Call, Finish, Silent, Missed, Restart, Join, Leave };
-struct Action {
-  Act act = Act::Publish;
-  std::uint32_t a = 0;  ///< a station or a message under way
-  std::uint32_t b = 0;
-};
+using Action = handshake::Action<Act>;   // a: a station or a message under way
+
 constexpr const char* act_names[]{"publish", "deliver", "duplicate", "drop", "initialised", "call", "finish", "silent", "missed", "restart", "join", "leave"};
 
 struct Shape {
@@ -75,24 +72,14 @@ class World {
     const std::size_t c = action.a % (group.stations() - 1);
     switch (action.act) {
       case Act::Publish:
-        for (const PlugMessage& message : group.messages(station)) {
-          if (under_way.size() >= 60) take(0);
-          under_way.push_back(message);
-        }
+        for (const PlugMessage& message : group.messages(station)) under_way.put(message);
         break;
-      case Act::Deliver:
-        // Mostly the oldest ones in order, sometimes any one.
-        if (action.b % 8 == 0) {
-          if (!under_way.empty()) group.deliver(take(action.a % under_way.size()));
-        } else {
-          for (std::uint32_t i = 0; i <= action.b % (2 * group.stations()) && !under_way.empty(); ++i) group.deliver(take(0));
-        }
-        break;
+      case Act::Deliver: under_way.deliver(action.a, action.b, 2 * group.stations(), [this](const PlugMessage& message) { group.deliver(message); }); break;
       case Act::Duplicate:
         if (!under_way.empty()) group.deliver(PlugMessage(under_way[action.b % under_way.size()]));
         break;
       case Act::Drop:
-        if (!under_way.empty()) take(action.b % under_way.size());
+        if (!under_way.empty()) under_way.take(action.b % under_way.size());
         break;
       case Act::Initialised: group.initialised(station); break;
       case Act::Call:
@@ -107,14 +94,8 @@ class World {
       case Act::Leave: group.leave(c); break;
     }
   }
-  PlugMessage take(std::size_t position) {
-    const PlugMessage message = under_way[position];
-    under_way.erase(under_way.begin() + static_cast<std::ptrdiff_t>(position));
-    return message;
-  }
-
   PlugGroup group;
-  std::vector<PlugMessage> under_way;
+  UnderWay<PlugMessage> under_way{60};
 };
 
 /// A start from whatever the group has come to.
@@ -141,7 +122,7 @@ std::string judge(World& world, const std::vector<Action>& schedule, const Shape
     if (ran != nullptr && group.all_in(PublishedState::Running)) *ran = true;
   }
   // The faults end: what is under way still arrives, all nodes are there, then all is exchanged fairly.
-  while (!world.under_way.empty()) group.deliver(world.take(0));
+  while (!world.under_way.empty()) group.deliver(world.under_way.take(0));
   for (std::size_t c = 0; c + 1 < group.stations(); ++c) group.join(c);
   group.rounds(12);
   if (!group.binder().complete()) return "L1: roles without a node\n" + group.describe();
@@ -178,20 +159,6 @@ std::string run(const std::vector<Action>& schedule, const Shape& shape, bool be
   }
 }
 
-/// Leaves out whatever is not needed for the failure, in ever smaller pieces.
-std::vector<Action> shrink(std::vector<Action> schedule, const Shape& shape, bool begin_running) {
-  for (std::size_t piece = schedule.size() / 2; piece > 0; piece /= 2) {
-    for (std::size_t from = 0; from + piece <= schedule.size();) {
-      std::vector<Action> shorter = schedule;
-      const auto first = shorter.begin() + static_cast<std::ptrdiff_t>(from);
-      shorter.erase(first, first + static_cast<std::ptrdiff_t>(piece));
-      if (run(shorter, shape, begin_running).empty()) from += piece;
-      else schedule = shorter;
-    }
-  }
-  return schedule;
-}
-
 std::string print(const Shape& shape, const std::vector<Action>& schedule) {
   std::string text = "  roles";
   for (const SkillId skill : shape.roles) text += " " + std::to_string(skill);
@@ -201,9 +168,7 @@ std::string print(const Shape& shape, const std::vector<Action>& schedule) {
     for (const SkillId skill : skills) text += " " + std::to_string(skill);
     text += "\n";
   }
-  for (const Action& action : schedule)
-    text += "  " + std::string(act_names[static_cast<std::size_t>(action.act)]) + " " + std::to_string(action.a) + " " + std::to_string(action.b) + "\n";
-  return text;
+  return text + handshake::print(schedule, act_names);
 }
 
 TEST(PlugSchedules, NothingBreaksAndRolesAreFilledInTheEnd) {
@@ -217,7 +182,7 @@ TEST(PlugSchedules, NothingBreaksAndRolesAreFilledInTheEnd) {
     const std::string wrong = run(schedule, shape, begin_running, &ran);
     if (!begin_running) that_ran += ran ? 1 : 0;
     if (wrong.empty()) continue;
-    const std::vector<Action> least = shrink(schedule, shape, begin_running);
+    const std::vector<Action> least = shrink(schedule, [&](const std::vector<Action>& shorter) { return run(shorter, shape, begin_running).empty(); });
     FAIL() << "seed " << seed << (begin_running ? ", running" : "") << ": " << wrong << "cut down to:\n"
            << print(shape, least) << run(least, shape, begin_running);
   }

@@ -9,31 +9,13 @@
 #include <vector>
 
 #include "group.hpp"
+#include "schedule.hpp"
 
 namespace takt::handshake {
 namespace {
 
-/// splitmix64: a seed gives the same numbers everywhere.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15ULL) {}
-  std::uint32_t below(std::uint32_t bound) {
-    std::uint64_t z = state_ += 0x9E3779B97F4A7C15ULL;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return static_cast<std::uint32_t>((z ^ (z >> 31)) % bound);
-  }
-
- private:
-  std::uint64_t state_;
-};
-
 enum class Act : std::uint8_t { Publish, Deliver, Duplicate, Drop, Initialised, Call, Finish, Silent, Restart };
-struct Action {
-  Act act = Act::Publish;
-  std::uint32_t a = 0;  ///< a participant or a message under way
-  std::uint32_t b = 0;
-};
+using Action = handshake::Action<Act>;   // a: a participant or a message under way
 
 constexpr const char* act_names[]{"publish", "deliver", "duplicate", "drop",   "initialised",
                                   "call",    "finish",  "silent",    "restart"};
@@ -69,19 +51,12 @@ class World {
     const std::size_t who = action.a % group.size();
     switch (action.act) {
       case Act::Publish: publish(who); break;
-      case Act::Deliver:
-        // Mostly the oldest ones in order, sometimes any one.
-        if (action.b % 8 == 0) {
-          if (!under_way.empty()) deliver(action.a % under_way.size(), false);
-        } else {
-          for (std::uint32_t i = 0; i <= action.b % group.size() && !under_way.empty(); ++i) deliver(0, false);
-        }
-        break;
+      case Act::Deliver: under_way.deliver(action.a, action.b, group.size(), [this](const Message& message) { group.deliver(message); }); break;
       case Act::Duplicate:
-        if (!under_way.empty()) deliver(action.b % under_way.size(), true);
+        if (!under_way.empty()) group.deliver(Message(under_way[action.b % under_way.size()]));
         break;
       case Act::Drop:
-        if (!under_way.empty()) take(action.b % under_way.size());
+        if (!under_way.empty()) under_way.take(action.b % under_way.size());
         break;
       case Act::Initialised:
         if (group.initialising(who)) group.initialised(who);
@@ -94,17 +69,8 @@ class World {
   }
 
   void publish(std::size_t from) {
-    for (std::size_t peer = 0; peer < group[from].peer_count(); ++peer) {
-      if (under_way.size() >= 40) take(0);
-      under_way.push_back(group.message(from, group[from].participant_of(peer)));
-    }
+    for (std::size_t peer = 0; peer < group[from].peer_count(); ++peer) under_way.put(group.message(from, group[from].participant_of(peer)));
   }
-  Message take(std::size_t position) {
-    const Message message = under_way[position];
-    under_way.erase(under_way.begin() + static_cast<std::ptrdiff_t>(position));
-    return message;
-  }
-  void deliver(std::size_t position, bool keep) { group.deliver(keep ? under_way[position] : take(position)); }
   void call(std::size_t who, std::uint32_t b) {
     // A start is worth trying more often than the rest, and only the master can.
     if (b % 3 == 0) group.call(0, program::Method::Start);
@@ -112,7 +78,7 @@ class World {
   }
 
   Group group;
-  std::vector<Message> under_way;
+  UnderWay<Message> under_way{40};
 };
 
 /// What is wrong with a schedule; empty if nothing.
@@ -131,7 +97,7 @@ std::string run(const std::vector<Action>& schedule, std::size_t slaves, Begin b
     if (ran != nullptr && world.group.all_in(PublishedState::Running)) *ran = true;
   }
   // The faults end: what is under way still arrives, then words are exchanged fairly.
-  while (!world.under_way.empty()) world.deliver(0, false);
+  while (!world.under_way.empty()) world.group.deliver(world.under_way.take(0));
   world.group.rounds(10);
   if (!world.group.observer.violations().empty()) return "violation at the end\n" + world.group.describe();
   if (!world.group.agreed()) return "L1: no agreement\n" + world.group.describe();
@@ -158,38 +124,12 @@ std::string run(const std::vector<Action>& schedule, std::size_t slaves, Begin b
   return {};
 }
 
-/// Leaves out whatever is not needed for the failure, in ever smaller pieces.
-std::vector<Action> shrink(std::vector<Action> schedule, std::size_t slaves, Begin begin) {
-  for (std::size_t piece = schedule.size() / 2; piece > 0; piece /= 2) {
-    for (std::size_t from = 0; from + piece <= schedule.size();) {
-      std::vector<Action> shorter = schedule;
-      const auto first = shorter.begin() + static_cast<std::ptrdiff_t>(from);
-      shorter.erase(first, first + static_cast<std::ptrdiff_t>(piece));
-      if (run(shorter, slaves, begin).empty()) from += piece;
-      else schedule = shorter;
-    }
-  }
-  return schedule;
-}
-
-std::string print(const std::vector<Action>& schedule) {
-  std::string text;
-  for (const Action& action : schedule)
-    text += "  " + std::string(act_names[static_cast<std::size_t>(action.act)]) + " " + std::to_string(action.a) + " " +
-            std::to_string(action.b) + "\n";
-  return text;
-}
-
 class Schedules : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Slaves, Schedules, testing::Range(1, 9));
 
 TEST_P(Schedules, NothingBreaksAndAllAgreeInTheEnd) {
   const auto slaves = static_cast<std::size_t>(GetParam());
-#ifdef NDEBUG
-  constexpr std::uint64_t count = 4000;
-#else
-  constexpr std::uint64_t count = 400;
-#endif
+  const std::uint64_t count = schedules_wanted(4000, 400);
   std::uint64_t that_ran = 0;
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     const std::vector<Action> schedule = make_schedule(seed, slaves + 1, 60 + seed % 300 * slaves);
@@ -198,10 +138,10 @@ TEST_P(Schedules, NothingBreaksAndAllAgreeInTheEnd) {
     const std::string wrong = run(schedule, slaves, begin, &ran);
     if (begin == Begin::New) that_ran += ran ? 1 : 0;
     if (wrong.empty()) continue;
-    const std::vector<Action> least = shrink(schedule, slaves, begin);
+    const std::vector<Action> least = shrink(schedule, [&](const std::vector<Action>& shorter) { return run(shorter, slaves, begin).empty(); });
     FAIL() << "seed " << seed << ", " << slaves << " slaves" << (begin == Begin::Running ? ", running" : "") << ": "
            << wrong << "cut down to:\n"
-           << print(least) << run(least, slaves, begin);
+           << print(least, act_names) << run(least, slaves, begin);
   }
   // A harness in which the group never gets to Running would prove nothing.
   EXPECT_GT(that_ran * 10, count / 2) << that_ran << " of " << count / 2 << " schedules brought everybody to Running";
@@ -216,7 +156,7 @@ TEST_P(Schedules, AllToAllNothingBreaksEither) {
     bool ran = false;
     const std::string wrong = run(schedule, slaves, seed % 2 == 0 ? Begin::New : Begin::Running, &ran, Subscription::AllToAll);
     that_ran += ran ? 1 : 0;
-    ASSERT_TRUE(wrong.empty()) << "seed " << seed << ", " << slaves << " slaves: " << wrong << print(schedule);
+    ASSERT_TRUE(wrong.empty()) << "seed " << seed << ", " << slaves << " slaves: " << wrong << print(schedule, act_names);
   }
   EXPECT_GT(that_ran, 1000u);  // the thousand that begin so, and some more
 }

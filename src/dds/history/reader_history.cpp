@@ -24,6 +24,11 @@ std::optional<RejectedBy> ReaderHistory::obstacle(const Instances::iterator& at)
   return std::nullopt;
 }
 
+bool ReaderHistory::has_room(const InstanceKey& key, sim::LocalTime now) {
+  purge(now);
+  return !obstacle(instances_.find(key));
+}
+
 Admission ReaderHistory::add(const Arrival& arrival, sim::LocalTime now) {
   purge(now);
   Instances::iterator at = instances_.find(arrival.key);

@@ -43,6 +43,8 @@ class ReaderHistory {
   explicit ReaderHistory(const Settings& settings) : settings_(settings), deadlines_(settings.deadline) {}
 
   Admission add(const Arrival& arrival, sim::LocalTime now);
+  /// Whether a change of this instance would not be rejected.
+  bool has_room(const InstanceKey& key, sim::LocalTime now);
   /// The sample that is first in the destination order. It leaves the history.
   std::optional<Sample> take(sim::LocalTime now);
   /// All samples that are there, in the destination order. They stay, and are no longer NOT_READ.

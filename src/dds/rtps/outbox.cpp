@@ -20,7 +20,9 @@ void Outbox::open() {
   at_hand_.octets = std::move(spare_.back());
   spare_.pop_back();
   at_hand_.octets.resize(max_message_);
-  encoder_.emplace(at_hand_.octets, MessageHeader{.prefix = prefix_});
+  MessageHeader header;
+  header.prefix = prefix_;
+  encoder_.emplace(at_hand_.octets, header);
   if (is_directed_) {
     encoder_->add(InfoDestination{only_});
     figures_.sent.count(SubmessageKind::info_destination);

@@ -11,20 +11,23 @@ void check_limit(Problems& problems, const std::string& name, std::int32_t limit
   if (limit != unlimited && limit < 1) problems.push_back(name + ": " + text(limit) + " is neither positive nor unlimited (-1)");
 }
 
-void check_history(Problems& problems, const std::string& policy, const History& history, const ResourceLimits& limits) {
+/// `where` is empty, or "durability_service.".
+void check_history(Problems& problems, const std::string& where, const History& history, const ResourceLimits& limits) {
+  const std::string policy = where + "history";
+  const std::string of_limits = where + "resource_limits.";
   const bool keeps_last = history.kind == HistoryKind::keep_last;
   if (keeps_last && history.depth < 1) problems.push_back(policy + ".depth: " + text(history.depth) + " is not positive");
-  check_limit(problems, "resource_limits.max_samples", limits.max_samples);
-  check_limit(problems, "resource_limits.max_instances", limits.max_instances);
-  check_limit(problems, "resource_limits.max_samples_per_instance", limits.max_samples_per_instance);
+  check_limit(problems, of_limits + "max_samples", limits.max_samples);
+  check_limit(problems, of_limits + "max_instances", limits.max_instances);
+  check_limit(problems, of_limits + "max_samples_per_instance", limits.max_samples_per_instance);
   const std::int32_t of_instance = limits.max_samples_per_instance;
   if (keeps_last && of_instance > 0 && history.depth > of_instance)
-    problems.push_back(policy + ".depth: " + text(history.depth) + " is above resource_limits.max_samples_per_instance " + text(of_instance));
+    problems.push_back(policy + ".depth: " + text(history.depth) + " is above " + of_limits + "max_samples_per_instance " + text(of_instance));
   // With no limit of an instance the depth has to stay below the limit of all.
   if (keeps_last && of_instance == unlimited && limits.max_samples > 0 && history.depth > limits.max_samples)
-    problems.push_back(policy + ".depth: " + text(history.depth) + " is above resource_limits.max_samples " + text(limits.max_samples));
+    problems.push_back(policy + ".depth: " + text(history.depth) + " is above " + of_limits + "max_samples " + text(limits.max_samples));
   if (of_instance > 0 && limits.max_samples > 0 && of_instance > limits.max_samples)
-    problems.push_back("resource_limits.max_samples_per_instance: " + text(of_instance) + " is above max_samples " + text(limits.max_samples));
+    problems.push_back(of_limits + "max_samples_per_instance: " + text(of_instance) + " is above max_samples " + text(limits.max_samples));
 }
 
 void check_duration(Problems& problems, const std::string& name, sim::Duration duration, bool may_be_zero) {
@@ -36,7 +39,7 @@ void check_duration(Problems& problems, const std::string& name, sim::Duration d
 template <class Qos>
 Problems common_problems(const Qos& qos) {
   Problems problems;
-  check_history(problems, "history", qos.history, qos.resource_limits);
+  check_history(problems, "", qos.history, qos.resource_limits);
   check_duration(problems, "reliability.max_blocking_time", qos.reliability.max_blocking_time, true);
   check_duration(problems, "deadline.period", qos.deadline.period, false);
   check_duration(problems, "latency_budget.duration", qos.latency_budget.duration, true);
@@ -48,7 +51,7 @@ template <class Qos>
 void check_offered(Problems& problems, const Qos& qos) {
   check_duration(problems, "lifespan.duration", qos.lifespan.duration, false);
   check_duration(problems, "durability_service.service_cleanup_delay", qos.durability_service.service_cleanup_delay, true);
-  check_history(problems, "durability_service.history", qos.durability_service.history, qos.durability_service.resource_limits);
+  check_history(problems, "durability_service.", qos.durability_service.history, qos.durability_service.resource_limits);
 }
 
 }  // namespace

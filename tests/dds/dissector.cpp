@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -76,6 +78,36 @@ void write_pcap(const std::string& path, const std::vector<Datagram>& datagrams)
     put(static_cast<std::uint32_t>(packet.size()));
     file.write(reinterpret_cast<const char*>(packet.data()), static_cast<std::streamsize>(packet.size()));
   }
+}
+
+std::vector<Datagram> read_pcap(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const Octets all = std::as_bytes(std::span(text));
+  constexpr std::size_t file_header = 24, frame_header = 16, ethernet = 14, ip_and_udp = 28;
+  std::vector<Datagram> datagrams;
+  std::optional<std::int64_t> begin_us;
+  for (std::size_t at = file_header; at + frame_header <= all.size();) {
+    const auto number = [&](std::size_t offset) { return std::int64_t{load<std::uint32_t>(all.data() + at + offset, ByteOrder::little)}; };
+    const std::int64_t now_us = number(0) * 1'000'000 + number(4);
+    const auto size = static_cast<std::size_t>(number(8));
+    const Octets frame = all.subspan(at + frame_header, size);
+    at += frame_header + size;
+    if (frame.size() < ethernet + ip_and_udp || frame[23] != std::byte{17}) continue;
+    const std::byte* const ip = frame.data() + ethernet;
+    Datagram datagram;
+    begin_us = begin_us.value_or(now_us);
+    datagram.at_us = now_us - *begin_us;
+    datagram.from_ip = load<std::uint32_t>(ip + 12, ByteOrder::big);
+    datagram.to_ip = load<std::uint32_t>(ip + 16, ByteOrder::big);
+    datagram.from_port = load<std::uint16_t>(ip + 20, ByteOrder::big);
+    datagram.to_port = load<std::uint16_t>(ip + 22, ByteOrder::big);
+    const std::size_t length = load<std::uint16_t>(ip + 24, ByteOrder::big);
+    const Octets payload = frame.subspan(ethernet + ip_and_udp, length - 8);
+    datagram.payload.assign(payload.begin(), payload.end());
+    datagrams.push_back(std::move(datagram));
+  }
+  return datagrams;
 }
 
 bool has_tshark() { return std::system("command -v tshark >/dev/null 2>&1") == 0; }

@@ -22,6 +22,9 @@ struct Datagram {
 /// Writes a capture of raw IP packets with sound checksums.
 void write_pcap(const std::string& path, const std::vector<Datagram>& datagrams);
 
+/// The UDP datagrams of a capture of Ethernet frames with IPv4, in the format pcap.
+std::vector<Datagram> read_pcap(const std::string& path);
+
 bool has_tshark();
 
 /// What tshark finds in a capture; one row a frame.

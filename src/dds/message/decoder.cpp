@@ -29,7 +29,7 @@ Verdict get_inline_qos(Reader& reader, InlineQos& qos) {
     } else if (parameter->is(ParameterId::key_hash) && parameter->value.size() >= 16) {
       Reader hash = parameter->reader();
       detail::get_octets(hash, qos.key_hash.emplace());
-    } else if (has(parameter->id, must_understand) && !has(parameter->id, vendor_specific)) {
+    } else if (parameter->must_be_understood()) {
       verdict = Verdict::unknown;
     }
   }

@@ -21,6 +21,7 @@ enum class ParameterId : std::uint16_t {
   default_unicast_ip_address = 0x000C,
   metatraffic_unicast_port = 0x000D,
   default_unicast_port = 0x000E,
+  domain_id = 0x000F,
   multicast_ip_address = 0x0011,
   protocol_version = 0x0015,
   vendor_id = 0x0016,
@@ -60,7 +61,9 @@ enum class ParameterId : std::uint16_t {
   entity_name = 0x0062,
   key_hash = 0x0070,
   status_info = 0x0071,
+  data_representation = 0x0073,
   type_information = 0x0075,
+  persistence_guid = 0x8002,  ///< vendors' by its bit, but several use it alike
 };
 
 /// "Whoever does not know this parameter must not take what it stands with" (9.6.2.2.1); bit 15 marks vendors' parameters.
@@ -71,7 +74,10 @@ struct Parameter {
   std::uint16_t id = 0;  ///< as on the wire, with its flags
   Octets value;
   ByteOrder order = ByteOrder::little;
-  bool is(ParameterId wanted) const { return (id & ~must_understand) == static_cast<std::uint16_t>(wanted); }
+  bool is(ParameterId wanted) const { return known() == wanted; }
+  /// The id without "must understand".
+  ParameterId known() const { return static_cast<ParameterId>(id & ~must_understand); }
+  bool must_be_understood() const { return (id & must_understand) != 0 && (id & vendor_specific) == 0; }
   Reader reader() const { return {value, order}; }
 };
 

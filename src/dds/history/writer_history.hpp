@@ -26,7 +26,8 @@ class WriterHistory {
     bool keeps_released = false;  ///< TRANSIENT_LOCAL and above
     sim::Duration lifespan = sim::Duration::max();
     sim::Duration deadline = sim::Duration::max();  ///< offered
-    SequenceNumber last;                             ///< the number before the first one; of a writer that goes on after a restart
+    /// Told of each change that leaves; `is_last`: none has a higher number.
+    std::function<void(SequenceNumber number, bool is_last)> removed;
   };
   explicit WriterHistory(const Settings& settings);
 

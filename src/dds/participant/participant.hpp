@@ -53,7 +53,7 @@ class Participant {
   void remove(WriterHandle writer, sim::LocalTime now);
   void remove(ReaderHandle reader, sim::LocalTime now);
 
-  /// `payload`: CDR with its encapsulation header. `key`: no_key in topics without key.
+  /// `payload`: CDR with its encapsulation header; arrives filled up with zeros to a multiple of 4 octets. `key`: no_key in topics without key.
   WriteResult write(WriterHandle writer, const InstanceKey& key, Octets payload, sim::LocalTime now);
   /// `key_payload`: the key fields as CDR with encapsulation header, for readers that do not take key hashes; may be empty.
   WriteResult dispose(WriterHandle writer, const InstanceKey& key, sim::LocalTime now, Octets key_payload = {});

@@ -3,7 +3,7 @@
 namespace takt::dds {
 
 WriterHistory::WriterHistory(const Settings& settings)
-    : settings_(settings), deadlines_(settings.deadline), last_(settings.last), released_below_(settings.last + 1) {
+    : settings_(settings), deadlines_(settings.deadline) {
   TAKT_CHECK(settings_.history.depth >= 1, "a history has room");
 }
 
@@ -36,15 +36,14 @@ void WriterHistory::restore(CacheChange change) { place(std::move(change)); }
 
 void WriterHistory::place(CacheChange change) {
   TAKT_CHECK(change.number > last_, "numbers grow");
+  last_ = change.number;
   Instance& instance = instances_[change.key];
   while (!settings_.history.keep_all && instance.numbers.size() >= settings_.history.per_instance()) {
     const auto oldest = changes_.find(*instance.numbers.begin());
     instance.numbers.erase(instance.numbers.begin());  // not by remove(), which might forget the instance
-    expiries_.erase({oldest->second.expires, oldest->first});
-    changes_.erase(oldest);
+    erase(oldest);
   }
   TAKT_CHECK(changes_.size() < settings_.history.max_samples, "there is room for a change that is added");
-  last_ = change.number;
   instance.numbers.insert(change.number);
   instance.unregistered = unregisters(change.kind);
   if (change.expires != sim::LocalTime::never()) expiries_.insert({change.expires, change.number});
@@ -68,7 +67,12 @@ WriterHistory::Changes::iterator WriterHistory::remove(Changes::iterator change)
   TAKT_CHECK(instance != instances_.end(), "each change has an instance");
   instance->second.numbers.erase(change->first);
   if (instance->second.unregistered && instance->second.numbers.empty()) instances_.erase(instance);
+  return erase(change);
+}
+
+WriterHistory::Changes::iterator WriterHistory::erase(Changes::iterator change) {
   expiries_.erase({change->second.expires, change->first});
+  if (settings_.removed) settings_.removed(change->first, change->first == last_);
   return changes_.erase(change);
 }
 

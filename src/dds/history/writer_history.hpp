@@ -1,6 +1,8 @@
 // WriterHistory: what a writer keeps of what was written, until nobody needs it any more (DDSI-RTPS 2.5, 8.2.2).
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -24,7 +26,8 @@ class WriterHistory {
     bool keeps_released = false;  ///< TRANSIENT_LOCAL and above
     sim::Duration lifespan = sim::Duration::max();
     sim::Duration deadline = sim::Duration::max();  ///< offered
-    SequenceNumber last;                             ///< the number before the first one; of a writer that goes on after a restart
+    /// Told of each change that leaves; `is_last`: none has a higher number.
+    std::function<void(SequenceNumber number, bool is_last)> removed;
   };
   explicit WriterHistory(const Settings& settings);
 
@@ -34,6 +37,8 @@ class WriterHistory {
   const CacheChange& add(ChangeKind kind, const InstanceKey& key, std::span<const std::byte> payload, sim::LocalTime now);
   /// Puts back a change that was kept elsewhere. Precondition: its number is above all others; it fits.
   void restore(CacheChange change);
+  /// Numbers up to `last` were given away before a restart.
+  void go_on_after(SequenceNumber last) { last_ = std::max(last_, last); }
 
   /// The change, if it is still there.
   const CacheChange* find(SequenceNumber number) const;
@@ -65,6 +70,7 @@ class WriterHistory {
 
   void place(CacheChange change);
   Changes::iterator remove(Changes::iterator change);
+  Changes::iterator erase(Changes::iterator change);
   /// Removes the oldest released change of an instance, or of all; false if there is none.
   bool give_up(const Instance& instance);
   bool give_up_any();
@@ -75,7 +81,7 @@ class WriterHistory {
   std::set<std::pair<sim::LocalTime, SequenceNumber>> expiries_;
   DeadlineTable deadlines_;
   SequenceNumber last_;
-  SequenceNumber released_below_;
+  SequenceNumber released_below_ = first_sequence_number;
 };
 
 }  // namespace takt::dds

@@ -6,15 +6,11 @@
 
 namespace takt::dds {
 
-void StatefulReader::match(const MatchedWriter& writer, sim::LocalTime now, std::optional<SequenceNumber> delivered) {
+void StatefulReader::match(const MatchedWriter& writer, sim::LocalTime now) {
   TAKT_CHECK(!writers_.contains(writer.guid), "a writer is matched once");
   WriterProxy& proxy = writers_[writer.guid];
   proxy.writer = writer;
   proxy.reliable = settings_.reliable && writer.reliable;
-  if (delivered) {
-    proxy.next = *delivered + 1;
-    proxy.is_new = false;
-  }
   ++liveliness_.alive_count;
   ++liveliness_.changes;
   proxy.alive_until = now.plus_saturated(writer.liveliness.lease_duration);
@@ -31,6 +27,11 @@ void StatefulReader::unmatch(const Guid& writer, sim::LocalTime now) {
   ++liveliness_.changes;
   writers_.erase(at);
   history_.writer_gone(writer, now);
+}
+
+Guid StatefulReader::identity_of(const Guid& writer) const {
+  const auto at = writers_.find(writer);
+  return at == writers_.end() || at->second.writer.persistence_guid.is_unknown() ? writer : at->second.writer.persistence_guid;
 }
 
 InstanceKey StatefulReader::key_of(const InlineQos& qos, PayloadKind kind, Octets payload) const {
@@ -114,11 +115,20 @@ void StatefulReader::take_change(WriterProxy& proxy, SequenceNumber number, Pend
 }
 
 bool StatefulReader::deliver(WriterProxy& proxy, SequenceNumber number, const PendingChange& change, Octets payload, sim::LocalTime now) {
-  Arrival arrival{proxy.writer.guid, proxy.writer.ownership_strength, number, change.kind, change.key, change.source, change.source.plus_saturated(proxy.writer.lifespan), payload};
+  NumberRanges* delivered = nullptr;
+  if (!proxy.writer.persistence_guid.is_unknown()) {
+    delivered = &delivered_[proxy.writer.persistence_guid];
+    if (delivered->contains(number)) {
+      ++duplicates_;
+      return true;
+    }
+  }
+  const Arrival arrival{proxy.writer.guid, proxy.writer.ownership_strength, number, change.kind, change.key, change.source, change.source.plus_saturated(proxy.writer.lifespan), payload};
   const Admission admission = history_.add(arrival, now);
   if (admission == Admission::accepted) ++arrived_;
   proxy.is_blocked = admission == Admission::rejected && proxy.reliable;
   if (proxy.is_blocked) proxy.blocked_key = change.key;
+  if (delivered != nullptr && admission != Admission::rejected) delivered->insert(number);
   return admission != Admission::rejected;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "dds/history/reader_history.hpp"
+#include "dds/persistence/number_ranges.hpp"
 #include "dds/rtps/epoch.hpp"
 #include "dds/rtps/outbox.hpp"
 #include "dds/rtps/timing_profile.hpp"
@@ -19,7 +20,6 @@ class StatefulReader {
     Guid guid;
     bool reliable = false;
     bool has_key = false;
-    bool wants_history = false;
     ReaderHistory::Settings history;
     TimingProfile timing;
     ReceiveLimits limits;
@@ -34,8 +34,7 @@ class StatefulReader {
   ReaderHistory& history() { return history_; }
   const ReaderHistory& history() const { return history_; }
 
-  /// `delivered`: the last number of this writer that was delivered before a restart.
-  void match(const MatchedWriter& writer, sim::LocalTime now, std::optional<SequenceNumber> delivered = std::nullopt);
+  void match(const MatchedWriter& writer, sim::LocalTime now);
   void unmatch(const Guid& writer, sim::LocalTime now);
   bool is_matched(const Guid& writer) const { return writers_.contains(writer); }
   const std::map<Guid, WriterProxy>& writers() const { return writers_; }
@@ -51,6 +50,11 @@ class StatefulReader {
 
   sim::LocalTime next_wake() const;
   void wake(sim::LocalTime now, Outbox& outbox);
+
+  /// Changes of this writer that were delivered before a restart. `writer` is an identity as of identity_of().
+  void restore_delivered(const Guid& writer, const NumberRanges& numbers) { delivered_[writer] = numbers; }
+  /// The name under which a writer's numbers count: its persistence GUID if it has one.
+  Guid identity_of(const Guid& writer) const;
 
   /// The writer asserts that it is alive, by whatever its kind of liveliness asks for.
   void assert_alive(const Guid& writer, sim::LocalTime now);
@@ -79,6 +83,8 @@ class StatefulReader {
   Settings settings_;
   ReaderHistory history_;
   std::map<Guid, WriterProxy> writers_;
+  /// Of writers that may come back under another GUID, and of samples that a persistence service brings.
+  std::map<Guid, NumberRanges> delivered_;
   SampleLostStatus lost_;
   LivelinessChangedStatus liveliness_;
   std::uint64_t arrived_ = 0;

@@ -101,8 +101,8 @@ TEST(WriterHistory, LifespanCountsFromTheWrite) {
 TEST(WriterHistory, GoesOnBehindWhatWasKeptElsewhere) {
   WriterHistory::Settings settings;
   settings.keeps_released = true;
-  settings.last = SequenceNumber{6};
   WriterHistory history(settings);
+  history.go_on_after(SequenceNumber{6});
   CacheChange kept;
   kept.number = SequenceNumber{9};
   kept.key = a;

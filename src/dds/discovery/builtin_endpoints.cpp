@@ -15,14 +15,9 @@ std::optional<EntityId> writer_of(const Submessage& submessage) {
       submessage);
 }
 
-InstanceKey key_of_payload(const BuiltinTopic& topic, Octets payload) {
+InstanceKey key_of_payload(PayloadKind, Octets payload) {
   Guid about;
-  ParticipantMessageData message;
-  if (topic.writer == entity_id::participant_message_writer) {
-    if (decode(payload, message) == DataVerdict::ok) about = {message.prefix, {static_cast<std::uint32_t>(message.kind)}};
-  } else {
-    decode_key(payload, about);
-  }
+  decode_key(payload, about);
   return key_hash_of(about);
 }
 
@@ -69,10 +64,11 @@ StatefulReader make_builtin_reader(const BuiltinTopic& topic, const BuiltinSetti
   made.guid = {settings.prefix, topic.reader};
   made.reliable = true;
   made.has_key = true;
-  made.wants_history = true;
   made.timing = settings.timing;
+  // A participant that was lost on one side only is found again by this.
+  if (made.timing.initial_acknack_delay == TimingProfile::off) made.timing.initial_acknack_delay = made.timing.heartbeat_response_delay;
   made.epoch = settings.epoch;
-  made.key_of = [topic](PayloadKind, Octets payload) { return key_of_payload(topic, payload); };
+  made.key_of = key_of_payload;
   return StatefulReader(std::move(made));
 }
 
@@ -85,8 +81,8 @@ void BuiltinEndpoints::counted(Pair& pair, Outbox& outbox, Call call) {
   pair.sent += count_sent(outbox, call);
 }
 
-void BuiltinEndpoints::connect(const ParticipantData& participant, std::uint32_t mask, sim::LocalTime now, Outbox& outbox) {
-  const std::uint32_t theirs = participant.builtin_endpoints & mask;
+void BuiltinEndpoints::connect(const ParticipantData& participant, sim::LocalTime now, Outbox& outbox) {
+  const std::uint32_t theirs = participant.builtin_endpoints;
   for (Pair& pair : pairs_) {
     const BuiltinTopic& topic = pair.use.topic;
     const MatchedWriter writer = builtin_writer_of(participant, topic);

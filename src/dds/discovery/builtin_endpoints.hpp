@@ -41,13 +41,36 @@ struct BuiltinSettings {
 StatefulWriter make_builtin_writer(const BuiltinTopic& topic, const BuiltinSettings& settings);
 StatefulReader make_builtin_reader(const BuiltinTopic& topic, const BuiltinSettings& settings);
 
+/// What a call puts into the outbox.
+template <class Call>
+MessageCount count_sent(Outbox& outbox, Call call) {
+  outbox.end();  // what was begun before does not count
+  const Figures before = outbox.figures();
+  call();
+  outbox.end();
+  const Figures& after = outbox.figures();
+  return {after.datagrams_sent - before.datagrams_sent, after.datagram_octets_sent - before.datagram_octets_sent};
+}
+
+/// What a participant has for a built-in topic.
+struct BuiltinUse {
+  BuiltinTopic topic;
+  bool writes = true;
+  bool reads = true;
+};
+
+/// Where built-in endpoints of a participant are reached.
+MatchedReader builtin_reader_of(const ParticipantData& participant, const BuiltinTopic& topic);
+/// Those that can be used: UDP over IPv4.
+std::vector<Locator> usable(const std::vector<Locator>& locators);
+
 /// The endpoints of one participant for a list of built-in topics.
 class BuiltinEndpoints {
  public:
-  BuiltinEndpoints(const BuiltinSettings& settings, const std::vector<BuiltinTopic>& topics);
+  BuiltinEndpoints(const BuiltinSettings& settings, const std::vector<BuiltinUse>& uses);
 
-  /// Matches with those that the participant has.
-  void connect(const ParticipantData& participant, sim::LocalTime now, Outbox& outbox);
+  /// Matches with those that the participant has, of the endpoints in the mask. Nothing happens where they are matched already.
+  void connect(const ParticipantData& participant, std::uint32_t mask, sim::LocalTime now, Outbox& outbox);
   void disconnect(const GuidPrefix& participant, sim::LocalTime now);
 
   /// Tells all that are connected, and all that will be.
@@ -77,7 +100,7 @@ class BuiltinEndpoints {
 
  private:
   struct Pair {
-    BuiltinTopic topic;
+    BuiltinUse use;
     StatefulWriter writer;
     StatefulReader reader;
     MessageCount sent;

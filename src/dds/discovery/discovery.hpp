@@ -79,7 +79,7 @@ class Discovery {
   MatchedWriter matched_writer(const PublicationData& data) const;
   MatchedReader matched_reader(const SubscriptionData& data) const;
 
-  const DiscoveryFigures& figures() const { return figures_; }
+  DiscoveryFigures figures() const;
 
  private:
   friend class DiscoveryServer;
@@ -93,7 +93,6 @@ class Discovery {
   void plan_announcement(sim::LocalTime now);
   void receive_participant(const Interpretation& from, const Data& data, sim::LocalTime now, Outbox& outbox);
   void found(const ParticipantData& data, sim::LocalTime now, Outbox& outbox);
-  void connect(const ParticipantData& data, sim::LocalTime now, Outbox& outbox);
   void add_static_endpoints(const ParticipantData& data, sim::LocalTime now);
   void lose_participant(const GuidPrefix& prefix, sim::LocalTime now, Outbox& outbox);
   void take_news(sim::LocalTime now, Outbox& outbox);
@@ -101,8 +100,8 @@ class Discovery {
   void found(const SubscriptionData& data, sim::LocalTime now);
   void lost(const Guid& endpoint, sim::LocalTime now);
   void tell(DiscoveryEvent::Kind kind, const Guid& subject, sim::LocalTime now);
-  bool has_sedp() const { return settings_.discovery.kind != DiscoveryKind::static_; }
-  bool is_client() const { return settings_.discovery.kind == DiscoveryKind::client; }
+  bool is(DiscoveryKind kind) const { return settings_.discovery.kind == kind; }
+  BuiltinSettings builtin_settings() const;
 
   Settings settings_;
   ParticipantData self_;
@@ -114,6 +113,7 @@ class Discovery {
   std::map<Guid, SubscriptionData> subscriptions_;
   std::deque<DiscoveryEvent> events_;
   std::uint32_t announced_ = 0;
+  bool has_server_ = false;                  ///< of a client: one has answered
   sim::LocalTime announce_at_ = sim::LocalTime::never();
   bool is_running_ = false;
   DiscoveryFigures figures_;

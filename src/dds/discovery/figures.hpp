@@ -9,7 +9,7 @@
 
 namespace takt::dds {
 
-/// Messages (UDP payloads; one to several places counts once for each) and octets of them.
+/// Messages (UDP payloads; one to several places counts for each of them) and octets of them.
 struct MessageCount {
   std::uint64_t messages = 0;
   std::uint64_t octets = 0;

@@ -19,6 +19,8 @@ struct Figures {
   SubmessageCounts sent;
   SubmessageCounts received;
   std::uint64_t messages_sent = 0;  ///< a message to several locators counts once
+  std::uint64_t datagrams_sent = 0;          ///< a message to several locators counts once for each
+  std::uint64_t datagram_octets_sent = 0;    ///< the same in octets of RTPS messages
   std::uint64_t messages_received = 0;
   std::uint64_t octets_sent = 0;      ///< of RTPS messages
   std::uint64_t octets_received = 0;

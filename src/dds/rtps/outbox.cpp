@@ -66,6 +66,8 @@ void Outbox::end() {
   at_hand_.octets.resize(size);
   ++figures_.messages_sent;
   figures_.octets_sent += size;
+  figures_.datagrams_sent += at_hand_.destinations.size();
+  figures_.datagram_octets_sent += at_hand_.destinations.size() * size;
   ready_.push_back(std::move(at_hand_));
   at_hand_ = {};
 }
@@ -74,6 +76,8 @@ void Outbox::post(std::vector<Locator> destinations, Octets octets) {
   end();
   ++figures_.messages_sent;
   figures_.octets_sent += octets.size();
+  figures_.datagrams_sent += destinations.size();
+  figures_.datagram_octets_sent += destinations.size() * octets.size();
   ready_.push_back({std::move(destinations), 0, {octets.begin(), octets.end()}});
 }
 

@@ -424,7 +424,7 @@ void StatefulWriter::wake(sim::LocalTime now, Outbox& outbox) {
     }
     if (proxy.heartbeat_at <= now) {
       proxy.heartbeat_at = sim::LocalTime::never();
-      if (history_.last() >= first_sequence_number) send_heartbeat(proxy, outbox);
+      send_heartbeat(proxy, outbox);
     }
   }
   if (!settings_.asynchronous) push(now, outbox);

@@ -15,9 +15,14 @@ std::optional<EntityId> writer_of(const Submessage& submessage) {
       submessage);
 }
 
-InstanceKey key_of_payload(PayloadKind, Octets payload) {
+InstanceKey key_of_payload(const BuiltinTopic& topic, Octets payload) {
   Guid about;
-  decode_key(payload, about);
+  ParticipantMessageData message;
+  if (topic.writer == entity_id::participant_message_writer) {
+    if (decode(payload, message) == DataVerdict::ok) about = {message.prefix, {static_cast<std::uint32_t>(message.kind)}};
+  } else {
+    decode_key(payload, about);
+  }
   return key_hash_of(about);
 }
 
@@ -68,7 +73,7 @@ StatefulReader make_builtin_reader(const BuiltinTopic& topic, const BuiltinSetti
   // A participant that was lost on one side only is found again by this.
   if (made.timing.initial_acknack_delay == TimingProfile::off) made.timing.initial_acknack_delay = made.timing.heartbeat_response_delay;
   made.epoch = settings.epoch;
-  made.key_of = key_of_payload;
+  made.key_of = [topic](PayloadKind, Octets payload) { return key_of_payload(topic, payload); };
   return StatefulReader(std::move(made));
 }
 
@@ -81,8 +86,8 @@ void BuiltinEndpoints::counted(Pair& pair, Outbox& outbox, Call call) {
   pair.sent += count_sent(outbox, call);
 }
 
-void BuiltinEndpoints::connect(const ParticipantData& participant, sim::LocalTime now, Outbox& outbox) {
-  const std::uint32_t theirs = participant.builtin_endpoints;
+void BuiltinEndpoints::connect(const ParticipantData& participant, std::uint32_t mask, sim::LocalTime now, Outbox& outbox) {
+  const std::uint32_t theirs = participant.builtin_endpoints & mask;
   for (Pair& pair : pairs_) {
     const BuiltinTopic& topic = pair.use.topic;
     const MatchedWriter writer = builtin_writer_of(participant, topic);

@@ -1,4 +1,4 @@
-// The reliable built-in endpoints of discovery: publications and subscriptions (DDSI-RTPS 8.5.4), and what a server forwards of participants.
+// The reliable built-in endpoints: publications, subscriptions, participant messages (DDSI-RTPS 8.5.4, 8.4.13).
 #pragma once
 
 #include <functional>
@@ -26,6 +26,8 @@ inline constexpr BuiltinTopic publications{entity_id::sedp_publications_writer, 
                                            builtin_endpoint::publications_detector};
 inline constexpr BuiltinTopic subscriptions{entity_id::sedp_subscriptions_writer, entity_id::sedp_subscriptions_reader,
                                             builtin_endpoint::subscriptions_announcer, builtin_endpoint::subscriptions_detector};
+inline constexpr BuiltinTopic messages{entity_id::participant_message_writer, entity_id::participant_message_reader,
+                                       builtin_endpoint::participant_message_writer, builtin_endpoint::participant_message_reader};
 }  // namespace builtin_topic
 
 struct BuiltinSettings {
@@ -67,8 +69,8 @@ class BuiltinEndpoints {
  public:
   BuiltinEndpoints(const BuiltinSettings& settings, const std::vector<BuiltinUse>& uses);
 
-  /// Matches with those that the participant has. Nothing happens where they are matched already.
-  void connect(const ParticipantData& participant, sim::LocalTime now, Outbox& outbox);
+  /// Matches with those that the participant has, of the endpoints in the mask. Nothing happens where they are matched already.
+  void connect(const ParticipantData& participant, std::uint32_t mask, sim::LocalTime now, Outbox& outbox);
   void disconnect(const GuidPrefix& participant, sim::LocalTime now);
 
   /// Tells all that are connected, and all that will be.

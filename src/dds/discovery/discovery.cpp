@@ -22,9 +22,9 @@ struct KindRow {
 const KindRow& row_of(DiscoveryKind kind) {
   namespace topic = builtin_topic;
   static const std::array<KindRow, 4> rows{{
-      {DiscoveryKind::simple, all_endpoints, {{topic::publications}, {topic::subscriptions}}},
-      {DiscoveryKind::static_, builtin_endpoint::spdp | builtin_endpoint::participant_message, {}},
-      {DiscoveryKind::client, all_endpoints, {{topic::participants, false, true}, {topic::publications}, {topic::subscriptions}}},
+      {DiscoveryKind::simple, all_endpoints, {{topic::publications}, {topic::subscriptions}, {topic::messages}}},
+      {DiscoveryKind::static_, builtin_endpoint::spdp | builtin_endpoint::participant_message, {{topic::messages}}},
+      {DiscoveryKind::client, all_endpoints, {{topic::participants, false, true}, {topic::publications}, {topic::subscriptions}, {topic::messages}}},
       // Its writers are the DiscoveryServer's.
       {DiscoveryKind::server, builtin_endpoint::spdp | builtin_endpoint::sedp, {{topic::publications, false, true}, {topic::subscriptions, false, true}}},
   }};
@@ -140,14 +140,21 @@ void Discovery::withdraw(const Guid& endpoint, sim::LocalTime now, Outbox& outbo
   }
 }
 
+void Discovery::assert_liveliness(ParticipantMessageData::Kind kind, sim::LocalTime now, Outbox& outbox) {
+  if (server_) return;
+  // One octet of data, as others send it; nobody reads it.
+  const ParticipantMessageData message{self_.guid.prefix, kind, {std::byte{0}}};
+  std::array<std::byte, 64> buffer;
+  builtin_.tell(builtin_topic::messages, {self_.guid.prefix, {static_cast<std::uint32_t>(kind)}}, encode(buffer, message), now, outbox);
+}
+
 bool Discovery::receive(const Interpretation& from, const Submessage& submessage, sim::LocalTime now, Outbox& outbox) {
   const std::optional<EntityId> writer = writer_of(submessage);
-  constexpr std::array ours{entity_id::spdp_writer, entity_id::sedp_publications_writer, entity_id::sedp_subscriptions_writer};
-  if (!writer || std::find(ours.begin(), ours.end(), *writer) == ours.end()) return false;
+  if (!writer || !writer->is_built_in()) return false;
   // What was sent to a group comes back.
   if (from.source == self_.guid.prefix || !is_running_) return true;
   const bool is_spdp = *writer == entity_id::spdp_writer;
-  ++(is_spdp ? figures_.participants_received : figures_.endpoints_received);
+  ++(is_spdp ? figures_.participants_received : *writer == entity_id::participant_message_writer ? figures_.liveliness_received : figures_.endpoints_received);
   heard(from.source, now);
   if (const auto* const data = std::get_if<Data>(&submessage); data != nullptr && is_spdp) receive_participant(from, *data, now, outbox);
   if (!server_ || !server_->receive(from.source, submessage, now, outbox)) builtin_.receive(from.source, from.timestamp, submessage, now, outbox);
@@ -182,9 +189,9 @@ void Discovery::receive_participant(const Interpretation& from, const Data& data
     route.only = from.source;
     send_participant_data(route, now, outbox);
   }
-  found(participant, now);
+  found(participant, now, outbox);
   if (is_new && server_) server_->add_client(participant, now, outbox);
-  builtin_.connect(participant, now, outbox);
+  if (is_new || !server_) builtin_.connect(participant, all_endpoints, now, outbox);
   if (is(DiscoveryKind::client) && !has_server_) {
     has_server_ = true;
     plan_announcement(now);
@@ -197,10 +204,10 @@ void Discovery::heard(const GuidPrefix& participant, sim::LocalTime now) {
 }
 
 void Discovery::tell(DiscoveryEvent::Kind kind, const Guid& subject, sim::LocalTime now) {
-  events_.push_back({kind, now, subject});
+  events_.push_back({kind, now, subject, ParticipantMessageData::Kind::unknown});
 }
 
-void Discovery::found(const ParticipantData& data, sim::LocalTime now) {
+void Discovery::found(const ParticipantData& data, sim::LocalTime now, Outbox&) {
   const auto [at, is_new] = found_.insert_or_assign(data.guid.prefix, data);
   if (!is_new) return;
   figures_.found_at.emplace(data.guid, now);
@@ -278,13 +285,22 @@ void Discovery::take_news(sim::LocalTime now, Outbox& outbox) {
       else
         ++figures_.refused;
     };
-    if (news.writer == entity_id::spdp_writer) {
+    if (news.writer == entity_id::participant_message_writer) {
+      if (news.is_gone) continue;
+      take(ParticipantMessageData{}, [&](const ParticipantMessageData& data) {
+        tell(DiscoveryEvent::Kind::liveliness_asserted, {data.prefix, entity_id::participant}, now);
+        events_.back().liveliness = data.kind;
+      });
+    } else if (news.writer == entity_id::spdp_writer) {
       // Of a client; the server's own data were taken as they came.
       if (news.about.prefix == news.from || news.about.prefix == self_.guid.prefix) continue;
       if (news.is_gone) {
         lose_participant(news.about.prefix, now, outbox);
       } else {
-        take(ParticipantData{}, [&](const ParticipantData& data) { found(data, now); });
+        take(ParticipantData{}, [&](const ParticipantData& data) {
+          found(data, now, outbox);
+          builtin_.connect(data, builtin_endpoint::participant_message, now, outbox);
+        });
       }
     } else if (news.is_gone) {
       lost(news.about, now);
@@ -369,6 +385,7 @@ DiscoveryFigures Discovery::figures() const {
   figures.endpoints_sent = builtin_.sent(entity_id::sedp_publications_writer);
   figures.endpoints_sent += builtin_.sent(entity_id::sedp_subscriptions_writer);
   figures.endpoints_sent += builtin_.sent(entity_id::spdp_writer);  // of a client: acknowledgements of what a server forwards
+  figures.liveliness_sent = builtin_.sent(entity_id::participant_message_writer);
   if (server_) {
     figures.endpoints_sent += server_->sent();
     figures.forwarded = server_->forwarded();

@@ -24,10 +24,12 @@ struct DiscoveryEvent {
     publication_lost,
     subscription_found,    ///< or changed
     subscription_lost,
+    liveliness_asserted,   ///< by a ParticipantMessage; `subject` is the participant
   };
   Kind kind = Kind::participant_found;
   sim::LocalTime at;
   Guid subject;
+  ParticipantMessageData::Kind liveliness = ParticipantMessageData::Kind::unknown;
 };
 
 class Discovery {
@@ -54,8 +56,10 @@ class Discovery {
   void announce(const SubscriptionData& data, sim::LocalTime now, Outbox& outbox);
   void withdraw(const Guid& endpoint, sim::LocalTime now, Outbox& outbox);
 
-  /// Whether a submessage is between endpoints of discovery; then it was taken. The destination has been looked at before.
-  /// ParticipantMessages are not discovery's.
+  /// Tells all participants that writers of this kind of liveliness are alive.
+  void assert_liveliness(ParticipantMessageData::Kind kind, sim::LocalTime now, Outbox& outbox);
+
+  /// Whether a submessage is between built-in endpoints; then it was taken. The destination has been looked at before.
   bool receive(const Interpretation& from, const Submessage& submessage, sim::LocalTime now, Outbox& outbox);
   /// Any message of a participant says that it is there, and renews its lease.
   void heard(const GuidPrefix& participant, sim::LocalTime now);
@@ -88,7 +92,7 @@ class Discovery {
   void announce_self(sim::LocalTime now, Outbox& outbox);
   void plan_announcement(sim::LocalTime now);
   void receive_participant(const Interpretation& from, const Data& data, sim::LocalTime now, Outbox& outbox);
-  void found(const ParticipantData& data, sim::LocalTime now);
+  void found(const ParticipantData& data, sim::LocalTime now, Outbox& outbox);
   void add_static_endpoints(const ParticipantData& data, sim::LocalTime now);
   void lose_participant(const GuidPrefix& prefix, sim::LocalTime now, Outbox& outbox);
   void take_news(sim::LocalTime now, Outbox& outbox);

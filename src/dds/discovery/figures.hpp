@@ -25,8 +25,10 @@ struct MessageCount {
 struct DiscoveryFigures {
   MessageCount participants_sent;       ///< SPDP: announcements, answers, farewells
   MessageCount endpoints_sent;          ///< SEDP with its HEARTBEATs and ACKNACKs; of a server: all that it forwards, too
+  MessageCount liveliness_sent;         ///< ParticipantMessages, the same
   std::uint64_t participants_received = 0;  ///< submessages
   std::uint64_t endpoints_received = 0;
+  std::uint64_t liveliness_received = 0;
   std::uint64_t refused = 0;            ///< data that was not understood
   std::uint64_t forwarded = 0;          ///< of a server: data of participants and endpoints told to a client
   std::uint64_t leases_expired = 0;
@@ -38,6 +40,7 @@ struct DiscoveryFigures {
   MessageCount sent() const {
     MessageCount sum = participants_sent;
     sum += endpoints_sent;
+    sum += liveliness_sent;
     return sum;
   }
 };

@@ -160,6 +160,7 @@ TEST(Server, MessagesAreDissected) {
   for (const auto& node : simple.nodes) {
     simple.announce(*node, publication(node->writer(1), "T"));
     simple.start(*node);
+    node->discovery.assert_liveliness(ParticipantMessageData::Kind::automatic, simple.now, node->outbox);
   }
   simple.loses = [](std::uint64_t number) { return number % 5 == 0; };
   simple.run_until(at(4_s));

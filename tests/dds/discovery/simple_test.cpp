@@ -168,6 +168,20 @@ TEST(Simple, FindsAgainWhatWasLostOnOneSide) {
   EXPECT_GT(lost_on_one_side, 10u) << "the case is there";
 }
 
+TEST(Simple, TellsOfLiveliness) {
+  Two net;
+  net.start(net.a);
+  net.start(net.b);
+  net.run_until(at(1_s));
+  net.a.discovery.assert_liveliness(ParticipantMessageData::Kind::manual, net.now, net.a.outbox);
+  net.withdraw(net.a, net.a.writer(77));  // also sends what the call before has made
+  net.run_until(at(1_s + 100_us));
+  ASSERT_EQ(net.b.count(Kind::liveliness_asserted), 1u);
+  const auto event = std::find_if(net.b.events.begin(), net.b.events.end(), [](const auto& each) { return each.kind == Kind::liveliness_asserted; });
+  EXPECT_EQ(event->subject, net.a.discovery.self().guid);
+  EXPECT_EQ(event->liveliness, ParticipantMessageData::Kind::manual);
+}
+
 TEST(Simple, IgnoresOtherDomains) {
   Network net;
   Node& a = net.add(simple());

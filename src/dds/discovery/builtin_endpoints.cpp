@@ -69,7 +69,6 @@ StatefulReader make_builtin_reader(const BuiltinTopic& topic, const BuiltinSetti
   made.guid = {settings.prefix, topic.reader};
   made.reliable = true;
   made.has_key = true;
-  made.wants_history = true;
   made.timing = settings.timing;
   made.epoch = settings.epoch;
   made.key_of = [topic](PayloadKind, Octets payload) { return key_of_payload(topic, payload); };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct CacheChange {
   InstanceKey key;
   sim::LocalTime source;                               ///< when it was written, by the clock of this participant
   sim::LocalTime expires = sim::LocalTime::never();    ///< source + lifespan
+  std::optional<OriginalWriter> original = std::nullopt;  ///< of a change that a persistence service brings
   std::vector<std::byte> payload;                      ///< serialized payload with its encapsulation header; empty if not alive
 };
 

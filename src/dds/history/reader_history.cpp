@@ -40,6 +40,7 @@ Admission ReaderHistory::add(const Arrival& arrival, sim::LocalTime now) {
     Instance& instance = at->second;
     instance.writers.insert(arrival.writer);
     if (!may_write(instance, arrival)) return Admission::not_owner;
+    if (arrival.is_past && !settings_.history.keep_all && instance.accepted && arrival.source < instance.newest) return Admission::outdated;
     if (settings_.by_source && instance.taken && place < *instance.taken) return Admission::outdated;
     if (instance.accepted && now - *instance.accepted < settings_.minimum_separation) {
       deadlines_.updated(arrival.key, now);  // the writer keeps its deadline, whatever the reader leaves out
@@ -56,6 +57,7 @@ Admission ReaderHistory::add(const Arrival& arrival, sim::LocalTime now) {
   revive(instance);
   instance.writers.insert(arrival.writer);
   if (settings_.exclusive) instance.owner = {arrival.ownership_strength, arrival.writer};
+  instance.newest = instance.accepted ? std::max(instance.newest, arrival.source) : arrival.source;
   instance.accepted = now;
   instance.places.insert(place);
   deadlines_.updated(arrival.key, now);

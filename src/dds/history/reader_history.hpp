@@ -25,6 +25,7 @@ struct Arrival {
   sim::LocalTime source;
   sim::LocalTime expires = sim::LocalTime::never();
   Octets payload;
+  bool is_past = false;  ///< brought by a persistence service: must not replace what is newer
 };
 
 /// What became of an arrival. What is `rejected` may come again when there is room; of all others the reader has seen the last.
@@ -83,6 +84,7 @@ class ReaderHistory {
     std::set<Guid> writers;
     std::optional<std::pair<std::int32_t, Guid>> owner;  ///< its strength and name
     std::optional<sim::LocalTime> accepted;              ///< the last one that passed the time-based filter
+    sim::LocalTime newest;                               ///< source timestamp of the newest that was accepted
     std::optional<Place> taken;                          ///< the last one that the application took
     std::optional<Place> invalid;                        ///< the sample that tells how it ended
     sim::LocalTime purge_at = sim::LocalTime::never();   ///< autopurge of what has ended

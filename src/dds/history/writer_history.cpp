@@ -21,12 +21,18 @@ std::optional<NoRoom> WriterHistory::obstacle(const InstanceKey& key, sim::Local
 
 const CacheChange& WriterHistory::add(ChangeKind kind, const InstanceKey& key, std::span<const std::byte> payload, sim::LocalTime now) {
   CacheChange change;
-  change.number = last_ + 1;
   change.kind = kind;
   change.key = key;
   change.source = now;
-  change.expires = now.plus_saturated(settings_.lifespan);
   change.payload.assign(payload.begin(), payload.end());
+  return add(std::move(change), now);
+}
+
+const CacheChange& WriterHistory::add(CacheChange change, sim::LocalTime now) {
+  change.number = last_ + 1;
+  change.expires = change.source.plus_saturated(settings_.lifespan);
+  const ChangeKind kind = change.kind;
+  const InstanceKey key = change.key;
   place(std::move(change));
   unregisters(kind) ? deadlines_.forget(key) : deadlines_.updated(key, now);
   return changes_.rbegin()->second;

@@ -35,6 +35,8 @@ class WriterHistory {
   std::optional<NoRoom> obstacle(const InstanceKey& key, sim::LocalTime now);
   /// Precondition: no obstacle. The change gets the next number.
   const CacheChange& add(ChangeKind kind, const InstanceKey& key, std::span<const std::byte> payload, sim::LocalTime now);
+  /// The same of a change whose source is another writer. `change` gets its number here.
+  const CacheChange& add(CacheChange change, sim::LocalTime now);
   /// Puts back a change that was kept elsewhere. Precondition: its number is above all others; it fits.
   void restore(CacheChange change);
   /// Numbers up to `last` were given away before a restart.

@@ -29,6 +29,11 @@ Verdict get_inline_qos(Reader& reader, InlineQos& qos) {
     } else if (parameter->is(ParameterId::key_hash) && parameter->value.size() >= 16) {
       Reader hash = parameter->reader();
       detail::get_octets(hash, qos.key_hash.emplace());
+    } else if (parameter->is(ParameterId::original_writer_info) && parameter->value.size() >= 24) {
+      Reader info = parameter->reader();
+      const Guid writer = get_guid(info);
+      const SequenceNumber number = get_sequence_number(info);
+      if (is_number(number)) qos.original_writer = {writer, number};
     } else if (parameter->must_be_understood()) {
       verdict = Verdict::unknown;
     }

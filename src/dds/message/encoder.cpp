@@ -17,11 +17,17 @@ void put_inline_qos(Writer& writer, const InlineQos& qos) {
   ParameterWriter list(writer);
   if (qos.status_info) list.parameter(ParameterId::status_info, [&](Writer& w) { detail::put_big_endian(w, *qos.status_info, 4); });
   if (qos.key_hash) list.parameter(ParameterId::key_hash, [&](Writer& w) { detail::put_octets(w, *qos.key_hash); });
+  if (qos.original_writer) {
+    list.parameter(ParameterId::original_writer_info, [&](Writer& w) {
+      put(w, qos.original_writer->writer);
+      put(w, qos.original_writer->number);
+    });
+  }
   list.finish();
 }
 
 std::size_t inline_qos_size(const InlineQos& qos) {
-  return qos.is_empty() ? 0U : 4U + (qos.status_info ? 8U : 0U) + (qos.key_hash ? 20U : 0U);
+  return qos.is_empty() ? 0U : 4U + (qos.status_info ? 8U : 0U) + (qos.key_hash ? 20U : 0U) + (qos.original_writer ? 28U : 0U);
 }
 
 template <class T>

@@ -58,6 +58,7 @@ enum class ParameterId : std::uint16_t {
   property_list = 0x0059,
   endpoint_guid = 0x005A,
   type_max_size_serialized = 0x0060,
+  original_writer_info = 0x0061,
   entity_name = 0x0062,
   key_hash = 0x0070,
   status_info = 0x0071,

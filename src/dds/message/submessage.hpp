@@ -61,12 +61,20 @@ inline constexpr std::uint32_t disposed = 1;
 inline constexpr std::uint32_t unregistered = 2;
 }  // namespace status_info
 
+/// PID_ORIGINAL_WRITER_INFO: who wrote a change that a persistence service brings, and as which of its changes.
+struct OriginalWriter {
+  Guid writer;
+  SequenceNumber number;
+  bool operator==(const OriginalWriter&) const = default;
+};
+
 /// Parameters that travel with a change; others are skipped. The key hash is the instance's name where the payload does not tell it.
 struct InlineQos {
   std::optional<std::uint32_t> status_info;
   std::optional<KeyHash> key_hash;
+  std::optional<OriginalWriter> original_writer = std::nullopt;
   bool operator==(const InlineQos&) const = default;
-  bool is_empty() const { return !status_info && !key_hash; }
+  bool is_empty() const { return !status_info && !key_hash && !original_writer; }
 };
 
 enum class PayloadKind : std::uint8_t {

@@ -8,6 +8,7 @@ StatefulReader::Settings settings_of(const ReaderConfig& config, const Participa
   settings.guid = guid;
   settings.reliable = config.qos.reliability.kind == ReliabilityKind::reliable;
   settings.has_key = config.has_key;
+  settings.tracks_delivered = config.qos.durability.kind >= DurabilityKind::transient || config.storage != nullptr;
   settings.history.history = HistorySettings::from(config.qos.history, config.qos.resource_limits);
   settings.history.exclusive = config.qos.ownership.kind == OwnershipKind::exclusive;
   settings.history.by_source = config.qos.destination_order.kind == DestinationOrderKind::by_source_timestamp;

@@ -11,6 +11,7 @@ StatefulWriter::Settings settings_of(const WriterConfig& config, const Participa
   settings.reliable = config.qos.reliability.kind == ReliabilityKind::reliable;
   settings.has_key = config.has_key;
   settings.asynchronous = config.asynchronous;
+  settings.brings_others = config.brings_others;
   settings.history.history = HistorySettings::from(config.qos.history, config.qos.resource_limits);
   settings.history.keeps_released = config.qos.durability.kind != DurabilityKind::volatile_;
   settings.history.lifespan = config.qos.lifespan.duration;
@@ -48,18 +49,13 @@ LocalWriter::LocalWriter(WriterHandle writer_handle, const WriterConfig& writer_
   rtps.history().go_on_after(last);
 }
 
-void LocalWriter::write(ChangeKind kind, const InstanceKey& key, Octets payload, sim::LocalTime now, Outbox& outbox) {
+void LocalWriter::write(CacheChange change, sim::LocalTime now, Outbox& outbox) {
   if (kept) {
     // Kept before it is sent: what a reader has seen is never numbered again.
-    CacheChange change;
     change.number = rtps.history().last() + 1;
-    change.kind = kind;
-    change.key = key;
-    change.source = now;
-    change.payload.assign(payload.begin(), payload.end());
     kept->put(change);
   }
-  rtps.write(kind, key, payload, now, outbox);
+  rtps.write(std::move(change), now, outbox);
   assert_liveliness(now);
 }
 

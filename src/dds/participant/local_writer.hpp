@@ -35,7 +35,7 @@ struct LocalWriter {
   DeadlineMissedStatus deadline_missed;
   LivelinessLostStatus liveliness_lost;
 
-  void write(ChangeKind kind, const InstanceKey& key, Octets payload, sim::LocalTime now, Outbox& outbox);
+  void write(CacheChange change, sim::LocalTime now, Outbox& outbox);
   void assert_liveliness(sim::LocalTime now);
   sim::LocalTime next_wake() const;
   /// Deadlines, leases, waiting writes.

@@ -166,24 +166,48 @@ void Participant::remove(ReaderHandle handle, sim::LocalTime now) {
   settle(now);
 }
 
-WriteResult Participant::write(WriterHandle writer, const InstanceKey& key, Octets payload, sim::LocalTime now) { return write(writer, ChangeKind::alive, key, payload, now); }
+namespace {
+
+CacheChange change_of(ChangeKind kind, const InstanceKey& key, Octets payload, sim::LocalTime source) {
+  CacheChange change;
+  change.kind = kind;
+  change.key = key;
+  change.source = source;
+  change.payload.assign(payload.begin(), payload.end());
+  return change;
+}
+
+}  // namespace
+
+WriteResult Participant::write(WriterHandle writer, const InstanceKey& key, Octets payload, sim::LocalTime now) {
+  return write(writer, change_of(ChangeKind::alive, key, payload, now), now);
+}
 
 WriteResult Participant::dispose(WriterHandle writer, const InstanceKey& key, sim::LocalTime now, Octets key_payload) {
-  return write(writer, ChangeKind::disposed, key, key_payload, now);
+  return write(writer, change_of(ChangeKind::disposed, key, key_payload, now), now);
 }
 
 WriteResult Participant::unregister(WriterHandle writer, const InstanceKey& key, sim::LocalTime now, Octets key_payload) {
   const bool disposes = local(writer).config.qos.data_lifecycle.autodispose_unregistered_instances;
-  return write(writer, disposes ? ChangeKind::disposed_unregistered : ChangeKind::unregistered, key, key_payload, now);
+  return write(writer, change_of(disposes ? ChangeKind::disposed_unregistered : ChangeKind::unregistered, key, key_payload, now), now);
 }
 
-WriteResult Participant::write(WriterHandle handle, ChangeKind kind, const InstanceKey& key, Octets payload, sim::LocalTime now) {
+WriteResult Participant::write_for(WriterHandle writer, const OriginalWriter& original, ChangeKind kind, const InstanceKey& key, Octets payload, sim::LocalTime source,
+                                   sim::LocalTime now) {
+  TAKT_CHECK(local(writer).config.brings_others, "such a writer leaves room for the name of the other one");
+  CacheChange change = change_of(kind, key, payload, source);
+  change.original = original;
+  return write(writer, std::move(change), now);
+}
+
+WriteResult Participant::write(WriterHandle handle, CacheChange change, sim::LocalTime now) {
   LocalWriter& writer = local(handle);
+  const InstanceKey key = change.key;
   const auto refused = [](std::string reason) { return WriteResult{WriteVerdict::refused, {}, sim::LocalTime::never(), std::move(reason)}; };
   if (!writer.config.has_key && key != no_key) return refused("bad parameter: the topic has no key");
-  if (!writer.config.has_key && kind != ChangeKind::alive) return refused("illegal operation: only instances of a topic with key are disposed or unregistered");
-  if (kind == ChangeKind::alive && payload.size() < 4) return refused("bad parameter: a payload begins with its encapsulation header");
-  if (payload.size() > most_sample) return refused("bad parameter: a payload has at most " + std::to_string(most_sample) + " octets");
+  if (!writer.config.has_key && change.kind != ChangeKind::alive) return refused("illegal operation: only instances of a topic with key are disposed or unregistered");
+  if (change.kind == ChangeKind::alive && change.payload.size() < 4) return refused("bad parameter: a payload begins with its encapsulation header");
+  if (change.payload.size() > most_sample) return refused("bad parameter: a payload has at most " + std::to_string(most_sample) + " octets");
   if (const std::optional<NoRoom> obstacle = writer.rtps.history().obstacle(key, now)) {
     if (*obstacle == NoRoom::max_instances) return refused("out of resources: max_instances");
     const sim::Duration patience = writer.config.qos.reliability.max_blocking_time;
@@ -192,7 +216,7 @@ WriteResult Participant::write(WriterHandle handle, ChangeKind kind, const Insta
     writer.wait->key = key;
     return {WriteVerdict::would_block, {}, writer.wait->until, {}};
   }
-  writer.write(kind, key, payload, now, outbox_);
+  writer.write(std::move(change), now, outbox_);
   if (writer.flow != nullptr) writer.flow->notify(writer.rtps, now);
   const SequenceNumber number = writer.rtps.history().last();
   settle(now);

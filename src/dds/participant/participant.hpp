@@ -59,6 +59,8 @@ class Participant {
   WriteResult dispose(WriterHandle writer, const InstanceKey& key, sim::LocalTime now, Octets key_payload = {});
   /// Disposes, too, if the data lifecycle says so.
   WriteResult unregister(WriterHandle writer, const InstanceKey& key, sim::LocalTime now, Octets key_payload = {});
+  /// Of a writer that brings others' changes: as `source` tells of it.
+  WriteResult write_for(WriterHandle writer, const OriginalWriter& original, ChangeKind kind, const InstanceKey& key, Octets payload, sim::LocalTime source, sim::LocalTime now);
   /// The oldest sample, which leaves the reader.
   std::optional<Sample> take(ReaderHandle reader, sim::LocalTime now);
   /// All samples, which stay.
@@ -95,7 +97,7 @@ class Participant {
  private:
   LocalWriter& local(WriterHandle writer);
   LocalReader& local(ReaderHandle reader);
-  WriteResult write(WriterHandle writer, ChangeKind kind, const InstanceKey& key, Octets payload, sim::LocalTime now);
+  WriteResult write(WriterHandle writer, CacheChange change, sim::LocalTime now);
   FlowController& flow_of(const WriterConfig& config, std::uint32_t number, sim::LocalTime now);
   void tell(EventKind kind, std::uint32_t entity, const Guid& remote, std::uint64_t count, sim::LocalTime now);
   void tell_mismatch(const Matching& matching, std::uint32_t entity, const Guid& remote, std::uint64_t count, sim::LocalTime now);

@@ -62,6 +62,7 @@ struct WriterConfig {
   std::string flow_controller;   ///< of an asynchronous writer; "": one of its own without limits
   FlowShare flow_share;
   Guid persistence_guid;         ///< the name that survives restarts; unknown: none
+  bool brings_others = false;    ///< of a persistence service: changes of other writers, for readers that request TRANSIENT or above
   Storage* storage = nullptr;    ///< keeps numbers and history of a writer with a persistence GUID; outlives the participant
 };
 

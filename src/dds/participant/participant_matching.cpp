@@ -39,6 +39,8 @@ MatchedWriter matched_writer(const PublicationData& data) {
 /// A reader that is matched already and still fits stays as it is.
 Matching Participant::try_match(LocalWriter& writer, const SubscriptionData& remote, const MatchedReader& reader, sim::LocalTime now) {
   const Guid& guid = remote.endpoint.guid;
+  // Readers of less durability get all from the writers themselves.
+  if (writer.config.brings_others && remote.qos.durability.kind < DurabilityKind::transient) return {};
   Matching matching = dds::match(writer.data, remote);
   if (!matching.is_match()) {
     end_match(writer, guid, now);

@@ -31,8 +31,8 @@ std::optional<Guid> guid_of(std::string_view text) {
   return guid;
 }
 
-// A change: number 8, kind 1, key 16, source timestamp 8, payload.
-constexpr std::size_t fixed_size = 8 + 1 + 16 + 8;
+// A change: number 8, kind 1, key 16, source timestamp 8, original writer 16 and its number 8 (zeros: its own), payload.
+constexpr std::size_t fixed_size = 8 + 1 + 16 + 8 + 16 + 8;
 
 }  // namespace
 
@@ -46,6 +46,12 @@ void KeptChanges::put(const CacheChange& change) {
   const Time source = epoch_.stamp(change.source);
   store(value.data() + 25, source.seconds, ByteOrder::little);
   store(value.data() + 29, source.fraction, ByteOrder::little);
+  if (change.original) {
+    const Guid& original = change.original->writer;
+    std::transform(original.prefix.octets.begin(), original.prefix.octets.end(), value.begin() + 33, [](std::uint8_t octet) { return std::byte{octet}; });
+    store(value.data() + 45, original.entity.value, ByteOrder::little);
+    store(value.data() + 49, change.original->number.value, ByteOrder::little);
+  }
   std::copy(change.payload.begin(), change.payload.end(), value.begin() + fixed_size);
   storage_.put(name_ + digits(static_cast<std::uint64_t>(change.number.value), 16), value);
 }
@@ -68,6 +74,11 @@ std::vector<CacheChange> KeptChanges::changes() const {
     change.kind = static_cast<ChangeKind>(std::to_integer<unsigned>(value[8]) & 3u);
     std::transform(value.begin() + 9, value.begin() + 25, change.key.begin(), [](std::byte octet) { return std::to_integer<std::uint8_t>(octet); });
     change.source = epoch_.local({load<std::int32_t>(value.data() + 25, ByteOrder::little), load<std::uint32_t>(value.data() + 29, ByteOrder::little)});
+    OriginalWriter original;
+    std::transform(value.begin() + 33, value.begin() + 45, original.writer.prefix.octets.begin(), [](std::byte octet) { return std::to_integer<std::uint8_t>(octet); });
+    original.writer.entity.value = load<std::uint32_t>(value.data() + 45, ByteOrder::little);
+    original.number.value = load<std::int64_t>(value.data() + 49, ByteOrder::little);
+    if (!original.writer.is_unknown()) change.original = original;
     change.payload.assign(value.begin() + fixed_size, value.end());
     if (all.empty() || all.back().number < change.number) all.push_back(std::move(change));
   });

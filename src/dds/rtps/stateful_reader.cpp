@@ -64,7 +64,8 @@ void StatefulReader::receive(const Guid& writer, const Data& data, std::optional
     ++duplicates_;
     return;
   }
-  PendingChange change{kind_of(data.inline_qos), key_of(data.inline_qos, data.payload_kind, data.payload), source ? settings_.epoch.local(*source) : now, {}};
+  PendingChange change{kind_of(data.inline_qos), key_of(data.inline_qos, data.payload_kind, data.payload), source ? settings_.epoch.local(*source) : now,
+                       data.inline_qos.original_writer, {}};
   take_change(proxy, data.sequence_number, std::move(change), data.payload, now);
 }
 
@@ -91,7 +92,8 @@ void StatefulReader::receive(const Guid& writer, const DataFrag& data, std::opti
   if (!part->second.add(data, source ? settings_.epoch.local(*source) : now) || !part->second.is_complete()) return;
   const auto whole = proxy.reassemblies.extract(part);
   const Reassembly& sample = whole.mapped();
-  PendingChange change{kind_of(sample.inline_qos()), key_of(sample.inline_qos(), sample.payload_kind(), sample.payload()), sample.source(), {}};
+  PendingChange change{kind_of(sample.inline_qos()), key_of(sample.inline_qos(), sample.payload_kind(), sample.payload()), sample.source(),
+                       sample.inline_qos().original_writer, {}};
   take_change(proxy, data.sequence_number, std::move(change), sample.payload(), now);
 }
 
@@ -120,19 +122,22 @@ void StatefulReader::take_change(WriterProxy& proxy, SequenceNumber number, Pend
 
 bool StatefulReader::deliver(WriterProxy& proxy, SequenceNumber number, const PendingChange& change, Octets payload, sim::LocalTime now) {
   NumberRanges* delivered = nullptr;
-  if (!proxy.writer.persistence_guid.is_unknown()) {
-    delivered = &delivered_[proxy.writer.persistence_guid];
-    if (delivered->contains(number)) {
+  const SequenceNumber counted = change.original ? change.original->number : number;
+  if (change.original || settings_.tracks_delivered || !proxy.writer.persistence_guid.is_unknown()) {
+    delivered = &delivered_[change.original ? change.original->writer : identity_of(proxy.writer.guid)];
+    if (delivered->contains(counted)) {
       ++duplicates_;
       return true;
     }
   }
-  const Arrival arrival{proxy.writer.guid, proxy.writer.ownership_strength, number, change.kind, change.key, change.source, change.source.plus_saturated(proxy.writer.lifespan), payload};
+  const Guid& writer = change.original ? change.original->writer : proxy.writer.guid;
+  const Arrival arrival{writer, proxy.writer.ownership_strength, counted, change.kind, change.key, change.source, change.source.plus_saturated(proxy.writer.lifespan), payload,
+                        change.original.has_value()};
   const Admission admission = history_.add(arrival, now);
   if (admission == Admission::accepted) ++arrived_;
   proxy.is_blocked = admission == Admission::rejected && proxy.reliable;
   if (proxy.is_blocked) proxy.blocked_key = change.key;
-  if (delivered != nullptr && admission != Admission::rejected) delivered->insert(number);
+  if (delivered != nullptr && admission != Admission::rejected) delivered->insert(counted);
   return admission != Admission::rejected;
 }
 

@@ -20,6 +20,7 @@ class StatefulReader {
     Guid guid;
     bool reliable = false;
     bool has_key = false;
+    bool tracks_delivered = false;  ///< durability is TRANSIENT or above: what a persistence service brings counts as its writer's
     ReaderHistory::Settings history;
     TimingProfile timing;
     ReceiveLimits limits;

@@ -16,8 +16,9 @@ constexpr std::size_t heartbeat_size = 32;
 
 StatefulWriter::StatefulWriter(const Settings& settings) : settings_(settings), history_(settings.history) {
   TAKT_CHECK(settings_.max_message >= beside_fragment + 4 && settings_.max_message <= 65'507, "messages have room, and fit into UDP");
-  most_payload_ = (settings_.max_message - beside_data) & ~std::size_t{3};
-  fragment_size_ = static_cast<std::uint16_t>((settings_.max_message - beside_fragment) & ~std::size_t{3});
+  const std::size_t original = settings_.brings_others ? 28 : 0;
+  most_payload_ = (settings_.max_message - beside_data - original) & ~std::size_t{3};
+  fragment_size_ = static_cast<std::uint16_t>((settings_.max_message - beside_fragment - original) & ~std::size_t{3});
 }
 
 void StatefulWriter::match(const MatchedReader& reader, sim::LocalTime now, Outbox& outbox) {
@@ -82,7 +83,16 @@ Route StatefulWriter::route_to(const ReaderProxy& proxy) const {
 }
 
 SequenceNumber StatefulWriter::write(ChangeKind kind, const InstanceKey& key, Octets payload, sim::LocalTime now, Outbox& outbox) {
-  const SequenceNumber number = history_.add(kind, key, payload, now).number;
+  CacheChange change;
+  change.kind = kind;
+  change.key = key;
+  change.source = now;
+  change.payload.assign(payload.begin(), payload.end());
+  return write(std::move(change), now, outbox);
+}
+
+SequenceNumber StatefulWriter::write(CacheChange change, sim::LocalTime now, Outbox& outbox) {
+  const SequenceNumber number = history_.add(std::move(change), now).number;
   heartbeats_since_write_ = 0;
   if (!settings_.asynchronous) push(now, outbox);
   release();
@@ -181,6 +191,7 @@ std::uint32_t StatefulWriter::fragments_of_change(const CacheChange& change) con
 InlineQos StatefulWriter::inline_qos(const CacheChange& change) const {
   InlineQos qos;
   if (settings_.has_key) qos.key_hash = change.key;
+  qos.original_writer = change.original;
   if (change.kind != ChangeKind::alive) qos.status_info = static_cast<std::uint32_t>(change.kind);
   return qos;
 }
@@ -188,9 +199,10 @@ InlineQos StatefulWriter::inline_qos(const CacheChange& change) const {
 /// An upper bound: with INFO_DST, all inline QoS and a HEARTBEAT.
 std::size_t StatefulWriter::size_of_work(const Work& work) const {
   const std::size_t heartbeat = settings_.reliable ? heartbeat_size : 0;
-  if (work.fragment.value == 0) return std::min(beside_data + rounded_up(work.change->payload.size(), 4) + heartbeat, settings_.max_message);
+  const std::size_t beside = heartbeat + (settings_.brings_others ? 28 : 0);
+  if (work.fragment.value == 0) return std::min(beside_data + rounded_up(work.change->payload.size(), 4) + beside, settings_.max_message);
   const std::size_t rest = work.change->payload.size() - std::size_t{work.fragment.value - 1} * fragment_size_;
-  return std::min(beside_fragment + rounded_up(std::min<std::size_t>(rest, fragment_size_), 4) + heartbeat, settings_.max_message);
+  return std::min(beside_fragment + rounded_up(std::min<std::size_t>(rest, fragment_size_), 4) + beside, settings_.max_message);
 }
 
 std::size_t StatefulWriter::transmit(const Work& work, sim::LocalTime now, Outbox& outbox) {

@@ -20,6 +20,7 @@ class StatefulWriter {
     Guid guid;
     bool reliable = true;
     bool has_key = false;
+    bool brings_others = false; ///< changes of other writers, with PID_ORIGINAL_WRITER_INFO
     bool asynchronous = false;  ///< somebody else calls send_next
     WriterHistory::Settings history;
     TimingProfile timing;
@@ -44,6 +45,8 @@ class StatefulWriter {
 
   /// Precondition: the history has room. A synchronous writer sends at once.
   SequenceNumber write(ChangeKind kind, const InstanceKey& key, Octets payload, sim::LocalTime now, Outbox& outbox);
+  /// The same of a change whose source is another writer.
+  SequenceNumber write(CacheChange change, sim::LocalTime now, Outbox& outbox);
   void receive(const Guid& reader, const AckNack& ack, sim::LocalTime now, Outbox& outbox);
   void receive(const Guid& reader, const NackFrag& nack, sim::LocalTime now, Outbox& outbox);
   /// A HEARTBEAT that tells all readers that the writer is alive.

@@ -23,6 +23,7 @@ struct PendingChange {
   ChangeKind kind = ChangeKind::alive;
   InstanceKey key{};
   sim::LocalTime source;
+  std::optional<OriginalWriter> original;
   std::vector<std::byte> payload;
 };
 

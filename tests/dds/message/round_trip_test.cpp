@@ -65,6 +65,7 @@ InlineQos any_inline_qos() {
   InlineQos qos;
   if (either()) qos.status_info = static_cast<std::uint32_t>(below(4));
   if (either()) qos.key_hash = any_octets<16>();
+  if (either()) qos.original_writer = {{{any_octets<12>()}, any_entity()}, any_number()};
   return qos;
 }
 template <class N>

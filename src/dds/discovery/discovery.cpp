@@ -110,7 +110,19 @@ void Discovery::plan_announcement(sim::LocalTime now) {
   announce_at_ = server_ ? sim::LocalTime::never() : now.plus_saturated(period);
 }
 
-void Discovery::announce(const PublicationData& data, sim::LocalTime now, Outbox& outbox) {
+/// Without what others know anyway: whose it is, and where, if that is where all of the participant's are. Nobody sends to a writer's groups.
+EndpointData Discovery::brief(EndpointData endpoint) const {
+  if (endpoint.participant == self_.guid) endpoint.participant = {};
+  const bool has_default_groups = endpoint.guid.entity.is_writer() ? endpoint.multicast.empty() : endpoint.multicast == self_.default_multicast;
+  if (endpoint.unicast == self_.default_unicast && has_default_groups) {
+    endpoint.unicast.clear();
+    endpoint.multicast.clear();
+  }
+  return endpoint;
+}
+
+void Discovery::announce(const PublicationData& full, sim::LocalTime now, Outbox& outbox) {
+  const PublicationData data{brief(full.endpoint), full.qos};
   if (server_) {
     server_->domain().publications[data.endpoint.guid] = data;
     server_->update(now, outbox);
@@ -120,7 +132,8 @@ void Discovery::announce(const PublicationData& data, sim::LocalTime now, Outbox
   }
 }
 
-void Discovery::announce(const SubscriptionData& data, sim::LocalTime now, Outbox& outbox) {
+void Discovery::announce(const SubscriptionData& full, sim::LocalTime now, Outbox& outbox) {
+  const SubscriptionData data{brief(full.endpoint), full.qos, full.expects_inline_qos};
   if (server_) {
     server_->domain().subscriptions[data.endpoint.guid] = data;
     server_->update(now, outbox);

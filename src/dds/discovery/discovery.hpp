@@ -88,6 +88,7 @@ class Discovery {
     sim::LocalTime until;
   };
 
+  EndpointData brief(EndpointData endpoint) const;
   void send_participant_data(const Route& route, sim::LocalTime now, Outbox& outbox);
   void announce_self(sim::LocalTime now, Outbox& outbox);
   void plan_announcement(sim::LocalTime now);

@@ -33,6 +33,12 @@ void StatefulWriter::match(const MatchedReader& reader, sim::LocalTime now, Outb
   proxy.acknowledged_below = proxy.next_unsent;
   plan_route();
   if (!proxy.reader.reliable) return;
+  if (settings_.timing.greets_by_heartbeat) {
+    proxy.next_unsent = history_.last() + 1;  // what is past counts as sent: the reader asks for it
+    send_heartbeat(proxy, outbox);
+    plan_heartbeat(now);
+    return;
+  }
   // The reader is told where its samples begin, so that it does not wait for others.
   if (proxy.next_unsent > first_sequence_number) gap(proxy, first_sequence_number, proxy.next_unsent, outbox);
   if (!settings_.asynchronous) push(now, outbox);

@@ -42,12 +42,16 @@ LocalReader::LocalReader(ReaderHandle reader_handle, const ReaderConfig& reader_
 
 std::optional<Sample> LocalReader::take(sim::LocalTime now, Outbox& outbox) {
   std::optional<Sample> sample = rtps.take(now, outbox);
-  if (!sample || !kept || sample->info.number < first_sequence_number) return sample;
-  const Guid writer = rtps.identity_of(sample->info.writer);
-  NumberRanges& numbers = taken_[writer];
-  numbers.insert(sample->info.number);
-  kept->put(writer, numbers);
+  if (sample && !config.commits_by_hand) commit(sample->info);
   return sample;
+}
+
+void LocalReader::commit(const SampleInfo& info) {
+  if (!kept || info.number < first_sequence_number) return;  // without a number: a writer left
+  const Guid writer = rtps.identity_of(info.writer);
+  NumberRanges& numbers = taken_[writer];
+  numbers.insert(info.number);
+  kept->put(writer, numbers);
 }
 
 void LocalReader::report(sim::LocalTime now, std::deque<Event>& events) {

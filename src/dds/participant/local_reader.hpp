@@ -25,6 +25,8 @@ struct LocalReader {
   IncompatibleQosStatus incompatible;
 
   std::optional<Sample> take(sim::LocalTime now, Outbox& outbox);
+  /// The sample was dealt with and is not wanted again, not even after a restart.
+  void commit(const SampleInfo& info);
   /// Tells of statuses that have changed since the last time.
   void report(sim::LocalTime now, std::deque<Event>& events);
 

@@ -229,6 +229,12 @@ std::optional<Sample> Participant::take(ReaderHandle reader, sim::LocalTime now)
   return sample;
 }
 
+void Participant::mark_delivered(ReaderHandle reader, const OriginalWriter& change) {
+  NumberRanges numbers;
+  numbers.insert(change.number);
+  local(reader).rtps.restore_delivered(change.writer, numbers);
+}
+
 std::vector<Sample> Participant::read(ReaderHandle reader, sim::LocalTime now) { return local(reader).rtps.history().read(now); }
 
 void Participant::assert_liveliness(WriterHandle handle, sim::LocalTime now) {

@@ -63,6 +63,10 @@ class Participant {
   WriteResult write_for(WriterHandle writer, const OriginalWriter& original, ChangeKind kind, const InstanceKey& key, Octets payload, sim::LocalTime source, sim::LocalTime now);
   /// The oldest sample, which leaves the reader.
   std::optional<Sample> take(ReaderHandle reader, sim::LocalTime now);
+  /// Of a reader that commits by hand: the sample is not wanted again after a restart.
+  void commit(ReaderHandle reader, const SampleInfo& info) { local(reader).commit(info); }
+  /// The reader has had this change of the writer, or of the one with this persistence GUID.
+  void mark_delivered(ReaderHandle reader, const OriginalWriter& change);
   /// All samples, which stay.
   std::vector<Sample> read(ReaderHandle reader, sim::LocalTime now);
   /// MANUAL_BY_TOPIC: the writer's; MANUAL_BY_PARTICIPANT: that of all such writers of the participant.

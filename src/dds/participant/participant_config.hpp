@@ -74,6 +74,7 @@ struct ReaderConfig {
   std::function<InstanceKey(PayloadKind, Octets)> key_of;  ///< finds the instance where the other side sends no key hash
   Guid persistence_guid;
   Storage* storage = nullptr;    ///< keeps which samples were taken, so that a restarted reader gets none twice
+  bool commits_by_hand = false;  ///< with a storage: a sample is kept as taken by commit(), not by take()
   std::string content_filter;    ///< not supported: refused if there is one
 };
 

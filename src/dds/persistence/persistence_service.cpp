@@ -49,11 +49,15 @@ std::vector<std::string> PersistenceService::add(const DurableTopic& topic, sim:
   reading.qos.liveliness.kind = LivelinessKind::automatic;
   reading.persistence_guid = {name_, EntityId::user(hash >> 8, EntityKind::reader_group)};
   if (is_persistent) reading.storage = &storage_;
+  reading.commits_by_hand = true;  // kept first: the end of the service in between loses nothing
 
   const Created<WriterHandle> writer = participant_.create_writer(writing, now);
   if (!writer) return writer.problems;
   const Created<ReaderHandle> reader = participant_.create_reader(reading, now);
   TAKT_CHECK(reader.handle.has_value(), "a service's reader is sound if its writer is");
+  // What was kept but not committed when the service ended.
+  for (const auto& [number, change] : participant_.writer(*writer.handle).rtps.history().changes())
+    if (change.original) participant_.mark_delivered(*reader.handle, *change.original);
   places_[topic.topic] = {*reader.handle, *writer.handle, topic.qos.durability_service.service_cleanup_delay, std::nullopt, {}};
   return {};
 }
@@ -78,11 +82,15 @@ void PersistenceService::run(sim::LocalTime now) {
 /// What ends because a writer left is no end for a service; what is disposed is.
 bool PersistenceService::keep(Place& place, const Sample& sample, sim::LocalTime now) {
   const SampleInfo& info = sample.info;
-  if (!info.valid_data && info.instance_state != InstanceState::not_alive_disposed) return true;
+  if (!info.valid_data && info.instance_state != InstanceState::not_alive_disposed) {
+    participant_.commit(place.reader, info);
+    return true;
+  }
   const OriginalWriter original{participant_.reader(place.reader).rtps.identity_of(info.writer), info.number};
   const ChangeKind kind = info.valid_data ? ChangeKind::alive : ChangeKind::disposed;
   const WriteResult result = participant_.write_for(place.writer, original, kind, info.key, sample.payload, info.source_timestamp, now);
   if (result.verdict == WriteVerdict::would_block) return false;
+  participant_.commit(place.reader, info);
   if (info.valid_data) std::erase_if(place.cleanups, [&](const auto& each) { return each.first.second == info.key; });
   else place.cleanups[{now.plus_saturated(place.cleanup_delay), info.key}] = original;
   return true;

@@ -10,6 +10,7 @@ void StatefulReader::match(const MatchedWriter& writer, sim::LocalTime now) {
   TAKT_CHECK(!writers_.contains(writer.guid), "a writer is matched once");
   WriterProxy& proxy = writers_[writer.guid];
   proxy.writer = writer;
+  if (!writer.persistence_guid.is_unknown()) identities_[writer.guid] = writer.persistence_guid;
   proxy.reliable = settings_.reliable && writer.reliable;
   proxy.ack_count = ack_count_;
   proxy.nack_frag_count = ack_count_;
@@ -34,8 +35,8 @@ void StatefulReader::unmatch(const Guid& writer, sim::LocalTime now) {
 }
 
 Guid StatefulReader::identity_of(const Guid& writer) const {
-  const auto at = writers_.find(writer);
-  return at == writers_.end() || at->second.writer.persistence_guid.is_unknown() ? writer : at->second.writer.persistence_guid;
+  const auto at = identities_.find(writer);
+  return at == identities_.end() ? writer : at->second;
 }
 
 InstanceKey StatefulReader::key_of(const InlineQos& qos, PayloadKind kind, Octets payload) const {

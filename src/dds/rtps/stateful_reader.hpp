@@ -53,7 +53,9 @@ class StatefulReader {
   void wake(sim::LocalTime now, Outbox& outbox);
 
   /// Changes of this writer that were delivered before a restart. `writer` is an identity as of identity_of().
-  void restore_delivered(const Guid& writer, const NumberRanges& numbers) { delivered_[writer] = numbers; }
+  void restore_delivered(const Guid& writer, const NumberRanges& numbers) {
+    for (const auto& [first, last] : numbers.ranges()) delivered_[writer].insert(first, last);
+  }
   /// The name under which a writer's numbers count: its persistence GUID if it has one.
   Guid identity_of(const Guid& writer) const;
 
@@ -86,6 +88,7 @@ class StatefulReader {
   std::map<Guid, WriterProxy> writers_;
   /// Of writers that may come back under another GUID, and of samples that a persistence service brings.
   std::map<Guid, NumberRanges> delivered_;
+  std::map<Guid, Guid> identities_;  ///< of writers that have a persistence GUID, also when they are gone
   SampleLostStatus lost_;
   LivelinessChangedStatus liveliness_;
   std::uint64_t arrived_ = 0;

@@ -29,6 +29,7 @@ const Prefixes node = {"node/"};
 const Prefixes emulate = {"emulate/"};
 const Prefixes vocabulary = {"vocabulary/"};
 const Prefixes papers = {"papers/"};
+const Prefixes storage = {"storage/"};
 
 Prefixes all_of(std::initializer_list<Prefixes> parts) {
   Prefixes sum;
@@ -47,7 +48,8 @@ const std::vector<Layer>& layers() {
     std::vector<Layer> list = {{"sim/", kernel}, {"models/", all_of({kernel, models})}};
     for (const std::string& folder : protocol) list.push_back({"src/" + folder, all_of({base, protocol})});
     list.push_back({"src/vocabulary/", all_of({base, protocol, vocabulary, json})});
-    list.push_back({"src/node/", all_of({base, protocol, vocabulary, node, json})});
+    list.push_back({"src/storage/", all_of({base, protocol, storage})});
+    list.push_back({"src/node/", all_of({base, protocol, vocabulary, storage, node, json})});
     list.push_back({"src/scenario/json/", all_of({base, json})});
     const Prefixes below = all_of({kernel, models, protocol, vocabulary, scenario});
     list.push_back({"src/scenario/", below});
@@ -86,7 +88,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, emulate, vocabulary, chart, papers, study, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, emulate, vocabulary, chart, papers, study, storage, {"property/"}});
   return roots;
 }
 

@@ -190,7 +190,7 @@ struct Link {
   bool operator==(const Link&) const = default;
 };
 
-enum class Shape : std::uint8_t { line, ring, star, tree, mesh };
+enum class Shape : std::uint8_t { line, ring, star, tree, mesh, comb, random, dual_star };
 
 /// A topology in one line.
 struct Generator {
@@ -213,6 +213,9 @@ struct Generator {
   TrafficClasses traffic_classes = TrafficClasses::standard;
   std::vector<Egress> egress;
   std::optional<Ingress> ingress = {};
+  std::optional<std::uint64_t> teeth = {};
+  std::optional<double> degree = {};
+  std::optional<std::uint64_t> seed = {};
   bool operator==(const Generator&) const = default;
 };
 

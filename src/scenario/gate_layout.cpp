@@ -43,8 +43,10 @@ class Layout {
   const ScheduledStream& stream(Crossing c) const { return problem_.streams[c.stream]; }
   const ScheduledHop& hop(Crossing c) const { return problem_.streams[c.stream].hops[c.hop]; }
   const GateWindow& window(Crossing c) const { return layout_.schedule.windows[c.stream][c.hop]; }
+  /// Its frame may begin by then, as the clocks go. At the talker no margin: it is the talker's own clock.
+  Duration earliest(Crossing c) const { return window(c).start - (hop(c).previous ? problem_.margin : Duration()); }
   /// The end of what keeps others away: the gap behind the latest frame is part of it.
-  Duration free_again(Crossing c) const { return ceil_ns(window(c).close + problem_.ports[hop(c).port].gap); }
+  Duration free_again(Crossing c) const { return window(c).start + hop(c).transmission + problem_.margin + problem_.ports[hop(c).port].gap; }
 
   /// The later of two of one train came to the port behind the earlier, by the same port before: they stay in order, whatever the clocks say.
   bool follows(Crossing later, Crossing earlier) const {
@@ -65,7 +67,7 @@ class Layout {
       Duration start = ceil_ns(each.release);
       if (at.previous) {
         TAKT_CHECK(*at.previous < h, "hops stand in the order of the way");
-        start = layout_.schedule.windows[s][*at.previous].start + each.hops[*at.previous].transmission + at_next(each.hops[*at.previous]);
+        start = layout_.schedule.windows[s][*at.previous].start + each.hops[*at.previous].transmission + each.hops[*at.previous].behind;
       }
       for (const Crossing& other : crossings_[at.port])
         if (other.stream < s && follows({s, h}, other)) start = std::max(start, window(other).start + hop(other).transmission + problem_.ports[at.port].gap);
@@ -73,7 +75,6 @@ class Layout {
       layout_.schedule.windows[s].push_back({start, floor_ns(start - early), ceil_ns(start + at.transmission + problem_.margin)});
     }
   }
-  static Duration at_next(const ScheduledHop& hop) { return hop.behind; }
 
   void lay_port(std::uint32_t p) {
     layout_.schedule.lists.emplace_back();
@@ -111,30 +112,32 @@ class Layout {
 
   void compare(std::uint32_t p, Crossing a, Crossing b) {
     const std::int64_t common = std::gcd(stream(a).period.ps(), stream(b).period.ps());
-    const std::int64_t length_a = (free_again(a) - window(a).open).ps();
-    const std::int64_t length_b = (free_again(b) - window(b).open).ps();
+    const std::int64_t length_a = (free_again(a) - earliest(a)).ps();
+    const std::int64_t length_b = (free_again(b) - earliest(b)).ps();
     if (a.stream == b.stream) {
       if (length_a > common) overlap(p, a, b, common);
       return;
     }
     if (follows(b, a)) {
       // They may overlap by their margins; only the next of a must come after this one of b.
-      if (free_again(b) > window(a).open + stream(a).period) overlap(p, b, a, (window(a).open + stream(a).period - window(b).open).ps());
+      if (free_again(b) > earliest(a) + stream(a).period) overlap(p, b, a, (earliest(a) + stream(a).period - earliest(b)).ps());
       return;
     }
-    const std::int64_t distance = modulo((window(b).open - window(a).open).ps(), common);
+    const std::int64_t distance = modulo((earliest(b) - earliest(a)).ps(), common);
     if (length_a > distance) overlap(p, a, b, distance);
     else if (distance + length_b > common) overlap(p, a, b, distance - common);
   }
 
   /// Somewhere in the cycle b begins `apart` after a.
   void overlap(std::uint32_t p, Crossing a, Crossing b, std::int64_t apart) {
-    const std::int64_t cycle = layout_.schedule.lists[p].cycle.ps();
-    std::int64_t at = modulo(window(a).open.ps(), stream(a).period.ps());
-    while (modulo(at + apart - window(b).open.ps(), stream(b).period.ps()) != 0 && at < cycle) at += stream(a).period.ps();
-    const auto from_ps = [](std::int64_t ps) { return Duration::from_ps(ps); };
-    layout_.conflicts.push_back({GateConflict::Kind::overlap, a.stream, b.stream, p, from_ps(at), from_ps(at) + (window(a).close - window(a).open), from_ps(at + apart),
-                                 from_ps(at + apart) + (window(b).close - window(b).open), from_ps(cycle), 0});
+    const Duration cycle = layout_.schedule.lists[p].cycle;
+    std::int64_t at = modulo(earliest(a).ps(), stream(a).period.ps());
+    while (modulo(at + apart - earliest(b).ps(), stream(b).period.ps()) != 0 && at < cycle.ps()) at += stream(a).period.ps();
+    // Told as windows, on whole ns.
+    const Duration later_a = Duration::from_ps(at) - earliest(a);
+    const Duration later_b = Duration::from_ps(at + apart) - earliest(b);
+    layout_.conflicts.push_back({GateConflict::Kind::overlap, a.stream, b.stream, p, window(a).open + later_a, window(a).close + later_a, window(b).open + later_b,
+                                 window(b).close + later_b, cycle, 0});
   }
 
   /// What changes at an instant of the cycle: how many windows of each class are open, and how many keep the other classes closed.
@@ -164,7 +167,7 @@ class Layout {
       for (std::int64_t i = 0; i < instances; ++i) {
         const Duration later = stream(c).period * i;
         mark(window(c).open + later, window(c).close + later, [q](Change& change) -> int& { return change.open[q]; });
-        const Duration guarded = std::max(floor_ns(window(c).open - problem_.ports[p].guard), window(c).close - list.cycle);
+        const Duration guarded = std::max(floor_ns(earliest(c) - problem_.ports[p].guard), window(c).close - list.cycle);
         mark(guarded + later, window(c).close + later, [](Change& change) -> int& { return change.busy; });
       }
     }

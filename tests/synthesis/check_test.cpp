@@ -173,7 +173,7 @@ TEST(GateCheck, ASchedulesOfAnotherProblemIsRefused) {
     other.streams[0].hops[0].traffic_class = 4;
     EXPECT_FALSE(check(other, schedule).empty()) << seed;
     other = problem;
-    other.ports[other.streams[0].hops[0].port].guard += 5_ns;
+    other.ports[other.streams[0].hops[0].port].guard += 10_us;
     EXPECT_FALSE(check(other, schedule).empty()) << seed;
   }
 }

@@ -142,7 +142,8 @@ TEST(GateLayout, ConflictsAreReal) {
       RC_ASSERT((conflict.first_from - first.open) % problem.streams[conflict.first].period == Duration());
       RC_ASSERT((conflict.second_from - second.open) % problem.streams[conflict.second].period == Duration());
       const Duration gap = problem.ports[conflict.port].gap + 1_ns;
-      RC_ASSERT(conflict.first_from < conflict.second_until + gap);
+      // A train that is longer than its period overtakes itself, which is no better.
+      if (problem.streams[conflict.first].train != problem.streams[conflict.second].train) RC_ASSERT(conflict.first_from < conflict.second_until + gap);
       RC_ASSERT(conflict.second_from < conflict.first_until + gap);
     }
   }));

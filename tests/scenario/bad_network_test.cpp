@@ -106,8 +106,8 @@ const BadCase generators_cases[] = {
     {"CombWithoutTeeth", generated_text(R"("topology": "comb", "switches": 4)"),
      R"(2:1: error at /network/generate/0: missing key for this topology: found a comb without it, expected "teeth")"},
     {"TeethOfALine", generated_text(R"("topology": "line", "switches": 4, "teeth": 2, "degree": 2, "seed": 3)"),
-     R"(2:45: error at /network/generate/0/teeth: this topology has no such parameter: found "teeth" of a line
-2:57: error at /network/generate/0/degree: this topology has no such parameter: found "degree" of a line
+     R"(2:46: error at /network/generate/0/teeth: this topology has no such parameter: found "teeth" of a line
+2:59: error at /network/generate/0/degree: this topology has no such parameter: found "degree" of a line
 2:70: error at /network/generate/0/seed: this topology has no such parameter: found "seed" of a line)"},
     {"RandomWithoutDegree", generated_text(R"("topology": "random", "switches": 4)"),
      R"(2:1: error at /network/generate/0: missing key for this topology: found a random without it, expected "degree")"},

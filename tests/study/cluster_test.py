@@ -12,7 +12,7 @@ import tempfile
 
 import one_node_slurm
 
-TAKT, SOURCE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+TAKT, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 SCRIPT = SOURCE / "tools" / "slurm" / "study.sbatch"
 STUDY = SOURCE / "scenarios" / "studies" / "slaves-hops-cycle.json"
 TASKS = 3

@@ -2,10 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/load.hpp"
 #include "output/text_report.hpp"
+#include "synthesis/check.hpp"
 
 namespace takt::cli {
 
@@ -23,6 +26,14 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
     if (!resolved) {
       status = ExitStatus::bad_input;
       return;
+    }
+    if (resolved->gates) {
+      const std::vector<std::string> wrong = synthesis::check(resolved->gates->problem, resolved->gates->schedule);
+      for (const std::string& each : wrong) std::fprintf(stderr, "takt: the gates are laid out wrongly: %s\n", each.c_str());
+      if (!wrong.empty()) {
+        status = ExitStatus::internal_error;
+        return;
+      }
     }
     const std::string page = options->is_json() ? scenario::json::encode(resolved->scenario) : output::check_report(*resolved);
     std::fputs(page.c_str(), stdout);

@@ -1,6 +1,6 @@
 // takt explore: every order of messages, calls and faults of a small group.
 #include <CLI/CLI.hpp>
-#include <unistd.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -12,6 +12,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/status_line.hpp"
 #include "explore/replay.hpp"
 #include "explore/report.hpp"
 #include "explore/schedule.hpp"
@@ -51,35 +52,13 @@ std::uint32_t usual_calls(unsigned slaves) { return slaves == 1 ? 4 : slaves == 
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// One line on standard error, where a terminal is, five times a second.
-class Line {
- public:
-  explicit Line(bool is_wanted) : is_wanted_(is_wanted && ::isatty(STDERR_FILENO) == 1), began_(cpu_seconds()) {}
-  ~Line() {
-    if (is_drawn_) std::fputs("\r\033[K", stderr);
-  }
-  Line(const Line&) = delete;
-  Line& operator=(const Line&) = delete;
-  void show(const explore::Progress& now) {
-    if (!is_wanted_) return;
-    const double spent = cpu_seconds() - began_;
-    if (is_drawn_ && spent < drawn_ + 0.2) return;
-    is_drawn_ = true;
-    drawn_ = spent;
-    const auto states = static_cast<double>(now.states);
-    if (now.in_cycles)
-      std::fprintf(stderr, "\rcycles: %.0f %% of %.1f M states\033[K", 100.0 * static_cast<double>(now.done) / states, states / 1e6);
-    else
-      std::fprintf(stderr, "\rdepth %u: %.1f M states, %.1f M to go, %.2f M a second, %.0f MB\033[K", now.depth, states / 1e6,
-                   static_cast<double>(now.states - now.done) / 1e6, states / 1e6 / std::max(spent, 0.001), static_cast<double>(now.octets) / 1e6);
-  }
-
- private:
-  bool is_wanted_;
-  double began_;
-  double drawn_ = 0;
-  bool is_drawn_ = false;
-};
+/// How far a search is. `spent` is CPU time in s.
+std::string status_of(const explore::Progress& now, double spent) {
+  const auto states = static_cast<double>(now.states);
+  if (now.in_cycles) return fmt::format("cycles: {:.0f} % of {:.1f} M states", 100.0 * static_cast<double>(now.done) / states, states / 1e6);
+  return fmt::format("depth {}: {:.1f} M states, {:.1f} M to go, {:.2f} M a second, {:.0f} MB", now.depth, states / 1e6, static_cast<double>(now.states - now.done) / 1e6,
+                     states / 1e6 / std::max(spent, 0.001), static_cast<double>(now.octets) / 1e6);
+}
 
 /// "registers", "channels" or "channels=N"; says what is wrong.
 std::string set_network(const std::string& text, explore::Question& question) {
@@ -232,9 +211,9 @@ ExitStatus run(const ExploreOptions& options) {
     const double began = cpu_seconds();
     explore::Answer answer;
     {
-      Line line(!options.quiet);
+      StatusLine line(!options.quiet);
       answer = explore::explore(subject.question, [&](const explore::Progress& progress) {
-        line.show(progress);
+        if (line.is_due()) line.show(status_of(progress, cpu_seconds() - began));
         return !interrupt.requested();
       });
     }

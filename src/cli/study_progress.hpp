@@ -1,29 +1,23 @@
-// The progress bar of studies: points, rate, time left; on a terminal only.
+// The progress bar of studies: points, rate, time left.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <string>
 
+#include "cli/status_line.hpp"
+
 namespace takt::cli {
 
-/// Draws on standard error, at most ten times a second, and removes itself at the end.
 class StudyProgress {
  public:
-  explicit StudyProgress(bool is_wanted);
-  ~StudyProgress();
-  StudyProgress(const StudyProgress&) = delete;
-  StudyProgress& operator=(const StudyProgress&) = delete;
-
+  explicit StudyProgress(bool is_wanted) : line_(is_wanted) {}
+  /// `what` is done with the points; another `what` begins anew.
   void update(const char* what, std::uint64_t done, std::uint64_t of);
 
  private:
-  using Clock = std::chrono::steady_clock;
-  bool is_wanted_;
-  bool is_drawn_ = false;
+  StatusLine line_;
   std::string what_;
-  Clock::time_point began_;
-  Clock::time_point drawn_;
+  double began_ = 0;   // in the line's seconds
 };
 
 }  // namespace takt::cli

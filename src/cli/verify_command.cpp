@@ -1,6 +1,6 @@
 // takt verify: does it meet its requirements, whatever phases and chance bring?
 #include <CLI/CLI.hpp>
-#include <unistd.h>
+#include <fmt/format.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/load.hpp"
+#include "cli/status_line.hpp"
 #include "output/result_folder.hpp"
 #include "verify/report.hpp"
 
@@ -21,26 +22,6 @@ struct VerifyOptions {
   double budget = 60;   // millions of events
   std::string out;
   bool quiet = false;
-};
-
-/// One line on standard error, where a terminal is.
-class Line {
- public:
-  explicit Line(bool is_wanted) : is_wanted_(is_wanted && ::isatty(STDERR_FILENO) == 1) {}
-  ~Line() {
-    if (is_drawn_) std::fputs("\r\033[K", stderr);
-  }
-  Line(const Line&) = delete;
-  Line& operator=(const Line&) = delete;
-  void show(std::uint64_t events, std::uint64_t of) {
-    if (!is_wanted_) return;
-    is_drawn_ = true;
-    std::fprintf(stderr, "\rsearching for the worst: %.0f %%\033[K", 100.0 * static_cast<double>(events) / static_cast<double>(of));
-  }
-
- private:
-  bool is_wanted_;
-  bool is_drawn_ = false;
 };
 
 /// "3-reaction-start.json": the number of the requirement, and what it is about.
@@ -80,12 +61,14 @@ ExitStatus run(VerifyOptions& options) {
   const auto resolved = load(options.scenario, options.quiet);
   if (!resolved) return ExitStatus::bad_input;
   const InterruptGuard interrupt;
-  Line line(!options.quiet && !options.scenario.is_json());
+  StatusLine line(!options.quiet && !options.scenario.is_json());
   verify::Options what;
   what.search = options.search;
   what.search.events = static_cast<std::uint64_t>(options.budget * 1e6);
   what.search.interrupted = [&] { return interrupt.requested(); };
-  what.search.progress = [&](std::uint64_t events, std::uint64_t of) { line.show(events, of); };
+  what.search.progress = [&](std::uint64_t events, std::uint64_t of) {
+    if (line.is_due()) line.show(fmt::format("searching for the worst: {:.0f} %", 100.0 * static_cast<double>(events) / static_cast<double>(of)));
+  };
   what.proof.interrupted = what.search.interrupted;
   const verify::Verification verification = verify::verify(*resolved, what);
   std::vector<std::string> files(verification.lines.size());

@@ -97,6 +97,22 @@ std::string ports_page(const Resolved& r, std::size_t most_rows) {
   return page.text(most_rows);
 }
 
+/// The windows of automatic gates.
+std::string windows_page(const Resolved& r, std::size_t most_rows) {
+  if (!r.gates) return {};
+  Page page("Windows of scheduled streams, margins included");
+  const scenario::GateProblem& problem = r.gates->problem;
+  for (std::size_t s = 0; s < problem.streams.size(); ++s) {
+    const scenario::ScheduledStream& stream = problem.streams[s];
+    for (std::size_t h = 0; h < stream.hops.size(); ++h) {
+      const scenario::GateWindow& window = r.gates->schedule.windows[s][h];
+      const sim::Duration whole = stream.period * (window.open / stream.period);
+      page.add(stream.name, fmt::format("{}: {} to {} of each {}", problem.ports[stream.hops[h].port].name, readable(window.open - whole), readable(window.close - whole), readable(stream.period)));
+    }
+  }
+  return page.text(most_rows);
+}
+
 std::string cqf_text(const scenario::Cqf& cqf) {
   std::string text = fmt::format("CQF: {} buffers of {}, classes", cqf.classes.size(), readable(cqf.cycle));
   for (const std::uint8_t q : cqf.classes) text += fmt::format(" {}", q);
@@ -188,7 +204,7 @@ std::string faults_page(const Resolved& r, std::size_t most_rows) {
 }  // namespace
 
 std::string feature_pages(const Resolved& r, std::size_t most_rows) {
-  return ports_page(r, most_rows) + ingress_page(r, most_rows) + redundancy_page(r, most_rows) + faults_page(r, most_rows);
+  return ports_page(r, most_rows) + windows_page(r, most_rows) + ingress_page(r, most_rows) + redundancy_page(r, most_rows) + faults_page(r, most_rows);
 }
 
 }  // namespace takt::output

@@ -190,7 +190,7 @@ struct Link {
   bool operator==(const Link&) const = default;
 };
 
-enum class Shape : std::uint8_t { line, ring, star, tree, mesh };
+enum class Shape : std::uint8_t { line, ring, star, tree, mesh, comb, random, dual_star };
 
 /// A topology in one line.
 struct Generator {
@@ -213,6 +213,9 @@ struct Generator {
   TrafficClasses traffic_classes = TrafficClasses::standard;
   std::vector<Egress> egress;
   std::optional<Ingress> ingress = {};
+  std::optional<std::uint64_t> teeth = {};
+  std::optional<double> degree = {};
+  std::optional<std::uint64_t> seed = {};
   bool operator==(const Generator&) const = default;
 };
 
@@ -350,6 +353,20 @@ struct Requirement {
   bool operator==(const Requirement&) const = default;
 };
 
+enum class GatePlanning : std::uint8_t { none, automatic, listed };
+enum class GateGuard : std::uint8_t { length_aware, longest_frame };
+
+/// The gates of the whole network.
+struct NetworkGates {
+  json::Source where;
+  GatePlanning plan = GatePlanning::none;
+  std::optional<Duration> margin = {};
+  std::vector<std::uint8_t> classes = {};
+  GateGuard guard = GateGuard::length_aware;
+  std::vector<SetGates> lists = {};
+  bool operator==(const NetworkGates&) const = default;
+};
+
 struct Scenario {
   json::Source where;
   std::optional<std::string> schema;  ///< "$schema", for editors
@@ -364,6 +381,7 @@ struct Scenario {
   std::vector<ScriptEntry> script;
   std::vector<Fault> faults;
   std::optional<Rerouting> rerouting;
+  std::optional<NetworkGates> gates = {};
   std::vector<Requirement> require;
   bool allow_overload = false;
   bool operator==(const Scenario&) const = default;
@@ -410,6 +428,9 @@ const json::Object& describe(json::Type<SetGates>);
 const json::Object& describe(json::Type<ScriptEntry>);
 const json::Enumeration& describe(json::Type<Reaction>);
 const json::Object& describe(json::Type<Requirement>);
+const json::Enumeration& describe(json::Type<GatePlanning>);
+const json::Enumeration& describe(json::Type<GateGuard>);
+const json::Object& describe(json::Type<NetworkGates>);
 const json::Object& describe(json::Type<Scenario>);
 
 /// The name of an enum's value as the file spells it.

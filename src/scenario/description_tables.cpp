@@ -225,6 +225,7 @@ const json::Object& describe(json::Type<Scenario>) {
       optional<&Scenario::script>("script", "What is done when.", {.max_items = most_names}),
       optional<&Scenario::faults>("faults", "What goes wrong.", {.max_items = most_names}),
       optional<&Scenario::rerouting>("rerouting", "How long the switches take to forward around what is down; they do not if absent."),
+      optional<&Scenario::gates>("gates", "The gates of the whole network: \"auto\" lays them along the paths of what is published at known times."),
       optional<&Scenario::require>("require", "What must hold for the run to pass.", {.max_items = most_names}),
       optional<&Scenario::allow_overload>("allow_overload", "A link that is asked for more than it can carry is an error unless this is true."),
   };

@@ -285,6 +285,9 @@ const json::Enumeration& describe(json::Type<Shape>) {
       name(Shape::star, "star", "a central switch, the others around it"),
       name(Shape::tree, "tree", "depth levels of switches below a root, fanout below each; hosts at the leaves"),
       name(Shape::mesh, "mesh", "rows x columns as a grid, or every switch joined to every other"),
+      name(Shape::comb, "comb", "a line of switches, from each of which hangs a line of \"teeth\" more"),
+      name(Shape::random, "random", "a random connected graph with this mean degree and no double links"),
+      name(Shape::dual_star, "dual-star", "two cores, each joined to every other switch: two paths without a common switch, for redundant streams"),
   };
   static constexpr json::Enumeration table = json::enumeration<Shape>("a topology", names);
   return table;
@@ -294,12 +297,15 @@ const json::Object& describe(json::Type<Generator>) {
   static constexpr std::uint64_t most = 1'000'000'000'000;  // so that too many nodes are refused with their number
   static constexpr json::Field fields[] = {
       required<&Generator::shape>("topology", "The shape."),
-      optional<&Generator::switches>("switches", "Number of switches (line, ring, star, full mesh).", {.min = 1, .max = most}),
+      optional<&Generator::switches>("switches", "Number of switches (line, ring, star, full mesh, random; comb: of the spine; dual-star: besides the two cores).", {.min = 1, .max = most}),
       optional<&Generator::depth>("depth", "Levels of switches below the root (tree).", {.min = 0, .max = 64}),
       optional<&Generator::fanout>("fanout", "Switches below each switch (tree).", {.min = 1, .max = most}),
       optional<&Generator::rows>("rows", "Rows of the grid (mesh).", {.min = 1, .max = most}),
       optional<&Generator::columns>("columns", "Columns of the grid (mesh).", {.min = 1, .max = most}),
-      optional<&Generator::hosts_per_switch>("hosts_per_switch", "Hosts at each switch (tree: at each leaf).", {.max = most}),
+      optional<&Generator::teeth>("teeth", "Switches of each tooth (comb).", {.max = most}),
+      optional<&Generator::degree>("degree", "Mean number of links of a switch to others (random).", {.min = 1.0, .max = 1000.0}),
+      optional<&Generator::seed>("seed", "The seed of the graph (random); 1 if absent."),
+      optional<&Generator::hosts_per_switch>("hosts_per_switch", "Hosts at each switch (tree: at each leaf; star and dual-star: not at the cores).", {.max = most}),
       optional<&Generator::switch_prefix>("switch_prefix", "Switches are named by it and a number from 1.", {.min_length = 1, .max_length = 64}),
       optional<&Generator::host_prefix>("host_prefix", "Hosts are named by it and a number from 1.", {.min_length = 1, .max_length = 64}),
       optional<&Generator::rate>("rate", "Rate of the links.", {.min = DataRate{10'000'000}, .max = DataRate{100'000'000'000}}),

@@ -1,9 +1,12 @@
 #include "scenario/generators.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "scenario/limits.hpp"
+#include "sim/random.hpp"
 #include "sim/time.hpp"
 
 namespace takt::scenario {
@@ -11,6 +14,11 @@ namespace {
 
 using sim::int128;
 using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+constexpr std::uint64_t most_links = 200'000;   // of a random graph; a full mesh of 600 switches has 179'700
+
+/// As many links as a mean degree makes, rounded to whole ones.
+std::uint64_t links_of(std::uint64_t switches, double degree) { return static_cast<std::uint64_t>(degree * static_cast<double>(switches) / 2 + 0.5); }
 
 /// The switches of a shape: how many, and which are joined. Hosts hang below those from `first_with_hosts` on.
 struct Skeleton {
@@ -38,10 +46,26 @@ class Checker {
     }
     return *value;
   }
-  void forbid(const std::optional<std::uint64_t>& value, std::string_view name) {
+  template <class T>
+  void forbid(const std::optional<T>& value, std::string_view name) {
     if (!value) return;
     diagnostics_.error(generator_.where.at(name), "this topology has no such parameter",
                        {"\"" + std::string(name) + "\" of a " + std::string(spelling(generator_.shape))});
+    failed_ = true;
+  }
+  /// Whether n switches can have this mean degree.
+  void check_degree(std::uint64_t n) {
+    if (!generator_.degree) {
+      need(std::nullopt, "degree");
+      return;
+    }
+    if (n > most_nodes) return;   // reported by their number
+    const auto links = links_of(n, *generator_.degree);
+    const std::uint64_t most = std::min(n * (n - 1) / 2, most_links);
+    // Its switches must hang together, and no two of them are joined twice.
+    if (n < 2 || (links + 1 >= n && links <= most)) return;
+    diagnostics_.error(generator_.where.at("degree"), links > most_links ? "too many links" : "no connected graph has this degree",
+                       {std::to_string(links) + " links between " + std::to_string(n) + " switches", std::to_string(n - 1) + " to " + std::to_string(most) + " links"});
     failed_ = true;
   }
   bool failed() const { return failed_; }
@@ -60,6 +84,11 @@ Skeleton skeleton_of(const Generator& g, Checker& check) {
   if (g.shape != Shape::mesh) {
     check.forbid(g.rows, "rows");
     check.forbid(g.columns, "columns");
+  }
+  if (g.shape != Shape::comb) check.forbid(g.teeth, "teeth");
+  if (g.shape != Shape::random) {
+    check.forbid(g.degree, "degree");
+    check.forbid(g.seed, "seed");
   }
   switch (g.shape) {
     case Shape::line:
@@ -93,8 +122,49 @@ Skeleton skeleton_of(const Generator& g, Checker& check) {
         return {n > 600 ? static_cast<int128>(most_nodes) + n : int128{n}, 0};
       }
       return {static_cast<int128>(check.need(g.rows, "rows")) * static_cast<int128>(check.need(g.columns, "columns")), 0};
+    case Shape::comb: {
+      const std::uint64_t spine = check.need(g.switches, "switches");
+      return {static_cast<int128>(spine) * (static_cast<int128>(check.need(g.teeth, "teeth", 0)) + 1), 0};
+    }
+    case Shape::random: {
+      const std::uint64_t n = check.need(g.switches, "switches");
+      check.check_degree(n);
+      return {n, 0};
+    }
+    case Shape::dual_star:
+      return {static_cast<int128>(check.need(g.switches, "switches")) + 2, 2};
   }
   return {};
+}
+
+/// The spine first, then tooth after tooth.
+Edges comb_edges(const Generator& g) {
+  Edges edges;
+  const auto spine = static_cast<std::uint32_t>(*g.switches);
+  for (std::uint32_t i = 1; i < spine; ++i) edges.emplace_back(i - 1, i);
+  std::uint32_t next = spine;
+  for (std::uint32_t i = 0; i < spine; ++i) {
+    std::uint32_t end = i;
+    for (std::uint64_t t = 0; t < *g.teeth; ++t) {
+      edges.emplace_back(end, next);
+      end = next++;
+    }
+  }
+  return edges;
+}
+
+/// A random tree, so that it is connected, and random links until there are enough.
+Edges random_edges(const Generator& g, std::uint32_t n) {
+  const std::uint64_t wanted = links_of(n, *g.degree);
+  sim::RandomStream chance(g.seed.value_or(1), "network", "topology");
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (std::uint32_t i = 1; i < n; ++i) edges.emplace(static_cast<std::uint32_t>(chance.below(i)), i);
+  while (n > 1 && edges.size() < wanted) {
+    const auto a = static_cast<std::uint32_t>(chance.below(n));
+    const auto b = static_cast<std::uint32_t>(chance.below(n));
+    if (a != b) edges.emplace(std::min(a, b), std::max(a, b));
+  }
+  return {edges.begin(), edges.end()};
 }
 
 Edges edges_of(const Generator& g, std::uint32_t n) {
@@ -124,6 +194,14 @@ Edges edges_of(const Generator& g, std::uint32_t n) {
           if (i >= columns) edges.emplace_back(i - columns, i);
         }
       }
+      break;
+    case Shape::comb:
+      return comb_edges(g);
+    case Shape::random:
+      return random_edges(g, n);
+    case Shape::dual_star:
+      for (std::uint32_t leaf = 2; leaf < n; ++leaf)
+        for (const std::uint32_t core : {0u, 1u}) edges.emplace_back(core, leaf);
       break;
   }
   return edges;

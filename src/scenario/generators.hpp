@@ -1,4 +1,4 @@
-// Generated topologies: line, ring, star, tree, mesh.
+// Generated topologies: line, ring, star, tree, mesh, comb, random, dual star.
 #pragma once
 
 #include <cstdint>

@@ -14,6 +14,7 @@
 #include "scenario/resolve_egress.hpp"
 #include "scenario/resolve_ingress.hpp"
 #include "scenario/resolve_faults.hpp"
+#include "scenario/resolve_gates.hpp"
 #include "scenario/resolve_replies.hpp"
 #include "scenario/resolve_nesting.hpp"
 #include "scenario/resolve_plug.hpp"
@@ -47,6 +48,7 @@ class Resolver {
     check_candidates(r_, diagnostics_);
     resolve_demand(r_, diagnostics_);
     resolve_ingress(r_, diagnostics_);
+    resolve_gates(r_, diagnostics_);
     check_cut_through(r_, diagnostics_);
     check_slopes(r_, diagnostics_);
     check_windows(r_, diagnostics_);

@@ -10,6 +10,7 @@
 
 #include "models/plan.hpp"
 #include "scenario/description.hpp"
+#include "scenario/gate_problem.hpp"
 #include "scenario/routing.hpp"
 #include "scenario/topology.hpp"
 
@@ -179,6 +180,7 @@ struct Resolved {
   std::vector<ResolvedProgram> programs;
   std::vector<ResolvedAction> script;     ///< by time
   std::vector<PortDemand> ports;          ///< those that carry something
+  std::optional<GatePlan> gates = {};     ///< if they were laid out
 };
 
 }  // namespace takt::scenario

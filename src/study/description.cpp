@@ -72,33 +72,40 @@ const json::Object& describe(json::Type<LinkFailures>) {
   return table;
 }
 
-const json::Enumeration& describe(json::Type<Shape>) {
-  static constexpr json::EnumName names[] = {
-      name(Shape::comb, "comb", "a line of switches, from each of which hangs a line of \"teeth\" more"),
-      name(Shape::random, "random", "a random connected graph with this mean degree and no double links"),
-      name(Shape::dual_star, "dual-star", "two cores, each joined to every other switch: two paths without a common switch, for redundant streams"),
+const json::Object& describe(json::Type<GraphmlLevel>) {
+  static constexpr json::Field fields[] = {
+      required<&GraphmlLevel::graphml>("graphml", "A GraphML file beside the study."),
+      optional<&GraphmlLevel::hosts_per_switch>("hosts_per_switch", "Hosts h1, h2 ... at each switch, besides those of the file.", {.max = 1000}),
+      optional<&GraphmlLevel::os>("os", "The operating system of the hosts."),
+      optional<&GraphmlLevel::rate>("rate", "Of all links that do not say it."),
+      optional<&GraphmlLevel::length>("length", "Of all links that do not say it."),
+      optional<&GraphmlLevel::forwarding_delay>("forwarding_delay", "Of all switches."),
   };
-  static constexpr json::Enumeration table = json::enumeration<Shape>("a topology of studies", names);
+  static constexpr json::Object table = json::object<GraphmlLevel>("graphml_level", "A network that is drawn in a file.", fields);
   return table;
 }
 
-const json::Object& describe(json::Type<TopologyLevel>) {
-  static constexpr json::Field fields[] = {
-      optional<&TopologyLevel::shape>("topology", "The shape; line, ring, star, tree and mesh are generators of the scenario itself, see \"patches\"."),
-      optional<&TopologyLevel::graphml>("graphml", "A GraphML file beside the study."),
-      optional<&TopologyLevel::switches>("switches", "Switches of the spine, of a random graph, or besides the two cores.", {.min = 1, .max = 10'000}),
-      optional<&TopologyLevel::teeth>("teeth", "Switches of each tooth of a comb.", {.max = 10'000}),
-      optional<&TopologyLevel::degree>("degree", "Mean number of links of a switch to others, of a random graph.", {.min = 1.0, .max = 1000.0}),
-      optional<&TopologyLevel::seed>("seed", "The seed of a random graph."),
-      optional<&TopologyLevel::hosts_per_switch>("hosts_per_switch", "Hosts h1, h2 ... at each switch but the cores.", {.max = 1000}),
-      optional<&TopologyLevel::os>("os", "The operating system of the hosts."),
-      optional<&TopologyLevel::rate>("rate", "Of all links that do not say it."),
-      optional<&TopologyLevel::length>("length", "Of all links that do not say it."),
-      optional<&TopologyLevel::forwarding_delay>("forwarding_delay", "Of all switches."),
-  };
-  static constexpr std::string_view kinds[] = {"topology", "graphml"};
-  static constexpr json::Group groups[] = {json::exactly_one_of(kinds)};
-  static constexpr json::Object table = json::object<TopologyLevel>("topology_level", "A network that replaces that of the scenario.", fields, {.groups = groups});
+namespace {
+
+void decode_level(const json::Node& node, TopologyLevel& level, json::Reader& reader) {
+  if (node.kind == json::Kind::object && node.find("graphml") != nullptr) json::decode_value(node, level.from.emplace<GraphmlLevel>(), reader);
+  else json::decode_value(node, level.from.emplace<scenario::Generator>(), reader);
+}
+json::Node encode_level(const TopologyLevel& level) {
+  return std::visit([](const auto& each) { return json::encode_value(each); }, level.from);
+}
+json::Node schema_of_level(json::SchemaBuilder& builder) {
+  json::Node either = json::Node::array();
+  either.items = {json::schema_value<scenario::Generator>(builder), json::schema_value<GraphmlLevel>(builder)};
+  json::Node schema = json::Node::object();
+  schema.add("anyOf", std::move(either));
+  return schema;
+}
+
+}  // namespace
+
+const json::Custom& describe(json::Type<TopologyLevel>) {
+  static constexpr json::Custom table = json::custom<TopologyLevel, decode_level, encode_level, schema_of_level>();
   return table;
 }
 

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "scenario/description.hpp"
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -57,22 +59,21 @@ struct LinkFailures {
   bool operator==(const LinkFailures&) const = default;
 };
 
-enum class Shape : std::uint8_t { comb, random, dual_star };
-
-/// A whole network as a level: what the generators of scenarios do not have, or a GraphML file.
-struct TopologyLevel {
+/// A network that is drawn in a file.
+struct GraphmlLevel {
   json::Source where;
-  std::optional<Shape> shape;
-  std::optional<std::string> graphml;      ///< a file beside the study
-  std::optional<std::uint32_t> switches;   ///< of the spine of a comb; all of a random one; the leaves of a dual star
-  std::optional<std::uint32_t> teeth;      ///< switches that hang in a line from each one of the spine
-  std::optional<double> degree;            ///< mean number of links to other switches
-  std::uint64_t seed = 1;                  ///< of a random one
+  std::string graphml;                     ///< beside the study
   std::uint32_t hosts_per_switch = 1;
   std::string os = "none";
   sim::DataRate rate{1'000'000'000};
   sim::Length length{10'000};
   sim::Duration forwarding_delay;
+  bool operator==(const GraphmlLevel&) const = default;
+};
+
+/// A whole network as a level: made by a generator of scenarios, or drawn.
+struct TopologyLevel {
+  std::variant<scenario::Generator, GraphmlLevel> from;
   bool operator==(const TopologyLevel&) const = default;
 };
 
@@ -158,8 +159,8 @@ const json::Object& describe(json::Type<Setting>);
 const json::Enumeration& describe(json::Type<Scale>);
 const json::Object& describe(json::Type<Range>);
 const json::Object& describe(json::Type<LinkFailures>);
-const json::Enumeration& describe(json::Type<Shape>);
-const json::Object& describe(json::Type<TopologyLevel>);
+const json::Object& describe(json::Type<GraphmlLevel>);
+const json::Custom& describe(json::Type<TopologyLevel>);
 const json::Object& describe(json::Type<Factor>);
 const json::Enumeration& describe(json::Type<DesignKind>);
 const json::Object& describe(json::Type<Design>);

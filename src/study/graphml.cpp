@@ -48,7 +48,7 @@ std::optional<PlainGraph> plain_of(const Graph& graph, std::string& problem) {
     const bool is_host = node.kind == "host";
     const std::string name = node.name.empty() ? (is_host ? "host" : "sw") + std::to_string(vertex + 1) : node.name;
     if (!names.insert(name).second) return problem = "two nodes of the name \"" + name + "\"", std::nullopt;
-    plain.nodes.push_back({name, is_host, true});
+    plain.nodes.push_back({name, is_host});
   }
   // Two directed edges between two nodes, as some tools write, are one cable.
   std::set<std::pair<std::size_t, std::size_t>> seen;

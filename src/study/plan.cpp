@@ -20,7 +20,7 @@ std::uint64_t hash_of(std::string_view text) {
 
 std::optional<json::Document> base_of(const Study& study, const std::string& path, json::Diagnostics& diagnostics) {
   if (study.scenario) {
-    if (study.scenario->node.kind == json::Kind::object) return json::Document(study.scenario->node, path);
+    if (study.scenario->node.kind == json::Kind::object) return json::Document(study.scenario->node, path, "/scenario");
     diagnostics.error(study.scenario->where.place(), "not a scenario", {json::excerpt(study.scenario->node), "an object"});
     return std::nullopt;
   }

@@ -1,4 +1,4 @@
-// Networks as levels of a factor: shapes that the generators of scenarios do not have, and GraphML files.
+// Networks as levels of a factor: those of the generators of scenarios, and GraphML files.
 #pragma once
 
 #include <optional>
@@ -10,12 +10,11 @@
 
 namespace takt::study {
 
-/// A graph before it is a network.
+/// A graph of a file before it is a network.
 struct PlainGraph {
   struct Node {
     std::string name;
     bool is_host = false;
-    bool takes_hosts = true;
   };
   struct Link {
     std::size_t a = 0;
@@ -27,7 +26,7 @@ struct PlainGraph {
   std::vector<Link> links;
 };
 
-/// The "network" of a scenario. Mistakes are diagnostics; the node is then empty.
+/// The "network" of a scenario; files are sought in the folder. Mistakes are diagnostics; the node is then empty.
 json::Node network_of(const TopologyLevel& level, const std::string& folder, json::Diagnostics& diagnostics);
 
 /// Reads a GraphML file. Nodes may have data "name" and "kind" (host or switch, the default), edges "rate" and "length", all texts.

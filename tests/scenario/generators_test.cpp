@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -126,6 +127,56 @@ TEST(Generators, Tree) {
       switches += leaves;
     }
   }
+}
+
+// A spine of n switches, from each of which hangs a line of t more: a tree.
+TEST(Generators, Comb) {
+  for (const std::uint64_t n : {1u, 2u, 5u})
+    for (const std::uint64_t t : {0u, 1u, 3u}) {
+      Generator generator = sized(Shape::comb, n, 2);
+      generator.teeth = t;
+      const Facts facts = facts_of(generator);
+      EXPECT_EQ(facts.switches, n * (1 + t));
+      EXPECT_EQ(facts.hosts, 2 * facts.switches);
+      EXPECT_EQ(facts.links, facts.switches - 1 + facts.hosts);
+      EXPECT_TRUE(facts.is_connected);
+      for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(facts.degree[i], (i > 0 ? 1u : 0u) + (i + 1 < n ? 1u : 0u) + (t > 0 ? 1u : 0u));
+      for (std::size_t i = n; i < facts.switches; ++i) EXPECT_EQ(facts.degree[i], (i - n) % t == t - 1 ? 1u : 2u) << "the end of a tooth";
+    }
+}
+
+// Two cores without hosts, each joined to every other switch.
+TEST(Generators, DualStar) {
+  for (const std::uint64_t n : {1u, 2u, 50u}) {
+    const Facts facts = facts_of(sized(Shape::dual_star, n, 3));
+    EXPECT_EQ(facts.switches, n + 2);
+    EXPECT_EQ(facts.hosts, 3 * n);
+    EXPECT_EQ(facts.links, 2 * n + 3 * n);
+    EXPECT_TRUE(facts.is_connected);
+    for (std::size_t i = 0; i < n + 2; ++i) EXPECT_EQ(facts.degree[i], i < 2 ? n : 2u);
+  }
+}
+
+// Connected, with the links that its degree says, whatever the seed; another seed is another graph, the same one the same.
+TEST(Generators, Random) {
+  std::set<std::vector<std::uint32_t>> graphs;
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    Generator generator = sized(Shape::random, 12, 0);
+    generator.degree = 2.5;
+    generator.seed = seed;
+    const Facts facts = facts_of(generator);
+    EXPECT_EQ(facts.links, 15u) << "12 x 2.5 / 2";
+    EXPECT_TRUE(facts.is_connected) << seed;
+    EXPECT_EQ(facts_of(generator).degree, facts.degree);
+    graphs.insert(facts.degree);
+  }
+  EXPECT_GT(graphs.size(), 40u);
+  Generator tree = sized(Shape::random, 10);
+  tree.degree = 1.8;
+  EXPECT_EQ(facts_of(tree).links, 9u + 10u);
+  Generator full = sized(Shape::random, 10, 0);
+  full.degree = 9;
+  EXPECT_EQ(facts_of(full).degree, std::vector<std::uint32_t>(10, 9)) << "as many as there can be";
 }
 
 TEST(Generators, FullMesh) {

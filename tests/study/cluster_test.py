@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""tools/slurm/study.sbatch, run by what there is: Slurm's sbatch where it starts, else GNU parallel, else one task after the other.
+"""tools/slurm/study.sbatch, run by what there is: a Slurm of one node where it starts, else GNU parallel, else one task after the other.
 
 usage: cluster_test.py TAKT SOURCE_FOLDER
 """
@@ -10,7 +10,9 @@ import subprocess
 import sys
 import tempfile
 
-TAKT, SOURCE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+import one_node_slurm
+
+TAKT, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 SCRIPT = SOURCE / "tools" / "slurm" / "study.sbatch"
 STUDY = SOURCE / "scenarios" / "studies" / "slaves-hops-cycle.json"
 TASKS = 3
@@ -21,11 +23,18 @@ def run(*command, **options):
 
 
 def by_slurm(out):
-    if not shutil.which("sbatch"):
-        return "sbatch is not installed (Debian: slurm-wlm)"
-    done = subprocess.run(["sbatch", "--wait", f"--array=1-{TASKS}", SCRIPT, STUDY, out], capture_output=True, text=True, check=False, timeout=300, cwd=out,
-                          env={**os.environ, "TAKT": str(TAKT)})
-    return "" if done.returncode == 0 else "sbatch does not start here: " + done.stderr.strip()
+    scratch = out.parent / "slurm"
+    scratch.mkdir()
+    try:
+        with one_node_slurm.Slurm(scratch) as slurm:
+            done = subprocess.run(["sbatch", "--wait", f"--array=1-{TASKS}", SCRIPT, STUDY, out], capture_output=True, text=True, check=False, timeout=240, cwd=out,
+                                  env={**slurm.environment, "TAKT": str(TAKT)})
+            logs = sorted(out.glob("*.log"))
+            assert done.returncode == 0, (done.stderr, [log.read_text() for log in logs])
+            assert len(logs) == TASKS, logs
+    except one_node_slurm.Unavailable as problem:
+        return str(problem)
+    return ""
 
 
 def task_environment():

@@ -88,5 +88,58 @@ TEST(Plan, APointIsTheRunOfItsScenario) {
   EXPECT_FALSE(unpacked(packed(first) + "x"));
 }
 
+// The base stands in the study: its mistakes have the study's lines, and pointers that lead from the study's root.
+TEST(Plan, MistakesOfAnInlineBase) {
+  const Folder folder;
+  json::Diagnostics diagnostics;
+  const std::string path = folder.write("study.json", R"({"name": "n",
+  "scenario": {"name": "pair", "duration": "2ms",
+    "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "s": {"kind": "switch"}},
+                "links": [{"ends": ["a", "s"]}, {"ends": ["b", "t"]}]},
+    "streams": [{"name": "x", "from": "a", "to": "b", "payload": "100B", "every": "50us", "pcp": 9}]},
+  "factors": [{"name": "size", "set": ["/streams/0/payload"], "values": ["100B", "9000B"]}],
+  "measures": [{"name": "delay", "of": "latency.x.max", "unit": "us"}]})");
+  const auto plan = load_plan(path, diagnostics);
+  ASSERT_TRUE(plan) << diagnostics.to_text();
+  const std::string first = mistakes_of(*plan, 0);
+  EXPECT_NE(first.find(path + ":4:60: error at /scenario/network/links/1/ends/1: unknown node"), std::string::npos) << first;
+  EXPECT_NE(first.find(path + ":5:89: error at /scenario/streams/0/pcp: out of range"), std::string::npos) << first;
+  EXPECT_EQ(first.find("/scenario/scenario"), std::string::npos) << first;
+  // What a factor has put there is its own: the pointer is the one that the factor sets.
+  const std::string second = mistakes_of(*plan, 1);
+  EXPECT_NE(second.find("factor size = 9000B: error at /streams/0/payload"), std::string::npos) << second;
+}
+
+// Gates are a factor like any other; where they do not fit, the reason is told, or kept.
+TEST(Plan, AutomaticGatesAreAFactor) {
+  const Folder folder;
+  const auto text = [](const char* impossible) {
+    return std::string(R"({"name": "n", "impossible": ")") + impossible + R"(", "scenario": {"name": "pair", "duration": "10ms",
+    "network": {"generate": [{"topology": "line", "switches": 2, "hosts_per_switch": 2, "forwarding_delay": "1us"}]},
+    "streams": [{"name": "x", "from": "h1", "to": "h3", "payload": "100B", "every": "100us", "offset": "0us", "pcp": 6},
+                {"name": "y", "from": "h2", "to": "h3", "payload": "100B", "every": "100us", "offset": "50us", "pcp": 6},
+                {"name": "load", "from": "h2", "to": "h4", "payload": "1400B", "exponential": "30us", "pcp": 0}]},
+  "factors": [{"name": "gates", "patches": {"none": {"/gates": "none"}, "auto": {"/gates": {"plan": "auto", "classes": [6]}},
+                 "by_hand": {"/network/generate/0/egress": [{"gates": {"entries": [{"open": [0, 1, 2, 3, 4, 5, 6, 7], "for": "100us"}]}}]}}},
+              {"name": "offset", "set": ["/streams/1/offset"], "values": ["50us", "0.1us"]}],
+  "measures": [{"name": "latency", "of": "latency.x.max", "unit": "us"}]})";
+  };
+  json::Diagnostics diagnostics;
+  const auto plan = load_plan(folder.write("study.json", text("recorded")), diagnostics);
+  ASSERT_TRUE(plan) << diagnostics.to_text();
+  ASSERT_EQ(plan->points(), 6u);
+  // 158 octets on three links of 1 Gb/s and 50 ns, two switches of 1 us.
+  const double alone = 3 * (1.264 + 0.05) + 2;
+  const Outcome fits = run_point(*plan, 2);
+  EXPECT_EQ(fits.status, Status::done) << fits.error;
+  EXPECT_DOUBLE_EQ(fits.values[0].value(), alone);
+  EXPECT_GT(run_point(*plan, 0).values[0].value(), alone);
+  EXPECT_GT(run_point(*plan, 4).values[0].value(), alone);
+  const Outcome meets = run_point(*plan, 3);
+  EXPECT_EQ(meets.status, Status::impossible);
+  EXPECT_NE(meets.error.find("windows that overlap: found at \"sw1 to sw2\" \"x\" from 1.314us"), std::string::npos) << meets.error;
+  EXPECT_NE(meets.error.find("factor gates = auto"), std::string::npos) << meets.error;
+}
+
 }  // namespace
 }  // namespace takt::study

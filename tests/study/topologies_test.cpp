@@ -57,33 +57,25 @@ TEST(Topologies, SizesByHand) {
   EXPECT_EQ(outcome.values[0], 2.0) << "leaf, core, leaf";
 }
 
-// Every random graph is connected and has the links that its degree says, whatever the seed.
-TEST(Topologies, RandomGraphsAreConnected) {
-  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-    TopologyLevel level;
-    level.shape = Shape::random;
-    level.switches = 12;
-    level.degree = 2.5;
-    level.seed = seed;
-    level.hosts_per_switch = 0;
-    json::Diagnostics diagnostics;
-    const json::Node network = network_of(level, "", diagnostics);
-    const auto& links = network.find("links")->items;
-    EXPECT_EQ(links.size(), 15u);
-    std::vector<std::string> reached = {"sw1"};
-    const auto has = [&](const std::string& name) { return std::find(reached.begin(), reached.end(), name) != reached.end(); };
-    for (bool grows = true; grows;) {
-      grows = false;
-      for (const json::Node& link : links) {
-        const std::string& a = link.find("ends")->items[0].text;
-        const std::string& b = link.find("ends")->items[1].text;
-        if (has(a) == has(b)) continue;
-        reached.push_back(has(a) ? b : a);
-        grows = true;
-      }
-    }
-    EXPECT_EQ(reached.size(), 12u) << seed;
-  }
+// A level is what the scenario's own generator makes of the same words.
+TEST(Topologies, LevelsAreGenerators) {
+  const Folder folder;
+  json::Diagnostics diagnostics;
+  const auto plan = load_plan(folder.write("study.json", study_with(R"({
+      "ring": {"topology": "ring", "switches": 5, "hosts_per_switch": 2, "os": "preempt-rt", "length": "7m"},
+      "tree": {"topology": "tree", "depth": 2, "fanout": 2, "host_prefix": "h", "rate": "100Mbps"}})")), diagnostics);
+  ASSERT_TRUE(plan) << diagnostics.to_text();
+  const auto ring = scenario_of(*plan, plan->variants[0], 1, diagnostics);
+  ASSERT_TRUE(ring) << diagnostics.to_text();
+  scenario::Generator expected;
+  expected.shape = scenario::Shape::ring;
+  expected.switches = 5;
+  expected.hosts_per_switch = 2;
+  expected.os.profile = scenario::OsProfile::preempt_rt;
+  expected.length = sim::Length{7'000};
+  EXPECT_EQ(ring->network.generate, std::vector{expected});
+  EXPECT_EQ(size_of(*plan, 0), (Size{5, 5, 0}));
+  EXPECT_EQ(size_of(*plan, 1), (Size{7, 6, 6}));
 }
 
 TEST(Topologies, GraphmlBecomesANetwork) {
@@ -93,8 +85,9 @@ TEST(Topologies, GraphmlBecomesANetwork) {
     <key id="r" for="edge" attr.name="rate" attr.type="string"/>
     <graph edgedefault="undirected"><node id="0"><data key="n">left</data></node><node id="1"/><node id="2"><data key="n">h1</data><data key="k">host</data></node>
       <edge source="0" target="1"><data key="r">100Mbps</data></edge><edge source="1" target="0"/><edge source="0" target="2"/></graph></graphml>)");
-  TopologyLevel level;
-  level.graphml = "plant.graphml";
+  GraphmlLevel drawn;
+  drawn.graphml = "plant.graphml";
+  const TopologyLevel level{drawn};
   json::Diagnostics diagnostics;
   const json::Node network = network_of(level, std::filesystem::path(folder.file("x")).parent_path().string(), diagnostics);
   ASSERT_FALSE(diagnostics.has_errors()) << diagnostics.to_text();
@@ -114,7 +107,8 @@ TEST(Topologies, MistakesAreTold) {
       {R"({"a": {"topology": "random", "switches": 10, "degree": 1}})", "no connected graph has this degree"},
       {R"({"a": {"topology": "random", "switches": 4, "degree": 4}})", "no connected graph has this degree"},
       {R"({"a": {"topology": "comb", "switches": 10000, "teeth": 10000}})", "too many nodes"},
-      {R"({"a": {"topology": "ring", "switches": 3}})", "expected \"comb\""},
+      {R"({"a": {"topology": "circle", "switches": 3}})", "unknown name for a topology"},
+      {R"({"a": {"graphml": "none.graphml", "switches": 3}})", "unknown field \"switches\""},
       {R"({"a": {"graphml": "none.graphml"}})", "cannot be opened"},
       {R"({"a": {"graphml": "bad.graphml"}})", "cannot read this GraphML file"},
   };

@@ -250,7 +250,7 @@ std::optional<Document> parse_file(const std::string& path, Diagnostics& diagnos
   return parse(text, path, diagnostics);
 }
 
-Document::Document(Node root, std::string file_name) : Document(Tree{std::move(root), {std::move(file_name)}}) {}
+Document::Document(Node root, std::string file_name, std::string prefix) : Document(Tree{std::move(root), {std::move(file_name)}, std::move(prefix)}) {}
 
 Document::Document(Tree tree) {
   TAKT_CHECK(!tree.sources.empty(), "the first source is the file");
@@ -289,7 +289,8 @@ std::string pointer_of(const Node& node) {
 
 Place place_of(const Tree& tree, Position position, std::string pointer) {
   TAKT_CHECK(position.source < tree.sources.size(), "a position's source is one of the tree's");
-  return {tree.sources[position.source], position.line, position.column, std::move(pointer)};
+  // What overrides put there is told by where it stands in the document, as they name it.
+  return {tree.sources[position.source], position.line, position.column, position.source == 0 ? tree.prefix + pointer : std::move(pointer)};
 }
 
 Place place_of(const Tree& tree, const Node& node) { return place_of(tree, node.position, pointer_of(node)); }

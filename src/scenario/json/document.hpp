@@ -23,12 +23,14 @@ constexpr std::size_t max_key_length = 1024;                  ///< octets of the
 struct Tree {
   Node root;
   std::vector<std::string> sources;  ///< names by Position::source: the file, then each override
+  std::string prefix = {};           ///< JSON pointer of the root in the file, if it is a part of it only
 };
 
 /// A parsed text. Immutable: copies share the tree, and an override (override.hpp) makes a new document.
 class Document {
  public:
-  Document(Node root, std::string file_name);
+  /// `prefix` is the JSON pointer of the root in the file.
+  Document(Node root, std::string file_name, std::string prefix = {});
   explicit Document(Tree tree);
 
   const Node& root() const { return tree_->root; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "study/chart/axis.hpp"
 #include "study/chart/svg.hpp"
@@ -153,6 +154,7 @@ std::string draw(const BarChart& chart) {
   for (const std::string& category : chart.categories) longest = std::max(longest, category.size());
   const double slot = (chart.width - left - right) / static_cast<double>(std::max<std::size_t>(chart.categories.size(), 1));
   const bool is_turned = 6.2 * static_cast<double>(longest) > slot;
+  const auto every = static_cast<std::size_t>(std::max(1.0, std::ceil(11 / slot)));
   const double bottom = is_turned ? 12 + 4.5 * static_cast<double>(std::min<std::size_t>(longest, 30)) : 24;
   const Frame frame{chart.width, chart.height + bottom - 24, bottom};
   Svg svg(chart.width, frame.height + line_height * static_cast<double>(legend_lines(names, chart.width)));
@@ -171,6 +173,8 @@ std::string draw(const BarChart& chart) {
       draw_whisker(svg, x + (width - 1) / 2, sample, y);
     }
     const double middle = left + slot * (static_cast<double>(c) + 0.5);
+    // Where there is no room for all names, some stand for their neighbours; every bar tells its own when pointed at.
+    if (is_turned && c % every != 0) continue;
     if (is_turned) svg.text(middle + 4, frame.y_end() + 12, chart.categories[c].substr(0, 30), "end", "tick", -45);
     else svg.text(middle, frame.y_end() + 16, chart.categories[c], "middle", "tick");
   }

@@ -55,7 +55,8 @@ std::string draw(const HeatMap& chart) {
   const double y0 = 26;
   const double x1 = x0 + width * static_cast<double>(chart.columns.size());
   const double y1 = y0 + height * static_cast<double>(chart.rows.size());
-  Svg svg(std::max(x1 + 14, x0 + 7.0 * static_cast<double>(chart.title.size())), y1 + 62);
+  const std::string scale = low < high ? fmt::format("{} to {} {}{}", number_text(low), number_text(high), chart.unit, is_logarithmic ? ", logarithmic" : "") : "";
+  Svg svg(std::max({x1 + 14, x0 + 7.0 * static_cast<double>(chart.title.size()), x0 + 130 + 6.2 * static_cast<double>(scale.size())}), y1 + 62);
   svg.text(x0, 15, chart.title, "start", "title");
   for (std::size_t r = 0; r < chart.rows.size(); ++r) {
     const double y = y0 + height * static_cast<double>(r);
@@ -76,7 +77,7 @@ std::string draw(const HeatMap& chart) {
   svg.text(12, (y0 + y1) / 2, chart.y_label, "middle", "label", -90);
   if (low < high) {
     for (int i = 0; i < 20; ++i) svg.box(x0 + 6 * i, y1 + 42, 6.2, 8, css(colour_at(i / 19.0)));
-    svg.text(x0 + 126, y1 + 50, fmt::format("{} to {} {}{}", number_text(low), number_text(high), chart.unit, is_logarithmic ? ", logarithmic" : ""), "start", "note");
+    svg.text(x0 + 126, y1 + 50, scale, "start", "note");
   }
   return svg.take(chart.title);
 }

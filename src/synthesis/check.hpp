@@ -1,0 +1,22 @@
+// Is this a schedule of that problem? Says so from the definitions and trusts nothing that was worked out before.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenario/gate_problem.hpp"
+
+namespace takt::synthesis {
+
+/// What is wrong, one sentence each, at most `most`; empty if the schedule is sound:
+///
+/// - each stream has one window a hop; its frame begins when it can be there, not later, unless it follows a frame of its train that it has
+///   followed since the talker; no frame is there before;
+/// - for every frame of a cycle and wherever its clock may be within the margin, the gate of its class is open from its begin to its end, and
+///   the gates of classes without windows are closed, from a guard before on;
+/// - frames of different trains, or of one train that come by different ways, never meet, whatever the clocks say within the margin;
+/// - a scheduled class is open in its windows only (to the ns), and the other classes are open in all that is left;
+/// - cycles are common multiples of the periods, and the lists are such as ports take: 1 to 1024 entries of at least 1 ns that fill the cycle.
+std::vector<std::string> check(const scenario::GateProblem& problem, const scenario::GateSchedule& schedule, std::size_t most = 20);
+
+}  // namespace takt::synthesis

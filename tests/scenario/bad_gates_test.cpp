@@ -1,0 +1,69 @@
+// Automatic gates that cannot be: everything that is said about them.
+#include "bad_input.hpp"
+
+namespace takt::scenario::test {
+namespace {
+
+const std::string three = R"({"name": "t", "duration": "1ms", "network": {"generate": [{"topology": "line", "switches": 2, "hosts_per_switch": 2}]}, "streams": [)";
+/// `text` is what stands behind the streams; "gates" begins in line 2.
+std::string with(const std::string& streams, const std::string& text) { return three + streams + "],\n" + text + "}"; }
+/// `text` is a stream that begins in line 2.
+std::string scheduled(const std::string& text, const std::string& gates = R"({"plan": "auto", "classes": [6]})", const std::string& more = "") {
+  return three + "\n" + text + "], \"gates\": " + gates + more + "}";
+}
+const std::string good = R"({"name": "a", "from": "h1", "to": "h3", "payload": "100B", "every": "500us", "offset": "0us", "pcp": 6})";
+std::string program(const std::string& more) {
+  return with("", R"("gates": "auto", "programs": [{"name": "p", "master": "h1", "slaves": ["h3"], "cycle": "500us")" + more + "}]");
+}
+
+const BadCase cases[] = {
+    {"NoPlan", with("", R"("gates": "manual")"), R"(2:10: error at /gates: unknown name for a plan of gates: found "manual", expected "none", "auto" or "listed")"},
+    {"NoClasses", with(good, R"("gates": "auto")"),
+     R"(2:10: error at /gates: missing key: found no programs, whose classes it would be, expected "classes", the scheduled ones)"},
+    {"KeysOfOtherPlans", with(good, R"("gates": {"plan": "none", "margin": "1us", "classes": [6], "guard": "longest-frame", "lists": [{"node": "sw1", "gates": {"entries": [{"open": [], "for": "1us"}]}}]})"),
+     R"(2:37: error at /gates/margin: does not belong to this plan of gates: found "margin", expected it with "plan": "auto"
+2:55: error at /gates/classes: does not belong to this plan of gates: found "classes", expected it with "plan": "auto"
+2:69: error at /gates/guard: does not belong to this plan of gates: found "guard", expected it with "plan": "auto"
+2:95: error at /gates/lists: does not belong to this plan of gates: found "lists", expected it with "plan": "listed")"},
+    {"ListsThatAreLaidOut", with(good, R"("gates": {"plan": "auto", "classes": [6], "lists": [{"node": "sw1", "gates": {"entries": [{"open": [], "for": "1us"}]}}]})"),
+     R"(2:52: error at /gates/lists: does not belong to this plan of gates: found "lists", expected it with "plan": "listed")"},
+    {"NoOffset", scheduled(R"({"name": "a", "from": "h1", "to": "h3", "payload": "100B", "every": "500us", "pcp": 6})"),
+     R"(2:1: error at /streams/0: a stream that no gates can be laid for: found "a" with no "offset" that promises when it is sent, expected what "gates": "auto" can plan, or another class)"},
+    {"NoPeriod", scheduled(R"({"name": "a", "from": "h1", "to": "h3", "payload": "100B", "exponential": "500us", "pcp": 6})"),
+     R"(2:1: error at /streams/0: a stream that no gates can be laid for: found "a" with no period: "every" is missing, expected what "gates": "auto" can plan, or another class)"},
+    {"APeriodOfHalfANanosecond", scheduled(R"({"name": "a", "from": "h1", "to": "h3", "payload": "100B", "every": "500.0005us", "offset": "0us", "pcp": 6})"),
+     R"(2:1: error at /streams/0: a stream that no gates can be laid for: found "a" with a period of 500.0005us, which is no whole number of ns, expected what "gates": "auto" can plan, or another class)"},
+    {"JitterOfAPeriod", scheduled(R"({"name": "a", "from": "h1", "to": "h3", "payload": "100B", "every": "500us", "offset": "0us", "jitter": "500us", "pcp": 6})"),
+     R"(2:1: error at /streams/0: a stream that no gates can be laid for: found "a" with up to 500us between the application and the port of its host, of a period of 500us, expected what "gates": "auto" can plan, or another class)"},
+    {"ALaunchTime", scheduled(R"({"name": "a", "from": "h1", "to": "h3", "payload": "100B", "every": "500us", "offset": "0us", "launch": "1us", "pcp": 6})"),
+     R"(2:1: error at /streams/0: a stream that no gates can be laid for: found "a" with "launch", which is a plan of its own, expected what "gates": "auto" can plan, or another class)"},
+    {"TwoAtOnce", scheduled(good + R"(, {"name": "b", "from": "h2", "to": "h3", "payload": "100B", "every": "250us", "offset": "0.5us", "pcp": 6})"),
+     R"(2:223: error at /gates: windows that overlap: found at "sw1 to sw2" "a" from 1.314us to 2.578us and "b" from 1.814us to 3.078us of each 500us, expected an "offset" or "phases" that keep them apart
+2:223: error at /gates: windows that overlap: found at "sw2 to h3" "a" from 2.628us to 3.892us and "b" from 3.128us to 4.392us of each 500us, expected an "offset" or "phases" that keep them apart)"},
+    {"TooLongACycle", scheduled(good + R"(, {"name": "b", "from": "h4", "to": "h2", "payload": "100B", "every": "4999us", "offset": "0us", "pcp": 6}, {"name": "c", "from": "h4", "to": "h2", "payload": "100B", "every": "5003us", "offset": "100us", "pcp": 6})"),
+     R"(2:330: error at /gates: gates with too long a cycle: found at "h4 to sw2" 10002 entries or more in a cycle of 25.009997s, with "b" every 4.999ms and "c" every 5.003ms, expected periods with a common multiple that takes at most 1024 entries and 1h
+2:330: error at /gates: gates with too long a cycle: found at "sw2 to sw1" 10002 entries or more in a cycle of 25.009997s, with "b" every 4.999ms and "c" every 5.003ms, expected periods with a common multiple that takes at most 1024 entries and 1h
+2:330: error at /gates: gates with too long a cycle: found at "sw1 to h2" 10002 entries or more in a cycle of 25.009997s, with "b" every 4.999ms and "c" every 5.003ms, expected periods with a common multiple that takes at most 1024 entries and 1h)"},
+    {"AnotherStreamOfTheClass", scheduled(good + R"(, {"name": "b", "from": "h2", "to": "h3", "payload": "100B", "exponential": "250us", "pcp": 6})"),
+     R"(2:106: error at /streams/1: a stream that no gates can be laid for: found "b" with no period: "every" is missing, expected what "gates": "auto" can plan, or another class)"},
+    {"Rerouted", scheduled(good, R"({"plan": "auto", "classes": [6]})", ",\n\"faults\": [{\"kind\": \"link-down\", \"link\": [\"sw1\", \"sw2\"], \"at\": \"0.5ms\"}], \"rerouting\": {\"delay\": \"1us\"}"),
+     R"(3:88: error at /rerouting: rerouting of scheduled streams: found "rerouting" beside "gates": "auto", whose windows lie along one path, expected one of the two)"},
+    {"ProgramWithoutPhases", program(""),
+     R"(2:31: error at /programs/0: a stream that no gates can be laid for: found "p/state/h1" with no "offset" or "phases" that promises when "h1" publishes, expected what "gates": "auto" can plan, or another class
+2:31: error at /programs/0: a stream that no gates can be laid for: found "p/state/h3" with no "offset" or "phases" that promises when "h3" publishes, expected what "gates": "auto" can plan, or another class)"},
+    {"ProgramThatPublishesOnChange", program(R"(, "offset": "0us", "publish": "on-change")"),
+     R"(2:31: error at /programs/0: a stream that no gates can be laid for: found "p/state/h1" with "publish": "on-change", at no known time, expected what "gates": "auto" can plan, or another class
+2:31: error at /programs/0: a stream that no gates can be laid for: found "p/state/h3" with "publish": "on-change", at no known time, expected what "gates": "auto" can plan, or another class)"},
+    {"GptpInTheClass", scheduled(R"({"name": "a", "from": "h1", "to": "h3", "payload": "100B", "every": "500us", "offset": "0us", "pcp": 7})", "\n{\"plan\": \"auto\", \"classes\": [7]}", ", \"clocks\": {\"gptp\": {}}"),
+     R"(3:1: error at /gates: gPTP in a scheduled class: found the class of priority 7 is scheduled, expected other classes, since messages of gPTP have priority 7)"},
+    {"UnknownNode", with(good, R"("gates": {"plan": "listed", "lists": [{"node": "sw3", "gates": {"entries": [{"open": [], "for": "1us"}]}}, {"node": "sw1", "to": "h3", "gates": {"entries": [{"open": [], "for": "1us"}]}}]})"),
+     R"(2:48: error at /gates/lists/0/node: unknown node: found "sw3", expected the name of a node (did you mean "sw1"?)
+2:130: error at /gates/lists/1/to: not a neighbour: found "h3", expected a node that a link joins to "sw1")"},
+    {"TwoLists", with(good, R"("gates": {"plan": "listed", "lists": [{"node": "sw1", "gates": {"entries": [{"open": [6], "for": "9us"}]}}, {"node": "sw1", "to": "sw2", "gates": {"entries": [{"open": [6], "for": "9us"}]}}]})"),
+     R"(2:109: error at /gates/lists/1: a port configured twice: found gates of "sw1" that are there already, expected one list for a port)"},
+};
+
+INSTANTIATE_TEST_SUITE_P(BadGates, BadInput, testing::ValuesIn(cases), name_of_case);
+
+}  // namespace
+}  // namespace takt::scenario::test

@@ -1,0 +1,190 @@
+// "gates": "auto" in scenarios that run: scheduled frames wait for nobody, whatever else the network carries.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/evaluate.hpp"
+#include "scenario/resolve.hpp"
+#include "scenario/run.hpp"
+#include "sim/random.hpp"
+#include "synthesis/check.hpp"
+
+namespace takt::synthesis {
+namespace {
+
+using namespace sim::literals;  // NOLINT
+namespace json = scenario::json;
+using scenario::Resolved;
+using sim::Duration;
+
+std::unique_ptr<Resolved> load(const std::string& text, std::string* problems = nullptr) {
+  json::Diagnostics diagnostics;
+  auto resolved = scenario::load_text(text, "s.json", {}, diagnostics);
+  if (problems != nullptr) *problems = diagnostics.to_text();
+  else EXPECT_TRUE(resolved) << diagnostics.to_text();
+  return resolved;
+}
+
+results::RunResult run(const Resolved& resolved) {
+  scenario::Run live(resolved);
+  live.advance();
+  return results::evaluate(live, false);
+}
+
+const results::StreamResult& stream(const results::RunResult& result, const std::string& name) {
+  for (const results::StreamResult& each : result.streams)
+    if (each.name == name) return each;
+  throw std::runtime_error("no stream " + name);
+}
+
+/// Three switches in a line at 1 Gb/s with 1 us each, two hosts at each; h1 to h5 and h4 to h1 are scheduled.
+std::string line(const std::string& gates, const std::string& load, const std::string& os = R"("none")", const std::string& offset = "", const std::string& more = "") {
+  return fmt::format(R"({{"name": "t", "duration": "{}",
+    "network": {{"generate": [{{"topology": "line", "switches": 3, "hosts_per_switch": 2, "forwarding_delay": "1us", "os": {}}}]}},
+    "streams": [{{"name": "a", "from": "h1", "to": "h5", "payload": "100B", "every": "500us", "offset": "{}10us", "pcp": 6}},
+                {{"name": "b", "from": "h4", "to": "h1", "payload": "100B", "every": "250us", "offset": "{}100us", "pcp": 5}}{}],
+    "gates": {}{}}})",
+                     offset.empty() ? "100ms" : "7s", os, offset, offset, load, gates, more);
+}
+const std::string three_loads = R"(, {"name": "x", "from": "h2", "to": "h6", "payload": "1400B", "exponential": "30us", "pcp": 0},
+    {"name": "y", "from": "h3", "to": "h5", "payload": "1000B", "exponential": "20us", "pcp": 3}, {"name": "z", "from": "h6", "to": "h1", "payload": "1400B", "exponential": "30us", "pcp": 7})";
+const std::string both_classes = R"({"plan": "auto", "classes": [5, 6]})";
+
+// The frame: 100 + 28 (IP, UDP) + 18 (MAC, FCS) + 4 (tag) + 8 (preamble) = 158 octets, 1264 ns. From h1 to h5 over four links of 50 ns and three
+// switches, from h4 to h1 over three links and two switches.
+TEST(AutoGates, LatencyIsTheSumOfTheDelays) {
+  const Duration a = 4 * (1'264_ns + 50_ns) + 3 * 1_us;
+  const Duration b = 3 * (1'264_ns + 50_ns) + 2 * 1_us;
+  const auto gated = load(line(both_classes, three_loads));
+  const results::RunResult result = run(*gated);
+  EXPECT_EQ(stream(result, "a").delivered, 200u);
+  EXPECT_EQ(stream(result, "a").latency->min, a);
+  EXPECT_EQ(stream(result, "a").latency->max, a);
+  EXPECT_EQ(stream(result, "b").delivered, 400u);
+  EXPECT_EQ(stream(result, "b").latency->min, b);
+  EXPECT_EQ(stream(result, "b").latency->max, b);
+  EXPECT_GT(stream(result, "x").delivered, 2'000u) << "the others get what is left";
+  EXPECT_GT(stream(result, "z").delivered, 2'000u) << "a more urgent class among them";
+  const results::RunResult open = run(*load(line("\"none\"", three_loads)));
+  EXPECT_GT(stream(open, "a").latency->max, a + 5_us) << "without gates it waits";
+}
+
+TEST(AutoGates, OtherTrafficMovesNothing) {
+  const results::RunResult loaded = run(*load(line(both_classes, three_loads)));
+  const results::RunResult alone = run(*load(line(both_classes, "")));
+  for (const char* name : {"a", "b"}) {
+    EXPECT_EQ(stream(loaded, name).latency->min, stream(alone, name).latency->min);
+    EXPECT_EQ(stream(loaded, name).latency->max, stream(alone, name).latency->max);
+  }
+}
+
+// What the operating system takes ends at the talker's gate: the latency is the longest there is, always.
+TEST(AutoGates, TheOperatingSystemDoesNotShow) {
+  const std::string os = R"({"transmit": {"uniform": {"from": "1us", "to": "20us"}}})";
+  const results::RunResult result = run(*load(line(both_classes, three_loads, os)));
+  EXPECT_EQ(stream(result, "a").latency->min, 20_us + 4 * (1'264_ns + 50_ns) + 3 * 1_us);
+  EXPECT_EQ(stream(result, "a").latency->max, stream(result, "a").latency->min);
+  EXPECT_GT(stream(run(*load(line("\"none\"", "", os))), "a").latency->max - stream(run(*load(line("\"none\"", "", os))), "a").latency->min, 10_us);
+}
+
+// Real clocks: within the margin no frame waits; the instants of its begin move with its talker's clock alone.
+TEST(AutoGates, ClocksWithinTheMargin) {
+  const std::string clocks = R"(, "seed": 2, "clocks": {"all": {"offset": {"from": "-50ppm", "to": "50ppm"}, "granularity": "8ns"}, "gptp": {"nodes": {"sw1": {"priority1": 100}}, "servo": "drift-tracking"}})";
+  const std::string slow_load = R"(, {"name": "x", "from": "h2", "to": "h6", "payload": "1400B", "exponential": "60us", "pcp": 0})";
+  const results::RunResult gated = run(*load(line(R"({"plan": "auto", "classes": [5, 6], "margin": "500ns"})", slow_load, "\"none\"", "6000", clocks)));
+  ASSERT_GT(stream(gated, "a").delivered, 1'900u);
+  EXPECT_LE(stream(gated, "a").latency->max - stream(gated, "a").latency->min, 2 * 500_ns);
+  EXPECT_GE(stream(gated, "a").latency->min, 4 * (1'264_ns + 50_ns) + 3 * 1_us - 2_ns);
+}
+
+// The copy has the lists, loads, and runs to the same digest.
+TEST(AutoGates, TheResolvedCopyListsThem) {
+  const auto original = load(line(both_classes, three_loads));
+  const std::string copy = json::encode(original->scenario);
+  EXPECT_NE(copy.find("\"listed\""), std::string::npos);
+  const auto again = load(copy);
+  EXPECT_EQ(again->scenario, original->scenario);
+  EXPECT_FALSE(again->gates) << "nothing is laid out a second time";
+  EXPECT_EQ(run(*again).digest, run(*original).digest);
+}
+
+// The ports run what was checked.
+TEST(AutoGates, PortsHaveTheLists) {
+  const auto resolved = load(line(both_classes, three_loads));
+  ASSERT_TRUE(resolved->gates);
+  EXPECT_TRUE(check(resolved->gates->problem, resolved->gates->schedule).empty());
+  std::size_t gated = 0;
+  for (const models::LinkPlan& link : resolved->plan.links)
+    for (const models::LinkPlan::End* end : {&link.a, &link.b}) {
+      const auto& gates = resolved->plan.port_configs[end->port_config.value_or(resolved->plan.nodes[end->node.value].port_config)].shaping.gates;
+      if (!gates) continue;
+      ++gated;
+      bool found = false;
+      for (std::size_t p = 0; p < resolved->gates->problem.ports.size(); ++p) {
+        const scenario::GatedPort& port = resolved->gates->problem.ports[p];
+        if (port.node.value != end->node.value || port.port != end->port) continue;
+        found = true;
+        const scenario::GateList& list = resolved->gates->schedule.lists[p];
+        ASSERT_EQ(gates->admin_control_list.size(), list.entries.size());
+        EXPECT_EQ(gates->admin_cycle_time, list.cycle);
+        for (std::size_t e = 0; e < list.entries.size(); ++e) {
+          EXPECT_EQ(gates->admin_control_list[e].gate_states, list.entries[e].open);
+          EXPECT_EQ(gates->admin_control_list[e].interval, list.entries[e].interval);
+        }
+      }
+      EXPECT_TRUE(found);
+    }
+  EXPECT_EQ(gated, resolved->gates->problem.ports.size());
+  EXPECT_EQ(gated, 7u) << "h1, sw1, sw2, sw3 to h5; h4, sw2, sw1 to h1";
+}
+
+// Random graphs, random streams, as many as fit; every listener alone, so that each has one latency.
+TEST(AutoGates, RandomNetworks) {
+  std::size_t scheduled = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    sim::RandomStream chance(seed, "network", "test");
+    const std::uint64_t switches = 2 + chance.below(7);
+    std::string streams;
+    const auto text = [&](const std::string& more, bool with_load) {
+      const std::string gap = seed % 3 == 0 ? "250us" : "25us";   // a tenth of the rate, a tenth of the frames
+      const std::string load = with_load ? R"({"name": "x", "from": "h1", "to": "h2", "payload": "1400B", "exponential": ")" + gap + R"(", "pcp": 1},
+        {"name": "y", "from": "h3", "to": "h1", "payload": "700B", "exponential": ")" + gap + R"(", "pcp": 7})" : R"({"name": "x", "from": "h1", "to": "h2", "payload": "1400B", "exponential": "1s", "pcp": 1})";
+      return fmt::format(R"({{"name": "t", "duration": "40ms", "network": {{"generate": [{{"topology": "random", "switches": {}, "degree": {}, "seed": {},
+          "hosts_per_switch": 2, "forwarding_delay": "1.3us", "rate": "{}", "length": "37m"}}]}}, "streams": [{}{}], "gates": {{"plan": "auto", "classes": [4], "margin": "{}"}}}})",
+                         switches, switches == 2 ? 1.0 : 2.0, seed, seed % 3 == 0 ? "100Mbps" : "1Gbps", load, more, seed % 2 == 0 ? "0s" : "700ns");
+    };
+    std::vector<std::string> names;
+    for (int i = 0; i < 12; ++i) {
+      const std::uint64_t from = 1 + chance.below(2 * switches);
+      const std::uint64_t to = 1 + chance.below(2 * switches);
+      if (from == to) continue;
+      const std::string one = fmt::format(R"(, {{"name": "s{}", "from": "h{}", "to": "h{}", "payload": "{}B", "every": "{}us", "offset": "{}us", "pcp": 4}})", i, from, to, 20 + chance.below(400),
+                                          chance.below(2) == 0 ? 500 : 1'000, chance.below(900));
+      std::string problems;
+      if (load(text(streams + one, true), &problems)) {
+        streams += one;
+        names.push_back("s" + std::to_string(i));
+      } else {
+        EXPECT_NE(problems.find("windows that overlap"), std::string::npos) << problems;
+      }
+    }
+    const auto resolved = load(text(streams, true));
+    ASSERT_TRUE(resolved);
+    EXPECT_TRUE(check(resolved->gates->problem, resolved->gates->schedule).empty());
+    const results::RunResult loaded = run(*resolved);
+    const results::RunResult alone = run(*load(text(streams, false)));
+    for (const std::string& name : names) {
+      ++scheduled;
+      EXPECT_EQ(stream(loaded, name).latency->min, stream(loaded, name).latency->max) << name << ", seed " << seed;
+      EXPECT_EQ(stream(loaded, name).latency->max, stream(alone, name).latency->max) << name << ", seed " << seed;
+      EXPECT_EQ(stream(loaded, name).dropped_in_all(), 0u);
+    }
+  }
+  EXPECT_GT(scheduled, 60u);
+}
+
+}  // namespace
+}  // namespace takt::synthesis

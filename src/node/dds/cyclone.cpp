@@ -169,6 +169,10 @@ class CycloneWriter final : public DdsWriter {
  public:
   explicit CycloneWriter(dds_entity_t writer) : writer_(writer) {}
   bool write(Octets payload) override { return dds_write(writer_, &payload) == DDS_RETCODE_OK; }
+  std::uint32_t matched() const override {
+    dds_publication_matched_status_t status = {};
+    return dds_get_publication_matched_status(writer_, &status) == DDS_RETCODE_OK ? status.current_count : 0;
+  }
 
  private:
   dds_entity_t writer_;
@@ -184,6 +188,10 @@ class CycloneReader final : public DdsReader {
       if (dds_take(reader_, &sample, &info, 1, 1) != 1) return false;
       if (info.valid_data && payload.size() >= header_octets) return true;  // the others say that a writer has gone
     }
+  }
+  std::uint32_t matched() const override {
+    dds_subscription_matched_status_t status = {};
+    return dds_get_subscription_matched_status(reader_, &status) == DDS_RETCODE_OK ? status.current_count : 0;
   }
 
  private:

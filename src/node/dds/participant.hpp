@@ -16,6 +16,8 @@ class DdsWriter {
   virtual ~DdsWriter() = default;
   /// False if it was not taken: it waited for max_blocking_time in vain.
   virtual bool write(uadp::Octets payload) = 0;
+  /// Readers that it has found. A volatile sample is for these alone.
+  virtual std::uint32_t matched() const = 0;
 };
 
 /// Takes samples of one topic.
@@ -24,6 +26,8 @@ class DdsReader {
   virtual ~DdsReader() = default;
   /// The next sample, oldest first; false if there is none.
   virtual bool take(std::vector<std::byte>& payload) = 0;
+  /// Writers that it has found.
+  virtual std::uint32_t matched() const = 0;
 };
 
 /// A topic without keys. Types are matched by their names; what a payload holds is the matter of who writes and who takes.

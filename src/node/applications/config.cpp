@@ -27,6 +27,13 @@ TopicShape shape_of(const Topic& topic, std::size_t position) {
   return shape;
 }
 
+/// OMG DDS 1.4, annex B, and '/', which implementations take too.
+bool is_dds_name(const std::string& name) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto is_allowed = [&](char c) { return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '/'; };
+  return !name.empty() && !is_digit(name[0]) && std::all_of(name.begin(), name.end(), is_allowed);
+}
+
 /// Checks what the fields of a file mean together.
 class Checker {
  public:
@@ -59,6 +66,8 @@ class Checker {
       if (is_dds && topic.publisher_id) diagnostics_.error(topic.where.at("publisher_id"), "not of DDS", {"a PublisherId", "a topic of OPC UA"});
       for (const auto& [is_there, key] : {std::pair{topic.type.has_value(), "type"}, std::pair{topic.domain.has_value(), "domain"}, std::pair{topic.qos.has_value(), "qos"}})
         if (!is_dds && is_there) diagnostics_.error(topic.where.at(key), "not of OPC UA", {json::quote(key), "a topic of DDS"});
+      if (is_dds && !is_dds_name(topic.name))
+        diagnostics_.error(topic.where.at("name"), "not a topic name of DDS", {json::quote(topic.name), "letters, digits, '_' and '/', and no digit first"});
       if (topic.qos) check_qos(*topic.qos);
     }
   }

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "gateway/cdr.hpp"
+#include "dds/message/cdr_writer.hpp"
 #include "gateway/type_pairs.hpp"
+#include "sim/check.hpp"
 #include "uadp/value.hpp"
 
 namespace takt::gateway {
@@ -21,42 +22,62 @@ bool is_length_agreed(const uadp::RawField& field, const IdlMember& member, std:
   return member.collection == IdlCollection::array ? count == member.length : has_room(member.length, count);
 }
 
-MappingError put_text(const uadp::RawField& field, const IdlMember& member, Octets text, CdrWriter& writer) {
+MappingError put_text(const uadp::RawField& field, const IdlMember& member, Octets text, dds::CdrWriter& writer) {
   if (!has_room(member.string_bound, text.size()) || !has_room(field.max_string_length, text.size())) return MappingError::wrong_length;
   if (std::find(text.begin(), text.end(), std::byte{0}) != text.end()) return MappingError::text;
-  writer.put(static_cast<std::uint32_t>(text.size() + 1));
-  writer.put_octets(text);
-  writer.put(std::uint8_t{0});
+  writer.put(std::string_view(reinterpret_cast<const char*>(text.data()), text.size()));
   return MappingError::none;
 }
 
-MappingError put_elements(const uadp::RawField& field, const IdlMember& member, const uadp::Variant& value, CdrWriter& writer) {
-  if (is_text(field.type)) {
-    uadp::Reader reader(value.octets);
-    for (std::size_t i = 0; i < value.size(); ++i)
-      if (const MappingError error = put_text(field, member, uadp::get_length_and_octets(reader), writer); error != MappingError::none) return error;
-    return reader.failed() ? MappingError::malformed : MappingError::none;
+/// Numbers of OPC UA Binary, which stand packed.
+template <class T>
+void put_numbers(Octets packed, dds::CdrWriter& writer) {
+  for (std::size_t at = 0; at < packed.size(); at += sizeof(T)) writer.put(uadp::load_little_endian<T>(packed.data() + at));
+}
+
+void put_guids(Octets packed, dds::CdrWriter& writer) {
+  constexpr std::size_t guid_octets = 16;
+  for (; !packed.empty(); packed = packed.subspan(guid_octets)) {
+    put_numbers<std::uint32_t>(packed.first(4), writer);
+    put_numbers<std::uint16_t>(packed.subspan(4, 4), writer);
+    put_numbers<std::uint8_t>(packed.subspan(8, 8), writer);
   }
-  if (value.size() == 0) return MappingError::none;
-  writer.align(info(member.kind).alignment);
-  // Both encodings are little-endian and pack equal numbers. OPC UA has many octets that are true, CDR one.
-  if (field.type != BuiltInType::Boolean) return writer.put_octets(value.octets), MappingError::none;
-  for (const std::byte each : value.octets) writer.put(static_cast<std::uint8_t>(each != std::byte{0} ? 1 : 0));
-  return MappingError::none;
 }
 
-MappingError put_member(const uadp::RawField& field, const IdlMember& member, const uadp::Variant& value, CdrWriter& writer) {
+void put_fixed(IdlKind kind, Octets packed, dds::CdrWriter& writer) {
+  if (kind == IdlKind::guid) return put_guids(packed, writer);
+  if (kind == IdlKind::boolean) {  // OPC UA has many octets that are true, CDR one
+    for (const std::byte each : packed) writer.put(each != std::byte{0});
+    return;
+  }
+  switch (info(kind).octets) {
+    case 1: return put_numbers<std::uint8_t>(packed, writer);
+    case 2: return put_numbers<std::uint16_t>(packed, writer);
+    case 4: return put_numbers<std::uint32_t>(packed, writer);
+    default: return put_numbers<std::uint64_t>(packed, writer);
+  }
+}
+
+MappingError put_elements(const uadp::RawField& field, const IdlMember& member, const uadp::Variant& value, dds::CdrWriter& writer) {
+  if (!is_text(field.type)) return put_fixed(member.kind, value.octets, writer), MappingError::none;
+  uadp::Reader reader(value.octets);
+  for (std::size_t i = 0; i < value.size(); ++i)
+    if (const MappingError error = put_text(field, member, uadp::get_length_and_octets(reader), writer); error != MappingError::none) return error;
+  return reader.failed() ? MappingError::malformed : MappingError::none;
+}
+
+MappingError put_member(const uadp::RawField& field, const IdlMember& member, const uadp::Variant& value, dds::CdrWriter& writer) {
   if (value.type != field.type || value.is_array != field.is_array || !value.dimensions.empty()) return MappingError::malformed;
   if (field.type == BuiltInType::ByteString) {
     const auto octets = value.get<uadp::ByteStringView>();
     if (!octets) return MappingError::malformed;
     if (!has_room(member.length, octets->octets.size()) || !has_room(field.max_string_length, octets->octets.size())) return MappingError::wrong_length;
-    writer.put(static_cast<std::uint32_t>(octets->octets.size()));
-    writer.put_octets(octets->octets);
+    writer.begin_sequence(octets->octets.size());
+    put_numbers<std::uint8_t>(octets->octets, writer);
     return MappingError::none;
   }
   if (field.is_array && !is_length_agreed(field, member, value.size())) return MappingError::wrong_length;
-  if (member.collection == IdlCollection::sequence) writer.put(static_cast<std::uint32_t>(value.size()));
+  if (member.collection == IdlCollection::sequence) writer.begin_sequence(value.size());
   return put_elements(field, member, value, writer);
 }
 
@@ -69,97 +90,85 @@ class FieldWriter {
     target_.resize(target_.size() + sizeof(T));
     uadp::store_little_endian(target_.data() + target_.size() - sizeof(T), number);
   }
-  void put_octets(Octets octets) { target_.insert(target_.end(), octets.begin(), octets.end()); }
+  void put_text(std::string_view text) {
+    put(static_cast<std::int32_t>(text.size()));
+    const Octets octets = std::as_bytes(std::span(text));
+    target_.insert(target_.end(), octets.begin(), octets.end());
+  }
 
  private:
   std::vector<std::byte>& target_;
 };
 
-/// The text of a CDR string without the NUL at its end.
-MappingError get_text(CdrReader& reader, Octets& text) {
-  const auto octets = reader.get<std::uint32_t>();
-  if (octets == 0) return reader.failed() ? MappingError::malformed : MappingError::text;
-  const Octets all = reader.take(octets);
-  if (reader.failed()) return MappingError::malformed;
-  text = all.first(all.size() - 1);
-  const bool ends_once = all.back() == std::byte{0} && std::find(text.begin(), text.end(), std::byte{0}) == text.end();
-  return ends_once ? MappingError::none : MappingError::text;
-}
-
 /// How many elements a member has that is read next.
-std::size_t count_of(const IdlMember& member, CdrReader& reader) {
+std::size_t count_of(const IdlMember& member, dds::CdrReader& reader) {
+  constexpr std::size_t length_of_string = 4;
   switch (member.collection) {
     case IdlCollection::none: return 1;
     case IdlCollection::array: return member.length;
     case IdlCollection::sequence: break;
   }
-  const auto count = reader.get<std::uint32_t>();
-  if (count > reader.left()) reader.fail();  // an element is at least an octet
-  return reader.failed() ? 0 : count;
+  return reader.begin_sequence(std::max<std::size_t>(info(member.kind).octets, member.kind == IdlKind::string ? length_of_string : 1));
 }
 
-/// Steps over a member and checks what does not depend on its field.
-MappingError skip_member(const IdlMember& member, CdrReader& reader) {
-  const std::size_t count = count_of(member, reader);
-  if (reader.failed()) return MappingError::malformed;
-  if (member.collection == IdlCollection::sequence && !has_room(member.length, count)) return MappingError::wrong_length;
-  if (member.kind == IdlKind::string) {
-    for (std::size_t i = 0; i < count; ++i) {
-      Octets text;
-      if (const MappingError error = get_text(reader, text); error != MappingError::none) return error;
-      if (!has_room(member.string_bound, text.size())) return MappingError::wrong_length;
-    }
+/// Reads an element and gives it to whoever wants it as OPC UA Binary has it.
+template <class Take>
+MappingError get_element(const IdlMember& member, dds::CdrReader& reader, Take&& take) {
+  if (member.kind == IdlKind::boolean) {
+    const bool is_there = reader.left() > 0;
+    take(static_cast<std::uint8_t>(reader.get_bool() ? 1 : 0));
+    return is_there && reader.failed() ? MappingError::boolean : MappingError::none;
+  }
+  if (member.kind == IdlKind::guid) {
+    take(reader.get<std::uint32_t>());
+    for (int i = 0; i < 2; ++i) take(reader.get<std::uint16_t>());
+    for (int i = 0; i < 8; ++i) take(reader.get<std::uint8_t>());
     return MappingError::none;
   }
-  if (count > 0) reader.align(info(member.kind).alignment);
-  const Octets octets = reader.take(count * info(member.kind).octets);
-  if (reader.failed()) return MappingError::malformed;
-  if (member.kind != IdlKind::boolean) return MappingError::none;
-  return std::any_of(octets.begin(), octets.end(), [](std::byte each) { return each > std::byte{1}; }) ? MappingError::boolean : MappingError::none;
-}
-
-void get_element(IdlKind kind, CdrReader& reader, FieldWriter& writer) {
-  if (kind == IdlKind::guid) {
-    writer.put(reader.get<std::uint32_t>());
-    writer.put(reader.get<std::uint16_t>());
-    writer.put(reader.get<std::uint16_t>());
-    writer.put_octets(reader.take(8));
-    return;
-  }
-  switch (info(kind).octets) {
-    case 1: return writer.put(reader.get<std::uint8_t>());
-    case 2: return writer.put(reader.get<std::uint16_t>());
-    case 4: return writer.put(reader.get<std::uint32_t>());
-    default: return writer.put(reader.get<std::uint64_t>());
-  }
-}
-
-/// The member has been stepped over once, so it is sound.
-MappingError get_field(const uadp::RawField& field, const IdlMember& member, CdrReader& reader, FieldWriter& writer) {
-  const std::size_t count = count_of(member, reader);
-  if (field.type == BuiltInType::ByteString) {
-    if (!has_room(field.max_string_length, count)) return MappingError::wrong_length;
-    writer.put(static_cast<std::uint8_t>(field.type));
-    writer.put(static_cast<std::int32_t>(count));
-    writer.put_octets(reader.take(count));
-    return MappingError::none;
-  }
-  if (field.is_array && !is_length_agreed(field, member, count)) return MappingError::wrong_length;
-  writer.put(static_cast<std::uint8_t>(uadp::index_of(field.type) | (field.is_array ? uadp::detail::array_flag : 0U)));
-  if (field.is_array) writer.put(static_cast<std::int32_t>(count));
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!is_text(field.type)) {
-      get_element(member.kind, reader, writer);
-      continue;
-    }
-    Octets text;
-    if (const MappingError error = get_text(reader, text); error != MappingError::none) return error;
-    if (!has_room(field.max_string_length, text.size())) return MappingError::wrong_length;
-    writer.put(static_cast<std::int32_t>(text.size()));
-    writer.put_octets(text);
+  switch (info(member.kind).octets) {
+    case 1: take(reader.get<std::uint8_t>()); break;
+    case 2: take(reader.get<std::uint16_t>()); break;
+    case 4: take(reader.get<std::uint32_t>()); break;
+    default: take(reader.get<std::uint64_t>());
   }
   return MappingError::none;
 }
+
+/// Steps over a member and checks what does not depend on its field.
+MappingError skip_member(const IdlMember& member, dds::CdrReader& reader) {
+  const std::size_t count = count_of(member, reader);
+  if (!reader.failed() && member.collection == IdlCollection::sequence && !has_room(member.length, count)) return MappingError::wrong_length;
+  for (std::size_t i = 0; i < count && !reader.failed(); ++i) {
+    if (member.kind == IdlKind::string) {
+      if (!has_room(member.string_bound, reader.get_string().size())) return MappingError::wrong_length;
+    } else if (const MappingError error = get_element(member, reader, [](auto) {}); error != MappingError::none) {
+      return error;
+    }
+  }
+  return reader.failed() ? MappingError::malformed : MappingError::none;
+}
+
+/// The member has been stepped over once, so it is sound.
+MappingError get_field(const uadp::RawField& field, const IdlMember& member, dds::CdrReader reader, FieldWriter& writer) {
+  const std::size_t count = count_of(member, reader);
+  const bool is_octets = field.type == BuiltInType::ByteString;
+  if (is_octets ? !has_room(field.max_string_length, count) : field.is_array && !is_length_agreed(field, member, count)) return MappingError::wrong_length;
+  writer.put(static_cast<std::uint8_t>(uadp::index_of(field.type) | (field.is_array ? uadp::detail::array_flag : 0U)));
+  if (field.is_array || is_octets) writer.put(static_cast<std::int32_t>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    if (member.kind != IdlKind::string) {
+      get_element(member, reader, [&writer](auto number) { writer.put(number); });
+      continue;
+    }
+    const std::string_view text = reader.get_string();
+    if (!has_room(field.max_string_length, text.size())) return MappingError::wrong_length;
+    writer.put_text(text);
+  }
+  return MappingError::none;
+}
+
+/// Octets that a payload has at most, if the fields have so many: alignment and length of each member, and of strings the octet 0 and its alignment.
+std::size_t most_octets(std::size_t fields, std::size_t members) { return dds::encapsulation_size + 2 * fields + 16 * members; }
 
 template <class Named>
 std::optional<std::size_t> find(const std::vector<Named>& all, const std::string& name) {
@@ -225,28 +234,30 @@ MappingError TypeMapping::to_cdr(Octets fields, std::vector<std::byte>& payload)
   given_.clear();
   for (std::size_t i = 0; i < fields_.size(); ++i) given_.push_back(uadp::get_variant(reader));
   if (reader.failed() || reader.left() != 0) return MappingError::malformed;
-  CdrWriter writer(payload);
+  payload.resize(most_octets(fields.size(), type_.members.size()));
+  dds::CdrWriter writer(payload);
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const MappingError error = put_member(fields_[sources_[i]].type, type_.members[i], given_[sources_[i]], writer);
     if (error != MappingError::none) return error;
   }
-  writer.finish();
+  const std::size_t size = writer.finish().size();
+  TAKT_CHECK(size != 0, "a payload has room for its fields");
+  payload.resize(size);
   return MappingError::none;
 }
 
 MappingError TypeMapping::to_fields(Octets payload, std::vector<std::byte>& fields) {
-  CdrReader reader(payload);
+  dds::CdrReader reader(payload);
   if (reader.failed()) return MappingError::encapsulation;
-  positions_.clear();
+  members_.clear();
   for (const IdlMember& member : type_.members) {
-    positions_.push_back(reader.position());
+    members_.push_back(reader);
     if (const MappingError error = skip_member(member, reader); error != MappingError::none) return error;
   }
   if (reader.left() > 3) return MappingError::malformed;  // up to three octets pad the payload
   FieldWriter writer(fields);
   for (std::size_t i = 0; i < sources_.size(); ++i) {
-    reader.return_to(positions_[sources_[i]]);
-    const MappingError error = get_field(fields_[i].type, type_.members[sources_[i]], reader, writer);
+    const MappingError error = get_field(fields_[i].type, type_.members[sources_[i]], members_[sources_[i]], writer);
     if (error != MappingError::none) return error;
   }
   return MappingError::none;

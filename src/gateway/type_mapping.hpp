@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dds/message/cdr_reader.hpp"
 #include "gateway/idl_type.hpp"
 #include "uadp/raw_layout.hpp"
 
@@ -46,9 +47,9 @@ struct Renamed {
 enum class MappingError : std::uint8_t {
   none,
   malformed,      ///< the octets are not the fields, or not the members, that were agreed
-  encapsulation,  ///< not plain CDR version 1
+  encapsulation,  ///< not plain CDR: parameter lists, XCDR2 of types that are not final
   wrong_length,   ///< an array of another length, or a sequence or string beyond its bound
-  text,           ///< a string with a NUL, which ends it in CDR, or a CDR string without one at its end
+  text,           ///< a string with an octet 0, which would end it in CDR
   boolean,        ///< a CDR boolean that is neither 0 nor 1
 };
 inline constexpr std::size_t mapping_error_count = 6;
@@ -68,10 +69,10 @@ class TypeMapping {
   /// Fields or members of the giving side that nobody takes.
   const std::vector<std::string>& left_out() const { return left_out_; }
 
-  /// `fields`: all fields as Variants, one behind the other. `payload`: an encapsulation header and little-endian CDR. What an error leaves in the
+  /// `fields`: all fields as Variants, one behind the other. `payload`: an encapsulation header and little-endian CDR of version 1. What an error leaves in the
   /// target means nothing. Nothing allocates once the target has held a payload of full length.
   MappingError to_cdr(Octets fields, std::vector<std::byte>& payload);
-  /// `payload`: CDR of either byte order with its encapsulation header.
+  /// `payload`: CDR of either byte order, of version 1 or of version 2 of a final type, with its encapsulation header.
   MappingError to_fields(Octets payload, std::vector<std::byte>& fields);
   /// By the direction.
   MappingError convert(Octets from, std::vector<std::byte>& to) { return direction_ == Direction::to_dds ? to_cdr(from, to) : to_fields(from, to); }
@@ -86,7 +87,7 @@ class TypeMapping {
   std::vector<std::size_t> sources_;
   std::vector<std::string> left_out_;
   std::vector<uadp::Variant> given_;       ///< room for the fields of one message
-  std::vector<std::size_t> positions_;     ///< room for where the members of one payload begin
+  std::vector<dds::CdrReader> members_;    ///< room for where the members of one payload begin
 };
 
 }  // namespace takt::gateway

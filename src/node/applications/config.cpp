@@ -143,7 +143,7 @@ class Checker {
     }
     std::vector<std::string> problems;
     mapping_between(loaded_.shapes[*from], loaded_.shapes[*to], config_.topics[*to].protocol == Protocol::dds ? gateway::Direction::to_dds : gateway::Direction::to_opc_ua, problems);
-    for (const std::string& problem : problems) diagnostics_.error(gateway.where.at("to"), "types do not map", {problem, "fields and members of types that stand for each other"});
+    for (const std::string& problem : problems) diagnostics_.error(gateway.where.at("to"), "types do not map", {problem, "in both topics fields of the same names and types; what is more in \"from\" is left out"});
   }
 
   LoadedApplications& loaded_;
@@ -165,13 +165,7 @@ std::optional<gateway::TypeMapping> mapping_between(const TopicShape& from, cons
   const bool to_dds = direction == gateway::Direction::to_dds;
   const TopicShape& opc_ua = to_dds ? from : to;
   const TopicShape& dds = to_dds ? to : from;
-  if (opc_ua.fields.size() != dds.type.members.size()) {
-    problems.push_back(std::to_string(opc_ua.fields.size()) + " fields and " + std::to_string(dds.type.members.size()) + " members");
-    return std::nullopt;
-  }
-  std::vector<gateway::Renamed> renamed;
-  for (std::size_t i = 0; i < opc_ua.fields.size(); ++i) renamed.push_back({opc_ua.fields[i].name, dds.type.members[i].name});
-  return gateway::TypeMapping::make(direction, opc_ua.fields, dds.type, renamed, problems);
+  return gateway::TypeMapping::make(direction, opc_ua.fields, dds.type, {}, problems);
 }
 
 bool is_applications_file(const std::string& path) {

@@ -40,6 +40,7 @@ struct Thread {
   Duration offset;
   std::optional<Payload> payload;
   std::optional<std::uint32_t> buffer;
+  std::optional<std::uint64_t> tests;
   std::optional<vocabulary::Qos> qos;
   bool operator==(const Thread&) const = default;
 };
@@ -125,7 +126,7 @@ struct LoadedApplications {
   std::size_t topic(const std::string& name) const;
 };
 
-/// From a topic of one protocol to one of the other: fields and members pair up by their position.
+/// From a topic of one protocol to one of the other: fields and members are found by their names.
 std::optional<gateway::TypeMapping> mapping_between(const TopicShape& from, const TopicShape& to, gateway::Direction direction, std::vector<std::string>& problems);
 
 /// Whether a file is one of these and not one of a Program. A file that cannot be read is none.

@@ -36,6 +36,7 @@ const json::Object& describe(json::Type<Thread>) {
       optional<&Thread::offset>("offset", "Phase of the activations within the interval.", {.max = 3600_s}),
       optional<&Thread::payload>("payload", "What it publishes; a counter if absent."),
       optional<&Thread::buffer>("buffer", "Samples that a call takes at most, the newest; older ones are overwritten. 1 if absent.", {.min = 1, .max = most_samples}),
+      optional<&Thread::tests>("tests", "Most tests of this thread; as many as the scheduler says if absent.", {.min = 1, .max = 1'000'000'000}),
       optional<&Thread::qos>("qos", "Of DDS: other quality of service of this writer or reader than the topic's."),
   };
   static constexpr std::string_view roles[] = {"publish", "subscribe"};
@@ -46,7 +47,7 @@ const json::Object& describe(json::Type<Thread>) {
 
 const json::Object& describe(json::Type<Scheduler>) {
   static constexpr json::Field fields[] = {
-      optional<&Scheduler::window>("window", "A test: what happened in a window of this length, or of the least multiple of a thread's interval that is not shorter.",
+      optional<&Scheduler::window>("window", "A test: what happened in a window of this length, or of the least multiple of a thread's interval that is not shorter; from the thread's offset on.",
                                    {.min = 10_us, .max = 3600_s}),
       optional<&Scheduler::after>("after", "No test begins before.", {.max = longest_step}),
       optional<&Scheduler::tests>("tests", "Most tests of each thread; no limit if absent.", {.min = 1, .max = 1'000'000'000}),
@@ -73,7 +74,7 @@ const json::Object& describe(json::Type<GatewayOfNode>) {
       required<&GatewayOfNode::name>("name", "Unique among applications and gateways.", {.min_length = 1, .max_length = 200}),
       optional<&GatewayOfNode::on>("on", "The node; this one if absent. Those on other nodes are passed over."),
       required<&GatewayOfNode::from>("from", "The topic that it subscribes to."),
-      required<&GatewayOfNode::to>("to", "The topic that it publishes to, with as many fields of types that map."),
+      required<&GatewayOfNode::to>("to", "The topic that it publishes to: its fields are found by their names, and their types must map."),
       required<&GatewayOfNode::receive_every>("receive_every", "Interval of its thread \"receive\", which takes what has come into the buffer.", {.min = 10_us, .max = 3600_s}),
       optional<&GatewayOfNode::receive_offset>("receive_offset", "Phase of that thread.", {.max = 3600_s}),
       required<&GatewayOfNode::send_every>("send_every", "Interval of its thread \"send\", which publishes one sample of the buffer.", {.min = 10_us, .max = 3600_s}),

@@ -72,6 +72,7 @@ struct ApplicationHost::Task {
   std::unique_ptr<Work> work;
   Duration every;
   Duration offset;
+  std::optional<std::uint64_t> tests;
   ActivityLog log;
   ThreadStatistics statistics;  ///< the thread's own until it has ended
   std::optional<WindowCheck> check;
@@ -87,7 +88,7 @@ struct ApplicationHost::Watched {
   std::vector<std::unique_ptr<Task>> tasks;
   std::thread thread;
 
-  void add(std::unique_ptr<Work> work, Duration every, Duration offset, const char* role, const std::string& thread_name, const std::string& topic) {
+  Task& add(std::unique_ptr<Work> work, Duration every, Duration offset, const char* role, const std::string& thread_name, const std::string& topic) {
     auto task = std::make_unique<Task>();
     task->work = std::move(work);
     task->every = every;
@@ -96,7 +97,7 @@ struct ApplicationHost::Watched {
     task->statistics.role = role;
     task->statistics.topic = topic;
     task->statistics.every_ns = ns_of(every);
-    tasks.push_back(std::move(task));
+    return *tasks.emplace_back(std::move(task));
   }
 };
 
@@ -160,12 +161,12 @@ bool ApplicationHost::add_application(const ApplicationOfNode& application, std:
     if (thread.publish) {
       TopicWriter* const writer = writer_of(topic, thread.qos, problem);
       if (writer == nullptr) return false;
-      watched.add(make_publishing(end, *writer, thread.payload, watched.newest), thread.every, thread.offset, "publish", thread.name, topic);
+      watched.add(make_publishing(end, *writer, thread.payload, watched.newest), thread.every, thread.offset, "publish", thread.name, topic).tests = thread.tests;
     } else {
       TopicReader* const reader = reader_of(topic, thread.qos, problem);
       if (reader == nullptr) return false;
       const bool is_copied = std::any_of(application.threads.begin(), application.threads.end(), [&](const Thread& each) { return each.payload && each.payload->copy_of == topic; });
-      watched.add(make_subscribing(topic, end, *reader, thread.buffer.value_or(1), is_copied, watched.newest), thread.every, thread.offset, "subscribe", thread.name, topic);
+      watched.add(make_subscribing(topic, end, *reader, thread.buffer.value_or(1), is_copied, watched.newest), thread.every, thread.offset, "subscribe", thread.name, topic).tests = thread.tests;
     }
   }
   return true;
@@ -221,7 +222,7 @@ void ApplicationHost::run_scheduler(Watched& watched) {
     settings.offset = ns_of(task->offset);
     settings.begin = clock.now() + ns_of(watched.scheduler.after);
     settings.tolerance = ns_of(watched.scheduler.tolerance);
-    settings.most_tests = watched.scheduler.tests;
+    settings.most_tests = task->tests ? task->tests : watched.scheduler.tests;
     settings.has_values = task->statistics.role == "subscribe" || task->statistics.role == "receive";
     task->check.emplace(settings);
   }

@@ -86,13 +86,14 @@ TEST_F(ApplicationsFile, AGatewayNeedsTypesThatMap) {
                "topics": [{"name": "x", "protocol": "opc-ua", "fields": {"n": "UInt32", "v": "Double"}}, {"name": "y", "protocol": "dds", "type": "A::B", "domain": 4, "fields": {)" +
            members + R"(}}], "gateways": [{"name": "g", "from": "x", "to": "y", "receive_every": "1ms", "send_every": "1ms"}]})";
   };
-  const auto loaded = load(with(R"("count": "UInt32", "value": "Double")"));
+  const auto loaded = load(with(R"("v": "Double", "n": "UInt32")"));
   ASSERT_TRUE(loaded) << said_.front();
   EXPECT_EQ(loaded->shapes[1].type.name, "A::B");
   EXPECT_EQ(loaded->shapes[1].domain, 4);
-  EXPECT_FALSE(load(with(R"("count": "UInt32")")));
+  EXPECT_TRUE(load(with(R"("n": "UInt32")"))) << "what is more is left out";
+  EXPECT_FALSE(load(with(R"("n": "UInt32", "other": "Double")")));
   EXPECT_EQ(said_, Lines{"/gateways/0/to: types do not map"});
-  EXPECT_FALSE(load(with(R"("count": "Int32", "value": "Float")")));
+  EXPECT_FALSE(load(with(R"("n": "Int32", "v": "Float")")));
   EXPECT_EQ(said_, (Lines{"/gateways/0/to: types do not map", "/gateways/0/to: types do not map"}));
 }
 

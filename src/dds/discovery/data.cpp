@@ -10,8 +10,8 @@
 namespace takt::dds {
 namespace {
 
-constexpr std::array<std::string_view, 6> verdict_texts{"ok", "representation", "truncated", "malformed", "incomplete", "must_understand"};
-static_assert(static_cast<std::size_t>(DataVerdict::must_understand) + 1 == verdict_texts.size());
+constexpr std::array<std::string_view, 6> verdict_texts{"ok", "representation", "truncated", "malformed", "incomplete", "not_understood"};
+static_assert(static_cast<std::size_t>(DataVerdict::not_understood) + 1 == verdict_texts.size());
 
 /// Writes a payload: the encapsulation, the parameters that `put_all` puts, the sentinel.
 template <class PutAll>
@@ -81,7 +81,7 @@ DataVerdict decode_list(Octets payload, Take take) {
   while (const auto parameter = list.next()) {
     const Taken taken = take(*parameter);
     if (taken == Taken::malformed) return DataVerdict::malformed;
-    if (taken == Taken::no && parameter->must_be_understood()) return DataVerdict::must_understand;
+    if (taken == Taken::no && parameter->must_be_understood()) return DataVerdict::not_understood;
   }
   return reader.failed() ? DataVerdict::truncated : DataVerdict::ok;
 }

@@ -92,7 +92,7 @@ enum class DataVerdict : std::uint8_t {
   truncated,       ///< ends before its sentinel
   malformed,       ///< a value that contradicts itself or the standard
   incomplete,      ///< no GUID, or no name of topic or type
-  must_understand, ///< a parameter that is not known and must be
+  not_understood,  ///< a parameter that is not known and must be
 };
 std::string_view name_of(DataVerdict verdict);
 

@@ -164,7 +164,7 @@ TEST(Data, Refusals) {
   EXPECT_EQ(verdict("00030000" + guid), "truncated") << "no sentinel";
   EXPECT_EQ(verdict("00030000" + guid + "01000000"), "ok");
   EXPECT_EQ(verdict("00030000" + guid + "ff3f0400" "00000000" "01000000"), "ok") << "not known";
-  EXPECT_EQ(verdict("00030000" + guid + "ff7f0400" "00000000" "01000000"), "must_understand");
+  EXPECT_EQ(verdict("00030000" + guid + "ff7f0400" "00000000" "01000000"), "not_understood");
   EXPECT_EQ(verdict("00030000" + guid + "ffff0400" "00000000" "01000000"), "ok") << "a vendor's own";
   EXPECT_EQ(verdict("00030000" + guid + "02000400" "0a000000" "01000000"), "malformed") << "half a lease";
   PublicationData publication;

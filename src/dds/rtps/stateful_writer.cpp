@@ -308,7 +308,7 @@ void StatefulWriter::receive(const Guid& reader, const NackFrag& nack, sim::Loca
   ReaderProxy& proxy = at->second;
   proxy.last_nack_frag = nack.count;
   const auto place = std::pair(nack.sequence_number, FragmentNumber{1});
-  if (place > std::pair(proxy.next_unsent, proxy.next_fragment)) return;
+  if (place >= std::pair(proxy.next_unsent, proxy.next_fragment)) return;  // nothing of it was sent
   ask(proxy, nack.sequence_number, now, &nack.missing);
   answer_later(proxy, now, outbox);
 }

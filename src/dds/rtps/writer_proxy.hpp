@@ -13,8 +13,8 @@ namespace takt::dds {
 struct ReceiveLimits {
   std::size_t max_pending = 1024;                     ///< changes that wait for earlier ones
   std::size_t max_pending_octets = 16u << 20;
-  std::size_t max_reassemblies = 32;                  ///< samples that lack fragments
-  std::size_t max_sample_octets = 16u << 20;          ///< of a sample in fragments
+  std::size_t max_reassemblies = 16;                  ///< samples that lack fragments
+  std::size_t max_sample_octets = 8u << 20;          ///< of a sample in fragments
   std::size_t max_gaps = 1024;                        ///< separate ranges of changes that do not come
 };
 

@@ -163,6 +163,13 @@ TEST(FlowController, AHeartbeatAnnouncesOnlyWhatWasSent) {
   pair.world.run_for(2_s);
   EXPECT_EQ(pair.take(), (std::vector<std::uint32_t>{1}));
   EXPECT_EQ(pair.writing->figures().resent, 0u);
+  for (const Sent& sent : pair.world.log) {
+    if (sent.from != 0 || sent.at >= start + 1400_ms) continue;  // the last fragment goes at 1.4 s
+    for (MessageDecoder decoder(sent.octets); decoder.next();)
+      if (const auto* const heartbeat = std::get_if<Heartbeat>(&decoder.submessage())) {
+        EXPECT_EQ(heartbeat->last, SequenceNumber{0});
+      }
+  }
   EXPECT_GT(pair.writing->figures().sent[SubmessageKind::heartbeat_frag], 10u);
 }
 

@@ -121,7 +121,7 @@ RC_GTEST_PROP(Restart, OfTheWriterLosesAndRepeatsNothing, ()) {
   run.start_writer(limit);
   run.start_reader(false);
   int restarts = 3;
-  for (int i = 0; i < 20'000 && run.taken.size() < samples; ++i) {
+  for (int i = 0; i < 400'000 && run.taken.size() < samples; ++i) {
     run.write(samples);
     run.pass();
     if (restarts > 0 && run.chance.below(12) == 0) {
@@ -138,7 +138,7 @@ RC_GTEST_PROP(Restart, OfBothLosesAndRepeatsNothing, ()) {
   run.start_writer(unlimited);
   run.start_reader(true);
   int restarts = 6;
-  for (int i = 0; i < 20'000 && run.taken.size() < samples; ++i) {
+  for (int i = 0; i < 400'000 && run.taken.size() < samples; ++i) {
     run.write(samples);
     run.pass();
     if (restarts == 0 || run.chance.below(8) != 0) continue;

@@ -50,8 +50,9 @@ struct Site {
     } while (true);
     world.now = end;
   }
-  WriterHandle writer_of(Participant& participant, DurabilityKind durability) {
+  WriterHandle writer_of(Participant& participant, DurabilityKind durability, std::int32_t depth = 1) {
     WriterConfig config = writer_config();
+    config.qos.history.depth = depth;
     config.has_key = true;
     config.qos.durability.kind = durability;
     return *participant.create_writer(config, world.now).handle;
@@ -171,6 +172,22 @@ TEST(PersistenceService, ARestartTakesNothingTwice) {
     EXPECT_EQ(site.service->kept("topic"), i);
   }
   EXPECT_EQ(take_values(reading, reader, site.world.now), (Values{1, 2, 3}));
+}
+
+// A writer that is alive brings its whole history to a service that starts again; what was replaced must not come back.
+TEST(PersistenceService, ARestartKeepsTheNewest) {
+  Site site(DurabilityKind::persistent, 1);
+  std::size_t at = 0;
+  Participant& writing = site.come(&at);
+  const WriterHandle writer = site.writer_of(writing, DurabilityKind::persistent, 3);
+  site.run_for(5_s);
+  for (std::uint32_t i = 1; i <= 3; ++i) writing.write(writer, a, payload_of(i), site.world.now);
+  site.run_for(5_s);
+  site.start_service();
+  site.run_for(5_s);
+  site.world.kill(at);
+  site.run_for(30_s);
+  EXPECT_EQ(site.late(DurabilityKind::persistent), (Values{3}));
 }
 
 TEST(PersistenceService, CleansUpWhatWasDisposed) {

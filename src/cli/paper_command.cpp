@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/real_coexistence.hpp"
 #include "papers/report.hpp"
 
 namespace takt::cli {
@@ -43,6 +44,21 @@ ExitStatus run(PaperOptions& options) {
   return made->holds() ? ExitStatus::pass : ExitStatus::requirement_failed;
 }
 
+void add_coexistence(CLI::App& paper, ExitStatus& status) {
+  CLI::App& command = *paper.add_subcommand("coexistence", "DDS and OPC UA protocol coexistence solution in real-time and Industry 4.0 context using non-ideal infrastructure");
+  const auto options = std::make_shared<RealCoexistenceOptions>();
+  const auto format = std::make_shared<std::string>("text");
+  command.add_flag("--real", options->is_real, "Measure criteria 1 and 2 on this machine: six nodes, and the gateway, as processes")->required();
+  command.add_flag("--short", options->is_short, "100 windows of 10 ms for each thread and interval instead of 700");
+  command.add_option("--out", options->out, "Write the tables, and the files of the nodes, into this folder")->type_name("DIR");
+  command.add_option("--format", *format, "text or json")->check(CLI::IsMember({"text", "json"}))->type_name("FORMAT");
+  command.add_flag("--quiet", options->is_quiet, "Do not say what is being done");
+  command.callback([options, format, &status] {
+    options->is_json = *format == "json";
+    status = run_real_coexistence(*options);
+  });
+}
+
 }  // namespace
 
 void add_paper_command(CLI::App& app, ExitStatus& status) {
@@ -62,6 +78,7 @@ void add_paper_command(CLI::App& app, ExitStatus& status) {
       "  takt paper programs --out out/paper            an hour of simulated time for each row of Table I\n"
       "Exit status: 0 reproduced, 1 something is out of its tolerance, 2 bad input.");
   programs.callback([options, &status] { status = run(*options); });
+  add_coexistence(command, status);
 }
 
 }  // namespace takt::cli

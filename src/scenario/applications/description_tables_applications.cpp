@@ -4,7 +4,6 @@
 namespace takt::scenario {
 namespace {
 
-using json::name;
 using json::optional;
 using json::required;
 
@@ -12,15 +11,6 @@ constexpr Duration longest_step = 24 * 3600_s;
 constexpr std::uint32_t most_samples = 65'536;
 
 }  // namespace
-
-const json::Enumeration& describe(json::Type<Protocol>) {
-  static constexpr json::EnumName names[] = {
-      name(Protocol::opc_ua, "opc-ua", "OPC UA PubSub: UADP over UDP multicast"),
-      name(Protocol::dds, "dds", "DDS: RTPS over UDP"),
-  };
-  static constexpr json::Enumeration table = json::enumeration<Protocol>("a protocol", names);
-  return table;
-}
 
 const json::Object& describe(json::Type<Topic>) {
   static constexpr json::Field fields[] = {
@@ -35,26 +25,6 @@ const json::Object& describe(json::Type<Topic>) {
       optional<&Topic::flow_control>("flow_control", "Of DDS, asynchronous publication: what may be sent at once; no limit if absent."),
   };
   static constexpr json::Object table = json::object<Topic>("topic", "Data that applications publish and subscribe to.", fields);
-  return table;
-}
-
-const json::Enumeration& describe(json::Type<Pattern>) {
-  static constexpr json::EnumName names[] = {
-      name(Pattern::counter, "counter", "the first field counts the publications, from 1 on"),
-      name(Pattern::alternate, "alternate", "the first field is 1 and 0 by turns"),
-  };
-  static constexpr json::Enumeration table = json::enumeration<Pattern>("a pattern", names);
-  return table;
-}
-
-const json::Object& describe(json::Type<Payload>) {
-  static constexpr json::Field fields[] = {
-      optional<&Payload::pattern>("pattern", "What the first field of each sample is; all other values are zero."),
-      optional<&Payload::copy_of>("copy_of", "A topic that the application subscribes to: its newest sample is published; nothing before the first one."),
-  };
-  static constexpr std::string_view contents[] = {"pattern", "copy_of"};
-  static constexpr json::Group groups[] = {json::exactly_one_of(contents)};
-  static constexpr json::Object table = json::object<Payload>("payload", "What a thread publishes.", fields, {.groups = groups, .shorthand = "pattern"});
   return table;
 }
 
@@ -109,16 +79,6 @@ const json::Object& describe(json::Type<Application>) {
       optional<&Application::scheduler>("scheduler", "How its threads are checked."),
   };
   static constexpr json::Object table = json::object<Application>("application", "An application of several threads on a host.", fields);
-  return table;
-}
-
-const json::Enumeration& describe(json::Type<Overflow>) {
-  static constexpr json::EnumName names[] = {
-      name(Overflow::overwrite_oldest, "overwrite-oldest", "the oldest sample makes room"),
-      name(Overflow::drop_newest, "drop-newest", "what finds no room is dropped"),
-      name(Overflow::keep_latest, "keep-latest", "only the newest sample is kept"),
-  };
-  static constexpr json::Enumeration table = json::enumeration<Overflow>("an overflow policy", names);
   return table;
 }
 

@@ -260,6 +260,7 @@ class ApplicationResolver {
       wanted.priority = description.pcp;
       wanted.vlan = description.vlan;
       wanted.headers = models::ipv4_and_udp_headers;
+      wanted.is_group = true;
       wanted.udp_port = opc_ua_udp_port;
       wanted.payload = Octets{static_cast<std::uint32_t>(OpcUaWriter::message_octets(r_.topics[topic].layout, {application.publisher_id, 1, 1}))};
       const auto index = builder_.add(wanted);

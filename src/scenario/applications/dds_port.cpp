@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scenario/applications/dds_qos.hpp"
 #include "sim/check.hpp"
 
 namespace takt::scenario {

@@ -5,7 +5,7 @@ namespace {
 
 // The values of both sides have the same order.
 template <class To, class From>
-To same(From value) {
+constexpr To same(From value) {
   return static_cast<To>(value);
 }
 static_assert(same<dds::ReliabilityKind>(vocabulary::Reliability::reliable) == dds::ReliabilityKind::reliable);

@@ -87,7 +87,7 @@ const json::Object& describe(json::Type<Gateway>) {
       required<&Gateway::name>("name", "Unique among applications, gateways, streams and programs.", {.min_length = 1, .max_length = 200}),
       required<&Gateway::on>("on", "The host."),
       required<&Gateway::from>("from", "The topic that it subscribes to."),
-      required<&Gateway::to>("to", "The topic that it publishes to, with as many fields of types that map."),
+      required<&Gateway::to>("to", "The topic that it publishes to: its fields are found by their names, and their types must map."),
       required<&Gateway::receive_every>("receive_every", "Interval of its thread \"receive\", which takes what has come into the buffer.", {.min = 10_us, .max = 3600_s}),
       optional<&Gateway::receive_offset>("receive_offset", "Phase of that thread.", {.max = 3600_s}),
       optional<&Gateway::receive_response>("receive_response", "Response of that thread; the wake-up latency of the host if absent."),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -9,12 +10,15 @@
 #include <vector>
 
 #include "models/plan.hpp"
+#include "scenario/applications/resolved_applications.hpp"
 #include "scenario/description.hpp"
 #include "scenario/gate_problem.hpp"
 #include "scenario/routing.hpp"
 #include "scenario/topology.hpp"
 
 namespace takt::scenario {
+
+struct ResolvedDds;  // applications/resolved_dds.hpp
 
 /// What a stream asks of the links: long-term averages, for check and for refusing overload.
 struct StreamDemand {
@@ -178,6 +182,10 @@ struct Resolved {
   std::vector<ResolvedStream> streams;    ///< by stream index
   std::vector<ResolvedRedundancy> redundancies;  ///< ascending streams
   std::vector<ResolvedProgram> programs;
+  std::vector<ResolvedTopic> topics;
+  std::vector<ResolvedApplication> applications;  ///< and gateways, behind them
+  std::vector<ResolvedSignal> signals;
+  std::shared_ptr<ResolvedDds> dds;       ///< never null
   std::vector<ResolvedAction> script;     ///< by time
   std::vector<PortDemand> ports;          ///< those that carry something
   std::optional<GatePlan> gates = {};     ///< if they were laid out

@@ -8,9 +8,11 @@
 #include <variant>
 #include <vector>
 
+#include "scenario/applications/description_applications.hpp"
 #include "scenario/description_clocks.hpp"
 #include "scenario/description_faults.hpp"
 #include "scenario/description_ingress.hpp"
+#include "scenario/description_latency.hpp"
 #include "scenario/description_plug.hpp"
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
@@ -24,36 +26,6 @@ using sim::Duration;
 using sim::Length;
 using sim::Octets;
 using namespace sim::literals;  // NOLINT: units in default values
-
-// Not within Latency: clang takes a class with default values for complete only behind the class around it.
-struct WeibullLatency { Duration scale; double shape = 1; bool operator==(const WeibullLatency&) const = default; };
-struct LogNormalLatency { Duration median; double sigma = 1; bool operator==(const LogNormalLatency&) const = default; };
-/// Rare values instead of those of the distribution, all of an interval equally likely.
-struct LatencyTail { json::Source where; Duration from; Duration to; double per_million = 1; bool operator==(const LatencyTail&) const = default; };
-
-/// A time that passes in a host: fixed, or drawn from a distribution.
-struct Latency {
-  struct Uniform { Duration from; Duration to; bool operator==(const Uniform&) const = default; };
-  struct Normal { Duration mean; Duration deviation; bool operator==(const Normal&) const = default; };
-  struct Exponential { Duration mean; bool operator==(const Exponential&) const = default; };
-  using Weibull = WeibullLatency;
-  using LogNormal = LogNormalLatency;
-  struct Point { Duration value; std::uint32_t weight = 1; bool operator==(const Point&) const = default; };
-
-  json::Source where;
-  std::optional<Duration> fixed;
-  std::optional<Uniform> uniform;
-  std::optional<Normal> normal;
-  std::optional<Exponential> exponential;
-  std::optional<Weibull> weibull;
-  std::optional<LogNormal> log_normal;
-  std::optional<std::vector<Point>> table;
-  Duration min;
-  std::optional<Duration> max;
-  using Tail = LatencyTail;
-  std::optional<LatencyTail> tail;
-  bool operator==(const Latency&) const = default;
-};
 
 enum class OsProfile : std::uint8_t { none, preempt_rt, preempt_rt_isolated, preempt_rt_arm, general_purpose, virtual_machine, virtual_machine_rt };
 
@@ -346,6 +318,12 @@ struct Requirement {
   std::optional<std::uint64_t> delivered;
   std::optional<Duration> sync;
   std::optional<std::string> node;
+  std::optional<std::string> application = {};
+  std::optional<std::string> thread = {};
+  std::optional<double> success = {};    ///< percent
+  std::optional<double> buffered = {};   ///< percent
+  std::optional<std::string> signal = {};
+  std::optional<double> irregular = {};  ///< percent
   Duration after;
   bool operator==(const Requirement&) const = default;
 };
@@ -360,6 +338,10 @@ struct Scenario {
   NetworkSection network;
   Clocks clocks;
   std::vector<Program> programs;
+  std::vector<Topic> topics = {};
+  std::vector<Domain> domains = {};
+  std::vector<Application> applications = {};
+  std::vector<Gateway> gateways = {};
   std::vector<Stream> streams;
   std::vector<ScriptEntry> script;
   std::vector<Fault> faults;
@@ -369,14 +351,6 @@ struct Scenario {
   bool operator==(const Scenario&) const = default;
 };
 
-const json::Object& describe(json::Type<Latency>);
-const json::Object& describe(json::Type<Latency::Uniform>);
-const json::Object& describe(json::Type<Latency::Normal>);
-const json::Object& describe(json::Type<Latency::Exponential>);
-const json::Object& describe(json::Type<Latency::Weibull>);
-const json::Object& describe(json::Type<Latency::LogNormal>);
-const json::Object& describe(json::Type<Latency::Point>);
-const json::Object& describe(json::Type<LatencyTail>);
 const json::Object& describe(json::Type<Processing>);
 const json::Object& describe(json::Type<Reply>);
 const json::Enumeration& describe(json::Type<OsProfile>);

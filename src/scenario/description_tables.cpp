@@ -203,9 +203,15 @@ const json::Object& describe(json::Type<Requirement>) {
       optional<&Requirement::delivered>("delivered", "Fewest frames that must be delivered."),
       optional<&Requirement::sync>("sync", "Greatest difference between a node's clock and that of its grandmaster, either way.", {.max = longest}),
       optional<&Requirement::node>("node", "Only of this node; of all if absent."),
+      optional<&Requirement::application>("application", "The application or gateway that is meant."),
+      optional<&Requirement::thread>("thread", "One of its threads; each of them that the limit concerns if absent."),
+      optional<&Requirement::success>("success", "Least share of the expected calls that took place (criterion 1), in percent.", {.min = 0, .max = 100}),
+      optional<&Requirement::buffered>("buffered", "Least share of the expected values that a subscribing thread buffered (criterion 2), in percent.", {.min = 0, .max = 100}),
+      optional<&Requirement::signal>("signal", "The digital output that is meant."),
+      optional<&Requirement::irregular>("irregular", "Greatest share of pulses whose length is more than 10 % off, in percent.", {.min = 0, .max = 100}),
       optional<&Requirement::after>("after", "From this instant on.", {.max = longest}),
   };
-  static constexpr std::string_view subjects[] = {"reaction", "stream", "sync"};
+  static constexpr std::string_view subjects[] = {"reaction", "stream", "sync", "application", "signal"};
   static constexpr json::Group groups[] = {json::exactly_one_of(subjects)};
   static constexpr json::Object table = json::object<Requirement>("requirement", "What the run must show.", fields, {.groups = groups});
   return table;
@@ -221,6 +227,10 @@ const json::Object& describe(json::Type<Scenario>) {
       required<&Scenario::network>("network", "Nodes and links."),
       optional<&Scenario::clocks>("clocks", "The clocks of the nodes."),
       optional<&Scenario::programs>("programs", "Distributed OPC UA Programs.", {.max_items = 10'000}),
+      optional<&Scenario::topics>("topics", "Data that applications publish and subscribe to.", {.max_items = 10'000}),
+      optional<&Scenario::domains>("domains", "Domains of DDS; those that are not here have simple discovery.", {.max_items = 233}),
+      optional<&Scenario::applications>("applications", "Applications with threads that publish and subscribe.", {.max_items = 10'000}),
+      optional<&Scenario::gateways>("gateways", "Between topics of different protocols.", {.max_items = 10'000}),
       optional<&Scenario::streams>("streams", "Other traffic.", {.max_items = most_names}),
       optional<&Scenario::script>("script", "What is done when.", {.max_items = most_names}),
       optional<&Scenario::faults>("faults", "What goes wrong.", {.max_items = most_names}),

@@ -51,7 +51,7 @@ struct ImprovementRow {
   double buffered = 0;                       ///< criterion 2, mean of the four receiving nodes
   double least_buffered = 0;
   SignalStatistics signal;
-  std::optional<results::LatencySummary> reaction;   ///< from the OPC UA control node's publication to the DDS control node's output
+  ReactionTimes reaction;                            ///< from the OPC UA control node's publication to the DDS control node's output
 };
 
 struct Speed {

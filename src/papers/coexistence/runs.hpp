@@ -2,13 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "papers/coexistence/signal.hpp"
-#include "results/run_result.hpp"
 #include "scenario/resolved.hpp"
 
 namespace takt::papers::coexistence {
@@ -17,19 +15,17 @@ namespace takt::papers::coexistence {
 struct ThreadFigures {
   std::string application;
   std::string thread;
-  bool subscribes = false;
   std::uint64_t tests = 0;
   std::uint64_t activations = 0;                ///< that were due in the tests
   double success = 0;                           ///< criterion 1: calls that took place
   double buffered = 0;                          ///< criterion 2: values that were taken; of subscribing threads
-  /// From the publication of a sample until this thread has taken it; of subscribing threads that took any.
-  std::optional<results::LatencySummary> age = {};
 };
 
 struct RunFigures {
   std::string scenario;
   std::vector<ThreadFigures> threads;
   std::vector<SignalEdge> edges;                ///< of the digital output, if there is one
+  std::vector<sim::TrueTime> commands;          ///< when the application that was asked for published
   sim::TrueTime begin;                          ///< of what is looked at
   sim::TrueTime end;
   bool passed = false;                          ///< what the scenario requires
@@ -42,6 +38,7 @@ struct RunFigures {
   const ThreadFigures* find(std::string_view application, std::string_view thread) const;
 };
 
-RunFigures run(const scenario::Resolved& resolved);
+/// `commands_of`: the application whose publications are noted.
+RunFigures run(const scenario::Resolved& resolved, std::string_view commands_of = {});
 
 }  // namespace takt::papers::coexistence

@@ -1,5 +1,7 @@
 #include "papers/coexistence/signal.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -56,6 +58,35 @@ SignalStatistics measure(const std::vector<SignalEdge>& edges, sim::Duration int
   made.pulse_greatest = pulses.back();
   made.pulse_median = pulses[pulses.size() / 2];
   return made;
+}
+
+ReactionTimes reactions(const std::vector<sim::TrueTime>& commands, const std::vector<SignalEdge>& edges, sim::TrueTime from, sim::TrueTime to) {
+  ReactionTimes made;
+  std::vector<sim::Duration> times;
+  auto edge = edges.begin();
+  for (std::size_t k = 0; k + 1 < commands.size(); ++k) {
+    if (commands[k] < from || commands[k] > to) continue;
+    ++made.commands;
+    const bool is_high = k % 2 == 0;
+    while (edge != edges.end() && (edge->time < commands[k] || edge->is_high != is_high)) ++edge;
+    if (edge == edges.end() || edge->time >= commands[k + 1]) continue;
+    times.push_back(edge->time - commands[k]);
+  }
+  made.answered = times.size();
+  if (times.empty()) return made;
+  std::sort(times.begin(), times.end());
+  sim::int128 sum = 0;
+  for (const sim::Duration time : times) sum += time.ps();
+  made.mean = sim::Duration::from_ps(static_cast<std::int64_t>(sum / static_cast<sim::int128>(times.size())));
+  made.p99 = times[(times.size() * 99 + 99) / 100 - 1];
+  made.greatest = times.back();
+  return made;
+}
+
+std::string value_change_dump(const std::vector<SignalEdge>& edges, sim::TrueTime end) {
+  std::string text = "$timescale 1 ns $end\n$scope module dds-control $end\n$var wire 1 ! output $end\n$upscope $end\n$enddefinitions $end\n#0\n0!\n";
+  for (const SignalEdge& edge : edges) text += fmt::format("#{}\n{}!\n", edge.time.ps() / 1000, edge.is_high ? 1 : 0);
+  return text + fmt::format("#{}\n", end.ps() / 1000);
 }
 
 }  // namespace takt::papers::coexistence

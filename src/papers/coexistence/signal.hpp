@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "sim/time.hpp"
@@ -34,5 +35,19 @@ struct SignalStatistics {
 
 /// Of the pulses that begin and end in [from, to].
 SignalStatistics measure(const std::vector<SignalEdge>& edges, sim::Duration interval, sim::TrueTime from, sim::TrueTime to);
+
+struct ReactionTimes {
+  std::uint64_t commands = 0;
+  std::uint64_t answered = 0;      ///< before the next command
+  sim::Duration mean;
+  sim::Duration p99;               ///< 99 % of them take no longer
+  sim::Duration greatest;
+};
+
+/// From each command to the first edge after it: the output follows commands of high and low by turns, the first of which is high. Commands in [from, to].
+ReactionTimes reactions(const std::vector<sim::TrueTime>& commands, const std::vector<SignalEdge>& edges, sim::TrueTime from, sim::TrueTime to);
+
+/// The signal as a value change dump (IEEE 1364 clause 18), low before the first edge; a tick is a nanosecond.
+std::string value_change_dump(const std::vector<SignalEdge>& edges, sim::TrueTime end);
 
 }  // namespace takt::papers::coexistence

@@ -64,6 +64,12 @@ void use_tsn(scenario::Scenario& scenario) {
   for (scenario::Gateway& gateway : scenario.gateways) begin_later(gateway.scheduler, later);
 }
 
+void command_rarely(scenario::Scenario& scenario) {
+  for (scenario::Application& application : scenario.applications)
+    for (scenario::Thread& thread : application.threads)
+      if (application.name == commanding_application && thread.name == commanding_thread) thread.every = 100_ms;
+}
+
 void unload(scenario::Scenario& scenario) { scenario.streams.clear(); }
 
 }  // namespace takt::papers::coexistence

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "papers/coexistence/criteria.hpp"
 #include "papers/coexistence/variants.hpp"
@@ -48,9 +49,9 @@ class Improver {
   }
 
  private:
-  std::optional<scenario::Resolved> changed(const char* of, const Variant& variant, int interval, bool is_reaction) {
+  std::unique_ptr<scenario::Resolved> changed(const char* of, const Variant& variant, int interval, bool is_reaction) {
     const auto base = scenario::load_file(fmt::format("{}/{}-{}ms.json", options_.scenarios, of, interval), {}, diagnostics_);
-    if (!base) return std::nullopt;
+    if (!base) return nullptr;
     scenario::Scenario scenario = base->scenario;
     scenario.name = fmt::format("{}-{}ms-{}", is_reaction ? "reaction" : of, interval, variant.name);
     if (variant.real_time) use_real_time_linux(scenario);

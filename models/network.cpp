@@ -93,6 +93,7 @@ void Network::add_streams() {
     record.tagged = stream.priority.has_value();
     record.headers = stream.headers;
     record.ether_type = stream.ether_type;
+    record.udp_port = stream.udp_port;
     record.listeners = static_cast<std::uint32_t>(stream.listeners.size());
     const StreamIndex index = traffic_.add_stream(std::move(record));
     for (const NodeIndex listener : stream.listeners) listen(listener, index, nullptr);

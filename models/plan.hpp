@@ -62,6 +62,7 @@ struct StreamPlan {
   Octets headers{0};
   std::vector<NodeIndex> listeners;
   std::uint16_t ether_type = 0;     ///< of frames without headers; 0: takt's choice
+  std::uint16_t udp_port = 0;       ///< of the receivers; 0: takt's choice
 };
 
 /// Static filtering entries: at `bridge`, frames of (vlan, address) leave through `port`.

@@ -24,6 +24,7 @@ enum class Occurrence : std::uint32_t {
   clock_step = 10,    ///< a servo has stepped a node's clock; what = the step (digest only)
   gates_changed = 9,  ///< a port was told of other gates, or one of its gates breaks (trace only)
   received = 11,  ///< a frame reaches the applications of a host; what = frame, detail = stream and node (trace only)
+  output_changed = 12,  ///< a digital output of an application changes; what = its number, detail = its level (trace only)
   dequeued = 8,  ///< a frame leaves a queue, to be sent or because it is given up (trace only)
 };
 
@@ -56,6 +57,7 @@ struct alignas(64) Stream {
   std::string name;
   NodeIndex talker;
   std::uint32_t listeners = 1;
+  std::uint16_t udp_port = 0;      ///< of the receivers; 0: takt's choice
 
   std::uint64_t dropped_in_all() const {
     std::uint64_t sum = 0;

@@ -20,6 +20,8 @@ class HostServices {
   virtual sim::LocalTime now() const = 0;
   /// Wakes the application at `time` plus the operating system's wake-up latency; replaces the alarm's earlier setting.
   virtual void set_alarm(AlarmId alarm, sim::LocalTime time) = 0;
+  /// The same without the operating system's latency: for an application that knows itself how late its threads respond.
+  virtual void set_exact_alarm(AlarmId alarm, sim::LocalTime time) = 0;
   virtual void cancel_alarm(AlarmId alarm) = 0;
   /// Wakes the application by the alarm when it has worked for so long (of true time, without the operating system's wake-up latency).
   virtual void work(AlarmId alarm, sim::Duration duration) = 0;

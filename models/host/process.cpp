@@ -57,6 +57,14 @@ void Process::set_alarm(AlarmId id, sim::LocalTime time) {
   alarm.timer.arm(*simulation_, source_, std::max(clock_->true_at(time), simulation_->now()).plus_saturated(alarm.latency));
 }
 
+void Process::set_exact_alarm(AlarmId id, sim::LocalTime time) {
+  Alarm& alarm = alarms_[id];
+  alarm.latency = {};
+  alarm.has_latency = true;
+  alarm.time = time;
+  alarm.timer.arm(*simulation_, source_, std::max(clock_->true_at(time), simulation_->now()));
+}
+
 void Process::work(AlarmId id, sim::Duration duration) {
   Alarm& alarm = alarms_[id];
   alarm.time = sim::LocalTime();   // no clock moves it

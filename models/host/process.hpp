@@ -44,6 +44,7 @@ class Process final : public sim::Component, public HostServices {
 
   sim::LocalTime now() const override { return clock_->local_at(simulation_->now()); }
   void set_alarm(AlarmId alarm, sim::LocalTime time) override;
+  void set_exact_alarm(AlarmId alarm, sim::LocalTime time) override;
   void cancel_alarm(AlarmId alarm) override { alarms_[alarm].timer.cancel(); }
   void work(AlarmId alarm, sim::Duration duration) override;
   void send(StreamIndex stream, std::span<const std::byte> payload) override;

@@ -53,6 +53,10 @@ std::string Recording::open() {
   }
   if (options_.waves) {
     waves_ = std::make_unique<output::VcdRecorder>(run_->network(), (folder / "waves.vcd").string());
+    for (const scenario::ResolvedSignal& signal : run_->resolved().signals) {
+      const scenario::ResolvedApplication& application = run_->resolved().applications[signal.application];
+      waves_->add_output(run_->resolved().topology.nodes[application.node.value].name + "\n" + application.name, signal.name);
+    }
     sinks_.add(*waves_);
   }
   if (options_.clocks) {

@@ -81,7 +81,7 @@ void add_run_command(CLI::App& app, ExitStatus& status) {
       ->type_name("PORT")
       ->allow_extra_args(false);
   command.add_flag("--timeline", options->recording.timeline, "Write frames and states as DIR/timeline.json, for ui.perfetto.dev");
-  command.add_flag("--waves", options->recording.waves, "Write links, queues and gates as DIR/waves.vcd, for GTKWave");
+  command.add_flag("--waves", options->recording.waves, "Write links, queues, gates and digital outputs as DIR/waves.vcd, for GTKWave");
   command.add_flag("--clocks", options->recording.clocks, "Write the offsets of all clocks from their grandmasters as DIR/clocks.csv");
   command.add_flag("--quiet", options->quiet, "Print one line");
   command.footer(

@@ -97,7 +97,7 @@ void put_ipv4_and_udp(std::span<std::byte> msdu, const Frame& frame, const Frame
 
   const std::uint32_t port = first_udp_port + frame.stream.value % 16384;
   writer.put16(port);
-  writer.put16(port);
+  writer.put16(encoding.udp_port != 0 ? encoding.udp_port : port);
   writer.put16(udp.size());
   writer.put16(0);  // checksum, below
   put_payload(writer, frame, encoding);
@@ -150,6 +150,7 @@ std::span<const std::byte> encode_frame(const models::Network& network, models::
   encoding.headers = traffic.stream(frame.stream).headers;
   if (!frame.payload.is_none()) encoding.payload = traffic.payload(frame.payload).view();
   if (traffic.stream(frame.stream).ether_type != 0) encoding.ether_type = traffic.stream(frame.stream).ether_type;
+  encoding.udp_port = traffic.stream(frame.stream).udp_port;
   if (frame.r_tagged) encoding.r_tag = frame.r_tag_sequence;
   encoding.drop_eligible = frame.drop_eligible;
   return encode_frame(frame, encoding, buffer);

@@ -30,6 +30,7 @@ struct FrameEncoding {
   std::optional<models::SequenceNumber> r_tag;
   bool drop_eligible = false;
   std::uint16_t ether_type = local_experimental_ether_type;  ///< of frames without IPv4
+  std::uint16_t udp_port = 0;                  ///< of the receivers; 0: as above
 };
 
 /// Room for the longest frame (IEEE 802.3 clause 3.2.7: envelope frames have 2000 octets).

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "output/application_report.hpp"
 #include "scenario/json/node.hpp"
 
 namespace takt::output {
@@ -340,6 +341,8 @@ scenario::json::Node run_node(const results::RunResult& result) {
   root.add("requirements", requirements_of(result));
   root.add("streams", streams_of(result));
   root.add("programs", programs_of(result));
+  if (!result.applications.empty()) root.add("applications", applications_node(result));
+  if (!result.signals.empty()) root.add("signals", signals_node(result));
   root.add("ports", ports_of(result));
   root.add("dropped", dropped_of(result.dropped));
   root.add("clocks", clocks_of(result));

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "output/application_report.hpp"
+
 namespace takt::output {
 namespace {
 
@@ -395,6 +397,7 @@ std::string run_report(const RunResult& result) {
   std::string out = fmt::format("{}, seed {}: {} simulated, {} events\n", result.scenario, result.seed, readable(result.simulated), result.events);
   if (result.partial) out += fmt::format("PARTIAL: interrupted after {} of {}\n", readable(result.simulated), readable(result.wanted));
   for (const ProgramResult& program : result.programs) out += program_part(program);
+  out += applications_part(result);
   out += streams_part(result);
   out += drops_part(result);
   out += ports_part(result);

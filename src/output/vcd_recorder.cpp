@@ -90,6 +90,10 @@ void VcdRecorder::set(SignalId signal, sim::TrueTime time, std::uint64_t value) 
 }
 
 void VcdRecorder::record(const sim::TraceRecord& record) {
+  if (record.kind == static_cast<std::uint32_t>(models::Occurrence::output_changed)) {
+    if (record.what < outputs_.size()) set(outputs_[record.what], record.time, record.detail);
+    return;
+  }
   const std::uint32_t position = directory_.find(record.where);
   if (position == PortDirectory::none) return;
   advance_to(record.time);

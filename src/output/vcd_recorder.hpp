@@ -29,6 +29,9 @@ class VcdRecorder final : public sim::TraceSink {
   /// The signal has that value from that time on, which is not before any recorded so far.
   void set(SignalId signal, sim::TrueTime time, std::uint64_t value);
 
+  /// The next digital output of the scenario, by number from 0: what Occurrence::output_changed tells of it is recorded.
+  void add_output(std::string_view scope, std::string_view name) { outputs_.push_back(add_signal(scope, name, 1, 0)); }
+
   void record(const sim::TraceRecord& record) override;
 
   /// Writes what comes until `end` and gives the file its name. Returns an empty text, or what went wrong.
@@ -69,6 +72,7 @@ class VcdRecorder final : public sim::TraceSink {
   PortDirectory directory_;
   StreamingFile file_;
   std::vector<Signal> signals_;  // signals_of_a_port for each port, then the added ones
+  std::vector<SignalId> outputs_;
   std::priority_queue<Fall, std::vector<Fall>, std::greater<>> falls_;
   std::vector<sim::TrueTime> begun_;     // by port: when the first bit of what it sends left
   std::vector<sim::TrueTime> free_at_;   // by port: when the last bit of what it sends leaves

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "results/collect_applications.hpp"
 #include "results/collect_clocks.hpp"
 #include "results/collect_ingress.hpp"
 #include "results/version.hpp"
@@ -248,6 +249,28 @@ class Judge {
     add(std::move(verdict));
   }
 
+  void application(const scenario::Requirement& requirement) {
+    const auto found = std::find_if(result_.applications.begin(), result_.applications.end(), [&](const ApplicationResult& each) { return each.name == *requirement.application; });
+    for (const ThreadResult& thread : found->threads) {
+      if (requirement.thread && thread.name != *requirement.thread) continue;
+      const std::string name = found->name + "/" + thread.name;
+      if (requirement.success) percent_of(RequirementKind::success, name, "done in at least {:g} %", *requirement.success, thread.calls);
+      if (requirement.buffered && thread.values) percent_of(RequirementKind::buffered, name, "values buffered, at least {:g} %", *requirement.buffered, *thread.values);
+    }
+  }
+
+  void signal(const scenario::Requirement& requirement) {
+    const auto found = std::find_if(result_.signals.begin(), result_.signals.end(), [&](const SignalResult& each) { return each.name == *requirement.signal; });
+    RequirementResult verdict;
+    verdict.kind = RequirementKind::irregular;
+    verdict.subject = found->name;
+    verdict.text = fmt::format("signal {}: at most {:g} % of its pulses irregular", found->name, *requirement.irregular);
+    const std::optional<double> share = found->irregular_percent();
+    verdict.remark = share ? fmt::format("{:.2f} % of {} pulses", *share, found->pulses->count) : std::string("no pulse");
+    verdict.verdict = !share ? missing() : *share <= *requirement.irregular ? held() : Verdict::fail;
+    add(std::move(verdict));
+  }
+
   /// Every Program keeps its invariants, whether or not a requirement says so.
   void invariants(const ProgramResult& program) {
     RequirementResult verdict;
@@ -293,6 +316,16 @@ class Judge {
     add(std::move(verdict));
   }
 
+  void percent_of(RequirementKind kind, const std::string& thread, const char* what, double limit, const CriterionResult& criterion) {
+    RequirementResult verdict;
+    verdict.kind = kind;
+    verdict.subject = thread;
+    verdict.text = fmt::format("thread {} ", thread) + fmt::format(fmt::runtime(what), limit);
+    verdict.remark = criterion.percent ? fmt::format("{:.2f} % in {} tests", *criterion.percent, criterion.tests) : std::string("no test");
+    verdict.verdict = !criterion.percent ? missing() : *criterion.percent >= limit ? held() : Verdict::fail;
+    add(std::move(verdict));
+  }
+
   void add(RequirementResult verdict) {
     if (verdict.verdict == Verdict::fail)
       result_.verdict = Verdict::fail;
@@ -332,6 +365,8 @@ RunResult evaluate(const scenario::Run& run, bool partial) {
   for (std::size_t s = 0; s < run.resolved().streams.size(); ++s)
     result.streams.push_back(result_of(run.network().traffic().streams()[s], run.resolved().streams[s].of_program));
   for (std::size_t p = 0; p < run.resolved().programs.size(); ++p) result.programs.push_back(result_of(run, p));
+  result.applications = applications_of(run);
+  result.signals = signals_of(run);
   result.ports = ports_of(run, result.simulated);
   result.dropped = drops_of(run.network().traffic().streams());
   result.clocks = clocks_of(run);
@@ -345,6 +380,10 @@ RunResult evaluate(const scenario::Run& run, bool partial) {
       judge.reaction(requirement);
     else if (requirement.sync)
       judge.sync(requirement, run.clocks()->limits()[next_limit++]);
+    else if (requirement.application)
+      judge.application(requirement);
+    else if (requirement.signal)
+      judge.signal(requirement);
     else
       judge.stream(requirement);
   }

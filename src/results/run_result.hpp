@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "results/application_result.hpp"
 #include "results/clock_result.hpp"
 #include "results/ingress_result.hpp"
 #include "sim/time.hpp"
@@ -116,7 +117,7 @@ struct ProgramResult {
 };
 
 /// What a requirement is about.
-enum class RequirementKind : std::uint8_t { reaction, latency, jitter, dropped, delivered, sync, invariants };
+enum class RequirementKind : std::uint8_t { reaction, latency, jitter, dropped, delivered, sync, success, buffered, irregular, invariants };
 
 struct RequirementResult {
   RequirementKind kind{};
@@ -158,6 +159,8 @@ struct RunResult {
   std::vector<RequirementResult> requirements;
   std::vector<StreamResult> streams;
   std::vector<ProgramResult> programs;
+  std::vector<ApplicationResult> applications;  ///< gateways behind the others
+  std::vector<SignalResult> signals;
   std::vector<PortResult> ports;           ///< those that sent or dropped something
   std::vector<std::pair<std::string, std::uint64_t>> dropped;  ///< frames of all streams by reason, only those that occurred
   std::vector<ClockResult> clocks;         ///< of nodes with gPTP

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/applications/resolve_applications.hpp"
 #include "scenario/json/override.hpp"
 #include "scenario/json/suggest.hpp"
 #include "scenario/os_profiles.hpp"
@@ -43,6 +44,7 @@ class Resolver {
     for (const Stream& stream : r_.scenario.streams) add_stream(stream);
     check_processing(r_.topology, diagnostics_);
     for (const Program& program : r_.scenario.programs) add_program(program);
+    resolve_applications(r_, builder, publishers_, diagnostics_);
     resolve_nesting(r_, diagnostics_);
     check_candidates(r_, diagnostics_);
     resolve_demand(r_, diagnostics_);
@@ -113,12 +115,14 @@ class Resolver {
     std::set<std::string, std::less<>> names;
     const auto check = [&](const std::string& name, const json::Source& where) {
       if (name.find('/') != std::string::npos)
-        diagnostics_.error(where.at("name"), "not a name for a stream or program", {json::quote(name), "no '/', which stands in the names of a program's streams"});
+        diagnostics_.error(where.at("name"), "not a name for a stream, program or application", {json::quote(name), "no '/', which stands in the names of streams"});
       if (!names.insert(name).second)
-        diagnostics_.error(where.at("name"), "duplicate name", {json::quote(name) + " a second time", "a name of its own for each stream and program"});
+        diagnostics_.error(where.at("name"), "duplicate name", {json::quote(name) + " a second time", "a name of its own for each stream, program and application"});
     };
     for (const Stream& stream : r_.scenario.streams) check(stream.name, stream.where);
     for (const Program& program : r_.scenario.programs) check(program.name, program.where);
+    for (const Application& application : r_.scenario.applications) check(application.name, application.where);
+    for (const Gateway& gateway : r_.scenario.gateways) check(gateway.name, gateway.where);
   }
 
   void add_stream(const Stream& stream) {
@@ -412,6 +416,19 @@ class Resolver {
     } else {
       refuse(requirement.node.has_value(), "node", "sync");
       refuse(requirement.after > Duration(), "after", "sync");
+    }
+    const bool of_application = requirement.application.has_value();
+    refuse(!of_application && requirement.thread, "thread", "application");
+    refuse(!of_application && requirement.success, "success", "application");
+    refuse(!of_application && requirement.buffered, "buffered", "application");
+    refuse(!requirement.signal && requirement.irregular, "irregular", "signal");
+    if (of_application || requirement.signal) {
+      for (const auto& [present, key] : {std::pair(requirement.latency.has_value(), "latency"), std::pair(requirement.jitter.has_value(), "jitter"),
+                                         std::pair(requirement.dropped.has_value(), "dropped"), std::pair(requirement.delivered.has_value(), "delivered")})
+        refuse(present, key, "stream");
+      refuse(requirement.within.has_value(), "within", "reaction");
+      refuse(requirement.program.has_value(), "program", "reaction");
+      check_application_requirement(r_, requirement, diagnostics_);
     }
     if (!requirement.stream) return;
     refuse(requirement.within.has_value(), "within", "reaction");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "models/plan.hpp"
+#include "scenario/applications/resolved_applications.hpp"
 #include "scenario/description.hpp"
 #include "scenario/routing.hpp"
 #include "scenario/topology.hpp"
@@ -177,6 +178,9 @@ struct Resolved {
   std::vector<ResolvedStream> streams;    ///< by stream index
   std::vector<ResolvedRedundancy> redundancies;  ///< ascending streams
   std::vector<ResolvedProgram> programs;
+  std::vector<ResolvedTopic> topics;
+  std::vector<ResolvedApplication> applications;  ///< and gateways, behind them
+  std::vector<ResolvedSignal> signals;
   std::vector<ResolvedAction> script;     ///< by time
   std::vector<PortDemand> ports;          ///< those that carry something
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "scenario/applications/opc_ua_port.hpp"
 #include "scenario/program_shape.hpp"
 #include "scenario/resolve_nesting.hpp"
 #include "scenario/resolve_plug.hpp"
@@ -80,6 +81,8 @@ Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle)
   simulation_.set_tie_shuffle(tie_shuffle);
   for (std::uint32_t i = 0; i < resolved.programs.size(); ++i) add_program(i, resolved.programs[i]);
   nest_programs();
+  application_monitor_ = std::make_unique<ApplicationMonitor>(simulation_, resolved.signals);
+  for (std::uint32_t i = 0; i < resolved.applications.size(); ++i) add_application(i, resolved.applications[i]);
   script_ = std::make_unique<Script>(*this, simulation_);
   watch_clocks();
   network_.start();
@@ -198,6 +201,42 @@ void Run::add_program_with_roles(std::uint32_t number, const ResolvedProgram& pr
   programs_.push_back(std::move(live));
 }
 
+void Run::add_application(std::uint32_t number, const ResolvedApplication& application) {
+  TopicApplication::Settings settings;
+  settings.number = number;
+  settings.application = &application;
+  settings.topics = &resolved_->topics;
+  settings.path = resolved_->topology.nodes[application.node.value].name + "/" + application.name;
+  settings.seed = resolved_->scenario.seed;
+  const auto address = [&](std::uint32_t of, std::uint32_t thread) {
+    const ResolvedApplication& publisher = resolved_->applications[of];
+    return OpcUaAddress{publisher.publisher_id, static_cast<std::uint16_t>(thread + 1), static_cast<std::uint16_t>(publisher.threads[thread].topic + 1)};
+  };
+  for (std::uint32_t t = 0; t < application.threads.size(); ++t) {
+    const ResolvedThread& thread = application.threads[t];
+    const SampleLayout& layout = resolved_->topics[thread.topic].layout;
+    settings.writers.emplace_back();
+    settings.readers.emplace_back();
+    if (thread.publishes) {
+      settings.writers.back() = std::make_unique<OpcUaWriter>(layout, address(number, t), thread.stream);
+      continue;
+    }
+    std::vector<OpcUaAddress> heard;
+    for (const ResolvedInput& input : thread.inputs) heard.push_back(address(input.application, input.thread));
+    settings.readers.back() = std::make_unique<OpcUaReader>(layout, std::move(heard));
+  }
+  auto live = std::make_unique<TopicApplication>(std::move(settings), *application_monitor_);
+  applications_.push_back(live.get());
+  models::Process& process = network_.add_process(application.node, application.name, std::move(live));
+  for (const ResolvedThread& thread : application.threads)
+    for (const ResolvedInput& input : thread.inputs) network_.listen(application.node, input.stream, &process);
+}
+
+ThreadFigures Run::thread(std::size_t application, std::size_t thread) const {
+  const sim::LocalTime now = network_.clock(resolved_->applications[application].node).local_at(simulation_.now());
+  return applications_[application]->figures(thread, now);
+}
+
 void Run::nest_programs() {
   for (std::size_t i = 0; i < programs_.size(); ++i)
     if (const auto& outer = resolved_->programs[i].outer)
@@ -230,6 +269,8 @@ void Run::crash_programs(models::NodeIndex node) {
     for (std::size_t p = 0; p < participants.size(); ++p)
       if (participants[p] == node) programs_[i]->applications[p]->crash();
   }
+  for (std::size_t a = 0; a < applications_.size(); ++a)
+    if (resolved_->applications[a].node == node) applications_[a]->crash();
 }
 
 /// Hands the streams of the program to the processes of those that subscribe to them.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "models/network.hpp"
+#include "scenario/applications/topic_application.hpp"
 #include "scenario/clock_monitor.hpp"
 #include "scenario/plug_application.hpp"
 #include "scenario/program_application.hpp"
@@ -38,6 +39,9 @@ class Run {
     if (!live.roles) return live.applications[participant]->state();
     return participant == 0 ? live.plug_master->state() : live.roles->state(participant - 1);
   }
+  /// What a thread of an application has done so far.
+  ThreadFigures thread(std::size_t application, std::size_t thread) const;
+  const DigitalOutput& signal(std::size_t number) const { return application_monitor_->signal(number); }
   /// Null for a program without roles.
   const PlugMonitor* roles(std::size_t program) const { return programs_[program]->roles.get(); }
 
@@ -62,6 +66,7 @@ class Run {
   wire::EndpointSettings endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) const;
   void add_program_with_roles(std::uint32_t number, const ResolvedProgram& program);
   void nest_programs();
+  void add_application(std::uint32_t number, const ResolvedApplication& application);
   void crash_programs(models::NodeIndex node);
   void connect_streams(const ResolvedProgram& program, const LiveProgram& live);
 
@@ -69,6 +74,8 @@ class Run {
   sim::Simulation simulation_;
   models::Network network_;
   std::vector<std::unique_ptr<LiveProgram>> programs_;
+  std::unique_ptr<ApplicationMonitor> application_monitor_;
+  std::vector<TopicApplication*> applications_;
   std::vector<std::unique_ptr<wire::Nesting>> nestings_;
   std::vector<std::unique_ptr<TreeMonitor>> trees_;
   std::unique_ptr<Script> script_;

@@ -55,6 +55,7 @@ std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
   plan.priority = wanted.priority;
   plan.headers = wanted.headers;
   plan.ether_type = wanted.ether_type;
+  plan.udp_port = wanted.udp_port;
   for (const auto& [to, place] : wanted.to) plan.listeners.push_back(models::NodeIndex{to});
   if (!members)
     for (const Path& path : paths) add_filtering(path, wanted.vlan, address);

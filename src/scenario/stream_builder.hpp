@@ -26,6 +26,7 @@ struct NewStream {
   const Redundancy* redundancy = nullptr;                     ///< or null
   bool of_program = false;
   std::uint16_t ether_type = 0;                               ///< see models::StreamPlan
+  std::uint16_t udp_port = 0;                                 ///< of the receivers, with headers of UDP; 0: takt's choice
 };
 
 class StreamBuilder {

@@ -1,0 +1,77 @@
+// What applications with threads, and the signals that they drive, did in a run: plain data, like run_result.hpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/time.hpp"
+
+namespace takt::results {
+
+/// Tests of a criterion: in each window happenings are counted against those expected, at most as many as these.
+struct CriterionResult {
+  sim::Duration window;
+  std::uint64_t tests = 0;
+  std::uint64_t expected = 0;              ///< in all tests
+  std::uint64_t counted = 0;
+  std::uint64_t beyond = 0;                ///< happened in windows with more than expected, beyond those
+  std::uint64_t windows_below = 0;
+  std::uint64_t windows_above = 0;
+  std::uint64_t discarded = 0;             ///< tests
+  std::optional<double> percent;           ///< none without a test
+};
+
+struct DurationSummary {
+  std::uint64_t count = 0;
+  sim::Duration min;
+  sim::Duration mean;
+  sim::Duration max;
+  sim::Duration deviation;                 ///< standard deviation
+};
+
+struct ThreadResult {
+  std::string name;
+  std::string topic;
+  bool publishes = false;
+  sim::Duration every;
+  std::uint64_t activations = 0;
+  std::uint64_t done = 0;
+  std::uint64_t missed = 0;
+  std::optional<DurationSummary> response; ///< of the calls that took place
+  CriterionResult calls;                   ///< criterion 1
+  std::uint64_t published = 0;             ///< samples, of a publishing thread
+  std::uint64_t refused = 0;
+  std::uint64_t arrived = 0;               ///< samples that calls found, of a subscribing thread
+  std::uint64_t buffered = 0;
+  std::uint64_t overwritten = 0;
+  std::uint64_t lost = 0;
+  std::optional<CriterionResult> values;   ///< criterion 2
+};
+
+struct ApplicationResult {
+  std::string name;
+  std::string node;
+  bool is_gateway = false;
+  std::vector<ThreadResult> threads;
+};
+
+/// A digital output, in true time.
+struct SignalResult {
+  std::string name;
+  sim::Duration nominal;                   ///< length of a pulse; a period is twice that
+  std::optional<DurationSummary> pulses;
+  std::optional<DurationSummary> periods;  ///< from rise to rise
+  std::uint64_t irregular_pulses = 0;      ///< more than 10 % off
+  std::uint64_t irregular_periods = 0;
+  std::vector<std::pair<sim::TrueTime, bool>> edges;  ///< the first 10 000; true: rise
+  /// Share of all pulses in percent; none without a pulse.
+  std::optional<double> irregular_percent() const {
+    if (!pulses) return std::nullopt;
+    return 100.0 * static_cast<double>(irregular_pulses) / static_cast<double>(pulses->count);
+  }
+};
+
+}  // namespace takt::results

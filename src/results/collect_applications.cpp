@@ -1,0 +1,72 @@
+#include "results/collect_applications.hpp"
+
+#include <cmath>
+
+namespace takt::results {
+namespace {
+
+std::optional<DurationSummary> summary_of(const scenario::DurationFigures& figures) {
+  if (figures.count() == 0) return std::nullopt;
+  const double deviation_ps = std::sqrt(figures.variance_ns2()) * 1000.0;
+  return DurationSummary{figures.count(), figures.least(), figures.mean(), figures.greatest(), sim::Duration::from_ps(static_cast<std::int64_t>(deviation_ps + 0.5))};
+}
+
+CriterionResult criterion_of(const scenario::WindowCounter::Figures& figures, sim::Duration window) {
+  return {window, figures.tests, figures.expected, figures.counted, figures.beyond, figures.windows_below, figures.windows_above, figures.discarded, figures.percent()};
+}
+
+ThreadResult result_of(const scenario::ResolvedThread& thread, const std::string& topic, const scenario::ThreadFigures& figures) {
+  ThreadResult result;
+  result.name = thread.name;
+  result.topic = topic;
+  result.publishes = thread.publishes;
+  result.every = thread.every;
+  result.activations = figures.activations;
+  result.done = figures.done;
+  result.missed = figures.activations - figures.done;
+  result.response = summary_of(figures.response);
+  result.calls = criterion_of(figures.calls, thread.window);
+  result.published = figures.published;
+  result.refused = figures.refused;
+  result.arrived = figures.arrived;
+  result.buffered = figures.buffered;
+  result.overwritten = figures.overwritten;
+  result.lost = figures.lost;
+  if (figures.values) result.values = criterion_of(*figures.values, thread.value_window);
+  return result;
+}
+
+}  // namespace
+
+std::vector<ApplicationResult> applications_of(const scenario::Run& run) {
+  const scenario::Resolved& resolved = run.resolved();
+  std::vector<ApplicationResult> results;
+  for (std::size_t a = 0; a < resolved.applications.size(); ++a) {
+    const scenario::ResolvedApplication& application = resolved.applications[a];
+    ApplicationResult& result = results.emplace_back();
+    result.name = application.name;
+    result.node = resolved.topology.nodes[application.node.value].name;
+    result.is_gateway = application.gateway.has_value();
+    for (std::size_t t = 0; t < application.threads.size(); ++t)
+      result.threads.push_back(result_of(application.threads[t], resolved.topics[application.threads[t].topic].description->name, run.thread(a, t)));
+  }
+  return results;
+}
+
+std::vector<SignalResult> signals_of(const scenario::Run& run) {
+  std::vector<SignalResult> results;
+  for (std::size_t s = 0; s < run.resolved().signals.size(); ++s) {
+    const scenario::DigitalOutput& output = run.signal(s);
+    SignalResult& result = results.emplace_back();
+    result.name = run.resolved().signals[s].name;
+    result.nominal = output.pulse();
+    result.pulses = summary_of(output.pulses());
+    result.periods = summary_of(output.periods());
+    result.irregular_pulses = output.irregular_pulses();
+    result.irregular_periods = output.irregular_periods();
+    for (const scenario::DigitalOutput::Edge& edge : output.edges()) result.edges.emplace_back(edge.at, edge.high);
+  }
+  return results;
+}
+
+}  // namespace takt::results

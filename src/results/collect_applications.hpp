@@ -1,0 +1,15 @@
+// From a run to what its applications and signals did.
+#pragma once
+
+#include <vector>
+
+#include "results/application_result.hpp"
+#include "scenario/run.hpp"
+
+namespace takt::results {
+
+/// In the order of the scenario, gateways behind applications.
+std::vector<ApplicationResult> applications_of(const scenario::Run& run);
+std::vector<SignalResult> signals_of(const scenario::Run& run);
+
+}  // namespace takt::results

@@ -1,0 +1,58 @@
+// When a thread acts: absolute deadlines on its host's clock, a response time after each, and what is missed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "sim/distribution.hpp"
+#include "sim/random.hpp"
+#include "sim/time.hpp"
+
+namespace takt::scenario {
+
+/// Activation n is due at offset + n * every. Its response time is drawn; if it is not over before the next activation is due, the
+/// activation is missed: the call does not take place, and the thread takes up the next one, which draws anew.
+class Activations {
+ public:
+  /// `path` names the thread in the random streams, e.g. "robot/control/publish". The distribution outlives it.
+  Activations(sim::Duration every, sim::Duration offset, const sim::Distribution& response, std::uint64_t seed, std::string_view path);
+
+  /// The thread begins, or its clock has jumped: the first activation is that which is due next.
+  void begin(sim::LocalTime now);
+  /// It is gone; what was decided so far counts.
+  void end(sim::LocalTime now);
+
+  /// When it acts next; never if it has not begun.
+  sim::LocalTime next() const { return next_; }
+  /// Its time has come: the response time of the call that takes place, if one does. Plans on.
+  std::optional<sim::Duration> act();
+  /// The clock is far beyond the time that was planned: it was set.
+  bool has_jumped(sim::LocalTime now) const { return now - next_ >= every_; }
+
+  std::uint64_t done() const { return done_before_ + done_; }
+  /// Activations of which it is known by then whether they were done; the others were missed.
+  std::uint64_t decided(sim::LocalTime now) const;
+
+ private:
+  static constexpr int most_draws = 64;   // in one go, so that a response that is always too long does not hang
+  sim::LocalTime due(std::int64_t activation) const { return sim::LocalTime::from_ps(offset_.ps() + activation * every_.ps()); }
+  std::int64_t latest_at(sim::LocalTime now) const;
+  void plan();
+
+  sim::Duration every_;
+  sim::Duration offset_;
+  const sim::Distribution* response_;
+  sim::RandomStream chance_;
+  std::int64_t first_ = 0;                // activation since the last begin
+  std::int64_t planned_ = 0;
+  std::int64_t last_done_ = 0;            // below first_: none
+  sim::Duration drawn_;
+  bool is_call_ = false;                  // else: nothing but a look
+  sim::LocalTime next_ = sim::LocalTime::never();
+  std::uint64_t done_ = 0;                // since the last begin
+  std::uint64_t done_before_ = 0;
+  std::uint64_t decided_before_ = 0;
+};
+
+}  // namespace takt::scenario

@@ -1,0 +1,330 @@
+#include "scenario/applications/resolve_applications.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "models/ethernet/sizes.hpp"
+#include "scenario/applications/opc_ua_port.hpp"
+#include "scenario/json/suggest.hpp"
+#include "scenario/os_profiles.hpp"
+
+namespace takt::scenario {
+namespace {
+
+constexpr std::size_t most_publishers = 0xFFFF;  // PublisherIds are UInt16
+constexpr std::uint32_t all_that_came = 65'536;  // a gateway has a buffer of its own
+
+std::vector<std::string_view> names_of(const auto& things) {
+  std::vector<std::string_view> names;
+  for (const auto& each : things) names.push_back(each.name);
+  return names;
+}
+
+/// The least multiple of `step` that is not shorter.
+Duration multiple(Duration length, Duration step) {
+  const std::int64_t times = (length.ps() + step.ps() - 1) / step.ps();
+  return step * times;
+}
+
+class ApplicationResolver {
+ public:
+  ApplicationResolver(Resolved& resolved, StreamBuilder& builder, std::size_t& publishers, json::Diagnostics& diagnostics)
+      : r_(resolved), builder_(builder), publishers_(publishers), diagnostics_(diagnostics) {}
+
+  void run() {
+    const std::size_t errors_before = diagnostics_.errors();
+    for (const Topic& topic : r_.scenario.topics) add(topic);
+    check_domains();
+    for (const Application& application : r_.scenario.applications) add(application);
+    for (const Gateway& gateway : r_.scenario.gateways) add(gateway);
+    for (ResolvedApplication& application : r_.applications) check_threads(application);
+    check_hosts();
+    if (diagnostics_.errors() != errors_before) return;  // numbers below stand for what was found
+    for (std::uint32_t t = 0; t < r_.topics.size(); ++t) connect(t);
+    for (ResolvedApplication& application : r_.applications) set_windows(application);
+  }
+
+ private:
+  void add(const Topic& topic) {
+    if (std::any_of(r_.topics.begin(), r_.topics.end(), [&](const ResolvedTopic& other) { return other.description->name == topic.name; }))
+      diagnostics_.error(topic.where.at("name"), "duplicate name", {json::quote(topic.name) + " a second time", "a name of its own for each topic"});
+    if (topic.name.find('/') != std::string::npos)
+      diagnostics_.error(topic.where.at("name"), "not a name for a topic", {json::quote(topic.name), "no '/', which stands in the names of its streams"});
+    if (!topic.pcp && topic.vlan != 0)
+      diagnostics_.error(topic.where.at("vlan"), "a VLAN without a priority", {"\"vlan\" alone", "\"pcp\" too, since the tag carries both"});
+    if (topic.protocol == Protocol::opc_ua) {
+      for (const auto& [present, key] : {std::pair(topic.domain.has_value(), "domain"), std::pair(topic.qos.has_value(), "qos"),
+                                         std::pair(topic.publication.has_value(), "publication"), std::pair(topic.flow_control.has_value(), "flow_control")})
+        if (present) refuse_of_dds(topic.where.at(key), key);
+    } else {
+      diagnostics_.error(topic.where.at("protocol"), "not simulated yet", {"\"dds\"", "\"opc-ua\""});
+    }
+    ResolvedTopic made;
+    made.description = &topic;
+    made.layout = SampleLayout(topic.fields);
+    r_.topics.push_back(std::move(made));
+    if (topic.protocol == Protocol::opc_ua && !topic.fields.empty() && OpcUaWriter::message_octets(r_.topics.back().layout, {1, 1, 1}) == 0)
+      diagnostics_.error(topic.where.at("fields"), "a sample too long for a NetworkMessage", {std::to_string(r_.topics.back().layout.octets()) + " octets of values", "fields that fit 1472 octets with their headers"});
+  }
+
+  void refuse_of_dds(const json::Place& place, std::string_view key) {
+    diagnostics_.error(place, "does not belong to OPC UA", {json::quote(key), "a topic with \"protocol\": \"dds\""});
+  }
+
+  void check_domains() {
+    std::set<std::uint16_t> seen;
+    for (const Domain& domain : r_.scenario.domains) {
+      if (!seen.insert(domain.id).second) diagnostics_.error(domain.where.at("id"), "a domain twice", {std::to_string(domain.id), "each domain once"});
+      if (std::none_of(r_.scenario.topics.begin(), r_.scenario.topics.end(),
+                       [&](const Topic& topic) { return topic.protocol == Protocol::dds && topic.domain.value_or(0) == domain.id; }))
+        diagnostics_.error(domain.where.at("id"), "a domain without topics", {std::to_string(domain.id), "the domain of a topic with \"protocol\": \"dds\""});
+      if ((domain.discovery == Discovery::server) != domain.server.has_value())
+        diagnostics_.error(domain.where.at(domain.server ? "server" : "discovery"), domain.server ? "a server without discovery by one" : "discovery by a server without one",
+                           {domain.server ? json::quote(*domain.server) : "no \"server\"", domain.server ? "\"discovery\": \"server\"" : "\"server\", the name of an application"});
+    }
+  }
+
+  std::uint32_t topic_of(const std::string& name, const json::Place& place) {
+    for (std::uint32_t t = 0; t < r_.topics.size(); ++t)
+      if (r_.topics[t].description->name == name) return t;
+    diagnostics_.error(place, "unknown topic", {json::quote(name), "the name of a topic", json::suggest(name, names_of(r_.scenario.topics))});
+    return 0;
+  }
+
+  ResolvedApplication begin(const std::string& name, const std::string& host, const Scheduler& scheduler, const json::Source& where) {
+    ResolvedApplication made;
+    made.name = name;
+    made.where = where;
+    if (const auto node = builder_.host(host, where.at("on"))) made.node = models::NodeIndex{*node};
+    made.scheduler = &scheduler;
+    if (scheduler.response) made.scheduler_response = distribution_of(*scheduler.response, diagnostics_);
+    made.publisher_id = static_cast<std::uint16_t>(++publishers_);
+    if (publishers_ == most_publishers + 1)
+      diagnostics_.error(where.place(), "too many applications and participants of programs", {std::to_string(publishers_), "at most " + std::to_string(most_publishers)});
+    return made;
+  }
+
+  sim::Distribution response_of(const std::optional<Latency>& latency, const ResolvedApplication& application) {
+    if (latency) return distribution_of(*latency, diagnostics_);
+    if (application.node.is_none()) return sim::Distribution::constant({});
+    return r_.plan.os_latencies[r_.plan.nodes[application.node.value].os_latency].wake_up;
+  }
+
+  void check_offset(Duration offset, Duration every, const json::Place& place) {
+    if (offset >= every && offset > Duration())
+      diagnostics_.error(place, "an offset beyond the interval", {json::to_text(offset), "less than " + json::to_text(every)});
+  }
+
+  void add(const Application& application) {
+    ResolvedApplication made = begin(application.name, application.on, application.scheduler, application.where);
+    for (const Thread& thread : application.threads) {
+      ResolvedThread one;
+      one.name = thread.name;
+      one.where = thread.where;
+      one.publishes = thread.publish.has_value();
+      one.every = std::max(thread.every, Duration::from_ps(1));  // 0 was refused by the table
+      one.offset = thread.offset;
+      check_offset(thread.offset, one.every, thread.where.at("offset"));
+      if (thread.publish) one.topic = topic_of(*thread.publish, thread.where.at("publish"));
+      if (thread.subscribe) one.topic = topic_of(*thread.subscribe, thread.where.at("subscribe"));
+      one.response = response_of(thread.response, made);
+      one.buffer = thread.buffer.value_or(1);
+      const auto refuse = [&](bool present, std::string_view key, std::string_view other) {
+        if (present) diagnostics_.error(thread.where.at(key), "does not belong to this thread", {json::quote(key), "a thread with " + json::quote(other)});
+      };
+      refuse(one.publishes && thread.buffer, "buffer", "subscribe");
+      refuse(one.publishes && thread.signal, "signal", "subscribe");
+      refuse(!one.publishes && thread.payload, "payload", "publish");
+      if (thread.qos && one.topic < r_.topics.size() && r_.topics[one.topic].description->protocol == Protocol::opc_ua) refuse_of_dds(thread.where.at("qos"), "qos");
+      if (one.publishes) one.pattern = thread.payload ? thread.payload->pattern : Pattern::counter;
+      if (thread.signal) add_signal(*thread.signal, one, made);
+      made.threads.push_back(std::move(one));
+    }
+    for (std::size_t t = 0; t < application.threads.size(); ++t)
+      if (application.threads[t].payload && application.threads[t].payload->copy_of) find_source(*application.threads[t].payload, application, made, t);
+    r_.applications.push_back(std::move(made));
+  }
+
+  void add_signal(const Signal& signal, ResolvedThread& thread, const ResolvedApplication& application) {
+    for (const ResolvedSignal& other : r_.signals)
+      if (other.name == signal.name) diagnostics_.error(signal.where.place(), "duplicate name", {json::quote(signal.name) + " a second time", "a name of its own for each signal"});
+    thread.signal = static_cast<std::uint32_t>(r_.signals.size());
+    r_.signals.push_back({signal.name, signal.pulse.value_or(thread.every), static_cast<std::uint32_t>(r_.applications.size()),
+                          static_cast<std::uint32_t>(application.threads.size())});
+  }
+
+  /// The thread of the application whose samples are published again.
+  void find_source(const Payload& payload, const Application& application, ResolvedApplication& made, std::size_t thread) {
+    std::vector<std::string_view> subscribed;
+    for (std::uint32_t t = 0; t < application.threads.size(); ++t) {
+      if (!application.threads[t].subscribe) continue;
+      subscribed.push_back(*application.threads[t].subscribe);
+      if (subscribed.back() != *payload.copy_of) continue;
+      made.threads[thread].copies = t;
+      made.threads[thread].pattern.reset();
+    }
+    if (!made.threads[thread].copies) {
+      diagnostics_.error(payload.where.at("copy_of"), "a copy of what is not there",
+                         {json::quote(*payload.copy_of), "a topic that a thread of " + json::quote(application.name) + " subscribes to", json::suggest(*payload.copy_of, subscribed)});
+      return;
+    }
+    if (r_.topics.empty()) return;
+    const auto& from = r_.topics[made.threads[*made.threads[thread].copies].topic].layout.fields();
+    const auto& to = r_.topics[made.threads[thread].topic].layout.fields();
+    if (!std::equal(from.begin(), from.end(), to.begin(), to.end(), [](const auto& a, const auto& b) { return a.same_type(b); }))
+      diagnostics_.error(payload.where.at("copy_of"), "a copy of other fields", {"fields of other types or numbers", "the same types in the same order as in " + json::quote(r_.topics[made.threads[thread].topic].description->name)});
+  }
+
+  void add(const Gateway& gateway) {
+    diagnostics_.error(gateway.where.place(), "not simulated yet", {"a gateway", "applications"});
+    ResolvedApplication made = begin(gateway.name, gateway.on, gateway.scheduler, gateway.where);
+    made.gateway = ResolvedGateway{gateway.buffer, gateway.overflow, gateway.stale_after};
+    const std::uint32_t from = topic_of(gateway.from, gateway.where.at("from"));
+    const std::uint32_t to = topic_of(gateway.to, gateway.where.at("to"));
+    if (!r_.topics.empty() && r_.topics[from].description->protocol == r_.topics[to].description->protocol)
+      diagnostics_.error(gateway.where.at("to"), "a gateway within one protocol",
+                         {"both topics are of " + std::string(spelling(r_.topics[from].description->protocol)), "a topic of OPC UA and one of DDS; a thread with \"copy_of\" copies within one"});
+    for (const bool sends : {false, true}) {
+      ResolvedThread thread;
+      thread.name = sends ? "send" : "receive";
+      thread.where = gateway.where;
+      thread.publishes = sends;
+      thread.topic = sends ? to : from;
+      thread.every = std::max(sends ? gateway.send_every : gateway.receive_every, Duration::from_ps(1));
+      thread.offset = sends ? gateway.send_offset : gateway.receive_offset;
+      check_offset(thread.offset, thread.every, gateway.where.at(sends ? "send_offset" : "receive_offset"));
+      thread.response = response_of(sends ? gateway.send_response : gateway.receive_response, made);
+      thread.buffer = all_that_came;
+      made.threads.push_back(std::move(thread));
+    }
+    r_.applications.push_back(std::move(made));
+  }
+
+  void check_threads(ResolvedApplication& application) {
+    std::set<std::string_view> names;
+    std::set<std::pair<std::uint32_t, bool>> topics;
+    for (const ResolvedThread& thread : application.threads) {
+      if (thread.name.find('/') != std::string::npos)
+        diagnostics_.error(thread.where.at("name"), "not a name for a thread", {json::quote(thread.name), "no '/'"});
+      if (!names.insert(thread.name).second)
+        diagnostics_.error(thread.where.at("name"), "duplicate name", {json::quote(thread.name) + " a second time", "a name of its own for each thread of an application"});
+      const std::string_view role = thread.publishes ? "publish" : "subscribe";
+      if (!topics.insert({thread.topic, thread.publishes}).second)
+        diagnostics_.error(thread.where.at(role), "a topic twice in one application", {"another thread has the same \"" + std::string(role) + "\"", "one thread for each topic and direction"});
+    }
+  }
+
+  /// Frames do not leave a host to come back, and a host hands each stream to one application.
+  void check_hosts() {
+    struct Use { std::uint32_t topic; std::uint32_t host; bool publishes; };
+    std::vector<Use> uses;
+    for (const ResolvedApplication& application : r_.applications) {
+      if (application.node.is_none()) continue;
+      for (const ResolvedThread& thread : application.threads) {
+        for (const Use& other : uses) {
+          if (other.topic != thread.topic || other.host != application.node.value || (other.publishes && thread.publishes)) continue;
+          const bool both = other.publishes != thread.publishes;
+          diagnostics_.error(thread.where.place(), both ? "a topic that stays within a host" : "a topic twice on one host",
+                             {json::quote(r_.topics[thread.topic].description->name) + (both ? " is published and subscribed on " : " is subscribed by two applications on ") +
+                                  json::quote(r_.topology.nodes[other.host].name),
+                              both ? "publisher and subscriber on two hosts" : "one of them on another host"});
+        }
+        uses.push_back({thread.topic, application.node.value, thread.publishes});
+      }
+    }
+  }
+
+  /// From each publisher of the topic a stream to all that subscribe to it.
+  void connect(std::uint32_t topic) {
+    const Topic& description = *r_.topics[topic].description;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> publishers;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> subscribers;
+    for (std::uint32_t a = 0; a < r_.applications.size(); ++a)
+      for (std::uint32_t t = 0; t < r_.applications[a].threads.size(); ++t)
+        if (r_.applications[a].threads[t].topic == topic) (r_.applications[a].threads[t].publishes ? publishers : subscribers).emplace_back(a, t);
+    if (publishers.empty() || subscribers.empty()) {
+      diagnostics_.warning(description.where.at("name"), publishers.empty() ? "a topic that nobody publishes" : "a topic that nobody subscribes to", {json::quote(description.name)});
+      if (publishers.empty()) return;
+    }
+    if (subscribers.empty()) return;
+    for (const auto& [a, t] : publishers) {
+      ResolvedApplication& application = r_.applications[a];
+      ResolvedThread& thread = application.threads[t];
+      NewStream wanted;
+      wanted.name = description.name + "/" + application.name;
+      wanted.where = description.where;
+      wanted.from = application.node.value;
+      for (const auto& [heard_by, of] : subscribers) wanted.to.push_back({r_.applications[heard_by].node.value, r_.applications[heard_by].where.at("on")});
+      wanted.priority = description.pcp;
+      wanted.vlan = description.vlan;
+      wanted.headers = models::ipv4_and_udp_headers;
+      wanted.udp_port = opc_ua_udp_port;
+      wanted.payload = Octets{static_cast<std::uint32_t>(OpcUaWriter::message_octets(r_.topics[topic].layout, {application.publisher_id, 1, 1}))};
+      const auto index = builder_.add(wanted);
+      if (!index) continue;
+      thread.stream = *index;
+      StreamDemand& demand = r_.streams[index->value].demand;
+      demand.frames_per_second = 1e12 / static_cast<double>(thread.every.ps());
+      demand.wire_bits_per_second =
+          demand.frames_per_second * 8.0 * models::wire_length(models::frame_length(wanted.headers + wanted.payload, description.pcp.has_value())).count;
+      for (const auto& [heard_by, of] : subscribers) r_.applications[heard_by].threads[of].inputs.push_back({a, t, *index});
+    }
+  }
+
+  void set_windows(ResolvedApplication& application) {
+    for (ResolvedThread& thread : application.threads) {
+      thread.window = multiple(application.scheduler->window, thread.every);
+      thread.value_window = thread.window;
+      if (thread.publishes) continue;
+      for (const ResolvedInput& input : thread.inputs)
+        thread.value_window = std::max(thread.value_window, multiple(application.scheduler->window, r_.applications[input.application].threads[input.thread].every));
+      for (const ResolvedInput& input : thread.inputs)
+        thread.values_expected += static_cast<std::uint64_t>(thread.value_window / r_.applications[input.application].threads[input.thread].every);
+    }
+  }
+
+  Resolved& r_;
+  StreamBuilder& builder_;
+  std::size_t& publishers_;
+  json::Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+void resolve_applications(Resolved& resolved, StreamBuilder& builder, std::size_t& publishers, json::Diagnostics& diagnostics) {
+  ApplicationResolver(resolved, builder, publishers, diagnostics).run();
+}
+
+void check_application_requirement(const Resolved& resolved, const Requirement& requirement, json::Diagnostics& diagnostics) {
+  if (requirement.signal) {
+    if (!requirement.irregular) diagnostics.error(requirement.where.place(), "missing key", {"\"signal\" without a limit", "\"irregular\""});
+    if (std::none_of(resolved.signals.begin(), resolved.signals.end(), [&](const ResolvedSignal& signal) { return signal.name == *requirement.signal; }))
+      diagnostics.error(requirement.where.at("signal"), "unknown signal", {json::quote(*requirement.signal), "the name of a signal", json::suggest(*requirement.signal, names_of(resolved.signals))});
+  }
+  if (!requirement.application) return;
+  if (!requirement.success && !requirement.buffered)
+    diagnostics.error(requirement.where.place(), "missing key", {"\"application\" without a limit", "\"success\" or \"buffered\""});
+  const auto application =
+      std::find_if(resolved.applications.begin(), resolved.applications.end(), [&](const ResolvedApplication& each) { return each.name == *requirement.application; });
+  if (application == resolved.applications.end()) {
+    diagnostics.error(requirement.where.at("application"), "unknown application",
+                      {json::quote(*requirement.application), "the name of an application or gateway", json::suggest(*requirement.application, names_of(resolved.applications))});
+    return;
+  }
+  const auto concerned = [&](const ResolvedThread& thread) { return !requirement.buffered || !thread.publishes || (requirement.success && !requirement.thread); };
+  if (!requirement.thread) {
+    if (requirement.buffered && std::all_of(application->threads.begin(), application->threads.end(), [](const ResolvedThread& thread) { return thread.publishes; }))
+      diagnostics.error(requirement.where.at("buffered"), "nothing is buffered", {"no thread of " + json::quote(application->name) + " subscribes", "an application that subscribes"});
+    return;
+  }
+  const auto thread = std::find_if(application->threads.begin(), application->threads.end(), [&](const ResolvedThread& each) { return each.name == *requirement.thread; });
+  if (thread == application->threads.end())
+    diagnostics.error(requirement.where.at("thread"), "unknown thread",
+                      {json::quote(*requirement.thread), "a thread of " + json::quote(application->name), json::suggest(*requirement.thread, names_of(application->threads))});
+  else if (!concerned(*thread))
+    diagnostics.error(requirement.where.at("buffered"), "nothing is buffered", {json::quote(thread->name) + " publishes", "a thread that subscribes"});
+}
+
+}  // namespace takt::scenario

@@ -1,0 +1,14 @@
+// Topics, applications and gateways: who publishes what to whom, over which streams, and how threads are checked.
+#pragma once
+
+#include "scenario/resolved.hpp"
+#include "scenario/stream_builder.hpp"
+
+namespace takt::scenario {
+
+/// Fills topics, applications and signals and adds their streams. `publishers` counts the PublisherIds that are taken.
+void resolve_applications(Resolved& resolved, StreamBuilder& builder, std::size_t& publishers, json::Diagnostics& diagnostics);
+/// A requirement of an application or a signal.
+void check_application_requirement(const Resolved& resolved, const Requirement& requirement, json::Diagnostics& diagnostics);
+
+}  // namespace takt::scenario

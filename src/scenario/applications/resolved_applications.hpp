@@ -1,0 +1,72 @@
+// What topics, applications and gateways come down to. See scenario/resolved.hpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/ethernet/frame.hpp"
+#include "scenario/applications/description_applications.hpp"
+#include "scenario/applications/sample_layout.hpp"
+#include "sim/distribution.hpp"
+
+namespace takt::scenario {
+
+struct ResolvedTopic {
+  const Topic* description = nullptr;
+  SampleLayout layout;
+};
+
+/// A publication that a subscribing thread hears.
+struct ResolvedInput {
+  std::uint32_t application = 0;                ///< that publishes
+  std::uint32_t thread = 0;                     ///< of it
+  models::StreamIndex stream;
+};
+
+struct ResolvedThread {
+  std::string name;
+  bool publishes = false;
+  std::uint32_t topic = 0;
+  Duration every;
+  Duration offset;
+  sim::Distribution response = sim::Distribution::constant({});
+  std::optional<Pattern> pattern;               ///< of what it publishes
+  std::optional<std::uint32_t> copies;          ///< instead: the subscribing thread of the application whose last sample it publishes
+  std::uint32_t buffer = 1;
+  std::optional<std::uint32_t> signal;          ///< that it drives
+  std::optional<models::StreamIndex> stream;    ///< of a publication over OPC UA that anybody hears
+  std::vector<ResolvedInput> inputs;            ///< of a subscription
+  Duration window;                              ///< of criterion 1
+  Duration value_window;                        ///< of criterion 2
+  std::uint64_t values_expected = 0;            ///< in such a window
+  json::Source where;
+};
+
+/// A thread receives, another sends; between them a buffer.
+struct ResolvedGateway {
+  std::uint32_t capacity = 1;
+  Overflow overflow = Overflow::overwrite_oldest;
+  std::optional<Duration> stale_after;
+};
+
+struct ResolvedApplication {
+  std::string name;
+  models::NodeIndex node;
+  std::vector<ResolvedThread> threads;          ///< of a gateway: receive, send
+  const Scheduler* scheduler = nullptr;
+  sim::Distribution scheduler_response = sim::Distribution::constant({});
+  std::uint16_t publisher_id = 0;               ///< in OPC UA
+  std::optional<ResolvedGateway> gateway;
+  json::Source where;
+};
+
+struct ResolvedSignal {
+  std::string name;
+  Duration pulse;                               ///< nominal
+  std::uint32_t application = 0;
+  std::uint32_t thread = 0;
+};
+
+}  // namespace takt::scenario

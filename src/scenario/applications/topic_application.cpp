@@ -1,0 +1,169 @@
+#include "scenario/applications/topic_application.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "sim/check.hpp"
+
+namespace takt::scenario {
+namespace {
+
+constexpr models::AlarmId threads_alarm = 0;
+
+WindowCounter::Settings window_of(const ResolvedApplication& application, sim::Duration length, std::uint64_t expected) {
+  return {length, expected, sim::LocalTime() + application.scheduler->after, application.scheduler->tests, application.scheduler->tolerance};
+}
+
+}  // namespace
+
+TopicApplication::Live::Live(const ResolvedThread& thread, const ResolvedApplication& application, const SampleLayout& topic_layout, const std::string& path,
+                             std::uint64_t seed)
+    : settings(&thread),
+      layout(&topic_layout),
+      activations(thread.every, thread.offset, thread.response, seed, path + "/" + thread.name),
+      calls(window_of(application, thread.window, static_cast<std::uint64_t>(thread.window / thread.every)), application.scheduler_response, seed, path),
+      sample(topic_layout.zeros()) {
+  if (!thread.publishes) values.emplace(window_of(application, thread.value_window, thread.values_expected), application.scheduler_response, seed, path);
+}
+
+TopicApplication::TopicApplication(Settings settings, ApplicationMonitor& monitor) : number_(settings.number), monitor_(&monitor) {
+  const ResolvedApplication& application = *settings.application;
+  for (std::size_t t = 0; t < application.threads.size(); ++t) {
+    const ResolvedThread& thread = application.threads[t];
+    Live& live = threads_.emplace_back(thread, application, (*settings.topics)[thread.topic].layout, settings.path, settings.seed);
+    live.writer = std::move(settings.writers[t]);
+    live.reader = std::move(settings.readers[t]);
+    TAKT_CHECK((live.writer != nullptr) == thread.publishes && (live.reader != nullptr) != thread.publishes, "a thread publishes or subscribes");
+    for (const ResolvedInput& input : thread.inputs) heard_.emplace_back(input.stream, static_cast<std::uint32_t>(t));
+    order_.push_back(static_cast<std::uint32_t>(t));
+  }
+  std::sort(heard_.begin(), heard_.end());
+  std::stable_partition(order_.begin(), order_.end(), [&](std::uint32_t t) { return !application.threads[t].publishes; });
+}
+
+void TopicApplication::start(models::HostServices& host) {
+  host_ = &host;
+  const sim::LocalTime now = host.now();
+  for (Live& live : threads_) {
+    if (live.writer) live.writer->start(host);
+    if (live.reader) live.reader->start(host);
+    live.has_sample = false;
+    live.publications = 0;
+    live.activations.begin(now);
+    live.calls.begin(now);
+    if (live.values) live.values->begin(now);
+  }
+  plan(host);
+}
+
+void TopicApplication::crash() {
+  if (has_crashed_) return;
+  has_crashed_ = true;
+  const sim::LocalTime now = host_->now();
+  for (Live& live : threads_) {
+    live.activations.end(now);
+    live.calls.close_until(now);
+    live.calls.end();
+    if (live.values) live.values->close_until(now);
+    if (live.values) live.values->end();
+    if (live.writer) live.writer->crash();
+    if (live.reader) live.reader->crash();
+  }
+  monitor_->on_crash(number_);
+}
+
+void TopicApplication::restart(models::HostServices& host) {
+  crash();
+  has_crashed_ = false;
+  start(host);
+}
+
+void TopicApplication::receive(models::HostServices& host, models::StreamIndex stream, std::span<const std::byte> payload) {
+  const auto at = std::lower_bound(heard_.begin(), heard_.end(), std::pair(stream, std::uint32_t{0}));
+  TAKT_CHECK(at != heard_.end() && at->first == stream, "a stream that this application listens to");
+  threads_[at->second].reader->receive(host, payload);
+}
+
+void TopicApplication::wake(models::HostServices& host, models::AlarmId) {
+  const sim::LocalTime now = host.now();
+  for (const std::uint32_t t : order_) {
+    Live& live = threads_[t];
+    if (live.activations.next() > now) continue;
+    if (live.activations.has_jumped(now)) {
+      live.activations.begin(now);
+      live.calls.end();
+      live.calls.begin(now);
+      if (live.values) live.values->end();
+      if (live.values) live.values->begin(now);
+      if (live.activations.next() > now) continue;
+    }
+    if (const auto response = live.activations.act()) call(host, t, now, *response);
+  }
+  plan(host);
+}
+
+void TopicApplication::plan(models::HostServices& host) {
+  sim::LocalTime next = sim::LocalTime::never();
+  for (const Live& live : threads_) next = std::min(next, live.activations.next());
+  host.set_exact_alarm(threads_alarm, next);
+}
+
+void TopicApplication::call(models::HostServices& host, std::uint32_t thread, sim::LocalTime now, sim::Duration response) {
+  Live& live = threads_[thread];
+  live.seen.response.add(response);
+  live.calls.add(now);
+  monitor_->on_call(number_, thread, live.activations.done());
+  if (live.writer)
+    publish(host, live);
+  else
+    take(host, thread, now);
+}
+
+void TopicApplication::publish(models::HostServices& host, Live& live) {
+  if (live.settings->copies) {
+    const Live& source = threads_[*live.settings->copies];
+    if (!source.has_sample) return;
+    live.sample = source.sample;
+  } else {
+    ++live.publications;
+    live.layout->set_first(live.sample, live.settings->pattern == Pattern::alternate ? live.publications % 2 : live.publications);
+  }
+  ++(live.writer->write(host, live.sample) ? live.seen.published : live.seen.refused);
+}
+
+void TopicApplication::take(models::HostServices& host, std::uint32_t thread, sim::LocalTime now) {
+  Live& live = threads_[thread];
+  std::uint64_t count = 0;
+  while (const auto sample = live.reader->next(host)) {
+    ++count;
+    live.has_sample = true;
+    std::copy(sample->begin(), sample->end(), live.sample.begin());
+  }
+  if (count == 0) return;
+  const std::uint64_t kept = std::min<std::uint64_t>(count, live.settings->buffer);
+  live.seen.arrived += count;
+  live.seen.buffered += kept;
+  live.seen.overwritten += count - kept;
+  live.values->add(now, kept);
+  monitor_->on_values(number_, thread, count);
+  if (live.settings->signal) monitor_->set_signal(*live.settings->signal, !live.layout->first_is_zero(live.sample));
+}
+
+ThreadFigures TopicApplication::figures(std::size_t thread, sim::LocalTime now) const {
+  const Live& live = threads_[thread];
+  ThreadFigures figures = live.seen;
+  figures.activations = live.activations.decided(now);
+  figures.done = live.activations.done();
+  figures.lost = live.reader ? live.reader->lost() : 0;
+  WindowCounter calls = live.calls;
+  if (!live.activations.has_jumped(now)) calls.close_until(now);
+  figures.calls = calls.figures();
+  if (live.values) {
+    WindowCounter values = *live.values;
+    if (!live.activations.has_jumped(now)) values.close_until(now);
+    figures.values = values.figures();
+  }
+  return figures;
+}
+
+}  // namespace takt::scenario

@@ -1,0 +1,87 @@
+// An application of several threads on a simulated host: each publishes to a topic or subscribes to one, in its own rhythm.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "models/host/application.hpp"
+#include "scenario/applications/activations.hpp"
+#include "scenario/applications/application_monitor.hpp"
+#include "scenario/applications/topic_port.hpp"
+#include "scenario/applications/window_counter.hpp"
+
+namespace takt::scenario {
+
+/// What was seen of a thread.
+struct ThreadFigures {
+  std::uint64_t activations = 0;
+  std::uint64_t done = 0;
+  DurationFigures response;               ///< of the calls that took place, on the clock of the host
+  WindowCounter::Figures calls;           ///< criterion 1
+  std::uint64_t published = 0;            ///< samples
+  std::uint64_t refused = 0;              ///< samples that the protocol could not take
+  std::uint64_t arrived = 0;              ///< samples that a call found
+  std::uint64_t buffered = 0;             ///< of them, those that the buffer held
+  std::uint64_t overwritten = 0;          ///< of them, those that newer ones displaced
+  std::uint64_t lost = 0;                 ///< on the way
+  std::optional<WindowCounter::Figures> values;  ///< criterion 2, of a subscription
+};
+
+class TopicApplication final : public models::Application {
+ public:
+  /// `number` tells applications apart. `writers` and `readers` stand by thread, one of the two. All references outlive it.
+  struct Settings {
+    std::uint32_t number = 0;
+    const ResolvedApplication* application = nullptr;
+    const std::vector<ResolvedTopic>* topics = nullptr;
+    std::vector<std::unique_ptr<TopicWriter>> writers;
+    std::vector<std::unique_ptr<TopicReader>> readers;
+    std::string path;                     ///< in the random streams: host, '/', application
+    std::uint64_t seed = 0;
+  };
+  TopicApplication(Settings settings, ApplicationMonitor& monitor);
+
+  models::AlarmId alarm_count() const override { return 1; }
+  void start(models::HostServices& host) override;
+  void restart(models::HostServices& host) override;
+  void receive(models::HostServices& host, models::StreamIndex stream, std::span<const std::byte> payload) override;
+  void wake(models::HostServices& host, models::AlarmId alarm) override;
+  /// The host has crashed: the application is gone, with its memory. It comes back with `restart`.
+  void crash();
+
+  /// What was seen until then, on the clock of the host.
+  ThreadFigures figures(std::size_t thread, sim::LocalTime now) const;
+
+ private:
+  struct Live {
+    Live(const ResolvedThread& thread, const ResolvedApplication& application, const SampleLayout& topic_layout, const std::string& path, std::uint64_t seed);
+
+    const ResolvedThread* settings;
+    const SampleLayout* layout;
+    Activations activations;
+    WindowCounter calls;
+    std::optional<WindowCounter> values;
+    std::unique_ptr<TopicWriter> writer;
+    std::unique_ptr<TopicReader> reader;
+    Sample sample;                        // the last that was taken, or room for the next to publish
+    bool has_sample = false;
+    std::uint64_t publications = 0;       // since the start
+    ThreadFigures seen;
+  };
+
+  void call(models::HostServices& host, std::uint32_t thread, sim::LocalTime now, sim::Duration response);
+  void publish(models::HostServices& host, Live& live);
+  void take(models::HostServices& host, std::uint32_t thread, sim::LocalTime now);
+  void plan(models::HostServices& host);
+
+  std::uint32_t number_;
+  ApplicationMonitor* monitor_;
+  std::vector<Live> threads_;
+  std::vector<std::uint32_t> order_;      // at one instant: those that subscribe, then those that publish
+  std::vector<std::pair<models::StreamIndex, std::uint32_t>> heard_;  // ascending; the thread
+  models::HostServices* host_ = nullptr;
+  bool has_crashed_ = false;
+};
+
+}  // namespace takt::scenario

@@ -1,0 +1,36 @@
+// What a thread of an application publishes by and takes from, whatever the protocol.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "models/host/application.hpp"
+#include "uadp/octets.hpp"
+
+namespace takt::scenario {
+
+/// A publication of a thread.
+class TopicWriter {
+ public:
+  virtual ~TopicWriter() = default;
+  virtual void start(models::HostServices& host) = 0;
+  /// Encodes and sends a sample, or hands it to the protocol, which does. False if the protocol cannot take it now.
+  virtual bool write(models::HostServices& host, uadp::Octets sample) = 0;
+  virtual void crash() = 0;
+};
+
+/// A subscription of a thread.
+class TopicReader {
+ public:
+  virtual ~TopicReader() = default;
+  virtual void start(models::HostServices& host) = 0;
+  /// A message has come to the host: it waits until the thread asks.
+  virtual void receive(models::HostServices& host, uadp::Octets message) = 0;
+  /// The next sample that has come, oldest first. The octets last until the next call.
+  virtual std::optional<uadp::Octets> next(models::HostServices& host) = 0;
+  /// Samples that were sent, as their numbers show, and did not come, or came where no room was left.
+  virtual std::uint64_t lost() const = 0;
+  virtual void crash() = 0;
+};
+
+}  // namespace takt::scenario

@@ -1,4 +1,4 @@
-// takt node: a participant of a Program on this machine.
+// takt node: a participant of a Program on this machine, or applications and gateways.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -6,13 +6,57 @@
 
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
+#include "node/applications/host.hpp"
 #include "node/built_in_values.hpp"
 #include "node/real_node.hpp"
 
 namespace takt::cli {
 namespace {
 
+void print_warnings(const std::string& warnings) {
+  for (std::size_t begin = 0; begin < warnings.size(); begin = warnings.find('\n', begin) + 1)
+    std::fprintf(stderr, "takt: warning: %s\n", warnings.substr(begin, warnings.find('\n', begin) - begin).c_str());
+}
+
+bool write_file(const std::string& path, const std::string& text) {
+  std::FILE* const file = std::fopen(path.c_str(), "w");
+  if (file == nullptr) return false;
+  const bool is_written = std::fputs(text.c_str(), file) >= 0;
+  return std::fclose(file) == 0 && is_written;
+}
+
+ExitStatus run_applications(const std::string& file, bool is_check) {
+  scenario::json::Diagnostics diagnostics;
+  const auto loaded = node::load_applications(file, diagnostics);
+  std::fputs(diagnostics.to_text().c_str(), stderr);
+  if (!loaded) return ExitStatus::bad_input;
+  if (is_check) return ExitStatus::pass;
+  std::string problem;
+  std::string warnings;
+  const auto host = node::ApplicationHost::make(*loaded, problem, warnings);
+  if (!host) {
+    std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
+    return ExitStatus::internal_error;
+  }
+  print_warnings(warnings);
+  std::printf("{\"event\": \"start\", \"node\": %s}\n", scenario::json::quote(loaded->config.node).c_str());
+  std::fflush(stdout);
+  const InterruptGuard interrupt;
+  host->run([](const void* guard) { return static_cast<const InterruptGuard*>(guard)->requested(); }, &interrupt);
+  const auto statistics = host->statistics();
+  const std::string json = node::to_json(loaded->config.node, statistics);
+  std::printf("{\"event\": \"end\", %s\n", json.substr(1).c_str());
+  std::fflush(stdout);
+  std::fputs(node::to_text(statistics).c_str(), stderr);
+  if (loaded->config.statistics && !write_file(*loaded->config.statistics, json + "\n")) {
+    std::fprintf(stderr, "takt: cannot write %s\n", loaded->config.statistics->c_str());
+    return ExitStatus::internal_error;
+  }
+  return ExitStatus::pass;
+}
+
 ExitStatus run_node(const std::string& file, bool is_check) {
+  if (node::is_applications_file(file)) return run_applications(file, is_check);
   scenario::json::Diagnostics diagnostics;
   const auto loaded = node::load_config(file, diagnostics);
   std::fputs(diagnostics.to_text().c_str(), stderr);
@@ -26,8 +70,7 @@ ExitStatus run_node(const std::string& file, bool is_check) {
     std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
     return ExitStatus::internal_error;
   }
-  for (std::size_t begin = 0; begin < warnings.size(); begin = warnings.find('\n', begin) + 1)
-    std::fprintf(stderr, "takt: warning: %s\n", warnings.substr(begin, warnings.find('\n', begin) - begin).c_str());
+  print_warnings(warnings);
   const InterruptGuard interrupt;
   live->run([](const void* guard) { return static_cast<const InterruptGuard*>(guard)->requested(); }, &interrupt);
   std::fputs(node::status_text(live->status()).c_str(), stderr);
@@ -37,7 +80,7 @@ ExitStatus run_node(const std::string& file, bool is_check) {
 }  // namespace
 
 void add_node_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("node", "Run a participant of a Program on this machine");
+  CLI::App& command = *app.add_subcommand("node", "Run a participant of a Program, or applications and gateways, on this machine");
   const auto file = std::make_shared<std::string>();
   const auto is_check = std::make_shared<bool>(false);
   command.add_option("CONFIG", *file, "The file of the node (JSON, comments allowed)")->required();
@@ -46,6 +89,7 @@ void add_node_command(CLI::App& app, ExitStatus& status) {
       "Examples:\n"
       "  takt node left.json                     runs until its duration is over, or until SIGINT or SIGTERM\n"
       "  takt node left.json | jq 'select(.event == \"transition\")'\n"
+      "A file with \"topics\", \"applications\" and \"gateways\" instead of \"program\" runs these: OPC UA PubSub and DDS.\n"
       "Standard output is one JSON object a line: transitions, calls, intents, received values if asked for, and statistics at the end,\n"
       "which standard error has as text. takt ctl speaks to a node while it runs.\n"
       "Exit status: 0 ended or stopped, 2 bad input, 3 the machine does not let it (port, interface, permission).");

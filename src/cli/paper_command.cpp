@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/real_coexistence.hpp"
 #include "papers/coexistence/report.hpp"
 #include "papers/report.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 struct PaperOptions {
   papers::ProgramsOptions programs;
   papers::coexistence::Options coexistence;
+  bool is_real = false;
   std::string out;
   std::string format = "text";
   bool quiet = false;
@@ -56,9 +58,18 @@ ExitStatus run_programs(PaperOptions& options) {
 
 ExitStatus run_coexistence(PaperOptions& options) {
   if (!options.quiet) options.coexistence.progress = say;
+  std::string measured_text;
+  if (options.is_real) {
+    ExitStatus failure = ExitStatus::pass;
+    const auto measured = measure_coexistence({options.coexistence.is_short, options.quiet, options.out}, failure);
+    if (!measured) return failure;
+    options.coexistence.measured = criteria_of(*measured);
+    measured_text = "\n" + emulate::to_text(*measured);
+  }
   scenario::json::Diagnostics diagnostics;
   const auto made = papers::coexistence::reproduce(options.coexistence, diagnostics);
   const ExitStatus status = hand_over(options, made, diagnostics);
+  if (options.format == "text") std::fputs(measured_text.c_str(), stdout);
   if (made && options.speed)
     for (const papers::coexistence::Speed& speed : made->speed)
       std::fprintf(stderr, "%s: %.3f s of CPU time for %.0f s simulated, %.0f times as fast\n", speed.scenario.c_str(), speed.cpu_seconds, speed.simulated_seconds,
@@ -90,14 +101,16 @@ void add_programs(CLI::App& command, ExitStatus& status) {
 void add_coexistence(CLI::App& command, ExitStatus& status) {
   CLI::App& coexistence = *command.add_subcommand("coexistence", "DDS and OPC UA protocol coexistence solution in real-time and Industry 4.0 context using non-ideal infrastructure");
   const auto options = std::make_shared<PaperOptions>();
-  coexistence.add_flag("--short", options->coexistence.is_short, "What real-time Linux and TSN change at 10 and 1 ms only");
+  coexistence.add_flag("--short", options->coexistence.is_short, "Fewer repetitions, and what real-time Linux and TSN change at 10 and 1 ms only");
+  coexistence.add_flag("--real", options->is_real, "Measure criteria 1 and 2 on this machine too: six nodes, and the gateway, as processes");
   coexistence.add_option("--scenarios", options->coexistence.scenarios, "Where its scenarios are (scenarios/papers/coexistence)")->type_name("DIR");
   add_common_options(coexistence, *options);
   coexistence.footer(
       "Examples:\n"
       "  takt paper coexistence                         Tables 1 to 8, Figures 4 to 9, and what TSN changes\n"
       "  takt paper coexistence --out out/paper         with figures, digital signals (VCD) and scenarios\n"
-      "Exit status: 0 reproduced, 1 something is out of its tolerance, 2 bad input.");
+      "  sudo takt paper coexistence --real             beside them what this machine's operating system does\n"
+      "Exit status: 0 reproduced, 1 something is out of its tolerance, 2 bad input, 3 cannot measure here.");
   coexistence.callback([options, &status] { status = run_coexistence(*options); });
 }
 

@@ -19,8 +19,7 @@ std::optional<Reproduction> reproduce(const Options& options, scenario::json::Di
   if (!reproduce_criteria(options, made, diagnostics)) return std::nullopt;
   if (!reproduce_signals(options, made, diagnostics)) return std::nullopt;
   if (!improve(options, made, diagnostics)) return std::nullopt;
-  if (options.measure)
-    if (const auto measured = options.measure()) add_measured(*measured, made);
+  if (options.measured) add_measured(*options.measured, made);
   return made;
 }
 

@@ -21,10 +21,9 @@ namespace takt::papers::coexistence {
 
 struct Options {
   std::string scenarios = "scenarios/papers/coexistence";   ///< the folder of the scenarios
-  bool is_short = false;                                    ///< what TSN changes at 10 and 1 ms only; the paper's own tables and figures stay whole
+  bool is_short = false;                                    ///< fewer repetitions, and what TSN changes at 10 and 1 ms only
   std::function<void(const std::string&)> progress;         ///< told what is done next; may be empty
-  /// Measures criteria 1 and 2 on this machine; not done if empty.
-  std::function<std::optional<MeasuredCriteria>()> measure;
+  std::optional<MeasuredCriteria> measured;                 ///< on this machine, to stand beside what was published and simulated
 };
 
 /// Fig. 4: criterion 2 of a receiving node by column of the tables, beside criterion 1.

@@ -1,0 +1,195 @@
+#include "node/applications/config.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "node/dds/participant.hpp"
+#include "scenario/json/suggest.hpp"
+#include "sim/check.hpp"
+#include "vocabulary/protocol.hpp"
+
+namespace takt::node {
+namespace {
+
+TopicShape shape_of(const Topic& topic, std::size_t position) {
+  TopicShape shape;
+  shape.publisher_id = topic.publisher_id.value_or(static_cast<std::uint16_t>(position + 1));
+  shape.domain = topic.domain.value_or(0);
+  shape.type.name = topic.type.value_or(topic.name);
+  for (const auto& [name, field] : topic.fields) {
+    const bool is_array = field.count != 1;
+    shape.fields.push_back({name, {built_in_type_of(field.type), is_array, is_array ? field.count : 0U, 0}});
+    std::string problem;
+    const auto member = gateway::idl_member_of(shape.fields.back(), problem);
+    TAKT_CHECK(member.has_value(), "all types of the vocabulary are mapped");
+    shape.type.members.push_back(*member);
+  }
+  return shape;
+}
+
+/// OMG DDS 1.4, annex B, and '/', which implementations take too.
+bool is_dds_name(const std::string& name) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto is_allowed = [&](char c) { return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '/'; };
+  return !name.empty() && !is_digit(name[0]) && std::all_of(name.begin(), name.end(), is_allowed);
+}
+
+/// Checks what the fields of a file mean together.
+class Checker {
+ public:
+  Checker(LoadedApplications& loaded, json::Diagnostics& diagnostics) : loaded_(loaded), config_(loaded.config), diagnostics_(diagnostics) {}
+
+  void run() {
+    check_topics();
+    const auto is_elsewhere = [this](const auto& each) { return each.on && *each.on != config_.node; };
+    std::erase_if(config_.applications, is_elsewhere);
+    std::erase_if(config_.gateways, is_elsewhere);
+    if (config_.applications.empty() && config_.gateways.empty())
+      diagnostics_.error(config_.where.at("node"), "nothing to run here", {json::quote(config_.node), "a node that an application or a gateway is on"});
+    std::set<std::string> names;
+    for (const ApplicationOfNode& each : config_.applications) check_application(each, names);
+    for (const GatewayOfNode& each : config_.gateways) check_gateway(each, names);
+    if (uses_opc_ua_ && !config_.transport) diagnostics_.error(config_.where.at("node"), "no transport", {"topics of OPC UA", "a \"transport\" for them"});
+  }
+
+ private:
+  void check_topics() {
+    std::set<std::string> names;
+    std::set<std::uint16_t> ids;
+    for (std::size_t i = 0; i < config_.topics.size(); ++i) {
+      const Topic& topic = config_.topics[i];
+      if (!names.insert(topic.name).second) diagnostics_.error(topic.where.at("name"), "duplicate name", {json::quote(topic.name), "a name of its own for each topic"});
+      loaded_.shapes.push_back(shape_of(topic, i));
+      const bool is_dds = topic.protocol == Protocol::dds;
+      if (!is_dds && !ids.insert(loaded_.shapes.back().publisher_id).second)
+        diagnostics_.error(topic.where.at("publisher_id"), "a PublisherId twice", {std::to_string(loaded_.shapes.back().publisher_id), "one of its own for each topic"});
+      if (is_dds && topic.publisher_id) diagnostics_.error(topic.where.at("publisher_id"), "not of DDS", {"a PublisherId", "a topic of OPC UA"});
+      for (const auto& [is_there, key] : {std::pair{topic.type.has_value(), "type"}, std::pair{topic.domain.has_value(), "domain"}, std::pair{topic.qos.has_value(), "qos"}})
+        if (!is_dds && is_there) diagnostics_.error(topic.where.at(key), "not of OPC UA", {json::quote(key), "a topic of DDS"});
+      if (is_dds && !is_dds_name(topic.name))
+        diagnostics_.error(topic.where.at("name"), "not a topic name of DDS", {json::quote(topic.name), "letters, digits, '_' and '/', and no digit first"});
+      if (topic.qos) check_qos(*topic.qos);
+    }
+  }
+
+  void check_qos(const vocabulary::Qos& qos) {
+    if (qos.durability && *qos.durability > vocabulary::Durability::transient_local)
+      diagnostics_.error(qos.where.at("durability"), "not on a real node", {"transient or persistent data, which Cyclone DDS does not keep", "volatile or transient-local"});
+  }
+
+  /// The topic, which is used here; nothing if there is none.
+  std::optional<std::size_t> use(const std::string& name, const json::Place& place, bool publishes = false) {
+    const auto found = std::find_if(config_.topics.begin(), config_.topics.end(), [&](const Topic& topic) { return topic.name == name; });
+    if (found == config_.topics.end()) {
+      std::vector<std::string_view> names;
+      for (const Topic& topic : config_.topics) names.push_back(topic.name);
+      diagnostics_.error(place, "no such topic", {json::quote(name), "one of the topics", json::suggest(name, names)});
+      return std::nullopt;
+    }
+    const bool is_opc_ua = found->protocol == Protocol::opc_ua;
+    uses_opc_ua_ = uses_opc_ua_ || is_opc_ua;
+    if (publishes && is_opc_ua && !published_.insert(name).second)
+      diagnostics_.error(place, "published twice", {json::quote(name), "one publisher of a topic of OPC UA: it has one PublisherId"});
+    if (found->protocol == Protocol::dds && !has_dds()) diagnostics_.error(place, "DDS is not in this build", {json::quote(name) + ", a topic of DDS", dds_needed});
+    return static_cast<std::size_t>(found - config_.topics.begin());
+  }
+
+  void check_phase(const json::Source& where, const char* key, Duration offset, Duration every) {
+    if (offset > Duration() && offset >= every) diagnostics_.error(where.at(key), "an offset beyond the interval", {json::to_text(offset), "less than " + json::to_text(every)});
+  }
+
+  void check_application(const ApplicationOfNode& application, std::set<std::string>& names) {
+    if (!names.insert(application.name).second)
+      diagnostics_.error(application.where.at("name"), "duplicate name", {json::quote(application.name), "a name of its own for each application and gateway"});
+    std::set<std::string> threads;
+    for (const Thread& thread : application.threads) {
+      if (!threads.insert(thread.name).second) diagnostics_.error(thread.where.at("name"), "duplicate name", {json::quote(thread.name), "a name of its own for each thread"});
+      check_phase(thread.where, "offset", thread.offset, thread.every);
+      const char* const role = thread.publish ? "publish" : "subscribe";
+      const auto topic = use(thread.publish ? *thread.publish : thread.subscribe.value_or(""), thread.where.at(role), thread.publish.has_value());
+      if (thread.payload && !thread.publish) diagnostics_.error(thread.where.at("payload"), "nothing is published", {"a payload", "a thread that publishes"});
+      if (thread.buffer && !thread.subscribe) diagnostics_.error(thread.where.at("buffer"), "nothing is taken", {"a buffer", "a thread that subscribes"});
+      if (thread.qos && topic && config_.topics[*topic].protocol != Protocol::dds) diagnostics_.error(thread.where.at("qos"), "not of OPC UA", {"quality of service", "a topic of DDS"});
+      if (thread.qos) check_qos(*thread.qos);
+      if (topic && thread.payload && thread.payload->copy_of) check_copy(application, *thread.payload, *topic);
+    }
+  }
+
+  void check_copy(const ApplicationOfNode& application, const Payload& payload, std::size_t to) {
+    const json::Place place = payload.where.at("copy_of");
+    const auto from = use(*payload.copy_of, place);
+    if (!from) return;
+    const bool is_taken = std::any_of(application.threads.begin(), application.threads.end(), [&](const Thread& each) { return each.subscribe == payload.copy_of; });
+    if (!is_taken) diagnostics_.error(place, "not subscribed to", {json::quote(*payload.copy_of), "a topic that a thread of this application subscribes to"});
+    const auto types_of = [this](std::size_t topic) {
+      std::vector<uadp::RawField> types;
+      for (const auto& field : loaded_.shapes[topic].fields) types.push_back(field.type);
+      return types;
+    };
+    if (types_of(*from) != types_of(to)) diagnostics_.error(place, "other fields", {json::quote(*payload.copy_of), "a topic with fields of the same types in the same order"});
+  }
+
+  void check_gateway(const GatewayOfNode& gateway, std::set<std::string>& names) {
+    if (!names.insert(gateway.name).second)
+      diagnostics_.error(gateway.where.at("name"), "duplicate name", {json::quote(gateway.name), "a name of its own for each application and gateway"});
+    check_phase(gateway.where, "receive_offset", gateway.receive_offset, gateway.receive_every);
+    check_phase(gateway.where, "send_offset", gateway.send_offset, gateway.send_every);
+    const auto from = use(gateway.from, gateway.where.at("from"));
+    const auto to = use(gateway.to, gateway.where.at("to"), true);
+    if (!from || !to) return;
+    if (config_.topics[*from].protocol == config_.topics[*to].protocol) {
+      diagnostics_.error(gateway.where.at("to"), "no gateway", {json::quote(gateway.to) + ", of the same protocol as " + json::quote(gateway.from), "a topic of the other protocol"});
+      return;
+    }
+    std::vector<std::string> problems;
+    mapping_between(loaded_.shapes[*from], loaded_.shapes[*to], config_.topics[*to].protocol == Protocol::dds ? gateway::Direction::to_dds : gateway::Direction::to_opc_ua, problems);
+    for (const std::string& problem : problems) diagnostics_.error(gateway.where.at("to"), "types do not map", {problem, "fields and members of types that stand for each other"});
+  }
+
+  LoadedApplications& loaded_;
+  ApplicationsConfig& config_;
+  json::Diagnostics& diagnostics_;
+  bool uses_opc_ua_ = false;
+  std::set<std::string> published_;  ///< topics of OPC UA
+};
+
+}  // namespace
+
+std::size_t LoadedApplications::topic(const std::string& name) const {
+  const auto found = std::find_if(config.topics.begin(), config.topics.end(), [&](const Topic& each) { return each.name == name; });
+  TAKT_CHECK(found != config.topics.end(), "names have been checked");
+  return static_cast<std::size_t>(found - config.topics.begin());
+}
+
+std::optional<gateway::TypeMapping> mapping_between(const TopicShape& from, const TopicShape& to, gateway::Direction direction, std::vector<std::string>& problems) {
+  const bool to_dds = direction == gateway::Direction::to_dds;
+  const TopicShape& opc_ua = to_dds ? from : to;
+  const TopicShape& dds = to_dds ? to : from;
+  if (opc_ua.fields.size() != dds.type.members.size()) {
+    problems.push_back(std::to_string(opc_ua.fields.size()) + " fields and " + std::to_string(dds.type.members.size()) + " members");
+    return std::nullopt;
+  }
+  std::vector<gateway::Renamed> renamed;
+  for (std::size_t i = 0; i < opc_ua.fields.size(); ++i) renamed.push_back({opc_ua.fields[i].name, dds.type.members[i].name});
+  return gateway::TypeMapping::make(direction, opc_ua.fields, dds.type, renamed, problems);
+}
+
+bool is_applications_file(const std::string& path) {
+  json::Diagnostics unheard;
+  const auto document = json::parse_file(path, unheard);
+  if (!document) return false;
+  const auto has = [&](const char* key) { return document->root().find(key) != nullptr; };
+  return !has("program") && (has("applications") || has("gateways") || has("topics"));
+}
+
+std::unique_ptr<LoadedApplications> load_applications(const std::string& path, json::Diagnostics& diagnostics) {
+  const auto document = json::parse_file(path, diagnostics);
+  if (!document) return nullptr;
+  auto loaded = std::make_unique<LoadedApplications>();
+  json::decode(*document, loaded->config, diagnostics);
+  if (diagnostics.has_errors()) return nullptr;
+  Checker(*loaded, diagnostics).run();
+  return diagnostics.has_errors() ? nullptr : std::move(loaded);
+}
+
+}  // namespace takt::node

@@ -1,0 +1,42 @@
+#include "node/applications/deadlines.hpp"
+
+#include <time.h>
+
+#include "sim/check.hpp"
+
+namespace takt::node {
+namespace {
+
+constexpr std::int64_t ns_per_s = 1'000'000'000;
+
+std::int64_t read_clock(clockid_t id) {
+  timespec time = {};
+  ::clock_gettime(id, &time);
+  return static_cast<std::int64_t>(time.tv_sec) * ns_per_s + time.tv_nsec;
+}
+
+}  // namespace
+
+std::int64_t DeadlineClock::now() const { return read_clock(name_ == ClockName::tai ? CLOCK_TAI : CLOCK_MONOTONIC); }
+
+/// CLOCK_TAI through CLOCK_MONOTONIC, as node/clock.cpp does: the error is what the two drift apart within one wait.
+void DeadlineClock::wait_until(std::int64_t time) const {
+  const std::int64_t at = name_ == ClockName::tai ? read_clock(CLOCK_MONOTONIC) + (time - now()) : time;
+  timespec until = {};
+  until.tv_sec = at / ns_per_s;
+  until.tv_nsec = static_cast<long>(at % ns_per_s);
+  ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+}
+
+Deadlines::Deadlines(std::int64_t every, std::int64_t offset, std::int64_t now) : every_(every), offset_(offset), number_((now - offset) / every + 1) {
+  TAKT_CHECK(every > 0 && offset >= 0 && offset < every && now >= offset, "a phase within the interval, and a clock that has run");
+}
+
+void Deadlines::awake(std::int64_t now) {
+  const std::int64_t last_due = (now - offset_) / every_;
+  if (last_due <= number_) return;
+  missed_ += static_cast<std::uint64_t>(last_due - number_);
+  number_ = last_due;
+}
+
+}  // namespace takt::node

@@ -1,0 +1,281 @@
+#include "node/applications/host.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "node/applications/deadlines.hpp"
+#include "node/applications/tasks.hpp"
+#include "node/real_node.hpp"
+#include "sim/check.hpp"
+
+namespace takt::node {
+namespace {
+
+constexpr std::int64_t longest_sleep_ns = 50'000'000;  // so long after its end a thread still sleeps
+
+std::int64_t ns_of(Duration duration) { return duration.ps() / 1000; }
+
+std::int64_t monotonic_ns() { return DeadlineClock(ClockName::monotonic).now(); }
+
+class DdsTopicWriter final : public TopicWriter {
+ public:
+  explicit DdsTopicWriter(DdsWriter& writer) : writer_(writer) {}
+  bool write(uadp::Octets value) override { return writer_.write(value); }
+
+ private:
+  DdsWriter& writer_;
+};
+
+class DdsTopicReader final : public TopicReader {
+ public:
+  explicit DdsTopicReader(DdsReader& reader) : reader_(reader) {}
+  bool take(std::vector<std::byte>& value) override { return reader_.take(value); }
+
+ private:
+  DdsReader& reader_;
+};
+
+gateway::BufferSettings buffer_of(const GatewayOfNode& given) {
+  constexpr gateway::Overflow overflows[] = {gateway::Overflow::overwrite_oldest, gateway::Overflow::drop_newest, gateway::Overflow::keep_latest};
+  return {.capacity = given.buffer, .overflow = overflows[static_cast<std::size_t>(given.overflow)], .stale_after = given.stale_after};
+}
+
+/// What a thread says replaces what the topic says, policy by policy.
+vocabulary::Qos merged(const std::optional<vocabulary::Qos>& topic, const std::optional<vocabulary::Qos>& thread) {
+  vocabulary::Qos result = topic.value_or(vocabulary::Qos{});
+  if (!thread) return result;
+  const auto replace = [](auto& into, const auto& by) {
+    if (by) into = by;
+  };
+  replace(result.reliability, thread->reliability);
+  replace(result.max_blocking_time, thread->max_blocking_time);
+  replace(result.durability, thread->durability);
+  replace(result.history, thread->history);
+  replace(result.depth, thread->depth);
+  replace(result.deadline, thread->deadline);
+  replace(result.latency_budget, thread->latency_budget);
+  replace(result.liveliness, thread->liveliness);
+  replace(result.lease_duration, thread->lease_duration);
+  replace(result.ownership, thread->ownership);
+  replace(result.ownership_strength, thread->ownership_strength);
+  replace(result.lifespan, thread->lifespan);
+  replace(result.time_based_filter, thread->time_based_filter);
+  replace(result.destination_order, thread->destination_order);
+  replace(result.resource_limits, thread->resource_limits);
+  return result;
+}
+
+}  // namespace
+
+/// A thread of an application or gateway.
+struct ApplicationHost::Task {
+  std::unique_ptr<Work> work;
+  Duration every;
+  Duration offset;
+  ActivityLog log;
+  ThreadStatistics statistics;  ///< the thread's own until it has ended
+  std::optional<WindowCheck> check;
+  std::thread thread;
+};
+
+/// An application or gateway with its scheduler.
+struct ApplicationHost::Watched {
+  std::string name;
+  Scheduler scheduler;
+  NewestSamples newest;
+  std::unique_ptr<SharedChannel> channel;  ///< of a gateway
+  std::vector<std::unique_ptr<Task>> tasks;
+  std::thread thread;
+
+  void add(std::unique_ptr<Work> work, Duration every, Duration offset, const char* role, const std::string& thread_name, const std::string& topic) {
+    auto task = std::make_unique<Task>();
+    task->work = std::move(work);
+    task->every = every;
+    task->offset = offset;
+    task->statistics.name = thread_name;
+    task->statistics.role = role;
+    task->statistics.topic = topic;
+    task->statistics.every_ns = ns_of(every);
+    tasks.push_back(std::move(task));
+  }
+};
+
+ApplicationHost::ApplicationHost(const LoadedApplications& loaded) : loaded_(loaded) {}
+
+ApplicationHost::~ApplicationHost() = default;
+
+std::unique_ptr<ApplicationHost> ApplicationHost::make(const LoadedApplications& loaded, std::string& problem, std::string& warnings) {
+  // Before any thread is made: threads inherit it.
+  if (loaded.config.realtime)
+    if (const std::string refused = ask_for_real_time(); !refused.empty()) warnings += "without real time: " + refused + "\n";
+  std::unique_ptr<ApplicationHost> host(new ApplicationHost(loaded));
+  return host->open(problem) ? std::move(host) : nullptr;
+}
+
+bool ApplicationHost::open(std::string& problem) {
+  const ApplicationsConfig& config = loaded_.config;
+  if (config.transport) {
+    std::unique_ptr<Socket> socket = std::visit([&problem](const auto& transport) { return open_socket(transport, problem); }, *config.transport);
+    if (!socket) return false;
+    opc_ua_ = std::make_unique<OpcUaTopics>(std::move(socket), &monotonic_ns);
+  }
+  return std::all_of(config.applications.begin(), config.applications.end(), [&](const auto& each) { return add_application(each, problem); }) &&
+         std::all_of(config.gateways.begin(), config.gateways.end(), [&](const auto& each) { return add_gateway(each, problem); });
+}
+
+DdsParticipant* ApplicationHost::participant_of(std::uint16_t domain, std::string& problem) {
+  for (const auto& [id, participant] : participants_)
+    if (id == domain) return participant.get();
+  std::unique_ptr<DdsParticipant> participant = open_dds(domain, loaded_.config.dds.interface.value_or(""), problem);
+  if (!participant) return nullptr;
+  return participants_.emplace_back(domain, std::move(participant)).second.get();
+}
+
+TopicWriter* ApplicationHost::writer_of(const std::string& topic, const std::optional<vocabulary::Qos>& qos, std::string& problem) {
+  const std::size_t index = loaded_.topic(topic);
+  const TopicShape& shape = loaded_.shapes[index];
+  if (loaded_.config.topics[index].protocol == Protocol::opc_ua) return &opc_ua_->add_writer(shape);
+  DdsParticipant* const participant = participant_of(shape.domain, problem);
+  DdsWriter* const writer = participant == nullptr ? nullptr : participant->add_writer({topic, shape.type.name, merged(loaded_.config.topics[index].qos, qos)}, problem);
+  return writer == nullptr ? nullptr : dds_writers_.emplace_back(std::make_unique<DdsTopicWriter>(*writer)).get();
+}
+
+TopicReader* ApplicationHost::reader_of(const std::string& topic, const std::optional<vocabulary::Qos>& qos, std::string& problem) {
+  const std::size_t index = loaded_.topic(topic);
+  const TopicShape& shape = loaded_.shapes[index];
+  if (loaded_.config.topics[index].protocol == Protocol::opc_ua) return &opc_ua_->add_reader(shape);
+  DdsParticipant* const participant = participant_of(shape.domain, problem);
+  DdsReader* const reader = participant == nullptr ? nullptr : participant->add_reader({topic, shape.type.name, merged(loaded_.config.topics[index].qos, qos)}, problem);
+  return reader == nullptr ? nullptr : dds_readers_.emplace_back(std::make_unique<DdsTopicReader>(*reader)).get();
+}
+
+bool ApplicationHost::add_application(const ApplicationOfNode& application, std::string& problem) {
+  Watched& watched = *watched_.emplace_back(std::make_unique<Watched>());
+  watched.name = application.name;
+  watched.scheduler = application.scheduler;
+  for (const Thread& thread : application.threads) {
+    const std::string& topic = thread.publish ? *thread.publish : *thread.subscribe;
+    const std::size_t index = loaded_.topic(topic);
+    const TopicEnd end = {&loaded_.shapes[index], loaded_.config.topics[index].protocol == Protocol::dds};
+    if (thread.publish) {
+      TopicWriter* const writer = writer_of(topic, thread.qos, problem);
+      if (writer == nullptr) return false;
+      watched.add(make_publishing(end, *writer, thread.payload, watched.newest), thread.every, thread.offset, "publish", thread.name, topic);
+    } else {
+      TopicReader* const reader = reader_of(topic, thread.qos, problem);
+      if (reader == nullptr) return false;
+      const bool is_copied = std::any_of(application.threads.begin(), application.threads.end(), [&](const Thread& each) { return each.payload && each.payload->copy_of == topic; });
+      watched.add(make_subscribing(topic, end, *reader, thread.buffer.value_or(1), is_copied, watched.newest), thread.every, thread.offset, "subscribe", thread.name, topic);
+    }
+  }
+  return true;
+}
+
+bool ApplicationHost::add_gateway(const GatewayOfNode& given, std::string& problem) {
+  const std::size_t to = loaded_.topic(given.to);
+  const auto direction = loaded_.config.topics[to].protocol == Protocol::dds ? gateway::Direction::to_dds : gateway::Direction::to_opc_ua;
+  std::vector<std::string> problems;
+  auto mapping = mapping_between(loaded_.shapes[loaded_.topic(given.from)], loaded_.shapes[to], direction, problems);
+  TAKT_CHECK(mapping.has_value(), "mappings have been checked");
+  TopicReader* const reader = reader_of(given.from, std::nullopt, problem);
+  TopicWriter* const writer = reader == nullptr ? nullptr : writer_of(given.to, std::nullopt, problem);
+  if (writer == nullptr) return false;
+  Watched& watched = *watched_.emplace_back(std::make_unique<Watched>());
+  watched.name = given.name;
+  watched.scheduler = given.scheduler;
+  watched.channel = std::make_unique<SharedChannel>(std::move(*mapping), buffer_of(given));
+  watched.add(make_receiving(*reader, *watched.channel), given.receive_every, given.receive_offset, "receive", "receive", given.from);
+  watched.add(make_sending(*writer, *watched.channel), given.send_every, given.send_offset, "send", "send", given.to);
+  return true;
+}
+
+void ApplicationHost::run_task(Task& task) {
+  const DeadlineClock clock(loaded_.config.clock);
+  Deadlines deadlines(ns_of(task.every), ns_of(task.offset), clock.now());
+  ThreadStatistics& statistics = task.statistics;
+  while (!is_over_.load(std::memory_order_relaxed)) {
+    std::int64_t now = clock.now();
+    if (now < deadlines.due()) {
+      clock.wait_until(std::min(deadlines.due(), now + longest_sleep_ns));
+      continue;
+    }
+    statistics.late.add(now - deadlines.due());
+    deadlines.awake(now);
+    const CallResult result = task.work->call(now);
+    // A call that ends when the next activation is due already is that one's delay, not this one's failure.
+    task.log.add(deadlines.number(), result.buffered);
+    ++statistics.calls;
+    statistics.sent += result.sent;
+    statistics.taken += result.taken;
+    deadlines.next();
+  }
+  statistics.missed = deadlines.missed();
+}
+
+void ApplicationHost::run_scheduler(Watched& watched) {
+  const DeadlineClock clock(loaded_.config.clock);
+  for (const auto& task : watched.tasks) {
+    WindowCheck::Settings settings;
+    settings.window = ns_of(watched.scheduler.window);
+    settings.every = ns_of(task->every);
+    settings.offset = ns_of(task->offset);
+    settings.begin = clock.now() + ns_of(watched.scheduler.after);
+    settings.tolerance = ns_of(watched.scheduler.tolerance);
+    settings.most_tests = watched.scheduler.tests;
+    settings.has_values = task->statistics.role == "subscribe" || task->statistics.role == "receive";
+    task->check.emplace(settings);
+  }
+  while (!is_over_.load(std::memory_order_relaxed)) {
+    std::optional<std::int64_t> next;
+    for (const auto& task : watched.tasks)
+      if (const auto end = task->check->next()) next = next ? std::min(*next, *end) : *end;
+    if (!next) return;
+    const std::int64_t now = clock.now();
+    if (now < *next) {
+      clock.wait_until(std::min(*next, now + longest_sleep_ns));
+      continue;
+    }
+    for (const auto& task : watched.tasks) task->check->look(now, task->log);
+  }
+}
+
+void ApplicationHost::run(bool (*stop_requested)(const void* context), const void* context) {
+  const DeadlineClock clock(ClockName::monotonic);
+  started_ = clock.now();
+  for (const auto& watched : watched_) {
+    for (const auto& task : watched->tasks) task->thread = std::thread([this, &each = *task] { run_task(each); });
+    watched->thread = std::thread([this, &each = *watched] { run_scheduler(each); });
+  }
+  while (!stop_requested(context)) {
+    const std::int64_t now = clock.now();
+    const std::int64_t end = loaded_.config.duration ? started_ + ns_of(*loaded_.config.duration) : now + longest_sleep_ns;
+    if (now >= end) break;
+    clock.wait_until(std::min(end, now + longest_sleep_ns));
+  }
+  is_over_ = true;
+  for (const auto& watched : watched_) {
+    for (const auto& task : watched->tasks) task->thread.join();
+    watched->thread.join();
+  }
+}
+
+std::vector<ApplicationStatistics> ApplicationHost::statistics() const {
+  std::vector<ApplicationStatistics> all;
+  for (const auto& watched : watched_) {
+    ApplicationStatistics& one = all.emplace_back();
+    one.name = watched->name;
+    one.is_gateway = watched->channel != nullptr;
+    if (watched->channel) one.channel = watched->channel->channel.figures();
+    for (const auto& task : watched->tasks) {
+      ThreadStatistics& thread = one.threads.emplace_back(task->statistics);
+      thread.lost = task->work->lost();
+      if (!task->check) continue;
+      thread.window_ns = task->check->window();
+      thread.call_windows = task->check->calls();
+      thread.value_windows = task->check->values();
+    }
+  }
+  return all;
+}
+
+}  // namespace takt::node

@@ -1,0 +1,81 @@
+// Runs the applications and gateways of a node: a thread for each role, and one for each scheduler.
+#pragma once
+
+#include <atomic>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gateway/channel.hpp"
+#include "node/applications/activity.hpp"
+#include "node/applications/config.hpp"
+#include "node/applications/topic_end.hpp"
+#include "node/statistics.hpp"
+
+namespace takt::node {
+
+/// What a thread of an application or gateway did.
+struct ThreadStatistics {
+  std::string name;
+  std::string role;             ///< "publish", "subscribe"; of a gateway "receive", "send"
+  std::string topic;
+  std::int64_t every_ns = 0;
+  std::int64_t window_ns = 0;
+  std::uint64_t calls = 0;
+  std::uint64_t missed = 0;     ///< activations
+  std::uint64_t sent = 0;       ///< samples that the protocol took
+  std::uint64_t taken = 0;      ///< samples that came
+  std::uint64_t lost = 0;       ///< of OPC UA: numbers that were jumped over
+  Distribution late;            ///< from an activation to waking up
+  WindowFigures call_windows;   ///< criterion 1
+  WindowFigures value_windows;  ///< criterion 2, of those that take
+};
+
+struct ApplicationStatistics {
+  std::string name;
+  bool is_gateway = false;
+  std::vector<ThreadStatistics> threads;
+  std::optional<gateway::ChannelFigures> channel;  ///< of a gateway
+};
+
+class ApplicationHost {
+ public:
+  /// Null, and `problem` says why, if the machine does not give what the file asks for. What it can do without is a line of `warnings`.
+  static std::unique_ptr<ApplicationHost> make(const LoadedApplications& loaded, std::string& problem, std::string& warnings);
+  ~ApplicationHost();
+
+  /// Runs until the file's duration is over or `stop_requested` says so.
+  void run(bool (*stop_requested)(const void* context), const void* context);
+  /// After `run`.
+  std::vector<ApplicationStatistics> statistics() const;
+
+ private:
+  struct Task;
+  struct Watched;
+  ApplicationHost(const LoadedApplications& loaded);
+  bool open(std::string& problem);
+  TopicWriter* writer_of(const std::string& topic, const std::optional<vocabulary::Qos>& qos, std::string& problem);
+  TopicReader* reader_of(const std::string& topic, const std::optional<vocabulary::Qos>& qos, std::string& problem);
+  DdsParticipant* participant_of(std::uint16_t domain, std::string& problem);
+  bool add_application(const ApplicationOfNode& application, std::string& problem);
+  bool add_gateway(const GatewayOfNode& gateway, std::string& problem);
+  void run_task(Task& task);
+  void run_scheduler(Watched& watched);
+
+  LoadedApplications loaded_;
+  std::unique_ptr<OpcUaTopics> opc_ua_;
+  std::vector<std::pair<std::uint16_t, std::unique_ptr<DdsParticipant>>> participants_;
+  std::vector<std::unique_ptr<TopicWriter>> dds_writers_;
+  std::vector<std::unique_ptr<TopicReader>> dds_readers_;
+  std::vector<std::unique_ptr<Watched>> watched_;
+  std::int64_t started_ = 0;
+  std::atomic<bool> is_over_{false};
+};
+
+/// One JSON object.
+std::string to_json(const std::string& node, const std::vector<ApplicationStatistics>& statistics);
+/// For people.
+std::string to_text(const std::vector<ApplicationStatistics>& statistics);
+
+}  // namespace takt::node

@@ -1,0 +1,121 @@
+#include <deque>
+#include <mutex>
+
+#include "gateway/field_values.hpp"
+#include "node/applications/topic_end.hpp"
+#include "pubsub/communication.hpp"
+
+namespace takt::node {
+namespace {
+
+using namespace sim::literals;  // NOLINT
+
+// Threads say when something is published, by setting the DataSet. A PublishingInterval would say it again when it is over.
+constexpr sim::Duration seldom = 90 * 24 * 3600_s;
+constexpr std::size_t most_waiting = 65'536;  // values that no thread has taken
+
+pubsub::WriterGroupSettings group_settings() {
+  pubsub::WriterGroupSettings settings;
+  settings.publishing_interval = seldom;
+  settings.publish_on_change = true;
+  return settings;
+}
+
+class NoInput final : public pubsub::SubscribedData {
+ public:
+  uadp::Octets next() override { return {}; }
+};
+class NoOutput final : public pubsub::PublishedData {
+ public:
+  void publish(uadp::Octets, const pubsub::Destination&) override {}
+};
+
+}  // namespace
+
+struct OpcUaTopics::Shared {
+  Shared(std::unique_ptr<Socket> given, std::int64_t (*clock)()) : socket(std::move(given)), now_ns(clock), epoch_ns(clock()) {}
+
+  sim::LocalTime now() const { return sim::LocalTime::from_ps((now_ns() - epoch_ns) * 1000); }
+  /// Gives what the socket holds to all readers. With the lock held.
+  void distribute();
+
+  std::mutex mutex;  ///< of all that is below
+  std::unique_ptr<Socket> socket;
+  std::int64_t (*now_ns)();
+  std::int64_t epoch_ns;
+  std::vector<std::unique_ptr<Writer>> writers;
+  std::vector<std::unique_ptr<Reader>> readers;
+};
+
+class OpcUaTopics::Writer final : public TopicWriter {
+ public:
+  Writer(Shared& shared, const TopicShape& topic)
+      : shared_(shared), values_(topic.fields), publisher_(uadp::PublisherId::uint16(topic.publisher_id), group_settings()), communication_(*shared.socket, input_) {
+    publisher_.add_data_set("values", values_);
+    communication_.add_publisher(publisher_);
+    communication_.enable(shared.now());
+  }
+
+  bool write(uadp::Octets value) override {
+    const std::lock_guard lock(shared_.mutex);
+    if (!values_.assign(value)) return false;
+    const std::uint64_t failures = shared_.socket->send_failures();
+    communication_.advance(shared_.now());
+    return shared_.socket->send_failures() == failures;
+  }
+
+ private:
+  Shared& shared_;
+  gateway::FieldValues values_;
+  NoInput input_;
+  pubsub::Publisher publisher_;
+  pubsub::Communication communication_;
+};
+
+class OpcUaTopics::Reader final : public TopicReader {
+ public:
+  Reader(Shared& shared, const TopicShape& topic) : shared_(shared), values_(topic.fields), subscriber_(uadp::PublisherId::uint16(topic.publisher_id)), communication_(output_, input_) {
+    subscriber_.add_data_set("values", values_);
+    values_.on_received([this] {
+      if (waiting_.size() == most_waiting) waiting_.pop_front();
+      const uadp::Octets octets = values_.octets();
+      waiting_.emplace_back(octets.begin(), octets.end());
+    });
+    communication_.add_subscriber(subscriber_);
+    communication_.enable(shared.now());
+  }
+
+  bool take(std::vector<std::byte>& value) override {
+    const std::lock_guard lock(shared_.mutex);
+    shared_.distribute();
+    if (waiting_.empty()) return false;
+    value = std::move(waiting_.front());
+    waiting_.pop_front();
+    return true;
+  }
+  std::uint64_t lost() const override { return subscriber_.reader("values")->missed(); }
+  void received(uadp::Octets message) { communication_.received(message, shared_.now()); }
+
+ private:
+  Shared& shared_;
+  gateway::FieldValues values_;
+  NoOutput output_;
+  NoInput input_;
+  pubsub::Subscriber subscriber_;
+  pubsub::Communication communication_;
+  std::deque<std::vector<std::byte>> waiting_;
+};
+
+void OpcUaTopics::Shared::distribute() {
+  for (uadp::Octets message = socket->next(); !message.empty(); message = socket->next())
+    for (const auto& reader : readers) reader->received(message);
+}
+
+OpcUaTopics::OpcUaTopics(std::unique_ptr<Socket> socket, std::int64_t (*now_ns)()) : shared_(std::make_unique<Shared>(std::move(socket), now_ns)) {}
+OpcUaTopics::~OpcUaTopics() = default;
+
+TopicWriter& OpcUaTopics::add_writer(const TopicShape& topic) { return *shared_->writers.emplace_back(std::make_unique<Writer>(*shared_, topic)); }
+TopicReader& OpcUaTopics::add_reader(const TopicShape& topic) { return *shared_->readers.emplace_back(std::make_unique<Reader>(*shared_, topic)); }
+std::uint64_t OpcUaTopics::send_failures() const { return shared_->socket->send_failures(); }
+
+}  // namespace takt::node

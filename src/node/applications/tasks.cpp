@@ -1,0 +1,181 @@
+#include "node/applications/tasks.hpp"
+
+#include <algorithm>
+
+#include "gateway/field_values.hpp"
+#include "sim/check.hpp"
+
+namespace takt::node {
+namespace {
+
+using gateway::Direction;
+using uadp::BuiltInType;
+
+template <class T>
+void store(std::byte* at, std::uint64_t number) {
+  uadp::store_little_endian(at, static_cast<T>(number));
+}
+
+struct Store {
+  BuiltInType type;
+  void (*store)(std::byte*, std::uint64_t);
+};
+
+/// Integers keep the low bits.
+constexpr Store stores[] = {
+    {BuiltInType::Boolean, [](std::byte* at, std::uint64_t number) { *at = static_cast<std::byte>(number & 1); }},
+    {BuiltInType::SByte, store<std::int8_t>},
+    {BuiltInType::Byte, store<std::uint8_t>},
+    {BuiltInType::Int16, store<std::int16_t>},
+    {BuiltInType::UInt16, store<std::uint16_t>},
+    {BuiltInType::Int32, store<std::int32_t>},
+    {BuiltInType::UInt32, store<std::uint32_t>},
+    {BuiltInType::Int64, store<std::int64_t>},
+    {BuiltInType::UInt64, store<std::uint64_t>},
+    {BuiltInType::Float, store<float>},
+    {BuiltInType::Double, store<double>},
+};
+
+std::optional<gateway::TypeMapping> own_mapping(const TopicEnd& topic, Direction direction) {
+  if (!topic.is_dds) return std::nullopt;
+  std::vector<std::string> problems;
+  auto mapping = gateway::TypeMapping::make(direction, topic.shape->fields, topic.shape->type, {}, problems);
+  TAKT_CHECK(mapping.has_value(), "the members of a topic are made from its fields");
+  return mapping;
+}
+
+class Publishing final : public Work {
+ public:
+  Publishing(const TopicEnd& topic, TopicWriter& writer, const std::optional<Payload>& payload, NewestSamples& newest)
+      : writer_(writer), newest_(newest), payload_(payload.value_or(Payload{})), mapping_(own_mapping(topic, Direction::to_dds)) {
+    const gateway::FieldValues zeros(topic.shape->fields);
+    const uadp::Octets octets = zeros.octets();
+    fields_.assign(octets.begin(), octets.end());
+    const uadp::RawField& first = topic.shape->fields.front().type;
+    first_value_ = first.is_array ? 5 : 1;  // behind the octet of the type, and the length of an array
+    const auto* const found = std::find_if(std::begin(stores), std::end(stores), [&](const Store& each) { return each.type == first.type; });
+    TAKT_CHECK(found != std::end(stores), "fields of topics are numbers");
+    store_ = found->store;
+  }
+
+  CallResult call(std::int64_t) override {
+    if (payload_.copy_of) {
+      if (!newest_.get(*payload_.copy_of, fields_)) return {};
+    } else {
+      ++count_;
+      store_(fields_.data() + first_value_, payload_.pattern == Pattern::alternate ? count_ % 2 : count_);
+    }
+    if (mapping_ && mapping_->to_cdr(fields_, value_) != gateway::MappingError::none) return {};
+    return {.sent = writer_.write(mapping_ ? value_ : fields_) ? 1U : 0U};
+  }
+
+ private:
+  TopicWriter& writer_;
+  NewestSamples& newest_;
+  Payload payload_;
+  std::optional<gateway::TypeMapping> mapping_;
+  std::vector<std::byte> fields_;
+  std::vector<std::byte> value_;
+  std::size_t first_value_ = 0;
+  void (*store_)(std::byte*, std::uint64_t) = nullptr;
+  std::uint64_t count_ = 0;
+};
+
+class Subscribing final : public Work {
+ public:
+  Subscribing(const std::string& name, const TopicEnd& topic, TopicReader& reader, std::uint32_t buffer, bool is_copied, NewestSamples& newest)
+      : name_(name), reader_(reader), newest_(newest), buffer_(buffer), is_copied_(is_copied), mapping_(own_mapping(topic, Direction::to_opc_ua)) {}
+
+  CallResult call(std::int64_t) override {
+    CallResult result;
+    while (reader_.take(value_)) {
+      // What is not of the type that was agreed is no value.
+      if (mapping_ && mapping_->to_fields(value_, fields_) != gateway::MappingError::none) continue;
+      ++result.taken;
+    }
+    result.buffered = std::min(result.taken, buffer_);
+    if (result.taken > 0 && is_copied_) newest_.put(name_, mapping_ ? fields_ : value_);
+    return result;
+  }
+  std::uint64_t lost() const override { return reader_.lost(); }
+
+ private:
+  std::string name_;
+  TopicReader& reader_;
+  NewestSamples& newest_;
+  std::uint32_t buffer_;
+  bool is_copied_;
+  std::optional<gateway::TypeMapping> mapping_;
+  std::vector<std::byte> value_;
+  std::vector<std::byte> fields_;
+};
+
+sim::LocalTime time_of(std::int64_t ns) { return sim::LocalTime::from_ps(ns * 1000); }
+
+class Receiving final : public Work {
+ public:
+  Receiving(TopicReader& reader, SharedChannel& channel) : reader_(reader), channel_(channel) {}
+
+  CallResult call(std::int64_t now) override {
+    CallResult result;
+    while (reader_.take(value_)) {
+      const std::lock_guard lock(channel_.mutex);
+      channel_.channel.receive(value_, time_of(now));
+      ++result.taken;
+    }
+    result.buffered = result.taken;
+    return result;
+  }
+  std::uint64_t lost() const override { return reader_.lost(); }
+
+ private:
+  TopicReader& reader_;
+  SharedChannel& channel_;
+  std::vector<std::byte> value_;
+};
+
+class Sending final : public Work {
+ public:
+  Sending(TopicWriter& writer, SharedChannel& channel) : writer_(writer), channel_(channel) {}
+
+  CallResult call(std::int64_t now) override {
+    {
+      const std::lock_guard lock(channel_.mutex);
+      const auto next = channel_.channel.pull(time_of(now));
+      if (!next) return {};
+      value_.assign(next->octets.begin(), next->octets.end());
+    }
+    return {.sent = writer_.write(value_) ? 1U : 0U};  // outside of the lock: a reliable writer may wait
+  }
+
+ private:
+  TopicWriter& writer_;
+  SharedChannel& channel_;
+  std::vector<std::byte> value_;
+};
+
+}  // namespace
+
+void NewestSamples::put(const std::string& topic, const std::vector<std::byte>& fields) {
+  const std::lock_guard lock(mutex_);
+  samples_[topic] = fields;
+}
+
+bool NewestSamples::get(const std::string& topic, std::vector<std::byte>& fields) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = samples_.find(topic);
+  if (found == samples_.end()) return false;
+  fields = found->second;
+  return true;
+}
+
+std::unique_ptr<Work> make_publishing(const TopicEnd& topic, TopicWriter& writer, const std::optional<Payload>& payload, NewestSamples& newest) {
+  return std::make_unique<Publishing>(topic, writer, payload, newest);
+}
+std::unique_ptr<Work> make_subscribing(const std::string& name, const TopicEnd& topic, TopicReader& reader, std::uint32_t buffer, bool is_copied, NewestSamples& newest) {
+  return std::make_unique<Subscribing>(name, topic, reader, buffer, is_copied, newest);
+}
+std::unique_ptr<Work> make_receiving(TopicReader& reader, SharedChannel& channel) { return std::make_unique<Receiving>(reader, channel); }
+std::unique_ptr<Work> make_sending(TopicWriter& writer, SharedChannel& channel) { return std::make_unique<Sending>(writer, channel); }
+
+}  // namespace takt::node

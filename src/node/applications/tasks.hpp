@@ -1,0 +1,61 @@
+// What the threads of applications and gateways do at each activation.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gateway/channel.hpp"
+#include "node/applications/topic_end.hpp"
+
+namespace takt::node {
+
+/// What one call did.
+struct CallResult {
+  std::uint32_t sent = 0;
+  std::uint32_t taken = 0;     ///< samples that came
+  std::uint32_t buffered = 0;  ///< those of them that the buffer held
+};
+
+/// The work of a thread. `now`: nanoseconds of the clock. Called by its thread alone.
+class Work {
+ public:
+  virtual ~Work() = default;
+  virtual CallResult call(std::int64_t now) = 0;
+  virtual std::uint64_t lost() const { return 0; }
+};
+
+/// The newest sample of each topic that an application has taken, as fields: what its publishing threads may copy.
+class NewestSamples {
+ public:
+  void put(const std::string& topic, const std::vector<std::byte>& fields);
+  /// False before the first one.
+  bool get(const std::string& topic, std::vector<std::byte>& fields) const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<std::string, std::vector<std::byte>> samples_;
+};
+
+/// Fields of a topic become what its protocol carries, and back. For OPC UA that is the same.
+struct TopicEnd {
+  const TopicShape* shape = nullptr;
+  bool is_dds = false;
+};
+
+std::unique_ptr<Work> make_publishing(const TopicEnd& topic, TopicWriter& writer, const std::optional<Payload>& payload, NewestSamples& newest);
+/// `is_copied`: some thread publishes what this one takes.
+std::unique_ptr<Work> make_subscribing(const std::string& name, const TopicEnd& topic, TopicReader& reader, std::uint32_t buffer, bool is_copied, NewestSamples& newest);
+
+/// The channel of a gateway, which its two threads share.
+struct SharedChannel {
+  SharedChannel(gateway::TypeMapping mapping, const gateway::BufferSettings& settings) : channel(std::move(mapping), settings) {}
+  std::mutex mutex;
+  gateway::Channel channel;
+};
+std::unique_ptr<Work> make_receiving(TopicReader& reader, SharedChannel& channel);
+std::unique_ptr<Work> make_sending(TopicWriter& writer, SharedChannel& channel);
+
+}  // namespace takt::node

@@ -1,0 +1,50 @@
+// What threads of applications publish by and take from, whatever the protocol.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "node/applications/config.hpp"
+#include "node/dds/participant.hpp"
+#include "node/socket.hpp"
+
+namespace takt::node {
+
+/// Values travel as their protocol has them: the fields of a DataSet as Variants, or a CDR payload.
+class TopicWriter {
+ public:
+  virtual ~TopicWriter() = default;
+  /// False if it was not sent.
+  virtual bool write(uadp::Octets value) = 0;
+};
+
+class TopicReader {
+ public:
+  virtual ~TopicReader() = default;
+  /// The next value that has come, oldest first; false if there is none.
+  virtual bool take(std::vector<std::byte>& value) = 0;
+  /// Values that were sent, as their numbers show, and did not come; 0 where the protocol does not tell.
+  virtual std::uint64_t lost() const { return 0; }
+};
+
+/// All topics of OPC UA of a node, behind one socket. Calls may come from several threads.
+class OpcUaTopics {
+ public:
+  OpcUaTopics(std::unique_ptr<Socket> socket, std::int64_t (*now_ns)());
+  ~OpcUaTopics();
+
+  /// Both are its own and live as long as it does. A topic has at most one writer and as many readers as one likes.
+  TopicWriter& add_writer(const TopicShape& topic);
+  TopicReader& add_reader(const TopicShape& topic);
+
+  std::uint64_t send_failures() const;
+
+ private:
+  struct Shared;
+  class Writer;
+  class Reader;
+  std::unique_ptr<Shared> shared_;
+};
+
+}  // namespace takt::node

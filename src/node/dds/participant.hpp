@@ -1,0 +1,56 @@
+// DDS as a real node sees it: serialized payloads go in and come out. Behind it stands an implementation of others.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "uadp/octets.hpp"
+#include "vocabulary/dds.hpp"
+
+namespace takt::node {
+
+/// Writes samples of one topic. A sample is a serialized payload: encapsulation header and CDR.
+class DdsWriter {
+ public:
+  virtual ~DdsWriter() = default;
+  /// False if it was not taken: it waited for max_blocking_time in vain.
+  virtual bool write(uadp::Octets payload) = 0;
+  /// Readers that it has found. A volatile sample is for these alone.
+  virtual std::uint32_t matched() const = 0;
+};
+
+/// Takes samples of one topic.
+class DdsReader {
+ public:
+  virtual ~DdsReader() = default;
+  /// The next sample, oldest first; false if there is none.
+  virtual bool take(std::vector<std::byte>& payload) = 0;
+  /// Writers that it has found.
+  virtual std::uint32_t matched() const = 0;
+};
+
+/// A topic without keys. Types are matched by their names; what a payload holds is the matter of who writes and who takes.
+struct DdsTopic {
+  std::string name;
+  std::string type;
+  vocabulary::Qos qos;  ///< absent: as a scenario says
+};
+
+/// A participant in a domain. Writers and readers are its, and go with it. Calls may come from several threads.
+class DdsParticipant {
+ public:
+  virtual ~DdsParticipant() = default;
+  /// Null, and `problem` says why, if the implementation refuses.
+  virtual DdsWriter* add_writer(const DdsTopic& topic, std::string& problem) = 0;
+  virtual DdsReader* add_reader(const DdsTopic& topic, std::string& problem) = 0;
+};
+
+/// Whether this build has an implementation, and if not, what to install.
+bool has_dds();
+inline constexpr const char* dds_needed = "takt built with Cyclone DDS (on Debian: install cyclonedds-dev and cyclonedds-tools, then configure and build again)";
+
+/// Null, and `problem` says why, if it cannot be. `interface` "": as CYCLONEDDS_URI or the implementation says.
+std::unique_ptr<DdsParticipant> open_dds(std::uint16_t domain, const std::string& interface, std::string& problem);
+
+}  // namespace takt::node

@@ -1,0 +1,29 @@
+// What the stock programs have in common. Nothing of takt is in them: they are what somebody else would write for Cyclone DDS.
+#pragma once
+
+#include <dds/dds.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "plant.h"
+
+static inline int is_sample(const char* type) { return strcmp(type, "Sample") == 0; }
+
+static inline const dds_topic_descriptor_t* descriptor_of(const char* type) { return is_sample(type) ? &Plant_Sample_desc : &Plant_Motion_desc; }
+
+static inline dds_entity_t checked(dds_entity_t entity, const char* what) {
+  if (entity < 0) {
+    fprintf(stderr, "%s: %s\n", what, dds_strretcode(entity));
+    exit(3);
+  }
+  return entity;
+}
+
+/// Reliable, and nothing is replaced before it is taken.
+static inline dds_qos_t* reliable(void) {
+  dds_qos_t* const qos = dds_create_qos();
+  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(10));
+  dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);
+  return qos;
+}

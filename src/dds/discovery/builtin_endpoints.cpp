@@ -69,8 +69,9 @@ StatefulReader make_builtin_reader(const BuiltinTopic& topic, const BuiltinSetti
   made.guid = {settings.prefix, topic.reader};
   made.reliable = true;
   made.has_key = true;
-  made.wants_history = true;
   made.timing = settings.timing;
+  // A participant that was lost on one side only is found again by this.
+  if (made.timing.initial_acknack_delay == TimingProfile::off) made.timing.initial_acknack_delay = made.timing.heartbeat_response_delay;
   made.epoch = settings.epoch;
   made.key_of = [topic](PayloadKind, Octets payload) { return key_of_payload(topic, payload); };
   return StatefulReader(std::move(made));

@@ -46,10 +46,44 @@ std::vector<std::string> problems_of(const ParticipantConfig& config) {
 Participant::Participant(const ParticipantConfig& config, sim::LocalTime now)
     : config_(config),
       ports_(ports_of(config.domain, config.participant)),
-      outbox_(config.prefix, config.max_message),
-      messages_(config.prefix, config.timing, config.max_message, config.epoch) {
+      outbox_(config.prefix, config.max_message) {
   TAKT_CHECK(problems_of(config).empty(), "a participant's settings are sound");
   for (const FlowControllerSettings& flow : config.flow_controllers) flows_.emplace(flow.name, std::make_unique<FlowController>(flow, now));
+  const Locator user = Locator::udp_v4(config.address, ports_.unicast_user);
+  std::optional<Locator> group;
+  if (config.multicast_group) group = Locator::udp_v4(*config.multicast_group, ports_.multicast_user);
+  outbox_.set_own(user, group);
+  if (!config.discovery) return;
+  Discovery::Settings settings{*config.discovery, config.timing, config.max_message, config.epoch};
+  const Locator everybody = Locator::udp_v4(discovery_group, ports_.multicast_metatraffic);
+  const DiscoveryKind kind = config.discovery->kind;
+  const bool announces = kind == DiscoveryKind::simple || kind == DiscoveryKind::static_;
+  if (announces && settings.discovery.announce_to.empty()) settings.discovery.announce_to = {everybody};
+  ParticipantData self;
+  self.guid = {config.prefix, entity_id::participant};
+  self.domain = config.domain;
+  self.metatraffic_unicast = {Locator::udp_v4(config.address, config.metatraffic_port.value_or(ports_.unicast_metatraffic))};
+  if (announces) self.metatraffic_multicast = {everybody};
+  self.default_unicast = {user};
+  if (group) self.default_multicast = {*group};
+  self.entity_name = config.name;
+  discovery_ = std::make_unique<Discovery>(settings, self);
+  discovery_->start(now, outbox_);
+}
+
+void Participant::stop(sim::LocalTime now) {
+  if (discovery_) discovery_->stop(now, outbox_);
+}
+
+std::vector<Locator> Participant::listens_to() const {
+  std::vector<Locator> all{Locator::udp_v4(config_.address, ports_.unicast_user)};
+  if (config_.multicast_group) all.push_back(Locator::udp_v4(*config_.multicast_group, ports_.multicast_user));
+  if (discovery_) {
+    const ParticipantData& self = discovery_->self();
+    all.insert(all.end(), self.metatraffic_unicast.begin(), self.metatraffic_unicast.end());
+    all.insert(all.end(), self.metatraffic_multicast.begin(), self.metatraffic_multicast.end());
+  }
+  return all;
 }
 
 Participant::~Participant() = default;
@@ -90,11 +124,14 @@ Created<WriterHandle> Participant::create_writer(const WriterConfig& config, sim
     writer.flow->add(writer.rtps, config.flow_share);
   }
   writer.assert_liveliness(now);
-  messages_.set_lease(config.qos.liveliness.kind, config.qos.liveliness.lease_duration, now);
+  plan_liveliness(now);
+  if (discovery_) discovery_->announce(writer.data, now, outbox_);
+  match_with_all(writer, now);
+  settle(now);
   return {handle, {}};
 }
 
-Created<ReaderHandle> Participant::create_reader(const ReaderConfig& config, sim::LocalTime) {
+Created<ReaderHandle> Participant::create_reader(const ReaderConfig& config, sim::LocalTime now) {
   std::vector<std::string> problems = problems_in(config);
   if (!config.content_filter.empty()) problems.push_back("content_filter: content-filtered topics are not supported");
   if (!problems.empty()) return {std::nullopt, problems};
@@ -103,20 +140,29 @@ Created<ReaderHandle> Participant::create_reader(const ReaderConfig& config, sim
   LocalReader& reader = *readers_.emplace(handle.number, std::make_unique<LocalReader>(handle, config, config_, guid)).first->second;
   reader.data.endpoint.unicast = {Locator::udp_v4(config_.address, ports_.unicast_user)};
   if (config_.multicast_group) reader.data.endpoint.multicast = {Locator::udp_v4(*config_.multicast_group, ports_.multicast_user)};
+  if (discovery_) discovery_->announce(reader.data, now, outbox_);
+  match_with_all(reader, now);
+  settle(now);
   return {handle, {}};
 }
 
 void Participant::remove(WriterHandle handle, sim::LocalTime now) {
   LocalWriter& writer = local(handle);
+  const Guid guid = writer.rtps.guid();
+  if (discovery_) discovery_->withdraw(guid, now, outbox_);
+  for (auto& [number, reader] : readers_) end_match(*reader, guid, now);
   if (writer.flow != nullptr) writer.flow->remove(writer.rtps);
   if (writer.flow != nullptr && writer.config.flow_controller.empty()) flows_.erase(writer.flow->settings().name);
-  writers_by_id_.erase(writer.rtps.guid().entity);
+  writers_by_id_.erase(guid.entity);
   writers_.erase(handle.number);
   settle(now);
 }
 
 void Participant::remove(ReaderHandle handle, sim::LocalTime now) {
-  readers_.erase(local(handle).handle.number);
+  const Guid guid = local(handle).rtps.guid();
+  if (discovery_) discovery_->withdraw(guid, now, outbox_);
+  for (auto& [number, writer] : writers_) end_match(*writer, guid, now);
+  readers_.erase(handle.number);
   settle(now);
 }
 
@@ -155,7 +201,7 @@ WriteResult Participant::write(WriterHandle handle, ChangeKind kind, const Insta
 
 std::optional<Sample> Participant::take(ReaderHandle reader, sim::LocalTime now) {
   std::optional<Sample> sample = local(reader).take(now, outbox_);
-  local(reader).report(now, events_);
+  settle(now);
   return sample;
 }
 
@@ -163,22 +209,32 @@ std::vector<Sample> Participant::read(ReaderHandle reader, sim::LocalTime now) {
 
 void Participant::assert_liveliness(WriterHandle handle, sim::LocalTime now) {
   LocalWriter& asserted = local(handle);
-  switch (asserted.config.qos.liveliness.kind) {
-    case LivelinessKind::automatic: return;
-    case LivelinessKind::manual_by_topic:
-      asserted.assert_liveliness(now);
-      asserted.rtps.assert_liveliness(outbox_);
-      return;
-    case LivelinessKind::manual_by_participant:
-      for (auto& [number, writer] : writers_)
-        if (writer->config.qos.liveliness.kind == LivelinessKind::manual_by_participant) writer->assert_liveliness(now);
-      messages_.assert_manual(now, outbox_);
-      return;
+  const LivelinessKind kind = asserted.config.qos.liveliness.kind;
+  if (kind == LivelinessKind::manual_by_topic) {
+    asserted.assert_liveliness(now);
+    asserted.rtps.assert_liveliness(outbox_);
+  } else if (kind == LivelinessKind::manual_by_participant) {
+    for (auto& [number, writer] : writers_)
+      if (writer->config.qos.liveliness.kind == kind) writer->assert_liveliness(now);
+    if (discovery_) discovery_->assert_liveliness(ParticipantMessageData::Kind::manual, now, outbox_);
+    assert_writers_of(config_.prefix, kind, now);
   }
+  settle(now);
+}
+
+/// Often enough for the shortest lease.
+void Participant::plan_liveliness(sim::LocalTime now) {
+  sim::Duration shortest = infinite;
+  for (const auto& [number, writer] : writers_)
+    if (writer->config.qos.liveliness.kind == LivelinessKind::automatic) shortest = std::min(shortest, writer->config.qos.liveliness.lease_duration);
+  if (shortest == infinite) return;
+  liveliness_period_ = shortest / 100 * config_.timing.liveliness_percent;
+  liveliness_at_ = std::min(liveliness_at_, now);
 }
 
 sim::LocalTime Participant::next_wake() const {
-  sim::LocalTime next = messages_.next_wake();
+  sim::LocalTime next = liveliness_at_;
+  if (discovery_) next = std::min(next, discovery_->next_wake());
   for (const auto& [number, writer] : writers_) next = std::min(next, writer->next_wake());
   for (const auto& [number, reader] : readers_) next = std::min(next, reader->rtps.next_wake());
   for (const auto& [name, flow] : flows_) next = std::min(next, flow->next_wake());
@@ -186,7 +242,12 @@ sim::LocalTime Participant::next_wake() const {
 }
 
 void Participant::wake(sim::LocalTime now) {
-  messages_.wake(now, outbox_);
+  if (discovery_) discovery_->wake(now, outbox_);
+  if (liveliness_at_ <= now) {
+    liveliness_at_ = now.plus_saturated(liveliness_period_);
+    if (discovery_) discovery_->assert_liveliness(ParticipantMessageData::Kind::automatic, now, outbox_);
+    assert_writers_of(config_.prefix, LivelinessKind::automatic, now);
+  }
   for (auto& [number, writer] : writers_) {
     writer->rtps.wake(now, outbox_);
     writer->wake(now, events_);
@@ -197,7 +258,8 @@ void Participant::wake(sim::LocalTime now) {
 }
 
 void Participant::settle(sim::LocalTime now) {
-  take_participant_messages(now);
+  take_discovered(now);
+  while (const std::optional<std::vector<std::byte>> own = outbox_.take_looped()) dispatch(*own, now);
   for (auto& [number, writer] : writers_) {
     if (writer->flow != nullptr && writer->rtps.next_size(outbox_) != 0) writer->flow->notify(writer->rtps, now);
     writer->check_wait(now, events_);

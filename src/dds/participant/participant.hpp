@@ -7,9 +7,9 @@
 #include <memory>
 #include <set>
 
+#include "dds/discovery/discovery.hpp"
 #include "dds/participant/local_reader.hpp"
 #include "dds/participant/local_writer.hpp"
-#include "dds/participant/participant_messages.hpp"
 #include "dds/rtps/flow_controller.hpp"
 
 namespace takt::dds {
@@ -66,6 +66,11 @@ class Participant {
   /// MANUAL_BY_TOPIC: the writer's; MANUAL_BY_PARTICIPANT: that of all such writers of the participant.
   void assert_liveliness(WriterHandle writer, sim::LocalTime now);
 
+  /// Takes leave of the others; nothing is announced any more.
+  void stop(sim::LocalTime now);
+
+  /// Where messages for this participant come to; groups have to be joined.
+  std::vector<Locator> listens_to() const;
   /// `source` is where the message came from.
   void receive(Octets message, const Locator& source, sim::LocalTime now);
   sim::LocalTime next_wake() const;
@@ -78,15 +83,14 @@ class Participant {
   Matching match(ReaderHandle reader, const PublicationData& remote, sim::LocalTime now);
   void unmatch(WriterHandle writer, const Guid& remote, sim::LocalTime now);
   void unmatch(ReaderHandle reader, const Guid& remote, sim::LocalTime now);
-  /// Whom participant messages are exchanged with.
-  void add_peer(const GuidPrefix& peer, const std::vector<Locator>& metatraffic, sim::LocalTime now);
-  void remove_peer(const GuidPrefix& peer, sim::LocalTime now);
 
   const PublicationData& data_of(WriterHandle writer) const { return writers_.at(writer.number)->data; }
   const SubscriptionData& data_of(ReaderHandle reader) const { return readers_.at(reader.number)->data; }
   const LocalWriter& writer(WriterHandle handle) const { return *writers_.at(handle.number); }
   const LocalReader& reader(ReaderHandle handle) const { return *readers_.at(handle.number); }
   const Figures& figures() const { return outbox_.figures(); }
+  /// Nothing without discovery.
+  const Discovery* discovery() const { return discovery_.get(); }
 
  private:
   LocalWriter& local(WriterHandle writer);
@@ -95,9 +99,19 @@ class Participant {
   FlowController& flow_of(const WriterConfig& config, std::uint32_t number, sim::LocalTime now);
   void tell(EventKind kind, std::uint32_t entity, const Guid& remote, std::uint64_t count, sim::LocalTime now);
   void tell_mismatch(const Matching& matching, std::uint32_t entity, const Guid& remote, std::uint64_t count, sim::LocalTime now);
-  /// After anything that happened: flow controllers, waiting writes, statuses.
+  /// After anything that happened: what was found, what goes to oneself, flow controllers, waiting writes, statuses.
   void settle(sim::LocalTime now);
-  void take_participant_messages(sim::LocalTime now);
+  Matching try_match(LocalWriter& writer, const SubscriptionData& remote, const MatchedReader& reader, sim::LocalTime now);
+  Matching try_match(LocalReader& reader, const PublicationData& remote, const MatchedWriter& writer, sim::LocalTime now);
+  void end_match(LocalWriter& writer, const Guid& remote, sim::LocalTime now);
+  void end_match(LocalReader& reader, const Guid& remote, sim::LocalTime now);
+  void match_with_all(LocalWriter& writer, sim::LocalTime now);
+  void match_with_all(LocalReader& reader, sim::LocalTime now);
+  void take_discovered(sim::LocalTime now);
+  void take_discovered(const DiscoveryEvent& event, sim::LocalTime now);
+  void assert_writers_of(const GuidPrefix& participant, LivelinessKind kind, sim::LocalTime now);
+  void plan_liveliness(sim::LocalTime now);
+  void dispatch(Octets message, sim::LocalTime now);
 
   // Each kind of submessage to those that it concerns (participant_receive.cpp).
   template <class Submessage>
@@ -112,7 +126,10 @@ class Participant {
   std::map<std::uint32_t, std::unique_ptr<LocalReader>> readers_;
   std::map<EntityId, LocalWriter*> writers_by_id_;
   std::map<std::string, std::unique_ptr<FlowController>> flows_;
-  ParticipantMessages messages_;
+  std::unique_ptr<Discovery> discovery_;
+  // Participant messages for writers whose liveliness is AUTOMATIC.
+  sim::Duration liveliness_period_ = infinite;
+  sim::LocalTime liveliness_at_ = sim::LocalTime::never();
   std::deque<Event> events_;
   std::uint32_t entities_ = 0;
 };

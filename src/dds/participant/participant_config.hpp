@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dds/discovery/settings.hpp"
 #include "dds/history/instance_key.hpp"
 #include "dds/message/locator.hpp"
 #include "dds/persistence/storage.hpp"
@@ -47,7 +48,9 @@ struct ParticipantConfig {
   Epoch epoch;
   ReceiveLimits receive_limits;
   std::vector<FlowControllerSettings> flow_controllers;
-  std::string name;
+  std::optional<DiscoverySettings> discovery;    ///< nothing: entities are matched by hand only
+  std::optional<std::uint16_t> metatraffic_port; ///< instead of the one that follows from domain and participant, for example of a server
+  std::string name;                              ///< entity name; static discovery finds participants by it
 };
 
 struct WriterConfig {

@@ -24,7 +24,6 @@ void hand(StatefulReader& reader, const Guid& writer, const Submessage& submessa
 template <class Submessage>
 void Participant::to_readers(const Submessage& submessage, const GuidPrefix& source, std::optional<Time> timestamp, sim::LocalTime now) {
   const Guid writer{source, submessage.writer};
-  if (submessage.writer == entity_id::participant_message_writer) return hand(messages_.reader(), writer, submessage, timestamp, now, outbox_);
   for (auto& [number, reader] : readers_)
     if (submessage.reader.is_unknown() || submessage.reader == reader->rtps.guid().entity) hand(reader->rtps, writer, submessage, timestamp, now, outbox_);
 }
@@ -32,21 +31,32 @@ void Participant::to_readers(const Submessage& submessage, const GuidPrefix& sou
 template <class Submessage>
 void Participant::to_writer(const Submessage& submessage, const GuidPrefix& source, sim::LocalTime now) {
   const Guid reader{source, submessage.reader};
-  if (submessage.writer == entity_id::participant_message_writer) return messages_.writer().receive(reader, submessage, now, outbox_);
   const auto writer = writers_by_id_.find(submessage.writer);
   if (writer != writers_by_id_.end()) writer->second->rtps.receive(reader, submessage, now, outbox_);
 }
 
 void Participant::receive(Octets message, const Locator&, sim::LocalTime now) {
+  // What was sent to a group comes back; one's own readers have had it.
+  const MessageDecoder head(message);
+  if (head.verdict() == Verdict::ok && head.header().prefix == config_.prefix) return;
   Figures& figures = outbox_.figures();
   ++figures.messages_received;
   figures.octets_received += message.size();
+  dispatch(message, now);
+  settle(now);
+}
+
+void Participant::dispatch(Octets message, sim::LocalTime now) {
+  Figures& figures = outbox_.figures();
   MessageDecoder decoder(message);
-  if (decoder.verdict() == Verdict::ok && decoder.header().prefix == config_.prefix) return;  // one's own multicast
   while (decoder.next()) {
     figures.received.count(decoder.kind());
     const Interpretation& how = decoder.interpretation();
     if (!how.destination.is_unknown() && how.destination != config_.prefix) continue;
+    if (discovery_) {
+      discovery_->heard(how.source, now);
+      if (discovery_->receive(how, decoder.submessage(), now, outbox_)) continue;
+    }
     std::visit(
         [&](const auto& submessage) {
           using Kind = std::decay_t<decltype(submessage)>;
@@ -56,20 +66,6 @@ void Participant::receive(Octets message, const Locator&, sim::LocalTime now) {
         decoder.submessage());
   }
   figures.verdicts.count(decoder.verdict());
-  settle(now);
-}
-
-/// Writers whose liveliness is their participant's live as long as its messages come.
-void Participant::take_participant_messages(sim::LocalTime now) {
-  while (const std::optional<ParticipantMessageData> message = messages_.take(now, outbox_)) {
-    const LivelinessKind kind = message->kind == ParticipantMessageData::Kind::manual ? LivelinessKind::manual_by_participant : LivelinessKind::automatic;
-    for (auto& [number, reader] : readers_) {
-      std::vector<Guid> alive;
-      for (const auto& [guid, proxy] : reader->rtps.writers())
-        if (guid.prefix == message->prefix && proxy.writer.liveliness.kind == kind) alive.push_back(guid);
-      for (const Guid& guid : alive) reader->rtps.assert_alive(guid, now);
-    }
-  }
 }
 
 }  // namespace takt::dds

@@ -25,8 +25,6 @@ struct Figures {
   std::uint64_t octets_sent = 0;      ///< of RTPS messages
   std::uint64_t octets_received = 0;
   std::uint64_t resent = 0;           ///< samples or fragments sent again because a reader asked
-  std::uint64_t discovery_messages_sent = 0;
-  std::uint64_t discovery_messages_received = 0;
   VerdictCounts verdicts;             ///< of messages received
 };
 

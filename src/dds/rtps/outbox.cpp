@@ -1,5 +1,7 @@
 #include "dds/rtps/outbox.hpp"
 
+#include <algorithm>
+
 #include "sim/check.hpp"
 
 namespace takt::dds {
@@ -64,6 +66,15 @@ void Outbox::end() {
     return;
   }
   at_hand_.octets.resize(size);
+  if (own_) {
+    const bool is_own = std::erase(at_hand_.destinations, *own_) != 0;
+    const bool is_group = own_group_ && std::find(at_hand_.destinations.begin(), at_hand_.destinations.end(), *own_group_) != at_hand_.destinations.end();
+    if (is_own || is_group) looped_.push_back(at_hand_.octets);
+    if (at_hand_.destinations.empty()) {
+      spare_.push_back(std::move(at_hand_.octets));
+      return;
+    }
+  }
   ++figures_.messages_sent;
   figures_.octets_sent += size;
   figures_.datagrams_sent += at_hand_.destinations.size();
@@ -79,6 +90,19 @@ void Outbox::post(std::vector<Locator> destinations, Octets octets) {
   figures_.datagrams_sent += destinations.size();
   figures_.datagram_octets_sent += destinations.size() * octets.size();
   ready_.push_back({std::move(destinations), 0, {octets.begin(), octets.end()}});
+}
+
+void Outbox::set_own(const Locator& unicast, const std::optional<Locator>& multicast) {
+  own_ = unicast;
+  own_group_ = multicast;
+}
+
+std::optional<std::vector<std::byte>> Outbox::take_looped() {
+  end();
+  if (looped_.empty()) return std::nullopt;
+  std::vector<std::byte> octets = std::move(looped_.front());
+  looped_.pop_front();
+  return octets;
 }
 
 const OutgoingDatagram* Outbox::next() {

@@ -39,6 +39,10 @@ class Outbox {
   /// A message that was made elsewhere.
   void post(std::vector<Locator> destinations, Octets octets);
 
+  /// What goes to these is given back by take_looped(), and is not sent to the first, which is the participant's own address.
+  void set_own(const Locator& unicast, const std::optional<Locator>& multicast);
+  std::optional<std::vector<std::byte>> take_looped();
+
   bool is_empty() const { return ready_.empty(); }
   /// The next message; valid until the next call.
   const OutgoingDatagram* next();
@@ -59,6 +63,9 @@ class Outbox {
   std::deque<OutgoingDatagram> ready_;
   OutgoingDatagram given_;
   std::vector<std::vector<std::byte>> spare_;
+  std::optional<Locator> own_;
+  std::optional<Locator> own_group_;
+  std::deque<std::vector<std::byte>> looped_;
   Figures figures_;
 };
 

@@ -11,11 +11,14 @@ void StatefulReader::match(const MatchedWriter& writer, sim::LocalTime now) {
   WriterProxy& proxy = writers_[writer.guid];
   proxy.writer = writer;
   proxy.reliable = settings_.reliable && writer.reliable;
+  proxy.ack_count = ack_count_;
+  proxy.nack_frag_count = ack_count_;
   ++liveliness_.alive_count;
   ++liveliness_.changes;
   proxy.alive_until = now.plus_saturated(writer.liveliness.lease_duration);
   if (proxy.reliable && settings_.timing.initial_acknack_delay != TimingProfile::off) {
-    proxy.answer_at = now + settings_.timing.initial_acknack_delay;
+    proxy.greeting_delay = settings_.timing.initial_acknack_delay;
+    proxy.answer_at = now + proxy.greeting_delay;
     proxy.answer_is_final = false;
   }
 }
@@ -25,6 +28,7 @@ void StatefulReader::unmatch(const Guid& writer, sim::LocalTime now) {
   if (at == writers_.end()) return;
   --(at->second.is_alive ? liveliness_.alive_count : liveliness_.not_alive_count);
   ++liveliness_.changes;
+  ack_count_ = std::max({ack_count_, at->second.ack_count, at->second.nack_frag_count});
   writers_.erase(at);
   history_.writer_gone(writer, now);
 }
@@ -300,6 +304,12 @@ void StatefulReader::wake(sim::LocalTime now, Outbox& outbox) {
     if (proxy.answer_at <= now) {
       proxy.answer_at = sim::LocalTime::never();
       answer(proxy, std::exchange(proxy.answer_is_final, true), now, outbox);
+      // The first ACKNACK, or the HEARTBEAT that it asks for, may be lost; a writer that takes all for acknowledged would stay silent.
+      if (proxy.greeting_delay > sim::Duration() && !proxy.heard_at) {
+        proxy.greeting_delay = std::max(proxy.greeting_delay, std::min(2 * proxy.greeting_delay, settings_.timing.heartbeat_period_max));
+        proxy.answer_at = now + proxy.greeting_delay;
+        proxy.answer_is_final = false;
+      }
     }
   }
   history_.advance(now);

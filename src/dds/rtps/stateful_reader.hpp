@@ -89,6 +89,7 @@ class StatefulReader {
   LivelinessChangedStatus liveliness_;
   std::uint64_t arrived_ = 0;
   std::uint64_t duplicates_ = 0;
+  std::uint32_t ack_count_ = 0;  ///< counts go on from here where a writer is matched again, so that it does not take them for old ones
 };
 
 }  // namespace takt::dds

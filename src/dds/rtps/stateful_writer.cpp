@@ -266,13 +266,18 @@ void StatefulWriter::receive(const Guid& reader, const AckNack& ack, sim::LocalT
   if (ack.count <= proxy.last_ack) return;  // a duplicate, or overtaken
   proxy.last_ack = ack.count;
   if (ack.missing.base() > history_.last() + 1) return;  // acknowledges what was never written
-  proxy.acknowledged_below = std::max(proxy.acknowledged_below, ack.missing.base());
+  // Less than before, if it lost the writer, found it again and wants what it had already: heartbeats go on until it has it.
+  proxy.acknowledged_below = std::max(ack.missing.base(), proxy.start);
   proxy.requests.erase(proxy.requests.begin(), proxy.requests.lower_bound(proxy.acknowledged_below));
   proxy.sent_at.erase(proxy.sent_at.begin(), proxy.sent_at.lower_bound(proxy.acknowledged_below));
   ack.missing.for_each([&](SequenceNumber number) {
     if (number < proxy.next_unsent) ask(proxy, number, now);
   });
-  if (!ack.is_final && ack.missing.is_empty()) proxy.heartbeat_at = now;
+  // It wants to hear what there is, be it nothing.
+  if (!ack.is_final && ack.missing.is_empty() && proxy.requests.empty()) {
+    proxy.heartbeat_at = sim::LocalTime::never();
+    send_heartbeat(proxy, outbox);
+  }
   answer_later(proxy, now, outbox);
   release();
   plan_heartbeat(now);

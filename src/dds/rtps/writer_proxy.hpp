@@ -47,6 +47,7 @@ struct WriterProxy {
   std::uint32_t nack_frag_count = 0;
   sim::LocalTime answer_at = sim::LocalTime::never();
   bool answer_is_final = true;
+  sim::Duration greeting_delay{};  ///< from the match, and then between ACKNACKs, until the writer is heard; 0: there are none
   sim::LocalTime repeat_at = sim::LocalTime::never();
   std::optional<sim::LocalTime> answered_at;
   SequenceNumberSet answered;

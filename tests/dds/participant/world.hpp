@@ -113,7 +113,8 @@ class World {
     for (const Locator& locator : sent.destinations) {
       for (std::size_t to = 0; to < participants.size(); ++to) {
         if (!participants[to] || to == sent.from) continue;
-        if (!locator.is_multicast() && locator.ip_v4() != participants[to]->config().address) continue;
+        const std::vector<Locator> listens = participants[to]->listens_to();
+        if (std::find(listens.begin(), listens.end(), locator) == listens.end()) continue;
         for (const sim::Duration delay : medium(sent)) arrivals_.emplace(std::pair(now + delay, serial_++), std::pair(to, sent.octets));
       }
     }

@@ -60,6 +60,7 @@ struct Thread {
   Duration every;
   Duration offset;
   std::optional<Latency> response;
+  std::optional<std::uint64_t> tests = {};
   std::optional<Payload> payload;
   std::optional<std::uint32_t> buffer;
   std::optional<Signal> signal;

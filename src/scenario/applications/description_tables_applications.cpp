@@ -76,6 +76,7 @@ const json::Object& describe(json::Type<Thread>) {
       required<&Thread::every>("every", "Interval of its activations, which are absolute deadlines on the clock of the host.", {.min = 10_us, .max = 3600_s}),
       optional<&Thread::offset>("offset", "Phase of the activations within the interval.", {.max = 3600_s}),
       optional<&Thread::response>("response", "From an activation to the call; not before the next activation: the call is missed. The wake-up latency of the host if absent."),
+      optional<&Thread::tests>("tests", "Most tests of this thread; as many as the scheduler says if absent.", {.min = 1, .max = 1'000'000'000}),
       optional<&Thread::payload>("payload", "What it publishes; a counter if absent."),
       optional<&Thread::buffer>("buffer", "Samples that a call takes at most, the newest; older ones are overwritten. 1 if absent.", {.min = 1, .max = most_samples}),
       optional<&Thread::signal>("signal", "Drives a digital output."),

@@ -130,6 +130,7 @@ class ApplicationResolver {
       if (thread.publish) one.topic = topic_of(*thread.publish, thread.where.at("publish"));
       if (thread.subscribe) one.topic = topic_of(*thread.subscribe, thread.where.at("subscribe"));
       one.response = response_of(thread.response, made);
+      one.tests = thread.tests ? thread.tests : application.scheduler.tests;
       one.buffer = thread.buffer.value_or(1);
       const auto refuse = [&](bool present, std::string_view key, std::string_view other) {
         if (present) diagnostics_.error(thread.where.at(key), "does not belong to this thread", {json::quote(key), "a thread with " + json::quote(other)});
@@ -196,6 +197,7 @@ class ApplicationResolver {
       thread.offset = sends ? gateway.send_offset : gateway.receive_offset;
       check_offset(thread.offset, thread.every, gateway.where.at(sends ? "send_offset" : "receive_offset"));
       thread.response = response_of(sends ? gateway.send_response : gateway.receive_response, made);
+      thread.tests = gateway.scheduler.tests;
       thread.buffer = all_that_came;
       made.threads.push_back(std::move(thread));
     }

@@ -32,6 +32,7 @@ struct ResolvedThread {
   Duration every;
   Duration offset;
   sim::Distribution response = sim::Distribution::constant({});
+  std::optional<std::uint64_t> tests;           ///< at most, of the scheduler
   std::optional<Pattern> pattern;               ///< of what it publishes
   std::optional<std::uint32_t> copies;          ///< instead: the subscribing thread of the application whose last sample it publishes
   std::uint32_t buffer = 1;

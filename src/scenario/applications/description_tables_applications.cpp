@@ -90,7 +90,7 @@ const json::Object& describe(json::Type<Thread>) {
 
 const json::Object& describe(json::Type<Scheduler>) {
   static constexpr json::Field fields[] = {
-      optional<&Scheduler::window>("window", "A test: what happened in a window of this length, or of the least multiple of a thread's interval that is not shorter.",
+      optional<&Scheduler::window>("window", "A test: what happened in a window of this length, or of the least multiple of a thread's interval that is not shorter; from the thread's offset on.",
                                    {.min = 10_us, .max = 3600_s}),
       optional<&Scheduler::after>("after", "No test begins before.", {.max = longest_step}),
       optional<&Scheduler::tests>("tests", "Most tests of each thread; no limit if absent.", {.min = 1, .max = 1'000'000'000}),

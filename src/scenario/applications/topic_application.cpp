@@ -11,7 +11,7 @@ namespace {
 constexpr models::AlarmId threads_alarm = 0;
 
 WindowCounter::Settings window_of(const ResolvedThread& thread, const ResolvedApplication& application, sim::Duration length, std::uint64_t expected) {
-  return {length, expected, sim::LocalTime() + application.scheduler->after, thread.tests, application.scheduler->tolerance};
+  return {length, thread.offset, expected, sim::LocalTime() + application.scheduler->after, thread.tests, application.scheduler->tolerance};
 }
 
 }  // namespace

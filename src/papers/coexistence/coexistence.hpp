@@ -63,6 +63,7 @@ struct Speed {
 
 struct Reproduction {
   bool is_short = false;
+  int repetitions = 0;                                          ///< of which the cells are means
   std::string machine;                                          ///< on which criteria were measured too; empty: nothing was measured
   std::vector<LawErrors> laws;
   std::vector<Comparison> comparisons;

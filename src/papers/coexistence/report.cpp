@@ -142,9 +142,9 @@ Node improvements_node(const Reproduction& made) {
 }  // namespace
 
 std::string text_report(const Reproduction& made) {
-  std::string out = fmt::format("DDS and OPC UA side by side, reproduced{}\n", made.is_short ? " (short: what TSN changes at 10 and 1 ms only)" : "") + laws_text(made);
+  std::string out = fmt::format("DDS and OPC UA side by side, reproduced{}\n", made.is_short ? " (short: fewer repetitions, what TSN changes at 10 and 1 ms only)" : "") + laws_text(made);
   if (!made.machine.empty()) out += fmt::format("\nMeasured on {}\n", made.machine);
-  out += "\n" + papers::text_of(made.comparisons) + buffering_text(made) + signals_text(made) + improvements_text(made) + "\nRuns\n";
+  out += fmt::format("\nCells: mean of {} repetitions (least-greatest), each with the tests of its table\n\n", made.repetitions) + papers::text_of(made.comparisons) + buffering_text(made) + signals_text(made) + improvements_text(made) + "\nRuns\n";
   for (const Speed& speed : made.speed)
     out += fmt::format("  {:<16}{:.0f} s simulated, {} events, digest {:016x}\n", speed.scenario, speed.simulated_seconds, speed.events, speed.digest);
   return out + fmt::format("\n{}\n", made.holds() ? "REPRODUCED" : "NOT REPRODUCED");
@@ -154,6 +154,7 @@ std::string json_report(const Reproduction& made) {
   Node node = Node::object();
   node.add("paper", Node::of_string("coexistence"));
   node.add("short", Node::of_bool(made.is_short));
+  node.add("repetitions", Node::of_integer(made.repetitions));
   node.add("holds", Node::of_bool(made.holds()));
   if (!made.machine.empty()) node.add("machine", Node::of_string(made.machine));
   node.add("laws", laws_node(made));

@@ -22,20 +22,20 @@ void check_claims(Reproduction& made) {
   const auto at = [&](std::size_t i) -> const SignalStatistics& { return made.signals[i].statistics; };
   const SignalStatistics& slow = at(0);
   const bool has_all = static_cast<double>(slow.pulses) >= 0.99 * (slow.expected - 2);
-  made.comparisons.push_back(claim("Fig. 5, 100 ms", "expected form and frequency", irregularity(slow), slow.irregular <= most_of_clean && has_all,
+  made.comparisons.push_back(claim("Fig. 5, 100 ms: form and frequency", "as expected", irregularity(slow), slow.irregular <= most_of_clean && has_all,
                                    fmt::format("clean: at most {:.0f} % of the pulses off by more than half an interval, and 99 % of them there ({} of {:.0f}); period {:.2f} +- {:.2f} ms",
                                                100 * most_of_clean, slow.pulses, slow.expected, 100 * slow.period_mean, 100 * slow.period_deviation)));
   const SignalStatistics& ten = at(1);
   made.comparisons.push_back(claim("Fig. 6, 10 ms: length", "correct", fmt::format("median {:.2f} ms", 10 * ten.pulse_median), std::abs(ten.pulse_median - 1) <= correct_length,
                                    "correct: within a tenth of the interval"));
-  made.comparisons.push_back(claim("Fig. 6, 10 ms: desynchronisation", "slight, at random times", irregularity(ten), ten.irregular > most_of_clean && ten.irregular <= most_of_slight,
+  made.comparisons.push_back(claim("Fig. 6, 10 ms: desynchronisation", "slight", irregularity(ten), ten.irregular > most_of_clean && ten.irregular <= most_of_slight,
                                    "slight: more than clean, but less than a third of the pulses"));
   for (std::size_t i = 2; i < made.signals.size(); ++i)
     made.comparisons.push_back(claim(fmt::format("Fig. {}, {} ms", 5 + i, made.signals[i].interval), "irregular", irregularity(at(i)), at(i).irregular > most_of_slight,
                                      i == 2 ? "irregular: more than a third of the pulses" : ""));
   bool grows = true;
   for (std::size_t i = 1; i < made.signals.size(); ++i) grows = grows && at(i).irregular > at(i - 1).irregular;
-  made.comparisons.push_back(claim("irregularity grows with the rate", "said", grows ? "from each to the next" : "not everywhere", grows));
+  made.comparisons.push_back(claim("irregularity grows with the rate", "said", grows ? "from each to next" : "not everywhere", grows));
 }
 
 }  // namespace

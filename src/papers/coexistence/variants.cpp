@@ -60,8 +60,16 @@ void use_tsn(scenario::Scenario& scenario) {
   for (scenario::Topic& topic : scenario.topics) topic.pcp = priority;
   const sim::Duration later = settled - scenario.applications.front().scheduler.after;
   scenario.duration = scenario.duration + later;
-  for (scenario::Application& application : scenario.applications) begin_later(application.scheduler, later);
-  for (scenario::Gateway& gateway : scenario.gateways) begin_later(gateway.scheduler, later);
+  // Clocks agree now, so that threads can: who listens does so half an interval after who speaks.
+  for (scenario::Application& application : scenario.applications) {
+    begin_later(application.scheduler, later);
+    for (scenario::Thread& thread : application.threads) thread.offset = thread.subscribe ? thread.every / 2 : sim::Duration();
+  }
+  for (scenario::Gateway& gateway : scenario.gateways) {
+    begin_later(gateway.scheduler, later);
+    gateway.receive_offset = gateway.receive_every / 2;
+    gateway.send_offset = {};
+  }
 }
 
 void command_rarely(scenario::Scenario& scenario) {

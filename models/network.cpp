@@ -94,6 +94,8 @@ void Network::add_streams() {
     record.headers = stream.headers;
     record.ether_type = stream.ether_type;
     record.udp_port = stream.udp_port;
+    record.udp_source_port = stream.udp_source_port;
+    record.ip_group = stream.ip_group;
     record.listeners = static_cast<std::uint32_t>(stream.listeners.size());
     const StreamIndex index = traffic_.add_stream(std::move(record));
     for (const NodeIndex listener : stream.listeners) listen(listener, index, nullptr);

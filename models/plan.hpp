@@ -63,6 +63,8 @@ struct StreamPlan {
   std::vector<NodeIndex> listeners;
   std::uint16_t ether_type = 0;     ///< of frames without headers; 0: takt's choice
   std::uint16_t udp_port = 0;       ///< of the receivers; 0: takt's choice
+  std::uint16_t udp_source_port = 0;  ///< of the sender; 0: takt's choice
+  std::uint32_t ip_group = 0;       ///< IPv4 multicast address to which it goes; 0: takt's choice
 };
 
 /// Static filtering entries: at `bridge`, frames of (vlan, address) leave through `port`.

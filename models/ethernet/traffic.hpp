@@ -58,6 +58,8 @@ struct alignas(64) Stream {
   NodeIndex talker;
   std::uint32_t listeners = 1;
   std::uint16_t udp_port = 0;      ///< of the receivers; 0: takt's choice
+  std::uint16_t udp_source_port = 0;  ///< of the sender; 0: takt's choice
+  std::uint32_t ip_group = 0;      ///< IPv4 multicast address to which it goes; 0: takt's choice
 
   std::uint64_t dropped_in_all() const {
     std::uint64_t sum = 0;

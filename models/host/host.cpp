@@ -21,9 +21,9 @@ Host::Host(sim::Simulation& simulation, Traffic& traffic, NodeIndex node, const 
 void Host::listen(StreamIndex stream, Process* process) {
   const auto at = std::lower_bound(listeners_.begin(), listeners_.end(), stream,
                                    [](const Listener& listener, StreamIndex s) { return listener.stream < s; });
-  if (at != listeners_.end() && at->stream == stream)
+  if (at != listeners_.end() && at->stream == stream && at->process == nullptr)
     at->process = process;
-  else
+  else if (at == listeners_.end() || at->stream != stream || process != nullptr)
     listeners_.insert(at, {stream, process});
 }
 
@@ -91,8 +91,11 @@ void Host::deliver(sim::Simulation& simulation, FrameIndex index) {
   traffic_->count_delivery(frame, node_, simulation);
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::received), id(), index.value, static_cast<std::uint64_t>(frame.stream.value) << 32 | node_.value});
-  if (listener->process != nullptr && !frame.payload.is_none())
-    listener->process->receive(frame.stream, traffic_->payload(frame.payload).view());
+  if (listener->process != nullptr && !frame.payload.is_none()) {
+    const Listener* const end = listeners_.data() + listeners_.size();
+    for (const Listener* each = listener; each != end && each->stream == frame.stream; ++each)
+      each->process->receive(frame.stream, traffic_->payload(frame.payload).view());
+  }
   traffic_->release(index);
 }
 

@@ -19,7 +19,7 @@ class Host final : public sim::Component {
        const LocalClock& clock);
 
   /// This host takes frames of the stream; `process`, if any, gets their octets. Frames of other streams are dropped.
-  /// A second call for a stream replaces the process.
+  /// Further calls for a stream add processes, each of which gets them.
   void listen(StreamIndex stream, Process* process);
 
   /// The host takes copies of the stream that come more than once out (IEEE 802.1CB).

@@ -65,6 +65,57 @@ Node thread_node(const results::ThreadResult& t) {
   return node;
 }
 
+Node participant_node(const results::ParticipantResult& p) {
+  Node node = Node::object();
+  node.add("domain", integer(p.domain));
+  node.add("messages_sent", integer(p.messages_sent));
+  node.add("octets_sent", integer(p.octets_sent));
+  node.add("messages_received", integer(p.messages_received));
+  node.add("heartbeats_sent", integer(p.heartbeats_sent));
+  node.add("acknacks_sent", integer(p.acknacks_sent));
+  node.add("resent", integer(p.resent));
+  Node discovery = Node::object();
+  discovery.add("messages", integer(p.discovery_messages));
+  discovery.add("octets", integer(p.discovery_octets));
+  discovery.add("participants_found", integer(p.participants_found));
+  discovery.add("participants_lost", integer(p.participants_lost));
+  discovery.add("matches", integer(p.matches));
+  discovery.add("time_to_match_ps", p.time_to_match ? picoseconds(*p.time_to_match) : Node());
+  node.add("discovery", std::move(discovery));
+  node.add("deadlines_missed", integer(p.deadlines_missed));
+  node.add("liveliness_lost", integer(p.liveliness_lost));
+  node.add("samples_rejected", integer(p.samples_rejected));
+  node.add("writes_timed_out", integer(p.writes_timed_out));
+  Node reasons = Node::array();
+  for (const std::string& reason : p.incompatible) reasons.items.push_back(Node::of_string(reason));
+  node.add("incompatible", std::move(reasons));
+  return node;
+}
+
+Node buffer_node(const results::BufferResult& b) {
+  Node node = Node::object();
+  node.add("received", integer(b.received));
+  node.add("forwarded", integer(b.forwarded));
+  node.add("overwritten", integer(b.overwritten));
+  node.add("dropped", integer(b.dropped));
+  node.add("stale", integer(b.stale));
+  node.add("not_mapped", integer(b.not_mapped));
+  Node age = Node::object();
+  age.add("min", picoseconds(b.age_min));
+  age.add("mean", picoseconds(b.age_mean));
+  age.add("max", picoseconds(b.age_max));
+  node.add("age_ps", std::move(age));
+  return node;
+}
+
+std::string participant_row(const std::string& name, const results::ParticipantResult& p, std::size_t width) {
+  std::string row = fmt::format("  {:<{}}  domain {}: {} messages, {} octets sent, {} heartbeats, {} acknacks, {} resent; discovery {} messages, {} octets, {} matches{}\n", name, width, p.domain,
+                                p.messages_sent, p.octets_sent, p.heartbeats_sent, p.acknacks_sent, p.resent, p.discovery_messages, p.discovery_octets, p.matches,
+                                p.time_to_match ? " within " + readable(*p.time_to_match) : "");
+  for (const std::string& reason : p.incompatible) row += fmt::format("  {:<{}}  not matched: {}\n", "", width, reason);
+  return row;
+}
+
 std::string percent_text(const std::optional<double>& percent) { return percent ? fmt::format("{:.2f} %", *percent) : std::string("-"); }
 
 std::string row_of(const results::ApplicationResult& application, const results::ThreadResult& t, std::size_t width) {
@@ -97,6 +148,12 @@ Node applications_node(const results::RunResult& result) {
     Node threads = Node::object();
     for (const results::ThreadResult& t : a.threads) threads.add(t.name, thread_node(t));
     node.add("threads", std::move(threads));
+    if (a.buffer) node.add("buffer", buffer_node(*a.buffer));
+    if (!a.participants.empty()) {
+      Node participants = Node::array();
+      for (const results::ParticipantResult& p : a.participants) participants.items.push_back(participant_node(p));
+      node.add("participants", std::move(participants));
+    }
     all.add(a.name, std::move(node));
   }
   return all;
@@ -131,6 +188,17 @@ std::string applications_part(const results::RunResult& result) {
     for (const results::ThreadResult& t : a.threads)
       if (++rows <= most_rows) out += row_of(a, t, width);
   if (rows > most_rows) out += fmt::format("  ... {} more\n", rows - most_rows);
+  const auto any_participant = [](const results::ApplicationResult& a) { return !a.participants.empty(); };
+  if (std::any_of(result.applications.begin(), result.applications.end(), any_participant)) out += "\nParticipants of DDS\n";
+  rows = 0;
+  for (const results::ApplicationResult& a : result.applications)
+    for (const results::ParticipantResult& p : a.participants)
+      if (++rows <= most_rows) out += participant_row(a.name, p, width);
+  for (const results::ApplicationResult& a : result.applications)
+    if (a.buffer)
+      out += fmt::format("\nGateway {}: {} values received, {} forwarded, {} overwritten, {} dropped, {} stale, {} not mapped; age min {}, mean {}, max {}\n", a.name, a.buffer->received,
+                         a.buffer->forwarded, a.buffer->overwritten, a.buffer->dropped, a.buffer->stale, a.buffer->not_mapped, readable(a.buffer->age_min), readable(a.buffer->age_mean),
+                         readable(a.buffer->age_max));
   if (result.signals.empty()) return out;
   out += "\nDigital outputs\n";
   width = 0;

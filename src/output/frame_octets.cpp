@@ -78,7 +78,7 @@ void put_ipv4_and_udp(std::span<std::byte> msdu, const Frame& frame, const Frame
   const std::span<std::byte> datagram = msdu.first(ipv4_header + udp_header + payload);
   const std::span<std::byte> udp = datagram.subspan(ipv4_header);
   const std::uint32_t source = ipv4_address_of(frame.source, encoding.first_group);
-  const std::uint32_t destination = ipv4_address_of(frame.destination, encoding.first_group);
+  const std::uint32_t destination = encoding.ip_group != 0 ? encoding.ip_group : ipv4_address_of(frame.destination, encoding.first_group);
 
   NetworkWriter writer(datagram);
   writer.put8(0x45);                                       // version 4, five words
@@ -96,7 +96,7 @@ void put_ipv4_and_udp(std::span<std::byte> msdu, const Frame& frame, const Frame
   put16_at(datagram, 10, header.value());
 
   const std::uint32_t port = first_udp_port + frame.stream.value % 16384;
-  writer.put16(port);
+  writer.put16(encoding.udp_source_port != 0 ? encoding.udp_source_port : port);
   writer.put16(encoding.udp_port != 0 ? encoding.udp_port : port);
   writer.put16(udp.size());
   writer.put16(0);  // checksum, below
@@ -124,7 +124,9 @@ std::span<const std::byte> encode_frame(const Frame& frame, const FrameEncoding&
   const std::span<std::byte> octets = std::span(buffer).first(frame.length - std::size_t{models::frame_check_sequence.count});
   std::fill(octets.begin(), octets.end(), std::byte{0});
   NetworkWriter writer(octets);
-  writer.put48(models::mac_address_of(frame.destination, encoding.first_group).value);
+  // RFC 1112, 6.4: the low 23 bits of the group's address.
+  const std::uint64_t of_group = 0x0100'5E00'0000 | (encoding.ip_group & 0x7F'FFFF);
+  writer.put48(encoding.ip_group != 0 ? of_group : models::mac_address_of(frame.destination, encoding.first_group).value);
   writer.put48(models::mac_address_of(frame.source, encoding.first_group).value);
   if (frame.tagged) {
     writer.put16(0x8100);
@@ -151,6 +153,8 @@ std::span<const std::byte> encode_frame(const models::Network& network, models::
   if (!frame.payload.is_none()) encoding.payload = traffic.payload(frame.payload).view();
   if (traffic.stream(frame.stream).ether_type != 0) encoding.ether_type = traffic.stream(frame.stream).ether_type;
   encoding.udp_port = traffic.stream(frame.stream).udp_port;
+  encoding.udp_source_port = traffic.stream(frame.stream).udp_source_port;
+  encoding.ip_group = traffic.stream(frame.stream).ip_group;
   if (frame.r_tagged) encoding.r_tag = frame.r_tag_sequence;
   encoding.drop_eligible = frame.drop_eligible;
   return encode_frame(frame, encoding, buffer);

@@ -31,6 +31,8 @@ struct FrameEncoding {
   bool drop_eligible = false;
   std::uint16_t ether_type = local_experimental_ether_type;  ///< of frames without IPv4
   std::uint16_t udp_port = 0;                  ///< of the receivers; 0: as above
+  std::uint16_t udp_source_port = 0;           ///< of the sender; 0: as above
+  std::uint32_t ip_group = 0;                  ///< IPv4 multicast address to which it goes; 0: see ipv4_address_of
 };
 
 /// Room for the longest frame (IEEE 802.3 clause 3.2.7: envelope frames have 2000 octets).

@@ -51,11 +51,48 @@ struct ThreadResult {
   std::optional<CriterionResult> values;   ///< criterion 2
 };
 
+/// A participant of DDS.
+struct ParticipantResult {
+  std::uint32_t domain = 0;
+  std::uint64_t messages_sent = 0;
+  std::uint64_t octets_sent = 0;           ///< of RTPS messages
+  std::uint64_t messages_received = 0;
+  std::uint64_t heartbeats_sent = 0;
+  std::uint64_t acknacks_sent = 0;
+  std::uint64_t resent = 0;                ///< samples or fragments
+  std::uint64_t discovery_messages = 0;    ///< sent, among them
+  std::uint64_t discovery_octets = 0;
+  std::uint64_t participants_found = 0;
+  std::uint64_t participants_lost = 0;
+  std::uint64_t matches = 0;               ///< of its endpoints with others
+  std::optional<sim::Duration> time_to_match;  ///< from its last start to the last match since
+  std::uint64_t deadlines_missed = 0;
+  std::uint64_t liveliness_lost = 0;
+  std::uint64_t samples_rejected = 0;
+  std::uint64_t writes_timed_out = 0;
+  std::vector<std::string> incompatible;   ///< endpoints that did not match, and why; each reason once
+};
+
+/// The shared buffer of a gateway. received = forwarded + overwritten + dropped + stale + waiting.
+struct BufferResult {
+  std::uint64_t received = 0;
+  std::uint64_t forwarded = 0;
+  std::uint64_t overwritten = 0;
+  std::uint64_t dropped = 0;
+  std::uint64_t stale = 0;
+  std::uint64_t not_mapped = 0;            ///< came, and could not be mapped
+  sim::Duration age_min;                   ///< of what was forwarded
+  sim::Duration age_mean;
+  sim::Duration age_max;
+};
+
 struct ApplicationResult {
   std::string name;
   std::string node;
   bool is_gateway = false;
   std::vector<ThreadResult> threads;
+  std::vector<ParticipantResult> participants;
+  std::optional<BufferResult> buffer;      ///< of a gateway
 };
 
 /// A digital output, in true time.

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "scenario/applications/dds_node.hpp"
+#include "scenario/applications/gateway_bridge.hpp"
+
 namespace takt::results {
 namespace {
 
@@ -36,6 +39,16 @@ ThreadResult result_of(const scenario::ResolvedThread& thread, const std::string
   return result;
 }
 
+ParticipantResult result_of(const scenario::DdsNode& node) {
+  const scenario::ParticipantFigures f = node.figures();
+  return {node.settings().config.domain, f.messages_sent, f.octets_sent, f.messages_received, f.heartbeats_sent, f.acknacks_sent, f.resent, f.discovery_messages, f.discovery_octets,
+          f.participants_found, f.participants_lost, f.matches, f.time_to_match, f.deadlines_missed, f.liveliness_lost, f.samples_rejected, f.writes_timed_out, f.incompatible};
+}
+
+BufferResult result_of(const gateway::ChannelFigures& f) {
+  return {f.buffer.received, f.buffer.forwarded, f.buffer.overwritten, f.buffer.dropped, f.buffer.stale, f.mapping_error_total(), f.age.least, f.age.mean(), f.age.greatest};
+}
+
 }  // namespace
 
 std::vector<ApplicationResult> applications_of(const scenario::Run& run) {
@@ -49,6 +62,9 @@ std::vector<ApplicationResult> applications_of(const scenario::Run& run) {
     result.is_gateway = application.gateway.has_value();
     for (std::size_t t = 0; t < application.threads.size(); ++t)
       result.threads.push_back(result_of(application.threads[t], resolved.topics[application.threads[t].topic].description->name, run.thread(a, t)));
+    const scenario::TopicApplication& live = run.application(a);
+    for (const auto& node : live.nodes()) result.participants.push_back(result_of(*node));
+    if (live.bridge() != nullptr) result.buffer = result_of(live.bridge()->figures());
   }
   return results;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -15,6 +16,8 @@
 #include "scenario/topology.hpp"
 
 namespace takt::scenario {
+
+struct ResolvedDds;  // applications/resolved_dds.hpp
 
 /// What a stream asks of the links: long-term averages, for check and for refusing overload.
 struct StreamDemand {
@@ -181,6 +184,7 @@ struct Resolved {
   std::vector<ResolvedTopic> topics;
   std::vector<ResolvedApplication> applications;  ///< and gateways, behind them
   std::vector<ResolvedSignal> signals;
+  std::shared_ptr<ResolvedDds> dds;       ///< never null
   std::vector<ResolvedAction> script;     ///< by time
   std::vector<PortDemand> ports;          ///< those that carry something
 };

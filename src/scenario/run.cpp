@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
+#include "scenario/applications/dds_port.hpp"
+#include "scenario/applications/gateway_bridge.hpp"
 #include "scenario/applications/opc_ua_port.hpp"
 #include "scenario/program_shape.hpp"
 #include "scenario/resolve_nesting.hpp"
@@ -201,6 +204,41 @@ void Run::add_program_with_roles(std::uint32_t number, const ResolvedProgram& pr
   programs_.push_back(std::move(live));
 }
 
+/// What each thread publishes by, or takes from.
+void Run::add_ports(std::uint32_t number, const ResolvedApplication& application, TopicApplication::Settings& settings) const {
+  const auto address = [&](std::uint32_t of, std::uint32_t thread) {
+    const ResolvedApplication& publisher = resolved_->applications[of];
+    return OpcUaAddress{publisher.publisher_id, static_cast<std::uint16_t>(thread + 1), static_cast<std::uint16_t>(publisher.threads[thread].topic + 1)};
+  };
+  std::map<std::uint32_t, DdsNode*> nodes;
+  for (std::uint32_t p = 0; p < resolved_->dds->participants.size(); ++p) {
+    if (resolved_->dds->participants[p].application != number) continue;
+    settings.nodes.push_back(std::make_unique<DdsNode>(resolved_->dds->participants[p], p));
+    nodes[p] = settings.nodes.back().get();
+  }
+  for (std::uint32_t t = 0; t < application.threads.size(); ++t) {
+    const ResolvedThread& thread = application.threads[t];
+    const ResolvedTopic& topic = resolved_->topics[thread.topic];
+    settings.writers.emplace_back();
+    settings.readers.emplace_back();
+    if (thread.participant) {
+      DdsNode& node = *nodes.at(*thread.participant);
+      if (thread.publishes)
+        settings.writers.back() = std::make_unique<DdsWriter>(node, topic, thread, t);
+      else
+        settings.readers.back() = std::make_unique<DdsReader>(node, topic, thread, t);
+      continue;
+    }
+    if (thread.publishes) {
+      settings.writers.back() = std::make_unique<OpcUaWriter>(topic.layout, address(number, t), thread.stream);
+      continue;
+    }
+    std::vector<OpcUaAddress> heard;
+    for (const ResolvedInput& input : thread.inputs) heard.push_back(address(input.application, input.thread));
+    settings.readers.back() = std::make_unique<OpcUaReader>(topic.layout, std::move(heard));
+  }
+}
+
 void Run::add_application(std::uint32_t number, const ResolvedApplication& application) {
   TopicApplication::Settings settings;
   settings.number = number;
@@ -208,28 +246,17 @@ void Run::add_application(std::uint32_t number, const ResolvedApplication& appli
   settings.topics = &resolved_->topics;
   settings.path = resolved_->topology.nodes[application.node.value].name + "/" + application.name;
   settings.seed = resolved_->scenario.seed;
-  const auto address = [&](std::uint32_t of, std::uint32_t thread) {
-    const ResolvedApplication& publisher = resolved_->applications[of];
-    return OpcUaAddress{publisher.publisher_id, static_cast<std::uint16_t>(thread + 1), static_cast<std::uint16_t>(publisher.threads[thread].topic + 1)};
-  };
-  for (std::uint32_t t = 0; t < application.threads.size(); ++t) {
-    const ResolvedThread& thread = application.threads[t];
-    const SampleLayout& layout = resolved_->topics[thread.topic].layout;
-    settings.writers.emplace_back();
-    settings.readers.emplace_back();
-    if (thread.publishes) {
-      settings.writers.back() = std::make_unique<OpcUaWriter>(layout, address(number, t), thread.stream);
-      continue;
-    }
-    std::vector<OpcUaAddress> heard;
-    for (const ResolvedInput& input : thread.inputs) heard.push_back(address(input.application, input.thread));
-    settings.readers.back() = std::make_unique<OpcUaReader>(layout, std::move(heard));
-  }
+  add_ports(number, application, settings);
+  if (application.gateway)
+    settings.bridge = std::make_unique<GatewayBridge>(*application.gateway, resolved_->topics[application.threads[0].topic], resolved_->topics[application.threads[1].topic]);
   auto live = std::make_unique<TopicApplication>(std::move(settings), *application_monitor_);
   applications_.push_back(live.get());
   models::Process& process = network_.add_process(application.node, application.name, std::move(live));
   for (const ResolvedThread& thread : application.threads)
-    for (const ResolvedInput& input : thread.inputs) network_.listen(application.node, input.stream, &process);
+    for (const ResolvedInput& input : thread.inputs)
+      if (!input.stream.is_none()) network_.listen(application.node, input.stream, &process);
+  for (const auto& node : applications_.back()->nodes())
+    for (const ResolvedParticipant::Heard& heard : node->settings().hears) network_.listen(application.node, heard.stream, &process);
 }
 
 ThreadFigures Run::thread(std::size_t application, std::size_t thread) const {

@@ -41,6 +41,7 @@ class Run {
   }
   /// What a thread of an application has done so far.
   ThreadFigures thread(std::size_t application, std::size_t thread) const;
+  const TopicApplication& application(std::size_t number) const { return *applications_[number]; }
   const DigitalOutput& signal(std::size_t number) const { return application_monitor_->signal(number); }
   /// Null for a program without roles.
   const PlugMonitor* roles(std::size_t program) const { return programs_[program]->roles.get(); }
@@ -66,6 +67,7 @@ class Run {
   wire::EndpointSettings endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) const;
   void add_program_with_roles(std::uint32_t number, const ResolvedProgram& program);
   void nest_programs();
+  void add_ports(std::uint32_t number, const ResolvedApplication& application, TopicApplication::Settings& settings) const;
   void add_application(std::uint32_t number, const ResolvedApplication& application);
   void crash_programs(models::NodeIndex node);
   void connect_streams(const ResolvedProgram& program, const LiveProgram& live);

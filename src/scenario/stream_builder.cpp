@@ -45,7 +45,7 @@ std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
     return std::nullopt;
   }
 
-  const bool is_group = wanted.to.size() > 1 || wanted.path != nullptr || members || identified_.contains(wanted.name);
+  const bool is_group = wanted.to.size() > 1 || wanted.is_group || wanted.path != nullptr || members || identified_.contains(wanted.name);
   const models::AddressIndex address = is_group ? new_group() : models::AddressIndex{wanted.to.front().first};
   models::StreamPlan plan;
   plan.name = wanted.name;
@@ -56,6 +56,8 @@ std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
   plan.headers = wanted.headers;
   plan.ether_type = wanted.ether_type;
   plan.udp_port = wanted.udp_port;
+  plan.udp_source_port = wanted.udp_source_port;
+  plan.ip_group = wanted.ip_group;
   for (const auto& [to, place] : wanted.to) plan.listeners.push_back(models::NodeIndex{to});
   if (!members)
     for (const Path& path : paths) add_filtering(path, wanted.vlan, address);

@@ -26,7 +26,10 @@ struct NewStream {
   const Redundancy* redundancy = nullptr;                     ///< or null
   bool of_program = false;
   std::uint16_t ether_type = 0;                               ///< see models::StreamPlan
-  std::uint16_t udp_port = 0;                                 ///< of the receivers, with headers of UDP; 0: takt's choice
+  bool is_group = false;                                      ///< sent to a group even if one host receives it
+  std::uint16_t udp_port = 0;                                 ///< see models::StreamPlan, as the next two
+  std::uint16_t udp_source_port = 0;
+  std::uint32_t ip_group = 0;
 };
 
 class StreamBuilder {

@@ -10,13 +10,18 @@
 #include "scenario/description_latency.hpp"
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
+#include "vocabulary/application.hpp"
 #include "vocabulary/program.hpp"
 
 namespace takt::scenario {
 
 using namespace sim::literals;  // NOLINT: units in default values
 
-enum class Protocol : std::uint8_t { opc_ua, dds };
+// The words that node files have too.
+using vocabulary::Overflow;
+using vocabulary::Pattern;
+using vocabulary::Payload;
+using vocabulary::Protocol;
 
 /// A data set that applications publish and subscribe to.
 struct Topic {
@@ -31,16 +36,6 @@ struct Topic {
   std::optional<Publication> publication;
   std::optional<FlowControl> flow_control;
   bool operator==(const Topic&) const = default;
-};
-
-enum class Pattern : std::uint8_t { counter, alternate };
-
-/// What a thread publishes: the first field says it, all others are zero; or what another topic last said.
-struct Payload {
-  json::Source where;
-  std::optional<Pattern> pattern;
-  std::optional<std::string> copy_of;
-  bool operator==(const Payload&) const = default;
 };
 
 /// A digital output that follows the first field of what a thread takes: high unless it is zero.
@@ -88,8 +83,6 @@ struct Application {
   bool operator==(const Application&) const = default;
 };
 
-enum class Overflow : std::uint8_t { overwrite_oldest, drop_newest, keep_latest };
-
 /// Takes from a topic of one protocol into a shared buffer, and publishes from there to a topic of the other, each at its own rate.
 struct Gateway {
   json::Source where;
@@ -110,15 +103,11 @@ struct Gateway {
   bool operator==(const Gateway&) const = default;
 };
 
-const json::Enumeration& describe(json::Type<Protocol>);
 const json::Object& describe(json::Type<Topic>);
-const json::Enumeration& describe(json::Type<Pattern>);
-const json::Object& describe(json::Type<Payload>);
 const json::Object& describe(json::Type<Signal>);
 const json::Object& describe(json::Type<Thread>);
 const json::Object& describe(json::Type<Scheduler>);
 const json::Object& describe(json::Type<Application>);
-const json::Enumeration& describe(json::Type<Overflow>);
 const json::Object& describe(json::Type<Gateway>);
 
 }  // namespace takt::scenario

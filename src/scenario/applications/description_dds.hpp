@@ -8,47 +8,15 @@
 
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
+#include "vocabulary/dds.hpp"
 
 namespace takt::scenario {
 
 using sim::Duration;
 
-enum class Reliability : std::uint8_t { best_effort, reliable };
-enum class Durability : std::uint8_t { volatile_, transient_local, transient, persistent };
-enum class History : std::uint8_t { keep_last, keep_all };
-enum class Liveliness : std::uint8_t { automatic, manual_by_participant, manual_by_topic };
-enum class Ownership : std::uint8_t { shared, exclusive };
-enum class DestinationOrder : std::uint8_t { by_reception, by_source };
-
-/// Absent: no limit.
-struct ResourceLimits {
-  json::Source where;
-  std::optional<std::uint32_t> max_samples;
-  std::optional<std::uint32_t> max_instances;
-  std::optional<std::uint32_t> max_samples_per_instance;
-  bool operator==(const ResourceLimits&) const = default;
-};
-
-/// Quality of service of a writer and of its readers. What is absent has the default of DDS, or what the topic says.
-struct Qos {
-  json::Source where;
-  std::optional<Reliability> reliability;
-  std::optional<Duration> max_blocking_time;
-  std::optional<Durability> durability;
-  std::optional<History> history;
-  std::optional<std::uint32_t> depth;
-  std::optional<Duration> deadline;
-  std::optional<Duration> latency_budget;
-  std::optional<Liveliness> liveliness;
-  std::optional<Duration> lease_duration;
-  std::optional<Ownership> ownership;
-  std::optional<std::int32_t> ownership_strength;
-  std::optional<Duration> lifespan;
-  std::optional<Duration> time_based_filter;
-  std::optional<DestinationOrder> destination_order;
-  std::optional<ResourceLimits> resource_limits;
-  bool operator==(const Qos&) const = default;
-};
+using vocabulary::Durability;
+using vocabulary::Qos;
+using vocabulary::Reliability;
 
 enum class Publication : std::uint8_t { synchronous, asynchronous };
 
@@ -73,14 +41,6 @@ struct Domain {
   bool operator==(const Domain&) const = default;
 };
 
-const json::Enumeration& describe(json::Type<Reliability>);
-const json::Enumeration& describe(json::Type<Durability>);
-const json::Enumeration& describe(json::Type<History>);
-const json::Enumeration& describe(json::Type<Liveliness>);
-const json::Enumeration& describe(json::Type<Ownership>);
-const json::Enumeration& describe(json::Type<DestinationOrder>);
-const json::Object& describe(json::Type<ResourceLimits>);
-const json::Object& describe(json::Type<Qos>);
 const json::Enumeration& describe(json::Type<Publication>);
 const json::Object& describe(json::Type<FlowControl>);
 const json::Enumeration& describe(json::Type<Discovery>);

@@ -4,7 +4,6 @@
 namespace takt::scenario {
 namespace {
 
-using json::name;
 using json::optional;
 using json::required;
 
@@ -12,15 +11,6 @@ constexpr Duration longest_step = 24 * 3600_s;
 constexpr std::uint32_t most_samples = 65'536;
 
 }  // namespace
-
-const json::Enumeration& describe(json::Type<Protocol>) {
-  static constexpr json::EnumName names[] = {
-      name(Protocol::opc_ua, "opc-ua", "OPC UA PubSub: UADP over UDP multicast"),
-      name(Protocol::dds, "dds", "DDS: RTPS over UDP"),
-  };
-  static constexpr json::Enumeration table = json::enumeration<Protocol>("a protocol", names);
-  return table;
-}
 
 const json::Object& describe(json::Type<Topic>) {
   static constexpr json::Field fields[] = {
@@ -35,26 +25,6 @@ const json::Object& describe(json::Type<Topic>) {
       optional<&Topic::flow_control>("flow_control", "Of DDS, asynchronous publication: what may be sent at once; no limit if absent."),
   };
   static constexpr json::Object table = json::object<Topic>("topic", "Data that applications publish and subscribe to.", fields);
-  return table;
-}
-
-const json::Enumeration& describe(json::Type<Pattern>) {
-  static constexpr json::EnumName names[] = {
-      name(Pattern::counter, "counter", "the first field counts the publications, from 1 on"),
-      name(Pattern::alternate, "alternate", "the first field is 1 and 0 by turns"),
-  };
-  static constexpr json::Enumeration table = json::enumeration<Pattern>("a pattern", names);
-  return table;
-}
-
-const json::Object& describe(json::Type<Payload>) {
-  static constexpr json::Field fields[] = {
-      optional<&Payload::pattern>("pattern", "What the first field of each sample is; all other values are zero."),
-      optional<&Payload::copy_of>("copy_of", "A topic that the application subscribes to: its newest sample is published; nothing before the first one."),
-  };
-  static constexpr std::string_view contents[] = {"pattern", "copy_of"};
-  static constexpr json::Group groups[] = {json::exactly_one_of(contents)};
-  static constexpr json::Object table = json::object<Payload>("payload", "What a thread publishes.", fields, {.groups = groups, .shorthand = "pattern"});
   return table;
 }
 
@@ -113,22 +83,12 @@ const json::Object& describe(json::Type<Application>) {
   return table;
 }
 
-const json::Enumeration& describe(json::Type<Overflow>) {
-  static constexpr json::EnumName names[] = {
-      name(Overflow::overwrite_oldest, "overwrite-oldest", "the oldest sample makes room"),
-      name(Overflow::drop_newest, "drop-newest", "what finds no room is dropped"),
-      name(Overflow::keep_latest, "keep-latest", "only the newest sample is kept"),
-  };
-  static constexpr json::Enumeration table = json::enumeration<Overflow>("an overflow policy", names);
-  return table;
-}
-
 const json::Object& describe(json::Type<Gateway>) {
   static constexpr json::Field fields[] = {
       required<&Gateway::name>("name", "Unique among applications, gateways, streams and programs.", {.min_length = 1, .max_length = 200}),
       required<&Gateway::on>("on", "The host."),
       required<&Gateway::from>("from", "The topic that it subscribes to."),
-      required<&Gateway::to>("to", "The topic that it publishes to, with as many fields of types that map."),
+      required<&Gateway::to>("to", "The topic that it publishes to: its fields are found by their names, and their types must map."),
       required<&Gateway::receive_every>("receive_every", "Interval of its thread \"receive\", which takes what has come into the buffer.", {.min = 10_us, .max = 3600_s}),
       optional<&Gateway::receive_offset>("receive_offset", "Phase of that thread.", {.max = 3600_s}),
       optional<&Gateway::receive_response>("receive_response", "Response of that thread; the wake-up latency of the host if absent."),

@@ -6,7 +6,11 @@
 #include <utility>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/applications/dds_qos.hpp"
+#include "scenario/applications/gateway_bridge.hpp"
 #include "scenario/applications/opc_ua_port.hpp"
+#include "scenario/applications/resolve_dds.hpp"
+#include "scenario/applications/resolved_dds.hpp"
 #include "scenario/json/suggest.hpp"
 #include "scenario/os_profiles.hpp"
 
@@ -14,7 +18,7 @@ namespace takt::scenario {
 namespace {
 
 constexpr std::size_t most_publishers = 0xFFFF;  // PublisherIds are UInt16
-constexpr std::uint32_t all_that_came = 65'536;  // a gateway has a buffer of its own
+constexpr std::uint32_t all_that_came = 65'536;   // a gateway has a buffer of its own
 
 std::vector<std::string_view> names_of(const auto& things) {
   std::vector<std::string_view> names;
@@ -35,6 +39,7 @@ class ApplicationResolver {
 
   void run() {
     const std::size_t errors_before = diagnostics_.errors();
+    r_.dds = std::make_shared<ResolvedDds>();
     for (const Topic& topic : r_.scenario.topics) add(topic);
     check_domains();
     for (const Application& application : r_.scenario.applications) add(application);
@@ -43,6 +48,7 @@ class ApplicationResolver {
     check_hosts();
     if (diagnostics_.errors() != errors_before) return;  // numbers below stand for what was found
     for (std::uint32_t t = 0; t < r_.topics.size(); ++t) connect(t);
+    resolve_dds(r_, builder_, diagnostics_);
     for (ResolvedApplication& application : r_.applications) set_windows(application);
   }
 
@@ -58,8 +64,8 @@ class ApplicationResolver {
       for (const auto& [present, key] : {std::pair(topic.domain.has_value(), "domain"), std::pair(topic.qos.has_value(), "qos"),
                                          std::pair(topic.publication.has_value(), "publication"), std::pair(topic.flow_control.has_value(), "flow_control")})
         if (present) refuse_of_dds(topic.where.at(key), key);
-    } else {
-      diagnostics_.error(topic.where.at("protocol"), "not simulated yet", {"\"dds\"", "\"opc-ua\""});
+    } else if (topic.flow_control && topic.publication != Publication::asynchronous) {
+      diagnostics_.error(topic.where.at("flow_control"), "flow control of synchronous publication", {"\"flow_control\"", "\"publication\": \"asynchronous\""});
     }
     ResolvedTopic made;
     made.description = &topic;
@@ -139,6 +145,7 @@ class ApplicationResolver {
       refuse(one.publishes && thread.signal, "signal", "subscribe");
       refuse(!one.publishes && thread.payload, "payload", "publish");
       if (thread.qos && one.topic < r_.topics.size() && r_.topics[one.topic].description->protocol == Protocol::opc_ua) refuse_of_dds(thread.where.at("qos"), "qos");
+      if (one.topic < r_.topics.size()) one.qos = merged(r_.topics[one.topic].description->qos, thread.qos);
       if (one.publishes) one.pattern = thread.payload ? thread.payload->pattern : Pattern::counter;
       if (thread.signal) add_signal(*thread.signal, one, made);
       made.threads.push_back(std::move(one));
@@ -179,7 +186,6 @@ class ApplicationResolver {
   }
 
   void add(const Gateway& gateway) {
-    diagnostics_.error(gateway.where.place(), "not simulated yet", {"a gateway", "applications"});
     ResolvedApplication made = begin(gateway.name, gateway.on, gateway.scheduler, gateway.where);
     made.gateway = ResolvedGateway{gateway.buffer, gateway.overflow, gateway.stale_after};
     const std::uint32_t from = topic_of(gateway.from, gateway.where.at("from"));
@@ -187,6 +193,8 @@ class ApplicationResolver {
     if (!r_.topics.empty() && r_.topics[from].description->protocol == r_.topics[to].description->protocol)
       diagnostics_.error(gateway.where.at("to"), "a gateway within one protocol",
                          {"both topics are of " + std::string(spelling(r_.topics[from].description->protocol)), "a topic of OPC UA and one of DDS; a thread with \"copy_of\" copies within one"});
+    else if (!r_.topics.empty())
+      check_mapping(gateway, r_.topics[from], r_.topics[to]);
     for (const bool sends : {false, true}) {
       ResolvedThread thread;
       thread.name = sends ? "send" : "receive";
@@ -199,9 +207,18 @@ class ApplicationResolver {
       thread.response = response_of(sends ? gateway.send_response : gateway.receive_response, made);
       thread.tests = gateway.scheduler.tests;
       thread.buffer = all_that_came;
+      if (thread.topic < r_.topics.size()) thread.qos = merged(r_.topics[thread.topic].description->qos, std::nullopt);
+      if (!sends && !thread.qos.depth) thread.qos.depth = gateway.buffer;
       made.threads.push_back(std::move(thread));
     }
     r_.applications.push_back(std::move(made));
+  }
+
+  void check_mapping(const Gateway& gateway, const ResolvedTopic& from, const ResolvedTopic& to) {
+    std::vector<std::string> problems;
+    if (mapping_between(from, to, problems)) return;
+    for (const std::string& problem : problems)
+      diagnostics_.error(gateway.where.at("to"), "fields that do not map", {problem, "in both topics fields of the same names and types; what is more in \"from\" is left out"});
   }
 
   void check_threads(ResolvedApplication& application) {
@@ -218,7 +235,7 @@ class ApplicationResolver {
     }
   }
 
-  /// Frames do not leave a host to come back, and a host hands each stream to one application.
+  /// Frames do not leave a host to come back.
   void check_hosts() {
     struct Use { std::uint32_t topic; std::uint32_t host; bool publishes; };
     std::vector<Use> uses;
@@ -226,12 +243,10 @@ class ApplicationResolver {
       if (application.node.is_none()) continue;
       for (const ResolvedThread& thread : application.threads) {
         for (const Use& other : uses) {
-          if (other.topic != thread.topic || other.host != application.node.value || (other.publishes && thread.publishes)) continue;
-          const bool both = other.publishes != thread.publishes;
-          diagnostics_.error(thread.where.place(), both ? "a topic that stays within a host" : "a topic twice on one host",
-                             {json::quote(r_.topics[thread.topic].description->name) + (both ? " is published and subscribed on " : " is subscribed by two applications on ") +
-                                  json::quote(r_.topology.nodes[other.host].name),
-                              both ? "publisher and subscriber on two hosts" : "one of them on another host"});
+          if (other.topic != thread.topic || other.host != application.node.value || other.publishes == thread.publishes) continue;
+          diagnostics_.error(thread.where.place(), "a topic that stays within a host",
+                             {json::quote(r_.topics[thread.topic].description->name) + " is published and subscribed on " + json::quote(r_.topology.nodes[other.host].name),
+                              "publisher and subscriber on two hosts"});
         }
         uses.push_back({thread.topic, application.node.value, thread.publishes});
       }
@@ -251,6 +266,16 @@ class ApplicationResolver {
       if (publishers.empty()) return;
     }
     if (subscribers.empty()) return;
+    if (description.protocol == Protocol::dds) {
+      // Of an exclusive topic readers get the samples of the strongest writer.
+      const auto strength = [&](const auto& each) { return r_.applications[each.first].threads[each.second].qos.ownership_strength.value_or(0); };
+      const bool exclusive = description.qos && description.qos->ownership == vocabulary::Ownership::exclusive;
+      const auto strongest = *std::max_element(publishers.begin(), publishers.end(), [&](const auto& x, const auto& y) { return strength(x) < strength(y); });
+      for (const auto& [heard_by, of] : subscribers)
+        for (const auto& [a, t] : publishers)
+          if (!exclusive || std::pair(a, t) == strongest) r_.applications[heard_by].threads[of].inputs.push_back({a, t, {}});
+      return;
+    }
     for (const auto& [a, t] : publishers) {
       ResolvedApplication& application = r_.applications[a];
       ResolvedThread& thread = application.threads[t];
@@ -258,10 +283,13 @@ class ApplicationResolver {
       wanted.name = description.name + "/" + application.name;
       wanted.where = description.where;
       wanted.from = application.node.value;
-      for (const auto& [heard_by, of] : subscribers) wanted.to.push_back({r_.applications[heard_by].node.value, r_.applications[heard_by].where.at("on")});
+      std::set<std::uint32_t> hosts;
+      for (const auto& [heard_by, of] : subscribers)
+        if (hosts.insert(r_.applications[heard_by].node.value).second) wanted.to.push_back({r_.applications[heard_by].node.value, r_.applications[heard_by].where.at("on")});
       wanted.priority = description.pcp;
       wanted.vlan = description.vlan;
       wanted.headers = models::ipv4_and_udp_headers;
+      wanted.is_group = true;
       wanted.udp_port = opc_ua_udp_port;
       wanted.payload = Octets{static_cast<std::uint32_t>(OpcUaWriter::message_octets(r_.topics[topic].layout, {application.publisher_id, 1, 1}))};
       const auto index = builder_.add(wanted);

@@ -22,7 +22,7 @@ struct ResolvedTopic {
 struct ResolvedInput {
   std::uint32_t application = 0;                ///< that publishes
   std::uint32_t thread = 0;                     ///< of it
-  models::StreamIndex stream;
+  models::StreamIndex stream;                   ///< of OPC UA; none of DDS, where participants hear streams
 };
 
 struct ResolvedThread {
@@ -38,6 +38,9 @@ struct ResolvedThread {
   std::uint32_t buffer = 1;
   std::optional<std::uint32_t> signal;          ///< that it drives
   std::optional<models::StreamIndex> stream;    ///< of a publication over OPC UA that anybody hears
+  std::optional<std::uint32_t> participant;     ///< of DDS, in resolved.dds
+  Qos qos;                                      ///< of DDS: the topic's and its own
+  std::int32_t transport_priority = 0;          ///< of DDS: which streams carry its samples
   std::vector<ResolvedInput> inputs;            ///< of a subscription
   Duration window;                              ///< of criterion 1
   Duration value_window;                        ///< of criterion 2

@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <utility>
 
+#include "scenario/applications/dds_node.hpp"
+#include "scenario/applications/gateway_bridge.hpp"
 #include "sim/check.hpp"
 
 namespace takt::scenario {
 namespace {
 
-constexpr models::AlarmId threads_alarm = 0;
+constexpr models::AlarmId threads_alarm = 0;   // those of participants follow
 
-WindowCounter::Settings window_of(const ResolvedThread& thread, const ResolvedApplication& application, sim::Duration length, std::uint64_t expected) {
-  return {length, thread.offset, expected, sim::LocalTime() + application.scheduler->after, thread.tests, application.scheduler->tolerance};
+WindowCounter::Settings window_of(const ResolvedApplication& application, const ResolvedThread& thread, sim::Duration length, std::uint64_t expected) {
+  return {length, expected, sim::LocalTime() + application.scheduler->after, thread.tests, application.scheduler->tolerance, thread.offset};
 }
 
 }  // namespace
@@ -21,12 +23,12 @@ TopicApplication::Live::Live(const ResolvedThread& thread, const ResolvedApplica
     : settings(&thread),
       layout(&topic_layout),
       activations(thread.every, thread.offset, thread.response, seed, path + "/" + thread.name),
-      calls(window_of(thread, application, thread.window, static_cast<std::uint64_t>(thread.window / thread.every)), application.scheduler_response, seed, path),
+      calls(window_of(application, thread, thread.window, static_cast<std::uint64_t>(thread.window / thread.every)), application.scheduler_response, seed, path),
       sample(topic_layout.zeros()) {
-  if (!thread.publishes) values.emplace(window_of(thread, application, thread.value_window, thread.values_expected), application.scheduler_response, seed, path);
+  if (!thread.publishes) values.emplace(window_of(application, thread, thread.value_window, thread.values_expected), application.scheduler_response, seed, path);
 }
 
-TopicApplication::TopicApplication(Settings settings, ApplicationMonitor& monitor) : number_(settings.number), monitor_(&monitor) {
+TopicApplication::TopicApplication(Settings settings, ApplicationMonitor& monitor) : number_(settings.number), monitor_(&monitor), nodes_(std::move(settings.nodes)), bridge_(std::move(settings.bridge)) {
   const ResolvedApplication& application = *settings.application;
   for (std::size_t t = 0; t < application.threads.size(); ++t) {
     const ResolvedThread& thread = application.threads[t];
@@ -34,16 +36,23 @@ TopicApplication::TopicApplication(Settings settings, ApplicationMonitor& monito
     live.writer = std::move(settings.writers[t]);
     live.reader = std::move(settings.readers[t]);
     TAKT_CHECK((live.writer != nullptr) == thread.publishes && (live.reader != nullptr) != thread.publishes, "a thread publishes or subscribes");
-    for (const ResolvedInput& input : thread.inputs) heard_.emplace_back(input.stream, static_cast<std::uint32_t>(t));
+    for (const ResolvedInput& input : thread.inputs)
+      if (!input.stream.is_none()) heard_.emplace_back(input.stream, static_cast<std::uint32_t>(t));
     order_.push_back(static_cast<std::uint32_t>(t));
   }
+  for (std::size_t n = 0; n < nodes_.size(); ++n)
+    for (const ResolvedParticipant::Heard& heard : nodes_[n]->settings().hears) heard_.emplace_back(heard.stream, static_cast<std::uint32_t>(threads_.size() + n));
   std::sort(heard_.begin(), heard_.end());
   std::stable_partition(order_.begin(), order_.end(), [&](std::uint32_t t) { return !application.threads[t].publishes; });
 }
 
+TopicApplication::~TopicApplication() = default;
+
 void TopicApplication::start(models::HostServices& host) {
   host_ = &host;
   const sim::LocalTime now = host.now();
+  for (const auto& node : nodes_) node->start(host);
+  if (bridge_) bridge_->start();
   for (Live& live : threads_) {
     if (live.writer) live.writer->start(host);
     if (live.reader) live.reader->start(host);
@@ -54,6 +63,7 @@ void TopicApplication::start(models::HostServices& host) {
     if (live.values) live.values->begin(now);
   }
   plan(host);
+  settle(host);
 }
 
 void TopicApplication::crash() {
@@ -69,6 +79,8 @@ void TopicApplication::crash() {
     if (live.writer) live.writer->crash();
     if (live.reader) live.reader->crash();
   }
+  for (const auto& node : nodes_) node->crash();
+  if (bridge_) bridge_->crash();
   monitor_->on_crash(number_);
 }
 
@@ -81,10 +93,31 @@ void TopicApplication::restart(models::HostServices& host) {
 void TopicApplication::receive(models::HostServices& host, models::StreamIndex stream, std::span<const std::byte> payload) {
   const auto at = std::lower_bound(heard_.begin(), heard_.end(), std::pair(stream, std::uint32_t{0}));
   TAKT_CHECK(at != heard_.end() && at->first == stream, "a stream that this application listens to");
-  threads_[at->second].reader->receive(host, payload);
+  if (at->second < threads_.size()) {
+    threads_[at->second].reader->receive(host, payload);
+    return;
+  }
+  nodes_[at->second - threads_.size()]->receive(host, stream, payload);
+  settle(host);
 }
 
-void TopicApplication::wake(models::HostServices& host, models::AlarmId) {
+void TopicApplication::settle(models::HostServices& host) {
+  if (nodes_.empty()) return;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) nodes_[n]->settle(host);
+  for (Live& live : threads_)
+    if (live.writer) live.writer->go_on(host);
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    nodes_[n]->settle(host);
+    host.set_alarm(static_cast<models::AlarmId>(threads_alarm + 1 + n), nodes_[n]->next_wake());
+  }
+}
+
+void TopicApplication::wake(models::HostServices& host, models::AlarmId alarm) {
+  if (alarm != threads_alarm) {
+    nodes_[alarm - threads_alarm - std::size_t{1}]->wake(host);
+    settle(host);
+    return;
+  }
   const sim::LocalTime now = host.now();
   for (const std::uint32_t t : order_) {
     Live& live = threads_[t];
@@ -100,6 +133,7 @@ void TopicApplication::wake(models::HostServices& host, models::AlarmId) {
     if (const auto response = live.activations.act()) call(host, t, now, *response);
   }
   plan(host);
+  settle(host);
 }
 
 void TopicApplication::plan(models::HostServices& host) {
@@ -114,13 +148,17 @@ void TopicApplication::call(models::HostServices& host, std::uint32_t thread, si
   live.calls.add(now);
   monitor_->on_call(number_, thread, live.activations.done());
   if (live.writer)
-    publish(host, live);
+    publish(host, live, now);
   else
     take(host, thread, now);
 }
 
-void TopicApplication::publish(models::HostServices& host, Live& live) {
-  if (live.settings->copies) {
+void TopicApplication::publish(models::HostServices& host, Live& live, sim::LocalTime now) {
+  if (bridge_) {
+    const auto sample = bridge_->pull(now);
+    if (!sample) return;
+    std::copy(sample->begin(), sample->end(), live.sample.begin());
+  } else if (live.settings->copies) {
     const Live& source = threads_[*live.settings->copies];
     if (!source.has_sample) return;
     live.sample = source.sample;
@@ -138,6 +176,7 @@ void TopicApplication::take(models::HostServices& host, std::uint32_t thread, si
     ++count;
     live.has_sample = true;
     std::copy(sample->begin(), sample->end(), live.sample.begin());
+    if (bridge_) bridge_->receive(*sample, now);
   }
   if (count == 0) return;
   const std::uint64_t kept = std::min<std::uint64_t>(count, live.settings->buffer);
@@ -155,6 +194,7 @@ ThreadFigures TopicApplication::figures(std::size_t thread, sim::LocalTime now) 
   figures.activations = live.activations.decided(now);
   figures.done = live.activations.done();
   figures.lost = live.reader ? live.reader->lost() : 0;
+  figures.overwritten += live.reader ? live.reader->displaced() : 0;
   WindowCounter calls = live.calls;
   if (!live.activations.has_jumped(now)) calls.close_until(now);
   figures.calls = calls.figures();

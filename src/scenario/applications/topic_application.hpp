@@ -20,13 +20,16 @@ struct ThreadFigures {
   DurationFigures response;               ///< of the calls that took place, on the clock of the host
   WindowCounter::Figures calls;           ///< criterion 1
   std::uint64_t published = 0;            ///< samples
-  std::uint64_t refused = 0;              ///< samples that the protocol could not take
+  std::uint64_t refused = 0;              ///< samples that the protocol could not take, or that waited for room for too long
   std::uint64_t arrived = 0;              ///< samples that a call found
   std::uint64_t buffered = 0;             ///< of them, those that the buffer held
   std::uint64_t overwritten = 0;          ///< of them, those that newer ones displaced
   std::uint64_t lost = 0;                 ///< on the way
   std::optional<WindowCounter::Figures> values;  ///< criterion 2, of a subscription
 };
+
+class DdsNode;
+class GatewayBridge;
 
 class TopicApplication final : public models::Application {
  public:
@@ -37,12 +40,15 @@ class TopicApplication final : public models::Application {
     const std::vector<ResolvedTopic>* topics = nullptr;
     std::vector<std::unique_ptr<TopicWriter>> writers;
     std::vector<std::unique_ptr<TopicReader>> readers;
+    std::vector<std::unique_ptr<DdsNode>> nodes;       ///< that they use
+    std::unique_ptr<GatewayBridge> bridge;             ///< of a gateway
     std::string path;                     ///< in the random streams: host, '/', application
     std::uint64_t seed = 0;
   };
   TopicApplication(Settings settings, ApplicationMonitor& monitor);
+  ~TopicApplication() override;
 
-  models::AlarmId alarm_count() const override { return 1; }
+  models::AlarmId alarm_count() const override { return static_cast<models::AlarmId>(1 + nodes_.size()); }
   void start(models::HostServices& host) override;
   void restart(models::HostServices& host) override;
   void receive(models::HostServices& host, models::StreamIndex stream, std::span<const std::byte> payload) override;
@@ -52,6 +58,10 @@ class TopicApplication final : public models::Application {
 
   /// What was seen until then, on the clock of the host.
   ThreadFigures figures(std::size_t thread, sim::LocalTime now) const;
+  /// Its participants of DDS.
+  const std::vector<std::unique_ptr<DdsNode>>& nodes() const { return nodes_; }
+  /// Null but in a gateway.
+  const GatewayBridge* bridge() const { return bridge_.get(); }
 
  private:
   struct Live {
@@ -71,7 +81,9 @@ class TopicApplication final : public models::Application {
   };
 
   void call(models::HostServices& host, std::uint32_t thread, sim::LocalTime now, sim::Duration response);
-  void publish(models::HostServices& host, Live& live);
+  void publish(models::HostServices& host, Live& live, sim::LocalTime now);
+  /// What participants want to send is sent, and they are woken when they want to be.
+  void settle(models::HostServices& host);
   void take(models::HostServices& host, std::uint32_t thread, sim::LocalTime now);
   void plan(models::HostServices& host);
 
@@ -79,7 +91,9 @@ class TopicApplication final : public models::Application {
   ApplicationMonitor* monitor_;
   std::vector<Live> threads_;
   std::vector<std::uint32_t> order_;      // at one instant: those that subscribe, then those that publish
-  std::vector<std::pair<models::StreamIndex, std::uint32_t>> heard_;  // ascending; the thread
+  std::vector<std::pair<models::StreamIndex, std::uint32_t>> heard_;  // ascending; the thread, or behind the threads the participant
+  std::vector<std::unique_ptr<DdsNode>> nodes_;
+  std::unique_ptr<GatewayBridge> bridge_;
   models::HostServices* host_ = nullptr;
   bool has_crashed_ = false;
 };

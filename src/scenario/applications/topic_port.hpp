@@ -16,6 +16,8 @@ class TopicWriter {
   virtual void start(models::HostServices& host) = 0;
   /// Encodes and sends a sample, or hands it to the protocol, which does. False if the protocol cannot take it now.
   virtual bool write(models::HostServices& host, uadp::Octets sample) = 0;
+  /// The protocol was woken or has received something: what waits may go on.
+  virtual void go_on(models::HostServices&) {}
   virtual void crash() = 0;
 };
 
@@ -30,6 +32,8 @@ class TopicReader {
   virtual std::optional<uadp::Octets> next(models::HostServices& host) = 0;
   /// Samples that were sent, as their numbers show, and did not come, or came where no room was left.
   virtual std::uint64_t lost() const = 0;
+  /// Samples that came and that newer ones displaced before a call.
+  virtual std::uint64_t displaced() const { return 0; }
   virtual void crash() = 0;
 };
 

@@ -1,0 +1,55 @@
+// Publications and subscriptions over DDS: a DataWriter or DataReader of the application's participant in the domain of the topic.
+#pragma once
+
+#include "scenario/applications/cdr_layout.hpp"
+#include "scenario/applications/dds_node.hpp"
+#include "scenario/applications/topic_port.hpp"
+
+namespace takt::scenario {
+
+/// The endpoint of a thread; the storage of its node and its name there are filled in where its durability asks for them.
+dds::WriterConfig writer_config(const ResolvedTopic& topic, const ResolvedThread& thread);
+dds::ReaderConfig reader_config(const ResolvedTopic& topic, const ResolvedThread& thread);
+
+class DdsWriter final : public TopicWriter {
+ public:
+  /// All outlive it.
+  DdsWriter(DdsNode& node, const ResolvedTopic& topic, const ResolvedThread& thread, std::uint32_t thread_number);
+
+  void start(models::HostServices& host) override;
+  bool write(models::HostServices& host, uadp::Octets sample) override;
+  void crash() override { is_blocked_ = false; }
+  void go_on(models::HostServices& host) override;
+
+ private:
+  DdsNode* node_;
+  CdrLayout layout_;
+  dds::WriterConfig config_;
+  dds::WriterHandle handle_;
+  std::vector<std::byte> payload_;   // of the last sample
+  bool is_blocked_ = false;
+};
+
+class DdsReader final : public TopicReader {
+ public:
+  DdsReader(DdsNode& node, const ResolvedTopic& topic, const ResolvedThread& thread, std::uint32_t thread_number);
+
+  void start(models::HostServices& host) override;
+  void receive(models::HostServices&, uadp::Octets) override {}  // the participant takes messages
+  std::optional<uadp::Octets> next(models::HostServices& host) override;
+  std::uint64_t lost() const override;
+  std::uint64_t displaced() const override;
+  void crash() override;
+
+ private:
+  DdsNode* node_;
+  CdrLayout layout_;
+  dds::ReaderConfig config_;
+  dds::ReaderHandle handle_;
+  Sample sample_;
+  std::map<dds::Guid, dds::SequenceNumber> last_;  // that was taken
+  std::uint64_t gaps_ = 0;                         // numbers that were passed over
+  std::uint64_t lost_ = 0;                         // before the last crash
+};
+
+}  // namespace takt::scenario

@@ -1,0 +1,82 @@
+#include "scenario/applications/dds_qos.hpp"
+
+namespace takt::scenario {
+namespace {
+
+// The values of both sides have the same order.
+template <class To, class From>
+constexpr To same(From value) {
+  return static_cast<To>(value);
+}
+static_assert(same<dds::ReliabilityKind>(vocabulary::Reliability::reliable) == dds::ReliabilityKind::reliable);
+static_assert(same<dds::DurabilityKind>(vocabulary::Durability::persistent) == dds::DurabilityKind::persistent);
+static_assert(same<dds::HistoryKind>(vocabulary::History::keep_all) == dds::HistoryKind::keep_all);
+static_assert(same<dds::LivelinessKind>(vocabulary::Liveliness::manual_by_topic) == dds::LivelinessKind::manual_by_topic);
+static_assert(same<dds::OwnershipKind>(vocabulary::Ownership::exclusive) == dds::OwnershipKind::exclusive);
+static_assert(same<dds::DestinationOrderKind>(vocabulary::DestinationOrder::by_source) == dds::DestinationOrderKind::by_source_timestamp);
+
+template <class T>
+void take(std::optional<T>& value, const std::optional<T>& other) {
+  if (other) value = other;
+}
+
+std::int32_t limit(const std::optional<std::uint32_t>& value) { return value ? static_cast<std::int32_t>(*value) : dds::unlimited; }
+
+/// What writers and readers have in common.
+template <class To>
+void set_common(const Qos& qos, std::uint32_t depth, To& made) {
+  made.reliability.kind = same<dds::ReliabilityKind>(qos.reliability.value_or(Reliability::best_effort));
+  if (qos.max_blocking_time) made.reliability.max_blocking_time = *qos.max_blocking_time;
+  if (qos.durability) made.durability.kind = same<dds::DurabilityKind>(*qos.durability);
+  if (qos.history) made.history.kind = same<dds::HistoryKind>(*qos.history);
+  made.history.depth = static_cast<std::int32_t>(qos.depth.value_or(depth));
+  if (qos.deadline) made.deadline.period = *qos.deadline;
+  if (qos.latency_budget) made.latency_budget.duration = *qos.latency_budget;
+  if (qos.liveliness) made.liveliness.kind = same<dds::LivelinessKind>(*qos.liveliness);
+  if (qos.lease_duration) made.liveliness.lease_duration = *qos.lease_duration;
+  if (qos.ownership) made.ownership.kind = same<dds::OwnershipKind>(*qos.ownership);
+  if (qos.destination_order) made.destination_order.kind = same<dds::DestinationOrderKind>(*qos.destination_order);
+  if (qos.resource_limits)
+    made.resource_limits = {limit(qos.resource_limits->max_samples), limit(qos.resource_limits->max_instances), limit(qos.resource_limits->max_samples_per_instance)};
+}
+
+}  // namespace
+
+Qos merged(const std::optional<Qos>& topic, const std::optional<Qos>& thread) {
+  Qos made = topic.value_or(Qos{});
+  if (!thread) return made;
+  take(made.reliability, thread->reliability);
+  take(made.max_blocking_time, thread->max_blocking_time);
+  take(made.durability, thread->durability);
+  take(made.history, thread->history);
+  take(made.depth, thread->depth);
+  take(made.deadline, thread->deadline);
+  take(made.latency_budget, thread->latency_budget);
+  take(made.liveliness, thread->liveliness);
+  take(made.lease_duration, thread->lease_duration);
+  take(made.ownership, thread->ownership);
+  take(made.ownership_strength, thread->ownership_strength);
+  take(made.lifespan, thread->lifespan);
+  take(made.time_based_filter, thread->time_based_filter);
+  take(made.destination_order, thread->destination_order);
+  take(made.resource_limits, thread->resource_limits);
+  return made;
+}
+
+dds::DataWriterQos writer_qos(const Qos& qos, std::int32_t transport_priority) {
+  dds::DataWriterQos made;
+  set_common(qos, 1, made);
+  if (qos.ownership_strength) made.ownership_strength.value = *qos.ownership_strength;
+  if (qos.lifespan) made.lifespan.duration = *qos.lifespan;
+  made.transport_priority.value = transport_priority;
+  return made;
+}
+
+dds::DataReaderQos reader_qos(const Qos& qos, std::uint32_t buffer) {
+  dds::DataReaderQos made;
+  set_common(qos, buffer, made);
+  if (qos.time_based_filter) made.time_based_filter.minimum_separation = *qos.time_based_filter;
+  return made;
+}
+
+}  // namespace takt::scenario

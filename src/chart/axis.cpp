@@ -6,29 +6,69 @@
 #include <cmath>
 
 namespace takt::chart {
+namespace {
 
-Axis::Axis(Scale scale, double least, double greatest, double from, double to)
-    : scale_(scale), least_(least), greatest_(greatest > least ? greatest : least + 1), from_(from), to_(to) {}
+/// 1, 2 or 5 times a power of ten, not below `least`.
+double round_step(double least) {
+  const double power = std::pow(10, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= least * (1 - 1e-9)) return factor * power;
+  return 10 * power;
+}
 
-double Axis::pixel(double value) const {
-  const double clamped = std::clamp(value, least_, greatest_);
-  const double share = scale_ == Scale::linear ? (clamped - least_) / (greatest_ - least_) : std::log(clamped / least_) / std::log(greatest_ / least_);
+}  // namespace
+
+std::string number_text(double value) { return fmt::format("{:.5g}", value == 0 ? 0.0 : value); }
+
+Axis::Axis(Scale scale, double low, double high, double from, double to)
+    : is_logarithmic_(scale == Scale::logarithmic), low_(low), high_(high > low ? high : low + 1), step_(round_step((high_ - low_) / 7.5)), from_(from), to_(to) {}
+
+Axis::Axis(const std::vector<double>& values, Scale scale, double from, double to) : is_logarithmic_(scale == Scale::logarithmic), from_(from), to_(to) {
+  std::vector<double> shown;
+  for (const double value : values)
+    if (std::isfinite(value) && (!is_logarithmic_ || value > 0)) shown.push_back(value);
+  if (shown.empty()) {
+    is_logarithmic_ = false;
+    shown = {0, 1};
+  }
+  low_ = *std::min_element(shown.begin(), shown.end());
+  high_ = *std::max_element(shown.begin(), shown.end());
+  if (is_logarithmic_) {
+    low_ = std::pow(10, std::floor(std::log10(low_) + 1e-9));
+    high_ = std::pow(10, std::ceil(std::log10(high_) - 1e-9));
+    if (high_ <= low_) high_ = 10 * low_;
+    return;
+  }
+  if (high_ - low_ <= 1e-12 * std::max(std::abs(low_), std::abs(high_))) {
+    const double room = high_ == 0 ? 1 : std::abs(high_) * 0.1;
+    low_ -= room;
+    high_ += room;
+  }
+  step_ = round_step((high_ - low_) / 6);
+  low_ = std::floor(low_ / step_ + 1e-9) * step_;
+  high_ = std::ceil(high_ / step_ - 1e-9) * step_;
+}
+
+double Axis::at(double value) const {
+  const double clamped = std::clamp(value, low_, high_);
+  const double share = is_logarithmic_ ? std::log10(clamped / low_) / std::log10(high_ / low_) : (clamped - low_) / (high_ - low_);
   return from_ + share * (to_ - from_);
 }
 
-std::vector<Axis::Mark> Axis::marks() const {
-  std::vector<Mark> marks;
-  if (scale_ == Scale::logarithmic) {
-    const double base = greatest_ / least_ > 100 ? 10 : 2;
-    const double first = std::ceil(std::log(least_) / std::log(base) - 1e-9);
-    for (double power = first; std::pow(base, power) <= greatest_ * (1 + 1e-9); ++power) marks.push_back({std::pow(base, power), fmt::format("{:g}", std::pow(base, power))});
-    return marks;
+std::vector<Tick> Axis::ticks() const {
+  std::vector<Tick> all;
+  const double slack = 1e-6;
+  if (!is_logarithmic_) {
+    for (double k = std::ceil(low_ / step_ - slack); k <= high_ / step_ + slack; ++k) all.push_back({k * step_ + 0.0, number_text(k * step_)});
+    return all;
   }
-  const double rough = (greatest_ - least_) / 5;
-  const double decade = std::pow(10, std::floor(std::log10(rough)));
-  const double step = rough / decade < 1.5 ? decade : rough / decade < 3.5 ? 2 * decade : rough / decade < 7.5 ? 5 * decade : 10 * decade;
-  for (double k = std::ceil(least_ / step - 1e-9); k * step <= greatest_ + step * 1e-9; ++k) marks.push_back({k * step + 0.0, fmt::format("{:g}", k * step + 0.0)});
-  return marks;
+  const bool is_short = high_ / low_ < 1001;
+  for (double power = std::pow(10, std::floor(std::log10(low_) + slack)); power <= high_ * (1 + slack); power *= 10)
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      const double value = factor * power;
+      if ((factor == 1 || is_short) && value >= low_ * (1 - slack) && value <= high_ * (1 + slack)) all.push_back({value, number_text(value)});
+    }
+  return all;
 }
 
 }  // namespace takt::chart

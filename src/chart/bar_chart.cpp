@@ -20,14 +20,14 @@ std::string bar_chart(const std::string& title, const std::string& y_label, cons
   const Axis y(Scale::linear, 0, greatest * 1.05, bottom, top);
   Svg svg(std::max(right + 30, 640.0), height);
   svg.text({left, 24}, title, {.size = 15, .bold = true});
-  for (const Axis::Mark& mark : y.marks()) {
-    svg.line({left, y.pixel(mark.value)}, {right, y.pixel(mark.value)}, {.colour = "#eee"});
-    svg.text({left - 8, y.pixel(mark.value) + 4}, mark.text, {.size = 11, .anchor = Anchor::end});
+  for (const Tick& tick : y.ticks()) {
+    svg.line({left, y.at(tick.value)}, {right, y.at(tick.value)}, {.colour = "#eee"});
+    svg.text({left - 8, y.at(tick.value) + 4}, tick.text, {.size = 11, .anchor = Anchor::end});
   }
   svg.text({20, (top + bottom) / 2}, y_label, {.size = 11, .anchor = Anchor::middle, .upright = true});
   double legend = left;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    svg.rectangle({legend, 36}, 12, 12, palette(k));
+    svg.rectangle({legend, 36}, 12, 12, ink(k));
     svg.text({legend + 17, 46}, kinds[k], {.size = 11});
     legend += 90;
   }
@@ -37,8 +37,8 @@ std::string bar_chart(const std::string& title, const std::string& y_label, cons
     for (std::size_t k = 0; k < groups[g].bars.size(); ++k) {
       const LimitedBar& bar = groups[g].bars[k];
       const double x = start + bar_width * static_cast<double>(k);
-      svg.rectangle({x, y.pixel(bar.value)}, bar_width - 1, bottom - y.pixel(bar.value), palette(k));
-      if (bar.limit) svg.line({x - 1, y.pixel(*bar.limit)}, {x + bar_width, y.pixel(*bar.limit)}, {.colour = "#111", .width = 2});
+      svg.rectangle({x, y.at(bar.value)}, bar_width - 1, bottom - y.at(bar.value), ink(k));
+      if (bar.limit) svg.line({x - 1, y.at(*bar.limit)}, {x + bar_width, y.at(*bar.limit)}, {.colour = "#111", .width = 2});
     }
     // Names of groups, one word below the other.
     double line = bottom + 16;
@@ -50,8 +50,8 @@ std::string bar_chart(const std::string& title, const std::string& y_label, cons
       rest = space == std::string_view::npos ? std::string_view() : rest.substr(space + 1);
     }
   }
-  svg.line({left, bottom}, {right, bottom}, {});
-  svg.line({left, top}, {left, bottom}, {});
+  svg.line({left, bottom}, {right, bottom});
+  svg.line({left, top}, {left, bottom});
   return svg.document();
 }
 

@@ -3,59 +3,97 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 namespace takt::chart {
 namespace {
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
-    }
-  }
-  return out;
-}
+constexpr std::array<std::string_view, 3> anchors = {"start", "middle", "end"};
 
 std::string attributes(const Stroke& stroke) {
   return fmt::format(R"(fill="none" stroke="{}" stroke-width="{:.1f}"{}{})", stroke.colour, stroke.width, stroke.dashed ? R"( stroke-dasharray="6 4")" : "",
                      stroke.arrow ? R"-( marker-end="url(#arrow)")-" : "");
 }
 
+std::string ends(Point from, Point to) {
+  return fmt::format(R"(x1="{}" y1="{}" x2="{}" y2="{}")", coordinate(from.x), coordinate(from.y), coordinate(to.x), coordinate(to.y));
+}
+
+std::string turned(double degrees, Point at) {
+  return degrees == 0 ? "" : fmt::format(R"x( transform="rotate({} {} {})")x", coordinate(degrees), coordinate(at.x), coordinate(at.y));
+}
+
 }  // namespace
 
-void Svg::line(Point from, Point to, const Stroke& stroke) {
-  body_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", from.x, from.y, to.x, to.y, attributes(stroke));
+std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '&': safe += "&amp;"; break;
+      case '<': safe += "&lt;"; break;
+      case '>': safe += "&gt;"; break;
+      case '"': safe += "&quot;"; break;
+      case '\'': safe += "&#39;"; break;
+      default: safe += c;
+    }
+  }
+  return safe;
 }
+
+std::string coordinate(double value) {
+  if (!std::isfinite(value)) return "0";
+  std::string text = fmt::format("{:.2f}", value);
+  while (text.ends_with('0')) text.pop_back();
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+void Svg::line(Point from, Point to, const Stroke& stroke) { body_ += fmt::format("<line {} {}/>\n", ends(from, to), attributes(stroke)); }
+
+void Svg::line(Point from, Point to, Class look) { body_ += fmt::format("<line {} class=\"{}\"/>\n", ends(from, to), look.name); }
 
 void Svg::polyline(const std::vector<Point>& points, const Stroke& stroke) {
   body_ += "<polyline points=\"";
-  for (const Point& point : points) body_ += fmt::format("{:.1f},{:.1f} ", point.x, point.y);
+  for (const Point& point : points) body_ += coordinate(point.x) + "," + coordinate(point.y) + " ";
   body_ += fmt::format("\" {}/>\n", attributes(stroke));
 }
 
 void Svg::curve(Point from, Point control, Point to, const Stroke& stroke) {
-  body_ += fmt::format("<path d=\"M{:.1f} {:.1f} Q{:.1f} {:.1f} {:.1f} {:.1f}\" {}/>\n", from.x, from.y, control.x, control.y, to.x, to.y, attributes(stroke));
+  body_ += fmt::format("<path d=\"M{} {} Q{} {} {} {}\" {}/>\n", coordinate(from.x), coordinate(from.y), coordinate(control.x), coordinate(control.y), coordinate(to.x),
+                       coordinate(to.y), attributes(stroke));
+}
+
+void Svg::path(std::string_view commands, std::string_view colour, Class look) {
+  body_ += fmt::format(R"(<path d="{}" stroke="{}" class="{}"/>)" "\n", commands, colour, look.name);
 }
 
 void Svg::rectangle(Point corner, double width, double height, std::string_view fill, std::string_view edge, double round) {
-  body_ += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" rx=\"{:.1f}\" fill=\"{}\" stroke=\"{}\"/>\n", corner.x, corner.y, width,
-                       height, round, fill, edge);
+  body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{}\" fill=\"{}\" stroke=\"{}\"/>\n", coordinate(corner.x), coordinate(corner.y), coordinate(width),
+                       coordinate(height), coordinate(round), fill, edge);
 }
 
 void Svg::circle(Point centre, double radius, std::string_view fill, std::string_view edge) {
-  body_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"{}\" stroke=\"{}\"/>\n", centre.x, centre.y, radius, fill, edge);
+  body_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\" stroke=\"{}\"/>\n", coordinate(centre.x), coordinate(centre.y), coordinate(radius), fill, edge);
 }
 
 void Svg::text(Point at, std::string_view text, const TextStyle& style) {
-  constexpr std::array<std::string_view, 3> anchors = {"start", "middle", "end"};
-  const std::string turn = style.upright ? fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", at.x, at.y) : "";
-  body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.0f}\" text-anchor=\"{}\" fill=\"{}\"{}{}>{}</text>\n", at.x, at.y, style.size,
-                       anchors[static_cast<std::size_t>(style.anchor)], style.colour, style.bold ? " font-weight=\"bold\"" : "", turn, escaped(text));
+  body_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{:.0f}\" text-anchor=\"{}\" fill=\"{}\"{}{}>{}</text>\n", coordinate(at.x), coordinate(at.y), style.size,
+                       anchors[static_cast<std::size_t>(style.anchor)], style.colour, style.bold ? " font-weight=\"bold\"" : "", turned(style.upright ? -90 : 0, at), escaped(text));
+}
+
+void Svg::text(Point at, std::string_view text, Anchor anchor, Class look, double turn) {
+  body_ += fmt::format(R"(<text x="{}" y="{}" text-anchor="{}" class="{}"{}>{}</text>)" "\n", coordinate(at.x), coordinate(at.y), anchors[static_cast<std::size_t>(anchor)], look.name,
+                       turned(turn, at), escaped(text));
+}
+
+void Svg::mark_circle(Point centre, double radius, std::string_view colour, std::string_view title) {
+  body_ += fmt::format(R"(<circle cx="{}" cy="{}" r="{}" fill="{}" class="mark"><title>{}</title></circle>)" "\n", coordinate(centre.x), coordinate(centre.y), coordinate(radius), colour,
+                       escaped(title));
+}
+
+void Svg::mark_rectangle(Point corner, double width, double height, std::string_view colour, std::string_view title) {
+  body_ += fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}" fill="{}" class="mark"><title>{}</title></rect>)" "\n", coordinate(corner.x), coordinate(corner.y), coordinate(width),
+                       coordinate(height), colour, escaped(title));
 }
 
 std::string Svg::document() const {
@@ -68,8 +106,24 @@ std::string Svg::document() const {
          body_ + "</svg>\n";
 }
 
+std::string Svg::element(std::string_view label) const {
+  return fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" role="img" aria-label="{2}">)" "\n{3}</svg>\n", coordinate(width_),
+                     coordinate(height_), escaped(label), body_);
+}
+
+std::string_view style_sheet() {
+  return "svg text{font:11px system-ui,sans-serif;fill:#333}svg .title{font-weight:600;font-size:12px}svg .axis{stroke:#666;stroke-width:1}"
+         "svg .grid{stroke:#e4e4e4;stroke-width:1}svg .limit{stroke:#c0392b;stroke-width:1.5;stroke-dasharray:5 4}svg .whisker{stroke:#555;stroke-width:1}"
+         "svg .curve{fill:none;stroke-width:1.8}svg .area{stroke:none;opacity:.15}svg .note{fill:#777}svg .mark{cursor:default}svg .on-dark{fill:#fff}\n";
+}
+
+std::string_view ink(std::size_t number) {
+  static constexpr std::array<std::string_view, 8> colours = {"#1b6ca8", "#d1495b", "#2e8b57", "#e09f3e", "#6a4c93", "#3d405b", "#00798c", "#9c6644"};
+  return colours[number % colours.size()];
+}
+
 std::string_view palette(std::size_t number) {
-  constexpr std::array<std::string_view, 8> colours = {"#1b6ca8", "#d1495b", "#2e8b57", "#e09f3e", "#6a4c93", "#3d405b", "#00798c", "#9c6644"};
+  static constexpr std::array<std::string_view, 8> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#999933"};
   return colours[number % colours.size()];
 }
 

@@ -24,10 +24,11 @@ bool write(const std::string& folder, const char* name, const std::string& text)
 
 }  // namespace
 
-ExitStatus run_real_coexistence(const RealCoexistenceOptions& options) {
+std::optional<emulate::MeasuredCoexistence> measure_coexistence(const RealCoexistenceOptions& options, ExitStatus& failure) {
+  failure = ExitStatus::internal_error;
   if (!node::has_dds()) {
     std::fprintf(stderr, "takt: cannot measure here: DDS is not in this build; needed is %s\n", node::dds_needed);
-    return ExitStatus::internal_error;
+    return std::nullopt;
   }
   if (::geteuid() != 0) std::fprintf(stderr, "takt: warning: network namespaces need root (try sudo); measuring over loopback instead\n");
   const InterruptGuard interrupt;
@@ -40,16 +41,30 @@ ExitStatus run_real_coexistence(const RealCoexistenceOptions& options) {
   std::string problem;
   const auto measured = emulate::measure_coexistence(settings, problem);
   if (!measured) {
-    if (interrupt.requested()) return ExitStatus::interrupted;
-    std::fprintf(stderr, "takt: cannot measure here: %s\n", problem.c_str());
-    return ExitStatus::internal_error;
+    if (interrupt.requested())
+      failure = ExitStatus::interrupted;
+    else
+      std::fprintf(stderr, "takt: cannot measure here: %s\n", problem.c_str());
+    return std::nullopt;
   }
   if (!options.out.empty() && (!write(options.out, "measured.txt", to_text(*measured)) || !write(options.out, "measured.json", to_json(*measured)))) {
     std::fprintf(stderr, "takt: cannot write results into %s\n", options.out.c_str());
-    return ExitStatus::internal_error;
+    return std::nullopt;
   }
-  std::fputs((options.is_json ? to_json(*measured) : to_text(*measured)).c_str(), stdout);
-  return ExitStatus::pass;
+  return measured;
+}
+
+papers::coexistence::MeasuredCriteria criteria_of(const emulate::MeasuredCoexistence& measured) {
+  using namespace papers::coexistence;
+  MeasuredCriteria made;
+  made.machine = measured.machine;
+  for (const emulate::MeasuredThread& thread : measured.mirror) {
+    for (std::size_t t = 0; t < tables.size(); ++t)
+      if (tables[t].protocol == thread.protocol && tables[t].node == thread.node && tables[t].operation == thread.operation) made.success[t] = thread.success;
+    for (std::size_t r = 0; r < receivers.size(); ++r)
+      if (thread.operation == "subscribe" && receivers[r].protocol == thread.protocol && receivers[r].node == thread.node) made.buffered[r] = thread.buffered;
+  }
+  return made;
 }
 
 }  // namespace takt::cli

@@ -6,7 +6,6 @@
 
 #include "analysis/bounds.hpp"
 #include "papers/charts.hpp"
-#include "papers/nested_bound.hpp"
 #include "papers/plants.hpp"
 #include "results/evaluate.hpp"
 #include "scenario/resolve.hpp"
@@ -30,12 +29,8 @@ BeyondRow row_of(const Plant& plant, const scenario::Resolved& resolved, Reprodu
       ++cell.reactions;
       cell.simulated = std::max(cell.simulated.value_or(sim::Duration()), *reaction.duration());
     }
-    if (is_tree) {
-      cell.bound = bound_of_tree(resolved, bounds, k == 0);
-      continue;
-    }
     for (const analysis::ReactionBound& bound : bounds.reactions)
-      if (bound.program == 0 && scenario::spelling(bound.kind) == reaction_names[k]) cell.bound = bound.bound;
+      if (bound.program == 0 && bound.of_tree == is_tree && scenario::spelling(bound.kind) == reaction_names[k]) cell.bound = bound.bound;
   }
   if (result.verdict != results::Verdict::pass) {
     Comparison broken;

@@ -32,17 +32,6 @@ std::optional<results::RunResult> run(const ProgramsOptions& options, const Case
   return results::evaluate(live, false);
 }
 
-Comparison claim(std::string what, std::string published, std::string reproduced, bool holds, std::string remark = {}) {
-  Comparison made;
-  made.what = std::move(what);
-  made.published = std::move(published);
-  made.reproduced = std::move(reproduced);
-  made.standing = Standing::claim;
-  made.holds = holds;
-  made.remark = std::move(remark);
-  return made;
-}
-
 }  // namespace
 
 bool check_claims(const ProgramsOptions& options, Reproduction& made, scenario::json::Diagnostics& diagnostics) {

@@ -25,4 +25,28 @@ Comparison compare(std::string what, double published, double reproduced, std::s
   return made;
 }
 
+Comparison compare_shares(std::string what, double published, double reproduced, double tolerance, Standing standing) {
+  Comparison made;
+  made.what = std::move(what);
+  made.published = fmt::format("{:g} %", published);
+  made.reproduced = fmt::format("{:.1f} %", reproduced);
+  made.deviation = reproduced - published;
+  made.tolerance = tolerance;
+  made.in_points = true;
+  made.standing = standing;
+  made.holds = std::abs(*made.deviation) <= tolerance;
+  return made;
+}
+
+Comparison claim(std::string what, std::string published, std::string reproduced, bool holds, std::string remark) {
+  Comparison made;
+  made.what = std::move(what);
+  made.published = std::move(published);
+  made.reproduced = std::move(reproduced);
+  made.standing = Standing::claim;
+  made.holds = holds;
+  made.remark = std::move(remark);
+  return made;
+}
+
 }  // namespace takt::papers

@@ -20,15 +20,23 @@ struct Comparison {
   std::string what;
   std::string published;
   std::string reproduced;
-  std::optional<double> deviation;   ///< (reproduced - published) / published
-  std::optional<double> tolerance;   ///< of the deviation, either way
+  std::string measured = {};         ///< on this machine; empty: not measured
+  std::optional<double> deviation = {};   ///< (reproduced - published) / published, or their difference
+  std::optional<double> tolerance = {};   ///< of the deviation, either way
+  bool in_points = false;            ///< the deviation is a difference in percentage points
   Standing standing = Standing::claim;
   bool holds = true;
-  std::string remark;
+  std::string remark = {};
 };
 
 /// `published` and `reproduced` in one unit, of which `decimals` are shown.
 Comparison compare(std::string what, double published, double reproduced, std::string_view unit, int decimals, double tolerance, Standing standing);
+
+/// Shares in per cent: the deviation is their difference, in percentage points, and so is the tolerance.
+Comparison compare_shares(std::string what, double published, double reproduced, double tolerance, Standing standing);
+
+/// A statement of the paper that holds or does not.
+Comparison claim(std::string what, std::string published, std::string reproduced, bool holds, std::string remark = {});
 
 /// A picture that belongs to the reproduction: name without ending, SVG.
 struct Figure {

@@ -2,20 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
-
+#include "papers/folder.hpp"
 #include "scenario/json/node.hpp"
 
 namespace takt::papers {
 namespace {
 
 using scenario::json::Node;
-
-std::string deviation_text(const Comparison& c) {
-  if (!c.deviation) return "";
-  return fmt::format("{:+.1f} % of {:.1f}", 100 * *c.deviation, 100 * c.tolerance.value_or(0));
-}
 
 std::string microseconds(const std::optional<sim::Duration>& d) { return d ? fmt::format("{:.1f}", static_cast<double>(d->ps()) * 1e-6) : "-"; }
 
@@ -32,25 +25,7 @@ std::string table_text(const BeyondTable& table) {
   return out;
 }
 
-Node real(const std::optional<double>& value) { return value ? Node::of_double(*value) : Node(); }
 Node picoseconds(const std::optional<sim::Duration>& value) { return value ? Node::of_integer(value->ps()) : Node(); }
-
-Node comparisons_node(const Reproduction& made) {
-  Node all = Node::array();
-  for (const Comparison& c : made.comparisons) {
-    Node node = Node::object();
-    node.add("what", Node::of_string(c.what));
-    node.add("published", Node::of_string(c.published));
-    node.add("reproduced", Node::of_string(c.reproduced));
-    node.add("deviation", real(c.deviation));
-    node.add("tolerance", real(c.tolerance));
-    node.add("standing", Node::of_string(name_of(c.standing)));
-    node.add("holds", Node::of_bool(c.holds));
-    node.add("remark", Node::of_string(c.remark));
-    all.items.push_back(std::move(node));
-  }
-  return all;
-}
 
 Node beyond_node(const Reproduction& made) {
   Node all = Node::object();
@@ -72,22 +47,10 @@ Node beyond_node(const Reproduction& made) {
   return all;
 }
 
-std::string write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  return file ? "" : path.string() + " cannot be written";
-}
-
 }  // namespace
 
 std::string text_report(const Reproduction& made) {
-  std::string out = fmt::format("Distributed Programs over TSN, reproduced{}\n\n  {:<48}{:>20}{:>22}{:>20}  verdict\n", made.is_short ? " (short: three minutes, not an hour)" : "",
-                                "", "published", "reproduced", "deviation");
-  for (const Comparison& c : made.comparisons) {
-    out += fmt::format("  {:<48}{:>20}{:>22}{:>20}  {}, {}\n", c.what, c.published, c.reproduced, deviation_text(c), c.holds ? "holds" : "MISSED", name_of(c.standing));
-    if (!c.remark.empty()) out += fmt::format("      {}\n", c.remark);
-  }
+  std::string out = fmt::format("Distributed Programs over TSN, reproduced{}\n\n", made.is_short ? " (short: three minutes, not an hour)" : "") + text_of(made.comparisons);
   for (const BeyondTable& table : made.beyond) out += table_text(table);
   out += "\nRuns of Table I\n";
   for (const Speed& speed : made.speed)
@@ -101,7 +64,7 @@ std::string json_report(const Reproduction& made) {
   node.add("paper", Node::of_string("programs"));
   node.add("short", Node::of_bool(made.is_short));
   node.add("holds", Node::of_bool(made.holds()));
-  node.add("comparisons", comparisons_node(made));
+  node.add("comparisons", json_of(made.comparisons));
   node.add("beyond", beyond_node(made));
   Node runs = Node::object();
   for (const Speed& speed : made.speed) {
@@ -117,17 +80,7 @@ std::string json_report(const Reproduction& made) {
 }
 
 std::string write_folder(const std::string& folder, const Reproduction& made) {
-  namespace fs = std::filesystem;
-  const fs::path to = folder;
-  std::error_code error;
-  fs::create_directories(to / "scenarios", error);
-  if (error) return folder + ": " + error.message();
-  std::vector<std::pair<fs::path, std::string>> files = {{to / "report.txt", text_report(made)}, {to / "report.json", json_report(made)}};
-  for (const Figure& figure : made.figures) files.emplace_back(to / (figure.name + ".svg"), figure.svg);
-  for (const auto& [name, text] : made.scenarios) files.emplace_back(to / "scenarios" / (name + ".json"), text);
-  for (const auto& [path, text] : files)
-    if (std::string problem = write(path, text); !problem.empty()) return problem;
-  return "";
+  return write_folder(folder, {text_report(made), json_report(made), made.figures, made.scenarios, {}});
 }
 
 }  // namespace takt::papers

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "chart/xy_chart.hpp"
+#include "chart/histogram.hpp"
 #include "papers/published.hpp"
 #include "results/evaluate.hpp"
 #include "scenario/resolve.hpp"
@@ -37,11 +37,11 @@ std::string histogram_of(const results::RoundTripResult& trip, int values, char 
     const double width_us = static_cast<double>(bucket.to.ps() - bucket.from.ps() + 1) * 1e-6;
     bars.push_back({milliseconds(bucket.from), milliseconds(bucket.to), static_cast<double>(bucket.count) / width_us});
   }
-  chart::Frame frame;
-  frame.title = fmt::format("Fig. 8{}: round trips of {} floating-point value{} ({} bytes), {} messages", letter, values, values == 1 ? "" : "s", 8 * values, trip.count);
-  frame.x_label = "round trip time (ms)";
-  frame.y_label = "messages in a microsecond";
-  return chart::histogram(frame, bars, 0.2, 0.7);
+  chart::HistogramTexts texts;
+  texts.title = fmt::format("Fig. 8{}: round trips of {} floating-point value{} ({} bytes), {} messages", letter, values, values == 1 ? "" : "s", 8 * values, trip.count);
+  texts.x_label = "round trip time (ms)";
+  texts.y_label = "messages in a microsecond";
+  return chart::histogram(texts, bars, 0.2, 0.7);
 }
 
 }  // namespace

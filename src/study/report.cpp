@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "study/chart/svg.hpp"
+#include "chart/svg.hpp"
 #include "study/effects.hpp"
 #include "study/magnitude.hpp"
 #include "study/report_charts.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "study/chart/chart.hpp"
+#include "chart/chart.hpp"
 #include "study/effects.hpp"
 
 namespace takt::study {
@@ -45,10 +45,10 @@ Shown shown(const ContentFactor& factor) {
 }
 
 /// Levels that are spread over more than a power of ten and a half, evenly or wider at the end, read better on a logarithmic axis.
-bool is_logarithmic(const ContentFactor& factor) {
-  if (factor.is_logarithmic) return true;
+chart::Scale scale_of(const ContentFactor& factor) {
+  if (factor.is_logarithmic) return chart::Scale::logarithmic;
   const auto [low, high] = std::minmax_element(factor.numbers.begin(), factor.numbers.end());
-  return factor.texts.size() > 2 && *low > 0 && *high / *low >= 30;
+  return factor.texts.size() > 2 && *low > 0 && *high / *low >= 30 ? chart::Scale::logarithmic : chart::Scale::linear;
 }
 
 chart::Sample sample_of(double x, const Summary& summary) {
@@ -101,7 +101,7 @@ std::string main_effect_chart(const Content& content, std::size_t f, std::size_t
     const Shown how = shown(factor);
     chart::LineChart line;
     line.title = title;
-    line.x = {how.label, is_logarithmic(factor)};
+    line.x = {how.label, scale_of(factor)};
     line.y = {label_of(measure)};
     line.series = {factor.texts.size() > most_levels_shown ? cloud_of(factor, summaries, how.factor) : curve_of(factor, summaries, how.factor, "")};
     line.rules = rules_of(content, m);
@@ -134,7 +134,7 @@ std::string response_chart(const Content& content, std::size_t x, std::size_t cu
   const Shown how = shown(factor);
   chart::LineChart line;
   line.title = content.measures[m].name + " over " + factor.name + ", by " + other.name;
-  line.x = {how.label, is_logarithmic(factor)};
+  line.x = {how.label, scale_of(factor)};
   line.y = {label_of(content.measures[m])};
   line.rules = rules_of(content, m);
   for (const std::uint32_t level : in_order(other)) {

@@ -54,7 +54,7 @@ const std::vector<Layer>& layers() {
     const Prefixes below = all_of({kernel, models, protocol, vocabulary, scenario});
     list.push_back({"src/scenario/", below});
     // Beside the questions, but its points are results as result.json has them, and its report is drawn.
-    list.push_back({"src/study/", all_of({below, questions, results, output, study})});
+    list.push_back({"src/study/", all_of({below, questions, results, output, chart, study})});
     for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, results})});
     list.push_back({"src/results/", all_of({below, results})});
     list.push_back({"src/output/", all_of({below, questions, results, output})});

@@ -1,14 +1,14 @@
 // Axes have round ticks that hold all figures; charts have one mark for each figure.
-#include "study/chart/chart.hpp"
+#include "chart/chart.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "study/chart/axis.hpp"
-#include "study/chart/svg.hpp"
+#include "chart/axis.hpp"
+#include "chart/svg.hpp"
 
-namespace takt::study::chart {
+namespace takt::chart {
 namespace {
 
 std::size_t count(const std::string& text, const std::string& part) {
@@ -25,7 +25,7 @@ std::vector<double> ticks_of(const Axis& axis) {
 
 // 0.3 to 9.7: six steps of 9.4 / 6 = 1.57, rounded up to 2.
 TEST(Axis, HasRoundTicks) {
-  const Axis axis({0.3, 9.7, 5}, false, 0, 100);
+  const Axis axis({0.3, 9.7, 5}, Scale::linear, 0, 100);
   EXPECT_EQ(ticks_of(axis), (std::vector<double>{0, 2, 4, 6, 8, 10}));
   EXPECT_DOUBLE_EQ(axis.at(0), 0);
   EXPECT_DOUBLE_EQ(axis.at(10), 100);
@@ -34,7 +34,7 @@ TEST(Axis, HasRoundTicks) {
 }
 
 TEST(Axis, LogarithmicAxisIsEvenInRatios) {
-  const Axis axis({3, 500}, true, 0, 300);
+  const Axis axis({3, 500}, Scale::logarithmic, 0, 300);
   EXPECT_DOUBLE_EQ(axis.low(), 1);
   EXPECT_DOUBLE_EQ(axis.high(), 1000);
   EXPECT_NEAR(axis.at(10), 100, 1e-9);
@@ -44,12 +44,12 @@ TEST(Axis, LogarithmicAxisIsEvenInRatios) {
 }
 
 TEST(Axis, TakesEqualNoAndInfiniteValues) {
-  const Axis equal({5, 5}, false, 0, 100);
+  const Axis equal({5, 5}, Scale::linear, 0, 100);
   EXPECT_LT(equal.low(), 5);
   EXPECT_GT(equal.high(), 5);
-  EXPECT_FALSE(Axis({}, false, 0, 100).ticks().empty());
-  EXPECT_FALSE(Axis({-1, 0}, true, 0, 100).is_logarithmic()) << "nothing above 0";
-  const Axis axis({1, 2, INFINITY, NAN}, false, 0, 100);
+  EXPECT_FALSE(Axis({}, Scale::linear, 0, 100).ticks().empty());
+  EXPECT_FALSE(Axis({-1, 0}, Scale::logarithmic, 0, 100).is_logarithmic()) << "nothing above 0";
+  const Axis axis({1, 2, INFINITY, NAN}, Scale::linear, 0, 100);
   EXPECT_LE(axis.high(), 3);
 }
 
@@ -59,7 +59,7 @@ TEST(Axis, HoldsEveryFigure) {
     for (const double span : {1e-3, 0.5, 3.0, 99.0}) {
       const double low = scale * 2;
       const double high = low + scale * span;
-      const Axis axis({low, high}, false, 0, 1);
+      const Axis axis({low, high}, Scale::linear, 0, 1);
       EXPECT_LE(axis.low(), low * (1 + 1e-9));
       EXPECT_GE(axis.high(), high * (1 - 1e-9));
       EXPECT_LE(axis.ticks().size(), 12u);
@@ -102,4 +102,4 @@ TEST(HeatMap, HasACellForEachPair) {
 TEST(Svg, EscapesWhatWouldEndAnElement) { EXPECT_EQ(escaped("<a b=\"c\">&'"), "&lt;a b=&quot;c&quot;&gt;&amp;&#39;"); }
 
 }  // namespace
-}  // namespace takt::study::chart
+}  // namespace takt::chart

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/chart/axis.hpp"
-#include "study/chart/chart.hpp"
-#include "study/chart/svg.hpp"
+#include "chart/axis.hpp"
+#include "chart/chart.hpp"
+#include "chart/svg.hpp"
 
-namespace takt::study::chart {
+namespace takt::chart {
 namespace {
 
 struct Colour {
@@ -57,29 +57,29 @@ std::string draw(const HeatMap& chart) {
   const double y1 = y0 + height * static_cast<double>(chart.rows.size());
   const std::string scale = low < high ? fmt::format("{} to {} {}{}", number_text(low), number_text(high), chart.unit, is_logarithmic ? ", logarithmic" : "") : "";
   Svg svg(std::max({x1 + 14, x0 + 7.0 * static_cast<double>(chart.title.size()), x0 + 130 + 6.2 * static_cast<double>(scale.size())}), y1 + 62);
-  svg.text(x0, 15, chart.title, "start", "title");
+  svg.text({x0, 15}, chart.title, Anchor::start, Class{"title"});
   for (std::size_t r = 0; r < chart.rows.size(); ++r) {
     const double y = y0 + height * static_cast<double>(r);
-    svg.text(x0 - 6, y + height / 2 + 4, chart.rows[r].substr(0, 30), "end", "tick");
+    svg.text({x0 - 6, y + height / 2 + 4}, chart.rows[r].substr(0, 30), Anchor::end, Class{"tick"});
     for (std::size_t c = 0; c < chart.columns.size(); ++c) {
       const double x = x0 + width * static_cast<double>(c);
       const auto& cell = chart.cells[r][c];
       const std::string title = chart.columns[c] + ", " + chart.rows[r] + ": " + (cell ? number_text(*cell) + " " + chart.unit : "no result");
-      svg.bar(x + 0.5, y + 0.5, width - 1, height - 1, cell ? css(colour_at(share(*cell))) : "#ddd", title);
-      const std::string_view ink = cell && share(*cell) > 0.45 ? "cell on-dark" : "cell";
-      svg.text(x + width / 2, y + height / 2 + 4, cell ? fmt::format("{:.4g}", *cell) : "-", "middle", ink);
+      svg.mark_rectangle({x + 0.5, y + 0.5}, width - 1, height - 1, cell ? css(colour_at(share(*cell))) : "#ddd", title);
+      const std::string_view look = cell && share(*cell) > 0.45 ? "cell on-dark" : "cell";
+      svg.text({x + width / 2, y + height / 2 + 4}, cell ? fmt::format("{:.4g}", *cell) : "-", Anchor::middle, Class{look});
       if (r < chart.marked.size() && c < chart.marked[r].size() && chart.marked[r][c])
-        svg.path(fmt::format("M{} {}h{}v{}h-{}z", coordinate(x + 1.5), coordinate(y + 1.5), coordinate(width - 3), coordinate(height - 3), coordinate(width - 3)), "#c0392b", "curve");
+        svg.path(fmt::format("M{} {}h{}v{}h-{}z", coordinate(x + 1.5), coordinate(y + 1.5), coordinate(width - 3), coordinate(height - 3), coordinate(width - 3)), "#c0392b", Class{"curve"});
     }
   }
-  for (std::size_t c = 0; c < chart.columns.size(); ++c) svg.text(x0 + width * (static_cast<double>(c) + 0.5), y1 + 15, chart.columns[c].substr(0, 30), "middle", "tick");
-  svg.text((x0 + x1) / 2, y1 + 32, chart.x_label, "middle", "label");
-  svg.text(12, (y0 + y1) / 2, chart.y_label, "middle", "label", -90);
+  for (std::size_t c = 0; c < chart.columns.size(); ++c) svg.text({x0 + width * (static_cast<double>(c) + 0.5), y1 + 15}, chart.columns[c].substr(0, 30), Anchor::middle, Class{"tick"});
+  svg.text({(x0 + x1) / 2, y1 + 32}, chart.x_label, Anchor::middle, Class{"label"});
+  svg.text({12, (y0 + y1) / 2}, chart.y_label, Anchor::middle, Class{"label"}, -90);
   if (low < high) {
-    for (int i = 0; i < 20; ++i) svg.box(x0 + 6 * i, y1 + 42, 6.2, 8, css(colour_at(i / 19.0)));
-    svg.text(x0 + 126, y1 + 50, scale, "start", "note");
+    for (int i = 0; i < 20; ++i) svg.rectangle({x0 + 6 * i, y1 + 42}, 6.2, 8, css(colour_at(i / 19.0)));
+    svg.text({x0 + 126, y1 + 50}, scale, Anchor::start, Class{"note"});
   }
-  return svg.take(chart.title);
+  return svg.element(chart.title);
 }
 
-}  // namespace takt::study::chart
+}  // namespace takt::chart

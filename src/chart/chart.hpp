@@ -1,11 +1,13 @@
-// Charts: plain data that becomes an <svg> element.
+// Charts of a page: plain data that becomes an <svg> element. Its classes want the style sheet of svg.hpp.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace takt::study::chart {
+#include "chart/axis.hpp"
+
+namespace takt::chart {
 
 /// A point of a curve, with the ends of its interval if it has one.
 struct Sample {
@@ -22,9 +24,10 @@ struct Series {
   std::string colour;             ///< empty: one of the palette
 };
 
-struct Scale {
+/// What an axis shows.
+struct Dimension {
   std::string label;
-  bool is_logarithmic = false;
+  Scale scale = Scale::linear;
 };
 
 /// A horizontal line, such as a limit.
@@ -36,8 +39,8 @@ struct Rule {
 /// Curves or points over numbers.
 struct LineChart {
   std::string title;
-  Scale x;
-  Scale y;
+  Dimension x;
+  Dimension y;
   std::vector<Series> series;
   std::vector<Rule> rules;
   double width = 560;
@@ -51,7 +54,7 @@ struct BarChart {
   std::vector<std::string> categories;
   std::vector<std::string> names;                             ///< of the bars of a group; one, empty: no legend
   std::vector<std::vector<std::optional<Sample>>> bars;       ///< by category, then name; x is not used; none: no bar
-  Scale y;
+  Dimension y;
   std::vector<Rule> rules;
   double width = 560;
   double height = 300;
@@ -72,7 +75,4 @@ struct HeatMap {
 };
 std::string draw(const HeatMap& chart);
 
-/// The colour of the n-th series; told apart by people who see few colours too (Okabe and Ito).
-std::string palette(std::size_t n);
-
-}  // namespace takt::study::chart
+}  // namespace takt::chart

@@ -1,4 +1,4 @@
-#include "study/chart/chart.hpp"
+#include "chart/chart.hpp"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "study/chart/axis.hpp"
-#include "study/chart/svg.hpp"
+#include "chart/axis.hpp"
+#include "chart/svg.hpp"
 
-namespace takt::study::chart {
+namespace takt::chart {
 namespace {
 
 constexpr double left = 64;
@@ -48,34 +48,34 @@ void draw_legend(Svg& svg, const std::vector<std::string>& names, const std::vec
       x = left;
       y += line_height;
     }
-    svg.box(x, y - 8, 9, 9, colours[i]);
-    svg.text(x + 13, y, names[i], "start", "legend");
+    svg.rectangle({x, y - 8}, 9, 9, colours[i]);
+    svg.text({x + 13, y}, names[i], Anchor::start, Class{"legend"});
     x += needed;
   }
 }
 
 void draw_y(Svg& svg, const Frame& frame, const Axis& axis, const std::string& title, const std::string& label) {
-  svg.text(left, 15, title, "start", "title");
+  svg.text({left, 15}, title, Anchor::start, Class{"title"});
   for (const Tick& tick : axis.ticks()) {
-    svg.line(left, axis.at(tick.value), frame.x_end(), axis.at(tick.value), "grid");
-    svg.text(left - 6, axis.at(tick.value) + 4, tick.text, "end", "tick");
+    svg.line({left, axis.at(tick.value)}, {frame.x_end(), axis.at(tick.value)}, Class{"grid"});
+    svg.text({left - 6, axis.at(tick.value) + 4}, tick.text, Anchor::end, Class{"tick"});
   }
-  svg.text(13, (top + frame.y_end()) / 2, label, "middle", "label", -90);
+  svg.text({13, (top + frame.y_end()) / 2}, label, Anchor::middle, Class{"label"}, -90);
 }
 
 /// Over what the chart shows, else bars would hide them.
 void draw_rules(Svg& svg, const Frame& frame, const Axis& axis, const std::vector<Rule>& rules) {
   for (const Rule& rule : rules) {
     if (rule.y < axis.low() || rule.y > axis.high()) continue;
-    svg.line(left, axis.at(rule.y), frame.x_end(), axis.at(rule.y), "limit");
-    svg.text(frame.x_end(), axis.at(rule.y) - 4, rule.text, "end", "note");
+    svg.line({left, axis.at(rule.y)}, {frame.x_end(), axis.at(rule.y)}, Class{"limit"});
+    svg.text({frame.x_end(), axis.at(rule.y) - 4}, rule.text, Anchor::end, Class{"note"});
   }
 }
 
 void draw_whisker(Svg& svg, double x, const Sample& sample, const Axis& y) {
   if (!sample.low || !sample.high || *sample.high <= *sample.low) return;
-  svg.line(x, y.at(*sample.low), x, y.at(*sample.high), "whisker");
-  for (const double end : {*sample.low, *sample.high}) svg.line(x - 3, y.at(end), x + 3, y.at(end), "whisker");
+  svg.line({x, y.at(*sample.low)}, {x, y.at(*sample.high)}, Class{"whisker"});
+  for (const double end : {*sample.low, *sample.high}) svg.line({x - 3, y.at(end)}, {x + 3, y.at(end)}, Class{"whisker"});
 }
 
 std::string title_of(const std::string& name, const std::string& x, const Sample& sample) {
@@ -92,11 +92,6 @@ void collect(std::vector<double>& values, const Sample& sample) {
 
 }  // namespace
 
-std::string palette(std::size_t n) {
-  static constexpr std::array<const char*, 8> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#999933"};
-  return colours[n % colours.size()];
-}
-
 std::string draw(const LineChart& chart) {
   std::vector<double> xs;
   std::vector<double> ys;
@@ -108,7 +103,7 @@ std::string draw(const LineChart& chart) {
       xs.push_back(sample.x);
       collect(ys, sample);
     }
-    colours.push_back(series.colour.empty() ? palette(colours.size()) : series.colour);
+    colours.push_back(series.colour.empty() ? std::string(palette(colours.size())) : series.colour);
     if (series.name.empty()) continue;
     names.push_back(series.name);
     legend_colours.push_back(colours.back());
@@ -116,40 +111,40 @@ std::string draw(const LineChart& chart) {
   const double legend_height = line_height * static_cast<double>(legend_lines(names, chart.width));
   const Frame frame{chart.width, chart.height, 40};
   Svg svg(chart.width, chart.height + legend_height + 3);
-  const Axis x(xs, chart.x.is_logarithmic, left, frame.x_end());
-  const Axis y(ys, chart.y.is_logarithmic, frame.y_end(), top);
+  const Axis x(xs, chart.x.scale, left, frame.x_end());
+  const Axis y(ys, chart.y.scale, frame.y_end(), top);
   draw_y(svg, frame, y, chart.title, chart.y.label);
-  svg.line(left, frame.y_end(), frame.x_end(), frame.y_end(), "axis");
+  svg.line({left, frame.y_end()}, {frame.x_end(), frame.y_end()}, Class{"axis"});
   for (const Tick& tick : x.ticks()) {
-    svg.line(x.at(tick.value), frame.y_end(), x.at(tick.value), frame.y_end() + 4, "axis");
-    svg.text(x.at(tick.value), frame.y_end() + 16, tick.text, "middle", "tick");
+    svg.line({x.at(tick.value), frame.y_end()}, {x.at(tick.value), frame.y_end() + 4}, Class{"axis"});
+    svg.text({x.at(tick.value), frame.y_end() + 16}, tick.text, Anchor::middle, Class{"tick"});
   }
-  svg.text((left + frame.x_end()) / 2, frame.y_end() + 32, chart.x.label, "middle", "label");
+  svg.text({(left + frame.x_end()) / 2, frame.y_end() + 32}, chart.x.label, Anchor::middle, Class{"label"});
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
     const Series& series = chart.series[s];
     std::string commands;
     for (const Sample& sample : series.samples) commands += fmt::format("{}{} {}", commands.empty() ? "M" : "L", coordinate(x.at(sample.x)), coordinate(y.at(sample.y)));
-    if (series.is_joined && series.samples.size() > 1) svg.path(commands, colours[s], "curve");
+    if (series.is_joined && series.samples.size() > 1) svg.path(commands, colours[s], Class{"curve"});
     for (const Sample& sample : series.samples) {
       draw_whisker(svg, x.at(sample.x), sample, y);
-      svg.circle(x.at(sample.x), y.at(sample.y), series.is_joined ? 3 : 3.5, colours[s], title_of(series.name, number_text(sample.x), sample));
+      svg.mark_circle({x.at(sample.x), y.at(sample.y)}, series.is_joined ? 3 : 3.5, colours[s], title_of(series.name, number_text(sample.x), sample));
     }
   }
   draw_rules(svg, frame, y, chart.rules);
   draw_legend(svg, names, legend_colours, chart.width, chart.height + 9);
-  return svg.take(chart.title);
+  return svg.element(chart.title);
 }
 
 std::string draw(const BarChart& chart) {
   std::vector<double> values;
-  if (!chart.y.is_logarithmic) values.push_back(0);   // the length of a bar is its figure
+  if (chart.y.scale == Scale::linear) values.push_back(0);   // the length of a bar is its figure
   for (const auto& group : chart.bars)
     for (const auto& bar : group)
       if (bar) collect(values, *bar);
   std::vector<std::string> names = chart.names;
   if (names.size() == 1 && names.front().empty()) names.clear();
   std::vector<std::string> colours;
-  for (std::size_t i = 0; i < names.size(); ++i) colours.push_back(palette(i));
+  for (std::size_t i = 0; i < names.size(); ++i) colours.emplace_back(palette(i));
   std::size_t longest = 0;
   for (const std::string& category : chart.categories) longest = std::max(longest, category.size());
   const double slot = (chart.width - left - right) / static_cast<double>(std::max<std::size_t>(chart.categories.size(), 1));
@@ -158,7 +153,7 @@ std::string draw(const BarChart& chart) {
   const double bottom = is_turned ? 12 + 4.5 * static_cast<double>(std::min<std::size_t>(longest, 30)) : 24;
   const Frame frame{chart.width, chart.height + bottom - 24, bottom};
   Svg svg(chart.width, frame.height + line_height * static_cast<double>(legend_lines(names, chart.width)));
-  const Axis y(values, chart.y.is_logarithmic, frame.y_end(), top);
+  const Axis y(values, chart.y.scale, frame.y_end(), top);
   draw_y(svg, frame, y, chart.title, chart.y.label);
   const double zero = y.is_logarithmic() ? frame.y_end() : y.at(0);
   for (std::size_t c = 0; c < chart.categories.size(); ++c) {
@@ -169,19 +164,19 @@ std::string draw(const BarChart& chart) {
       const Sample& sample = *chart.bars[c][b];
       const double x = begin + width * static_cast<double>(b);
       const double end = y.at(sample.y);
-      svg.bar(x, std::min(end, zero), std::max(1.0, width - 1), std::max(0.5, std::abs(zero - end)), palette(b), title_of(chart.names.size() > b ? chart.names[b] : "", chart.categories[c], sample));
+      svg.mark_rectangle({x, std::min(end, zero)}, std::max(1.0, width - 1), std::max(0.5, std::abs(zero - end)), palette(b), title_of(chart.names.size() > b ? chart.names[b] : "", chart.categories[c], sample));
       draw_whisker(svg, x + (width - 1) / 2, sample, y);
     }
     const double middle = left + slot * (static_cast<double>(c) + 0.5);
     // Where there is no room for all names, some stand for their neighbours; every bar tells its own when pointed at.
     if (is_turned && c % every != 0) continue;
-    if (is_turned) svg.text(middle + 4, frame.y_end() + 12, chart.categories[c].substr(0, 30), "end", "tick", -45);
-    else svg.text(middle, frame.y_end() + 16, chart.categories[c], "middle", "tick");
+    if (is_turned) svg.text({middle + 4, frame.y_end() + 12}, chart.categories[c].substr(0, 30), Anchor::end, Class{"tick"}, -45);
+    else svg.text({middle, frame.y_end() + 16}, chart.categories[c], Anchor::middle, Class{"tick"});
   }
-  svg.line(left, zero, frame.x_end(), zero, "axis");
+  svg.line({left, zero}, {frame.x_end(), zero}, Class{"axis"});
   draw_rules(svg, frame, y, chart.rules);
   draw_legend(svg, names, colours, chart.width, frame.height + 6);
-  return svg.take(chart.title);
+  return svg.element(chart.title);
 }
 
-}  // namespace takt::study::chart
+}  // namespace takt::chart

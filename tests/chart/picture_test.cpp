@@ -1,34 +1,35 @@
 // Charts: what is drawn stands where its figures say.
 #include <gtest/gtest.h>
 
+#include "chart/axis.hpp"
 #include "chart/bar_chart.hpp"
 #include "chart/sequence_chart.hpp"
 #include "chart/svg.hpp"
-#include "chart/xy_chart.hpp"
+#include "chart/histogram.hpp"
 
 namespace takt::chart {
 namespace {
 
-TEST(Axis, LinearAndLogarithmicPixels) {
+TEST(FixedAxis, LinearAndLogarithmicPixels) {
   const Axis linear(Scale::linear, 0, 10, 100, 200);
-  EXPECT_DOUBLE_EQ(linear.pixel(0), 100);
-  EXPECT_DOUBLE_EQ(linear.pixel(2.5), 125);
-  EXPECT_DOUBLE_EQ(linear.pixel(11), 200) << "beyond the axis: at its end";
+  EXPECT_DOUBLE_EQ(linear.at(0), 100);
+  EXPECT_DOUBLE_EQ(linear.at(2.5), 125);
+  EXPECT_DOUBLE_EQ(linear.at(11), 200) << "beyond the axis: at its end";
   const Axis logarithmic(Scale::logarithmic, 1, 10'000, 400, 0);
-  EXPECT_DOUBLE_EQ(logarithmic.pixel(100), 200);
+  EXPECT_DOUBLE_EQ(logarithmic.at(100), 200);
 }
 
-TEST(Axis, MarksAreRound) {
-  const auto marks = Axis(Scale::linear, 0, 0.7, 0, 100).marks();
-  ASSERT_EQ(marks.size(), 8u);   // steps of 0.1
-  EXPECT_EQ(marks[3].text, "0.3");
-  const auto decades = Axis(Scale::logarithmic, 0.5, 2000, 0, 100).marks();
+TEST(FixedAxis, TicksAreRound) {
+  const auto ticks = Axis(Scale::linear, 0, 0.7, 0, 100).ticks();
+  ASSERT_EQ(ticks.size(), 8u);   // steps of 0.1
+  EXPECT_EQ(ticks[3].text, "0.3");
+  const auto decades = Axis(Scale::logarithmic, 0.5, 2000, 0, 100).ticks();
   ASSERT_EQ(decades.size(), 4u);
   EXPECT_EQ(decades[0].text, "1");
   EXPECT_EQ(decades[3].text, "1000");
 }
 
-TEST(Svg, TextIsEscaped) {
+TEST(Svg, TextOfDocumentsIsEscaped) {
   Svg svg(10, 10);
   svg.text({0, 0}, "a < b & \"c\"");
   EXPECT_NE(svg.document().find("a &lt; b &amp; &quot;c&quot;"), std::string::npos);
@@ -49,10 +50,10 @@ TEST(SequenceChart, MessagesGoFromRowToRow) {
   chart.steps = {{0, 0, "Start"}};
   chart.messages = {{0, 5, 0, 1, "hello"}};
   // Two rows, 34 pixels apart, from 130 on; lines of life 320 apart, from 320 on.
-  EXPECT_NE(sequence_chart(chart).find(R"(x1="320.0" y1="130.0" x2="640.0" y2="164.0")"), std::string::npos) << sequence_chart(chart);
+  EXPECT_NE(sequence_chart(chart).find(R"(x1="320" y1="130" x2="640" y2="164")"), std::string::npos) << sequence_chart(chart);
 }
 
-TEST(BarChart, WithoutALimitThereIsNoLine) {
+TEST(LimitedBars, WithoutALimitThereIsNoLine) {
   const auto lines = [](const std::string& text) {
     std::size_t count = 0;
     for (std::size_t at = text.find("#111"); at != std::string::npos; at = text.find("#111", at + 1)) ++count;

@@ -1,0 +1,60 @@
+#include "chart/square_wave.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "chart/axis.hpp"
+#include "chart/svg.hpp"
+
+namespace takt::chart {
+namespace {
+
+constexpr int divisions = 10;
+constexpr double left = 90;
+constexpr double top = 40;
+constexpr double width = 800;
+constexpr double trace_height = 110;
+constexpr double swing = 60;   // between low and high
+
+std::vector<Point> line_of(const Trace& trace, const Axis& time, double low) {
+  const auto level = [low](bool is_high) { return is_high ? low - swing : low; };
+  bool is_high = !trace.edges.empty() && !trace.edges.front().is_high;
+  auto next = trace.edges.begin();
+  for (; next != trace.edges.end() && next->time <= time.low(); ++next) is_high = next->is_high;
+  std::vector<Point> points = {{time.at(time.low()), level(is_high)}};
+  for (; next != trace.edges.end() && next->time < time.high(); ++next) {
+    if (next->is_high == is_high) continue;
+    points.push_back({time.at(next->time), level(is_high)});
+    is_high = next->is_high;
+    points.push_back({time.at(next->time), level(is_high)});
+  }
+  points.push_back({time.at(time.high()), level(is_high)});
+  return points;
+}
+
+}  // namespace
+
+std::string draw(const SquareWaves& waves) {
+  const double height = trace_height * static_cast<double>(std::max<std::size_t>(waves.traces.size(), 1));
+  const Axis time(Scale::linear, waves.from, waves.from + divisions * waves.division, left, left + width);
+  Svg svg(left + width + 30, top + height + 50);
+  svg.text({left, 26}, waves.title, {.size = 15, .bold = true});
+  svg.rectangle({left, top}, width, height, "#12242e", "#12242e", 4);
+  for (int i = 1; i < divisions; ++i) {
+    const double x = left + width * i / divisions;
+    svg.line({x, top}, {x, top + height}, {.colour = "#34505d"});
+  }
+  static constexpr const char* colours[] = {"#f4d35e", "#7fd1c7", "#e58fb1", "#a8c686"};
+  for (std::size_t i = 0; i < waves.traces.size(); ++i) {
+    const double low = top + trace_height * static_cast<double>(i) + 85;
+    if (i > 0) svg.line({left, low - 85}, {left + width, low - 85}, {.colour = "#34505d"});
+    svg.text({left - 8, low - swing / 2 + 4}, waves.traces[i].name, {.size = 11, .anchor = Anchor::end});
+    svg.polyline(line_of(waves.traces[i], time, low), {.colour = colours[i % std::size(colours)], .width = 1.8});
+  }
+  svg.text({left, top + height + 18}, fmt::format("{:g} {} a division", waves.division, waves.unit), {.size = 11});
+  svg.text({left, top + height + 36}, waves.note, {.size = 11, .colour = "#555"});
+  return svg.document();
+}
+
+}  // namespace takt::chart

@@ -1,0 +1,11 @@
+// The paper's next steps: what real-time Linux and TSN change.
+#pragma once
+
+#include "papers/coexistence/coexistence.hpp"
+
+namespace takt::papers::coexistence {
+
+/// False if a scenario cannot be read.
+bool improve(const Options& options, Reproduction& made, scenario::json::Diagnostics& diagnostics);
+
+}  // namespace takt::papers::coexistence

@@ -211,5 +211,76 @@ TEST(Interoperability, WhatAStockPublisherWritesComesOutOfTheGatewayAsUadp) {
   EXPECT_EQ(stock.wait(), 0);
 }
 
+const std::vector<DataSetField> blob_fields = {{"number", {uadp::BuiltInType::UInt32}}, {"data", {uadp::BuiltInType::ByteString}}};
+constexpr std::uint32_t blobs = 60;  // up to 60 kB: 45 fragments of 1344 octets
+
+TypeMapping blob_mapping(Direction direction) {
+  IdlStruct type{"Plant::Blob", {}};
+  std::string problem;
+  for (const DataSetField& field : blob_fields) type.members.push_back(idl_member_of(field, problem).value());
+  std::vector<std::string> problems;
+  return TypeMapping::make(direction, blob_fields, type, {}, problems).value();
+}
+
+using Blob = std::tuple<std::uint32_t, pubsub::ByteString>;
+
+Blob blob_of(std::uint32_t n) {
+  Blob blob{n, {}};
+  for (std::uint32_t i = 0; i < 1003 * n; ++i) std::get<1>(blob).push_back(static_cast<std::byte>(7 * i + n));
+  return blob;
+}
+
+/// The fields of a blob as Variants.
+std::vector<std::byte> fields_of(const Blob& blob) {
+  const pubsub::DataSet<Blob> typed(blob);
+  std::vector<std::byte> octets(100'000);
+  uadp::Writer writer(octets);
+  for (std::size_t i = 0; i < 2; ++i) typed.put(writer, i);
+  octets.resize(writer.position());
+  return octets;
+}
+
+TEST(Interoperability, SamplesOfManyFragmentsReachAStockSubscriber) {
+  Stock stock({place() + "/stock_subscriber", "Blob", std::to_string(domain()), std::to_string(blobs)});
+  ASSERT_EQ(stock.line(), "ready");
+  std::string problem;
+  const auto participant = node::open_dds(domain(), "", problem);
+  ASSERT_NE(participant, nullptr) << problem;
+  node::DdsWriter* const writer = participant->add_writer({"Blob", "Plant::Blob", reliable()}, problem);
+  ASSERT_NE(writer, nullptr) << problem;
+  ASSERT_EQ(stock.line(), "matched");
+  while (writer->matched() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  TypeMapping mapping = blob_mapping(Direction::to_dds);
+  std::vector<std::byte> payload;
+  for (std::uint32_t n = 1; n <= blobs; ++n) {
+    ASSERT_EQ(mapping.to_cdr(fields_of(blob_of(n)), payload), MappingError::none);
+    ASSERT_TRUE(writer->write(payload));
+    std::uint32_t sum = 0;
+    const Blob blob = blob_of(n);
+    for (const std::byte each : std::get<1>(blob)) sum = 31 * sum + std::to_integer<std::uint32_t>(each);
+    EXPECT_EQ(nlohmann::json::parse(stock.line()), (nlohmann::json{{"number", n}, {"octets", 1003 * n}, {"sum", sum}}));
+  }
+  EXPECT_EQ(stock.wait(), 0);
+}
+
+TEST(Interoperability, SamplesOfManyFragmentsComeFromAStockPublisher) {
+  std::string problem;
+  const auto participant = node::open_dds(domain(), "", problem);
+  ASSERT_NE(participant, nullptr) << problem;
+  node::DdsReader* const reader = participant->add_reader({"Blob", "Plant::Blob", reliable()}, problem);
+  ASSERT_NE(reader, nullptr) << problem;
+  Stock stock({place() + "/stock_publisher", "Blob", std::to_string(domain()), std::to_string(blobs), "1"});
+  ASSERT_EQ(stock.line(), "matched");
+  TypeMapping mapping = blob_mapping(Direction::to_opc_ua);
+  std::vector<std::byte> payload;
+  std::vector<std::byte> fields;
+  for (std::uint32_t n = 1; n <= blobs; ++n) {
+    while (!reader->take(payload)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_EQ(mapping.to_fields(payload, fields), MappingError::none);
+    ASSERT_EQ(fields, fields_of(blob_of(n))) << n;
+  }
+  EXPECT_EQ(stock.wait(), 0);
+}
+
 }  // namespace
 }  // namespace takt::gateway

@@ -10,7 +10,9 @@
 
 static inline int is_sample(const char* type) { return strcmp(type, "Sample") == 0; }
 
-static inline const dds_topic_descriptor_t* descriptor_of(const char* type) { return is_sample(type) ? &Plant_Sample_desc : &Plant_Motion_desc; }
+static inline int is_blob(const char* type) { return strcmp(type, "Blob") == 0; }
+
+static inline const dds_topic_descriptor_t* descriptor_of(const char* type) { return is_sample(type) ? &Plant_Sample_desc : is_blob(type) ? &Plant_Blob_desc : &Plant_Motion_desc; }
 
 static inline dds_entity_t checked(dds_entity_t entity, const char* what) {
   if (entity < 0) {

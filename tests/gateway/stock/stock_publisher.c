@@ -1,4 +1,4 @@
-// usage: stock_publisher Sample|Motion DOMAIN COUNT MILLISECONDS
+// usage: stock_publisher Sample|Blob|Motion DOMAIN COUNT MILLISECONDS
 // When a reader has been found, writes COUNT samples, each MILLISECONDS behind the one before; then waits until all are acknowledged.
 // What the members of sample number n are can be read below.
 #include "stock.h"
@@ -50,6 +50,18 @@ static void write_motion(dds_entity_t writer, uint32_t n) {
   checked(dds_write(writer, &m), "write");
 }
 
+/// Longer and longer: Cyclone sends fragments.
+static void write_blob(dds_entity_t writer, uint32_t n) {
+  uint8_t data[70000];
+  Plant_Blob b;
+  memset(&b, 0, sizeof b);
+  b.number = n;
+  b.data._buffer = data;
+  b.data._length = b.data._maximum = 1003 * n;
+  for (uint32_t i = 0; i < b.data._length; ++i) data[i] = (uint8_t)(7 * i + n);
+  checked(dds_write(writer, &b), "write");
+}
+
 int main(int count, char** arguments) {
   if (count != 5) return 2;
   const char* const type = arguments[1];
@@ -68,6 +80,8 @@ int main(int count, char** arguments) {
   for (uint32_t n = 1; n <= (uint32_t)atoi(arguments[3]); ++n) {
     if (is_sample(type))
       write_sample(writer, n);
+    else if (is_blob(type))
+      write_blob(writer, n);
     else
       write_motion(writer, n);
     dds_sleepfor(DDS_MSECS(atoi(arguments[4])));

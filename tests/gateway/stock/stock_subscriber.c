@@ -1,4 +1,4 @@
-// usage: stock_subscriber Sample|Motion DOMAIN COUNT
+// usage: stock_subscriber Sample|Blob|Motion DOMAIN COUNT
 // Takes COUNT samples of the topic and prints each as a line of JSON; "matched" when it has found a writer.
 #include <inttypes.h>
 
@@ -24,6 +24,12 @@ static void print_motion(const Plant_Motion* m) {
   printf("{\"counter\": %" PRIu32 ", \"speed\": %.17g, \"axes\": [%d, %d, %d], \"on\": %d}\n", m->counter, m->speed, m->axes[0], m->axes[1], m->axes[2], m->on);
 }
 
+static void print_blob(const Plant_Blob* b) {
+  uint32_t sum = 0;
+  for (uint32_t i = 0; i < b->data._length; ++i) sum = 31 * sum + b->data._buffer[i];
+  printf("{\"number\": %" PRIu32 ", \"octets\": %" PRIu32 ", \"sum\": %" PRIu32 "}\n", b->number, b->data._length, sum);
+}
+
 int main(int count, char** arguments) {
   if (count != 4) return 2;
   const char* const type = arguments[1];
@@ -47,6 +53,8 @@ int main(int count, char** arguments) {
     if (taken > 0 && info.valid_data) {
       if (is_sample(type))
         print_sample(sample);
+      else if (is_blob(type))
+        print_blob(sample);
       else
         print_motion(sample);
       --left;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scenario/json/suggest.hpp"
+#include "scenario/resolve.hpp"
 #include "sim/digest.hpp"
 #include "study/design.hpp"
 
@@ -97,8 +98,10 @@ std::string name_of(const Plan& plan, const Variant& variant) {
   return text;
 }
 
-std::optional<scenario::Scenario> scenario_of(const Plan& plan, const Variant& variant, std::uint64_t seed, json::Diagnostics& diagnostics) {
-  const std::size_t errors_before = diagnostics.errors();
+namespace {
+
+/// The base with what the levels and the seed change in it; false if that cannot be put there.
+bool vary(const Plan& plan, const Variant& variant, std::uint64_t seed, json::Document& document, json::Diagnostics& diagnostics) {
   std::vector<json::Replacement> replacements;
   if (plan.base.root().find("faults") == nullptr) replacements.push_back({"/faults", json::Node::array(), "no faults"});
   for (std::size_t f = 0; f < plan.factors.size(); ++f) {
@@ -107,8 +110,24 @@ std::optional<scenario::Scenario> scenario_of(const Plan& plan, const Variant& v
     replacements.insert(replacements.end(), level.replacements.begin(), level.replacements.end());
   }
   replacements.push_back({"/seed", json::Node::of_integer(static_cast<sim::int128>(seed)), "replications"});
+  return json::replace(document, replacements, diagnostics);
+}
+
+}  // namespace
+
+void check_variant(const Plan& plan, const Variant& variant, json::Diagnostics& diagnostics) {
   json::Document document = plan.base;
-  if (!json::replace(document, replacements, diagnostics)) return std::nullopt;
+  if (!vary(plan, variant, plan.study.replications.first_seed, document, diagnostics)) return;
+  scenario::Scenario scenario;
+  json::decode(document, scenario, diagnostics);
+  // Checks of meaning run even if single values are wrong, so that all mistakes are seen at once.
+  if (scenario.network.where.is_known()) scenario::resolve(std::move(scenario), diagnostics);
+}
+
+std::optional<scenario::Scenario> scenario_of(const Plan& plan, const Variant& variant, std::uint64_t seed, json::Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.errors();
+  json::Document document = plan.base;
+  if (!vary(plan, variant, seed, document, diagnostics)) return std::nullopt;
   scenario::Scenario scenario;
   json::decode(document, scenario, diagnostics);
   if (diagnostics.errors() != errors_before) return std::nullopt;

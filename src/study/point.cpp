@@ -111,8 +111,7 @@ Outcome run_point(const Plan& plan, std::uint64_t point) {
 
 std::string mistakes_of(const Plan& plan, std::size_t variant) {
   json::Diagnostics diagnostics;
-  auto scenario = scenario_of(plan, plan.variants[variant], plan.study.replications.first_seed, diagnostics);
-  if (scenario) scenario::resolve(std::move(*scenario), diagnostics);
+  check_variant(plan, plan.variants[variant], diagnostics);
   std::string text;
   for (const json::Diagnostic& diagnostic : diagnostics.sorted())
     if (diagnostic.severity == json::Severity::error) text += json::to_text(diagnostic) + "\n";

@@ -102,8 +102,8 @@ TEST(Plan, MistakesOfAnInlineBase) {
   const auto plan = load_plan(path, diagnostics);
   ASSERT_TRUE(plan) << diagnostics.to_text();
   const std::string first = mistakes_of(*plan, 0);
-  EXPECT_NE(first.find(path + ":4:60: error at /scenario/network/links/1/ends/1: unknown node"), std::string::npos) << first;
-  EXPECT_NE(first.find(path + ":5:89: error at /scenario/streams/0/pcp: out of range"), std::string::npos) << first;
+  EXPECT_NE(first.find(path + ":4:64: error at /scenario/network/links/1/ends/1: unknown node"), std::string::npos) << first;
+  EXPECT_NE(first.find(path + ":5:98: error at /scenario/streams/0/pcp: out of range"), std::string::npos) << first;
   EXPECT_EQ(first.find("/scenario/scenario"), std::string::npos) << first;
   // What a factor has put there is its own: the pointer is the one that the factor sets.
   const std::string second = mistakes_of(*plan, 1);
@@ -137,7 +137,7 @@ TEST(Plan, AutomaticGatesAreAFactor) {
   EXPECT_GT(run_point(*plan, 4).values[0].value(), alone);
   const Outcome meets = run_point(*plan, 3);
   EXPECT_EQ(meets.status, Status::impossible);
-  EXPECT_NE(meets.error.find("windows that overlap: found at \"sw1 to sw2\" \"x\" from 1.314us"), std::string::npos) << meets.error;
+  EXPECT_NE(meets.error.find("windows that overlap: found at \"sw1 to sw2\" \"x\" from 2.314us"), std::string::npos) << meets.error;
   EXPECT_NE(meets.error.find("factor gates = auto"), std::string::npos) << meets.error;
 }
 

@@ -13,7 +13,7 @@ namespace takt::cli {
 namespace {
 
 ExitStatus run_emulation(const ScenarioOptions& options, const std::string& keep) {
-  const auto resolved = load(options, true);
+  const auto resolved = load_without_applications(options, "takt emulate", true);
   if (!resolved) return ExitStatus::bad_input;
   const emulate::Plan plan = emulate::plan_of(*resolved);
   for (const std::string& refusal : plan.refusals) std::fprintf(stderr, "takt: cannot emulate %s: %s\n", resolved->scenario.name.c_str(), refusal.c_str());

@@ -12,8 +12,8 @@ namespace {
 
 constexpr models::AlarmId threads_alarm = 0;   // those of participants follow
 
-WindowCounter::Settings window_of(const ResolvedApplication& application, const ResolvedThread& thread, sim::Duration length, std::uint64_t expected) {
-  return {length, expected, sim::LocalTime() + application.scheduler->after, thread.tests, application.scheduler->tolerance, thread.offset};
+WindowCounter::Settings window_of(const ResolvedThread& thread, const ResolvedApplication& application, sim::Duration length, std::uint64_t expected) {
+  return {length, thread.offset, expected, sim::LocalTime() + application.scheduler->after, thread.tests, application.scheduler->tolerance};
 }
 
 }  // namespace
@@ -23,9 +23,9 @@ TopicApplication::Live::Live(const ResolvedThread& thread, const ResolvedApplica
     : settings(&thread),
       layout(&topic_layout),
       activations(thread.every, thread.offset, thread.response, seed, path + "/" + thread.name),
-      calls(window_of(application, thread, thread.window, static_cast<std::uint64_t>(thread.window / thread.every)), application.scheduler_response, seed, path),
+      calls(window_of(thread, application, thread.window, static_cast<std::uint64_t>(thread.window / thread.every)), application.scheduler_response, seed, path),
       sample(topic_layout.zeros()) {
-  if (!thread.publishes) values.emplace(window_of(application, thread, thread.value_window, thread.values_expected), application.scheduler_response, seed, path);
+  if (!thread.publishes) values.emplace(window_of(thread, application, thread.value_window, thread.values_expected), application.scheduler_response, seed, path);
 }
 
 TopicApplication::TopicApplication(Settings settings, ApplicationMonitor& monitor) : number_(settings.number), monitor_(&monitor), nodes_(std::move(settings.nodes)), bridge_(std::move(settings.bridge)) {

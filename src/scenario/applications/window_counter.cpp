@@ -11,14 +11,14 @@ WindowCounter::WindowCounter(const Settings& settings, const sim::Distribution& 
     : settings_(settings), response_(&response), chance_(seed, path, "scheduler") {}
 
 LocalTime WindowCounter::edge(std::int64_t number) {
-  return LocalTime::from_ps(settings_.offset.ps() + number * settings_.length.ps()).plus_saturated(response_->draw(chance_));
+  return LocalTime::from_ps(settings_.phase.ps() + number * settings_.length.ps()).plus_saturated(response_->draw(chance_));
 }
 
 void WindowCounter::begin(LocalTime now) {
   if (settings_.most_tests && figures_.tests >= *settings_.most_tests) return;
   const std::int64_t length = settings_.length.ps();
-  const std::int64_t from = std::max({now.ps(), settings_.after.ps(), std::int64_t{0}});
-  number_ = std::max((from - settings_.offset.ps() + length - 1) / length, std::int64_t{0});
+  const std::int64_t from = std::max({now.ps(), settings_.after.ps(), settings_.phase.ps()}) - settings_.phase.ps();
+  number_ = (from + length - 1) / length;
   from_ = edge(number_);
   to_ = std::max(edge(number_ + 1), from_);
   in_window_ = 0;

@@ -11,18 +11,18 @@
 
 namespace takt::scenario {
 
-/// Window k lasts from offset + k * length to offset + (k + 1) * length on the host's clock, both ends later by what the scheduler takes to look. Each whole
+/// Window k lasts from phase + k * length to phase + (k + 1) * length on the host's clock, both ends later by what the scheduler takes to look. Each whole
 /// window is a test: as many happenings count as were expected; more are noted as beyond. A test whose window the scheduler has made
 /// longer or shorter by more than the tolerance is discarded, as are those that a crash or a step of the clock cuts short.
 class WindowCounter {
  public:
   struct Settings {
     sim::Duration length;
+    sim::Duration phase;                        ///< of the thread: an activation begins each window
     std::uint64_t expected = 1;                 ///< in a window
     sim::LocalTime after;                       ///< no window begins before
     std::optional<std::uint64_t> most_tests;
     sim::Duration tolerance;
-    sim::Duration offset;                       ///< of the thread: its windows begin with it, so that no call belongs to two
   };
   struct Figures {
     std::uint64_t tests = 0;

@@ -1,0 +1,158 @@
+// Applications with threads: criteria, values, signals and gateways against numbers worked out by hand, over both protocols.
+#include <cmath>
+
+#include "results/evaluate.hpp"
+#include "support.hpp"
+
+namespace takt::scenario::test {
+namespace {
+
+/// Two hosts on a wire; `threads` of the publisher on a, of the subscriber on b.
+std::string pair(const std::string& topic, const std::string& publisher, const std::string& subscriber, const std::string& more = "", const std::string& duration = "1s") {
+  return R"({"name": "t", "duration": ")" + duration + R"(", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"], "delay": "100ns"}]},
+ "topics": [{"name": "x", "fields": {"level": "UInt32"}, )" + topic + R"(}],
+ "applications": [{"name": "p", "on": "a", "threads": [{"name": "publish", "publish": "x", )" + publisher + R"(}]},
+                  {"name": "s", "on": "b", "threads": [{"name": "subscribe", "subscribe": "x", )" + subscriber + R"(}]}])" + more + "}";
+}
+const std::string opc_ua = R"("protocol": "opc-ua")";
+
+results::RunResult result_of(const std::string& text) {
+  const auto resolved = sound(text);
+  LiveRun run(*resolved);
+  run.advance();
+  return results::evaluate(run, false);
+}
+
+TEST(Applications, EveryActivationThatEndsInTimeIsACall) {
+  const results::RunResult result = result_of(pair(opc_ua, R"("every": "1ms", "response": "100us")", R"("every": "1ms", "offset": "500us")"));
+  const results::ThreadResult& publish = result.applications[0].threads[0];
+  EXPECT_EQ(publish.activations, 1000u);  // the one that is due at 1 s is open
+  EXPECT_EQ(publish.missed, 0u);
+  EXPECT_EQ(publish.response->min.ps(), 100'000'000);
+  EXPECT_EQ(publish.response->max.ps(), 100'000'000);
+  EXPECT_EQ(publish.calls.tests, 100u);
+  EXPECT_EQ(publish.calls.expected, 1000u);
+  EXPECT_EQ(publish.calls.counted, 1000u);
+  EXPECT_EQ(publish.published, 1000u);
+  const results::ThreadResult& subscribe = result.applications[1].threads[0];
+  EXPECT_EQ(subscribe.calls.tests, 99u);  // windows begin half a millisecond later
+  EXPECT_EQ(subscribe.buffered, 1000u);
+  EXPECT_EQ(*subscribe.values->percent, 100.0);
+  EXPECT_EQ(subscribe.lost + subscribe.overwritten, 0u);
+}
+
+TEST(Applications, AResponseOfAnIntervalMissesAll) {
+  const results::RunResult result = result_of(pair(opc_ua, R"("every": "1ms", "response": "1ms")", R"("every": "1ms")"));
+  const results::ThreadResult& publish = result.applications[0].threads[0];
+  EXPECT_EQ(publish.activations, 1000u);
+  EXPECT_EQ(publish.missed, 1000u);
+  EXPECT_EQ(*publish.calls.percent, 0.0);
+  EXPECT_FALSE(publish.response);
+  EXPECT_EQ(result.streams[0].sent, 0u);
+}
+
+// P(response < interval) = 1 - exp(-(T/scale)^shape); 100 000 draws, so that four standard deviations are 0.6 %.
+TEST(Applications, SuccessIsTheLawAtTheInterval) {
+  const results::RunResult result = result_of(pair(opc_ua, R"("every": "1ms", "response": {"weibull": {"scale": "1.2ms", "shape": 0.8}})", R"("every": "1ms")", "", "100s"));
+  const double wanted = 100 * (1 - std::exp(-std::pow(1 / 1.2, 0.8)));
+  EXPECT_NEAR(*result.applications[0].threads[0].calls.percent, wanted, 0.62);
+}
+
+TEST(Applications, ABufferKeepsTheNewest) {
+  // Ten values come between two calls; two of them find room.
+  const results::RunResult result = result_of(pair(opc_ua, R"("every": "1ms", "response": "1us")", R"("every": "10ms", "buffer": 2)"));
+  const results::ThreadResult& subscribe = result.applications[1].threads[0];
+  EXPECT_EQ(subscribe.arrived, 990u + 10u);   // the call at 1 s finds the last ten
+  EXPECT_EQ(subscribe.buffered, 200u);
+  EXPECT_EQ(subscribe.overwritten, 800u);
+  EXPECT_EQ(subscribe.values->expected, subscribe.values->tests * 10);
+}
+
+TEST(Applications, ASignalIsAsRegularAsItsThread) {
+  const results::RunResult result =
+      result_of(pair(opc_ua, R"("every": "10ms", "payload": "alternate", "response": "1ms")", R"("every": "10ms", "offset": "5ms", "signal": "out", "response": "1ms")"));
+  ASSERT_EQ(result.signals.size(), 1u);
+  EXPECT_EQ(result.signals[0].nominal.ps(), 10'000'000'000);
+  EXPECT_EQ(result.signals[0].pulses->count, 50u);
+  EXPECT_EQ(result.signals[0].pulses->min.ps(), 10'000'000'000);
+  EXPECT_EQ(result.signals[0].pulses->max.ps(), 10'000'000'000);
+  EXPECT_EQ(result.signals[0].periods->max.ps(), 20'000'000'000);
+  EXPECT_EQ(result.signals[0].irregular_pulses, 0u);
+  EXPECT_EQ(result.signals[0].edges.front().first.since_start().ps(), 6'000'000'000);
+}
+
+TEST(Applications, ACrashEndsTestsAndTheApplicationBeginsAnew) {
+  const std::string faults = R"(, "faults": [{"kind": "crash", "at": "205ms", "for": "100ms", "node": "a"}])";
+  const results::RunResult result = result_of(pair(opc_ua, R"("every": "1ms", "response": "1us")", R"("every": "1ms", "offset": "500us")", faults));
+  const results::ThreadResult& publish = result.applications[0].threads[0];
+  EXPECT_EQ(publish.activations, 206u + 695u - 1u);  // 0 to 204 ms, and from 305 ms on; the one at 205 ms falls with the host
+  EXPECT_EQ(publish.missed, 0u);
+  EXPECT_EQ(publish.calls.discarded, 1u);
+  EXPECT_EQ(publish.calls.tests, 20u + 69u);
+  EXPECT_EQ(*publish.calls.percent, 100.0);
+}
+
+TEST(Applications, ReliableDdsDeliversEverySample) {
+  const std::string loss = R"(, "faults": [{"kind": "frame-errors", "at": "100ms", "for": "500ms", "link": ["a", "b"], "loss": 0.1}])";
+  const results::RunResult result = result_of(pair(R"("protocol": "dds", "qos": {"reliability": "reliable", "history": "keep-all"})", R"("every": "5ms")",
+                                                   R"("every": "5ms", "offset": "2ms", "buffer": 1000)", loss, "20s"));
+  const results::ThreadResult& subscribe = result.applications[1].threads[0];
+  EXPECT_EQ(result.applications[0].participants[0].matches, 1u);
+  EXPECT_GT(result.applications[0].participants[0].resent, 0u);
+  EXPECT_EQ(subscribe.lost, 0u);
+  // What was written before the match reaches nobody, and what was written last may be under way.
+  EXPECT_GE(subscribe.arrived + 8, result.applications[0].threads[0].published);
+}
+
+TEST(Applications, QualitiesOfServiceThatDoNotMatchAreTold) {
+  const results::RunResult result =
+      result_of(pair(R"("protocol": "dds")", R"("every": "5ms")", R"("every": "5ms", "qos": {"reliability": "reliable"})"));
+  ASSERT_EQ(result.applications[1].participants[0].incompatible.size(), 1u);
+  EXPECT_NE(result.applications[1].participants[0].incompatible[0].find("reliability"), std::string::npos);
+  EXPECT_EQ(result.applications[1].threads[0].arrived, 0u);
+}
+
+TEST(Applications, AGatewayForwardsWhatItReceives) {
+  const std::string text = R"({"name": "t", "duration": "2s", "network": {"nodes": {"a": {"kind": "host"}, "g": {"kind": "host"}, "b": {"kind": "host"}, "w": {"kind": "switch"}},
+ "links": [{"ends": ["a", "w"]}, {"ends": ["g", "w"]}, {"ends": ["b", "w"]}]},
+ "topics": [{"name": "x", "protocol": "opc-ua", "fields": {"level": "UInt32"}}, {"name": "y", "protocol": "dds", "fields": {"level": "UInt32"}}],
+ "applications": [{"name": "p", "on": "a", "threads": [{"name": "publish", "publish": "x", "every": "10ms"}]},
+                  {"name": "s", "on": "b", "threads": [{"name": "subscribe", "subscribe": "y", "every": "10ms", "offset": "6ms"}]}],
+ "gateways": [{"name": "gw", "on": "g", "from": "x", "to": "y", "receive_every": "10ms", "receive_offset": "2ms", "send_every": "20ms", "send_offset": "4ms", "buffer": 3}]})";
+  const results::RunResult result = result_of(text);
+  const results::BufferResult& buffer = *result.applications[2].buffer;
+  EXPECT_EQ(buffer.received, 200u);
+  EXPECT_EQ(buffer.forwarded, 100u);            // every other one is sent
+  EXPECT_EQ(buffer.overwritten, 200u - 100u - 3u);  // three wait at the end: the last comes after the last send
+  EXPECT_EQ(result.applications[2].threads[1].published, 100u);
+  EXPECT_GT(result.applications[1].threads[0].arrived, 90u);
+}
+
+struct Bad {
+  const char* what;
+  std::string text;
+  std::string said;
+};
+TEST(Applications, MistakesAreNamed) {
+  const Bad cases[] = {
+      {"topic", pair(opc_ua + R"(, "qos": {}, "domain": 1)", R"("every": "1ms")", R"("every": "1ms")"), "does not belong to OPC UA"},
+      {"offset", pair(opc_ua, R"("every": "1ms", "offset": "1ms")", R"("every": "1ms")"), "an offset beyond the interval"},
+      {"payload", pair(opc_ua, R"("every": "1ms", "buffer": 2)", R"("every": "1ms")"), "does not belong to this thread"},
+      {"copy", pair(opc_ua, R"("every": "1ms", "payload": {"copy_of": "y"})", R"("every": "1ms")"), "a copy of what is not there"},
+      {"requirement", pair(opc_ua, R"("every": "1ms")", R"("every": "1ms")", R"(, "require": [{"application": "q", "success": 1}])"), "unknown application"},
+      {"signal", pair(opc_ua, R"("every": "1ms")", R"("every": "1ms")", R"(, "require": [{"signal": "q", "irregular": 1}])"), "unknown signal"},
+      {"flow", pair(R"("protocol": "dds", "flow_control": {"octets": 1000, "every": "1ms"})", R"("every": "1ms")", R"("every": "1ms")"), "flow control of synchronous publication"},
+      {"server", pair(R"("protocol": "dds")", R"("every": "1ms")", R"("every": "1ms")", R"(, "domains": [{"id": 0, "discovery": "server", "server": "q"}])"),
+       "a server that is not in the domain"},
+      {"depth", pair(R"("protocol": "dds", "qos": {"depth": 5, "resource_limits": {"max_samples_per_instance": 2}})", R"("every": "1ms")", R"("every": "1ms")"),
+       "quality of service that cannot be"},
+  };
+  for (const Bad& bad : cases) {
+    json::Diagnostics diagnostics;
+    EXPECT_EQ(load_text(bad.text, "t.json", {}, diagnostics), nullptr) << bad.what;
+    EXPECT_NE(diagnostics.to_text().find(bad.said), std::string::npos) << bad.what << ": " << diagnostics.to_text();
+  }
+}
+
+}  // namespace
+}  // namespace takt::scenario::test

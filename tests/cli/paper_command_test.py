@@ -16,7 +16,7 @@ SOURCE = pathlib.Path()
 
 
 def paper(*arguments):
-    done = subprocess.run([TAKT, "paper", *map(str, arguments)], capture_output=True, text=True, timeout=280, check=False, cwd=SOURCE)
+    done = subprocess.run([TAKT, "paper", *map(str, arguments)], capture_output=True, text=True, timeout=550, check=False, cwd=SOURCE)
     return done.returncode, done.stdout, done.stderr
 
 

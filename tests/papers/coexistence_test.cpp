@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -50,8 +51,8 @@ TEST(CoexistencePaper, CellsAreDrawnNotComputed) {
     const FittedLaw law = calibrate(Law::weibull, tables[t]);
     for (std::size_t column = 0; column < intervals.size(); ++column) {
       const double expected = 100 * law.done_within(intervals[column]);
-      // Binomial, over tests of 10 ms; four and a half deviations for 32 cells.
-      const double calls = tables[t].tests * 10.0 / intervals[column];
+      // Binomial, over all tests of 10 ms; four and a half deviations for 32 cells.
+      const double calls = tables[t].tests * 10.0 / intervals[column] * made().repetitions;
       const double deviation = std::sqrt(expected * (100 - expected) / calls);
       EXPECT_NEAR(made().success[t][column], expected, 4.5 * deviation + 0.05) << cell_name(tables[t], column);
       differs = differs || std::abs(made().success[t][column] - expected) > 1e-6;

@@ -11,7 +11,7 @@ namespace takt::papers::coexistence {
 std::string success_chart(const Reproduction& made);
 /// Fig. 4: bars are criterion 2, lines across them criterion 1.
 std::string buffering_chart(const Reproduction& made);
-/// Fig. 5 to 9: five periods on an oscilloscope, the ideal signal below.
+/// Fig. 5 to 9: twenty periods on an oscilloscope, the ideal signal below.
 std::string signal_chart(const RunFigures& run, const SignalRow& row, int figure);
 
 }  // namespace takt::papers::coexistence

@@ -133,7 +133,7 @@ void compare_buffering(const ByColumn& runs, const ByColumn& unloaded, Reproduct
   made.comparisons.push_back(claim("both criteria at each node", "proportional", fmt::format("r = {:.3f} or more", least_r), least_r >= least_correlation,
                                    fmt::format("proportional: correlation over the intervals of at least {:.1f}", least_correlation)));
   made.comparisons.push_back(claim("criterion 2: what other traffic takes", "additional impact", fmt::format("{:.1f} to {:.1f} points", least_share, greatest_share),
-                                   greatest_share > 0));
+                                   least_share > 0, "what criterion 2 gains where nothing else is sent, over all cells"));
 }
 
 }  // namespace

@@ -169,8 +169,15 @@ void PtpInstance::take_grandmaster(const PriorityVector& before, PortNumber rece
     outputs.push_back(CancelTimer{timer(0, TimerPurpose::sync_interval)});
     if (selection_.receiver != 0 && !external()) arm_sync_receipt(selection_.receiver, config_.log_sync_interval, now, outputs);
   }
-  if (selection_.receiver == 0 || selection_.receiver != receiver_before || at(selection_.receiver).role != PortRole::time_receiver) sync_.reset();
-  if (before.root.clock != selection_.grandmaster.root.clock || selection_.receiver != receiver_before) drift_.reset();
+  const bool has_other_time = before.root.clock != selection_.grandmaster.root.clock;
+  if (has_other_time)
+    // A Follow_Up may come behind the Announce of another grandmaster, and tell the time of the former one.
+    for (Port& port : ports_) {
+      port.waiting.reset();
+      port.leaving.reset();
+    }
+  if (has_other_time || selection_.receiver == 0 || selection_.receiver != receiver_before || at(selection_.receiver).role != PortRole::time_receiver) sync_.reset();
+  if (has_other_time || selection_.receiver != receiver_before) drift_.reset();
   const bool changed = before.root.clock != selection_.grandmaster.root.clock || before.steps_removed != selection_.grandmaster.steps_removed;
   if (changed) outputs.push_back(GrandmasterChange{index_, selection_.grandmaster.root.clock, selection_.grandmaster.steps_removed});
   if (started_ && selection_.receiver == 0 && receiver_before != 0) sync_interval_elapsed(0, now, outputs);

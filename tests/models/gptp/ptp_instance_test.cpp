@@ -195,6 +195,38 @@ TEST(PtpInstance, FollowUpWithoutItsSyncIsIgnored) {
   EXPECT_TRUE(bridge.outputs.empty());
 }
 
+TEST(PtpInstance, AFollowUpBehindTheAnnounceOfAnotherGrandmasterIsIgnored) {
+  Bridge bridge;
+  bridge.hears(1, Bridge::announce(100, 9, 0, 9));
+  Sync sync;
+  sync.header.source = {clock(9), 1};
+  sync.header.sequence_id = 1;
+  sync.header.log_message_interval = -3;
+  bridge.instance.received(sync, 1, bridge.now, {0_ns, ClockRate::one()}, bridge.now, bridge.outputs);
+  bridge.hears(1, Bridge::announce(90, 8, 1, 9));
+  bridge.outputs.clear();
+  FollowUp follow_up;
+  follow_up.header = sync.header;
+  follow_up.precise_origin = {7, 0};
+  bridge.instance.received(follow_up, 1, bridge.now, bridge.outputs);
+  EXPECT_TRUE(all<SyncSample>(bridge.outputs).empty()) << "the time of 9 as if it were that of 8";
+  bridge.sync(1, 9, 2);
+  ASSERT_EQ(all<SyncSample>(bridge.outputs).size(), 1u);
+  EXPECT_EQ(all<SyncSample>(bridge.outputs)[0].grandmaster, clock(8));
+}
+
+TEST(PtpInstance, TellsNoTimeOfAFormerGrandmaster) {
+  Bridge bridge;
+  bridge.hears(1, Bridge::announce(100, 9, 0, 9));
+  bridge.sync(1, 9);
+  const auto syncs = sent<Sync>(bridge.outputs);
+  ASSERT_EQ(syncs.size(), 2u);
+  bridge.hears(1, Bridge::announce(90, 8, 1, 9));
+  bridge.outputs.clear();
+  bridge.instance.transmitted({3, MessageType::sync, 0, syncs[1].second.header.sequence_id, bridge.now + 4_us}, bridge.outputs);
+  EXPECT_TRUE(sent<FollowUp>(bridge.outputs).empty());
+}
+
 TEST(PtpInstance, SyncReceiptTimeoutAndHoldoverAsGrandmaster) {
   Bridge bridge;
   bridge.hears(1, Bridge::announce(100, 9, 0, 9));

@@ -1,4 +1,4 @@
-# What find_package(takt) gives: the protocol code and the real node, for applications of others.
+# What find_package(takt) gives: the protocol code (Programs, OPC UA PubSub, DDS, the gateway) and the real node, for applications of others.
 #
 #   cmake --install build/release --component takt_library --prefix PREFIX
 #
@@ -6,7 +6,7 @@
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-set(takt_installed takt_base takt_program takt_handshake takt_uadp takt_pubsub takt_wire takt_json takt_vocabulary takt_node)
+set(takt_installed takt_base takt_program takt_handshake takt_uadp takt_pubsub takt_dds takt_gateway takt_wire takt_json takt_vocabulary takt_node)
 foreach(library ${takt_installed})
   string(REPLACE "takt_" "" name ${library})
   set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
@@ -17,8 +17,9 @@ install(TARGETS takt_options ${takt_installed} EXPORT takt-targets ARCHIVE DESTI
 
 set(takt_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/takt)
 install(EXPORT takt-targets NAMESPACE takt:: DESTINATION ${takt_cmake_folder} COMPONENT takt_library)
-foreach(folder program handshake uadp pubsub wire vocabulary node scenario/json)
-  install(DIRECTORY src/${folder}/ DESTINATION ${TAKT_INCLUDE_FOLDER}/${folder} COMPONENT takt_library FILES_MATCHING PATTERN "*.hpp")
+foreach(folder program handshake uadp pubsub dds gateway wire vocabulary node scenario/json)
+  install(DIRECTORY src/${folder}/ DESTINATION ${TAKT_INCLUDE_FOLDER}/${folder} COMPONENT takt_library FILES_MATCHING PATTERN "*.hpp"
+          PATTERN node/applications EXCLUDE PATTERN node/dds EXCLUDE)  # parts of the command
 endforeach()
 install(FILES sim/time.hpp sim/units.hpp sim/check.hpp DESTINATION ${TAKT_INCLUDE_FOLDER}/sim COMPONENT takt_library)
 configure_package_config_file(cmake/takt-config.cmake.in ${PROJECT_BINARY_DIR}/takt-config.cmake INSTALL_DESTINATION ${takt_cmake_folder})

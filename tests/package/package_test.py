@@ -35,7 +35,7 @@ class Package(unittest.TestCase):
         run("cmake", "--build", cls.folder / "build")
 
     def test_each_layer_stands_alone(self):
-        for name in ("speed", "group", "codec"):
+        for name in ("speed", "group", "codec", "topic"):
             run(self.folder / "build" / name)
 
     def test_the_examples_are_short(self):

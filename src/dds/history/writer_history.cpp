@@ -4,7 +4,7 @@ namespace takt::dds {
 
 WriterHistory::WriterHistory(const Settings& settings)
     : settings_(settings), deadlines_(settings.deadline) {
-  TAKT_CHECK(settings_.history.depth >= 1, "a history has room");
+  TAKT_CHECK(settings_.history.per_instance() >= 1, "a history has room");
 }
 
 std::optional<NoRoom> WriterHistory::obstacle(const InstanceKey& key, sim::LocalTime now) {

@@ -10,7 +10,7 @@ namespace takt::scenario {
 dds::WriterConfig writer_config(const ResolvedTopic& topic, const ResolvedThread& thread) {
   dds::WriterConfig config;
   config.topic = topic.description->name;
-  config.type = topic.description->name;
+  config.type = topic.description->type.value_or(topic.description->name);
   config.qos = writer_qos(thread.qos, thread.transport_priority);
   config.asynchronous = topic.description->publication == Publication::asynchronous;
   if (topic.description->flow_control) config.flow_controller = topic.description->name;
@@ -20,7 +20,7 @@ dds::WriterConfig writer_config(const ResolvedTopic& topic, const ResolvedThread
 dds::ReaderConfig reader_config(const ResolvedTopic& topic, const ResolvedThread& thread) {
   dds::ReaderConfig config;
   config.topic = topic.description->name;
-  config.type = topic.description->name;
+  config.type = topic.description->type.value_or(topic.description->name);
   config.qos = reader_qos(thread.qos, thread.buffer);
   return config;
 }

@@ -31,7 +31,8 @@ struct Topic {
   json::NameMap<vocabulary::DataField> fields;
   std::optional<std::uint8_t> pcp;
   std::uint16_t vlan = 0;
-  std::optional<std::uint16_t> domain;        ///< of DDS, as all below
+  std::optional<std::string> type;            ///< of DDS, as all below
+  std::optional<std::uint16_t> domain;
   std::optional<Qos> qos;
   std::optional<Publication> publication;
   std::optional<FlowControl> flow_control;

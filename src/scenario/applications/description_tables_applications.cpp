@@ -19,6 +19,7 @@ const json::Object& describe(json::Type<Topic>) {
       required<&Topic::fields>("fields", "The fields of a sample.", {.min_items = 1, .max_items = 256}),
       optional<&Topic::pcp>("pcp", "Priority in a VLAN tag; untagged, priority 0, if absent.", {.max = 7}),
       optional<&Topic::vlan>("vlan", "VLAN identifier in the tag; 0 is a priority tag.", {.max = 4094}),
+      optional<&Topic::type>("type", "Of DDS: the name of the IDL struct, with its modules (\"Plant::Sample\"); the name of the topic if absent.", {.min_length = 1, .max_length = 255}),
       optional<&Topic::domain>("domain", "Of DDS: the DomainId; 0 if absent.", {.max = 232}),
       optional<&Topic::qos>("qos", "Of DDS: quality of service of all writers and readers of the topic."),
       optional<&Topic::publication>("publication", "Of DDS: who sends what is written; the writing thread if absent."),
@@ -41,8 +42,8 @@ const json::Object& describe(json::Type<Signal>) {
 const json::Object& describe(json::Type<Thread>) {
   static constexpr json::Field fields[] = {
       required<&Thread::name>("name", "Unique in the application.", {.min_length = 1, .max_length = 200}),
-      optional<&Thread::publish>("publish", "The topic to which each call publishes."),
-      optional<&Thread::subscribe>("subscribe", "The topic of which each call takes what has come since the last one."),
+      optional<&Thread::publish>("publish", "The topic to which each call publishes.", {.min_length = 1}),
+      optional<&Thread::subscribe>("subscribe", "The topic of which each call takes what has come since the last one.", {.min_length = 1}),
       required<&Thread::every>("every", "Interval of its activations, which are absolute deadlines on the clock of the host.", {.min = 10_us, .max = 3600_s}),
       optional<&Thread::offset>("offset", "Phase of the activations within the interval.", {.max = 3600_s}),
       optional<&Thread::response>("response", "From an activation to the call; not before the next activation: the call is missed. The wake-up latency of the host if absent."),
@@ -75,7 +76,7 @@ const json::Object& describe(json::Type<Scheduler>) {
 const json::Object& describe(json::Type<Application>) {
   static constexpr json::Field fields[] = {
       required<&Application::name>("name", "Unique among applications, gateways, streams and programs.", {.min_length = 1, .max_length = 200}),
-      required<&Application::on>("on", "The host."),
+      required<&Application::on>("on", "The host.", {.min_length = 1}),
       required<&Application::threads>("threads", "Its threads.", {.min_items = 1, .max_items = 64}),
       optional<&Application::scheduler>("scheduler", "How its threads are checked."),
   };
@@ -86,9 +87,9 @@ const json::Object& describe(json::Type<Application>) {
 const json::Object& describe(json::Type<Gateway>) {
   static constexpr json::Field fields[] = {
       required<&Gateway::name>("name", "Unique among applications, gateways, streams and programs.", {.min_length = 1, .max_length = 200}),
-      required<&Gateway::on>("on", "The host."),
-      required<&Gateway::from>("from", "The topic that it subscribes to."),
-      required<&Gateway::to>("to", "The topic that it publishes to: its fields are found by their names, and their types must map."),
+      required<&Gateway::on>("on", "The host.", {.min_length = 1}),
+      required<&Gateway::from>("from", "The topic that it subscribes to.", {.min_length = 1}),
+      required<&Gateway::to>("to", "The topic that it publishes to: its fields are found by their names, and their types must map.", {.min_length = 1}),
       required<&Gateway::receive_every>("receive_every", "Interval of its thread \"receive\", which takes what has come into the buffer.", {.min = 10_us, .max = 3600_s}),
       optional<&Gateway::receive_offset>("receive_offset", "Phase of that thread.", {.max = 3600_s}),
       optional<&Gateway::receive_response>("receive_response", "Response of that thread; the wake-up latency of the host if absent."),

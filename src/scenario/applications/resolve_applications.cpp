@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::size_t most_publishers = 0xFFFF;  // PublisherIds are UInt16
 constexpr std::uint32_t all_that_came = 65'536;   // a gateway has a buffer of its own
+constexpr std::uint32_t unknown_topic = 0xFFFF'FFFF;
+constexpr Duration shortest_interval = 10_us;     // the table refuses shorter ones
 
 std::vector<std::string_view> names_of(const auto& things) {
   std::vector<std::string_view> names;
@@ -61,7 +63,7 @@ class ApplicationResolver {
     if (!topic.pcp && topic.vlan != 0)
       diagnostics_.error(topic.where.at("vlan"), "a VLAN without a priority", {"\"vlan\" alone", "\"pcp\" too, since the tag carries both"});
     if (topic.protocol == Protocol::opc_ua) {
-      for (const auto& [present, key] : {std::pair(topic.domain.has_value(), "domain"), std::pair(topic.qos.has_value(), "qos"),
+      for (const auto& [present, key] : {std::pair(topic.type.has_value(), "type"), std::pair(topic.domain.has_value(), "domain"), std::pair(topic.qos.has_value(), "qos"),
                                          std::pair(topic.publication.has_value(), "publication"), std::pair(topic.flow_control.has_value(), "flow_control")})
         if (present) refuse_of_dds(topic.where.at(key), key);
     } else if (topic.flow_control && topic.publication != Publication::asynchronous) {
@@ -95,15 +97,20 @@ class ApplicationResolver {
   std::uint32_t topic_of(const std::string& name, const json::Place& place) {
     for (std::uint32_t t = 0; t < r_.topics.size(); ++t)
       if (r_.topics[t].description->name == name) return t;
-    diagnostics_.error(place, "unknown topic", {json::quote(name), "the name of a topic", json::suggest(name, names_of(r_.scenario.topics))});
-    return 0;
+    // An empty name was refused by the table.
+    if (!name.empty()) diagnostics_.error(place, "unknown topic", {json::quote(name), "the name of a topic", json::suggest(name, names_of(r_.scenario.topics))});
+    return unknown_topic;
   }
+
+  /// Of a thread whose interval was refused nothing follows: neither an overload nor an offset beyond.
+  static Duration interval_of(Duration every) { return every < shortest_interval ? 3600_s : every; }
 
   ResolvedApplication begin(const std::string& name, const std::string& host, const Scheduler& scheduler, const json::Source& where) {
     ResolvedApplication made;
     made.name = name;
     made.where = where;
-    if (const auto node = builder_.host(host, where.at("on"))) made.node = models::NodeIndex{*node};
+    // An empty name was refused by the table.
+    if (const auto node = host.empty() ? std::nullopt : builder_.host(host, where.at("on"))) made.node = models::NodeIndex{*node};
     made.scheduler = &scheduler;
     if (scheduler.response) made.scheduler_response = distribution_of(*scheduler.response, diagnostics_);
     made.publisher_id = static_cast<std::uint16_t>(++publishers_);
@@ -130,7 +137,8 @@ class ApplicationResolver {
       one.name = thread.name;
       one.where = thread.where;
       one.publishes = thread.publish.has_value();
-      one.every = std::max(thread.every, Duration::from_ps(1));  // 0 was refused by the table
+      one.every = interval_of(thread.every);
+      one.topic = unknown_topic;
       one.offset = thread.offset;
       check_offset(thread.offset, one.every, thread.where.at("offset"));
       if (thread.publish) one.topic = topic_of(*thread.publish, thread.where.at("publish"));
@@ -178,7 +186,7 @@ class ApplicationResolver {
                          {json::quote(*payload.copy_of), "a topic that a thread of " + json::quote(application.name) + " subscribes to", json::suggest(*payload.copy_of, subscribed)});
       return;
     }
-    if (r_.topics.empty()) return;
+    if (made.threads[*made.threads[thread].copies].topic == unknown_topic || made.threads[thread].topic == unknown_topic) return;
     const auto& from = r_.topics[made.threads[*made.threads[thread].copies].topic].layout.fields();
     const auto& to = r_.topics[made.threads[thread].topic].layout.fields();
     if (!std::equal(from.begin(), from.end(), to.begin(), to.end(), [](const auto& a, const auto& b) { return a.same_type(b); }))
@@ -190,10 +198,11 @@ class ApplicationResolver {
     made.gateway = ResolvedGateway{gateway.buffer, gateway.overflow, gateway.stale_after};
     const std::uint32_t from = topic_of(gateway.from, gateway.where.at("from"));
     const std::uint32_t to = topic_of(gateway.to, gateway.where.at("to"));
-    if (!r_.topics.empty() && r_.topics[from].description->protocol == r_.topics[to].description->protocol)
+    const bool both_known = from != unknown_topic && to != unknown_topic;
+    if (both_known && r_.topics[from].description->protocol == r_.topics[to].description->protocol)
       diagnostics_.error(gateway.where.at("to"), "a gateway within one protocol",
                          {"both topics are of " + std::string(spelling(r_.topics[from].description->protocol)), "a topic of OPC UA and one of DDS; a thread with \"copy_of\" copies within one"});
-    else if (!r_.topics.empty())
+    else if (both_known)
       check_mapping(gateway, r_.topics[from], r_.topics[to]);
     for (const bool sends : {false, true}) {
       ResolvedThread thread;
@@ -201,7 +210,7 @@ class ApplicationResolver {
       thread.where = gateway.where;
       thread.publishes = sends;
       thread.topic = sends ? to : from;
-      thread.every = std::max(sends ? gateway.send_every : gateway.receive_every, Duration::from_ps(1));
+      thread.every = interval_of(sends ? gateway.send_every : gateway.receive_every);
       thread.offset = sends ? gateway.send_offset : gateway.receive_offset;
       check_offset(thread.offset, thread.every, gateway.where.at(sends ? "send_offset" : "receive_offset"));
       thread.response = response_of(sends ? gateway.send_response : gateway.receive_response, made);
@@ -230,7 +239,7 @@ class ApplicationResolver {
       if (!names.insert(thread.name).second)
         diagnostics_.error(thread.where.at("name"), "duplicate name", {json::quote(thread.name) + " a second time", "a name of its own for each thread of an application"});
       const std::string_view role = thread.publishes ? "publish" : "subscribe";
-      if (!topics.insert({thread.topic, thread.publishes}).second)
+      if (thread.topic != unknown_topic && !topics.insert({thread.topic, thread.publishes}).second)
         diagnostics_.error(thread.where.at(role), "a topic twice in one application", {"another thread has the same \"" + std::string(role) + "\"", "one thread for each topic and direction"});
     }
   }
@@ -242,6 +251,7 @@ class ApplicationResolver {
     for (const ResolvedApplication& application : r_.applications) {
       if (application.node.is_none()) continue;
       for (const ResolvedThread& thread : application.threads) {
+        if (thread.topic == unknown_topic) continue;
         for (const Use& other : uses) {
           if (other.topic != thread.topic || other.host != application.node.value || other.publishes == thread.publishes) continue;
           diagnostics_.error(thread.where.place(), "a topic that stays within a host",

@@ -49,6 +49,7 @@ ExitStatus run_programs(PaperOptions& options) {
   scenario::json::Diagnostics diagnostics;
   const auto made = papers::reproduce_programs(options.programs, diagnostics);
   const ExitStatus status = hand_over(options, made, diagnostics);
+  std::fflush(stdout);
   if (made && options.speed)
     for (const papers::Speed& speed : made->speed)
       std::fprintf(stderr, "%d values: %.1f s for %.0f s simulated, %.0f times as fast\n", speed.values, speed.wall_seconds, speed.simulated_seconds,
@@ -70,6 +71,7 @@ ExitStatus run_coexistence(PaperOptions& options) {
   const auto made = papers::coexistence::reproduce(options.coexistence, diagnostics);
   const ExitStatus status = hand_over(options, made, diagnostics);
   if (options.format == "text") std::fputs(measured_text.c_str(), stdout);
+  std::fflush(stdout);   // before what goes to standard error, should both be one file
   if (made && options.speed)
     for (const papers::coexistence::Speed& speed : made->speed)
       std::fprintf(stderr, "%s: %.3f s of CPU time for %.0f s simulated, %.0f times as fast\n", speed.scenario.c_str(), speed.cpu_seconds, speed.simulated_seconds,

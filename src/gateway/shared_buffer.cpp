@@ -9,7 +9,7 @@ namespace takt::gateway {
 void AgeFigures::add(sim::Duration age) {
   least = count == 0 ? age : std::min(least, age);
   greatest = count == 0 ? age : std::max(greatest, age);
-  sum = sum + age;
+  sum_ps += age.ps();
   ++count;
 }
 

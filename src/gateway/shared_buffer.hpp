@@ -40,9 +40,9 @@ struct AgeFigures {
   std::uint64_t count = 0;
   sim::Duration least;
   sim::Duration greatest;
-  sim::Duration sum;
+  sim::int128 sum_ps = 0;  ///< many values that wait together outgrow 106 days soon
   void add(sim::Duration age);
-  sim::Duration mean() const { return count == 0 ? sim::Duration() : sim::Duration::from_ps(sum.ps() / static_cast<std::int64_t>(count)); }
+  sim::Duration mean() const { return count == 0 ? sim::Duration() : sim::Duration::from_ps(static_cast<std::int64_t>(sum_ps / static_cast<sim::int128>(count))); }
   bool operator==(const AgeFigures&) const = default;
 };
 

@@ -46,7 +46,7 @@ ParticipantResult result_of(const scenario::DdsNode& node) {
 }
 
 BufferResult result_of(const gateway::ChannelFigures& f) {
-  return {f.buffer.received, f.buffer.forwarded, f.buffer.overwritten, f.buffer.dropped, f.buffer.stale, f.mapping_error_total(), f.age.least, f.age.mean(), f.age.greatest};
+  return {f.received(), f.buffer.forwarded, f.buffer.overwritten, f.buffer.dropped, f.buffer.stale, f.mapping_error_total(), f.age.least, f.age.mean(), f.age.greatest};
 }
 
 }  // namespace

@@ -86,8 +86,19 @@ TEST(SharedBuffer, AgesAreThoseOfValuesThatWent) {
   push(buffer, 2, 10);
   pull(buffer, 10);
   pull(buffer, 15);
-  EXPECT_EQ(buffer.age(), (AgeFigures{.count = 2, .least = 1_ms, .greatest = 5_ms, .sum = 6_ms}));
+  EXPECT_EQ(buffer.age(), (AgeFigures{.count = 2, .least = 1_ms, .greatest = 5_ms, .sum_ps = (6_ms).ps()}));
   EXPECT_EQ(buffer.age().mean(), 3_ms);
+}
+
+// Two values of 60 days each: their sum is beyond what a time can be.
+TEST(SharedBuffer, MeanAgeOfMuchWaiting) {
+  constexpr std::int64_t days60 = std::int64_t{60} * 24 * 3600 * 1000;
+  SharedBuffer buffer({.capacity = 8});
+  push(buffer, 1, 0);
+  push(buffer, 2, 0);
+  pull(buffer, days60);
+  pull(buffer, days60);
+  EXPECT_EQ(buffer.age().mean().ps(), days60 * 1'000'000'000);
 }
 
 /// What a buffer is, written down once more in the plainest way.

@@ -154,5 +154,27 @@ TEST(Applications, MistakesAreNamed) {
   }
 }
 
+/// What is refused is said once: nothing else follows from it. (The gateway of the third case is at a publisher of what it takes, too.)
+TEST(Applications, AMistakeIsSaidOnce) {
+  const std::string gateway_to = R"(, "gateways": [{"name": "g", "on": "a", "from": "x", "receive_every": "1ms", "send_every": "1ms", "to": )";
+  const std::string network = R"({"name": "t", "duration": "1s", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]})";
+  const Bad cases[] = {
+      {"no interval", pair(opc_ua, R"("offset": "1ms")", R"("every": "1ms")"), R"(the field "every" is missing)"},
+      {"zero", pair(opc_ua, R"("every": "0ms")", R"("every": "1ms")"), "out of range"},
+      {"gateway", pair(opc_ua, R"("every": "1ms")", R"("every": "1ms")", gateway_to + R"("q"}])"), "unknown topic"},
+      {"no topics", network + R"(, "applications": [{"name": "p", "on": "a", "threads": [{"name": "publish", "publish": "x", "every": "1ms"}]}]})", "unknown topic"},
+      {"no host", network + R"(, "topics": [{"name": "x", "protocol": "dds", "fields": {"level": "UInt32"}}],
+  "applications": [{"name": "p", "threads": [{"name": "publish", "publish": "x", "every": "1ms"}]}]})", R"(the field "on" is missing)"},
+      {"depth", pair(R"("protocol": "dds", "qos": {"history": "keep-all", "depth": 0})", R"("every": "1ms")", R"("every": "1ms")"), "out of range"},
+      {"type", pair(opc_ua + R"(, "type": "Plant::X")", R"("every": "1ms")", R"("every": "1ms")"), "does not belong to OPC UA"},
+  };
+  for (const Bad& bad : cases) {
+    json::Diagnostics diagnostics;
+    EXPECT_EQ(load_text(bad.text, "t.json", {}, diagnostics), nullptr) << bad.what;
+    EXPECT_EQ(diagnostics.errors(), bad.what == std::string("gateway") ? 2u : 1u) << bad.what << ": " << diagnostics.to_text();
+    EXPECT_NE(diagnostics.to_text().find(bad.said), std::string::npos) << bad.what << ": " << diagnostics.to_text();
+  }
+}
+
 }  // namespace
 }  // namespace takt::scenario::test

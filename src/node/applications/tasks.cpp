@@ -110,8 +110,6 @@ class Subscribing final : public Work {
   std::vector<std::byte> fields_;
 };
 
-sim::LocalTime time_of(std::int64_t ns) { return sim::LocalTime::from_ps(ns * 1000); }
-
 class Receiving final : public Work {
  public:
   Receiving(TopicReader& reader, SharedChannel& channel) : reader_(reader), channel_(channel) {}
@@ -120,7 +118,7 @@ class Receiving final : public Work {
     CallResult result;
     while (reader_.take(value_)) {
       const std::lock_guard lock(channel_.mutex);
-      channel_.channel.receive(value_, time_of(now));
+      channel_.channel.receive(value_, channel_.local(now));
       ++result.taken;
     }
     result.buffered = result.taken;
@@ -141,7 +139,7 @@ class Sending final : public Work {
   CallResult call(std::int64_t now) override {
     {
       const std::lock_guard lock(channel_.mutex);
-      const auto next = channel_.channel.pull(time_of(now));
+      const auto next = channel_.channel.pull(channel_.local(now));
       if (!next) return {};
       value_.assign(next->octets.begin(), next->octets.end());
     }

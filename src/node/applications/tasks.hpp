@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,8 +53,15 @@ std::unique_ptr<Work> make_subscribing(const std::string& name, const TopicEnd& 
 /// The channel of a gateway, which its two threads share.
 struct SharedChannel {
   SharedChannel(gateway::TypeMapping mapping, const gateway::BufferSettings& settings) : channel(std::move(mapping), settings) {}
+  /// Local time from the first call of either thread, since clocks count from long before and local time ends after 106 days. With the lock held.
+  sim::LocalTime local(std::int64_t now_ns) {
+    if (!epoch_ns) epoch_ns = now_ns;
+    return sim::LocalTime::from_ps((now_ns - *epoch_ns) * 1000);
+  }
+
   std::mutex mutex;
   gateway::Channel channel;
+  std::optional<std::int64_t> epoch_ns;
 };
 std::unique_ptr<Work> make_receiving(TopicReader& reader, SharedChannel& channel);
 std::unique_ptr<Work> make_sending(TopicWriter& writer, SharedChannel& channel);

@@ -53,7 +53,7 @@ void add(gateway::ChannelFigures& sum, const gateway::ChannelFigures& more) {
     sum.age.least = sum.age.count == 0 ? more.age.least : std::min(sum.age.least, more.age.least);
     sum.age.greatest = std::max(sum.age.greatest, more.age.greatest);
     sum.age.count += more.age.count;
-    sum.age.sum += more.age.sum;
+    sum.age.sum_ps += more.age.sum_ps;
   }
   for (std::size_t e = 0; e < sum.mapping_errors.size(); ++e) sum.mapping_errors[e] += more.mapping_errors[e];
 }

@@ -48,13 +48,20 @@ class ApplicationResolver {
     for (const Gateway& gateway : r_.scenario.gateways) add(gateway);
     for (ResolvedApplication& application : r_.applications) check_threads(application);
     check_hosts();
-    if (diagnostics_.errors() != errors_before) return;  // numbers below stand for what was found
+    if (diagnostics_.errors() != errors_before || !is_complete()) return;  // numbers below stand for what was found
     for (std::uint32_t t = 0; t < r_.topics.size(); ++t) connect(t);
     resolve_dds(r_, builder_, diagnostics_);
     for (ResolvedApplication& application : r_.applications) set_windows(application);
   }
 
  private:
+  /// Each has a host and topics; what lacks them may have been refused before.
+  bool is_complete() const {
+    return std::all_of(r_.applications.begin(), r_.applications.end(), [](const ResolvedApplication& each) {
+      return !each.node.is_none() && std::none_of(each.threads.begin(), each.threads.end(), [](const ResolvedThread& thread) { return thread.topic == unknown_topic; });
+    });
+  }
+
   void add(const Topic& topic) {
     if (std::any_of(r_.topics.begin(), r_.topics.end(), [&](const ResolvedTopic& other) { return other.description->name == topic.name; }))
       diagnostics_.error(topic.where.at("name"), "duplicate name", {json::quote(topic.name) + " a second time", "a name of its own for each topic"});

@@ -63,7 +63,8 @@ void TopicApplication::start(models::HostServices& host) {
     if (live.values) live.values->begin(now);
   }
   plan(host);
-  settle(host);
+  // Participants announce themselves when the run has begun, not while it is made: recorders come in between.
+  for (std::size_t n = 0; n < nodes_.size(); ++n) host.set_exact_alarm(static_cast<models::AlarmId>(threads_alarm + 1 + n), now);
 }
 
 void TopicApplication::crash() {

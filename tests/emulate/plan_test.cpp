@@ -60,7 +60,7 @@ TEST(Plan, FilesOfNodes) {
     const auto loaded = node::load_config(path, diagnostics);
     std::filesystem::remove(path);
     ASSERT_TRUE(loaded) << diagnostics.to_text();
-    EXPECT_EQ(loaded->programs[0].endpoint.handshake.index, node.participant);
+    EXPECT_EQ(loaded->programs[0].endpoint.handshake.index, node.parts[0].participant);
     EXPECT_TRUE(loaded->programs[0].endpoint.publish_on_change);
     EXPECT_EQ(loaded->config.control, control_mark);
     const auto& transport = std::get<node::EthernetTransport>(loaded->config.transport);

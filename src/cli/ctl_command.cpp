@@ -16,6 +16,7 @@ namespace {
 struct CtlOptions {
   std::string node;
   std::string request;
+  std::string program;  // "": the only one, or the outermost
   std::string format = "text";
 };
 
@@ -26,24 +27,29 @@ std::string member(const scenario::json::Document& document, std::string_view ke
 
 ExitStatus ask(const CtlOptions& options) {
   std::string problem;
-  const auto answer = node::ask_node(options.node, options.request, problem);
+  const auto answer = node::ask_node(options.node, options.program.empty() ? options.request : options.request + ' ' + options.program, problem);
   if (!answer) {
     std::fprintf(stderr, "takt: %s\n", problem.c_str());
     return ExitStatus::internal_error;
   }
   scenario::json::Diagnostics diagnostics;
   const auto document = scenario::json::parse(*answer, "answer", diagnostics);
-  if (!document || document->root().find("state") == nullptr) {
+  if (const std::string error = document ? member(*document, "error") : std::string(); !error.empty()) {
+    std::fprintf(stderr, "takt: %s\n", error.c_str());
+    return ExitStatus::bad_input;
+  }
+  if (!document || (document->root().find("state") == nullptr && document->root().find("programs") == nullptr)) {
     std::fprintf(stderr, "takt: not the answer of a node: %s\n", answer->c_str());
     return ExitStatus::internal_error;
   }
+  const std::string where = member(*document, "program").empty() ? std::string() : " in " + member(*document, "program");
   if (options.format == "json")
     std::printf("%s\n", answer->c_str());
   else if (options.request == "status")
     std::fputs(node::status_text(*answer).c_str(), stdout);
   else
-    std::printf("%s: %s; %s is %s\n", member(*document, "method").c_str(), member(*document, "status").c_str(), options.node.c_str(),
-                member(*document, "state").c_str());
+    std::printf("%s: %s; %s is %s%s\n", member(*document, "method").c_str(), member(*document, "status").c_str(), options.node.c_str(),
+                member(*document, "state").c_str(), where.c_str());
   return options.request == "status" || member(*document, "status") == "Good" ? ExitStatus::pass : ExitStatus::requirement_failed;
 }
 
@@ -56,11 +62,15 @@ void add_ctl_command(CLI::App& app, ExitStatus& status) {
   command.add_option("REQUEST", options->request, "start, suspend, resume, halt, reset or status")
       ->required()
       ->check(CLI::IsMember(std::vector<std::string>{"start", "suspend", "resume", "halt", "reset", "status"}));
+  command.add_option("PROGRAM", options->program, "Of which Program, where the node is in several; the outermost if absent")->check([](const std::string& name) {
+    return name.empty() || name.size() > 200 ? std::string("the name of a Program has 1 to 200 octets") : std::string();
+  });
   command.add_option("--format", options->format, "text or json")->check(CLI::IsMember(std::vector<std::string>{"text", "json"}));
   command.footer(
       "Examples:\n"
       "  takt ctl plc start\n"
       "  takt ctl plc status --format json\n"
+      "  takt ctl machine1 suspend axis\n"
       "  takt ctl /run/cell/left.sock halt\n"
       "A method's answer is its StatusCode (OPC 10000-10) and the state behind it; the others of the group follow later.\n"
       "Exit status: 0 Good, 1 another StatusCode, 2 bad input, 3 no such node.");

@@ -1,8 +1,9 @@
-// takt node: a participant of a Program on this machine, or applications and gateways.
+// takt node: a participant of Programs on this machine, or applications and gateways.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
@@ -64,8 +65,13 @@ ExitStatus run_node(const std::string& file, bool is_check) {
   if (is_check) return ExitStatus::pass;
   std::string problem;
   std::string warnings;
-  node::BuiltInValues values(loaded->config, loaded->endpoint.format->shape(), stdout);
-  const auto live = node::RealNode::make(*loaded, stdout, &values, problem, warnings);
+  std::vector<std::unique_ptr<node::BuiltInValues>> values;
+  std::vector<node::Application*> applications;
+  for (const node::LoadedProgram& program : loaded->programs) {
+    values.push_back(std::make_unique<node::BuiltInValues>(loaded->config, program.endpoint.format->shape(), stdout, loaded->programs.size() > 1));
+    applications.push_back(values.back().get());
+  }
+  const auto live = node::RealNode::make(*loaded, stdout, applications, problem, warnings);
   if (!live) {
     std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
     return ExitStatus::internal_error;
@@ -80,7 +86,7 @@ ExitStatus run_node(const std::string& file, bool is_check) {
 }  // namespace
 
 void add_node_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("node", "Run a participant of a Program, or applications and gateways, on this machine");
+  CLI::App& command = *app.add_subcommand("node", "Run a participant of Programs, or applications and gateways, on this machine");
   const auto file = std::make_shared<std::string>();
   const auto is_check = std::make_shared<bool>(false);
   command.add_option("CONFIG", *file, "The file of the node (JSON, comments allowed)")->required();
@@ -89,6 +95,7 @@ void add_node_command(CLI::App& app, ExitStatus& status) {
       "Examples:\n"
       "  takt node left.json                     runs until its duration is over, or until SIGINT or SIGTERM\n"
       "  takt node left.json | jq 'select(.event == \"transition\")'\n"
+      "A file with \"programs\" instead of \"program\" runs a participant of several, nested or not, in one process.\n"
       "A file with \"topics\", \"applications\" and \"gateways\" instead of \"program\" runs these: OPC UA PubSub and DDS.\n"
       "Standard output is one JSON object a line: transitions, calls, intents, received values if asked for, and statistics at the end,\n"
       "which standard error has as text. takt ctl speaks to a node while it runs.\n"

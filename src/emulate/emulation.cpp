@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "emulate/child.hpp"
+#include "emulate/log_reader.hpp"
 #include "emulate/machine.hpp"
 #include "node/control_socket.hpp"
 #include "scenario/json/document.hpp"
@@ -49,16 +50,10 @@ std::string text_of(const json::Node& object, std::string_view key) {
   return node == nullptr ? std::string() : node->text;
 }
 
-std::optional<handshake::PublishedState> state_from(std::string_view name) {
-  for (std::size_t i = 0; i < handshake::published_state_count; ++i)
-    if (handshake::published_state_names[i] == name) return handshake::published_state_at(i);
-  return std::nullopt;
-}
-
 /// One node and what it does.
 struct LiveNode {
   const PlannedNode* plan = nullptr;
-  std::string name;  ///< of the participant
+  std::string name;  ///< of the participants
   std::string file;
   std::string log;
   std::string errors;
@@ -87,9 +82,8 @@ class Emulation {
     for (const PlannedNode& planned : plan_.nodes) {
       LiveNode& node = nodes_.emplace_back();
       const std::string path = machine_->folder() + "/" + planned.name;
-      const scenario::Program& program = *resolved_.programs[planned.program].description;
       node.plan = &planned;
-      node.name = planned.participant == 0 ? program.master : program.slaves[planned.participant - 1U];
+      node.name = resolved_.programs[planned.parts.front().program].participant_names[planned.parts.front().participant];
       node.file = path + ".json";
       node.log = path + ".jsonl";
       node.errors = path + ".err";
@@ -148,7 +142,14 @@ class Emulation {
     if (!status) return false;
     json::Diagnostics diagnostics;
     const auto document = json::parse(*status, "status", diagnostics);
-    const json::Node* const peers = document ? document->root().find("peers") : nullptr;
+    if (!document) return false;
+    const json::Node* const programs = document->root().find("programs");
+    if (programs == nullptr) return has_heard_all_of(document->root(), not_yet);
+    return std::all_of(programs->items.begin(), programs->items.end(), [&](const json::Node& program) { return has_heard_all_of(program, not_yet); });
+  }
+
+  static bool has_heard_all_of(const json::Node& program, std::string& not_yet) {
+    const json::Node* const peers = program.find("peers");
     if (peers == nullptr) return false;
     for (const json::Node& peer : peers->items) {
       if (!text_of(peer, "state").empty()) continue;
@@ -182,6 +183,7 @@ class Emulation {
     if (!node.child) return note(method + " on " + node.name + " falls into its crash");
     std::string request = method;
     std::transform(request.begin(), request.end(), request.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (node.plan->parts.size() > 1) request += ' ' + resolved_.programs[node.plan->parts[call.part].program].name;
     std::string problem;
     const auto answer = node::ask_node(node.socket, request, problem);
     if (!answer) return fail(method + " on " + node.name + ": " + problem);
@@ -227,9 +229,10 @@ class Emulation {
   }
 
   bool collect() {
-    std::vector<History> emulated(resolved_.programs.size());
     for (const LiveNode& node : nodes_)
-      if (!read_log(node, emulated[node.plan->program])) return false;
+      if (!read_log(node)) return false;
+    const std::vector<History> emulated = histories_of(steps_, resolved_.programs.size());
+    result_.invariants = check_invariants(resolved_, steps_);
     scenario::Run simulation(resolved_);
     simulation.advance();
     for (std::size_t p = 0; p < resolved_.programs.size(); ++p) {
@@ -249,36 +252,13 @@ class Emulation {
     return history;
   }
 
-  /// A second start in a log means a crash before it; a log that stops without an end, one that was not followed by a start.
-  bool read_log(const LiveNode& node, History& history) {
+  bool read_log(const LiveNode& node) {
     std::ifstream log(node.log);
-    handshake::PublishedState state = handshake::PublishedState::Halted;
-    std::int64_t time = 0;
-    std::string status;
-    const std::uint8_t participant = node.plan->participant;
-    const auto crash = [&] {
-      if (state != handshake::PublishedState::Halted) history.changes.push_back({time, participant, {0, state, handshake::PublishedState::Halted}});
-      state = handshake::PublishedState::Halted;
-    };
-    for (std::string line; std::getline(log, line);) {
-      json::Diagnostics diagnostics;
-      const auto document = json::parse(line, node.log, diagnostics);
-      if (!document) continue;  // cut by a kill
-      const json::Node& event = document->root();
-      const std::string kind = text_of(event, "event");
-      if (const json::Node* const when = event.find("time_ns")) time = static_cast<std::int64_t>(json::integer_of(*when).value_or(0));
-      if (kind == "start") crash();
-      if (kind == "end") status = line;
-      if (kind != "transition") continue;
-      const auto from = state_from(text_of(event, "from"));
-      const auto to = state_from(text_of(event, "to"));
-      const json::Node* const number = event.find("number");
-      if (!from || !to || number == nullptr) return fail("the log of " + node.name + " cannot be read: " + line);
-      history.changes.push_back({time, participant, {static_cast<std::uint8_t>(json::integer_of(*number).value_or(0)), *from, *to}});
-      state = *to;
-    }
-    if (status.empty()) crash();
-    result_.nodes.push_back({node.name, status});
+    LogReader reader(resolved_, *node.plan);
+    for (std::string line; std::getline(log, line);)
+      if (!reader.take(line)) return fail("the log of " + node.name + " cannot be read: " + line);
+    for (LoggedStep& step : reader.finish()) steps_.push_back(step);
+    result_.nodes.push_back({node.name, reader.status()});
     return true;
   }
 
@@ -288,13 +268,14 @@ class Emulation {
   Result& result_;
   std::string& problem_;
   std::unique_ptr<Machine> machine_;
+  std::vector<LoggedStep> steps_;
   std::deque<LiveNode> nodes_;  // behind machine_, so that they end before it goes
 };
 
 }  // namespace
 
 bool Result::is_same() const {
-  return std::all_of(programs.begin(), programs.end(), [](const ProgramResult& each) { return each.comparison.is_same(); });
+  return std::all_of(programs.begin(), programs.end(), [](const ProgramResult& each) { return each.comparison.is_same(); }) && invariants.violated.empty();
 }
 
 bool emulate(const scenario::Resolved& resolved, const Plan& plan, const Settings& settings, Result& result, std::string& problem) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "emulate/comparison.hpp"
+#include "emulate/invariant_check.hpp"
 #include "emulate/plan.hpp"
 
 namespace takt::emulate {
@@ -21,6 +22,7 @@ struct NodeResult {
 
 struct Result {
   std::vector<ProgramResult> programs;
+  InvariantCheck invariants;        ///< of the real nodes
   std::vector<NodeResult> nodes;
   std::vector<std::string> notes;   ///< what was left out, calls that were not Good
   bool interrupted = false;

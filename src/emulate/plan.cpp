@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -20,7 +21,7 @@ constexpr std::size_t most_nodes = 250;  // of the topology: each is a namespace
 /// Members of a scenario's Program that a node's file has too, and those that are said otherwise there or not at all.
 constexpr std::array<std::string_view, 11> shared = {"name",    "variant",      "master",          "slaves",         "cycle",       "offset",
                                                      "publish", "subscription", "receive_timeout", "initialisation", "process_data"};
-constexpr std::array<std::string_view, 4> translated = {"pcp", "vlan", "violations", "phases"};
+constexpr std::array<std::string_view, 5> translated = {"pcp", "vlan", "violations", "phases", "within"};
 
 template <class Range>
 bool holds(const Range& range, std::string_view text) {
@@ -34,6 +35,7 @@ class Planner {
   Plan run() {
     lay_network();
     for (std::uint32_t p = 0; p < resolved_.programs.size(); ++p) add_program(p);
+    for (PlannedNode& node : plan_.nodes) write_file(node);
     for (const scenario::ResolvedAction& action : resolved_.script)
       std::visit([&](const auto& what) { add(action.at.since_start(), what); }, action.what);
     note_what_is_left_out();
@@ -86,37 +88,59 @@ class Planner {
         plan_.refusals.push_back("program " + program.name + " has \"" + member.key + "\", which real nodes do not know");
     }
     file.add("publisher_id", json::Node::of_integer(program.first_publisher_id));
-    for (std::size_t p = 0; p < program.participants.size(); ++p) add_node(number, p, file);
+    files_[number] = std::move(file);
+    for (std::size_t p = 0; p < program.participants.size(); ++p) add_part(number, static_cast<std::uint8_t>(p));
   }
 
-  void add_node(std::uint32_t number, std::size_t participant, const json::Node& program_file) {
-    const scenario::Program& description = *resolved_.programs[number].description;
+  /// The master of a nested Program is where it is a slave of the outer one.
+  void add_part(std::uint32_t number, std::uint8_t participant) {
+    const scenario::ResolvedProgram& program = resolved_.programs[number];
+    const bool is_inner = participant == 0 && program.outer;
+    const PlannedNode::Part home = is_inner ? PlannedNode::Part{program.outer->program, program.outer->participant} : PlannedNode::Part{number, participant};
+    const std::string name = "p" + std::to_string(home.program) + "-" + std::to_string(home.participant);
+    auto node = std::find_if(plan_.nodes.begin(), plan_.nodes.end(), [&](const PlannedNode& each) { return each.name == name; });
+    if (node == plan_.nodes.end()) {
+      node = plan_.nodes.insert(node, PlannedNode());
+      node->name = name;
+      node->host = program.participants[participant].value;
+    }
+    node->parts.insert(is_inner ? node->parts.end() : node->parts.begin(), {number, participant});
+  }
+
+  void write_file(PlannedNode& node) {
+    const scenario::ResolvedProgram& first = resolved_.programs[node.parts.front().program];
+    const std::string& name = first.participant_names[node.parts.front().participant];
     json::Node file = json::Node::object();
-    file.add("node", json::Node::of_string(participant == 0 ? description.master : description.slaves[participant - 1]));
-    json::Node program = program_file;
-    std::erase_if(program.members, [](const json::Member& member) { return member.key == "offset"; });
-    program.add("offset", json::encode_value(resolved_.programs[number].phases[participant]));
-    file.add("program", std::move(program));
+    file.add("node", json::Node::of_string(name));
+    json::Node programs = json::Node::array();
+    for (const PlannedNode::Part& part : node.parts) {
+      const scenario::ResolvedProgram& resolved = resolved_.programs[part.program];
+      json::Node& program = programs.items.emplace_back(files_[part.program]);
+      std::erase_if(program.members, [](const json::Member& member) { return member.key == "offset"; });
+      program.add("offset", json::encode_value(resolved.phases[part.participant]));
+      if (&part != &node.parts.front()) program.add("within", json::Node::of_string(first.name));
+      if (resolved.description->vlan != first.description->vlan || resolved.description->pcp != first.description->pcp)
+        plan_.refusals.push_back("programs " + first.name + " and " + resolved.name + " have other VLANs or priorities, but " + name + " has one transport for both");
+    }
+    if (node.parts.size() == 1)
+      file.add("program", std::move(programs.items.front()));
+    else
+      file.add("programs", std::move(programs));
     json::Node& transport = file.add("transport", json::Node::object());
     transport.add("kind", json::Node::of_string("ethernet"));
     transport.add("interface", json::Node::of_string("eth0"));
-    transport.add("vlan", json::Node::of_integer(description.vlan));
-    transport.add("pcp", json::Node::of_integer(description.pcp));
+    transport.add("vlan", json::Node::of_integer(first.description->vlan));
+    transport.add("pcp", json::Node::of_integer(first.description->pcp));
     file.add("control", json::Node::of_string(control_mark));
     file.add("realtime", json::Node::of_bool(true));
-    PlannedNode node;
-    node.program = number;
-    node.participant = static_cast<std::uint8_t>(participant);
-    node.host = resolved_.programs[number].participants[participant].value;
-    node.name = "p" + std::to_string(number) + "-" + std::to_string(participant);
     node.config = json::pretty(file);
-    plan_.nodes.push_back(std::move(node));
   }
 
   void add(sim::Duration at, const scenario::ResolvedCall& call) {
-    const auto found = std::find_if(plan_.nodes.begin(), plan_.nodes.end(),
-                                    [&](const PlannedNode& node) { return node.program == call.program && node.participant == call.participant; });
-    plan_.actions.push_back({at, CallAction{static_cast<std::uint32_t>(found - plan_.nodes.begin()), method_of(call.method)}});
+    for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n)
+      for (std::uint32_t part = 0; part < plan_.nodes[n].parts.size(); ++part)
+        if (plan_.nodes[n].parts[part].program == call.program && plan_.nodes[n].parts[part].participant == call.participant)
+          plan_.actions.push_back({at, CallAction{n, part, method_of(call.method)}});
   }
   void add(sim::Duration at, const scenario::ResolvedLink& change) {
     const auto found = std::find_if(plan_.cables.begin(), plan_.cables.end(), [&](const Cable& cable) { return cable.link == change.link; });
@@ -158,6 +182,7 @@ class Planner {
 
   const scenario::Resolved& resolved_;
   Plan plan_;
+  std::map<std::uint32_t, json::Node> files_;  // what all participants of a program say of it
   std::set<std::string> left_out_;
 };
 

@@ -22,10 +22,13 @@ struct Cable {
   std::uint32_t link = 0;  ///< in the topology
 };
 
-/// A participant of a Program, which is a process on a host.
+/// A process on a host: a participant of a Program or, where nested Programs are joined, of an outer and an inner one.
 struct PlannedNode {
-  std::uint32_t program = 0;
-  std::uint8_t participant = 0;
+  struct Part {
+    std::uint32_t program = 0;
+    std::uint8_t participant = 0;
+  };
+  std::vector<Part> parts;    ///< the outer one first
   std::uint32_t host = 0;     ///< in the topology
   std::string name;           ///< unique: what its file and its socket are called
   std::string config;         ///< its file; the path of the control socket is still to be put for `control_mark`
@@ -34,6 +37,7 @@ inline constexpr const char* control_mark = "@CONTROL@";
 
 struct CallAction {
   std::uint32_t node = 0;  ///< in Plan::nodes
+  std::uint32_t part = 0;  ///< which of its participants
   program::Method method = program::Method::Start;
 };
 struct LinkAction {

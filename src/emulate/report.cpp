@@ -59,6 +59,8 @@ std::string to_text(const Result& result, const std::string& scenario) {
     out += fmt::format("  {} orders between participants, {} violated\n", program.comparison.orders, program.comparison.violated.size());
     for (const std::string& each : program.comparison.violated) out += fmt::format("    {}\n", each);
   }
+  out += fmt::format("\n{} steps of the nodes against S1, S2, S4 and S5: {} violated\n", result.invariants.steps, result.invariants.violated.size());
+  for (const std::string& each : result.invariants.violated) out += fmt::format("  {}\n", each);
   if (result.interrupted) return out + fmt::format("\n{}: interrupted\n", scenario);
   return out + fmt::format("\n{}: {}\n", scenario, result.is_same() ? "the same transitions in the same order as simulated" : "differs from the simulated run");
 }
@@ -70,6 +72,9 @@ std::string to_json(const Result& result, const std::string& scenario) {
   node.add("interrupted", json::Node::of_bool(result.interrupted));
   json::Node& programs = node.add("programs", json::Node::array());
   for (const ProgramResult& each : result.programs) programs.items.push_back(node_of(each));
+  json::Node& invariants = node.add("invariants", json::Node::object());
+  invariants.add("steps", json::Node::of_integer(static_cast<sim::int128>(result.invariants.steps)));
+  invariants.add("violated", list_of(result.invariants.violated));
   json::Node& nodes = node.add("nodes", json::Node::array());
   for (const NodeResult& each : result.nodes) {
     json::Diagnostics diagnostics;

@@ -75,8 +75,8 @@ double value_of(const Source& source, double message, std::int64_t time_ns) {
   return source.value + source.amplitude * std::sin(2 * std::numbers::pi * phase);
 }
 
-BuiltInValues::BuiltInValues(const Config& config, const wire::ProgramShape& shape, std::FILE* log)
-    : log_values_every_(config.log_values_every), log_(log) {
+BuiltInValues::BuiltInValues(const Config& config, const wire::ProgramShape& shape, std::FILE* log, bool is_named)
+    : program_(is_named ? "\"program\": " + scenario::json::quote(shape.name) + ", " : std::string()), log_values_every_(config.log_values_every), log_(log) {
   for (const wire::DataSetShape& from : shape.data_sets) {
     DataSet& data_set = data_sets_.emplace_back();
     data_set.name = from.name;
@@ -85,7 +85,7 @@ BuiltInValues::BuiltInValues(const Config& config, const wire::ProgramShape& sha
       data_set.fields.push_back({field.name, field.type, field.count, at, {}});
       at += uadp::fixed_octets(field.type) * field.count;
       for (const Source& source : config.sources)
-        if (source.data_set == from.name && (!source.field || *source.field == field.name)) data_set.fields.back().sources = {source};
+        if (source.data_set == from.name && source.program.value_or(shape.name) == shape.name && (!source.field || *source.field == field.name)) data_set.fields.back().sources = {source};
     }
   }
 }
@@ -105,7 +105,7 @@ void BuiltInValues::consume(std::size_t number, std::int64_t time_ns, uadp::Octe
   DataSet& data_set = data_sets_[number];
   if (!log_values_every_ || time_ns < data_set.next_log_ns) return;
   data_set.next_log_ns = time_ns + log_values_every_->ps() / 1000;
-  std::string line = fmt::format("{{\"time_ns\": {}, \"event\": \"data\", \"data_set\": {}, \"fields\": {{", time_ns, scenario::json::quote(data_set.name));
+  std::string line = fmt::format("{{\"time_ns\": {}, {}\"event\": \"data\", \"data_set\": {}, \"fields\": {{", time_ns, program_, scenario::json::quote(data_set.name));
   for (const Field& field : data_set.fields) {
     if (&field != &data_set.fields.front()) line += ", ";
     line += scenario::json::quote(field.name) + ": ";

@@ -12,8 +12,9 @@ namespace takt::node {
 
 class BuiltInValues final : public Application {
  public:
-  /// `config` has been checked. Received values go to `log`, which outlives this.
-  BuiltInValues(const Config& config, const wire::ProgramShape& shape, std::FILE* log);
+  /// For one Program of the node. `config` has been checked. Received values go to `log`, which outlives this; `is_named`: with the
+  /// name of the Program.
+  BuiltInValues(const Config& config, const wire::ProgramShape& shape, std::FILE* log, bool is_named = false);
 
   void produce(std::size_t data_set, std::int64_t time_ns, std::span<std::byte> fields) override;
   void consume(std::size_t data_set, std::int64_t time_ns, uadp::Octets fields) override;
@@ -34,6 +35,7 @@ class BuiltInValues final : public Application {
   };
 
   std::vector<DataSet> data_sets_;
+  std::string program_;  ///< as a member with a comma behind it; or empty
   std::optional<Duration> log_values_every_;
   std::FILE* log_;
 };

@@ -26,6 +26,10 @@ Clock::Clock(ClockName name, Duration grid) : id_(name == ClockName::tai ? CLOCK
   shift_ = Duration::from_ps(static_cast<std::int64_t>(epoch_ps % 1000));
 }
 
+Duration Clock::phase_in(Duration cycle) const {
+  return Duration::from_ps(static_cast<std::int64_t>((sim::int128{epoch_ns_} * 1000 + shift_.ps()) % cycle.ps()));
+}
+
 std::int64_t Clock::read() const { return read_clock(id_); }
 
 sim::LocalTime Clock::now() const { return sim::LocalTime::from_ps((read() - epoch_ns_) * 1000) - shift_; }

@@ -13,6 +13,8 @@ class Clock {
   /// whose clocks agree.
   Clock(ClockName name, Duration grid);
 
+  /// How far into a cycle the epoch is; 0 for the grid.
+  Duration phase_in(Duration cycle) const;
   /// Since the epoch.
   sim::LocalTime now() const;
   /// The clock's own nanoseconds (TAI: since 1970) at a local time, for logs.

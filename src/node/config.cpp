@@ -2,113 +2,167 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
+#include "node/program_check.hpp"
 #include "scenario/json/suggest.hpp"
 
 namespace takt::node {
 namespace {
 
-constexpr std::uint32_t most_octets = 1472;  // what UDP over IPv4 leaves of an Ethernet frame
+constexpr std::uint32_t last_publisher_id = 0xFFFF;
 
 /// Checks what the fields of a file mean together.
 class Checker {
  public:
-  Checker(const Config& config, json::Diagnostics& diagnostics) : config_(config), diagnostics_(diagnostics) {}
+  Checker(LoadedConfig& loaded, json::Diagnostics& diagnostics)
+      : loaded_(loaded), config_(loaded.config), diagnostics_(diagnostics), all_(config_.program ? std::vector<Program>{*config_.program} : config_.programs) {}
 
-  wire::EndpointSettings run() {
-    const Program& program = config_.program;
-    participants_.push_back(program.master);
-    participants_.insert(participants_.end(), program.slaves.begin(), program.slaves.end());
-    check_participants();
-    check_times();
-    check_sources();
-    wire::EndpointSettings settings;
-    settings.handshake.variant = variant_of(program.variant);
-    settings.handshake.index = index_of(config_.node, config_.where.at("node"));
-    settings.handshake.role = settings.handshake.index == 0 ? handshake::Role::Master : handshake::Role::Slave;
-    settings.handshake.slaves = static_cast<std::uint8_t>(program.slaves.size());
-    settings.handshake.subscription = subscription_of(program.subscription);
-    settings.cycle = program.cycle;
-    settings.offset = program.offset;
-    settings.receive_timeout = program.receive_timeout.value_or(program.cycle * 10);
-    settings.initialisation = program.initialisation;
-    settings.publish_on_change = program.publish == Publish::on_change;
-    settings.priority = std::visit([](const auto& transport) { return transport.pcp; }, config_.transport);
-    wire::ProgramShape shape = shape_of(settings.handshake.variant);
-    if (!diagnostics_.has_errors()) settings.format = std::make_shared<const wire::ProgramFormat>(std::move(shape));
-    return settings;
+  void run() {
+    check_names();
+    for (const Program& program : all_) add(program);
+    check_publishers();
+    check_nesting(all_, diagnostics_);
+    if (loaded_.programs.empty()) refuse_stranger();
+    if (!diagnostics_.has_errors()) join();
+    for (Source& source : config_.sources) check(source);
+    for (const ScriptEntry& entry : config_.script) check(entry);
+    std::stable_sort(loaded_.script.begin(), loaded_.script.end(), [](const LoadedCall& a, const LoadedCall& b) { return a.at < b.at; });
+    for (const LoadedProgram& each : loaded_.programs)
+      if (config_.launch_lead && *config_.launch_lead >= each.program.cycle)
+        diagnostics_.error(config_.where.at("launch_lead"), "a lead of more than the cycle",
+                           {json::to_text(*config_.launch_lead), "less than " + json::to_text(each.program.cycle)});
   }
 
  private:
-  void check_participants() {
-    std::set<std::string_view> seen = {config_.program.master};
-    for (std::size_t i = 0; i < config_.program.slaves.size(); ++i)
-      if (!seen.insert(config_.program.slaves[i]).second)
-        diagnostics_.error(config_.program.where.at("slaves", i), "a participant twice", {json::quote(config_.program.slaves[i]), "a name of its own for each"});
+  struct Publishers {
+    const Program* program = nullptr;
+    std::uint32_t first = 0;
+    std::uint32_t behind = 0;
+  };
+
+  void check_names() {
+    std::set<std::string_view> seen;
+    for (const Program& program : all_)
+      if (!seen.insert(program.name).second)
+        diagnostics_.error(program.where.at("name"), "duplicate name", {json::quote(program.name), "a name of its own for each program"});
   }
 
-  void check_times() {
-    const Program& program = config_.program;
-    if (program.offset > Duration() && program.offset >= program.cycle)
-      diagnostics_.error(program.where.at("offset"), "an offset beyond the cycle", {json::to_text(program.offset), "less than " + json::to_text(program.cycle)});
-    if (program.receive_timeout && *program.receive_timeout <= program.cycle)
-      diagnostics_.error(program.where.at("receive_timeout"), "a time-out within one cycle",
-                         {json::to_text(*program.receive_timeout), "more than the cycle of " + json::to_text(program.cycle)});
+  void add(const Program& program) {
+    const std::vector<std::string> participants = participants_of(program);
+    const std::uint32_t first = program.publisher_id.value_or(publishers_.empty() ? 1 : publishers_.back().behind);
+    publishers_.push_back({&program, first, first + static_cast<std::uint32_t>(participants.size())});
+    wire::ProgramShape shape = checked_shape(program, static_cast<std::uint16_t>(first), diagnostics_);
+    const auto self = std::find(participants.begin(), participants.end(), config_.node);
+    if (self == participants.end()) return;
+    LoadedProgram loaded;
+    loaded.program = program;
+    loaded.endpoint = endpoint_settings(program, static_cast<std::uint8_t>(self - participants.begin()),
+                                        std::visit([](const auto& transport) { return transport.pcp; }, config_.transport));
+    if (!diagnostics_.has_errors()) loaded.endpoint.format = std::make_shared<const wire::ProgramFormat>(std::move(shape));
+    loaded_.programs.push_back(std::move(loaded));
   }
 
-  void check_sources() {
-    for (const Source& source : config_.sources) {
-      const auto& all = config_.program.process_data;
-      const auto found = std::find_if(all.begin(), all.end(), [&](const ProcessData& data) { return data.name == source.data_set; });
-      if (found == all.end() || found->from != config_.node) {
-        std::vector<std::string_view> names;
-        for (const ProcessData& data : all)
-          if (data.from == config_.node) names.push_back(data.name);
-        diagnostics_.error(source.where.at("data_set"), "not published here", {json::quote(source.data_set), "a data set from " + json::quote(config_.node), json::suggest(source.data_set, names)});
-      } else if (source.field && std::none_of(found->fields.begin(), found->fields.end(), [&](const auto& field) { return field.first == *source.field; })) {
-        std::vector<std::string_view> names;
-        for (const auto& field : found->fields) names.push_back(field.first);
-        diagnostics_.error(source.where.at("field"), "no such field", {json::quote(*source.field), "a field of " + json::quote(source.data_set), json::suggest(*source.field, names)});
+  /// The PublisherId says who sends, so no two participants have the same.
+  void check_publishers() {
+    for (auto each = publishers_.begin(); each != publishers_.end(); ++each) {
+      if (each->behind - 1 > last_publisher_id)
+        diagnostics_.error(each->program->where.place(), "more PublisherIds than there are", {"up to " + std::to_string(each->behind - 1), "at most " + std::to_string(last_publisher_id)});
+      const auto other = std::find_if(publishers_.begin(), each, [&](const Publishers& before) { return before.first < each->behind && each->first < before.behind; });
+      if (other != each)
+        diagnostics_.error(each->program->where.at("publisher_id"), "PublisherIds of two programs",
+                           {std::to_string(each->first) + " to " + std::to_string(each->behind - 1) + ", of which " + json::quote(other->program->name) + " has some",
+                            "ids of its own for each participant"});
+    }
+  }
+
+  void refuse_stranger() {
+    std::vector<std::string> participants;
+    for (const Program& program : all_)
+      for (std::string& name : participants_of(program)) participants.push_back(std::move(name));
+    const std::vector<std::string_view> names(participants.begin(), participants.end());
+    diagnostics_.error(config_.where.at("node"), all_.size() == 1 ? "not a participant of the program" : "not a participant of any program",
+                       {json::quote(config_.node), "the master or a slave", json::suggest(config_.node, names)});
+  }
+
+  /// Both sides of a nesting at this node wait for each other.
+  void join() {
+    for (LoadedProgram& inner : loaded_.programs) {
+      if (!inner.program.within || inner.program.master != config_.node) continue;
+      const auto outer = std::find_if(loaded_.programs.begin(), loaded_.programs.end(), [&](const LoadedProgram& each) { return each.program.name == *inner.program.within; });
+      inner.outer = static_cast<std::size_t>(outer - loaded_.programs.begin());
+      inner.endpoint.handshake.nested = outer->endpoint.handshake.nested = true;
+    }
+  }
+
+  /// The node's Program of this name.
+  std::optional<std::size_t> number_of(const std::string& name, const json::Place& place) {
+    std::vector<std::string_view> names;
+    for (const LoadedProgram& each : loaded_.programs) names.push_back(each.program.name);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    diagnostics_.error(place, "no program of this node", {json::quote(name), "one that " + json::quote(config_.node) + " is in", json::suggest(name, names)});
+    return std::nullopt;
+  }
+
+  void check(Source& source) {
+    if (source.program && !number_of(*source.program, source.where.at("program"))) return;
+    std::vector<std::string_view> names;
+    std::vector<std::pair<const Program*, const ProcessData*>> found;
+    for (const LoadedProgram& each : loaded_.programs)
+      for (const ProcessData& data : each.program.process_data) {
+        if (data.from != config_.node || (source.program && *source.program != each.program.name)) continue;
+        names.push_back(data.name);
+        if (data.name == source.data_set) found.emplace_back(&each.program, &data);
       }
+    if (found.empty()) {
+      diagnostics_.error(source.where.at("data_set"), "not published here",
+                         {json::quote(source.data_set), "a data set from " + json::quote(config_.node), json::suggest(source.data_set, names)});
+    } else if (found.size() > 1) {
+      diagnostics_.error(source.where.at("data_set"), "a data set of several programs",
+                         {json::quote(source.data_set) + " of " + json::quote(found[0].first->name) + " and " + json::quote(found[1].first->name), "\"program\" beside it"});
+    } else {
+      source.program = found[0].first->name;
+      check_field(source, *found[0].second);
     }
-    if (config_.launch_lead && *config_.launch_lead >= config_.program.cycle)
-      diagnostics_.error(config_.where.at("launch_lead"), "a lead of more than the cycle", {json::to_text(*config_.launch_lead), "less than " + json::to_text(config_.program.cycle)});
   }
 
-  std::uint8_t index_of(const std::string& name, const json::Place& place) {
-    const auto found = std::find(participants_.begin(), participants_.end(), name);
-    if (found != participants_.end()) return static_cast<std::uint8_t>(found - participants_.begin());
-    const std::vector<std::string_view> names(participants_.begin(), participants_.end());
-    diagnostics_.error(place, "not a participant of the program", {json::quote(name), "the master or a slave", json::suggest(name, names)});
-    return 0;
+  void check_field(const Source& source, const ProcessData& data) {
+    if (!source.field || std::any_of(data.fields.begin(), data.fields.end(), [&](const auto& field) { return field.first == *source.field; })) return;
+    std::vector<std::string_view> names;
+    for (const auto& field : data.fields) names.push_back(field.first);
+    diagnostics_.error(source.where.at("field"), "no such field", {json::quote(*source.field), "a field of " + json::quote(source.data_set), json::suggest(*source.field, names)});
   }
 
-  wire::ProgramShape shape_of(handshake::Variant variant) {
-    const Program& program = config_.program;
-    wire::ProgramShape shape;
-    shape.name = program.name;
-    shape.variant = variant;
-    shape.participants = participants_;
-    shape.first_publisher_id = program.publisher_id;
-    std::set<std::string_view> names = {"state"};
-    for (const ProcessData& data : program.process_data) {
-      wire::DataSetShape data_set = data_set_shape_of(data, index_of(data.from, data.where.at("from")));
-      if (!names.insert(data.name).second)
-        diagnostics_.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set (\"state\" is taken)"});
-      const std::uint32_t octets = wire::process_data_octets(wire::octets_of(data_set));
-      if (octets > most_octets)
-        diagnostics_.error(data.where.at("fields"), "more than one frame", {std::to_string(octets) + " octets", "at most " + std::to_string(most_octets)});
-      shape.data_sets.push_back(std::move(data_set));
-    }
-    return shape;
+  void check(const ScriptEntry& entry) {
+    if (loaded_.programs.empty()) return;
+    const auto program = entry.program ? number_of(*entry.program, entry.where.at("program")) : outermost(loaded_.programs);
+    if (!program && !entry.program)
+      diagnostics_.error(entry.where.place(), "a call without a program", {"several programs of this node that are not nested", "\"program\""});
+    if (!program) return;
+    if (entry.call == Method::start && loaded_.programs[*program].outer)
+      diagnostics_.error(entry.where.at("program"), "Start of a nested program", {json::quote(loaded_.programs[*program].program.name), "the outermost program, which starts it"});
+    loaded_.script.push_back({entry.at, *program, method_of(entry.call)});
   }
 
-  const Config& config_;
+  LoadedConfig& loaded_;
+  Config& config_;
   json::Diagnostics& diagnostics_;
-  std::vector<std::string> participants_;
+  std::vector<Program> all_;
+  std::vector<Publishers> publishers_;
 };
 
 }  // namespace
+
+std::optional<std::size_t> outermost(const std::vector<LoadedProgram>& programs) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    if (programs[i].outer) continue;
+    if (found) return std::nullopt;
+    found = i;
+  }
+  return found;
+}
 
 std::unique_ptr<LoadedConfig> load_config(const std::string& path, json::Diagnostics& diagnostics) {
   const auto document = json::parse_file(path, diagnostics);
@@ -116,7 +170,7 @@ std::unique_ptr<LoadedConfig> load_config(const std::string& path, json::Diagnos
   auto loaded = std::make_unique<LoadedConfig>();
   json::decode(*document, loaded->config, diagnostics);
   if (diagnostics.has_errors()) return nullptr;
-  loaded->endpoint = Checker(loaded->config, diagnostics).run();
+  Checker(*loaded, diagnostics).run();
   if (diagnostics.has_errors()) return nullptr;
   return loaded;
 }

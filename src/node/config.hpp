@@ -1,4 +1,4 @@
-// The file of a node: which participant of which Program it is, and how it reaches the others.
+// The file of a node: which participant of which Programs it is, and how it reaches the others.
 #pragma once
 
 #include <cstdint>
@@ -36,13 +36,14 @@ struct Program {
   Variant variant = Variant::robust;
   std::string master;
   std::vector<std::string> slaves;
+  std::optional<std::string> within;  ///< program in which it is nested
   Duration cycle;
   Duration offset;
   Publish publish = Publish::cyclic;
   Subscription subscription = Subscription::star;
   std::optional<Duration> receive_timeout;
   Duration initialisation = Duration::from_ps(1'000'000'000);
-  std::uint16_t publisher_id = 1;
+  std::optional<std::uint16_t> publisher_id;  ///< of the master; if absent 1, or the next behind the program before it in the file
   std::vector<ProcessData> process_data;
   bool operator==(const Program&) const = default;
 };
@@ -71,6 +72,7 @@ using Transport = std::variant<UdpTransport, EthernetTransport>;
 
 struct ScriptEntry {
   json::Source where;
+  std::optional<std::string> program;  ///< the only one that is not nested in another of this node, if absent
   Duration at;  ///< after the start of this node
   Method call = Method::start;
   bool operator==(const ScriptEntry&) const = default;
@@ -81,6 +83,7 @@ enum class SourceKind : std::uint8_t { counter, constant, sine };
 /// Where values of an own data set come from. Integers are rounded, and kept within their range.
 struct Source {
   json::Source where;
+  std::optional<std::string> program;  ///< needed where several have a data set of this name
   std::string data_set;
   std::optional<std::string> field;  ///< all fields without
   SourceKind kind = SourceKind::counter;
@@ -94,7 +97,8 @@ struct Source {
 struct Config {
   json::Source where;
   std::string node;
-  Program program;
+  std::optional<Program> program;  ///< this one, or
+  std::vector<Program> programs;   ///< those, of which the node is in some
   Transport transport;
   ClockName clock = ClockName::monotonic;
   std::optional<Duration> duration;
@@ -117,11 +121,29 @@ const json::Enumeration& describe(json::Type<SourceKind>);
 const json::Object& describe(json::Type<Source>);
 const json::Object& describe(json::Type<Config>);
 
-/// A file that has been checked, and the endpoint that it asks for, but for the incarnation.
+/// A Program that the node is in.
+struct LoadedProgram {
+  Program program;
+  wire::EndpointSettings endpoint;     ///< but for the incarnation
+  std::optional<std::size_t> outer;    ///< in LoadedConfig::programs: this node is a slave there, and the master here
+};
+
+/// A method call of the script.
+struct LoadedCall {
+  Duration at;
+  std::size_t program = 0;  ///< in LoadedConfig::programs
+  program::Method method = program::Method::Start;
+};
+
+/// A file that has been checked, and the endpoints that it asks for.
 struct LoadedConfig {
   Config config;
-  wire::EndpointSettings endpoint;
+  std::vector<LoadedProgram> programs;  ///< in the order of the file; at least one
+  std::vector<LoadedCall> script;       ///< by time
 };
+
+/// Which of a node's Programs a command that names none is for: the only one that is not nested in another of them.
+std::optional<std::size_t> outermost(const std::vector<LoadedProgram>& programs);
 
 /// Null if there was a mistake.
 std::unique_ptr<LoadedConfig> load_config(const std::string& path, json::Diagnostics& diagnostics);

@@ -24,13 +24,14 @@ const json::Object& describe(json::Type<Program>) {
       optional<&Program::variant>("variant", "Which handshake synchronises the participants."),
       required<&Program::master>("master", "The name of the master."),
       required<&Program::slaves>("slaves", "The names of the slaves.", {.min_items = 1, .max_items = 64}),
+      optional<&Program::within>("within", "The program of this file in which this one is nested: its master is a slave there."),
       required<&Program::cycle>("cycle", "Publishing interval of state and process data.", {.min = 10_us, .max = 3600_s}),
       optional<&Program::offset>("offset", "Phase of publishing within the cycle.", {.max = 3600_s}),
       optional<&Program::publish>("publish", "When the state is published."),
       optional<&Program::subscription>("subscription", "Who hears whom."),
       optional<&Program::receive_timeout>("receive_timeout", "A peer that is silent for so long halts the group (MessageReceiveTimeout); 10 cycles if absent.", {.min = 1_us, .max = 3600_s}),
       optional<&Program::initialisation>("initialisation", "How long a participant stays in INIT.", {.max = 3600_s}),
-      optional<&Program::publisher_id>("publisher_id", "PublisherId of the master; the slaves have the next ones.", {.min = 1, .max = 65471}),
+      optional<&Program::publisher_id>("publisher_id", "PublisherId of the master; the slaves have the next ones. If absent 1, or the next behind the program before it.", {.min = 1, .max = 65471}),
       optional<&Program::process_data>("process_data", "Data sets that the participants exchange.", {.max_items = 256}),
   };
   static constexpr json::Object table = json::object<Program>("program", "A distributed OPC UA Program, as in a scenario.", fields);
@@ -69,6 +70,7 @@ const json::Object& describe(json::Type<ScriptEntry>) {
   static constexpr json::Field fields[] = {
       required<&ScriptEntry::at>("at", "After the start of this node.", {.max = 3600_s}),
       required<&ScriptEntry::call>("call", "The method that is called here."),
+      optional<&ScriptEntry::program>("program", "Of which program; the only one that is not nested in another of this node, if absent."),
   };
   static constexpr json::Object table = json::object<ScriptEntry>("script_entry", "A method call.", fields);
   return table;
@@ -85,6 +87,7 @@ const json::Enumeration& describe(json::Type<SourceKind>) {
 const json::Object& describe(json::Type<Source>) {
   static constexpr json::Field fields[] = {
       required<&Source::data_set>("data_set", "A data set that this node publishes."),
+      optional<&Source::program>("program", "Of which program; needed where several have a data set of this name."),
       optional<&Source::field>("field", "Only this field; all fields if absent."),
       required<&Source::kind>("kind", "What the values do."),
       optional<&Source::value>("value", "The constant, the counter's first value, or what the sine goes around."),
@@ -99,7 +102,8 @@ const json::Object& describe(json::Type<Source>) {
 const json::Object& describe(json::Type<Config>) {
   static constexpr json::Field fields[] = {
       required<&Config::node>("node", "Which participant this node is."),
-      required<&Config::program>("program", "The Program, the same at all nodes."),
+      optional<&Config::program>("program", "The Program, the same at all nodes."),
+      optional<&Config::programs>("programs", "Several Programs instead, nested or not. Those that the node is not in are passed over, so all nodes may have the same list.", {.min_items = 1, .max_items = 256}),
       required<&Config::transport>("transport", "How its messages travel."),
       optional<&Config::clock>("clock", "The clock that the nodes share."),
       optional<&Config::duration>("duration", "How long it runs; until a signal if absent.", {.min = 1_ms, .max = 3600_s}),
@@ -111,7 +115,9 @@ const json::Object& describe(json::Type<Config>) {
       optional<&Config::log_values_every>("log_values_every", "Log values that are received, each data set at most so often; 0 is each message.", {.max = 3600_s}),
       optional<&Config::script>("script", "Methods that are called at this node.", {.max_items = 10'000}),
   };
-  static constexpr json::Object table = json::object<Config>("node", "A participant of a Program on this machine.", fields);
+  static constexpr std::string_view members[] = {"program", "programs"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(members)};
+  static constexpr json::Object table = json::object<Config>("node", "A participant of one or several Programs on this machine.", fields, {.groups = groups});
   return table;
 }
 

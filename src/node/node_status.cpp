@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scenario/json/document.hpp"
 
 namespace takt::node {
@@ -23,18 +25,18 @@ json::Node of(const Distribution& distribution) {
   return node;
 }
 
-const std::string& participant_name(const NodeStatus& status, std::size_t participant) {
-  return participant == 0 ? status.config.program.master : status.config.program.slaves[participant - 1];
+const std::string& participant_name(const ProgramStatus& status, std::size_t participant) {
+  return participant == 0 ? status.program.master : status.program.slaves[participant - 1];
 }
 
-json::Node peers_of(const NodeStatus& status) {
+json::Node peers_of(const ProgramStatus& status, sim::LocalTime now) {
   json::Node all = json::Node::array();
   for (std::size_t p = 0; p < status.peers.peers().size(); ++p) {
     const PeerStatistics& peer = status.peers.peers()[p];
     json::Node node = json::Node::object();
     node.add("name", text(participant_name(status, status.endpoint.participant().participant_of(p))));
     node.add("state", peer.state ? text(handshake::name_of(*peer.state)) : json::Node());
-    if (peer.state) node.add("silent_ns", number((status.now - peer.last_heard).ps() / 1000));
+    if (peer.state) node.add("silent_ns", number((now - peer.last_heard).ps() / 1000));
     node.add("incarnation", number(peer.incarnation));
     node.add("answer", of(peer.answer));
     node.add("round_trip", of(peer.round_trip));
@@ -43,7 +45,7 @@ json::Node peers_of(const NodeStatus& status) {
   return all;
 }
 
-json::Node statistics_of(const NodeStatus& status) {
+json::Node statistics_of(const ProgramStatus& status, std::uint64_t send_failures) {
   const wire::EndpointCounts& counts = status.endpoint.counts();
   json::Node node = json::Node::object();
   node.add("late", of(status.cycles.late));
@@ -57,7 +59,7 @@ json::Node statistics_of(const NodeStatus& status) {
   node.add("unsubscribed", number(counts.unsubscribed));
   node.add("stale", number(counts.stale));
   node.add("not_running", number(counts.not_running));
-  node.add("send_failures", number(status.send_failures));
+  node.add("send_failures", number(send_failures));
   return node;
 }
 
@@ -75,13 +77,12 @@ std::string line_of(std::string_view what, const json::Node* distribution) {
 
 }  // namespace
 
-std::string to_json(const NodeStatus& status) {
+namespace {
+
+void add_program(json::Node& node, const ProgramStatus& status, const NodeStatus& of) {
   const auto& participant = status.endpoint.participant();
   const bool has_intents = participant.config().variant == handshake::Variant::Robust;
-  json::Node node = json::Node::object();
-  node.add("time_ns", number(status.time_ns));
-  node.add("node", text(status.config.node));
-  node.add("program", text(status.config.program.name));
+  node.add("program", text(status.program.name));
   node.add("variant", text(has_intents ? "robust" : "paper"));
   node.add("role", text(participant.config().role == handshake::Role::Master ? "master" : "slave"));
   node.add("state", text(handshake::name_of(participant.state())));
@@ -93,17 +94,12 @@ std::string to_json(const NodeStatus& status) {
     intent.add("origin", text(participant_name(status, participant.intent().origin)));
     node.add("run", number(participant.run()));
   }
-  node.add("peers", peers_of(status));
-  node.add("statistics", statistics_of(status));
-  return json::compact(node);
+  node.add("peers", peers_of(status, of.now));
+  node.add("statistics", statistics_of(status, of.send_failures));
 }
 
-std::string status_text(const std::string& json) {
-  json::Diagnostics diagnostics;
-  const auto document = json::parse(json, "status", diagnostics);
-  if (!document || document->root().find("state") == nullptr || document->root().find("statistics") == nullptr) return json + "\n";
-  const json::Node& root = document->root();
-  std::string out = fmt::format("{}: {}, {} of {} ({})\n", scalar(root.find("node")), scalar(root.find("state")), scalar(root.find("role")), scalar(root.find("program")),
+std::string text_of_program(const std::string& name, const json::Node& root) {
+  std::string out = fmt::format("{}: {}, {} of {} ({})\n", name, scalar(root.find("state")), scalar(root.find("role")), scalar(root.find("program")),
                                 scalar(root.find("variant")));
   if (const json::Node* const intent = root.find("intent"); intent != nullptr && scalar(intent->find("number")) != "0")
     out += fmt::format("  last intent: {} by {}, number {}\n", scalar(intent->find("kind")), scalar(intent->find("origin")), scalar(intent->find("number")));
@@ -125,6 +121,37 @@ std::string status_text(const std::string& json) {
   out += fmt::format("  missed cycles: {} by the code, {} by the operating system\n", scalar(statistics.find("missed_by_code")), scalar(statistics.find("missed_by_system")));
   out += fmt::format("  messages: {} taken, {} stale, {} foreign, {} not running; {} not sent\n", scalar(statistics.find("taken")), scalar(statistics.find("stale")),
                      scalar(statistics.find("foreign")), scalar(statistics.find("not_running")), scalar(statistics.find("send_failures")));
+  return out;
+}
+
+bool is_of_program(const json::Node& node) { return node.find("state") != nullptr && node.find("statistics") != nullptr; }
+
+}  // namespace
+
+std::string to_json(const NodeStatus& status) {
+  json::Node node = json::Node::object();
+  node.add("time_ns", number(status.time_ns));
+  node.add("node", text(status.node));
+  if (status.programs.size() == 1) {
+    add_program(node, status.programs.front(), status);
+    return json::compact(node);
+  }
+  json::Node& programs = node.add("programs", json::Node::array());
+  for (const ProgramStatus& each : status.programs) add_program(programs.items.emplace_back(json::Node::object()), each, status);
+  return json::compact(node);
+}
+
+std::string status_text(const std::string& json) {
+  json::Diagnostics diagnostics;
+  const auto document = json::parse(json, "status", diagnostics);
+  if (!document) return json + "\n";
+  const json::Node& root = document->root();
+  const std::string name = scalar(root.find("node"));
+  if (is_of_program(root)) return text_of_program(name, root);
+  const json::Node* const programs = root.find("programs");
+  if (programs == nullptr || !std::all_of(programs->items.begin(), programs->items.end(), is_of_program)) return json + "\n";
+  std::string out;
+  for (const json::Node& program : programs->items) out += (out.empty() ? "" : "\n") + text_of_program(name, program);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "node/config.hpp"
 #include "node/statistics.hpp"
@@ -10,17 +11,22 @@
 namespace takt::node {
 
 /// All parts are the node's own.
-struct NodeStatus {
-  const Config& config;
+struct ProgramStatus {
+  const Program& program;
   const wire::ProgramEndpoint& endpoint;
   const CycleStatistics& cycles;
   const PeerWatch& peers;
-  std::uint64_t send_failures = 0;
+};
+struct NodeStatus {
+  const std::string& node;
+  std::vector<ProgramStatus> programs;  ///< at least one
+  std::uint64_t send_failures = 0;      ///< of the node's socket
   sim::LocalTime now;
-  std::int64_t time_ns = 0;  ///< now, on the node's clock
+  std::int64_t time_ns = 0;             ///< now, on the node's clock
 };
 
-/// {"node": ..., "program": ..., "state": ..., "peers": [...], "statistics": {...}}, on one line without a newline.
+/// {"node": ..., "program": ..., "state": ..., "peers": [...], "statistics": {...}}, on one line without a newline. Of several Programs
+/// {"node": ..., "programs": [...]}, each as above.
 std::string to_json(const NodeStatus& status);
 /// Some lines of text from what to_json made; the text itself if it is something else.
 std::string status_text(const std::string& json);

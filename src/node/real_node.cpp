@@ -13,15 +13,12 @@
 #include <cstring>
 #include <utility>
 
+#include "scenario/json/diagnostics.hpp"
+
 namespace takt::node {
 namespace {
 
 constexpr int most_messages_at_once = 256;  // a flood does not keep the alarms waiting
-
-wire::EndpointSettings with_incarnation(wire::EndpointSettings settings, std::uint32_t incarnation) {
-  settings.handshake.incarnation = incarnation;
-  return settings;
-}
 
 /// Another number at each start: the time of day in units of 67 ms, which no restart takes less than. Never 0.
 std::uint32_t incarnation_now() {
@@ -30,23 +27,16 @@ std::uint32_t incarnation_now() {
   return static_cast<std::uint32_t>((static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec) >> 26) | 1U << 31;
 }
 
-/// CPU time of this thread.
-std::int64_t cpu_ns() {
-  timespec time = {};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
-}
-
 }  // namespace
 
-std::unique_ptr<RealNode> RealNode::make(const LoadedConfig& loaded, std::FILE* log, Application* application, std::string& problem, std::string& warnings) {
+std::unique_ptr<RealNode> RealNode::make(const LoadedConfig& loaded, std::FILE* log, const std::vector<Application*>& applications, std::string& problem,
+                                         std::string& warnings) {
   const Config& config = loaded.config;
   std::unique_ptr<Socket> socket = std::visit([&problem](const auto& transport) { return open_socket(transport, problem); }, config.transport);
   if (!socket) return nullptr;
   std::string refused_launch;
   if (config.launch_lead) refused_launch = socket->enable_launch_times(config.clock);
-  const std::uint32_t incarnation = incarnation_now();
-  std::unique_ptr<RealNode> node(new RealNode(loaded, std::move(socket), log, application, incarnation));
+  std::unique_ptr<RealNode> node(new RealNode(loaded, std::move(socket), log));
   if (!node->timer_.is_open()) {
     problem = std::string("a timer: ") + std::strerror(errno);
     return nullptr;
@@ -56,31 +46,36 @@ std::unique_ptr<RealNode> RealNode::make(const LoadedConfig& loaded, std::FILE* 
     if (!node->control_ && config.control) return nullptr;
     if (!node->control_) warnings += "without takt ctl: " + std::exchange(problem, {}) + "\n";
   }
-  if (config.launch_lead && refused_launch.empty()) node->lead_ = *config.launch_lead;
+  node->host(loaded, log, applications, config.launch_lead && refused_launch.empty() ? *config.launch_lead : Duration());
   if (!refused_launch.empty()) warnings += "without launch times: " + refused_launch + "\n";
   if (config.realtime)
     if (const std::string refused = ask_for_real_time(); !refused.empty()) warnings += "without real time: " + refused + "\n";
   return node;
 }
 
-RealNode::RealNode(const LoadedConfig& loaded, std::unique_ptr<Socket> socket, std::FILE* log, Application* application, std::uint32_t incarnation)
+RealNode::RealNode(const LoadedConfig& loaded, std::unique_ptr<Socket> socket, std::FILE* log)
     : config_(loaded.config),
+      script_(loaded.script),
+      outermost_(outermost(loaded.programs)),
       socket_(std::move(socket)),
-      application_(application),
-      clock_(loaded.config.clock, loaded.endpoint.cycle),
+      clock_(loaded.config.clock, loaded.programs.front().endpoint.cycle),
       log_(log),
-      endpoint_(with_incarnation(loaded.endpoint, incarnation)),
-      incarnation_(incarnation),
-      alarms_(endpoint_.alarm_count(), sim::LocalTime::never()),
-      peers_(endpoint_.participant().peer_count()) {
-  std::stable_sort(config_.script.begin(), config_.script.end(), [](const ScriptEntry& a, const ScriptEntry& b) { return a.at < b.at; });
+      incarnation_(incarnation_now()) {}
+
+void RealNode::host(const LoadedConfig& loaded, std::FILE* log, const std::vector<Application*>& applications, Duration lead) {
+  const bool are_several = loaded.programs.size() > 1;
+  for (std::size_t i = 0; i < loaded.programs.size(); ++i)
+    programs_.push_back(std::make_unique<HostedProgram>(loaded.programs[i], HostedProgram::Node{*socket_, clock_, incarnation_, lead},
+                                                        TransitionLog(log, are_several ? loaded.programs[i].program.name : std::string()),
+                                                        i < applications.size() ? applications[i] : nullptr));
+  for (std::size_t i = 0; i < programs_.size(); ++i)
+    if (const auto outer = loaded.programs[i].outer) nestings_.push_back(HostedProgram::nest(*programs_[*outer], *programs_[i]));
 }
 
 void RealNode::run(bool (*stop_requested)(const void* context), const void* context) {
-  started_ = now();
-  cpu_at_last_cycle_ns_ = cpu_ns();
+  started_ = clock_.now();
   log_.started(clock_.nanoseconds_at(started_), config_.node, incarnation_);
-  endpoint_.start(*this);
+  for (const auto& program : programs_) program->start();
   std::vector<pollfd> waiting;
   waiting.reserve(3 + ControlSocket::most_clients);
   for (;;) {
@@ -90,113 +85,83 @@ void RealNode::run(bool (*stop_requested)(const void* context), const void* cont
     // A signal interrupts the wait; one that came just before it is seen a second later.
     ::poll(waiting.data(), waiting.size(), 1000);
     if (stop_requested(context)) break;
-    if (config_.duration && now() - started_ >= *config_.duration) break;
+    if (config_.duration && clock_.now() - started_ >= *config_.duration) break;
     take_received();
-    wake_due(now());
+    wake_due(clock_.now());
     const bool is_asked = std::any_of(waiting.begin() + 2, waiting.end(), [](const pollfd& each) { return each.revents != 0; });
     if (is_asked) take_requests();
   }
   log_.ended(status_now());
 }
 
-program::StatusCode RealNode::call(program::Method method) {
-  const program::StatusCode status = endpoint_.call(*this, method);
-  log_.called(clock_.nanoseconds_at(now()), method, status);
+NodeStatus RealNode::status_now(std::optional<std::size_t> only) const {
+  const sim::LocalTime time = clock_.now();
+  NodeStatus status{config_.node, {}, socket_->send_failures(), time, clock_.nanoseconds_at(time)};
+  for (std::size_t i = 0; i < programs_.size(); ++i)
+    if (!only || *only == i) status.programs.push_back(programs_[i]->status());
   return status;
-}
-
-NodeStatus RealNode::status_now() const {
-  const sim::LocalTime time = now();
-  return {config_, endpoint_, cycles_, peers_, socket_->send_failures(), time, clock_.nanoseconds_at(time)};
-}
-
-sim::LocalTime RealNode::due(std::size_t alarm) const {
-  const bool leads = alarm == wire::ProgramEndpoint::cycle_alarm && alarms_[alarm] != sim::LocalTime::never();
-  return leads ? alarms_[alarm] - lead_ : alarms_[alarm];
 }
 
 sim::LocalTime RealNode::next_time() const {
   sim::LocalTime next = sim::LocalTime::never();
-  for (std::size_t alarm = 0; alarm < alarms_.size(); ++alarm) next = std::min(next, due(alarm));
-  if (next_call_ < config_.script.size()) next = std::min(next, started_ + config_.script[next_call_].at);
+  for (const auto& program : programs_) next = std::min(next, program->next_time());
+  if (next_call_ < script_.size()) next = std::min(next, started_ + script_[next_call_].at);
   if (config_.duration) next = std::min(next, started_ + *config_.duration);
   return next;
 }
 
+/// A message that no Program knows counts as foreign at the first.
 void RealNode::take_received() {
   for (int i = 0; i < most_messages_at_once; ++i) {
     const uadp::Octets message = socket_->next();
     if (message.empty()) return;
-    endpoint_.receive(*this, message);
+    const auto found = programs_.size() == 1 ? programs_.begin() : std::find_if(programs_.begin(), programs_.end(), [&](const auto& program) { return program->knows(message); });
+    (found == programs_.end() ? programs_.front() : *found)->receive(message);
   }
 }
 
-/// Calls what is due by `now`; what that sets anew waits for the next turn of the loop.
 void RealNode::wake_due(sim::LocalTime now) {
-  if (due(wire::ProgramEndpoint::cycle_alarm) <= now) wake_cycle(now);
-  for (; next_call_ < config_.script.size() && started_ + config_.script[next_call_].at <= now; ++next_call_) call(method_of(config_.script[next_call_].call));
-  for (std::size_t alarm = wire::ProgramEndpoint::cycle_alarm + 1; alarm < alarms_.size(); ++alarm) {
-    if (alarms_[alarm] > now) continue;
-    alarms_[alarm] = sim::LocalTime::never();
-    endpoint_.wake(*this, alarm);
-  }
-}
-
-void RealNode::wake_cycle(sim::LocalTime now) {
-  constexpr std::size_t alarm = wire::ProgramEndpoint::cycle_alarm;
-  cycles_.late.add((now - due(alarm)).ps() / 1000);
-  const std::uint64_t missed_before = endpoint_.missed_cycles();
-  if (lead_ > Duration()) socket_->set_launch_time(clock_.nanoseconds_at(alarms_[alarm]));
-  alarms_[alarm] = sim::LocalTime::never();
-  endpoint_.wake(*this, alarm);
-  socket_->set_launch_time(0);
-  const std::int64_t cpu = cpu_ns();
-  const std::int64_t used_ns = cpu - std::exchange(cpu_at_last_cycle_ns_, cpu);
-  cycles_.cpu.add(used_ns);
-  const std::uint64_t missed = endpoint_.missed_cycles() - missed_before;
-  const std::uint64_t by_code = std::min(missed, static_cast<std::uint64_t>(used_ns / (config_.program.cycle.ps() / 1000)));
-  cycles_.missed_by_code += by_code;
-  cycles_.missed_by_system += missed - by_code;
+  for (const auto& program : programs_) program->wake_cycle(now);
+  for (; next_call_ < script_.size() && started_ + script_[next_call_].at <= now; ++next_call_) call(script_[next_call_].method, script_[next_call_].program);
+  for (const auto& program : programs_) program->wake_others(now);
 }
 
 void RealNode::take_requests() {
   while (const auto request = control_->next()) control_->answer(answer_to(*request));
 }
 
-/// Requests are method names in lower case, and "status".
+/// Requests are method names in lower case, or "status"; behind a space there may be the name of a Program.
 std::string RealNode::answer_to(std::string_view request) {
-  if (request == "status") return status();
+  const std::string_view word = request.substr(0, request.find(' '));
+  const std::string_view of = word.size() < request.size() ? request.substr(word.size() + 1) : std::string_view();
+  if (word == "status" && of.empty()) return status();
+  std::string problem;
+  const auto program = program_for(of, problem);
+  if (!program) return fmt::format("{{\"error\": {}}}", json::quote(problem));
+  HostedProgram& hosted = *programs_[*program];
+  if (word == "status") return to_json(status_now(program));
   for (const program::MethodInfo& each : program::methods) {
     std::string name(each.name);
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (name != request) continue;
-    const program::StatusCode status = call(each.method);
-    return fmt::format("{{\"method\": \"{}\", \"status\": \"{}\", \"code\": {}, \"state\": \"{}\"}}", each.name, program::name_of(status),
-                       static_cast<std::uint32_t>(status), handshake::name_of(state()));
+    if (name != word) continue;
+    const program::StatusCode status = hosted.call(each.method);
+    const std::string named = programs_.size() > 1 ? fmt::format("\"program\": {}, ", json::quote(hosted.name())) : std::string();
+    return fmt::format("{{{}\"method\": \"{}\", \"status\": \"{}\", \"code\": {}, \"state\": \"{}\"}}", named, each.name, program::name_of(status),
+                       static_cast<std::uint32_t>(status), handshake::name_of(hosted.state()));
   }
   return R"({"error": "unknown request"})";
 }
 
-void RealNode::publish(uadp::Octets network_message, const pubsub::Destination& destination) {
-  socket_->publish(network_message, destination);
-  if (destination.writer_group_id == wire::state_writer_group) peers_.published(endpoint_.participant().word(), now());
-}
-
-void RealNode::process_data(const wire::ProcessDataMessage& message) {
-  if (application_ != nullptr) application_->consume(message.data_set, clock_.nanoseconds_at(now()), message.fields);
-}
-
-void RealNode::fill(std::uint8_t data_set, std::span<std::byte> fields) {
-  if (application_ != nullptr) application_->produce(data_set, clock_.nanoseconds_at(now()), fields);
-}
-
-void RealNode::stepped(const handshake::Outputs& outputs, const handshake::Word&) {
-  const std::int64_t time = clock_.nanoseconds_at(now());
-  if (outputs.raised) log_.raised(time, outputs.raised_kind, outputs.alarm);
-  for (const handshake::StateChange& change : outputs.changes()) {
-    log_.changed(time, change);
-    if (application_ != nullptr) application_->changed(change);
+std::optional<std::size_t> RealNode::program_for(std::string_view name, std::string& problem) const {
+  if (name.empty() && outermost_) return outermost_;
+  std::string names;
+  for (std::size_t i = 0; i < programs_.size(); ++i) {
+    if (programs_[i]->name() == name) return i;
+    names += (i == 0 ? "" : ", ") + programs_[i]->name();
   }
+  problem = name.empty() ? config_.node + " is in several programs, and none is nested in another; name one of " + names
+                         : config_.node + " is not in program " + std::string(name) + ", but in " + names;
+  return std::nullopt;
 }
 
 std::string ask_for_real_time() {

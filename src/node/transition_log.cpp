@@ -27,22 +27,30 @@ void write(std::FILE* file, const std::string& line) {
 
 }  // namespace
 
+TransitionLog::TransitionLog(std::FILE* file, std::string_view program)
+    : file_(file), program_(program.empty() ? std::string() : "\"program\": " + scenario::json::quote(program) + ", ") {}
+
 void TransitionLog::started(std::int64_t time, std::string_view node, std::uint32_t incarnation) {
   write(file_, fmt::format("{{\"time_ns\": {}, \"event\": \"start\", \"node\": {}, \"incarnation\": {}}}\n", time,
                            scenario::json::quote(node), incarnation));
 }
 
-void TransitionLog::changed(std::int64_t time, const handshake::StateChange& change) {
-  write(file_, fmt::format("{{\"time_ns\": {}, \"event\": \"transition\", \"number\": {}, \"from\": \"{}\", \"to\": \"{}\"}}\n", time, change.transition,
-                           handshake::name_of(change.from), handshake::name_of(change.to)));
-}
-
-void TransitionLog::raised(std::int64_t time, handshake::IntentKind kind, handshake::Alarm alarm) {
-  write(file_, fmt::format("{{\"time_ns\": {}, \"event\": \"intent\", \"kind\": \"{}\", \"cause\": \"{}\"}}\n", time, handshake::name_of(kind), name_of(alarm)));
+void TransitionLog::stepped(std::int64_t time, const handshake::Outputs& outputs, const handshake::Word& after) {
+  const bool is_news = after.run != last_.run || after.intent.run != last_.intent.run;
+  last_ = after;
+  if (!is_news && !outputs.raised && outputs.change_count == 0) return;
+  const std::string runs = fmt::format("\"run\": {}, \"intent_run\": {}", after.run, after.intent.run);
+  if (outputs.raised)
+    write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"intent\", \"kind\": \"{}\", \"cause\": \"{}\", {}}}\n", time, program_,
+                             handshake::name_of(outputs.raised_kind), name_of(outputs.alarm), runs));
+  for (const handshake::StateChange& change : outputs.changes())
+    write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"transition\", \"number\": {}, \"from\": \"{}\", \"to\": \"{}\", {}}}\n", time, program_, change.transition,
+                             handshake::name_of(change.from), handshake::name_of(change.to), runs));
+  if (!outputs.raised && outputs.change_count == 0) write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"run\", {}}}\n", time, program_, runs));
 }
 
 void TransitionLog::called(std::int64_t time, program::Method method, program::StatusCode status) {
-  write(file_, fmt::format("{{\"time_ns\": {}, \"event\": \"call\", \"method\": \"{}\", \"good\": {}, \"status\": \"{}\"}}\n", time, program::name_of(method),
+  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"call\", \"method\": \"{}\", \"good\": {}, \"status\": \"{}\"}}\n", time, program_, program::name_of(method),
                            program::is_good(status), program::name_of(status)));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdio>
+#include <string>
 #include <string_view>
 
 #include "handshake/io.hpp"
@@ -12,19 +13,21 @@ namespace takt::node {
 
 class TransitionLog {
  public:
-  /// `file` outlives the log.
-  explicit TransitionLog(std::FILE* file) : file_(file) {}
+  /// `file` outlives the log. What a Program does is named with it, unless the name is empty.
+  explicit TransitionLog(std::FILE* file, std::string_view program = {});
 
   /// Times are nanoseconds of the node's clock.
   void started(std::int64_t time, std::string_view node, std::uint32_t incarnation);
-  void changed(std::int64_t time, const handshake::StateChange& change);
-  void raised(std::int64_t time, handshake::IntentKind kind, handshake::Alarm alarm);
+  /// A step of the participant, whose word is `after` now: an intent raised, changes of state, or nothing but another run.
+  void stepped(std::int64_t time, const handshake::Outputs& outputs, const handshake::Word& after);
   void called(std::int64_t time, program::Method method, program::StatusCode status);
 
   void ended(const NodeStatus& status);
 
  private:
   std::FILE* file_;
+  std::string program_;           ///< as a member with a comma behind it; or empty
+  handshake::Word last_;          ///< whose run and intent have been written
 };
 
 }  // namespace takt::node

@@ -76,6 +76,20 @@ class Emulation(unittest.TestCase):
             self.assertEqual(participant["emulated"], ["Halted.INIT", "Ready", "Running", "Suspended", "Running", "Halted", "Halted.INIT", "Ready", "Running"])
         self.assertEqual([node["status"]["statistics"]["foreign"] for node in result["nodes"]], [0] * 4)
 
+    # Seven nodes, two of them in two Programs: all in the order of the simulated run, and S1 to S5 of the tree by the nodes' own logs.
+    def test_three_levels_of_nested_programs(self):
+        patient = [word for i in range(3) for setting in (f"receive_timeout={3 - i}s", f"cycle={[4, 3, 2][i]}ms") for word in ("--set", f"programs.{i}.{setting}")]
+        result = self.emulate(str(SOURCES / "scenarios" / "programs" / "nested-cell.json"), *patient)
+        self.assertEqual([(program["program"], program["same"], program["violated"]) for program in result["programs"]], [(name, True, []) for name in ("cell", "machine", "axis")])
+        states = ["Halted.INIT", "Ready", "Running", "Suspended", "Running", "Suspended", "Ready", "Running", "Halted", "Halted.INIT", "Ready", "Running"]
+        for program in result["programs"]:
+            for participant in program["participants"]:
+                self.assertEqual(participant["emulated"], states, participant["name"])
+        self.assertEqual(result["invariants"]["violated"], [])
+        self.assertGreater(result["invariants"]["steps"], 9 * len(states))
+        programs = {node["name"]: [each["program"] for each in node["status"].get("programs", [node["status"]])] for node in result["nodes"]}
+        self.assertEqual(programs, {"plc": ["cell"], "machine1": ["cell", "machine"], "machine2": ["cell"], "axis1": ["machine", "axis"], "axis2": ["machine"], "drive1": ["axis"], "drive2": ["axis"]})
+
     def test_two_switches_and_either_variant(self):
         for variant in ("robust", "paper"):
             program = SMALL["programs"][0] | {"variant": variant}

@@ -60,8 +60,8 @@ TEST(Plan, FilesOfNodes) {
     const auto loaded = node::load_config(path, diagnostics);
     std::filesystem::remove(path);
     ASSERT_TRUE(loaded) << diagnostics.to_text();
-    EXPECT_EQ(loaded->endpoint.handshake.index, node.participant);
-    EXPECT_TRUE(loaded->endpoint.publish_on_change);
+    EXPECT_EQ(loaded->programs[0].endpoint.handshake.index, node.parts[0].participant);
+    EXPECT_TRUE(loaded->programs[0].endpoint.publish_on_change);
     EXPECT_EQ(loaded->config.control, control_mark);
     const auto& transport = std::get<node::EthernetTransport>(loaded->config.transport);
     EXPECT_EQ(transport.vlan, 7);
@@ -90,6 +90,41 @@ TEST(Plan, CrashesAndCutsAreActions) {
   EXPECT_FALSE(std::get<HostAction>(planned.plan.actions[0].what).up);
   EXPECT_TRUE(std::get<HostAction>(planned.plan.actions[1].what).up);
   EXPECT_EQ(std::get<LinkAction>(planned.plan.actions[2].what).cable, 0u);
+}
+
+const std::string inner = R"({"name": "q", "within": "p", "master": "a", "slaves": ["b"], "cycle": "500us", "vlan": 7, "pcp": 5})";
+
+std::string nested_scenario(const std::string& nested) {
+  return scenario(R"(, "b": {"kind": "host"})", R"({"ends": ["a", "x"]}, {"ends": ["b", "x"]})",
+                  program.substr(0, program.size() - 1) + ", " + nested + R"(], "script": [{"at": "100ms", "program": "q", "call": "Halt"}])");
+}
+
+// The slave of the outer Program and the master of the inner one are one process.
+TEST(Plan, NestedProgramsAreJoined) {
+  const Planned planned(nested_scenario(inner));
+  EXPECT_TRUE(planned.plan.refusals.empty());
+  ASSERT_EQ(planned.plan.nodes.size(), 3u);
+  const PlannedNode& both = planned.plan.nodes[1];
+  ASSERT_EQ(both.parts.size(), 2u);
+  EXPECT_EQ(both.parts[1].program, 1u);
+  EXPECT_EQ(both.parts[1].participant, 0);
+  EXPECT_EQ(std::get<CallAction>(planned.plan.actions[0].what).node, 1u);
+  EXPECT_EQ(std::get<CallAction>(planned.plan.actions[0].what).part, 1u);
+  const std::string path = std::string(::testing::TempDir()) + "takt-planned-nested.json";
+  std::ofstream(path) << both.config;
+  scenario::json::Diagnostics diagnostics;
+  const auto loaded = node::load_config(path, diagnostics);
+  std::filesystem::remove(path);
+  ASSERT_TRUE(loaded) << diagnostics.to_text();
+  ASSERT_EQ(loaded->programs.size(), 2u);
+  EXPECT_EQ(loaded->programs[1].outer, 0u);
+  EXPECT_EQ(loaded->programs[1].endpoint.format->shape().first_publisher_id, 3);
+}
+
+TEST(Plan, OneNodeHasOneTransport) {
+  std::string tagged = inner;
+  tagged.replace(tagged.find("\"vlan\": 7"), 9, "\"vlan\": 8");
+  EXPECT_TRUE(speaks_of(Planned(nested_scenario(tagged)).plan.refusals, "VLANs"));
 }
 
 TEST(Plan, WithoutAProgramThereIsNothingToRun) { EXPECT_FALSE(Planned(scenario("", R"({"ends": ["a", "x"]})", "")).plan.refusals.empty()); }

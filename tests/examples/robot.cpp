@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
 
   takt::pubsub::DataSet<Joints> targets;
   takt::pubsub::DataSet<std::tuple<Joints, std::uint32_t>> actual;  // joints, and how many targets have come
-  takt::node::DataSetBinding data(file->endpoint.format->shape());
+  takt::node::DataSetBinding data(file->programs[0].endpoint.format->shape());
   if (!data.bind("targets", targets) || !data.bind("actual", actual)) {
     std::fputs("robot: the Program has other data sets\n", stderr);
     return 2;
@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
 
   std::string problem;
   std::string warnings;
-  const auto robot = takt::node::RealNode::make(*file, stdout, &data, problem, warnings);
+  const auto robot = takt::node::RealNode::make(*file, stdout, {&data}, problem, warnings);
   std::fputs((problem + warnings).c_str(), stderr);
   if (!robot) return 3;
   robot->run([](const void*) { return stopped != 0; }, nullptr);

@@ -31,7 +31,7 @@ struct Load {
 TEST(Config, OfASlave) {
   const Load load(file("b"));
   ASSERT_TRUE(load.loaded) << load.diagnostics.to_text();
-  const wire::EndpointSettings& endpoint = load.loaded->endpoint;
+  const wire::EndpointSettings& endpoint = load.loaded->programs[0].endpoint;
   EXPECT_EQ(endpoint.handshake.index, 2);
   EXPECT_EQ(endpoint.handshake.role, handshake::Role::Slave);
   EXPECT_EQ(endpoint.handshake.slaves, 2);

@@ -204,7 +204,7 @@ class Loopback(NodeTest):
             self.assertEqual(log[-1]["event"], "end")
 
 
-class Control(NodeTest):
+class Ctl(NodeTest):
     def ctl(self, node, request, *more):
         done = subprocess.run([TAKT, "ctl", node if "/" in node else str(self.folder / f"{node}.sock"), request, *more], capture_output=True, text=True, timeout=30, check=False)
         return done.returncode, done.stdout, done.stderr
@@ -217,6 +217,8 @@ class Control(NodeTest):
             time.sleep(0.02)
         self.fail(f"{node} is not {state}: {out}")
 
+
+class Control(Ctl):
     def test_methods_and_status(self):
         group = Group(self, self.folder, loopback, duration=None, calls=False)
         for node in NODES:

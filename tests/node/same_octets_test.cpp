@@ -30,7 +30,7 @@ wire::ProgramFormat of_node(const std::string& variant) {
   const auto loaded = load_config(path, diagnostics);
   std::filesystem::remove(path);
   EXPECT_TRUE(loaded) << diagnostics.to_text();
-  return *loaded->endpoint.format;
+  return *loaded->programs[0].endpoint.format;
 }
 
 std::vector<std::byte> copy(uadp::Octets octets) { return {octets.begin(), octets.end()}; }

@@ -173,7 +173,7 @@ bool is_applications_file(const std::string& path) {
   const auto document = json::parse_file(path, unheard);
   if (!document) return false;
   const auto has = [&](const char* key) { return document->root().find(key) != nullptr; };
-  return !has("program") && (has("applications") || has("gateways") || has("topics"));
+  return !has("program") && !has("programs") && (has("applications") || has("gateways") || has("topics"));
 }
 
 std::unique_ptr<LoadedApplications> load_applications(const std::string& path, json::Diagnostics& diagnostics) {

@@ -1,0 +1,106 @@
+#include "emulate/invariant_check.hpp"
+
+#include <algorithm>
+#include <deque>
+
+#include "handshake/tree_observer.hpp"
+#include "scenario/resolve_nesting.hpp"
+#include "vocabulary/protocol.hpp"
+
+namespace takt::emulate {
+namespace {
+
+/// Where a Program's steps go: to an observer of its own, or to that of its tree.
+struct Watched {
+  handshake::GroupObserver* group = nullptr;
+  handshake::TreeObserver* tree = nullptr;
+  std::size_t number = 0;                       ///< of the group in the tree
+  std::vector<handshake::PublishedState> states;  ///< by participant
+};
+
+class Checker {
+ public:
+  explicit Checker(const scenario::Resolved& resolved) : resolved_(resolved), watched_(resolved.programs.size()) {
+    for (const std::vector<std::uint32_t>& tree : scenario::trees_of(resolved)) watch(tree);
+    for (std::size_t p = 0; p < watched_.size(); ++p) {
+      const std::size_t participants = resolved.programs[p].participant_names.size();
+      watched_[p].states.assign(participants, handshake::PublishedState::Halted);
+      if (watched_[p].tree == nullptr) watched_[p].group = &groups_.emplace_back(variant_of(resolved.programs[p].description->variant), participants);
+    }
+  }
+
+  void take(const LoggedStep& step) {
+    Watched& watched = watched_[step.program];
+    if (step.is_crash) {
+      watched.states[step.participant] = handshake::PublishedState::Halted;
+      watched.group != nullptr ? watched.group->on_restart(step.participant) : watched.tree->on_restart(watched.number, step.participant);
+      return;
+    }
+    handshake::Outputs outputs;
+    outputs.publish = true;  // what is logged has changed the word
+    outputs.raised = step.raised.has_value();
+    if (step.raised) outputs.raised_kind = *step.raised;
+    if (step.change) outputs.add(*step.change);
+    if (step.change) watched.states[step.participant] = step.change->to;
+    handshake::Word after;
+    after.state = watched.states[step.participant];
+    after.run = step.run;
+    after.intent.run = step.intent_run;
+    watched.group != nullptr ? watched.group->on_step(step.participant, outputs, after) : watched.tree->on_step(watched.number, step.participant, outputs, after);
+  }
+
+  std::vector<std::string> violated() const {
+    std::vector<std::string> texts;
+    for (std::size_t p = 0; p < watched_.size(); ++p)
+      if (watched_[p].group != nullptr)
+        for (const handshake::Violation& violation : watched_[p].group->violations()) texts.push_back(text_of(p, violation));
+    for (const Tree& tree : trees_)
+      for (const handshake::TreeViolation& each : tree.observer.violations())
+        texts.push_back(text_of(tree.programs[each.group], each.violation) + (each.of_tree ? " (of the tree)" : ""));
+    return texts;
+  }
+
+ private:
+  struct Tree {
+    std::vector<std::uint32_t> programs;
+    handshake::TreeObserver observer;
+  };
+
+  void watch(const std::vector<std::uint32_t>& tree) {
+    std::vector<handshake::TreeGroup> groups;
+    for (const std::uint32_t number : tree) {
+      handshake::TreeGroup group{resolved_.programs[number].participants.size(), 0, 0};
+      if (const auto& outer = resolved_.programs[number].outer) {
+        group.outer = static_cast<std::size_t>(std::find(tree.begin(), tree.end(), outer->program) - tree.begin());
+        group.outer_index = outer->participant;
+      }
+      groups.push_back(group);
+    }
+    trees_.push_back({tree, handshake::TreeObserver(std::move(groups))});
+    for (std::size_t g = 0; g < tree.size(); ++g) {
+      watched_[tree[g]].tree = &trees_.back().observer;
+      watched_[tree[g]].number = g;
+    }
+  }
+
+  std::string text_of(std::size_t program, const handshake::Violation& violation) const {
+    return std::string(name_of(violation.invariant)) + ": " + resolved_.programs[program].participant_names[violation.participant] + " of " + resolved_.programs[program].name + " " +
+           std::string(handshake::text_of(violation.finding));
+  }
+
+  const scenario::Resolved& resolved_;
+  std::vector<Watched> watched_;
+  std::deque<handshake::GroupObserver> groups_;  // deques, because they are pointed at
+  std::deque<Tree> trees_;
+};
+
+}  // namespace
+
+InvariantCheck check_invariants(const scenario::Resolved& resolved, std::vector<LoggedStep> steps) {
+  std::stable_sort(steps.begin(), steps.end(), [](const LoggedStep& a, const LoggedStep& b) { return a.time < b.time; });
+  Checker checker(resolved);
+  for (const LoggedStep& step : steps) checker.take(step);
+  return {steps.size(), checker.violated()};
+}
+
+}  // namespace takt::emulate

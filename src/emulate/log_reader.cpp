@@ -1,0 +1,101 @@
+#include "emulate/log_reader.hpp"
+
+#include <algorithm>
+
+#include "scenario/json/document.hpp"
+
+namespace takt::emulate {
+namespace {
+
+namespace json = scenario::json;
+using handshake::PublishedState;
+
+std::string text_of(const json::Node& object, std::string_view key) {
+  const json::Node* const node = object.find(key);
+  return node == nullptr ? std::string() : node->text;
+}
+
+template <class Integer>
+Integer number_of(const json::Node& object, std::string_view key) {
+  const json::Node* const node = object.find(key);
+  return node == nullptr ? Integer{0} : static_cast<Integer>(json::integer_of(*node).value_or(0));
+}
+
+std::optional<PublishedState> state_from(std::string_view name) {
+  for (std::size_t i = 0; i < handshake::published_state_count; ++i)
+    if (handshake::published_state_names[i] == name) return handshake::published_state_at(i);
+  return std::nullopt;
+}
+
+std::optional<handshake::IntentKind> intent_from(std::string_view name) {
+  for (std::size_t i = 0; i < handshake::intent_kind_count; ++i)
+    if (const auto kind = static_cast<handshake::IntentKind>(i); handshake::name_of(kind) == name) return kind;
+  return std::nullopt;
+}
+
+}  // namespace
+
+LogReader::LogReader(const scenario::Resolved& resolved, const PlannedNode& node) {
+  for (const PlannedNode::Part& part : node.parts) parts_.push_back({resolved.programs[part.program].name, part});
+}
+
+bool LogReader::take(const std::string& line) {
+  json::Diagnostics diagnostics;
+  const auto document = json::parse(line, "log", diagnostics);
+  if (!document) return true;
+  const json::Node& event = document->root();
+  const std::string kind = text_of(event, "event");
+  if (event.find("time_ns") != nullptr) time_ = number_of<std::int64_t>(event, "time_ns");
+  if (kind == "end") status_ = line;
+  if (kind == "start") {
+    if (has_started_) crash();
+    has_started_ = true;
+  }
+  if (kind != "transition" && kind != "intent" && kind != "run") return true;
+  const std::string program = text_of(event, "program");
+  const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& each) { return program.empty() || each.program == program; });
+  if (part == parts_.end()) return false;
+  LoggedStep step;
+  step.time = time_;
+  step.program = part->part.program;
+  step.participant = part->part.participant;
+  step.run = number_of<std::uint32_t>(event, "run");
+  step.intent_run = number_of<std::uint32_t>(event, "intent_run");
+  if (kind == "intent" && !(step.raised = intent_from(text_of(event, "kind")))) return false;
+  if (kind == "transition") {
+    const auto from = state_from(text_of(event, "from"));
+    const auto to = state_from(text_of(event, "to"));
+    if (!from || !to || event.find("number") == nullptr) return false;
+    step.change = handshake::StateChange{number_of<std::uint8_t>(event, "number"), *from, *to};
+    part->state = *to;
+  }
+  steps_.push_back(step);
+  return true;
+}
+
+void LogReader::crash() {
+  for (Part& part : parts_) {
+    LoggedStep step;
+    step.time = time_;
+    step.program = part.part.program;
+    step.participant = part.part.participant;
+    step.is_crash = true;
+    if (part.state != PublishedState::Halted) step.change = handshake::StateChange{0, part.state, PublishedState::Halted};
+    part.state = PublishedState::Halted;
+    steps_.push_back(step);
+  }
+}
+
+std::vector<LoggedStep> LogReader::finish() {
+  if (status_.empty()) crash();
+  return std::move(steps_);
+}
+
+std::vector<History> histories_of(const std::vector<LoggedStep>& steps, std::size_t programs) {
+  std::vector<History> histories(programs);
+  for (const LoggedStep& step : steps)
+    if (step.change) histories[step.program].changes.push_back({step.time, step.participant, *step.change});
+  return histories;
+}
+
+}  // namespace takt::emulate

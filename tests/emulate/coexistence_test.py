@@ -3,23 +3,29 @@
 
 How many calls took place is this machine's matter, and no test's.
 
-usage: coexistence_test.py TAKT
+usage: coexistence_test.py TAKT SOURCE
 """
 import json
+import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 TAKT = ""
+SOURCE = ""
 
 
 class Coexistence(unittest.TestCase):
     def test_all_nodes_are_measured(self):
-        done = subprocess.run([TAKT, "paper", "coexistence", "--real", "--short", "--quiet", "--format", "json"], capture_output=True, text=True)
+        folder = tempfile.TemporaryDirectory(prefix="takt-coexistence-")
+        self.addCleanup(folder.cleanup)
+        done = subprocess.run([TAKT, "paper", "coexistence", "--real", "--short", "--quiet", "--out", folder.name], capture_output=True, text=True, cwd=SOURCE)
         if "DDS is not in this build" in done.stderr:
             self.skipTest(done.stderr.strip())
-        self.assertEqual(done.returncode, 0, done.stderr)
-        measured = json.loads(done.stdout)
+        self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr)
+        self.assertIn("measured", done.stdout)   # beside what was published and simulated
+        measured = json.loads((pathlib.Path(folder.name) / "measured.json").read_text(encoding="utf-8"))
         self.assertEqual(len(measured["mirror"]), 8)   # Tables 1 to 8
         self.assertEqual(len(measured["gateway"]), 8)
         for row in measured["mirror"] + measured["gateway"]:
@@ -42,5 +48,5 @@ def alive(name):
 
 
 if __name__ == "__main__":
-    TAKT = sys.argv[1]
-    unittest.main(argv=[sys.argv[0]] + sys.argv[2:])
+    TAKT, SOURCE = sys.argv[1:3]
+    unittest.main(argv=[sys.argv[0]] + sys.argv[3:])

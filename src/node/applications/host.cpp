@@ -7,6 +7,7 @@
 #include "node/applications/tasks.hpp"
 #include "node/real_node.hpp"
 #include "sim/check.hpp"
+#include "vocabulary/qos_of_thread.hpp"
 
 namespace takt::node {
 namespace {
@@ -38,31 +39,6 @@ class DdsTopicReader final : public TopicReader {
 gateway::BufferSettings buffer_of(const GatewayOfNode& given) {
   constexpr gateway::Overflow overflows[] = {gateway::Overflow::overwrite_oldest, gateway::Overflow::drop_newest, gateway::Overflow::keep_latest};
   return {.capacity = given.buffer, .overflow = overflows[static_cast<std::size_t>(given.overflow)], .stale_after = given.stale_after};
-}
-
-/// What a thread says replaces what the topic says, policy by policy.
-vocabulary::Qos merged(const std::optional<vocabulary::Qos>& topic, const std::optional<vocabulary::Qos>& thread) {
-  vocabulary::Qos result = topic.value_or(vocabulary::Qos{});
-  if (!thread) return result;
-  const auto replace = [](auto& into, const auto& by) {
-    if (by) into = by;
-  };
-  replace(result.reliability, thread->reliability);
-  replace(result.max_blocking_time, thread->max_blocking_time);
-  replace(result.durability, thread->durability);
-  replace(result.history, thread->history);
-  replace(result.depth, thread->depth);
-  replace(result.deadline, thread->deadline);
-  replace(result.latency_budget, thread->latency_budget);
-  replace(result.liveliness, thread->liveliness);
-  replace(result.lease_duration, thread->lease_duration);
-  replace(result.ownership, thread->ownership);
-  replace(result.ownership_strength, thread->ownership_strength);
-  replace(result.lifespan, thread->lifespan);
-  replace(result.time_based_filter, thread->time_based_filter);
-  replace(result.destination_order, thread->destination_order);
-  replace(result.resource_limits, thread->resource_limits);
-  return result;
 }
 
 }  // namespace
@@ -137,7 +113,7 @@ TopicWriter* ApplicationHost::writer_of(const std::string& topic, const std::opt
   const TopicShape& shape = loaded_.shapes[index];
   if (loaded_.config.topics[index].protocol == Protocol::opc_ua) return &opc_ua_->add_writer(shape);
   DdsParticipant* const participant = participant_of(shape.domain, problem);
-  DdsWriter* const writer = participant == nullptr ? nullptr : participant->add_writer({topic, shape.type.name, merged(loaded_.config.topics[index].qos, qos)}, problem);
+  DdsWriter* const writer = participant == nullptr ? nullptr : participant->add_writer({topic, shape.type.name, vocabulary::merged(loaded_.config.topics[index].qos, qos)}, problem);
   return writer == nullptr ? nullptr : dds_writers_.emplace_back(std::make_unique<DdsTopicWriter>(*writer)).get();
 }
 
@@ -146,7 +122,7 @@ TopicReader* ApplicationHost::reader_of(const std::string& topic, const std::opt
   const TopicShape& shape = loaded_.shapes[index];
   if (loaded_.config.topics[index].protocol == Protocol::opc_ua) return &opc_ua_->add_reader(shape);
   DdsParticipant* const participant = participant_of(shape.domain, problem);
-  DdsReader* const reader = participant == nullptr ? nullptr : participant->add_reader({topic, shape.type.name, merged(loaded_.config.topics[index].qos, qos)}, problem);
+  DdsReader* const reader = participant == nullptr ? nullptr : participant->add_reader({topic, shape.type.name, vocabulary::merged(loaded_.config.topics[index].qos, qos)}, problem);
   return reader == nullptr ? nullptr : dds_readers_.emplace_back(std::make_unique<DdsTopicReader>(*reader)).get();
 }
 

@@ -4,37 +4,12 @@
 
 #include "gateway/field_values.hpp"
 #include "sim/check.hpp"
+#include "uadp/store_number.hpp"
 
 namespace takt::node {
 namespace {
 
 using gateway::Direction;
-using uadp::BuiltInType;
-
-template <class T>
-void store(std::byte* at, std::uint64_t number) {
-  uadp::store_little_endian(at, static_cast<T>(number));
-}
-
-struct Store {
-  BuiltInType type;
-  void (*store)(std::byte*, std::uint64_t);
-};
-
-/// Integers keep the low bits.
-constexpr Store stores[] = {
-    {BuiltInType::Boolean, [](std::byte* at, std::uint64_t number) { *at = static_cast<std::byte>(number & 1); }},
-    {BuiltInType::SByte, store<std::int8_t>},
-    {BuiltInType::Byte, store<std::uint8_t>},
-    {BuiltInType::Int16, store<std::int16_t>},
-    {BuiltInType::UInt16, store<std::uint16_t>},
-    {BuiltInType::Int32, store<std::int32_t>},
-    {BuiltInType::UInt32, store<std::uint32_t>},
-    {BuiltInType::Int64, store<std::int64_t>},
-    {BuiltInType::UInt64, store<std::uint64_t>},
-    {BuiltInType::Float, store<float>},
-    {BuiltInType::Double, store<double>},
-};
 
 std::optional<gateway::TypeMapping> own_mapping(const TopicEnd& topic, Direction direction) {
   if (!topic.is_dds) return std::nullopt;
@@ -53,9 +28,7 @@ class Publishing final : public Work {
     fields_.assign(octets.begin(), octets.end());
     const uadp::RawField& first = topic.shape->fields.front().type;
     first_value_ = first.is_array ? 5 : 1;  // behind the octet of the type, and the length of an array
-    const auto* const found = std::find_if(std::begin(stores), std::end(stores), [&](const Store& each) { return each.type == first.type; });
-    TAKT_CHECK(found != std::end(stores), "fields of topics are numbers");
-    store_ = found->store;
+    first_type_ = first.type;
   }
 
   CallResult call(std::int64_t) override {
@@ -63,7 +36,8 @@ class Publishing final : public Work {
       if (!newest_.get(*payload_.copy_of, fields_)) return {};
     } else {
       ++count_;
-      store_(fields_.data() + first_value_, payload_.pattern == Pattern::alternate ? count_ % 2 : count_);
+      const bool is_number = uadp::store_number(first_type_, fields_.data() + first_value_, payload_.pattern == Pattern::alternate ? count_ % 2 : count_);
+      TAKT_CHECK(is_number, "fields of topics are numbers");
     }
     if (mapping_ && mapping_->to_cdr(fields_, value_) != gateway::MappingError::none) return {};
     return {.sent = writer_.write(mapping_ ? value_ : fields_) ? 1U : 0U};
@@ -77,7 +51,7 @@ class Publishing final : public Work {
   std::vector<std::byte> fields_;
   std::vector<std::byte> value_;
   std::size_t first_value_ = 0;
-  void (*store_)(std::byte*, std::uint64_t) = nullptr;
+  uadp::BuiltInType first_type_ = uadp::BuiltInType::Double;
   std::uint64_t count_ = 0;
 };
 

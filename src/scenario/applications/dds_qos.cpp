@@ -15,11 +15,6 @@ static_assert(same<dds::LivelinessKind>(vocabulary::Liveliness::manual_by_topic)
 static_assert(same<dds::OwnershipKind>(vocabulary::Ownership::exclusive) == dds::OwnershipKind::exclusive);
 static_assert(same<dds::DestinationOrderKind>(vocabulary::DestinationOrder::by_source) == dds::DestinationOrderKind::by_source_timestamp);
 
-template <class T>
-void take(std::optional<T>& value, const std::optional<T>& other) {
-  if (other) value = other;
-}
-
 std::int32_t limit(const std::optional<std::uint32_t>& value) { return value ? static_cast<std::int32_t>(*value) : dds::unlimited; }
 
 /// What writers and readers have in common.
@@ -41,27 +36,6 @@ void set_common(const Qos& qos, std::uint32_t depth, To& made) {
 }
 
 }  // namespace
-
-Qos merged(const std::optional<Qos>& topic, const std::optional<Qos>& thread) {
-  Qos made = topic.value_or(Qos{});
-  if (!thread) return made;
-  take(made.reliability, thread->reliability);
-  take(made.max_blocking_time, thread->max_blocking_time);
-  take(made.durability, thread->durability);
-  take(made.history, thread->history);
-  take(made.depth, thread->depth);
-  take(made.deadline, thread->deadline);
-  take(made.latency_budget, thread->latency_budget);
-  take(made.liveliness, thread->liveliness);
-  take(made.lease_duration, thread->lease_duration);
-  take(made.ownership, thread->ownership);
-  take(made.ownership_strength, thread->ownership_strength);
-  take(made.lifespan, thread->lifespan);
-  take(made.time_based_filter, thread->time_based_filter);
-  take(made.destination_order, thread->destination_order);
-  take(made.resource_limits, thread->resource_limits);
-  return made;
-}
 
 dds::DataWriterQos writer_qos(const Qos& qos, std::int32_t transport_priority) {
   dds::DataWriterQos made;

@@ -6,8 +6,6 @@
 
 namespace takt::scenario {
 
-/// What a thread says, where it says nothing what the topic says.
-Qos merged(const std::optional<Qos>& topic, const std::optional<Qos>& thread);
 dds::DataWriterQos writer_qos(const Qos& qos, std::int32_t transport_priority);
 /// A reader keeps as many samples as its thread takes in a call, unless a depth is said.
 dds::DataReaderQos reader_qos(const Qos& qos, std::uint32_t buffer);

@@ -13,6 +13,7 @@
 #include "scenario/applications/resolved_dds.hpp"
 #include "scenario/json/suggest.hpp"
 #include "scenario/os_profiles.hpp"
+#include "vocabulary/qos_of_thread.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -160,7 +161,7 @@ class ApplicationResolver {
       refuse(one.publishes && thread.signal, "signal", "subscribe");
       refuse(!one.publishes && thread.payload, "payload", "publish");
       if (thread.qos && one.topic < r_.topics.size() && r_.topics[one.topic].description->protocol == Protocol::opc_ua) refuse_of_dds(thread.where.at("qos"), "qos");
-      if (one.topic < r_.topics.size()) one.qos = merged(r_.topics[one.topic].description->qos, thread.qos);
+      if (one.topic < r_.topics.size()) one.qos = vocabulary::merged(r_.topics[one.topic].description->qos, thread.qos);
       if (one.publishes) one.pattern = thread.payload ? thread.payload->pattern : Pattern::counter;
       if (thread.signal) add_signal(*thread.signal, one, made);
       made.threads.push_back(std::move(one));
@@ -223,7 +224,7 @@ class ApplicationResolver {
       thread.response = response_of(sends ? gateway.send_response : gateway.receive_response, made);
       thread.tests = gateway.scheduler.tests;
       thread.buffer = all_that_came;
-      if (thread.topic < r_.topics.size()) thread.qos = merged(r_.topics[thread.topic].description->qos, std::nullopt);
+      if (thread.topic < r_.topics.size()) thread.qos = vocabulary::merged(r_.topics[thread.topic].description->qos, std::nullopt);
       if (!sends && !thread.qos.depth) thread.qos.depth = gateway.buffer;
       made.threads.push_back(std::move(thread));
     }

@@ -1,0 +1,12 @@
+// The quality of service of a writer or reader: what its thread says replaces what its topic says, policy by policy.
+#pragma once
+
+#include <optional>
+
+#include "vocabulary/dds.hpp"
+
+namespace takt::vocabulary {
+
+Qos merged(const std::optional<Qos>& topic, const std::optional<Qos>& thread);
+
+}  // namespace takt::vocabulary

@@ -28,6 +28,9 @@ static dds_entity_t checked(dds_entity_t entity, const char* what) {
 
 static dds_qos_t* reliable_all(void) {
   dds_qos_t* const qos = dds_create_qos();
+  dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+  // Cyclone limits by it, too, what a late reader gets; else that is the last sample of each instance.
+  dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_ALL, 0, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
   dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);
   return qos;
@@ -87,6 +90,7 @@ int main(int argc, char** argv) {
     take(reader_of(argv[2]), atoi(argv[3]), 0);
   } else if (strcmp(argv[1], "echo") == 0 && argc == 5) {
     const dds_entity_t writer = writer_of(argv[3]);
+    wait_for(writer, DDS_PUBLICATION_MATCHED_STATUS);  // else it may have left before anybody reads
     take(reader_of(argv[2]), atoi(argv[4]), writer);
     if (dds_wait_for_acks(writer, DDS_SECS(patience_s)) < 0) fail("not acknowledged");
   } else {

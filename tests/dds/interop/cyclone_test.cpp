@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <stdexcept>
+#include <utility>
 
 #include "dds/interop/sample.hpp"
 #include "dds/participant/participant.hpp"
@@ -26,9 +27,6 @@ using namespace sim::literals;
 
 constexpr std::uint32_t loopback = 0x7F000001;
 
-/// One of 80 domains below the ports that the system gives to others, so that tests at the same time do not meet.
-std::uint32_t domain() { return 1 + static_cast<std::uint32_t>(getpid()) % 80; }
-
 /// A UDP socket on the loopback interface.
 class Socket {
  public:
@@ -36,8 +34,10 @@ class Socket {
     const sockaddr_in here = address(loopback, port);
     if (bind(descriptor_, reinterpret_cast<const sockaddr*>(&here), sizeof here) != 0) throw std::runtime_error("port " + std::to_string(port) + " is taken");
   }
-  ~Socket() { close(descriptor_); }
-  Socket(const Socket&) = delete;
+  ~Socket() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  Socket(Socket&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
   int descriptor() const { return descriptor_; }
   void send(Octets octets, const Locator& to) const {
     const sockaddr_in there = address(to.ip_v4(), static_cast<std::uint16_t>(to.port));
@@ -62,6 +62,24 @@ class Socket {
   }
   int descriptor_;
 };
+
+/// One of 80 domains below the ports that the system gives to others. It is held by a port that no participant here uses, so that tests at the same
+/// time do not meet.
+std::uint32_t domain() {
+  constexpr std::uint32_t domains = 80, holder = 100;
+  static std::uint32_t number = 0;
+  static const Socket held = [] {
+    for (std::uint32_t i = 0;; ++i) {
+      number = 1 + (static_cast<std::uint32_t>(getpid()) + i) % domains;
+      try {
+        return Socket(ports_of(number, holder).unicast_metatraffic);
+      } catch (const std::runtime_error&) {
+        if (i == domains) throw;
+      }
+    }
+  }();
+  return number;
+}
 
 /// The participant with sockets and a clock.
 class RealParticipant {
@@ -157,11 +175,14 @@ class Peer {
   bool ended_ = false;
 };
 
+/// Both sides keep what they wrote for those who match later: two participants do not match at the same instant, and to a volatile reader of Cyclone
+/// the first HEARTBEAT says that all before it is history.
 WriterConfig writer_of(const std::string& topic) {
   WriterConfig config;
   config.topic = topic;
   config.type = interop_type;
   config.has_key = true;
+  config.qos.durability.kind = DurabilityKind::transient_local;
   config.qos.history.kind = HistoryKind::keep_all;
   return config;
 }
@@ -170,6 +191,7 @@ ReaderConfig reader_of(const std::string& topic) {
   config.topic = topic;
   config.type = interop_type;
   config.has_key = true;
+  config.qos.durability.kind = DurabilityKind::transient_local;
   config.qos.reliability.kind = ReliabilityKind::reliable;
   config.qos.history.kind = HistoryKind::keep_all;
   config.key_of = key_of_payload;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "analysis/assumption.hpp"
-#include "scenario/resolved.hpp"
+#include "scenario/resolve/resolved.hpp"
 
 namespace takt::analysis {
 

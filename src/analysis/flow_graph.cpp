@@ -5,7 +5,7 @@
 #include "analysis/flow_routes.hpp"
 #include "analysis/flow_sources.hpp"
 #include "models/egress/class_set.hpp"
-#include "scenario/cqf.hpp"
+#include "scenario/resolve/cqf.hpp"
 
 namespace takt::analysis {
 namespace {

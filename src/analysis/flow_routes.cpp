@@ -5,7 +5,7 @@
 
 #include "models/egress/class_set.hpp"
 #include "models/ethernet/sizes.hpp"
-#include "scenario/cqf.hpp"
+#include "scenario/resolve/cqf.hpp"
 #include "sim/check.hpp"
 
 namespace takt::analysis {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "models/ethernet/sizes.hpp"
-#include "scenario/promises.hpp"
+#include "scenario/description/promises.hpp"
 
 namespace takt::analysis {
 namespace {

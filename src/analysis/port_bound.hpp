@@ -46,7 +46,7 @@ struct PortFlow {
   bool uses_cqf = false;                     ///< the stream gate of cyclic queuing and forwarding has given it its class
 };
 
-/// A port's part in cyclic queuing and forwarding (see scenario/cqf.hpp).
+/// A port's part in cyclic queuing and forwarding (see scenario/resolve/cqf.hpp).
 struct CqfPort {
   Ps cycle = 0;
   int buffers = 2;

@@ -8,7 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/study_progress.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 #include "study/compare.hpp"
 
 namespace takt::cli {

@@ -17,8 +17,8 @@
 #include "explore/report.hpp"
 #include "explore/schedule.hpp"
 #include "explore/search.hpp"
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
 
 namespace takt::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace CLI {
 class App;

@@ -10,7 +10,7 @@
 #include "output/pcap_recorder.hpp"
 #include "output/timeline_recorder.hpp"
 #include "output/vcd_recorder.hpp"
-#include "scenario/run.hpp"
+#include "scenario/run/run.hpp"
 
 namespace takt::cli {
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
-#include "scenario/description.hpp"
+#include "scenario/description/description.hpp"
 #include "study/description.hpp"
 
 namespace takt::cli {

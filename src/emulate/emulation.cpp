@@ -17,7 +17,7 @@
 #include "emulate/machine.hpp"
 #include "node/control_socket.hpp"
 #include "scenario/json/document.hpp"
-#include "scenario/run.hpp"
+#include "scenario/run/run.hpp"
 
 namespace takt::emulate {
 namespace {

@@ -4,7 +4,7 @@
 #include <deque>
 
 #include "handshake/tree_observer.hpp"
-#include "scenario/resolve_nesting.hpp"
+#include "scenario/resolve/nesting.hpp"
 #include "vocabulary/protocol.hpp"
 
 namespace takt::emulate {

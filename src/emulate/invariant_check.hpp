@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "emulate/log_reader.hpp"
-#include "scenario/resolved.hpp"
+#include "scenario/resolve/resolved.hpp"
 
 namespace takt::emulate {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "program/method.hpp"
-#include "scenario/resolved.hpp"
+#include "scenario/resolve/resolved.hpp"
 
 namespace takt::emulate {
 

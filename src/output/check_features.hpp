@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "scenario/resolved.hpp"
+#include "scenario/resolve/resolved.hpp"
 
 namespace takt::output {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "output/streaming_file.hpp"
-#include "scenario/clock_monitor.hpp"
+#include "scenario/run/clock_monitor.hpp"
 
 namespace takt::output {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "results/run_result.hpp"
-#include "scenario/resolved.hpp"
+#include "scenario/resolve/resolved.hpp"
 
 namespace takt::output {
 

@@ -8,7 +8,7 @@
 #include "papers/charts.hpp"
 #include "papers/plants.hpp"
 #include "results/evaluate.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace takt::papers {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "papers/published.hpp"
 #include "results/evaluate.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace takt::papers {
 namespace {

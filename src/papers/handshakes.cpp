@@ -6,7 +6,7 @@
 
 #include "papers/charts.hpp"
 #include "results/evaluate.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace takt::papers {
 namespace {

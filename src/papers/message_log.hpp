@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenario/run.hpp"
+#include "scenario/run/run.hpp"
 #include "sim/trace.hpp"
 
 namespace takt::papers {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/description.hpp"
+#include "scenario/description/description.hpp"
 
 namespace takt::papers {
 

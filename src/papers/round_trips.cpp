@@ -7,8 +7,8 @@
 #include "chart/histogram.hpp"
 #include "papers/published.hpp"
 #include "results/evaluate.hpp"
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
 
 namespace takt::papers {
 namespace {

@@ -18,7 +18,7 @@
 
 #include "output/result_folder.hpp"
 #include "property/trial.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace takt::property {
 

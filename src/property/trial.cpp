@@ -5,8 +5,8 @@
 #include <set>
 
 #include "results/evaluate.hpp"
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
 #include "sim/check.hpp"
 #include "verify/freedom.hpp"
 #include "verify/shortened.hpp"

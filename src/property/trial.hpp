@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "results/run_result.hpp"
-#include "scenario/resolved.hpp"
+#include "scenario/resolve/resolved.hpp"
 
 namespace takt::property {
 

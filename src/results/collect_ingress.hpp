@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "results/ingress_result.hpp"
-#include "scenario/run.hpp"
+#include "scenario/run/run.hpp"
 
 namespace takt::results {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "results/run_result.hpp"
-#include "scenario/run.hpp"
+#include "scenario/run/run.hpp"
 
 namespace takt::results {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "output/text_report.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 #include "study/magnitude.hpp"
 #include "study/pool.hpp"
 

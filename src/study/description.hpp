@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "scenario/description.hpp"
+#include "scenario/description/description.hpp"
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "scenario/json/suggest.hpp"
-#include "scenario/topology.hpp"
+#include "scenario/topology/topology.hpp"
 #include "sim/random.hpp"
 
 namespace takt::study {

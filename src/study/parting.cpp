@@ -7,7 +7,7 @@
 
 #include "models/ethernet/traffic.hpp"
 #include "output/port_directory.hpp"
-#include "scenario/run.hpp"
+#include "scenario/run/run.hpp"
 #include "sim/trace.hpp"
 
 namespace takt::study {

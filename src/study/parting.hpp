@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/resolved.hpp"
+#include "scenario/resolve/resolved.hpp"
 #include "sim/time.hpp"
 
 namespace takt::study {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "scenario/json/suggest.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 #include "sim/digest.hpp"
 #include "study/design.hpp"
 

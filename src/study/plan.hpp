@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/description.hpp"
+#include "scenario/description/description.hpp"
 #include "scenario/json/document.hpp"
 #include "scenario/json/override.hpp"
 #include "study/description.hpp"

@@ -7,8 +7,8 @@
 
 #include "output/json_report.hpp"
 #include "results/evaluate.hpp"
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
 #include "study/topology_measures.hpp"
 
 namespace takt::study {

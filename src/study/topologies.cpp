@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <set>
 
-#include "scenario/generators.hpp"
-#include "scenario/limits.hpp"
+#include "scenario/description/limits.hpp"
+#include "scenario/topology/generators.hpp"
 
 namespace takt::study {
 namespace {

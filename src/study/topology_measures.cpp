@@ -6,7 +6,7 @@
 #include <boost/graph/breadth_first_search.hpp>
 #include <optional>
 
-#include "scenario/disjoint_paths.hpp"
+#include "scenario/topology/disjoint_paths.hpp"
 
 namespace takt::study {
 namespace {

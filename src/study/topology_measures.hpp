@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenario/json/node.hpp"
-#include "scenario/resolved.hpp"
+#include "scenario/resolve/resolved.hpp"
 
 namespace takt::study {
 

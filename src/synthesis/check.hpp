@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/gate_problem.hpp"
+#include "scenario/gates/problem.hpp"
 
 namespace takt::synthesis {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "results/run_result.hpp"
-#include "scenario/resolved.hpp"
+#include "scenario/resolve/resolved.hpp"
 
 namespace takt::verify {
 

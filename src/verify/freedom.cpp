@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenario/promises.hpp"
+#include "scenario/description/promises.hpp"
 #include "sim/check.hpp"
 
 namespace takt::verify {

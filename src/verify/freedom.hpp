@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/resolved.hpp"
+#include "scenario/resolve/resolved.hpp"
 
 namespace takt::verify {
 

@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "results/evaluate.hpp"
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
 
 namespace takt::verify {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "results/run_result.hpp"
-#include "scenario/description.hpp"
+#include "scenario/description/description.hpp"
 
 namespace takt::verify {
 

@@ -1,7 +1,7 @@
 // The same plant with less waiting, so that a search can afford many runs of it.
 #pragma once
 
-#include "scenario/description.hpp"
+#include "scenario/description/description.hpp"
 
 namespace takt::verify {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "analysis/bounds.hpp"
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
 
 namespace takt::analysis::test {
 

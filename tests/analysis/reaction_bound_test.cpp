@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
 
 namespace takt::analysis {
 namespace {

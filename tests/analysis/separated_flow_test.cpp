@@ -3,7 +3,7 @@
 
 #include "analysis/bounds.hpp"
 #include "analysis/picoseconds.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace takt::analysis {
 namespace {

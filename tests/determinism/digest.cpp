@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "results/evaluate.hpp"
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 4) {

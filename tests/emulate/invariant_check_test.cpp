@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace takt::emulate {
 namespace {

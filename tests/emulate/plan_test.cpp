@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "node/config.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace takt::emulate {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "explore/search.hpp"
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
 
 namespace takt::explore {
 namespace {

@@ -13,10 +13,10 @@
 #include "output/json_report.hpp"
 #include "output/text_report.hpp"
 #include "results/evaluate.hpp"
-#include "scenario/generators.hpp"
 #include "scenario/json/override.hpp"
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
+#include "scenario/topology/generators.hpp"
 #include "sim/check.hpp"
 
 namespace {

@@ -7,8 +7,8 @@
 
 #include "node/clock.hpp"
 #include "node/config.hpp"
-#include "scenario/program_shape.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/programs/program_shape.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace takt::node {
 namespace {

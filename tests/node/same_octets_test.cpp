@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "node/config.hpp"
-#include "scenario/program_shape.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/programs/program_shape.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace takt::node {
 namespace {

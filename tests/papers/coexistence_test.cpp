@@ -9,7 +9,7 @@
 #include <set>
 
 #include "papers/coexistence/report.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace takt::papers::coexistence {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 #include "tests/wire_checker/verify.hpp"
 
 namespace takt {

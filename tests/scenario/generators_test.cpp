@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/generators.hpp"
+#include "scenario/topology/generators.hpp"
 #include "support.hpp"
 
 namespace takt::scenario::test {

@@ -1,7 +1,7 @@
 // Policing, ATS and CQF from the scenario to the run.
 #include <array>
 
-#include "scenario/cqf.hpp"
+#include "scenario/resolve/cqf.hpp"
 #include "support.hpp"
 
 namespace takt::scenario::test {

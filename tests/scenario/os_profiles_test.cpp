@@ -1,5 +1,5 @@
 // Latencies of hosts: the named profiles come out as their table says, and the distributions of a file as it says.
-#include "scenario/os_profiles.hpp"
+#include "scenario/resolve/os_profiles.hpp"
 
 #include "sim/random.hpp"
 #include "support.hpp"

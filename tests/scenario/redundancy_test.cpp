@@ -2,7 +2,7 @@
 #include <map>
 #include <set>
 
-#include "scenario/disjoint_paths.hpp"
+#include "scenario/topology/disjoint_paths.hpp"
 #include "support.hpp"
 
 namespace takt::scenario::test {

@@ -1,6 +1,6 @@
 // Process data that answers process data: the round trip to the picosecond, and what is refused.
 #include "results/evaluate.hpp"
-#include "scenario/reply_worker.hpp"
+#include "scenario/programs/reply_worker.hpp"
 #include "support.hpp"
 
 namespace takt::scenario::test {

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
 
 namespace takt::scenario::test {
 

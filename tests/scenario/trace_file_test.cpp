@@ -1,5 +1,5 @@
 // CSV traces: what they say, and what is wrong with them, by line.
-#include "scenario/trace_file.hpp"
+#include "scenario/resolve/trace_file.hpp"
 
 #include <unistd.h>
 

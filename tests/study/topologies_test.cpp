@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 #include "study/point.hpp"
 #include "study/topology_measures.hpp"
 #include "support.hpp"

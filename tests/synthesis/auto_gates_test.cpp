@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "results/evaluate.hpp"
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
 #include "sim/random.hpp"
 #include "synthesis/check.hpp"
 

@@ -9,7 +9,7 @@
 #include <ostream>
 
 #include "random_problem.hpp"
-#include "scenario/gate_layout.hpp"
+#include "scenario/gates/layout.hpp"
 #include "sim/random.hpp"
 
 namespace takt::synthesis {

@@ -1,5 +1,5 @@
 // Automatic gates: by hand, and what is said where they do not fit.
-#include "scenario/gate_layout.hpp"
+#include "scenario/gates/layout.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenario/gate_layout.hpp"
+#include "scenario/gates/layout.hpp"
 #include "sim/random.hpp"
 
 namespace takt::synthesis {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scenario/gate_problem.hpp"
+#include "scenario/gates/problem.hpp"
 
 namespace takt::synthesis {
 

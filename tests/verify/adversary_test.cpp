@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 #include "sim/time.hpp"
 #include "verify/probe.hpp"
 #include "verify/shortened.hpp"

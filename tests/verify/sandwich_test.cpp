@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 #include "verify/report.hpp"
 
 namespace takt::verify {

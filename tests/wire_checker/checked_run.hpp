@@ -1,7 +1,7 @@
 // A run of a resolved scenario under the eyes of a wire checker.
 #pragma once
 
-#include "scenario/run.hpp"
+#include "scenario/run/run.hpp"
 #include "tests/wire_checker/wire_checker.hpp"
 
 namespace takt::wire_checker {

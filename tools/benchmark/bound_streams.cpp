@@ -6,7 +6,7 @@
 
 #include "analysis/bounds.hpp"
 #include "measure.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 #include "workloads.hpp"
 
 namespace takt::benchmark {

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "measure.hpp"
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
 #include "workloads.hpp"
 
 namespace takt::benchmark {

@@ -2,8 +2,8 @@
 #include <cstdlib>
 
 #include "measure.hpp"
-#include "scenario/resolve.hpp"
-#include "scenario/run.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
 #include "study/compare.hpp"
 #include "workloads.hpp"
 

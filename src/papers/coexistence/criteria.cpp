@@ -7,7 +7,7 @@
 
 #include "papers/coexistence/charts.hpp"
 #include "papers/coexistence/variants.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace takt::papers::coexistence {
 namespace {

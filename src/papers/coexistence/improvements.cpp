@@ -8,7 +8,7 @@
 #include "papers/coexistence/criteria.hpp"
 #include "papers/coexistence/variants.hpp"
 #include "scenario/json/fields.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace takt::papers::coexistence {
 namespace {

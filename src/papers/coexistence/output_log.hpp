@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "papers/coexistence/signal.hpp"
-#include "scenario/resolved.hpp"
+#include "scenario/resolve/resolved.hpp"
 #include "sim/trace.hpp"
 
 namespace takt::papers::coexistence {

@@ -5,7 +5,7 @@
 
 #include "papers/coexistence/output_log.hpp"
 #include "results/evaluate.hpp"
-#include "scenario/run.hpp"
+#include "scenario/run/run.hpp"
 
 namespace takt::papers::coexistence {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "papers/coexistence/signal.hpp"
-#include "scenario/resolved.hpp"
+#include "scenario/resolve/resolved.hpp"
 
 namespace takt::papers::coexistence {
 

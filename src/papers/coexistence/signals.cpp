@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "papers/coexistence/charts.hpp"
-#include "scenario/resolve.hpp"
+#include "scenario/resolve/resolve.hpp"
 
 namespace takt::papers::coexistence {
 namespace {

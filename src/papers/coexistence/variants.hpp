@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "scenario/description.hpp"
+#include "scenario/description/description.hpp"
 
 namespace takt::papers::coexistence {
 

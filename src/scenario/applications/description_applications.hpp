@@ -1,4 +1,4 @@
-// Applications with threads that publish and subscribe to topics, as scenario files say them. See scenario/description.hpp.
+// Applications with threads that publish and subscribe to topics, as scenario files say them. See scenario/description/description.hpp.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scenario/applications/description_dds.hpp"
-#include "scenario/description_latency.hpp"
+#include "scenario/description/latency.hpp"
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "vocabulary/application.hpp"

@@ -1,5 +1,5 @@
 // What scenario files say of DDS: quality of service of topics, domains and their discovery (OMG DDS 1.4, 2.2.3; DDSI-RTPS 2.5, 8.5).
-// See scenario/description.hpp.
+// See scenario/description/description.hpp.
 #pragma once
 
 #include <cstdint>

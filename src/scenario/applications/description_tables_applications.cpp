@@ -1,4 +1,4 @@
-// The vocabulary of topics, applications and gateways. See scenario/description_tables.cpp.
+// The vocabulary of topics, applications and gateways. See scenario/description/tables.cpp.
 #include "scenario/applications/description_applications.hpp"
 
 namespace takt::scenario {

@@ -1,4 +1,4 @@
-// The vocabulary of DDS in scenario files. See scenario/description_tables.cpp.
+// The vocabulary of DDS in scenario files. See scenario/description/tables.cpp.
 #include "scenario/applications/description_dds.hpp"
 
 namespace takt::scenario {

@@ -12,7 +12,7 @@
 #include "scenario/applications/resolve_dds.hpp"
 #include "scenario/applications/resolved_dds.hpp"
 #include "scenario/json/suggest.hpp"
-#include "scenario/os_profiles.hpp"
+#include "scenario/resolve/os_profiles.hpp"
 #include "vocabulary/qos_of_thread.hpp"
 
 namespace takt::scenario {

@@ -1,8 +1,8 @@
 // Topics, applications and gateways: who publishes what to whom, over which streams, and how threads are checked.
 #pragma once
 
-#include "scenario/resolved.hpp"
-#include "scenario/stream_builder.hpp"
+#include "scenario/resolve/resolved.hpp"
+#include "scenario/resolve/stream_builder.hpp"
 
 namespace takt::scenario {
 

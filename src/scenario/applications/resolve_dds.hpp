@@ -1,8 +1,8 @@
 // Participants, their discovery, and the streams between them.
 #pragma once
 
-#include "scenario/resolved.hpp"
-#include "scenario/stream_builder.hpp"
+#include "scenario/resolve/resolved.hpp"
+#include "scenario/resolve/stream_builder.hpp"
 
 namespace takt::scenario {
 

@@ -1,4 +1,4 @@
-// What topics, applications and gateways come down to. See scenario/resolved.hpp.
+// What topics, applications and gateways come down to. See scenario/resolve/resolved.hpp.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,418 @@
+// A scenario as its file says it: plain structs, one for each JSON object. The tables that read, write and document them
+// stand in description_tables.cpp; what they mean together is checked by resolve.hpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scenario/applications/description_applications.hpp"
+#include "scenario/description/clocks.hpp"
+#include "scenario/description/faults.hpp"
+#include "scenario/description/ingress.hpp"
+#include "scenario/description/latency.hpp"
+#include "scenario/description/plug.hpp"
+#include "scenario/json/fields.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+#include "vocabulary/program.hpp"
+
+namespace takt::scenario {
+
+using sim::DataRate;
+using sim::Duration;
+using sim::Length;
+using sim::Octets;
+using namespace sim::literals;  // NOLINT: units in default values
+
+enum class OsProfile : std::uint8_t { none, preempt_rt, preempt_rt_isolated, preempt_rt_arm, general_purpose, virtual_machine, virtual_machine_rt };
+
+/// The operating system of a host: a profile, single delays of which may be replaced.
+struct OperatingSystem {
+  json::Source where;
+  OsProfile profile = OsProfile::none;
+  std::optional<Latency> transmit;
+  std::optional<Latency> receive;
+  std::optional<Latency> wake_up;
+  bool operator==(const OperatingSystem&) const = default;
+};
+
+/// How long a Program's application works at process data that has come before it replies.
+struct Processing {
+  json::Source where;
+  std::optional<Latency> per_message;
+  std::optional<Latency> per_field;
+  bool operator==(const Processing&) const = default;
+};
+
+enum class TrafficClasses : std::uint8_t { standard, identity };
+
+/// What the eight queues of a port may hold.
+struct Queues {
+  json::Source where;
+  std::optional<std::uint32_t> frames;
+  std::optional<Octets> octets;
+  /// Other limits for single classes.
+  struct PerClass {
+    json::Source where;
+    std::uint8_t traffic_class = 0;
+    std::optional<std::uint32_t> frames;
+    std::optional<Octets> octets;
+    bool operator==(const PerClass&) const = default;
+  };
+  std::vector<PerClass> classes;
+  bool operator==(const Queues&) const = default;
+};
+
+enum class MacOperation : std::uint8_t { none, hold, release };
+
+/// One entry of a gate control list.
+struct GateEntry {
+  json::Source where;
+  std::vector<std::uint8_t> open;
+  Duration interval;
+  MacOperation mac = MacOperation::none;
+  bool operator==(const GateEntry&) const = default;
+};
+
+/// The transmission gates of a port.
+struct Gates {
+  json::Source where;
+  std::optional<Duration> cycle;
+  Duration base_time;
+  Duration extension;
+  std::vector<GateEntry> entries;
+  bool operator==(const Gates&) const = default;
+};
+
+enum class SlopeOf : std::uint8_t { cycle, window };
+
+/// The credit-based shaper of a class.
+struct Shaper {
+  json::Source where;
+  std::uint8_t traffic_class = 0;
+  DataRate idle_slope;
+  SlopeOf of = SlopeOf::cycle;
+  bool operator==(const Shaper&) const = default;
+};
+
+struct MaxSdu {
+  json::Source where;
+  std::uint8_t traffic_class = 0;
+  Octets size{0};
+  bool operator==(const MaxSdu&) const = default;
+};
+
+/// Frame preemption.
+struct Preemption {
+  json::Source where;
+  std::vector<std::uint8_t> preemptable;
+  std::uint8_t add_frag_size = 0;
+  std::optional<Duration> hold_advance;
+  Duration release_advance;
+  bool operator==(const Preemption&) const = default;
+};
+
+/// What ports do beyond strict priority: all of a node, or the one to a certain neighbour.
+struct Egress {
+  json::Source where;
+  std::optional<std::string> to;
+  std::optional<Gates> gates;
+  std::vector<Shaper> shapers;
+  std::vector<MaxSdu> max_sdu;
+  std::vector<std::uint8_t> ats;
+  std::optional<Preemption> preemption;
+  std::vector<std::uint8_t> cut_through;
+  bool untagged = false;
+  bool operator==(const Egress&) const = default;
+};
+
+struct HostNode {
+  json::Source where;
+  OperatingSystem os;
+  TrafficClasses traffic_classes = TrafficClasses::standard;
+  Queues queues;
+  std::vector<Egress> egress;
+  std::optional<Processing> processing = {};
+  std::vector<std::string> offers = {};
+  bool operator==(const HostNode&) const = default;
+};
+
+struct SwitchNode {
+  json::Source where;
+  Duration forwarding_delay;
+  Octets cut_through_header{22};
+  TrafficClasses traffic_classes = TrafficClasses::standard;
+  Queues queues;
+  std::vector<Egress> egress;
+  std::optional<Ingress> ingress = {};
+  bool operator==(const SwitchNode&) const = default;
+};
+
+using Node = std::variant<HostNode, SwitchNode>;
+
+struct Link {
+  json::Source where;
+  std::vector<std::string> ends;  ///< "node" (its next free port) or "node:port"
+  DataRate rate{1'000'000'000};
+  std::optional<Length> length;
+  std::optional<Duration> delay;
+  bool operator==(const Link&) const = default;
+};
+
+enum class Shape : std::uint8_t { line, ring, star, tree, mesh, comb, random, dual_star };
+
+/// A topology in one line.
+struct Generator {
+  json::Source where;
+  Shape shape = Shape::line;
+  std::optional<std::uint64_t> switches;
+  std::optional<std::uint64_t> depth;
+  std::optional<std::uint64_t> fanout;
+  std::optional<std::uint64_t> rows;
+  std::optional<std::uint64_t> columns;
+  std::uint64_t hosts_per_switch = 1;
+  std::string switch_prefix = "sw";
+  std::string host_prefix = "h";
+  DataRate rate{1'000'000'000};
+  std::optional<DataRate> host_rate;
+  Length length{10'000};
+  Duration forwarding_delay;
+  OperatingSystem os;
+  Queues queues;
+  TrafficClasses traffic_classes = TrafficClasses::standard;
+  std::vector<Egress> egress;
+  std::optional<Ingress> ingress = {};
+  std::optional<std::uint64_t> teeth = {};
+  std::optional<double> degree = {};
+  std::optional<std::uint64_t> seed = {};
+  bool operator==(const Generator&) const = default;
+};
+
+struct NetworkSection {
+  json::Source where;
+  json::NameMap<Node> nodes;
+  std::vector<Link> links;
+  std::vector<Generator> generate;
+  bool operator==(const NetworkSection&) const = default;
+};
+
+enum class Encapsulation : std::uint8_t { udp, ethernet };
+
+struct ExponentialGaps {
+  Duration mean;
+  bool operator==(const ExponentialGaps&) const = default;
+};
+struct Bursts {
+  std::uint32_t frames = 1;
+  Duration every;
+  Duration spacing;
+  bool operator==(const Bursts&) const = default;
+};
+
+/// One name or several.
+struct Names {
+  std::vector<std::string> names;
+  bool operator==(const Names&) const = default;
+};
+
+struct Stream {
+  json::Source where;
+  std::string name;
+  std::string from;
+  Names to;
+  Octets payload{0};
+  Encapsulation encapsulation = Encapsulation::udp;
+  std::optional<std::uint8_t> pcp;
+  std::uint16_t vlan = 0;
+  std::optional<Duration> every;
+  std::optional<ExponentialGaps> exponential;
+  std::optional<Bursts> burst;
+  std::optional<std::string> trace;
+  std::optional<Duration> offset;    ///< 0 in a run; absent, it is nothing that the plant promises
+  Duration jitter;
+  std::optional<Duration> launch;
+  std::optional<std::vector<std::string>> path;
+  std::optional<Redundancy> redundancy;
+  bool operator==(const Stream&) const = default;
+};
+
+// The words that node files have too.
+using vocabulary::DataField;
+using vocabulary::DataType;
+using vocabulary::Method;
+using vocabulary::ProcessData;
+using vocabulary::Publish;
+using vocabulary::Subscription;
+using vocabulary::Variant;
+
+enum class Violations : std::uint8_t { forbidden, reported };
+
+/// Process data that is published when other process data has come and has been worked at, not every cycle.
+struct Reply {
+  json::Source where;
+  std::string to;
+  std::string with;
+  bool operator==(const Reply&) const = default;
+};
+
+struct Program {
+  json::Source where;
+  std::string name;
+  Variant variant = Variant::robust;
+  std::string master;
+  std::vector<std::string> slaves;
+  std::optional<std::string> within;
+  std::vector<Role> roles = {};
+  std::vector<std::string> candidates = {};
+  std::vector<std::string> absent = {};
+  std::optional<Duration> announce_every = {};
+  OnReplacement on_replacement = OnReplacement::stay_halted;
+  Duration cycle;
+  std::optional<Duration> offset;    ///< the same
+  json::NameMap<Duration> phases;    ///< of single participants
+  Publish publish = Publish::cyclic;
+  Subscription subscription = Subscription::star;
+  std::optional<Duration> receive_timeout;
+  Duration initialisation = 1_ms;
+  std::uint8_t pcp = 6;
+  std::uint16_t vlan = 0;
+  Violations violations = Violations::forbidden;
+  std::vector<ProcessData> process_data;
+  std::vector<Reply> replies = {};
+  bool operator==(const Program&) const = default;
+};
+
+/// Another gate list for a port.
+struct SetGates {
+  json::Source where;
+  std::string node;
+  std::optional<std::string> to;
+  Gates gates;
+  bool operator==(const SetGates&) const = default;
+};
+
+struct ScriptEntry {
+  json::Source where;
+  Duration at;
+  std::optional<std::string> program;
+  std::optional<Method> call;
+  std::optional<std::string> on;
+  std::optional<std::string> join = {};
+  std::optional<std::string> leave = {};
+  std::optional<SetGates> set_gates;
+  bool operator==(const ScriptEntry&) const = default;
+};
+
+enum class Reaction : std::uint8_t { start, halt, suspend, resume, reset };
+
+struct Requirement {
+  json::Source where;
+  std::optional<Reaction> reaction;
+  std::optional<std::string> program;
+  std::optional<Duration> within;
+  bool tree = false;
+  std::optional<std::string> stream;
+  std::optional<Duration> latency;
+  std::optional<Duration> jitter;
+  std::optional<std::uint64_t> dropped;
+  std::optional<std::uint64_t> delivered;
+  std::optional<Duration> sync;
+  std::optional<std::string> node;
+  std::optional<std::string> application = {};
+  std::optional<std::string> thread = {};
+  std::optional<double> success = {};    ///< percent
+  std::optional<double> buffered = {};   ///< percent
+  std::optional<std::string> signal = {};
+  std::optional<double> irregular = {};  ///< percent
+  Duration after;
+  bool operator==(const Requirement&) const = default;
+};
+
+enum class GatePlanning : std::uint8_t { none, automatic, listed };
+enum class GateGuard : std::uint8_t { length_aware, longest_frame };
+
+/// The gates of the whole network.
+struct NetworkGates {
+  json::Source where;
+  GatePlanning plan = GatePlanning::none;
+  std::optional<Duration> margin = {};
+  std::vector<std::uint8_t> classes = {};
+  GateGuard guard = GateGuard::length_aware;
+  std::vector<SetGates> lists = {};
+  bool operator==(const NetworkGates&) const = default;
+};
+
+struct Scenario {
+  json::Source where;
+  std::optional<std::string> schema;  ///< "$schema", for editors
+  std::string name;
+  std::optional<std::string> description;
+  std::uint64_t seed = 1;
+  Duration duration;
+  NetworkSection network;
+  Clocks clocks;
+  std::vector<Program> programs;
+  std::vector<Topic> topics = {};
+  std::vector<Domain> domains = {};
+  std::vector<Application> applications = {};
+  std::vector<Gateway> gateways = {};
+  std::vector<Stream> streams;
+  std::vector<ScriptEntry> script;
+  std::vector<Fault> faults;
+  std::optional<Rerouting> rerouting;
+  std::optional<NetworkGates> gates = {};
+  std::vector<Requirement> require;
+  bool allow_overload = false;
+  bool operator==(const Scenario&) const = default;
+};
+
+const json::Object& describe(json::Type<Processing>);
+const json::Object& describe(json::Type<Reply>);
+const json::Enumeration& describe(json::Type<OsProfile>);
+const json::Object& describe(json::Type<OperatingSystem>);
+const json::Enumeration& describe(json::Type<TrafficClasses>);
+const json::Object& describe(json::Type<Queues>);
+const json::Object& describe(json::Type<Queues::PerClass>);
+const json::Enumeration& describe(json::Type<MacOperation>);
+const json::Object& describe(json::Type<GateEntry>);
+const json::Object& describe(json::Type<Gates>);
+const json::Enumeration& describe(json::Type<SlopeOf>);
+const json::Object& describe(json::Type<Shaper>);
+const json::Object& describe(json::Type<MaxSdu>);
+const json::Object& describe(json::Type<Preemption>);
+const json::Object& describe(json::Type<Egress>);
+const json::Object& describe(json::Type<HostNode>);
+const json::Object& describe(json::Type<SwitchNode>);
+const json::Tagged& describe(json::Type<Node>);
+const json::Object& describe(json::Type<Link>);
+const json::Enumeration& describe(json::Type<Shape>);
+const json::Object& describe(json::Type<Generator>);
+const json::Object& describe(json::Type<NetworkSection>);
+const json::Enumeration& describe(json::Type<Encapsulation>);
+const json::Object& describe(json::Type<ExponentialGaps>);
+const json::Object& describe(json::Type<Bursts>);
+const json::Custom& describe(json::Type<Names>);
+const json::Object& describe(json::Type<Stream>);
+const json::Enumeration& describe(json::Type<Violations>);
+const json::Object& describe(json::Type<Program>);
+const json::Object& describe(json::Type<SetGates>);
+const json::Object& describe(json::Type<ScriptEntry>);
+const json::Enumeration& describe(json::Type<Reaction>);
+const json::Object& describe(json::Type<Requirement>);
+const json::Enumeration& describe(json::Type<GatePlanning>);
+const json::Enumeration& describe(json::Type<GateGuard>);
+const json::Object& describe(json::Type<NetworkGates>);
+const json::Object& describe(json::Type<Scenario>);
+
+/// The name of an enum's value as the file spells it.
+template <class E>
+std::string_view spelling(E value) {
+  for (const json::EnumName& name : describe(json::Type<E>{}).names)
+    if (name.value == static_cast<std::int64_t>(value)) return name.name;
+  return "?";
+}
+
+}  // namespace takt::scenario

@@ -1,0 +1,246 @@
+// The vocabulary of scenario files: for each struct of description.hpp the table of its fields. Decoding, the resolved copy
+// and the JSON Schema are all made from these tables. Networks have a file of their own.
+#include "scenario/description/description.hpp"
+
+namespace takt::scenario {
+namespace {
+
+using json::name;
+using json::optional;
+using json::required;
+
+constexpr Duration longest = Duration::from_ps(8'640'000'000'000'000'000);  // 100 days; the clock ends at 106
+// What is added to an instant of the run, so that no sum passes the end of the clock; random gaps may be 44 times their mean.
+constexpr Duration longest_step = 24 * 3600_s;
+constexpr Duration longest_mean_gap = 3600_s;
+constexpr std::size_t most_names = 100'000;
+
+}  // namespace
+
+const json::Enumeration& describe(json::Type<Encapsulation>) {
+  static constexpr json::EnumName names[] = {
+      name(Encapsulation::udp, "udp", "IPv4 and UDP headers, 28 octets, before the payload"),
+      name(Encapsulation::ethernet, "ethernet", "the payload follows the EtherType"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Encapsulation>("an encapsulation", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<ExponentialGaps>) {
+  static constexpr json::Field fields[] = {
+      required<&ExponentialGaps::mean>("mean", "Mean gap between two frames.", {.min = 1_ns, .max = longest_mean_gap}),
+  };
+  static constexpr json::Object table = json::object<ExponentialGaps>("exponential_gaps", "Frames at random.", fields, {.shorthand = "mean"});
+  return table;
+}
+
+const json::Object& describe(json::Type<Bursts>) {
+  static constexpr json::Field fields[] = {
+      required<&Bursts::frames>("frames", "Frames of a burst.", {.min = 1, .max = 1'000'000}),
+      required<&Bursts::every>("every", "From burst to burst.", {.min = 1_ns, .max = longest_step}),
+      optional<&Bursts::spacing>("spacing", "From frame to frame within a burst; 0s: all at once.", {.max = longest_step}),
+  };
+  static constexpr json::Object table = json::object<Bursts>("bursts", "Frames in bursts.", fields);
+  return table;
+}
+
+namespace {
+
+void decode_names(const json::Node& node, Names& value, json::Reader& reader) {
+  value.names.clear();
+  if (node.kind == json::Kind::string) {
+    value.names.push_back(node.text);
+    return;
+  }
+  if (node.kind != json::Kind::array || node.items.empty()) {
+    reader.wrong_type(node, "the name of a host or an array of names");
+    return;
+  }
+  for (const json::Node& item : node.items) {
+    if (item.kind == json::Kind::string)
+      value.names.push_back(item.text);
+    else
+      reader.wrong_type(item, "the name of a host");
+  }
+}
+
+json::Node encode_names(const Names& value) {
+  if (value.names.size() == 1) return json::Node::of_string(value.names.front());
+  return json::encode_value(value.names);
+}
+
+json::Node schema_names(json::SchemaBuilder& builder) {
+  json::Node any = json::Node::array();
+  any.items.push_back(json::schema_value<std::string>(builder));
+  any.items.push_back(json::schema_value<std::vector<std::string>>(builder, {.min_items = 1}));
+  json::Node schema = json::Node::object();
+  schema.add("anyOf", std::move(any));
+  return schema;
+}
+
+}  // namespace
+
+const json::Custom& describe(json::Type<Names>) {
+  static constexpr json::Custom table = json::custom<Names, decode_names, encode_names, schema_names>();
+  return table;
+}
+
+const json::Object& describe(json::Type<Stream>) {
+  static constexpr json::Field fields[] = {
+      required<&Stream::name>("name", "Unique among streams and programs.", {.min_length = 1, .max_length = 200}),
+      required<&Stream::from>("from", "The host that sends."),
+      required<&Stream::to>("to", "The host that receives, or several (multicast)."),
+      optional<&Stream::payload>("payload", "Octets of user data in each frame.", {.max = Octets{1500}}),
+      optional<&Stream::encapsulation>("encapsulation", "What stands before the payload."),
+      optional<&Stream::pcp>("pcp", "Priority in a VLAN tag; untagged, priority 0, if absent.", {.max = 7}),
+      optional<&Stream::vlan>("vlan", "VLAN identifier in the tag; 0 is a priority tag.", {.max = 4094}),
+      optional<&Stream::every>("every", "Period.", {.min = 1_ns, .max = longest_step}),
+      optional<&Stream::exponential>("exponential", "Random gaps with this mean."),
+      optional<&Stream::burst>("burst", "Bursts of frames."),
+      optional<&Stream::trace>("trace", "A CSV file with the columns time and payload (e.g. 12.5us,100B), beside the scenario."),
+      optional<&Stream::offset>("offset", "When the first period begins; 0 in a run if absent, and then any for the search for the worst case.", {.max = longest_step}),
+      optional<&Stream::jitter>("jitter", "Each frame comes up to this much later, uniformly; at most the period.", {.max = longest_step}),
+      optional<&Stream::launch>("launch", "Launch time of each frame, this long after it was due: the network interface sends it then, or drops it if it comes later.",
+                                {.max = longest_step}),
+      optional<&Stream::path>("path", "All nodes from sender to receiver, instead of the shortest path.", {.min_items = 2, .max_items = most_names}),
+      optional<&Stream::redundancy>("redundancy", "Every frame takes several paths (IEEE 802.1CB): their number, or an object."),
+  };
+  static constexpr std::string_view schedules[] = {"every", "exponential", "burst", "trace"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(schedules)};
+  static constexpr json::Object table = json::object<Stream>("stream", "Frames from one host to others, without a protocol.", fields, {.groups = groups});
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Violations>) {
+  static constexpr json::EnumName names[] = {
+      name(Violations::forbidden, "forbidden", "a violated invariant fails the run"),
+      name(Violations::reported, "reported", "violated invariants are findings, the verdict ignores them"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Violations>("a rule for violated invariants", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<Program>) {
+  static constexpr json::Field fields[] = {
+      required<&Program::name>("name", "Unique among streams and programs.", {.min_length = 1, .max_length = 200}),
+      optional<&Program::variant>("variant", "Which handshake synchronises the participants."),
+      required<&Program::master>("master", "The host of the master."),
+      optional<&Program::slaves>("slaves", "The hosts of the slaves.", {.min_items = 1, .max_items = 64}),
+      optional<&Program::roles>("roles", "Roles instead of slaves: each is bound to a node that announces the skill it needs.", {.min_items = 1, .max_items = 64}),
+      optional<&Program::candidates>("candidates", "The only hosts that may have a role; all that offer a skill it needs if absent.", {.max_items = 64}),
+      optional<&Program::absent>("absent", "Candidates that announce themselves only when the script lets them join.", {.max_items = 64}),
+      optional<&Program::announce_every>("announce_every", "Interval of announcements; who misses three is gone. 10 cycles if absent.", {.min = 1_us, .max = 3600_s}),
+      optional<&Program::on_replacement>("on_replacement", "What follows when a node that was lost in a start or a run has been replaced."),
+      optional<&Program::within>("within", "The program in which this one is nested: its master is a slave there, and it is started, suspended, resumed, reset and halted with it."),
+      required<&Program::cycle>("cycle", "Publishing interval of state and process data.", {.min = 1_us, .max = 3600_s}),
+      optional<&Program::offset>("offset", "Phase of publishing within the cycle; 0 in a run if absent, and then any for the search for the worst case.", {.max = 3600_s}),
+      optional<&Program::phases>("phases", "Other phases of single participants, by host.", {.max_items = 65, .items = {.max = 3600_s}}),
+      optional<&Program::publish>("publish", "When the state is published."),
+      optional<&Program::subscription>("subscription", "Who hears whom."),
+      optional<&Program::receive_timeout>("receive_timeout", "A peer that is silent for so long halts the group (MessageReceiveTimeout); 10 cycles if absent.",
+                                          {.min = 1_us, .max = 3600_s}),
+      optional<&Program::initialisation>("initialisation", "How long a participant stays in INIT.", {.max = 3600_s}),
+      optional<&Program::pcp>("pcp", "Priority of its messages.", {.max = 7}),
+      optional<&Program::vlan>("vlan", "VLAN of its messages.", {.max = 4094}),
+      optional<&Program::violations>("violations", "What a violated invariant means for the verdict."),
+      optional<&Program::process_data>("process_data", "Data sets that the participants exchange.", {.max_items = 256}),
+      optional<&Program::replies>("replies", "Process data that answers other process data at once.", {.max_items = 256}),
+  };
+  static constexpr std::string_view members[] = {"slaves", "roles"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(members)};
+  static constexpr json::Object table = json::object<Program>("program", "A distributed OPC UA Program: one master, its slaves, their handshake.", fields, {.groups = groups});
+  return table;
+}
+
+const json::Object& describe(json::Type<SetGates>) {
+  static constexpr json::Field fields[] = {
+      required<&SetGates::node>("node", "The node whose gates are set."),
+      optional<&SetGates::to>("to", "Only the port to this neighbour; all ports of the node if absent."),
+      required<&SetGates::gates>("gates", "The new gates; they run from their base time on, as IEEE 802.1Q 8.6.9.3 says."),
+  };
+  static constexpr json::Object table = json::object<SetGates>("set_gates", "Another gate list at run time.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<ScriptEntry>) {
+  static constexpr json::Field fields[] = {
+      required<&ScriptEntry::at>("at", "When.", {.max = longest}),
+      optional<&ScriptEntry::program>("program", "The program whose method is called."),
+      optional<&ScriptEntry::call>("call", "The method."),
+      optional<&ScriptEntry::on>("on", "The participant on which it is called; the master if absent."),
+      optional<&ScriptEntry::join>("join", "A candidate of a program's roles that begins to announce itself."),
+      optional<&ScriptEntry::leave>("leave", "A candidate that leaves; if it has a role, the group halts first."),
+      optional<&ScriptEntry::set_gates>("set_gates", "Another gate list for ports."),
+  };
+  static constexpr std::string_view actions[] = {"call", "set_gates", "join", "leave"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(actions)};
+  static constexpr json::Object table = json::object<ScriptEntry>("script_entry", "Something that is done at a certain time.", fields, {.groups = groups});
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Reaction>) {
+  static constexpr json::EnumName names[] = {
+      name(Reaction::start, "start", "until all are Running"),
+      name(Reaction::halt, "halt", "until all are Halted"),
+      name(Reaction::suspend, "suspend", "until all are Suspended"),
+      name(Reaction::resume, "resume", "until all are Running again"),
+      name(Reaction::reset, "reset", "until all are Ready"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Reaction>("a reaction", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<Requirement>) {
+  static constexpr json::Field fields[] = {
+      optional<&Requirement::reaction>("reaction", "Every such reaction ends within the time given by within, and there is at least one."),
+      optional<&Requirement::program>("program", "Only of this program."),
+      optional<&Requirement::within>("within", "Longest reaction.", {.max = longest}),
+      optional<&Requirement::tree>("tree", "The reaction of the program and all that are nested in it: until everybody in the tree is there."),
+      optional<&Requirement::stream>("stream", "The stream that is meant."),
+      optional<&Requirement::latency>("latency", "Longest time from production to delivery.", {.max = longest}),
+      optional<&Requirement::jitter>("jitter", "Largest difference between two latencies.", {.max = longest}),
+      optional<&Requirement::dropped>("dropped", "Most frames that may be dropped."),
+      optional<&Requirement::delivered>("delivered", "Fewest frames that must be delivered."),
+      optional<&Requirement::sync>("sync", "Greatest difference between a node's clock and that of its grandmaster, either way.", {.max = longest}),
+      optional<&Requirement::node>("node", "Only of this node; of all if absent."),
+      optional<&Requirement::application>("application", "The application or gateway that is meant."),
+      optional<&Requirement::thread>("thread", "One of its threads; each of them that the limit concerns if absent."),
+      optional<&Requirement::success>("success", "Least share of the expected calls that took place (criterion 1), in percent.", {.min = 0, .max = 100}),
+      optional<&Requirement::buffered>("buffered", "Least share of the expected values that a subscribing thread buffered (criterion 2), in percent.", {.min = 0, .max = 100}),
+      optional<&Requirement::signal>("signal", "The digital output that is meant."),
+      optional<&Requirement::irregular>("irregular", "Greatest share of pulses whose length is more than 10 % off, in percent.", {.min = 0, .max = 100}),
+      optional<&Requirement::after>("after", "From this instant on.", {.max = longest}),
+  };
+  static constexpr std::string_view subjects[] = {"reaction", "stream", "sync", "application", "signal"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(subjects)};
+  static constexpr json::Object table = json::object<Requirement>("requirement", "What the run must show.", fields, {.groups = groups});
+  return table;
+}
+
+const json::Object& describe(json::Type<Scenario>) {
+  static constexpr json::Field fields[] = {
+      optional<&Scenario::schema>("$schema", "The JSON Schema, for editors."),
+      required<&Scenario::name>("name", "The name of the scenario.", {.min_length = 1, .max_length = 200}),
+      optional<&Scenario::description>("description", "What it shows."),
+      optional<&Scenario::seed>("seed", "The seed of all chance."),
+      required<&Scenario::duration>("duration", "How long is simulated.", {.min = 1_ns, .max = longest}),
+      required<&Scenario::network>("network", "Nodes and links."),
+      optional<&Scenario::clocks>("clocks", "The clocks of the nodes."),
+      optional<&Scenario::programs>("programs", "Distributed OPC UA Programs.", {.max_items = 10'000}),
+      optional<&Scenario::topics>("topics", "Data that applications publish and subscribe to.", {.max_items = 10'000}),
+      optional<&Scenario::domains>("domains", "Domains of DDS; those that are not here have simple discovery.", {.max_items = 233}),
+      optional<&Scenario::applications>("applications", "Applications with threads that publish and subscribe.", {.max_items = 10'000}),
+      optional<&Scenario::gateways>("gateways", "Between topics of different protocols.", {.max_items = 10'000}),
+      optional<&Scenario::streams>("streams", "Other traffic.", {.max_items = most_names}),
+      optional<&Scenario::script>("script", "What is done when.", {.max_items = most_names}),
+      optional<&Scenario::faults>("faults", "What goes wrong.", {.max_items = most_names}),
+      optional<&Scenario::rerouting>("rerouting", "How long the switches take to forward around what is down; they do not if absent."),
+      optional<&Scenario::gates>("gates", "The gates of the whole network: \"auto\" lays them along the paths of what is published at known times."),
+      optional<&Scenario::require>("require", "What must hold for the run to pass.", {.max_items = most_names}),
+      optional<&Scenario::allow_overload>("allow_overload", "A link that is asked for more than it can carry is an error unless this is true."),
+  };
+  static constexpr json::Object table = json::object<Scenario>("scenario", "A network, its Programs and its traffic, and what must hold.", fields);
+  return table;
+}
+
+}  // namespace takt::scenario

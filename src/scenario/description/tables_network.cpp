@@ -1,0 +1,335 @@
+// The vocabulary of networks: nodes, ports, links, generators. See description_tables.cpp.
+#include "scenario/description/description.hpp"
+
+namespace takt::scenario {
+namespace {
+
+using json::name;
+using json::optional;
+using json::required;
+
+// What is added to an instant of the run, so that no sum passes the end of the clock.
+constexpr Duration longest_step = 24 * 3600_s;
+constexpr std::size_t most_names = 100'000;
+
+}  // namespace
+
+const json::Object& describe(json::Type<Latency::Uniform>) {
+  static constexpr json::Field fields[] = {
+      required<&Latency::Uniform::from>("from", "The least value.", {.max = longest_step}),
+      required<&Latency::Uniform::to>("to", "The greatest value.", {.max = longest_step}),
+  };
+  static constexpr json::Object table = json::object<Latency::Uniform>("uniform", "All values of an interval are equally likely.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Latency::Normal>) {
+  static constexpr json::Field fields[] = {
+      required<&Latency::Normal::mean>("mean", "The mean.", {.max = longest_step}),
+      required<&Latency::Normal::deviation>("deviation", "The standard deviation.", {.max = longest_step}),
+  };
+  static constexpr json::Object table = json::object<Latency::Normal>("normal", "A normal distribution, cut at min and max.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Latency::Exponential>) {
+  static constexpr json::Field fields[] = {
+      required<&Latency::Exponential::mean>("mean", "The mean.", {.max = longest_step}),
+  };
+  static constexpr json::Object table = json::object<Latency::Exponential>("exponential", "An exponential distribution.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Latency::Weibull>) {
+  static constexpr json::Field fields[] = {
+      required<&Latency::Weibull::scale>("scale", "The value that 63.2 % of all values stay below.", {.max = longest_step}),
+      required<&Latency::Weibull::shape>("shape", "The exponent: below 1 a long tail, above 1 a hump.", {.min = 0.05, .max = 1000.0}),
+  };
+  static constexpr json::Object table = json::object<Latency::Weibull>("weibull", "A Weibull distribution: P(X > x) = exp(-(x/scale)^shape).", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Latency::LogNormal>) {
+  static constexpr json::Field fields[] = {
+      required<&Latency::LogNormal::median>("median", "Half of all values are below it.", {.max = longest_step}),
+      required<&Latency::LogNormal::sigma>("sigma", "The standard deviation of the logarithm.", {.min = 0.0, .max = 20.0}),
+  };
+  static constexpr json::Object table = json::object<Latency::LogNormal>("log_normal", "A log-normal distribution.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Latency::Point>) {
+  static constexpr json::Field fields[] = {
+      required<&Latency::Point::value>("value", "A value that occurs.", {.max = longest_step}),
+      optional<&Latency::Point::weight>("weight", "How often it occurs, relative to the others."),
+  };
+  static constexpr json::Object table = json::object<Latency::Point>("table_point", "One row of an empirical table.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Latency>) {
+  static constexpr json::Field fields[] = {
+      optional<&Latency::fixed>("fixed", "Always the same.", {.max = longest_step}),
+      optional<&Latency::uniform>("uniform", "Uniform over an interval."),
+      optional<&Latency::normal>("normal", "Normal distribution."),
+      optional<&Latency::exponential>("exponential", "Exponential distribution."),
+      optional<&Latency::weibull>("weibull", "Weibull distribution."),
+      optional<&Latency::log_normal>("log_normal", "Log-normal distribution."),
+      optional<&Latency::table>("table", "Measured values with their frequencies.", {.min_items = 1, .max_items = most_names}),
+      optional<&Latency::min>("min", "Smaller values are raised to this one.", {.max = longest_step}),
+      optional<&Latency::max>("max", "Greater values are cut to this one.", {.max = longest_step}),
+      optional<&Latency::tail>("tail", "Rare values instead of those."),
+  };
+  static constexpr std::string_view kinds[] = {"fixed", "uniform", "normal", "exponential", "weibull", "log_normal", "table"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(kinds)};
+  static constexpr json::Object table = json::object<Latency>("latency", "A delay: a duration, or a distribution of durations.", fields,
+                                                              {.groups = groups, .shorthand = "fixed"});
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<OsProfile>) {
+  static constexpr json::EnumName names[] = {
+      name(OsProfile::none, "none", "no delay at all"),
+      name(OsProfile::preempt_rt, "preempt-rt", "x86 with PREEMPT_RT, real-time thread"),
+      name(OsProfile::preempt_rt_isolated, "preempt-rt-isolated", "the same on an isolated core"),
+      name(OsProfile::preempt_rt_arm, "preempt-rt-arm", "ARM with PREEMPT_RT"),
+      name(OsProfile::general_purpose, "general-purpose", "a stock x86 kernel under load"),
+      name(OsProfile::virtual_machine, "virtual-machine", "a guest on an ordinary host"),
+      name(OsProfile::virtual_machine_rt, "virtual-machine-rt", "a guest with pinned processors on a real-time host"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<OsProfile>("an operating system", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<OperatingSystem>) {
+  static constexpr json::Field fields[] = {
+      optional<&OperatingSystem::profile>("profile", "Where the delays come from that are not given here."),
+      optional<&OperatingSystem::transmit>("transmit", "From the application's send to the network interface."),
+      optional<&OperatingSystem::receive>("receive", "From the last bit at the network interface to the application."),
+      optional<&OperatingSystem::wake_up>("wake_up", "From a timer's expiry to the application."),
+  };
+  static constexpr json::Object table =
+      json::object<OperatingSystem>("operating_system", "The operating system of a host: a profile or single delays.", fields, {.shorthand = "profile"});
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<TrafficClasses>) {
+  static constexpr json::EnumName names[] = {
+      name(TrafficClasses::standard, "standard", "IEEE 802.1Q Table 8-5: priority 1 lies below priority 0"),
+      name(TrafficClasses::identity, "identity", "priority n is sent in class n"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<TrafficClasses>("a priority to traffic class mapping", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<Queues::PerClass>) {
+  static constexpr json::Field fields[] = {
+      required<&Queues::PerClass::traffic_class>("class", "The traffic class, 7 is the most urgent.", {.max = 7}),
+      optional<&Queues::PerClass::frames>("frames", "Most frames that wait.", {.min = 1}),
+      optional<&Queues::PerClass::octets>("octets", "Most octets that wait, DA to FCS.", {.min = Octets{64}}),
+  };
+  static constexpr json::Object table = json::object<Queues::PerClass>("queue_of_class", "The limits of one queue.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Queues>) {
+  static constexpr json::Field fields[] = {
+      optional<&Queues::frames>("frames", "Most frames that wait in each queue; no limit if absent.", {.min = 1}),
+      optional<&Queues::octets>("octets", "Most octets that wait in each queue, DA to FCS; no limit if absent.", {.min = Octets{64}}),
+      optional<&Queues::classes>("classes", "Other limits for single traffic classes.", {.max_items = 8}),
+  };
+  static constexpr json::Object table = json::object<Queues>("queues", "What the eight queues of a port hold. The frame that is being sent does not count.", fields);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<MacOperation>) {
+  static constexpr json::EnumName names[] = {
+      name(MacOperation::none, "none", "the MAC goes on as it is (SetGateStates)"),
+      name(MacOperation::hold, "hold", "preemptable frames are held from the beginning of the entry on (Set-And-Hold-MAC)"),
+      name(MacOperation::release, "release", "they are no longer held (Set-And-Release-MAC)"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<MacOperation>("what an entry asks of the MAC", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<GateEntry>) {
+  static constexpr json::Field fields[] = {
+      required<&GateEntry::open>("open", "The traffic classes whose gates are open.", {.max_items = 8, .unique = true, .items = {.max = 7}}),
+      required<&GateEntry::interval>("for", "How long the entry lasts.", {.min = 1_ns, .max = 3600_s}),
+      optional<&GateEntry::mac>("mac", "Whether preemptable frames are held; without preemption it means nothing."),
+  };
+  static constexpr json::Object table = json::object<GateEntry>("gate_entry", "One entry of a gate control list.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Gates>) {
+  static constexpr json::Field fields[] = {
+      optional<&Gates::cycle>("cycle", "AdminCycleTime; the sum of the entries if absent.", {.min = 1_ns, .max = 3600_s}),
+      optional<&Gates::base_time>("base_time", "AdminBaseTime, when the first cycle begins; may lie in the past.", {.min = -(3600_s), .max = 3600_s}),
+      optional<&Gates::extension>("extension", "AdminCycleTimeExtension: how much the last cycle before a change may be longer.", {.max = 3600_s}),
+      required<&Gates::entries>("entries", "The gate control list.", {.min_items = 1, .max_items = 1024}),
+  };
+  static constexpr json::Object table = json::object<Gates>("gates", "Transmission gates (IEEE 802.1Q 8.6.8.4, Qbv).", fields);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<SlopeOf>) {
+  static constexpr json::EnumName names[] = {
+      name(SlopeOf::cycle, "cycle", "over the whole gate cycle: credit grows faster while the gate is open"),
+      name(SlopeOf::window, "window", "while the gate is open"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<SlopeOf>("what an idle slope refers to", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<Shaper>) {
+  static constexpr json::Field fields[] = {
+      required<&Shaper::traffic_class>("class", "The traffic class.", {.max = 7}),
+      required<&Shaper::idle_slope>("idle_slope", "Bandwidth of the class, preamble and gap counted; at most the link's rate.",
+                                    {.min = DataRate{1}, .max = DataRate{100'000'000'000}}),
+      optional<&Shaper::of>("of", "Whether that is the bandwidth of the whole gate cycle or of the open window."),
+  };
+  static constexpr json::Object table = json::object<Shaper>("shaper", "A credit-based shaper (IEEE 802.1Q 8.6.8.2, Qav).", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<MaxSdu>) {
+  static constexpr json::Field fields[] = {
+      required<&MaxSdu::traffic_class>("class", "The traffic class.", {.max = 7}),
+      required<&MaxSdu::size>("size", "Most octets after the EtherType; longer frames are dropped.", {.min = Octets{1}, .max = Octets{1500}}),
+  };
+  static constexpr json::Object table = json::object<MaxSdu>("max_sdu", "queueMaxSDU of a class.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Preemption>) {
+  static constexpr json::Field fields[] = {
+      required<&Preemption::preemptable>("preemptable", "The traffic classes whose frames may be cut; the others are express.",
+                                         {.min_items = 1, .max_items = 8, .unique = true, .items = {.max = 7}}),
+      optional<&Preemption::add_frag_size>("add_frag_size", "addFragSize: a fragment that is not the last has at least 64 * (1 + this) octets.", {.max = 3}),
+      optional<&Preemption::hold_advance>("hold_advance", "How long before an entry that holds the MAC is told; as long as an express frame waits at most if absent.", {.max = 1_s}),
+      optional<&Preemption::release_advance>("release_advance", "How long before an entry that releases the MAC is told.", {.max = 1_s}),
+  };
+  static constexpr json::Object table = json::object<Preemption>("preemption", "Frame preemption (IEEE 802.3 clause 99, IEEE 802.1Q 6.7.2, Qbu).", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Egress>) {
+  static constexpr json::Field fields[] = {
+      optional<&Egress::to>("to", "Only the port to this neighbour; all ports of the node if absent."),
+      optional<&Egress::gates>("gates", "Transmission gates."),
+      optional<&Egress::shapers>("shapers", "Credit-based shapers.", {.max_items = 8}),
+      optional<&Egress::max_sdu>("max_sdu", "Longest SDU of single classes.", {.max_items = 8}),
+      optional<&Egress::ats>("ats", "The traffic classes that send by the eligibility times of ATS schedulers (Qcr).",
+                             {.max_items = 8, .unique = true, .items = {.max = 7}}),
+      optional<&Egress::preemption>("preemption", "Which frames may be cut for others."),
+      optional<&Egress::cut_through>("cut_through", "The traffic classes whose frames begin to leave before they have wholly come, where the port is free and the link they come from as fast.",
+                                     {.max_items = 8, .unique = true, .items = {.max = 7}}),
+      optional<&Egress::untagged>("untagged", "Frames leave without their VLAN tag; for ports to hosts."),
+  };
+  static constexpr json::Object table = json::object<Egress>("egress", "What ports do beyond strict priority.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<HostNode>) {
+  static constexpr json::Field fields[] = {
+      optional<&HostNode::os>("os", "The operating system: a profile's name or an object."),
+      optional<&HostNode::traffic_classes>("traffic_classes", "Which priority is sent in which queue."),
+      optional<&HostNode::queues>("queues", "The queues of the network interface."),
+      optional<&HostNode::egress>("egress", "Gates and shapers of the network interfaces.", {.max_items = 16}),
+      optional<&HostNode::processing>("processing", "How long Programs work at process data before they reply."),
+      optional<&HostNode::offers>("offers", "Skills that the node announces to programs with roles that need one of them.", {.max_items = 8}),
+  };
+  static constexpr json::Object table = json::object<HostNode>("host", "An end station.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<SwitchNode>) {
+  static constexpr json::Field fields[] = {
+      optional<&SwitchNode::forwarding_delay>("forwarding_delay", "From the last bit in (cut through: the header) to the egress queue.", {.max = 1_s}),
+      optional<&SwitchNode::cut_through_header>("cut_through_header", "What must be in of an untagged frame before it is cut through, preamble included; tags add to it.",
+                                                {.min = Octets{14}, .max = Octets{72}}),
+      optional<&SwitchNode::traffic_classes>("traffic_classes", "Which priority is sent in which queue."),
+      optional<&SwitchNode::queues>("queues", "The queues of each port."),
+      optional<&SwitchNode::egress>("egress", "Gates and shapers of ports; an entry for a neighbour takes the place of one for all.", {.max_items = 4096}),
+      optional<&SwitchNode::ingress>("ingress", "Policing, ATS and CQF of frames that come in."),
+  };
+  static constexpr json::Object table = json::object<SwitchNode>("switch", "A bridge: stores and forwards, or cuts through.", fields);
+  return table;
+}
+
+const json::Tagged& describe(json::Type<Node>) {
+  static constexpr auto kinds = json::options<Node>({"host", "switch"});
+  static constexpr json::Tagged table = json::tagged<Node>("node", "A host or a switch.", "kind", kinds);
+  return table;
+}
+
+const json::Object& describe(json::Type<Link>) {
+  static constexpr json::Field fields[] = {
+      required<&Link::ends>("ends", "The two nodes that it joins: \"sw1\" takes the next free port, \"sw1:3\" port 3.",
+                            {.min_items = 2, .max_items = 2}),
+      optional<&Link::rate>("rate", "Bits a second in each direction.", {.min = DataRate{10'000'000}, .max = DataRate{100'000'000'000}}),
+      optional<&Link::length>("length", "Length of the cable at 5 ns/m; 10 m if neither length nor delay is given.", {.max = Length{100'000'000}}),
+      optional<&Link::delay>("delay", "Propagation delay, instead of a length.", {.max = 1_s}),
+  };
+  static constexpr std::string_view either[] = {"length", "delay"};
+  static constexpr json::Group groups[] = {json::at_most_one_of(either)};
+  static constexpr json::Object table = json::object<Link>("link", "A full-duplex cable.", fields, {.groups = groups});
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Shape>) {
+  static constexpr json::EnumName names[] = {
+      name(Shape::line, "line", "switches in a row"),
+      name(Shape::ring, "ring", "switches in a circle"),
+      name(Shape::star, "star", "a central switch, the others around it"),
+      name(Shape::tree, "tree", "depth levels of switches below a root, fanout below each; hosts at the leaves"),
+      name(Shape::mesh, "mesh", "rows x columns as a grid, or every switch joined to every other"),
+      name(Shape::comb, "comb", "a line of switches, from each of which hangs a line of \"teeth\" more"),
+      name(Shape::random, "random", "a random connected graph with this mean degree and no double links"),
+      name(Shape::dual_star, "dual-star", "two cores, each joined to every other switch: two paths without a common switch, for redundant streams"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Shape>("a topology", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<Generator>) {
+  static constexpr std::uint64_t most = 1'000'000'000'000;  // so that too many nodes are refused with their number
+  static constexpr json::Field fields[] = {
+      required<&Generator::shape>("topology", "The shape."),
+      optional<&Generator::switches>("switches", "Number of switches (line, ring, star, full mesh, random; comb: of the spine; dual-star: besides the two cores).", {.min = 1, .max = most}),
+      optional<&Generator::depth>("depth", "Levels of switches below the root (tree).", {.min = 0, .max = 64}),
+      optional<&Generator::fanout>("fanout", "Switches below each switch (tree).", {.min = 1, .max = most}),
+      optional<&Generator::rows>("rows", "Rows of the grid (mesh).", {.min = 1, .max = most}),
+      optional<&Generator::columns>("columns", "Columns of the grid (mesh).", {.min = 1, .max = most}),
+      optional<&Generator::teeth>("teeth", "Switches of each tooth (comb).", {.max = most}),
+      optional<&Generator::degree>("degree", "Mean number of links of a switch to others (random).", {.min = 1.0, .max = 1000.0}),
+      optional<&Generator::seed>("seed", "The seed of the graph (random); 1 if absent."),
+      optional<&Generator::hosts_per_switch>("hosts_per_switch", "Hosts at each switch (tree: at each leaf; star and dual-star: not at the cores).", {.max = most}),
+      optional<&Generator::switch_prefix>("switch_prefix", "Switches are named by it and a number from 1.", {.min_length = 1, .max_length = 64}),
+      optional<&Generator::host_prefix>("host_prefix", "Hosts are named by it and a number from 1.", {.min_length = 1, .max_length = 64}),
+      optional<&Generator::rate>("rate", "Rate of the links.", {.min = DataRate{10'000'000}, .max = DataRate{100'000'000'000}}),
+      optional<&Generator::host_rate>("host_rate", "Rate of the links to hosts, if it differs.", {.min = DataRate{10'000'000}, .max = DataRate{100'000'000'000}}),
+      optional<&Generator::length>("length", "Length of each link.", {.max = Length{100'000'000}}),
+      optional<&Generator::forwarding_delay>("forwarding_delay", "Of the switches.", {.max = 1_s}),
+      optional<&Generator::os>("os", "Of the hosts."),
+      optional<&Generator::queues>("queues", "Of all ports."),
+      optional<&Generator::traffic_classes>("traffic_classes", "Of all ports."),
+      optional<&Generator::egress>("egress", "Gates and shapers of all ports of the switches.", {.max_items = 1}),
+      optional<&Generator::ingress>("ingress", "Policing, ATS and CQF of the switches."),
+  };
+  static constexpr json::Object table = json::object<Generator>("generator", "A whole topology.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<NetworkSection>) {
+  static constexpr json::Field fields[] = {
+      optional<&NetworkSection::nodes>("nodes", "Hosts and switches by name.", {.max_items = most_names}),
+      optional<&NetworkSection::links>("links", "The cables between them.", {.max_items = most_names}),
+      optional<&NetworkSection::generate>("generate", "Generated topologies; nodes and links may add to them.", {.max_items = 64}),
+  };
+  static constexpr json::Object table = json::object<NetworkSection>("network", "The network.", fields);
+  return table;
+}
+
+}  // namespace takt::scenario

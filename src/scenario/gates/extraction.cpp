@@ -1,0 +1,239 @@
+// The problem of automatic gates, out of a resolved scenario.
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "models/ethernet/sizes.hpp"
+#include "scenario/description/promises.hpp"
+#include "scenario/resolve/gates.hpp"
+
+namespace takt::scenario {
+namespace {
+
+constexpr Octets longest_frame{1522};
+constexpr models::Priority priority_of_gptp = 7;
+
+/// When a stream's frames are at its talker's port, or why nobody knows.
+struct Timing {
+  Duration period;
+  Duration release;
+  std::uint32_t train = 0;
+  std::string unknown = {};   ///< why nobody knows
+};
+
+class Extraction {
+ public:
+  Extraction(const Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), gates_(*resolved.scenario.gates), diagnostics_(diagnostics), timing_(r_.streams.size(), {{}, {}, 0, "times that nobody promises, as those of programs with roles"}) {}
+
+  std::optional<GateProblem> run() {
+    const std::size_t errors_before = diagnostics_.errors();
+    find_ends();
+    time_streams();
+    time_programs();
+    if (!find_classes()) return std::nullopt;
+    problem_.margin = gates_.margin.value_or(has_clocks() ? 1_us : Duration());
+    if (r_.scenario.rerouting)
+      diagnostics_.error(r_.scenario.rerouting->where.place(), "rerouting of scheduled streams", {"\"rerouting\" beside \"gates\": \"auto\", whose windows lie along one path", "one of the two"});
+    for (const ResolvedStream& stream : r_.streams)
+      if (class_at_talker(stream) && classes_.contains(*class_at_talker(stream))) add(stream);
+    check_others();
+    if (diagnostics_.errors() != errors_before) return std::nullopt;
+    if (problem_.streams.empty())
+      diagnostics_.warning(gates_.where.place(), "no stream to lay gates for", {"none in the scheduled classes", "streams of these classes"});
+    return std::move(problem_);
+  }
+
+ private:
+  struct End {
+    const models::LinkPlan* link = nullptr;
+    const models::LinkPlan::End* end = nullptr;
+  };
+
+  bool has_clocks() const {
+    return std::any_of(r_.plan.nodes.begin(), r_.plan.nodes.end(), [](const models::NodePlan& node) { return node.clock.has_value(); });
+  }
+  void find_ends() {
+    for (const models::LinkPlan& link : r_.plan.links)
+      for (const models::LinkPlan::End* end : {&link.a, &link.b}) ends_[{end->node.value, end->port}] = {&link, end};
+  }
+  static std::pair<std::uint32_t, std::uint16_t> key_of(const End& at) { return {at.end->node.value, at.end->port}; }
+  End end_towards(std::uint32_t from, std::uint32_t to) const { return ends_.at({from, *r_.topology.port_towards(from, to)}); }
+  const models::PortConfig& config_of(const models::LinkPlan::End& end) const {
+    return r_.plan.port_configs[end.port_config.value_or(r_.plan.nodes[end.node.value].port_config)];
+  }
+  const models::OsLatency& os_of(models::NodeIndex host) const { return r_.plan.os_latencies[r_.plan.nodes[host.value].os_latency]; }
+  const models::StreamPlan& plan_of(const ResolvedStream& stream) const { return r_.plan.streams[stream.index.value]; }
+  models::TrafficClass class_of(const ResolvedStream& stream, const models::PortConfig& config) const { return config.traffic_class_of_priority[plan_of(stream).priority.value_or(0)]; }
+  std::optional<models::TrafficClass> class_at_talker(const ResolvedStream& stream) const {
+    if (stream.paths.empty()) return std::nullopt;
+    return class_of(stream, config_of(*end_towards(stream.paths.front()[0], stream.paths.front()[1]).end));
+  }
+
+  void set(models::StreamIndex stream, Timing timing) {
+    if (timing.unknown.empty() && timing.period.ps() % 1'000 != 0) timing.unknown = "a period of " + json::to_text(timing.period) + ", which is no whole number of ns";
+    timing_[stream.value] = std::move(timing);
+  }
+
+  /// What a host adds before the port, at most; it must be less than a period, or two frames may be there at once.
+  Timing after(Duration phase, Duration delay, Duration period, std::uint32_t train) const {
+    Timing timing{period, {}, train};
+    if (delay >= period) timing.unknown = "up to " + json::to_text(delay) + " between the application and the port of its host, of a period of " + json::to_text(period);
+    else timing.release = phase + delay;
+    return timing;
+  }
+
+  // The talkers stand in the order of the streams (nothing was refused).
+  void time_streams() {
+    for (std::size_t i = 0; i < r_.scenario.streams.size() && i < r_.plan.talkers.size(); ++i) {
+      const Stream& stream = r_.scenario.streams[i];
+      const models::StreamIndex index = r_.plan.talkers[i].stream;
+      Timing timing;
+      if (stream.redundancy) timing.unknown = "\"redundancy\", whose members go several ways";
+      else if (!stream.every) timing.unknown = "no period: \"every\" is missing";
+      else if (!promises_phase(stream)) timing.unknown = "no \"offset\" that promises when it is sent";
+      else if (stream.launch) timing.unknown = "\"launch\", which is a plan of its own";
+      else timing = after(*stream.offset, stream.jitter + os_of(r_.plan.streams[index.value].talker).transmit.greatest(), *stream.every, trains_++);
+      set(index, std::move(timing));
+    }
+  }
+
+  void time_programs() {
+    for (const ResolvedProgram& program : r_.programs) {
+      const Program& description = *program.description;
+      if (program.has_roles()) continue;   // its streams keep the reason that all have first
+      for (std::uint8_t p = 0; p < program.participants.size(); ++p) {
+        const models::OsLatency& os = os_of(program.participants[p]);
+        Timing timing = after(program.phases[p], os.wake_up.greatest() + os.transmit.greatest(), description.cycle, trains_++);
+        if (description.publish != Publish::cyclic) timing.unknown = "\"publish\": \"on-change\", at no known time";
+        else if (!promises_phase(description, program.participant_names[p]))
+          timing.unknown = "no \"offset\" or \"phases\" that promises when " + json::quote(program.participant_names[p]) + " publishes";
+        set(program.state_streams[p], timing);
+        for (std::size_t d = 0; d < program.process_data.size(); ++d) {
+          if (program.process_data[d].from != p) continue;
+          const bool is_reply = std::any_of(program.replies.begin(), program.replies.end(), [&](const ResolvedReply& reply) { return reply.with == d; });
+          Timing data = timing;
+          if (is_reply) data.unknown = "an answer, published when its question has been worked at";
+          set(program.process_data[d].stream, std::move(data));
+        }
+      }
+    }
+  }
+
+  bool find_classes() {
+    classes_.insert(gates_.classes.begin(), gates_.classes.end());
+    if (!gates_.classes.empty()) return true;
+    for (const ResolvedStream& stream : r_.streams)
+      if (stream.of_program && class_at_talker(stream)) classes_.insert(*class_at_talker(stream));
+    if (!classes_.empty()) return true;
+    diagnostics_.error(gates_.where.at("classes"), "missing key", {"no programs, whose classes it would be", "\"classes\", the scheduled ones"});
+    return false;
+  }
+
+  void refuse(const ResolvedStream& stream, const std::string& why) {
+    diagnostics_.error(stream.where.place(), "a stream that no gates can be laid for", {json::quote(plan_of(stream).name) + " with " + why, "what \"gates\": \"auto\" can plan, or another class"});
+  }
+
+  void add(const ResolvedStream& stream) {
+    const Timing& timing = timing_[stream.index.value];
+    if (!timing.unknown.empty()) return refuse(stream, timing.unknown);
+    ScheduledStream made;
+    made.name = plan_of(stream).name;
+    made.period = timing.period;
+    made.release = timing.release;
+    made.train = timing.train;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;   // hops, by both nodes
+    for (const Path& path : stream.paths)
+      for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+        if (!known.emplace(std::pair(path[i], path[i + 1]), static_cast<std::uint32_t>(made.hops.size())).second) continue;
+        const std::optional<std::uint32_t> previous = i == 0 ? std::nullopt : std::optional(known.at({path[i - 1], path[i]}));
+        const std::string problem = check_node(path[i]);
+        if (!problem.empty()) return refuse(stream, problem);
+        if (!add_hop(stream, made, path[i], path[i + 1], previous)) return;
+      }
+    scheduled_.insert(stream.index.value);
+    problem_.streams.push_back(std::move(made));
+  }
+
+  std::string check_node(std::uint32_t node) const {
+    const auto* const bridge = std::get_if<SwitchNode>(&r_.topology.nodes[node].description);
+    if (bridge == nullptr || !bridge->ingress) return {};
+    return "a way over " + json::quote(r_.topology.nodes[node].name) + ", whose \"ingress\" may change classes and times";
+  }
+
+  bool add_hop(const ResolvedStream& stream, ScheduledStream& made, std::uint32_t from, std::uint32_t to, std::optional<std::uint32_t> previous) {
+    const End at = end_towards(from, to);
+    const models::PortConfig& config = config_of(*at.end);
+    const models::TrafficClass q = class_of(stream, config);
+    const std::string port = json::quote(r_.topology.nodes[from].name + " to " + r_.topology.nodes[to].name);
+    std::string problem;
+    if (models::contains(config.cut_through, q)) problem = "cut-through at " + port + ", which makes its delays depend on other traffic";
+    if (config.shaping.shapers[q] || models::contains(config.shaping.timed, q)) problem = "a shaper of its class at " + port;
+    if (config.preemption && models::contains(config.preemption->preemptable, q)) problem = "a preemptable class at " + port;
+    if (!problem.empty()) return refuse(stream, problem), false;
+    const models::StreamPlan& plan = plan_of(stream);
+    const Octets frame = models::frame_length(plan.headers + stream.largest_payload, plan.priority.has_value() && !config.untagged);
+    const Duration octet = at.link->rate.octet_time();
+    ScheduledHop hop;
+    hop.port = port_index(from, to, at, octet);
+    hop.previous = previous;
+    hop.traffic_class = q;
+    hop.transmission = octet * (models::preamble_and_sfd + frame).count;
+    hop.behind = at.link->delay + r_.plan.nodes[to].forwarding_delay;
+    made.hops.push_back(hop);
+    scheduled_classes_[hop.port] = models::with(scheduled_classes_[hop.port], q);
+    return true;
+  }
+
+  std::uint32_t port_index(std::uint32_t from, std::uint32_t to, const End& at, Duration octet) {
+    const auto [found, is_new] = ports_.emplace(key_of(at), static_cast<std::uint32_t>(problem_.ports.size()));
+    if (!is_new) return found->second;
+    const Duration gap = octet * models::inter_packet_gap.count;
+    const Duration guard = gates_.guard == GateGuard::longest_frame ? octet * models::wire_length(longest_frame).count : gap;
+    problem_.ports.push_back({models::NodeIndex{from}, at.end->port, r_.topology.nodes[from].name + " to " + r_.topology.nodes[to].name, gap, guard});
+    scheduled_classes_.push_back(0);
+    return found->second;
+  }
+
+  /// Nobody else is in a scheduled class at a port that has windows.
+  void check_others() {
+    for (const ResolvedStream& stream : r_.streams) {
+      if (scheduled_.contains(stream.index.value) || (class_at_talker(stream) && classes_.contains(*class_at_talker(stream)))) continue;
+      for (const Path& path : stream.paths) {
+        std::optional<std::size_t> met;
+        for (std::size_t i = 0; i + 1 < path.size() && !met; ++i) {
+          const End at = end_towards(path[i], path[i + 1]);
+          const auto port = ports_.find(key_of(at));
+          if (port != ports_.end() && models::contains(scheduled_classes_[port->second], class_of(stream, config_of(*at.end)))) met = port->second;
+        }
+        if (!met) continue;
+        diagnostics_.error(stream.where.place(), "a stream in a scheduled class", {json::quote(plan_of(stream).name) + " at " + json::quote(problem_.ports[*met].name) + " between scheduled frames", "another class there"});
+        break;
+      }
+    }
+    if (!r_.scenario.clocks.gptp) return;
+    for (const auto& [key, port] : ports_)
+      if (models::contains(scheduled_classes_[port], config_of(*ends_.at(key).end).traffic_class_of_priority[priority_of_gptp])) {
+        diagnostics_.error(gates_.where.place(), "gPTP in a scheduled class", {"the class of priority 7 is scheduled", "other classes, since messages of gPTP have priority 7"});
+        return;
+      }
+  }
+
+  const Resolved& r_;
+  const NetworkGates& gates_;
+  json::Diagnostics& diagnostics_;
+  std::vector<Timing> timing_;                       // by stream
+  std::uint32_t trains_ = 0;
+  std::set<std::uint8_t> classes_;
+  std::map<std::pair<std::uint32_t, std::uint16_t>, End> ends_;
+  std::map<std::pair<std::uint32_t, std::uint16_t>, std::uint32_t> ports_;   // by node and port
+  std::vector<models::ClassSet> scheduled_classes_;  // by port of the problem
+  std::set<std::uint32_t> scheduled_;                // streams
+  GateProblem problem_;
+};
+
+}  // namespace
+
+std::optional<GateProblem> gate_problem_of(const Resolved& resolved, json::Diagnostics& diagnostics) { return Extraction(resolved, diagnostics).run(); }
+
+}  // namespace takt::scenario

@@ -1,0 +1,54 @@
+// What a run learns about a Program with roles: who has which role, and what the bound nodes do as participants.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "handshake/binder.hpp"
+#include "scenario/programs/program_monitor.hpp"
+
+namespace takt::scenario {
+
+/// A role got a node, or lost it.
+struct BindingRecord {
+  sim::TrueTime time;
+  std::uint8_t role = 0;                  ///< from 0
+  std::optional<std::uint8_t> candidate;  ///< none: nobody
+};
+
+/// A ghost before a ProgramMonitor: a participant there is a role, whoever has it. Who has been let go and does not know it yet is
+/// nobody's participant; what it does counts no more.
+class PlugMonitor {
+ public:
+  PlugMonitor(sim::Simulation& simulation, std::uint32_t number, ProgramMonitor& program, std::size_t roles)
+      : simulation_(&simulation), number_(number), program_(&program), roles_(roles) {}
+
+  /// `before`: the state in which the participant of that life is already, if there is one.
+  void on_bound(std::size_t role, const handshake::Binding& binding, std::optional<handshake::PublishedState> before);
+  /// The participant on a candidate has taken a step in its role.
+  void on_step(std::size_t role, const handshake::Binding& self, const handshake::Outputs& outputs, const handshake::Word& after);
+  /// The participant is gone: it was let go, or its node has crashed.
+  void on_dropped(std::size_t role, const handshake::Binding& self);
+  void on_process_data(std::size_t role, const handshake::Binding& self, std::size_t from, std::uint32_t sent_in);
+
+  handshake::PublishedState state(std::size_t role) const { return roles_[role].state; }
+  const handshake::Binding& binding(std::size_t role) const { return roles_[role].binding; }
+  const std::vector<BindingRecord>& history() const { return history_; }
+
+ private:
+  static constexpr std::size_t most_records = 10'000;
+  struct Role {
+    handshake::Binding binding;
+    bool is_awaited = false;  ///< a restarted master has bound a life that is still in a former run: seen from when it is Halted on
+    handshake::PublishedState state = handshake::PublishedState::Halted;
+  };
+
+  sim::Simulation* simulation_;
+  std::uint32_t number_;
+  ProgramMonitor* program_;
+  std::vector<Role> roles_;
+  std::vector<BindingRecord> history_;
+};
+
+}  // namespace takt::scenario

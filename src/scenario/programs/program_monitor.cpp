@@ -1,0 +1,59 @@
+#include "scenario/programs/program_monitor.hpp"
+
+namespace takt::scenario {
+namespace {
+// Kinds of digest records, apart from those of the network (models::Occurrence).
+constexpr std::uint32_t state_changed = 100;
+constexpr std::uint32_t method_called = 101;
+constexpr std::uint32_t data_received = 102;
+constexpr std::uint32_t crashed = 103;
+}  // namespace
+
+ProgramMonitor::ProgramMonitor(sim::Simulation& simulation, std::uint32_t number, handshake::Variant variant, std::size_t participants)
+    : simulation_(&simulation), number_(number), observer_(variant, participants), tracker_(participants) {}
+
+void ProgramMonitor::on_step(std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after) {
+  // Most steps change nothing: a word that says the same as the one before.
+  if (outputs.change_count == 0 && !outputs.publish && !outputs.raised) return;
+  observer_.on_step(participant, outputs, after);
+  if (tree_ != nullptr) tree_->on_step(group_, participant, outputs, after);
+  tracker_.on_step(participant, outputs, after, simulation_->now());
+  for (const handshake::StateChange& change : outputs.changes()) {
+    ++changes_;
+    if (history_.size() < most_records) history_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), change});
+    simulation_->digest().add(state_changed, static_cast<std::uint64_t>(number_) << 32 | participant, simulation_->now(),
+                              static_cast<std::uint64_t>(change.from) << 8 | static_cast<std::uint64_t>(change.to));
+  }
+  note_violations();
+}
+
+void ProgramMonitor::on_call(std::size_t participant, program::Method method, program::StatusCode status) {
+  calls_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), method, status});
+  simulation_->digest().add(method_called, static_cast<std::uint64_t>(number_) << 32 | participant, simulation_->now(),
+                            static_cast<std::uint64_t>(method) << 32 | static_cast<std::uint32_t>(status));
+}
+
+void ProgramMonitor::on_crash(std::size_t participant, handshake::PublishedState before) {
+  observer_.on_restart(participant);
+  if (tree_ != nullptr) tree_->on_crash(group_, participant);
+  tracker_.on_restart(participant, simulation_->now());
+  simulation_->digest().add(crashed, static_cast<std::uint64_t>(number_) << 32 | participant, simulation_->now(), static_cast<std::uint64_t>(before));
+  if (before == handshake::PublishedState::Halted) return;
+  ++changes_;
+  if (history_.size() < most_records)
+    history_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), {0, before, handshake::PublishedState::Halted}});
+}
+
+void ProgramMonitor::on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in) {
+  ++process_data_received_;
+  observer_.on_process_data(from, to, sent_in);
+  simulation_->digest().add(data_received, static_cast<std::uint64_t>(number_) << 32 | from << 8 | to, simulation_->now(), sent_in);
+  note_violations();
+}
+
+void ProgramMonitor::note_violations() {
+  const std::span<const handshake::Violation> all = observer_.violations();
+  for (std::size_t i = violations_.size(); i < all.size(); ++i) violations_.push_back({simulation_->now(), all[i]});
+}
+
+}  // namespace takt::scenario

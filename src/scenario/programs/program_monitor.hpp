@@ -1,0 +1,90 @@
+// What a run learns about one Program: reactions, states, violated invariants. Ghosts: no participant asks them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "handshake/invariants.hpp"
+#include "handshake/reaction.hpp"
+#include "scenario/programs/round_trips.hpp"
+#include "scenario/programs/tree_monitor.hpp"
+#include "sim/simulation.hpp"
+
+namespace takt::scenario {
+
+/// One change of state, for the time line. A crash is one without a transition.
+struct StateRecord {
+  sim::TrueTime time;
+  std::uint8_t participant = 0;
+  handshake::StateChange change;
+};
+
+/// A violated invariant and when it was seen.
+struct ViolationRecord {
+  sim::TrueTime time;
+  handshake::Violation violation;
+};
+
+/// A command of the script and what came of it.
+struct CallRecord {
+  sim::TrueTime time;
+  std::uint8_t participant = 0;
+  program::Method method = program::Method::Start;
+  program::StatusCode status = program::StatusCode::Good;
+};
+
+class ProgramMonitor {
+ public:
+  /// `number` tells programs apart in the digest. At most `most_records` changes of state are kept for the time line.
+  ProgramMonitor(sim::Simulation& simulation, std::uint32_t number, handshake::Variant variant, std::size_t participants);
+
+  /// Its program is group number `group` of a tree.
+  void set_tree(TreeMonitor& tree, std::size_t group) { tree_ = &tree, group_ = group; }
+
+  void on_step(std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after);
+  void on_call(std::size_t participant, program::Method method, program::StatusCode status);
+  /// A participant that was in this state is gone: it counts as Halted, and knows nothing when it comes back.
+  void on_crash(std::size_t participant, handshake::PublishedState before);
+  void on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in);
+  std::uint32_t sending_run(std::size_t participant) const { return observer_.sending_run(participant); }
+
+  /// The round trips of replies are measured.
+  void set_round_trips(const ResolvedProgram& program) { round_trips_.emplace(program); }
+  void on_published(std::size_t data_set, std::uint16_t sequence) {
+    if (round_trips_) round_trips_->on_published(static_cast<std::uint8_t>(data_set), sequence, simulation_->now());
+  }
+  void on_replied(std::size_t reply, std::uint16_t sequence, std::uint16_t request) { round_trips_->on_replied(reply, sequence, request, simulation_->now()); }
+  void on_data_received(std::uint8_t data_set, std::uint16_t sequence, std::size_t to) {
+    if (round_trips_) round_trips_->on_received(data_set, sequence, to, simulation_->now());
+  }
+  /// Nothing without replies.
+  const std::optional<RoundTrips>& round_trips() const { return round_trips_; }
+
+  std::span<const handshake::Reaction> reactions() const { return tracker_.reactions(); }
+  const std::vector<StateRecord>& history() const { return history_; }
+  std::uint64_t changes() const { return changes_; }
+  const std::vector<CallRecord>& calls() const { return calls_; }
+  const std::vector<ViolationRecord>& violations() const { return violations_; }
+  std::uint64_t process_data_received() const { return process_data_received_; }
+
+ private:
+  static constexpr std::size_t most_records = 10'000;
+  void note_violations();
+
+  sim::Simulation* simulation_;
+  TreeMonitor* tree_ = nullptr;
+  std::size_t group_ = 0;
+  std::uint32_t number_;
+  handshake::GroupObserver observer_;
+  handshake::ReactionTracker tracker_;
+  std::vector<StateRecord> history_;
+  std::uint64_t changes_ = 0;
+  std::vector<CallRecord> calls_;
+  std::vector<ViolationRecord> violations_;
+  std::uint64_t process_data_received_ = 0;
+  std::optional<RoundTrips> round_trips_;
+};
+
+}  // namespace takt::scenario

@@ -1,0 +1,48 @@
+// How long it takes from publishing process data to receiving the reply. A ghost: it sees both ends and true time, no participant asks it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scenario/resolve/resolved.hpp"
+#include "sim/histogram.hpp"
+
+namespace takt::scenario {
+
+class RoundTrips {
+ public:
+  explicit RoundTrips(const ResolvedProgram& program);
+
+  /// A message of process data is handed to the operating system.
+  void on_published(std::uint8_t data_set, std::uint16_t sequence, sim::TrueTime now);
+  /// Message `sequence` of reply `reply` answers message `request` of the data set that it answers.
+  void on_replied(std::size_t reply, std::uint16_t sequence, std::uint16_t request, sim::TrueTime now);
+  /// A message of process data has reached an application.
+  void on_received(std::uint8_t data_set, std::uint16_t sequence, std::size_t to, sim::TrueTime now);
+
+  std::size_t count() const { return replies_.size(); }
+  /// From publishing to receiving the reply.
+  const sim::Histogram& histogram(std::size_t reply) const { return replies_[reply].round_trips; }
+  /// From publishing to the end of the work at it, when the reply is published.
+  const sim::Histogram& one_way(std::size_t reply) const { return replies_[reply].one_way; }
+
+ private:
+  // Messages are remembered for this many of their kind; nobody waits longer for an answer.
+  static constexpr std::size_t memory = 1024;
+  struct Sent {
+    sim::TrueTime time = sim::TrueTime::never();
+    std::uint16_t sequence = 0;
+  };
+  struct One {
+    std::uint8_t request = 0;
+    std::uint8_t with = 0;
+    std::size_t asker = 0;
+    std::vector<Sent> requests;   // as they were published
+    std::vector<Sent> answered;   // by number of the reply: when its request was published
+    sim::Histogram round_trips;
+    sim::Histogram one_way;
+  };
+  std::vector<One> replies_;
+};
+
+}  // namespace takt::scenario

@@ -1,0 +1,244 @@
+#include "scenario/resolve/egress.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "models/ethernet/sizes.hpp"
+
+namespace takt::scenario {
+namespace {
+
+const std::vector<Egress>& egress_of(const TopologyNode& node) {
+  return std::visit([](const auto& n) -> const std::vector<Egress>& { return n.egress; }, node.description);
+}
+
+class EgressResolver {
+ public:
+  EgressResolver(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics) {}
+
+  void run() {
+    for (std::uint32_t n = 0; n < r_.topology.nodes.size(); ++n) check_neighbours(n);
+    for (models::LinkPlan& link : r_.plan.links) {
+      configure(link.a, link.b, link.rate);
+      configure(link.b, link.a, link.rate);
+    }
+  }
+
+ private:
+  void check_neighbours(std::uint32_t n) {
+    std::set<std::string> seen;
+    for (const Egress& egress : egress_of(r_.topology.nodes[n])) {
+      const std::string to = egress.to.value_or("");
+      if (!seen.insert(to).second)
+        diagnostics_.error(egress.where.place(), "a port configured twice", {egress.to ? json::quote(to) + " a second time" : "all ports a second time", "one entry for a port"});
+      if (!egress.to) continue;
+      const auto node = r_.topology.find(to);
+      if (!node || !r_.topology.port_towards(n, *node))
+        diagnostics_.error(egress.where.at("to"), "not a neighbour", {json::quote(to), "a node that a link joins to " + json::quote(r_.topology.nodes[n].name), node ? "" : suggest_node(r_.topology, to, diagnostics_)});
+    }
+  }
+
+  void configure(models::LinkPlan::End& end, const models::LinkPlan::End& peer, DataRate rate) {
+    const TopologyNode& node = r_.topology.nodes[end.node.value];
+    const std::string& peer_name = r_.topology.nodes[peer.node.value].name;
+    const Egress* chosen = nullptr;
+    for (const Egress& egress : egress_of(node))
+      if (egress.to == peer_name || (!egress.to && chosen == nullptr)) chosen = &egress;
+    if (chosen == nullptr) return;
+    models::PortConfig config = r_.plan.port_configs[r_.plan.nodes[end.node.value].port_config];
+    config.shaping = shaping_of(*chosen, rate);
+    if (chosen->preemption) config.preemption = preemption_of(*chosen->preemption);
+    config.cut_through = set_of(chosen->cut_through);
+    config.untagged = chosen->untagged;
+    check_combinations(*chosen, config, node, r_.topology.nodes[peer.node.value]);
+    auto& known = r_.plan.port_configs;
+    const auto found = std::find(known.begin(), known.end(), config);
+    end.port_config = static_cast<std::uint32_t>(found - known.begin());
+    if (found == known.end()) known.push_back(std::move(config));
+  }
+
+  static models::ClassSet set_of(const std::vector<std::uint8_t>& classes) {
+    models::ClassSet set = 0;
+    for (const std::uint8_t q : classes)
+      if (q < models::traffic_class_count) set = models::with(set, q);  // the table has refused others
+    return set;
+  }
+
+  static models::PreemptionConfig preemption_of(const Preemption& preemption) {
+    return {set_of(preemption.preemptable), models::AddFragSize(static_cast<std::uint8_t>(preemption.add_frag_size & 3u)), preemption.hold_advance, preemption.release_advance};
+  }
+
+  /// What cannot be, with the reason.
+  void check_combinations(const Egress& egress, const models::PortConfig& config, const TopologyNode& node, const TopologyNode& peer) {
+    if (!reported_.insert(&egress).second && !egress.untagged) return;  // once for all ports that it configures
+    const auto refuse = [&](std::string_view key, const std::string& what, const std::string& found, const std::string& expected) {
+      diagnostics_.error(egress.where.at(key), what, {found, expected});
+    };
+    const auto classes = [](models::ClassSet set) {
+      std::string text = "class";
+      for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
+        if (models::contains(set, q)) text += " " + std::to_string(q);
+      return text;
+    };
+    if (egress.untagged && !peer.is_host())
+      refuse("untagged", "tags taken off before a switch", "a port to the switch " + json::quote(peer.name) + ", which would forget the priorities", "ports to hosts");
+    if (egress.untagged && config.cut_through != 0)
+      refuse("cut_through", "cut-through where tags are taken off", "\"untagged\" too: such frames are stored", "one of them");
+    if (node.is_host() && config.cut_through != 0) refuse("cut_through", "cut-through in a host", "a host, which forwards nothing", "a switch");
+    if (node.is_host() && !egress.ats.empty()) refuse("ats", "ATS in a host", "a host, whose frames meet no ATS scheduler", "a switch; \"launch\" of a stream for a host");
+    if (const models::ClassSet both = config.preemption ? static_cast<models::ClassSet>(config.preemption->preemptable & config.cut_through) : models::ClassSet{0}; both != 0)
+      refuse("cut_through", "cut-through of a preemptable class", classes(both) + ", whose frames may be cut while they come", "express classes");
+    if (const auto both = static_cast<models::ClassSet>(config.shaping.timed & config.cut_through); both != 0)
+      refuse("cut_through", "cut-through of a class with ATS", classes(both) + ", whose eligibility times count from the last bit", "classes without ATS");
+    models::ClassSet shaped = 0;
+    for (const Shaper& shaper : egress.shapers) shaped = models::with(shaped, shaper.traffic_class & 7u);
+    if (const auto both = static_cast<models::ClassSet>(config.shaping.timed & shaped); both != 0)
+      refuse("ats", "two transmission selection algorithms", classes(both) + " with a credit-based shaper and ATS", "one for a class");
+    if (!config.shaping.gates || config.shaping.gates->admin_control_list.empty() || config.shaping.gates->admin_cycle_time <= Duration()) return;
+    const models::GateControlList list(config.shaping.gates->admin_control_list, config.shaping.gates->admin_cycle_time);
+    const auto asks_for = [&](MacOperation operation) {
+      return std::any_of(egress.gates->entries.begin(), egress.gates->entries.end(), [&](const GateEntry& entry) { return entry.mac == operation; });
+    };
+    if (config.preemption && egress.gates && asks_for(MacOperation::hold) && !asks_for(MacOperation::release))
+      refuse("gates", "preemptable frames that are never released", "an entry that holds and none that releases", "an entry with \"mac\": \"release\"");
+    for (std::size_t i = 0; i < egress.shapers.size(); ++i) {
+      const models::TrafficClass q = egress.shapers[i].traffic_class & 7u;
+      if (list.open_share(q).open == Duration())
+        diagnostics_.error(egress.shapers[i].where.at("class"), "a shaper behind a gate that never opens", {"class " + std::to_string(q), "a gate list that opens the class"});
+    }
+  }
+
+  models::ShapingConfig shaping_of(const Egress& egress, DataRate rate) {
+    models::ShapingConfig config;
+    if (egress.gates) config.gates = gate_config_of(*egress.gates, diagnostics_);
+    std::set<std::uint8_t> shaped;
+    for (const Shaper& shaper : egress.shapers) {
+      if (!shaped.insert(shaper.traffic_class).second)
+        diagnostics_.error(shaper.where.at("class"), "a class shaped twice", {"class " + std::to_string(shaper.traffic_class) + " a second time", "one shaper for a class"});
+      if (shaper.idle_slope > rate)
+        diagnostics_.error(shaper.where.at("idle_slope"), "a shaper faster than its link", {json::to_text(shaper.idle_slope), "at most " + json::to_text(rate)});
+      else
+        config.shapers[shaper.traffic_class] = models::ShaperConfig{shaper.idle_slope, shaper.of == SlopeOf::cycle};
+    }
+    config.timed = set_of(egress.ats);
+    for (const MaxSdu& max_sdu : egress.max_sdu) config.queue_max_sdu[max_sdu.traffic_class] = max_sdu.size;
+    return config;
+  }
+
+  Resolved& r_;
+  json::Diagnostics& diagnostics_;
+  std::set<const Egress*> reported_;
+};
+
+}  // namespace
+
+models::GateConfig gate_config_of(const Gates& gates, json::Diagnostics& diagnostics) {
+  models::GateConfig config;
+  Duration sum;
+  for (const GateEntry& entry : gates.entries) {
+    models::GateStates open = 0;
+    for (const std::uint8_t q : entry.open) open = static_cast<models::GateStates>(open | 1u << (q & 7u));
+    constexpr models::GateOperation operations[] = {models::GateOperation::set_gate_states, models::GateOperation::set_and_hold_mac,
+                                                    models::GateOperation::set_and_release_mac};
+    config.admin_control_list.push_back({operations[static_cast<std::size_t>(entry.mac)], open, entry.interval});
+    sum += entry.interval;
+  }
+  config.admin_cycle_time = gates.cycle.value_or(sum);
+  if (config.admin_cycle_time < sum)
+    diagnostics.warning(gates.where.at("cycle"), "the end of the gate list is cut off",
+                        {"entries of " + json::to_text(sum) + " in a cycle of " + json::to_text(config.admin_cycle_time), "entries that fit into the cycle"});
+  config.admin_cycle_time_extension = gates.extension;
+  config.admin_base_time = sim::LocalTime() + gates.base_time;
+  return config;
+}
+
+void resolve_egress(Resolved& resolved, json::Diagnostics& diagnostics) { EgressResolver(resolved, diagnostics).run(); }
+
+void add_launch_classes(Resolved& r) {
+  std::map<std::uint32_t, std::set<std::uint8_t>> priorities;  // of frames with a launch time, by talker
+  for (const models::TalkerPlan& talker : r.plan.talkers) {
+    const models::StreamPlan& stream = r.plan.streams[talker.stream.value];
+    if (talker.launch) priorities[stream.talker.value].insert(stream.priority.value_or(0));
+  }
+  if (priorities.empty()) return;
+  for (models::LinkPlan& link : r.plan.links) {
+    for (models::LinkPlan::End* end : {&link.a, &link.b}) {
+      const auto found = priorities.find(end->node.value);
+      if (found == priorities.end()) continue;
+      models::PortConfig config = r.plan.port_configs[end->port_config.value_or(r.plan.nodes[end->node.value].port_config)];
+      for (const std::uint8_t priority : found->second)
+        config.shaping.timed = models::with(config.shaping.timed, config.traffic_class_of_priority[priority]);
+      end->port_config = static_cast<std::uint32_t>(r.plan.port_configs.size());
+      r.plan.port_configs.push_back(std::move(config));
+    }
+  }
+}
+
+bool slope_is_possible(const models::ShaperConfig& shaper, models::TrafficClass q, const models::GateConfig& gates, DataRate rate) {
+  if (!shaper.of_whole_cycle || gates.admin_control_list.empty() || gates.admin_cycle_time <= Duration()) return true;
+  const models::OpenShare share = models::GateControlList(gates.admin_control_list, gates.admin_cycle_time).open_share(q);
+  return static_cast<sim::int128>(shaper.idle_slope.bits_per_second) * share.cycle.ps() <= static_cast<sim::int128>(rate.bits_per_second) * share.open.ps();
+}
+
+void check_slopes(const Resolved& r, json::Diagnostics& diagnostics) {
+  std::set<std::pair<const Shaper*, std::uint64_t>> reported;
+  for (const models::LinkPlan& link : r.plan.links) {
+    for (const auto& [end, peer] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
+      if (!end->port_config) continue;
+      const models::ShapingConfig& config = r.plan.port_configs[*end->port_config].shaping;
+      if (!config.gates) continue;
+      for (const Egress& egress : egress_of(r.topology.nodes[end->node.value])) {
+        if (egress.to && *egress.to != r.topology.nodes[peer->node.value].name) continue;
+        for (const Shaper& shaper : egress.shapers) {
+          const models::TrafficClass q = shaper.traffic_class & 7u;
+          if (!config.shapers[q] || slope_is_possible(*config.shapers[q], q, *config.gates, link.rate) || !reported.insert({&shaper, link.rate.bits_per_second}).second) continue;
+          diagnostics.error(shaper.where.at("idle_slope"), "a shaper faster than its link while its gate is open",
+                            {json::to_text(shaper.idle_slope) + " of the whole cycle in the part of it for which the gate of class " + std::to_string(q) + " is open",
+                             "at most " + json::to_text(link.rate) + " then"});
+        }
+      }
+    }
+  }
+}
+
+void check_cut_through(const Resolved& r, json::Diagnostics& diagnostics) {
+  for (const ResolvedRedundancy& redundancy : r.redundancies) {
+    const TopologyNode& merge = r.topology.nodes[redundancy.merge];
+    for (const Egress& egress : egress_of(merge))
+      if (!egress.cut_through.empty())
+        diagnostics.error(egress.where.at("cut_through"), "cut-through where a redundant stream is merged",
+                          {json::quote(merge.name) + ", where a damaged frame would take the place of its good copy", "a switch that merges nothing"});
+  }
+}
+
+void check_windows(const Resolved& r, json::Diagnostics& diagnostics) {
+  for (const models::LinkPlan& link : r.plan.links) {
+    for (const models::LinkPlan::End* end : {&link.a, &link.b}) {
+      if (!end->port_config || !r.plan.port_configs[*end->port_config].shaping.gates) continue;
+      const models::PortConfig& config = r.plan.port_configs[*end->port_config];
+      const models::GateConfig& gates = *config.shaping.gates;
+      if (gates.admin_cycle_time <= Duration() || gates.admin_control_list.empty()) continue;  // reported already
+      const models::GateControlList list(gates.admin_control_list, gates.admin_cycle_time);
+      for (const ResolvedStream& stream : r.streams) {
+        const bool crosses = std::any_of(stream.paths.begin(), stream.paths.end(), [&](const Path& path) {
+          const auto at = std::find(path.begin(), path.end(), end->node.value);
+          return at != path.end() && at + 1 != path.end() && r.topology.port_towards(*at, *(at + 1)) == end->port;
+        });
+        if (!crosses) continue;
+        const models::StreamPlan& plan = r.plan.streams[stream.index.value];
+        const models::TrafficClass q = config.traffic_class_of_priority[plan.priority.value_or(0)];
+        const bool numbered = std::any_of(r.redundancies.begin(), r.redundancies.end(), [&](const ResolvedRedundancy& other) { return other.stream == stream.index; });
+        const Octets frame = models::frame_length(plan.headers + stream.largest_payload, plan.priority.has_value() || numbered, numbered);
+        const Duration needed = link.rate.octet_time() * (models::preamble_and_sfd + frame).count;
+        if (list.longest_window(q) >= needed) continue;
+        diagnostics.error(stream.where.place(), "a frame that no gate window lets pass",
+                          {json::to_text(needed) + " for a frame of class " + std::to_string(q) + " at " + json::quote(r.topology.nodes[end->node.value].name) + ", whose longest window is " +
+                               json::to_text(list.longest_window(q)),
+                           "a window that holds the longest frame"});
+      }
+    }
+  }
+}
+
+}  // namespace takt::scenario

@@ -1,0 +1,250 @@
+#include "scenario/resolve/faults.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "models/ethernet/sizes.hpp"
+#include "scenario/json/suggest.hpp"
+#include "scenario/topology/rerouting.hpp"
+
+namespace takt::scenario {
+namespace {
+
+models::Probability probability(double value) { return models::Probability::from_multiple(static_cast<std::uint64_t>(value * 0x1p63)); }
+
+class FaultResolver {
+ public:
+  FaultResolver(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics) {}
+
+  void run() {
+    for (const Fault& fault : r_.scenario.faults) std::visit([this](const auto& each) { add(each); }, fault);
+    if (!r_.scenario.rerouting) return;
+    if (r_.scenario.faults.empty())
+      diagnostics_.warning(r_.scenario.rerouting->where.place(), "nothing to reroute for", {"no \"faults\"", "a fault that takes a link down"});
+    std::stable_sort(outages_.begin(), outages_.end(), [](const Outage& a, const Outage& b) { return a.at < b.at; });
+    if (!diagnostics_.has_errors()) plan_rerouting(r_, outages_, r_.scenario.rerouting->delay);
+  }
+
+ private:
+  template <class F>
+  sim::TrueTime begin_of(const F& fault) {
+    if (r_.scenario.duration > Duration() && fault.at > r_.scenario.duration)
+      diagnostics_.warning(fault.where.at("at"), "after the end of the simulation", {json::to_text(fault.at), "at most " + json::to_text(r_.scenario.duration)});
+    return sim::TrueTime() + fault.at;
+  }
+  template <class F>
+  std::optional<sim::TrueTime> end_of(const F& fault) {
+    if (!fault.lasts) return std::nullopt;
+    return (sim::TrueTime() + fault.at).plus_saturated(*fault.lasts);
+  }
+
+  struct End {
+    std::uint32_t node = 0;
+    std::optional<std::uint16_t> port;
+  };
+  std::optional<End> end_named(const std::string& text, const json::Place& place) {
+    const std::size_t colon = text.find(':');
+    const std::string_view name = std::string_view(text).substr(0, colon);
+    const auto node = r_.topology.find(name);
+    if (!node) {
+      diagnostics_.error(place, "unknown node", {json::quote(name), "the name of a node", suggest_node(r_.topology, name, diagnostics_)});
+      return std::nullopt;
+    }
+    End end{*node, std::nullopt};
+    if (colon != std::string::npos) {
+      std::uint16_t port = 0;
+      const char* const last = text.data() + text.size();
+      const auto [read, error] = std::from_chars(text.data() + colon + 1, last, port);
+      if (error != std::errc() || read != last) {
+        diagnostics_.error(place, "not a port", {json::quote(text), "\"node:number\""});
+        return std::nullopt;
+      }
+      end.port = port;
+    }
+    return end;
+  }
+
+  /// The link between two ends; a mistake is reported.
+  std::optional<std::uint32_t> link_named(const std::vector<std::string>& ends, const json::Source& where) {
+    if (ends.size() != 2) return std::nullopt;  // the table has reported it
+    const auto a = end_named(ends[0], where.at("link", 0));
+    const auto b = end_named(ends[1], where.at("link", 1));
+    if (!a || !b) return std::nullopt;
+    const auto is = [](const models::LinkPlan::End& end, const End& wanted) {
+      return end.node.value == wanted.node && (!wanted.port || *wanted.port == end.port);
+    };
+    for (std::uint32_t l = 0; l < r_.plan.links.size(); ++l) {
+      const models::LinkPlan& link = r_.plan.links[l];
+      if ((is(link.a, *a) && is(link.b, *b)) || (is(link.a, *b) && is(link.b, *a))) return l;
+    }
+    diagnostics_.error(where.at("link"), "no link", {"none between " + json::quote(ends[0]) + " and " + json::quote(ends[1]), "two nodes that a link joins"});
+    return std::nullopt;
+  }
+
+  std::optional<std::uint32_t> node_named(const std::string& name, const json::Place& place) {
+    const auto node = r_.topology.find(name);
+    if (!node) diagnostics_.error(place, "unknown node", {json::quote(name), "the name of a node", suggest_node(r_.topology, name, diagnostics_)});
+    return node;
+  }
+
+  void add(const LinkDown& fault) {
+    const auto link = link_named(fault.link, fault.where);
+    const sim::TrueTime begin = begin_of(fault);
+    if (!link) return;
+    r_.plan.links[*link].may_fail = true;
+    r_.script.push_back({begin, ResolvedLink{*link, false}});
+    outages_.push_back({begin, {*link}, false});
+    if (const auto end = end_of(fault)) {
+      r_.script.push_back({*end, ResolvedLink{*link, true}});
+      outages_.push_back({*end, {*link}, true});
+    }
+  }
+
+  void add(const FrameErrors& fault) {
+    const auto link = link_named(fault.link, fault.where);
+    models::Impairment impairment;
+    if (fault.loss) impairment.loss = models::IndependentLoss{probability(*fault.loss)};
+    if (fault.burst_loss)
+      impairment.loss = models::GilbertElliottLoss{probability(fault.burst_loss->good_to_bad), probability(fault.burst_loss->bad_to_good),
+                                                   probability(fault.burst_loss->loss_in_good), probability(fault.burst_loss->loss_in_bad)};
+    if (fault.corruption) impairment.corruption = models::Corruption::per_frame(probability(*fault.corruption));
+    if (fault.bit_error_rate) impairment.corruption = models::Corruption::per_bit(probability(*fault.bit_error_rate));
+    if (fault.duplication) impairment.duplication = models::Duplication{probability(*fault.duplication)};
+    if (!impairment.loss && !impairment.corruption && !impairment.duplication)
+      diagnostics_.error(fault.where.place(), "nothing goes wrong", {"no probability", "\"loss\", \"burst_loss\", \"corruption\", \"bit_error_rate\" or \"duplication\""});
+    impairment.from = begin_of(fault);
+    impairment.until = end_of(fault).value_or(sim::TrueTime::never());
+    if (!link) return;
+    models::LinkPlan& plan = r_.plan.links[*link];
+    plan.may_fail = true;
+    std::optional<bool> only_from_a;
+    if (fault.towards) {
+      const auto to = node_named(*fault.towards, fault.where.at("towards"));
+      if (!to) return;
+      if (*to != plan.a.node.value && *to != plan.b.node.value) {
+        diagnostics_.error(fault.where.at("towards"), "not an end of the link", {json::quote(*fault.towards), json::quote(fault.link[0]) + " or " + json::quote(fault.link[1])});
+        return;
+      }
+      only_from_a = *to == plan.b.node.value;
+    }
+    if (only_from_a.value_or(true)) r_.plan.impairments.push_back({*link, true, impairment});
+    if (!only_from_a.value_or(false)) r_.plan.impairments.push_back({*link, false, impairment});
+  }
+
+  void add(const Crash& fault) {
+    const auto node = node_named(fault.node, fault.where.at("node"));
+    const sim::TrueTime begin = begin_of(fault);
+    if (!node) return;
+    const models::NodeIndex index{*node};
+    std::vector<std::uint32_t> links;
+    for (std::uint32_t l = 0; l < r_.plan.links.size(); ++l) {
+      models::LinkPlan& link = r_.plan.links[l];
+      if (link.a.node != index && link.b.node != index) continue;
+      link.may_fail = true;
+      links.push_back(l);
+    }
+    r_.script.push_back({begin, ResolvedNode{index, false}});
+    outages_.push_back({begin, links, false});
+    if (const auto end = end_of(fault)) {
+      r_.script.push_back({*end, ResolvedNode{index, true}});
+      outages_.push_back({*end, links, true});
+    }
+  }
+
+  void add(const Babble& fault) {
+    const auto found = std::find_if(r_.streams.begin(), r_.streams.end(), [&](const ResolvedStream& s) { return r_.plan.streams[s.index.value].name == fault.stream; });
+    const sim::TrueTime begin = begin_of(fault);
+    if (found == r_.streams.end() || found->of_program) {
+      std::vector<std::string_view> names;
+      for (const Stream& stream : r_.scenario.streams) names.push_back(stream.name);
+      diagnostics_.error(fault.where.at("stream"), "unknown stream", {json::quote(fault.stream), "the name of an entry of \"streams\"", json::suggest(fault.stream, names)});
+      return;
+    }
+    const models::StreamPlan& plan = r_.plan.streams[found->index.value];
+    Duration every = fault.every.value_or(Duration());
+    if (!fault.every) {
+      const Octets wire = models::wire_length(models::frame_length(plan.headers + found->largest_payload, plan.priority.has_value()));
+      for (const models::LinkPlan& link : r_.plan.links)
+        if (link.a.node == plan.talker || link.b.node == plan.talker) every = link.rate.octet_time() * wire.count;
+      if (every == Duration()) return;  // a talker without a link, reported elsewhere
+    }
+    models::TalkerPlan talker{found->index, found->largest_payload, models::PeriodicSchedule{begin.since_start(), every, {}}};
+    if (const auto end = end_of(fault)) talker.until = sim::LocalTime() + end->since_start();
+    talker.babbles = true;
+    const sim::TrueTime over = end_of(fault).value_or(sim::TrueTime::never());
+    for (const Babbling& other : babbling_)
+      if (other.stream == fault.stream && begin < other.end && other.begin < over)
+        diagnostics_.error(fault.where.place(), "a talker that babbles twice at a time", {json::quote(fault.stream) + ", which babbles from " + json::to_text(other.begin.since_start()) + " on already", "times that do not overlap"});
+    babbling_.push_back({fault.stream, begin, over});
+    talker.name = plan.name + "/babble";
+    r_.plan.talkers.push_back(std::move(talker));
+  }
+
+  void add(const StuckGate& fault) {
+    const auto node = node_named(fault.node, fault.where.at("node"));
+    const sim::TrueTime begin = begin_of(fault);
+    if (!node) return;
+    bool found = false;
+    for (const Neighbour& neighbour : r_.topology.neighbours[*node]) {
+      if (fault.to && r_.topology.nodes[neighbour.node].name != *fault.to) continue;
+      found = true;
+      const models::NodeIndex index{*node};
+      for (models::LinkPlan& link : r_.plan.links)
+        for (models::LinkPlan::End* end : {&link.a, &link.b})
+          if (end->node == index && end->port == neighbour.port) end->gates_may_stick = true;
+      refuse_overlap(fault, {*node, neighbour.port, fault.traffic_class}, begin);
+      r_.script.push_back({begin, ResolvedStuckGate{index, neighbour.port, fault.traffic_class, fault.state == GateFault::open}});
+      if (const auto end = end_of(fault)) r_.script.push_back({*end, ResolvedStuckGate{index, neighbour.port, fault.traffic_class, std::nullopt}});
+    }
+    if (!found)
+      diagnostics_.error(fault.where.at(fault.to ? "to" : "node"), "not a neighbour", {json::quote(fault.to.value_or(fault.node)), "a node that a link joins to " + json::quote(fault.node)});
+  }
+
+  void add(const ClockFault& fault) {
+    const auto node = node_named(fault.node, fault.where.at("node"));
+    const sim::TrueTime begin = begin_of(fault);
+    if (!node) return;
+    if (!r_.plan.nodes[*node].clock) {
+      diagnostics_.error(fault.where.at("node"), "a clock fault without a clock", {json::quote(fault.node) + ", which knows true time", "a node with a clock of its own, see \"clocks\""});
+      return;
+    }
+    r_.script.push_back({begin, ResolvedClockFault{models::NodeIndex{*node}, fault.step, fault.offset}});
+  }
+
+  /// A gate is stuck in one way at a time.
+  void refuse_overlap(const StuckGate& fault, const std::tuple<std::uint32_t, std::uint16_t, std::uint8_t>& gate, sim::TrueTime begin) {
+    const sim::TrueTime end = end_of(fault).value_or(sim::TrueTime::never());
+    for (const Stuck& other : stuck_)
+      if (other.gate == gate && begin < other.end && other.begin < end)
+        diagnostics_.error(fault.where.place(), "a gate stuck twice at a time",
+                           {"class " + std::to_string(fault.traffic_class) + " of " + json::quote(fault.node) + ", stuck from " + json::to_text(other.begin.since_start()) + " on already",
+                            "times that do not overlap"});
+    stuck_.push_back({gate, begin, end});
+  }
+
+  struct Stuck {
+    std::tuple<std::uint32_t, std::uint16_t, std::uint8_t> gate;   // node, port, class
+    sim::TrueTime begin;
+    sim::TrueTime end;
+  };
+  Resolved& r_;
+  json::Diagnostics& diagnostics_;
+  struct Babbling {
+    std::string stream;
+    sim::TrueTime begin;
+    sim::TrueTime end;
+  };
+  std::vector<Babbling> babbling_;
+  std::vector<Stuck> stuck_;
+  std::vector<Outage> outages_;
+};
+
+}  // namespace
+
+void resolve_faults(Resolved& resolved, json::Diagnostics& diagnostics) { FaultResolver(resolved, diagnostics).run(); }
+
+}  // namespace takt::scenario

@@ -1,0 +1,18 @@
+// Gates that a scenario has for its whole network: laid out ("auto"), or listed.
+#pragma once
+
+#include <optional>
+
+#include "scenario/resolve/resolved.hpp"
+
+namespace takt::scenario {
+
+/// What "auto" asks for: the scheduled streams, with their paths and times. Streams of a scheduled class whose frames come at unknown times
+/// or by several ways, and ports that do something else to them, are diagnostics; then there is no problem.
+std::optional<GateProblem> gate_problem_of(const Resolved& resolved, json::Diagnostics& diagnostics);
+
+/// Gives the ports of resolved.plan their gates. Laid-out lists are written into resolved.scenario.gates, so that the resolved copy has them,
+/// and kept in resolved.gates. Conflicts are diagnostics. To be called when the streams are there.
+void resolve_gates(Resolved& resolved, json::Diagnostics& diagnostics);
+
+}  // namespace takt::scenario

@@ -1,0 +1,324 @@
+#include "scenario/resolve/ingress.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "models/ethernet/sizes.hpp"
+#include "scenario/json/suggest.hpp"
+#include "scenario/resolve/cqf.hpp"
+#include "scenario/resolve/ingress_tables.hpp"
+#include "scenario/resolve/redundancy.hpp"
+
+namespace takt::scenario {
+namespace {
+
+/// What crosses a switch, and what of it the switch splits or makes one again.
+struct Crossing {
+  std::vector<std::uint32_t> streams;                      // ascending
+  std::vector<const ResolvedRedundancy*> redundancies;     // of those streams
+};
+
+/// The ingress of one switch.
+class NodeIngress {
+ public:
+  NodeIngress(Resolved& resolved, std::uint32_t node, const Crossing& crossing, json::Diagnostics& diagnostics)
+      : r_(resolved), node_(node), crossing_(crossing), description_(std::get<SwitchNode>(resolved.topology.nodes[node].description).ingress), diagnostics_(diagnostics) {
+    config_.traffic_class_of_priority = r_.plan.port_configs[r_.plan.nodes[node].port_config].traffic_class_of_priority;
+    for (const models::LinkPlan& link : r_.plan.links)
+      if (link.a.node.value == node || link.b.node.value == node) fastest_ = std::max(fastest_, link.rate);
+  }
+
+  models::IngressConfig build() {
+    for (const ResolvedRedundancy* const redundancy : crossing_.redundancies)
+      if (redundancy->split == node_ || redundancy->merge == node_) add_redundancy(*redundancy);
+    if (description_) add_description();
+    return std::move(config_);
+  }
+
+ private:
+  std::string name_of_node() const { return json::quote(r_.topology.nodes[node_].name); }
+
+  void add_redundancy(const ResolvedRedundancy& redundancy) {
+    const models::StreamHandle handle = handle_of(redundancy.stream.value);
+    if (redundancy.split == node_) config_.splits.push_back({handle, {redundancy.members}});
+    if (redundancy.merge == node_) config_.recoveries.push_back({handle, recovery_config(r_, redundancy, diagnostics_)});
+  }
+
+  /// The handle of a stream of the plan; identified by its address, and by those of its members.
+  models::StreamHandle handle_of(std::uint32_t stream) {
+    const auto [at, is_new] = handles_.try_emplace(stream, models::StreamHandle{static_cast<std::uint32_t>(config_.streams.size())});
+    if (!is_new) return at->second;
+    const models::StreamPlan& plan = r_.plan.streams[stream];
+    config_.streams.push_back(plan.name);
+    config_.stream_identity_table.push_back({at->second, models::AddressIdentification{plan.destination, models::Tagged::all, plan.vlan}});
+    for (const ResolvedRedundancy* const redundancy : crossing_.redundancies) {
+      if (redundancy->stream.value != stream || redundancy->split == node_) continue;
+      for (std::size_t i = 0; i < redundancy->members.size(); ++i) {
+        const models::StreamMember& member = redundancy->members[i];
+        models::StreamIdentityEntry entry{at->second, models::AddressIdentification{member.destination, models::Tagged::all, member.vlan}};
+        if (redundancy->merge == node_) entry.member = static_cast<std::uint16_t>(i);
+        config_.stream_identity_table.push_back(entry);
+      }
+    }
+    return at->second;
+  }
+
+  void add_description() {
+    check_names(description_->streams);
+    check_names(description_->gates);
+    check_names(description_->meters);
+    check_names(description_->ats);
+    check_names(description_->ats_groups);
+    for (const IdentifiedStream& stream : description_->streams) add_stream(stream);
+    for (const StreamGateEntryList& gate : description_->gates) config_.stream_gates.push_back(stream_gate_of(gate, diagnostics_));
+    for (const Meter& meter : description_->meters) config_.flow_meters.push_back(meter_of(meter, fastest_, diagnostics_));
+    for (const AtsGroupEntry& group : description_->ats_groups)
+      config_.ats_groups.push_back({group.name, group.max_residence_time.value_or(description_->max_residence_time.value_or(Duration::max()))});
+    config_.maximum_residence_time = description_->max_residence_time.value_or(Duration::max());
+    for (const AtsEntry& entry : description_->ats) add_scheduler(entry);
+    if (description_->cqf) add_cqf_gate(*description_->cqf);
+    for (const StreamFilterEntry& filter : description_->filters) add_filter(filter);
+    if (description_->cqf) add_cqf_filters(*description_->cqf);
+    for (const std::uint32_t stream : crossing_.streams) check_stream(stream);
+    check_schedulers();
+  }
+
+  template <class Entry>
+  void check_names(const std::vector<Entry>& entries) {
+    std::set<std::string_view> names;
+    for (const Entry& entry : entries)
+      if (!names.insert(entry.name).second)
+        diagnostics_.error(entry.where.at("name"), "duplicate name", {json::quote(entry.name) + " a second time", "a name of its own in its table"});
+  }
+
+  /// The index of what is called so; none if nothing is (reported).
+  template <class Index, class Entry>
+  Index find(const std::vector<Entry>& entries, const std::string& name, const json::Place& place, std::string_view what, std::string_view table) {
+    std::vector<std::string_view> names;
+    for (std::uint32_t i = 0; i < entries.size(); ++i) {
+      if (entries[i].name == name) return Index{i};
+      names.push_back(entries[i].name);
+    }
+    diagnostics_.error(place, "unknown " + std::string(what), {json::quote(name), "a name under \"" + std::string(table) + "\" of this ingress", json::suggest(name, names)});
+    return {};
+  }
+
+  void add_stream(const IdentifiedStream& stream) {
+    const models::StreamHandle handle{static_cast<std::uint32_t>(config_.streams.size())};
+    config_.streams.push_back(stream.name);
+    named_.try_emplace(stream.name, handle);
+    auto entry = identity_of(r_, stream, diagnostics_);
+    if (!entry) return;
+    entry->stream = handle;
+    config_.stream_identity_table.push_back(std::move(*entry));
+  }
+
+  void add_scheduler(const AtsEntry& entry) {
+    models::AtsSchedulerConfig scheduler{entry.name, entry.rate, entry.burst, entry.length == LengthOf::wire, {}};
+    if (entry.group) scheduler.group = find<models::AtsGroupIndex>(config_.ats_groups, *entry.group, entry.where.at("group"), "group of ATS schedulers", "ats_groups");
+    if (entry.rate > fastest_)
+      diagnostics_.error(entry.where.at("rate"), "a scheduler faster than every link", {json::to_text(entry.rate), "at most " + json::to_text(fastest_) + ", the fastest link of the switch"});
+    config_.ats_schedulers.push_back(std::move(scheduler));
+  }
+
+  void add_filter(const StreamFilterEntry& filter) {
+    models::StreamFilterConfig config;
+    if (filter.stream) config.stream_handle = handle_of_name(*filter.stream, filter.where.at("stream"));
+    config.priority = filter.pcp;
+    config.maximum_sdu_size = filter.max_sdu.value_or(Octets{0});
+    if (filter.block_oversize && !filter.max_sdu)
+      diagnostics_.error(filter.where.at("block_oversize"), "no frame is too long", {"\"block_oversize\" without \"max_sdu\"", "\"max_sdu\" too"});
+    config.stream_blocked_due_to_oversize_frame_enable = filter.block_oversize;
+    if (filter.gate) config.stream_gate = find<models::StreamGateIndex>(config_.stream_gates, *filter.gate, filter.where.at("gate"), "stream gate", "gates");
+    if (filter.meter) config.flow_meter = find<models::FlowMeterIndex>(config_.flow_meters, *filter.meter, filter.where.at("meter"), "flow meter", "meters");
+    if (filter.ats) config.ats_scheduler = find<models::AtsSchedulerIndex>(config_.ats_schedulers, *filter.ats, filter.where.at("ats"), "ATS scheduler", "ats");
+    const auto shadows = [&](const models::StreamFilterConfig& other) {
+      return (!other.stream_handle || other.stream_handle == config.stream_handle) && (!other.priority || other.priority == config.priority);
+    };
+    if (std::any_of(config_.stream_filters.begin(), config_.stream_filters.end(), shadows))
+      diagnostics_.warning(filter.where.place(), "a filter that no frame reaches", {"an earlier filter for the same frames", "the more special filter first"});
+    config_.stream_filters.push_back(config);
+    filters_.push_back(&filter);
+  }
+
+  std::optional<models::StreamHandle> handle_of_name(const std::string& name, const json::Place& place) {
+    if (const auto named = named_.find(name); named != named_.end()) return named->second;
+    const models::StreamIndex stream = find_stream(r_, name);
+    if (!stream.is_none()) {
+      // The switches of a generator share one description; what only some of them need is no mistake.
+      const bool is_generated = place.pointer.starts_with("/network/generate/");
+      if (!is_generated && !std::binary_search(crossing_.streams.begin(), crossing_.streams.end(), stream.value))
+        diagnostics_.warning(place, "a filter that no frame reaches", {json::quote(name) + ", which does not cross " + name_of_node(), "a stream that does"});
+      return handle_of(stream.value);
+    }
+    std::vector<std::string_view> names;
+    for (const auto& [known, handle] : named_) names.push_back(known);
+    for (const models::StreamPlan& plan : r_.plan.streams) names.push_back(plan.name);
+    diagnostics_.error(place, "unknown stream", {json::quote(name), "a name under \"streams\" of this ingress or of the scenario", json::suggest(name, names)});
+    return models::StreamHandle{};
+  }
+
+  void add_cqf_gate(const Cqf& cqf) {
+    times_ = cqf_times(cqf, r_.topology, node_);
+    if (cqf.buffers && *cqf.buffers != cqf.classes.size())
+      diagnostics_.error(cqf.where.at("buffers"), "not a class for each buffer", {std::to_string(*cqf.buffers) + " buffers in " + std::to_string(cqf.classes.size()) + " classes", "as many classes as buffers"});
+    if (cqf.offset && *cqf.offset > Duration() && cqf.classes.size() == 2)
+      diagnostics_.error(cqf.where.at("offset"), "receiving into the buffer that is sent from", {json::to_text(*cqf.offset) + " with two buffers", "three buffers, or \"dead_time\""});
+    cqf_fits_ = cqf.classes.size() >= 2 && cqf.cycle > Duration();  // else refused by the table
+    if (times_.dead_time >= cqf.cycle) {
+      diagnostics_.error(cqf.where.at("dead_time"), "no time to send", {"a dead time of " + json::to_text(times_.dead_time) + " in a cycle of " + json::to_text(cqf.cycle), "a shorter one"});
+      cqf_fits_ = false;
+    }
+    if (times_.offset >= cqf.cycle) {
+      diagnostics_.error(cqf.where.at("offset"), "an offset beyond the cycle", {json::to_text(times_.offset), "less than " + json::to_text(cqf.cycle)});
+      cqf_fits_ = false;
+    }
+    for (const models::StreamGateConfig& gate : config_.stream_gates)
+      if (gate.name == "cqf") diagnostics_.error(cqf.where.place(), "duplicate name", {"a stream gate \"cqf\" beside CQF", "another name for that gate"});
+    if (!cqf_fits_) return;
+    config_.stream_gates.push_back(cqf_stream_gate(cqf, times_, config_.traffic_class_of_priority));
+    set_port_gates(cqf);
+  }
+
+  void set_port_gates(const Cqf& cqf) {
+    const models::GateConfig gates = cqf_port_gates(cqf, times_);
+    bool twice = false;
+    for (models::LinkPlan& link : r_.plan.links) {
+      for (models::LinkPlan::End* const end : {&link.a, &link.b}) {
+        if (end->node.value != node_) continue;
+        models::PortConfig config = r_.plan.port_configs[end->port_config.value_or(r_.plan.nodes[node_].port_config)];
+        twice = twice || config.shaping.gates.has_value();
+        config.shaping.gates = gates;
+        auto& known = r_.plan.port_configs;
+        const auto found = std::find(known.begin(), known.end(), config);
+        end->port_config = static_cast<std::uint32_t>(found - known.begin());
+        if (found == known.end()) known.push_back(std::move(config));
+      }
+    }
+    if (twice) diagnostics_.error(cqf.where.place(), "a port configured twice", {"gates in \"egress\" beside CQF, which makes them", "one of the two"});
+  }
+
+  void add_cqf_filters(const Cqf& cqf) {
+    if (!cqf_fits_) return;
+    for (const models::Priority priority : cqf_priorities(cqf, config_.traffic_class_of_priority)) {
+      models::StreamFilterConfig filter;
+      filter.priority = priority;
+      filter.stream_gate = models::StreamGateIndex{static_cast<std::uint32_t>(config_.stream_gates.size() - 1)};
+      config_.stream_filters.push_back(filter);
+      filters_.push_back(nullptr);
+    }
+  }
+
+  /// The filter that the frames of a stream meet at this switch, or none.
+  std::optional<std::size_t> filter_of(std::uint32_t stream) const {
+    const auto handle = handles_.find(stream);
+    const models::Priority priority = r_.plan.streams[stream].priority.value_or(0);
+    for (std::size_t i = 0; i < config_.stream_filters.size(); ++i) {
+      const models::StreamFilterConfig& filter = config_.stream_filters[i];
+      if (filter.priority && *filter.priority != priority) continue;
+      if (!filter.stream_handle || (handle != handles_.end() && *filter.stream_handle == handle->second)) return i;
+    }
+    return std::nullopt;
+  }
+
+  /// A stream none of whose longest frames can pass is a mistake.
+  void check_stream(std::uint32_t stream) {
+    const auto number = filter_of(stream);
+    if (!number) return;
+    const models::StreamFilterConfig& filter = config_.stream_filters[*number];
+    const models::StreamPlan& plan = r_.plan.streams[stream];
+    const Octets frame = models::frame_length(plan.headers + r_.streams[stream].largest_payload, plan.priority.has_value());
+    const std::string its_frame = "frames of " + json::quote(plan.name) + " of up to ";
+    if (!filter.flow_meter.is_none()) {
+      const models::FlowMeterConfig& meter = config_.flow_meters[filter.flow_meter.value].meter;
+      const Octets most = meter.drop_on_yellow ? meter.committed_burst_size : std::max(meter.committed_burst_size, meter.excess_burst_size);
+      if (frame > most)
+        diagnostics_.error(description_->meters[filter.flow_meter.value].where.at("cbs"), "a burst smaller than a frame",
+                           {json::to_text(most) + " for " + its_frame + json::to_text(frame), "at least the longest frame"});
+    }
+    if (!filter.ats_scheduler.is_none()) {
+      const models::AtsSchedulerConfig& scheduler = config_.ats_schedulers[filter.ats_scheduler.value];
+      const Octets counted = scheduler.media_overhead ? models::wire_length(frame) : frame;
+      if (counted > scheduler.committed_burst_size)
+        diagnostics_.error(description_->ats[filter.ats_scheduler.value].where.at("burst"), "a burst smaller than a frame",
+                           {json::to_text(scheduler.committed_burst_size) + " for " + its_frame + json::to_text(counted) + (scheduler.media_overhead ? " with preamble and gap" : ""),
+                            "at least the longest frame"});
+      const StreamDemand& demand = r_.streams[stream].demand;
+      asked_of_[filter.ats_scheduler.value] += demand.wire_bits_per_second - (scheduler.media_overhead ? 0 : 160 * demand.frames_per_second);
+    }
+    if (cqf_fits_ && filter.stream_gate.value + std::size_t{1} == config_.stream_gates.size()) check_cqf(*description_->cqf, frame, plan.name);
+  }
+
+  void check_schedulers() {
+    for (const auto& [scheduler, asked] : asked_of_) {
+      const auto rate = static_cast<double>(config_.ats_schedulers[scheduler].committed_information_rate.bits_per_second);
+      if (asked > rate * (1 + 1e-9))
+        diagnostics_.warning(description_->ats[scheduler].where.at("rate"), "a scheduler slower than its streams",
+                             {json::to_text(config_.ats_schedulers[scheduler].committed_information_rate) + " for " + json::to_text(DataRate{static_cast<std::uint64_t>(asked)}),
+                              "a rate that carries them"});
+    }
+  }
+
+  void check_cqf(const Cqf& cqf, Octets frame, const std::string& stream) {
+    DataRate slowest = fastest_;
+    for (const models::LinkPlan& link : r_.plan.links)
+      if (link.a.node.value == node_ || link.b.node.value == node_) slowest = std::min(slowest, link.rate);
+    const Duration needed = slowest.octet_time() * (models::preamble_and_sfd + frame).count;
+    if (needed > cqf.cycle - times_.dead_time)
+      diagnostics_.error(cqf.where.at("cycle"), "a cycle shorter than a frame",
+                         {json::to_text(cqf.cycle) + " with a dead time of " + json::to_text(times_.dead_time) + " for frames of " + json::quote(stream) + " that last " + json::to_text(needed),
+                          "a cycle that holds the longest frame"});
+  }
+
+  Resolved& r_;
+  std::uint32_t node_;
+  const Crossing& crossing_;
+  const std::optional<Ingress>& description_;
+  json::Diagnostics& diagnostics_;
+  models::IngressConfig config_;
+  DataRate fastest_;
+  std::map<std::uint32_t, models::StreamHandle> handles_;       // of streams of the plan
+  std::map<std::string, models::StreamHandle, std::less<>> named_;
+  std::vector<const StreamFilterEntry*> filters_;               // null: of CQF
+  std::map<std::uint32_t, double> asked_of_;                    // of each scheduler
+  CqfTimes times_;
+  bool cqf_fits_ = false;
+};
+
+std::vector<Crossing> crossings_of(const Resolved& r) {
+  std::vector<Crossing> crossings(r.topology.nodes.size());
+  for (const ResolvedStream& stream : r.streams)
+    for (const Path& path : stream.paths)
+      for (const std::uint32_t node : path)
+        if (auto& streams = crossings[node].streams; streams.empty() || streams.back() != stream.index.value) streams.push_back(stream.index.value);
+  for (const ResolvedRedundancy& redundancy : r.redundancies) {
+    std::set<std::uint32_t> nodes;
+    for (const Path& path : r.streams[redundancy.stream.value].paths) nodes.insert(path.begin(), path.end());
+    for (const std::uint32_t node : nodes) crossings[node].redundancies.push_back(&redundancy);
+  }
+  return crossings;
+}
+
+}  // namespace
+
+void resolve_ingress(Resolved& r, json::Diagnostics& diagnostics) {
+  const std::vector<Crossing> crossings = crossings_of(r);
+  for (const ResolvedRedundancy& redundancy : r.redundancies) {
+    if (r.topology.nodes[redundancy.split].is_host()) r.plan.host_splits.push_back({redundancy.stream, {redundancy.members}});
+    if (r.topology.nodes[redundancy.merge].is_host())
+      r.plan.host_recoveries.push_back({models::NodeIndex{redundancy.merge}, redundancy.stream, recovery_config(r, redundancy, diagnostics)});
+  }
+  for (std::uint32_t n = 0; n < r.topology.nodes.size(); ++n) {
+    if (r.topology.nodes[n].is_host()) continue;
+    const bool has_functions = std::any_of(crossings[n].redundancies.begin(), crossings[n].redundancies.end(),
+                                           [&](const ResolvedRedundancy* redundancy) { return redundancy->split == n || redundancy->merge == n; });
+    if (!has_functions && !std::get<SwitchNode>(r.topology.nodes[n].description).ingress) continue;
+    models::IngressConfig config = NodeIngress(r, n, crossings[n], diagnostics).build();
+    r.plan.nodes[n].ingress = static_cast<std::uint32_t>(r.plan.ingress_configs.size());
+    r.plan.ingress_configs.push_back(std::move(config));
+  }
+}
+
+}  // namespace takt::scenario

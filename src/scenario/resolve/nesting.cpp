@@ -1,0 +1,133 @@
+#include "scenario/resolve/nesting.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "scenario/json/suggest.hpp"
+
+namespace takt::scenario {
+namespace {
+
+class Nester {
+ public:
+  Nester(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics) {
+    for (const Program& program : r_.scenario.programs) programs_.emplace(program.name, &program);
+    for (std::uint32_t i = 0; i < r_.programs.size(); ++i) numbers_.emplace(r_.programs[i].name, i);
+  }
+
+  void run() {
+    for (const Program& program : r_.scenario.programs)
+      if (program.within) check(program);
+    for (ResolvedProgram& program : r_.programs)
+      if (program.description->within) note(program);
+    for (const Requirement& requirement : r_.scenario.require) check(requirement);
+  }
+
+ private:
+  void check(const Program& program) {
+    const json::Place place = program.where.at("within");
+    const Program* const outer = find(*program.within);
+    if (outer == nullptr) {
+      std::vector<std::string_view> names;
+      for (const Program& each : r_.scenario.programs) names.push_back(each.name);
+      diagnostics_.error(place, "unknown program", {json::quote(*program.within), "the name of a program", json::suggest(*program.within, names)});
+      return;
+    }
+    if (is_in_a_cycle(program)) {
+      diagnostics_.error(place, "programs nested in a circle", {json::quote(program.name) + " within itself, by way of " + json::quote(*program.within), "a tree of programs"});
+      return;
+    }
+    const std::vector<std::string_view> slaves(outer->slaves.begin(), outer->slaves.end());
+    if (std::find(slaves.begin(), slaves.end(), program.master) == slaves.end())
+      diagnostics_.error(program.where.at("master"), "the master of a nested program is no slave of the outer one",
+                         {json::quote(program.master), "a slave of " + json::quote(outer->name), json::suggest(program.master, slaves)});
+    const auto [taken, is_new] = taken_.emplace(std::pair(outer->name, program.master), program.name);
+    if (!is_new)
+      diagnostics_.error(place, "two programs nested at one slave", {json::quote(program.name) + " and " + json::quote(taken->second) + " at " + json::quote(program.master), "one"});
+    for (const Program* each : {&program, outer})
+      if (!each->roles.empty() && refused_.insert(each->name).second)
+        diagnostics_.error(each->where.at("roles"), "roles in nested programs", {"\"roles\" of " + json::quote(each->name), "\"slaves\" for both programs"});
+      else if (each->variant == Variant::paper && refused_.insert(each->name).second)
+        diagnostics_.error(each->where.at("variant"), "nesting with the handshake of the paper", {"\"paper\", whose states alone do not tell one run from the next", "\"robust\" for both programs"});
+  }
+
+  const Program* find(const std::string& name) const {
+    const auto found = programs_.find(name);
+    return found == programs_.end() ? nullptr : found->second;
+  }
+
+  bool is_in_a_cycle(const Program& program) const {
+    const Program* outer = &program;
+    for (std::size_t steps = 0; outer != nullptr && outer->within && steps <= r_.scenario.programs.size(); ++steps) {
+      outer = find(*outer->within);
+      if (outer == &program) return true;
+    }
+    return false;
+  }
+
+  void note(ResolvedProgram& program) {
+    const auto outer = numbers_.find(*program.description->within);
+    if (outer == numbers_.end()) return;
+    const auto& slaves = r_.programs[outer->second].description->slaves;
+    const auto slave = std::find(slaves.begin(), slaves.end(), program.description->master);
+    if (slave == slaves.end()) return;
+    program.outer = ResolvedProgram::Outer{outer->second, static_cast<std::uint8_t>(slave - slaves.begin() + 1)};
+    program.nested.insert(0);
+    r_.programs[outer->second].nested.insert(program.outer->participant);
+  }
+
+  void check(const Requirement& requirement) {
+    if (!requirement.tree) return;
+    if (!requirement.reaction) {
+      diagnostics_.error(requirement.where.at("tree"), "does not belong to this requirement", {"\"tree\"", "a requirement with \"reaction\""});
+      return;
+    }
+    if (roots_.empty())
+      for (const Program& program : r_.scenario.programs)
+        if (program.within) roots_.insert(root_of(program).name);
+    const bool has_tree = requirement.program ? roots_.contains(*requirement.program) : !roots_.empty();
+    if (!has_tree)
+      diagnostics_.error(requirement.where.at("tree"), "a tree without nested programs",
+                         {requirement.program ? "nothing is nested in " + json::quote(*requirement.program) + " or it is nested itself" : "no nested programs", "the outermost program of a tree"});
+  }
+
+  const Program& root_of(const Program& program) const {
+    const Program* root = &program;
+    for (std::size_t steps = 0; root->within && steps <= r_.scenario.programs.size(); ++steps) {
+      const Program* const outer = find(*root->within);
+      if (outer == nullptr) break;
+      root = outer;
+    }
+    return *root;
+  }
+
+  Resolved& r_;
+  json::Diagnostics& diagnostics_;
+  std::map<std::pair<std::string, std::string>, std::string> taken_;  // outer program and slave: the program nested there
+  std::map<std::string_view, const Program*> programs_;
+  std::map<std::string_view, std::uint32_t> numbers_;
+  std::set<std::string_view> roots_;                                  // programs in which others are nested, but that are not themselves
+  std::set<std::string> refused_;                                     // programs whose variant has been reported
+};
+
+}  // namespace
+
+void resolve_nesting(Resolved& resolved, json::Diagnostics& diagnostics) { Nester(resolved, diagnostics).run(); }
+
+std::vector<std::vector<std::uint32_t>> trees_of(const Resolved& resolved) {
+  std::vector<std::vector<std::uint32_t>> trees;
+  const auto& programs = resolved.programs;
+  std::vector<std::vector<std::uint32_t>> inner(programs.size());
+  for (std::uint32_t i = 0; i < programs.size(); ++i)
+    if (programs[i].outer) inner[programs[i].outer->program].push_back(i);
+  for (std::uint32_t root = 0; root < programs.size(); ++root) {
+    if (programs[root].outer) continue;
+    std::vector<std::uint32_t> tree{root};
+    for (std::size_t at = 0; at < tree.size(); ++at) tree.insert(tree.end(), inner[tree[at]].begin(), inner[tree[at]].end());
+    if (tree.size() > 1) trees.push_back(std::move(tree));
+  }
+  return trees;
+}
+
+}  // namespace takt::scenario

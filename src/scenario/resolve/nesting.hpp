@@ -1,0 +1,16 @@
+// Which Program is nested in which: checked, and noted in the resolved programs.
+#pragma once
+
+#include "scenario/json/diagnostics.hpp"
+#include "scenario/resolve/resolved.hpp"
+
+namespace takt::scenario {
+
+/// After all programs have been resolved. Refuses nesting that is none: an unknown outer program, a master that is no slave of it, a
+/// cycle, two inner programs at one slave, the handshake of the paper.
+void resolve_nesting(Resolved& resolved, json::Diagnostics& diagnostics);
+
+/// The trees of nested programs: for each the numbers of its programs, the outer ones first. Programs without nesting are in none.
+std::vector<std::vector<std::uint32_t>> trees_of(const Resolved& resolved);
+
+}  // namespace takt::scenario

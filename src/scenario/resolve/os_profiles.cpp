@@ -1,0 +1,136 @@
+#include "scenario/resolve/os_profiles.hpp"
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace takt::scenario {
+namespace {
+
+using sim::Distribution;
+
+// Distributions without an end are cut here, as the table of fields cuts what is written.
+constexpr Duration longest_latency = 24 * 3600_s;
+
+/// A delay with a body and a rare, bounded tail. The body is a shifted exponential with this least value and average, cut
+/// where the tail begins; the tail is uniform from there to the greatest value. Bounded, so that worst cases exist.
+struct BodyAndTail {
+  Duration least;
+  Duration average;
+  Duration tail_from;
+  Duration greatest;
+  std::uint32_t tail_parts_per_billion;
+};
+
+struct Profile {
+  OsProfile name;
+  BodyAndTail wake_up;
+  BodyAndTail transmit;
+  BodyAndTail receive;
+};
+
+constexpr std::array<Profile, 6> profiles = {{
+    {OsProfile::preempt_rt, {1_us, 3_us, 10_us, 50_us, 10'000}, {3_us, 5_us, 8_us, 30_us, 10'000}, {6_us, 9_us, 15_us, 50_us, 10'000}},
+    {OsProfile::preempt_rt_isolated, {1_us, 2_us, 4_us, 11_us, 1'000}, {3_us, 4_us, 6_us, 11_us, 1'000}, {6_us, 7_us, 10_us, 20_us, 1'000}},
+    {OsProfile::preempt_rt_arm, {6_us, 9_us, 20_us, 66_us, 10'000}, {8_us, 12_us, 25_us, 80_us, 10'000}, {20_us, 31_us, 60_us, 136_us, 10'000}},
+    {OsProfile::general_purpose, {1_us, 10_us, 100_us, 20_ms, 100'000}, {5_us, 12_us, 30_us, 5_ms, 100'000}, {15_us, 40_us, 100_us, 10_ms, 100'000}},
+    {OsProfile::virtual_machine, {2_us, 15_us, 200_us, 30_ms, 100'000}, {20_us, 35_us, 60_us, 30_ms, 100'000}, {20_us, 50_us, 160_us, 30_ms, 100'000}},
+    {OsProfile::virtual_machine_rt, {3_us, 8_us, 20_us, 50_us, 10'000}, {20_us, 30_us, 60_us, 100_us, 10'000}, {20_us, 30_us, 60_us, 100_us, 10'000}},
+}};
+
+/// A shifted exponential is not one of the kernel's distributions; a table of 256 equally likely quantiles stands for it, so
+/// that its average is right to a fraction of a percent.
+Distribution shifted_exponential(const BodyAndTail& d) {
+  constexpr int steps = 256;
+  std::vector<Distribution::Point> points;
+  points.reserve(steps);
+  // -log(1 - u) at the middle of each step, by summing the series of 1/(1-u): exact enough and free of libm.
+  double sum = 0.0;
+  double previous = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double u = (i + 0.5) / steps;
+    const double width = (u - previous) / 8;
+    for (int part = 0; part < 8; ++part) {
+      const double left = previous + part * width;
+      sum += width / 6 * (1 / (1 - left) + 4 / (1 - left - width / 2) + 1 / (1 - left - width));
+    }
+    previous = u;
+    const auto excess = static_cast<std::int64_t>(sum * static_cast<double>((d.average - d.least).ps()) + 0.5);
+    points.push_back({d.least + Duration::from_ps(excess), 1});
+  }
+  return Distribution::empirical(std::move(points)).clamped(d.least, d.tail_from);
+}
+
+Distribution distribution_of(const BodyAndTail& d) {
+  return Distribution::mixture(shifted_exponential(d), Distribution::uniform(d.tail_from, d.greatest), d.tail_parts_per_billion)
+      .clamped(d.least, d.greatest);
+}
+
+}  // namespace
+
+namespace {
+
+Distribution body_of(const Latency& latency, json::Diagnostics& diagnostics) {
+  const Duration greatest = latency.max.value_or(longest_latency);
+  if (latency.min > greatest) {
+    diagnostics.error(latency.where.at("min"), "min above max", {json::to_text(latency.min), "at most " + json::to_text(greatest)});
+    return Distribution::constant({});
+  }
+  if (latency.fixed) return Distribution::constant(*latency.fixed).clamped(latency.min, greatest);
+  if (latency.uniform) {
+    if (latency.uniform->from > latency.uniform->to) {
+      diagnostics.error(latency.where.at("uniform"), "an empty interval",
+                        {json::to_text(latency.uniform->from) + " to " + json::to_text(latency.uniform->to), "from at most to"});
+      return Distribution::constant({});
+    }
+    const Distribution raw = Distribution::uniform(latency.uniform->from, latency.uniform->to);
+    return raw.clamped(std::max(latency.min, raw.least()), std::max(latency.min, std::min(greatest, raw.greatest())));
+  }
+  if (latency.normal) return Distribution::normal(latency.normal->mean, latency.normal->deviation).clamped(latency.min, greatest);
+  if (latency.exponential) return Distribution::exponential(latency.exponential->mean).clamped(latency.min, greatest);
+  if (latency.weibull) return Distribution::weibull(latency.weibull->scale, latency.weibull->shape).clamped(latency.min, greatest);
+  if (latency.log_normal) return Distribution::log_normal(latency.log_normal->median, latency.log_normal->sigma).clamped(latency.min, greatest);
+  if (latency.table) {
+    std::vector<Distribution::Point> points;
+    std::uint64_t weight = 0;
+    for (const Latency::Point& point : *latency.table) {
+      points.push_back({point.value, point.weight});
+      weight += point.weight;
+    }
+    if (weight > 0) return Distribution::empirical(std::move(points)).clamped(latency.min, greatest);
+    diagnostics.error(latency.where.at("table"), "a table without weight", {"weights that are all 0", "at least one positive weight"});
+  }
+  return Distribution::constant({});
+}
+
+}  // namespace
+
+sim::Distribution distribution_of(const Latency& latency, json::Diagnostics& diagnostics) {
+  Distribution body = body_of(latency, diagnostics);
+  if (!latency.tail) return body;
+  const LatencyTail& tail = *latency.tail;
+  if (tail.from > tail.to) {
+    diagnostics.error(tail.where.place(), "an empty interval", {json::to_text(tail.from) + " to " + json::to_text(tail.to), "from at most to"});
+    return body;
+  }
+  const auto parts_per_billion = static_cast<std::uint32_t>(tail.per_million * 1000 + 0.5);
+  const Duration least = std::min(body.least(), tail.from);
+  const Duration greatest = std::max(body.greatest(), tail.to);
+  return Distribution::mixture(std::move(body), Distribution::uniform(tail.from, tail.to), parts_per_billion).clamped(least, greatest);
+}
+
+models::OsLatency os_latency_of(const OperatingSystem& os, json::Diagnostics& diagnostics) {
+  models::OsLatency latency;
+  for (const Profile& profile : profiles) {
+    if (profile.name != os.profile) continue;
+    latency.wake_up = distribution_of(profile.wake_up);
+    latency.transmit = distribution_of(profile.transmit);
+    latency.receive = distribution_of(profile.receive);
+  }
+  if (os.wake_up) latency.wake_up = distribution_of(*os.wake_up, diagnostics);
+  if (os.transmit) latency.transmit = distribution_of(*os.transmit, diagnostics);
+  if (os.receive) latency.receive = distribution_of(*os.receive, diagnostics);
+  return latency;
+}
+
+}  // namespace takt::scenario

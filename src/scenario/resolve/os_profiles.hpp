@@ -1,0 +1,16 @@
+// Latencies of scenarios as distributions: what a file says, and what the named operating systems stand for.
+#pragma once
+
+#include "models/host/os_latency.hpp"
+#include "scenario/description/description.hpp"
+
+namespace takt::scenario {
+
+/// The distribution that a description stands for. A senseless one (from > to, min > max, no weight) is a diagnostic.
+sim::Distribution distribution_of(const Latency& latency, json::Diagnostics& diagnostics);
+
+/// The three delays of a host. Figures of the profiles: published cyclictest and network stack measurements; see
+/// docs/host-latency.md. They are examples of their kind, not promises about a certain machine.
+models::OsLatency os_latency_of(const OperatingSystem& os, json::Diagnostics& diagnostics);
+
+}  // namespace takt::scenario

@@ -1,0 +1,196 @@
+#include "scenario/resolve/redundancy.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "models/ethernet/sizes.hpp"
+#include "scenario/topology/disjoint_paths.hpp"
+#include "scenario/topology/named_path.hpp"
+
+namespace takt::scenario {
+namespace {
+
+class MemberLayer {
+ public:
+  MemberLayer(const Resolved& resolved, const Redundancy& redundancy, std::uint32_t from, std::uint32_t to, json::Diagnostics& diagnostics)
+      : r_(resolved), redundancy_(redundancy), from_(from), to_(to), diagnostics_(diagnostics) {}
+
+  std::optional<MemberPaths> lay() {
+    MemberPaths members;
+    members.paths = redundancy_.paths ? given() : found();
+    if (members.paths.empty()) return std::nullopt;
+    members.split = common(members.paths, [](const Path& path, std::size_t i) { return path[i]; }) - 1;
+    members.after_merge = common(members.paths, [](const Path& path, std::size_t i) { return path[path.size() - 1 - i]; }) - 1;
+    warn_of_shared_links(members);
+    const bool split_is_fine = move_split(members);
+    const bool merge_is_fine = move_merge(members);
+    if (!split_is_fine || !merge_is_fine) return std::nullopt;
+    return members;
+  }
+
+ private:
+  std::string name(std::uint32_t node) const { return json::quote(r_.topology.nodes[node].name); }
+  json::Place place(std::string_view key) const { return redundancy_.where.at(key); }
+
+  /// How many nodes all paths have in common, counted as `node_at` does.
+  template <class NodeAt>
+  static std::size_t common(const std::vector<Path>& paths, NodeAt&& node_at) {
+    for (std::size_t i = 0;; ++i)
+      for (const Path& path : paths)
+        if (i == path.size() || node_at(path, i) != node_at(paths.front(), i)) return i;
+  }
+
+  std::vector<Path> found() {
+    const std::size_t count = redundancy_.count.value_or(2);
+    if (count < 2) return {};  // refused by the table
+    DisjointPaths disjoint = disjoint_paths(r_.topology, from_, to_, count);
+    if (disjoint.paths.empty()) {
+      diagnostics_.error(redundancy_.where.place(), "not enough disjoint paths", {reason(disjoint), std::to_string(count) + " paths that share no link between switches"});
+      return {};
+    }
+    if (!disjoint.shared_switches.empty()) {
+      std::string names;
+      for (std::size_t i = 0; i < std::min<std::size_t>(4, disjoint.shared_switches.size()); ++i) names += (i == 0 ? "" : ", ") + name(disjoint.shared_switches[i]);
+      diagnostics_.warning(redundancy_.where.place(), "redundant paths that meet in a switch", {names, "links around it"});
+    }
+    return std::move(disjoint.paths);
+  }
+
+  std::string reason(const DisjointPaths& disjoint) const {
+    const std::string between = name(from_) + " and " + name(to_);
+    if (disjoint.found == 0) return "none between " + between;
+    const std::uint32_t first = r_.topology.neighbours[from_].front().node;
+    const std::uint32_t last = r_.topology.neighbours[to_].front().node;
+    if (first == last) return "both hosts at " + name(first);
+    std::string text = std::to_string(disjoint.found) + " between " + between;
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, disjoint.bottleneck.size()); ++i)
+      text += (i > 0 ? ", " : disjoint.bottleneck.size() == 1 ? ", over the link " : ", over the links ") + name(disjoint.bottleneck[i].first) + " - " + name(disjoint.bottleneck[i].second);
+    return text;
+  }
+
+  std::vector<Path> given() {
+    std::vector<Path> paths;
+    const std::size_t errors_before = diagnostics_.errors();
+    for (std::size_t i = 0; i < redundancy_.paths->size(); ++i) {
+      const json::Place here = redundancy_.where.at("paths", i);
+      const auto place_of_node = [&](std::size_t) { return here; };
+      auto path = named_path(r_.topology, (*redundancy_.paths)[i], from_, to_, here, place_of_node, diagnostics_);
+      if (!path) continue;
+      if (std::find(paths.begin(), paths.end(), *path) != paths.end())
+        diagnostics_.error(here, "a path twice", {"the path of another member", "paths that differ"});
+      paths.push_back(std::move(*path));
+    }
+    if (diagnostics_.errors() != errors_before) paths.clear();
+    return paths;
+  }
+
+  void warn_of_shared_links(const MemberPaths& members) {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> used;
+    for (const Path& path : members.paths) {
+      for (std::size_t i = members.split; i < members.merge(path); ++i) {
+        if (used.insert(std::minmax(path[i], path[i + 1])).second) continue;
+        diagnostics_.warning(redundancy_.where.place(), "redundant paths over one link", {name(path[i]) + " - " + name(path[i + 1]), "paths that share no link"});
+      }
+    }
+  }
+
+  /// The position, counted from the outer end, of the named node among the `common` nodes there; nothing if it is not one of them.
+  template <class NodeAt>
+  std::optional<std::size_t> position(const std::string& wanted, std::string_view key, std::size_t last, std::string_view outer, NodeAt&& node_at) {
+    const auto node = r_.topology.find(wanted);
+    if (!node) {
+      diagnostics_.error(place(key), "unknown node", {json::quote(wanted), "the name of a node", suggest_node(r_.topology, wanted, diagnostics_)});
+      return std::nullopt;
+    }
+    for (std::size_t i = 0; i <= last; ++i)
+      if (node_at(i) == *node) return i;
+    std::string names;
+    for (std::size_t i = 0; i <= last; ++i) names += (i == 0 ? "" : i == last ? " or " : ", ") + name(node_at(i));
+    diagnostics_.error(place(key), "a node that not all paths cross " + std::string(outer), {json::quote(wanted), names});
+    return std::nullopt;
+  }
+
+  bool move_split(MemberPaths& members) {
+    if (!redundancy_.split) return true;
+    const auto at = position(*redundancy_.split, "split", members.split, "before they part", [&](std::size_t i) { return members.paths.front()[i]; });
+    members.split = at.value_or(members.split);
+    return at.has_value();
+  }
+  bool move_merge(MemberPaths& members) {
+    if (!redundancy_.merge) return true;
+    const Path& path = members.paths.front();
+    const auto at = position(*redundancy_.merge, "merge", members.after_merge, "after they have met", [&](std::size_t i) { return path[path.size() - 1 - i]; });
+    members.after_merge = at.value_or(members.after_merge);
+    return at.has_value();
+  }
+
+  const Resolved& r_;
+  const Redundancy& redundancy_;
+  std::uint32_t from_;
+  std::uint32_t to_;
+  json::Diagnostics& diagnostics_;
+};
+
+/// From the first bit leaving the split to the last bit at the merge, if nothing is in the way.
+Duration undisturbed_delay(const Resolved& r, const Path& path, std::uint32_t split, std::uint32_t merge, Octets frame) {
+  Duration delay;
+  auto at = std::find(path.begin(), path.end(), split);
+  for (; *at != merge; ++at) {
+    for (const models::LinkPlan& link : r.plan.links) {
+      const bool forth = link.a.node.value == *at && link.b.node.value == *(at + 1);
+      const bool back = link.b.node.value == *at && link.a.node.value == *(at + 1);
+      if (!forth && !back) continue;
+      delay += link.delay + link.rate.octet_time() * (models::preamble_and_sfd + frame).count;
+      break;
+    }
+    if (*(at + 1) != merge) delay += r.plan.nodes[*(at + 1)].forwarding_delay;
+  }
+  return delay;
+}
+
+}  // namespace
+
+std::optional<MemberPaths> lay_members(const Resolved& resolved, const Redundancy& redundancy, std::uint32_t from, std::uint32_t to,
+                                       json::Diagnostics& diagnostics) {
+  return MemberLayer(resolved, redundancy, from, to, diagnostics).lay();
+}
+
+models::StreamRecoveryConfig recovery_config(const Resolved& r, const ResolvedRedundancy& redundancy, json::Diagnostics& diagnostics) {
+  const Redundancy& description = *redundancy.description;
+  const models::StreamPlan& stream = r.plan.streams[redundancy.stream.value];
+  models::StreamRecoveryConfig config;
+  config.members = redundancy.members;
+  config.recovery.algorithm = description.algorithm == Recovery::vector ? models::RecoveryAlgorithm::vector : models::RecoveryAlgorithm::match;
+  config.recovery.history_length = description.history;
+  config.recovery.take_no_sequence = description.take_untagged;
+  config.individual_recovery = description.individual;
+  config.reset_timeout = description.reset_timeout;
+  if (description.latent_errors) {
+    const LatentErrors& latent = *description.latent_errors;
+    config.latent_error_detection = models::LatentErrorDetectionConfig{static_cast<std::uint32_t>(redundancy.members.size()), latent.difference, latent.period, latent.reset_period};
+  }
+  config.keep_r_tag = description.keep_tag;
+  config.destination = stream.destination;
+  config.vlan = stream.vlan;
+
+  const ResolvedStream& resolved = r.streams[redundancy.stream.value];
+  const Octets frame = models::frame_length(stream.headers + resolved.largest_payload, stream.priority.has_value(), true);
+  Duration least = Duration::max();
+  Duration greatest;
+  for (const Path& path : resolved.paths) {
+    const Duration delay = undisturbed_delay(r, path, redundancy.split, redundancy.merge, frame);
+    least = std::min(least, delay);
+    greatest = std::max(greatest, delay);
+  }
+  const double lead = static_cast<double>((greatest - least).ps()) * 1e-12 * resolved.demand.frames_per_second;
+  const bool match = description.algorithm == Recovery::match;
+  if (match ? lead >= 1 : lead + 1 > description.history)
+    diagnostics.warning(description.where.at(match ? "algorithm" : "history"), match ? "several frames in flight" : "a short history",
+                        {"paths whose delays differ by " + json::to_text(greatest - least) + ", about " + std::to_string(static_cast<std::uint64_t>(lead)) + " frames",
+                         match ? "the vector algorithm" : "a history of more frames than one path is ahead"});
+  return config;
+}
+
+}  // namespace takt::scenario

@@ -1,0 +1,29 @@
+// The member streams of a redundant stream: their paths, where they part and where they meet again.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "scenario/resolve/resolved.hpp"
+
+namespace takt::scenario {
+
+/// Paths that run together from the sender to paths[i][split], for all i, and from the node that has `after_merge` nodes behind
+/// it to the receiver.
+struct MemberPaths {
+  std::vector<Path> paths;
+  std::size_t split = 0;         ///< 0: the sender
+  std::size_t after_merge = 0;   ///< 0: the receiver
+  std::size_t merge(const Path& path) const { return path.size() - 1 - after_merge; }
+};
+
+/// The paths that the description asks for, from host to host. Nothing if there are none (reported, with the reason).
+std::optional<MemberPaths> lay_members(const Resolved& resolved, const Redundancy& redundancy, std::uint32_t from, std::uint32_t to,
+                                       json::Diagnostics& diagnostics);
+
+/// What the description says of recovery; `compound` is what frames are addressed to behind it. A history that is shorter than the
+/// lead that one path may have is a warning.
+models::StreamRecoveryConfig recovery_config(const Resolved& resolved, const ResolvedRedundancy& redundancy, json::Diagnostics& diagnostics);
+
+}  // namespace takt::scenario

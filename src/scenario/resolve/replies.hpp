@@ -1,0 +1,13 @@
+// Process data that answers process data: who replies to what, and how long the work before it takes.
+#pragma once
+
+#include "scenario/resolve/resolved.hpp"
+
+namespace takt::scenario {
+
+/// Reports senseless times of processing, of all hosts.
+void check_processing(const Topology& topology, json::Diagnostics& diagnostics);
+/// Fills replies and processing of the program, whose participants and process data are resolved.
+void resolve_replies(const Topology& topology, ResolvedProgram& program, json::Diagnostics& diagnostics);
+
+}  // namespace takt::scenario

@@ -1,0 +1,489 @@
+#include "scenario/resolve/resolve.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "models/ethernet/sizes.hpp"
+#include "scenario/applications/resolve_applications.hpp"
+#include "scenario/json/override.hpp"
+#include "scenario/json/suggest.hpp"
+#include "scenario/programs/program_shape.hpp"
+#include "scenario/resolve/clocks.hpp"
+#include "scenario/resolve/demand.hpp"
+#include "scenario/resolve/egress.hpp"
+#include "scenario/resolve/faults.hpp"
+#include "scenario/resolve/gates.hpp"
+#include "scenario/resolve/ingress.hpp"
+#include "scenario/resolve/nesting.hpp"
+#include "scenario/resolve/os_profiles.hpp"
+#include "scenario/resolve/plug.hpp"
+#include "scenario/resolve/replies.hpp"
+#include "scenario/resolve/stream_builder.hpp"
+#include "scenario/resolve/trace_file.hpp"
+#include "vocabulary/protocol.hpp"
+#include "wire/program_format.hpp"
+
+namespace takt::scenario {
+namespace {
+
+constexpr std::size_t most_publishers = 0xFFFF;  // PublisherIds are UInt16
+
+class Resolver {
+ public:
+  Resolver(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics) {}
+
+  void run() {
+    r_.topology = build_topology(r_.scenario.network, diagnostics_);
+    plan_nodes();
+    r_.plan.links = r_.topology.links;
+    resolve_egress(r_, diagnostics_);
+    resolve_clocks(r_, diagnostics_);
+    StreamBuilder builder(r_, diagnostics_);
+    builder_ = &builder;
+    check_names();
+    for (const Stream& stream : r_.scenario.streams) add_stream(stream);
+    check_processing(r_.topology, diagnostics_);
+    for (const Program& program : r_.scenario.programs) add_program(program);
+    resolve_applications(r_, builder, publishers_, diagnostics_);
+    resolve_nesting(r_, diagnostics_);
+    check_candidates(r_, diagnostics_);
+    resolve_demand(r_, diagnostics_);
+    resolve_ingress(r_, diagnostics_);
+    resolve_gates(r_, diagnostics_);
+    check_cut_through(r_, diagnostics_);
+    check_slopes(r_, diagnostics_);
+    check_windows(r_, diagnostics_);
+    add_launch_classes(r_);
+    for (const ScriptEntry& entry : r_.scenario.script) add_action(entry);
+    resolve_faults(r_, diagnostics_);
+    std::stable_sort(r_.script.begin(), r_.script.end(), [](const ResolvedAction& a, const ResolvedAction& b) { return a.at < b.at; });
+    for (const Requirement& requirement : r_.scenario.require) check_requirement(requirement);
+    builder_ = nullptr;
+  }
+
+ private:
+  void plan_nodes() {
+    r_.plan.port_configs.clear();
+    r_.plan.os_latencies.clear();
+    std::vector<OperatingSystem> systems;  // equal ones share their entry
+    for (const TopologyNode& node : r_.topology.nodes) {
+      models::NodePlan plan;
+      plan.name = node.name;
+      if (const auto* host = std::get_if<HostNode>(&node.description)) {
+        plan.kind = models::NodeKind::host;
+        plan.port_config = port_config_index(host->traffic_classes, host->queues);
+        auto found = std::find(systems.begin(), systems.end(), host->os);
+        if (found == systems.end()) {
+          r_.plan.os_latencies.push_back(os_latency_of(host->os, diagnostics_));
+          systems.push_back(host->os);
+          found = systems.end() - 1;
+        }
+        plan.os_latency = static_cast<std::uint32_t>(found - systems.begin());
+      } else {
+        const auto& bridge = std::get<SwitchNode>(node.description);
+        plan.kind = models::NodeKind::bridge;
+        plan.forwarding_delay = bridge.forwarding_delay;
+        plan.cut_through_header = bridge.cut_through_header;
+        plan.port_config = port_config_index(bridge.traffic_classes, bridge.queues);
+      }
+      r_.plan.nodes.push_back(std::move(plan));
+    }
+    const NetworkSection& network = r_.scenario.network;
+    if (network.nodes.empty() && network.generate.empty())
+      diagnostics_.error(network.where.place(), "a network without nodes", {"no nodes", "\"nodes\" or \"generate\""});
+  }
+
+  std::uint32_t port_config_index(TrafficClasses classes, const Queues& queues) {
+    models::PortConfig config;
+    if (classes == TrafficClasses::identity) config.traffic_class_of_priority = models::identity_traffic_classes;
+    for (models::QueueLimit& limit : config.queue_limits) {
+      if (queues.frames) limit.frames = *queues.frames;
+      if (queues.octets) limit.octets = queues.octets->count;
+    }
+    for (const Queues::PerClass& one : queues.classes) {
+      models::QueueLimit& limit = config.queue_limits[one.traffic_class];
+      if (one.frames) limit.frames = *one.frames;
+      if (one.octets) limit.octets = one.octets->count;
+    }
+    auto& known = r_.plan.port_configs;
+    const auto found = std::find(known.begin(), known.end(), config);
+    if (found != known.end()) return static_cast<std::uint32_t>(found - known.begin());
+    known.push_back(config);
+    return static_cast<std::uint32_t>(known.size() - 1);
+  }
+
+  void check_names() {
+    std::set<std::string, std::less<>> names;
+    const auto check = [&](const std::string& name, const json::Source& where) {
+      if (name.find('/') != std::string::npos)
+        diagnostics_.error(where.at("name"), "not a name for a stream, program or application", {json::quote(name), "no '/', which stands in the names of streams"});
+      if (!names.insert(name).second)
+        diagnostics_.error(where.at("name"), "duplicate name", {json::quote(name) + " a second time", "a name of its own for each stream, program and application"});
+    };
+    for (const Stream& stream : r_.scenario.streams) check(stream.name, stream.where);
+    for (const Program& program : r_.scenario.programs) check(program.name, program.where);
+    for (const Application& application : r_.scenario.applications) check(application.name, application.where);
+    for (const Gateway& gateway : r_.scenario.gateways) check(gateway.name, gateway.where);
+  }
+
+  void add_stream(const Stream& stream) {
+    NewStream wanted;
+    wanted.name = stream.name;
+    wanted.where = stream.where;
+    wanted.from = builder_->host(stream.from, stream.where.at("from"));
+    for (std::size_t i = 0; i < stream.to.names.size(); ++i) {
+      const json::Place place = stream.to.names.size() == 1 ? stream.where.at("to") : stream.where.at("to", i);
+      if (const auto host = builder_->host(stream.to.names[i], place)) wanted.to.push_back({*host, place});
+    }
+    wanted.priority = stream.pcp;
+    wanted.vlan = stream.vlan;
+    if (!stream.pcp && stream.vlan != 0)
+      diagnostics_.error(stream.where.at("vlan"), "a VLAN without a priority", {"\"vlan\" alone", "\"pcp\" too, since the tag carries both"});
+    wanted.headers = stream.encapsulation == Encapsulation::udp ? models::ipv4_and_udp_headers : Octets{0};
+    wanted.path = stream.path ? &*stream.path : nullptr;
+    wanted.redundancy = stream.redundancy ? &*stream.redundancy : nullptr;
+    models::TalkerSchedule schedule = schedule_of(stream);
+    wanted.payload = stream.payload;
+    if (const auto* trace = std::get_if<models::TraceSchedule>(&schedule))
+      for (const auto& entry : trace->entries) wanted.payload = std::max(wanted.payload, entry.payload);
+    const auto index = builder_->add(wanted);
+    if (!index) return;
+    r_.streams[index->value].demand = demand_of(schedule, stream, *index);
+    r_.plan.talkers.push_back({*index, stream.payload, std::move(schedule), stream.launch});
+  }
+
+  models::TalkerSchedule schedule_of(const Stream& stream) {
+    if (stream.every) {
+      if (stream.jitter > *stream.every)
+        diagnostics_.error(stream.where.at("jitter"), "jitter above the period", {json::to_text(stream.jitter), "at most " + json::to_text(*stream.every)});
+      return models::PeriodicSchedule{stream.offset.value_or(Duration()), *stream.every, stream.jitter};
+    }
+    if (stream.jitter > Duration())
+      diagnostics_.error(stream.where.at("jitter"), "jitter belongs to a periodic stream", {"\"jitter\" without \"every\"", "\"every\""});
+    if (stream.exponential) return models::ExponentialSchedule{stream.offset.value_or(Duration()), stream.exponential->mean};
+    if (stream.burst) {
+      if (stream.burst->frames > 1 && stream.burst->spacing > stream.burst->every / static_cast<std::int64_t>(stream.burst->frames - 1))
+        diagnostics_.error(stream.where.at("burst"), "a burst longer than its period",
+                           {std::to_string(stream.burst->frames) + " frames " + json::to_text(stream.burst->spacing) + " apart",
+                            "at most " + json::to_text(stream.burst->every)});
+      return models::BurstSchedule{stream.offset.value_or(Duration()), stream.burst->every, stream.burst->frames, stream.burst->spacing};
+    }
+    if (stream.trace) {
+      models::TraceSchedule schedule{read_trace(*stream.trace, stream.where.at("trace"), diagnostics_)};
+      for (auto& entry : schedule.entries) entry.time += stream.offset.value_or(Duration());
+      return schedule;
+    }
+    return models::PeriodicSchedule{{}, 1_s, {}};  // none of them: the table has reported it
+  }
+
+  StreamDemand demand_of(const models::TalkerSchedule& schedule, const Stream& stream, models::StreamIndex index) const {
+    const models::StreamPlan& plan = r_.plan.streams[index.value];
+    const auto wire_bits = [&](Octets payload) {
+      return 8.0 * models::wire_length(models::frame_length(plan.headers + payload, plan.priority.has_value())).count;
+    };
+    // A period of 0 was refused by the table.
+    const auto per_second = [](double frames, Duration in) { return in > Duration() ? frames * 1e12 / static_cast<double>(in.ps()) : 0.0; };
+    StreamDemand demand;
+    if (const auto* periodic = std::get_if<models::PeriodicSchedule>(&schedule)) demand.frames_per_second = per_second(1, periodic->period);
+    if (const auto* random = std::get_if<models::ExponentialSchedule>(&schedule)) demand.frames_per_second = per_second(1, random->mean);
+    if (const auto* burst = std::get_if<models::BurstSchedule>(&schedule)) demand.frames_per_second = per_second(burst->frames, burst->period);
+    demand.wire_bits_per_second = demand.frames_per_second * wire_bits(stream.payload);
+    if (const auto* trace = std::get_if<models::TraceSchedule>(&schedule); trace != nullptr) {
+      // Averaged over the whole run, or over the trace where that is longer: a short trace is a burst, not a load.
+      Duration span = r_.scenario.duration;
+      if (!trace->entries.empty()) span = std::max(span, trace->entries.back().time.since_start());
+      double bits = 0;
+      for (const auto& entry : trace->entries) bits += wire_bits(entry.payload);
+      if (span > Duration()) {
+        demand.frames_per_second = per_second(static_cast<double>(trace->entries.size()), span);
+        demand.wire_bits_per_second = per_second(bits, span);
+      }
+    }
+    return demand;
+  }
+
+  void add_program(const Program& program) {
+    ResolvedProgram resolved;
+    resolved.name = program.name;
+    resolved.description = &program;
+    resolved.receive_timeout = program.receive_timeout.value_or(program.cycle * 10);
+    const std::size_t errors_before = diagnostics_.errors();
+    if (program.cycle == Duration()) return;  // refused by the table
+    if (resolved.receive_timeout <= program.cycle)
+      diagnostics_.error(program.where.at("receive_timeout"), "a time-out within one cycle",
+                         {json::to_text(resolved.receive_timeout), "more than the cycle of " + json::to_text(program.cycle)});
+    const auto check_phase = [&](Duration phase, const json::Place& place) {
+      if (phase >= program.cycle && phase > Duration())
+        diagnostics_.error(place, "an offset beyond the cycle", {json::to_text(phase), "less than " + json::to_text(program.cycle)});
+    };
+    if (program.offset) check_phase(*program.offset, program.where.at("offset"));
+    if (!program.roles.empty()) {
+      if (!program.replies.empty())
+        diagnostics_.error(program.where.at("replies"), "replies in a program with roles", {"\"replies\" beside \"roles\"", "\"slaves\", whose replies are measured"});
+      resolved.phases.assign(program.roles.size() + 1, program.offset.value_or(Duration()));
+      resolve_roles(r_, *builder_, std::move(resolved), publishers_, diagnostics_);
+      return;
+    }
+    refuse_without_roles(program, diagnostics_);
+    std::set<std::string_view> seen;
+    const auto add_participant = [&](const std::string& name, const json::Place& place) {
+      if (!seen.insert(name).second)
+        diagnostics_.error(place, "a host twice in one program", {json::quote(name), "each participant on a host of its own"});
+      if (const auto host = builder_->host(name, place)) resolved.participants.push_back(models::NodeIndex{*host});
+      resolved.participant_names.push_back(name);
+    };
+    add_participant(program.master, program.where.at("master"));
+    for (std::size_t i = 0; i < program.slaves.size(); ++i) add_participant(program.slaves[i], program.where.at("slaves", i));
+    resolved.phases.assign(program.slaves.size() + 1, program.offset.value_or(Duration()));
+    for (const auto& [name, phase] : program.phases) {
+      const auto participant = participant_of(program, name, program.where.at("phases"));
+      check_phase(phase, program.where.at("phases"));
+      if (participant && *participant < resolved.phases.size()) resolved.phases[*participant] = phase;
+    }
+    if (publishers_ + resolved.participants.size() > most_publishers)
+      diagnostics_.error(program.where.place(), "too many participants of all programs together",
+                         {std::to_string(publishers_ + resolved.participants.size()) + " with this program", "at most " + std::to_string(most_publishers)});
+    if (diagnostics_.errors() != errors_before) return;
+    resolved.first_publisher_id = static_cast<std::uint16_t>(publishers_ + 1);
+    publishers_ += resolved.participants.size();
+
+    const Octets state_octets{wire::state_octets(variant_of(program.variant))};
+    for (std::uint8_t p = 0; p < resolved.participants.size(); ++p) {
+      const auto stream = add_program_stream(program, resolved, p, "state", state_octets, program.where);
+      if (!stream) return;
+      resolved.state_streams.push_back(*stream);
+    }
+    for (const ProcessData& data : program.process_data) add_process_data(program, data, resolved);
+    resolve_replies(r_.topology, resolved, diagnostics_);
+    r_.programs.push_back(std::move(resolved));
+  }
+
+  void add_process_data(const Program& program, const ProcessData& data, ResolvedProgram& resolved) {
+    ResolvedProcessData made;
+    made.name = data.name;
+    const auto participant = participant_of(program, data.from, data.where.at("from"));
+    if (std::any_of(resolved.process_data.begin(), resolved.process_data.end(), [&](const auto& other) { return other.name == data.name; }) ||
+        data.name == "state")
+      diagnostics_.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set (\"state\" is taken)"});
+    if (!participant) return;
+    made.from = *participant;
+    for (const auto& [name, field] : data.fields) made.field_octets += static_cast<std::uint32_t>(uadp::fixed_octets(built_in_type_of(field.type))) * field.count;
+    for (const auto& [name, field] : data.fields) made.values += field.count;
+    const auto stream = add_program_stream(program, resolved, *participant, data.name,
+                                           Octets{wire::process_data_octets(made.field_octets)}, data.where);
+    if (!stream) return;
+    made.stream = *stream;
+    resolved.process_data.push_back(std::move(made));
+  }
+
+  /// A stream of a program: from the master to all slaves; from a slave to the master, or to all others.
+  std::optional<models::StreamIndex> add_program_stream(const Program& program, const ResolvedProgram& resolved, std::uint8_t from,
+                                                        const std::string& what, Octets payload, const json::Source& where) {
+    NewStream wanted;
+    wanted.name = program.name + "/" + what + (what == "state" ? "/" + r_.topology.nodes[resolved.participants[from].value].name : "");
+    wanted.where = where;
+    wanted.from = resolved.participants[from].value;
+    if (from != 0) wanted.to.push_back({resolved.participants[0].value, program.where.at("master")});
+    if (from == 0 || program.subscription == Subscription::all_to_all)
+      for (std::size_t i = 1; i < resolved.participants.size(); ++i)
+        if (i != from) wanted.to.push_back({resolved.participants[i].value, program.where.at("slaves", i - 1)});
+    wanted.priority = program.pcp;
+    wanted.vlan = program.vlan;
+    wanted.payload = payload;
+    wanted.of_program = true;
+    wanted.ether_type = wire::uadp_ether_type;
+    const auto index = builder_->add(wanted);
+    if (!index) return std::nullopt;
+    const models::StreamPlan& plan = r_.plan.streams[index->value];
+    StreamDemand& demand = r_.streams[index->value].demand;
+    demand.frames_per_second = 1e12 / static_cast<double>(program.cycle.ps());
+    demand.wire_bits_per_second = demand.frames_per_second * 8.0 * models::wire_length(models::frame_length(plan.headers + payload, true)).count;
+    return index;
+  }
+
+  std::optional<std::uint8_t> participant_of(const Program& program, const std::string& name, const json::Place& place) {
+    if (name == program.master) return std::uint8_t{0};
+    const auto found = std::find(program.slaves.begin(), program.slaves.end(), name);
+    if (found != program.slaves.end()) return static_cast<std::uint8_t>(found - program.slaves.begin() + 1);
+    for (std::size_t i = 0; i < program.roles.size(); ++i)
+      if (program.roles[i].name == name) return static_cast<std::uint8_t>(i + 1);
+    std::vector<std::string_view> names{program.master};
+    names.insert(names.end(), program.slaves.begin(), program.slaves.end());
+    for (const Role& role : program.roles) names.push_back(role.name);
+    diagnostics_.error(place, "not a participant of the program", {json::quote(name), "the master or a slave of " + json::quote(program.name), json::suggest(name, names)});
+    return std::nullopt;
+  }
+
+  const Program* find_program(const std::string& name, const json::Place& place) {
+    std::vector<std::string_view> names;
+    for (const Program& program : r_.scenario.programs) {
+      if (program.name == name) return &program;
+      names.push_back(program.name);
+    }
+    diagnostics_.error(place, "unknown program", {json::quote(name), "the name of a program", json::suggest(name, names)});
+    return nullptr;
+  }
+
+  void add_action(const ScriptEntry& entry) {
+    if (r_.scenario.duration > Duration() && entry.at > r_.scenario.duration)  // 0: refused by the table
+      diagnostics_.warning(entry.where.at("at"), "after the end of the simulation", {json::to_text(entry.at), "at most " + json::to_text(r_.scenario.duration)});
+    if (entry.call) add_call(entry);
+    if (entry.join || entry.leave) resolve_plug_action(r_, entry, diagnostics_);
+    if (entry.call || (!entry.set_gates && !entry.join && !entry.leave)) return;
+    for (const auto& [present, name] : {std::pair(entry.program.has_value(), "program"), std::pair(entry.on.has_value(), "on")})
+      if (present) diagnostics_.error(entry.where.at(name), "does not belong to this action", {json::quote(name), "\"call\" with it"});
+    if (entry.set_gates) add_gates(entry);
+  }
+
+  void add_gates(const ScriptEntry& entry) {
+    const SetGates& set = *entry.set_gates;
+    const auto node = r_.topology.find(set.node);
+    if (!node) {
+      diagnostics_.error(set.where.at("node"), "unknown node", {json::quote(set.node), "the name of a node", suggest_node(r_.topology, set.node, diagnostics_)});
+      return;
+    }
+    const models::GateConfig gates = gate_config_of(set.gates, diagnostics_);
+    bool found = false;
+    for (const Neighbour& neighbour : r_.topology.neighbours[*node]) {
+      if (set.to && r_.topology.nodes[neighbour.node].name != *set.to) continue;
+      found = true;
+      check_slopes_of(set, *node, neighbour.port, gates);
+      r_.script.push_back({sim::TrueTime() + entry.at, ResolvedGates{models::NodeIndex{*node}, neighbour.port, gates}});
+    }
+    if (!found)
+      diagnostics_.error(set.where.at(set.to ? "to" : "node"), "not a neighbour", {json::quote(set.to.value_or(set.node)), "a node that a link joins to " + json::quote(set.node)});
+  }
+
+  /// New gates must leave the shapers of the port a slope that its link can give.
+  void check_slopes_of(const SetGates& set, std::uint32_t node, std::uint16_t port, const models::GateConfig& gates) {
+    for (const models::LinkPlan& link : r_.plan.links) {
+      for (const models::LinkPlan::End* end : {&link.a, &link.b}) {
+        if (end->node.value != node || end->port != port || !end->port_config) continue;
+        const auto& shapers = r_.plan.port_configs[*end->port_config].shaping.shapers;
+        for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
+          if (shapers[q] && !slope_is_possible(*shapers[q], q, gates, link.rate))
+            diagnostics_.error(set.where.at("gates"), "a shaper faster than its link while its gate is open",
+                               {json::to_text(shapers[q]->idle_slope) + " of the whole cycle in the part of it for which the gate of class " + std::to_string(q) + " is open",
+                                "at most " + json::to_text(link.rate) + " then"});
+      }
+    }
+  }
+
+  void add_call(const ScriptEntry& entry) {
+    if (!entry.program) {
+      diagnostics_.error(entry.where.place(), "missing key", {"\"call\" without a program", "\"program\""});
+      return;
+    }
+    const Program* const program = find_program(*entry.program, entry.where.at("program"));
+    if (program == nullptr) return;
+    const auto participant = entry.on ? participant_of(*program, *entry.on, entry.where.at("on")) : std::optional<std::uint8_t>(0);
+    if (!participant) return;
+    // In the paper's handshake all participants may be started from outside; `robust` begins a run at the master.
+    if (*entry.call == Method::start && *participant != 0 && program->variant == Variant::robust) {
+      diagnostics_.error(entry.where.at("on"), "Start at a slave", {json::quote(*entry.on), "the master, " + json::quote(program->master)});
+      return;
+    }
+    if (*entry.call == Method::start && program->within) {
+      diagnostics_.error(entry.where.at("program"), "Start of a nested program", {json::quote(program->name), "the outermost program, which starts it"});
+      return;
+    }
+    const auto found = std::find_if(r_.programs.begin(), r_.programs.end(), [&](const ResolvedProgram& p) { return p.description == program; });
+    if (found == r_.programs.end()) return;  // the program itself was refused
+    r_.script.push_back({sim::TrueTime() + entry.at, ResolvedCall{static_cast<std::uint32_t>(found - r_.programs.begin()), *participant, *entry.call}});
+  }
+
+  void check_requirement(const Requirement& requirement) {
+    if (requirement.program) find_program(*requirement.program, requirement.where.at("program"));
+    const auto refuse = [&](bool is_there, std::string_view key, std::string_view subject) {
+      if (is_there) diagnostics_.error(requirement.where.at(key), "does not belong to this requirement", {json::quote(key), "a requirement with \"" + std::string(subject) + "\""});
+    };
+    if (requirement.reaction) {
+      if (!requirement.within) diagnostics_.error(requirement.where.place(), "missing key", {"\"reaction\" without a limit", "\"within\""});
+      if (r_.scenario.programs.empty()) diagnostics_.error(requirement.where.at("reaction"), "a reaction without a program", {"no programs", "\"programs\""});
+      refuse(requirement.latency.has_value(), "latency", "stream");
+      refuse(requirement.jitter.has_value(), "jitter", "stream");
+      refuse(requirement.dropped.has_value(), "dropped", "stream");
+      refuse(requirement.delivered.has_value(), "delivered", "stream");
+    }
+    if (requirement.sync) {
+      if (!r_.scenario.clocks.gptp) diagnostics_.error(requirement.where.at("sync"), "synchronisation without gPTP", {"no \"gptp\" in \"clocks\"", "\"gptp\""});
+      if (requirement.node && !r_.topology.find(*requirement.node))
+        diagnostics_.error(requirement.where.at("node"), "unknown node", {json::quote(*requirement.node), "the name of a node", suggest_node(r_.topology, *requirement.node, diagnostics_)});
+      refuse(requirement.latency.has_value(), "latency", "stream");
+      refuse(requirement.jitter.has_value(), "jitter", "stream");
+      refuse(requirement.dropped.has_value(), "dropped", "stream");
+      refuse(requirement.delivered.has_value(), "delivered", "stream");
+      refuse(requirement.within.has_value(), "within", "reaction");
+    } else {
+      refuse(requirement.node.has_value(), "node", "sync");
+      refuse(requirement.after > Duration(), "after", "sync");
+    }
+    const bool of_application = requirement.application.has_value();
+    refuse(!of_application && requirement.thread, "thread", "application");
+    refuse(!of_application && requirement.success, "success", "application");
+    refuse(!of_application && requirement.buffered, "buffered", "application");
+    refuse(!requirement.signal && requirement.irregular, "irregular", "signal");
+    if (of_application || requirement.signal) {
+      for (const auto& [present, key] : {std::pair(requirement.latency.has_value(), "latency"), std::pair(requirement.jitter.has_value(), "jitter"),
+                                         std::pair(requirement.dropped.has_value(), "dropped"), std::pair(requirement.delivered.has_value(), "delivered")})
+        refuse(present, key, "stream");
+      refuse(requirement.within.has_value(), "within", "reaction");
+      refuse(requirement.program.has_value(), "program", "reaction");
+      check_application_requirement(r_, requirement, diagnostics_);
+    }
+    if (!requirement.stream) return;
+    refuse(requirement.within.has_value(), "within", "reaction");
+    refuse(requirement.program.has_value(), "program", "reaction");
+    if (!requirement.latency && !requirement.jitter && !requirement.dropped && !requirement.delivered)
+      diagnostics_.error(requirement.where.place(), "missing key", {"\"stream\" without a limit", "\"latency\", \"jitter\", \"dropped\" or \"delivered\""});
+    if (stream_names_.empty())
+      for (const models::StreamPlan& stream : r_.plan.streams) stream_names_.insert(stream.name);
+    if (stream_names_.contains(*requirement.stream)) return;
+    const std::vector<std::string_view> names(stream_names_.begin(), stream_names_.end());
+    diagnostics_.error(requirement.where.at("stream"), "unknown stream", {json::quote(*requirement.stream), "the name of a stream", json::suggest(*requirement.stream, names)});
+  }
+
+  Resolved& r_;
+  json::Diagnostics& diagnostics_;
+  StreamBuilder* builder_ = nullptr;
+  std::size_t publishers_ = 0;  // PublisherIds that are taken, from 1 on
+  std::set<std::string_view> stream_names_;  // of the plan, once it is complete
+};
+
+}  // namespace
+
+std::unique_ptr<Resolved> resolve(Scenario scenario, json::Diagnostics& diagnostics) {
+  auto resolved = std::make_unique<Resolved>();
+  resolved->scenario = std::move(scenario);
+  const std::size_t errors_before = diagnostics.errors();
+  Resolver(*resolved, diagnostics).run();
+  if (diagnostics.errors() != errors_before) return nullptr;
+  return resolved;
+}
+
+namespace {
+
+std::unique_ptr<Resolved> load(std::optional<json::Document> document, const std::vector<std::string>& overrides, json::Diagnostics& diagnostics) {
+  if (!document) return nullptr;
+  for (const std::string& option : overrides) json::apply(*document, option, diagnostics);
+  Scenario scenario;
+  // Checks of meaning run even if single values are wrong, so that all mistakes are seen at once; a wrong value keeps
+  // its default there. Only a scenario without a network has nothing to check.
+  json::decode(*document, scenario, diagnostics);
+  auto resolved = scenario.network.where.is_known() ? resolve(std::move(scenario), diagnostics) : nullptr;
+  return diagnostics.has_errors() ? nullptr : std::move(resolved);
+}
+
+}  // namespace
+
+std::unique_ptr<Resolved> load_text(std::string_view text, const std::string& file_name, const std::vector<std::string>& overrides,
+                                    json::Diagnostics& diagnostics) {
+  return load(json::parse(text, file_name, diagnostics), overrides, diagnostics);
+}
+
+std::unique_ptr<Resolved> load_file(const std::string& path, const std::vector<std::string>& overrides, json::Diagnostics& diagnostics) {
+  return load(json::parse_file(path, diagnostics), overrides, diagnostics);
+}
+
+}  // namespace takt::scenario

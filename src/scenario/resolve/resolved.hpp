@@ -1,0 +1,194 @@
+// What a scenario comes down to once names are found, paths are laid and everything has been checked.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "models/plan.hpp"
+#include "scenario/applications/resolved_applications.hpp"
+#include "scenario/description/description.hpp"
+#include "scenario/gates/problem.hpp"
+#include "scenario/topology/routing.hpp"
+#include "scenario/topology/topology.hpp"
+
+namespace takt::scenario {
+
+struct ResolvedDds;  // applications/resolved_dds.hpp
+
+/// What a stream asks of the links: long-term averages, for check and for refusing overload.
+struct StreamDemand {
+  double wire_bits_per_second = 0;   ///< preamble and inter-packet gap included
+  double frames_per_second = 0;
+};
+
+struct ResolvedStream {
+  models::StreamIndex index;         ///< in plan.streams
+  std::vector<Path> paths;           ///< one for each listener
+  StreamDemand demand;
+  json::Source where;
+  bool of_program = false;
+  Octets largest_payload{0};
+};
+
+struct ResolvedProcessData {
+  std::string name;
+  std::uint8_t from = 0;             ///< participant
+  std::uint32_t field_octets = 0;
+  std::uint32_t values = 0;          ///< single ones, in all fields
+  models::StreamIndex stream;
+};
+
+/// Data sets of one program: `with` is published when `to` has come and was worked at.
+struct ResolvedReply {
+  std::uint8_t to = 0;
+  std::uint8_t with = 0;
+};
+
+struct ResolvedProcessing {
+  sim::Distribution per_message = sim::Distribution::constant({});
+  sim::Distribution per_field = sim::Distribution::constant({});
+};
+
+/// A node that may have a role of a program.
+struct ResolvedCandidate {
+  models::NodeIndex node;
+  std::vector<std::string> skills;                      ///< that it offers
+  bool is_absent = false;                               ///< at the beginning
+  models::StreamIndex announcements;
+  models::StreamIndex state;
+  std::vector<std::optional<models::StreamIndex>> data; ///< by data set, of those that a role it may have sends
+};
+
+struct ResolvedProgram {
+  std::string name;
+  const Program* description = nullptr;
+  std::vector<models::NodeIndex> participants;          ///< 0 the master, then the slaves; with roles the master only
+  std::vector<std::string> participant_names;           ///< nodes, or roles
+  std::vector<models::StreamIndex> state_streams;       ///< of each participant
+  std::vector<ResolvedProcessData> process_data;
+  std::vector<ResolvedReply> replies;                   ///< as in the description
+  std::vector<ResolvedProcessing> processing;           ///< by participant; empty without replies
+  std::vector<Duration> phases;                         ///< of publishing, by participant
+  Duration receive_timeout;
+  std::uint16_t first_publisher_id = 1;                 ///< of the master
+  std::vector<ResolvedCandidate> candidates = {};       ///< of its roles
+  models::StreamIndex table_stream = {};                ///< with roles: the bindings
+  Duration announce_every = {};
+  bool has_roles() const { return !description->roles.empty(); }
+  /// Nested: its master is a slave of this program.
+  struct Outer {
+    std::uint32_t program = 0;                          ///< in Resolved::programs
+    std::uint8_t participant = 0;
+  };
+  std::optional<Outer> outer = {};
+  std::set<std::uint8_t> nested = {};                   ///< participants whose nodes are in an outer or inner program, too
+};
+
+struct ResolvedCall {
+  std::uint32_t program = 0;
+  std::uint8_t participant = 0;
+  Method method = Method::start;
+};
+
+/// A candidate begins to announce itself, or leaves.
+struct ResolvedPlug {
+  std::uint32_t program = 0;
+  std::uint8_t candidate = 0;
+  bool joins = false;
+};
+
+/// Another gate list for a port.
+struct ResolvedGates {
+  models::NodeIndex node;
+  std::uint16_t port = 0;
+  models::GateConfig gates;
+};
+
+/// A link goes down or comes back.
+struct ResolvedLink {
+  std::uint32_t link = 0;            ///< in plan.links
+  bool up = false;
+};
+
+/// A node crashes or starts again.
+struct ResolvedNode {
+  models::NodeIndex node;
+  bool up = false;
+};
+
+/// A gate is stuck, or works again.
+struct ResolvedStuckGate {
+  models::NodeIndex node;
+  std::uint16_t port = 0;
+  models::TrafficClass traffic_class = 0;
+  std::optional<bool> open;
+};
+
+/// Other entries of filtering databases.
+struct ResolvedRoutes {
+  struct Entry {
+    models::NodeIndex bridge;
+    models::VlanId vlan = 0;
+    models::AddressIndex address;
+    std::vector<std::uint16_t> ports;
+  };
+  std::vector<Entry> entries;
+};
+
+/// A clock jumps, or its oscillator gets another frequency.
+struct ResolvedClockFault {
+  models::NodeIndex node;
+  std::optional<Duration> step;
+  std::optional<sim::FrequencyOffset> offset;
+};
+
+struct ResolvedAction {
+  sim::TrueTime at;
+  std::variant<ResolvedCall, ResolvedPlug, ResolvedGates, ResolvedLink, ResolvedNode, ResolvedStuckGate, ResolvedRoutes, ResolvedClockFault> what;
+};
+
+/// The demand on one direction of a link.
+struct PortDemand {
+  models::NodeIndex node;            ///< the sending side
+  std::uint16_t port = 0;
+  models::NodeIndex peer;
+  double link_bits_per_second = 0;
+  std::array<double, models::traffic_class_count> class_bits_per_second{};
+  double share() const {
+    double sum = 0;
+    for (const double bits : class_bits_per_second) sum += bits;
+    return sum / link_bits_per_second;
+  }
+};
+
+/// A stream that is split into members and made one again. Its ResolvedStream has a path for each member.
+struct ResolvedRedundancy {
+  models::StreamIndex stream;
+  const Redundancy* description = nullptr;
+  std::uint32_t split = 0;                     ///< node
+  std::uint32_t merge = 0;                     ///< node
+  std::vector<models::StreamMember> members;   ///< by path
+};
+
+struct Resolved {
+  Scenario scenario;
+  Topology topology;
+  models::NetworkPlan plan;
+  std::vector<ResolvedStream> streams;    ///< by stream index
+  std::vector<ResolvedRedundancy> redundancies;  ///< ascending streams
+  std::vector<ResolvedProgram> programs;
+  std::vector<ResolvedTopic> topics;
+  std::vector<ResolvedApplication> applications;  ///< and gateways, behind them
+  std::vector<ResolvedSignal> signals;
+  std::shared_ptr<ResolvedDds> dds;       ///< never null
+  std::vector<ResolvedAction> script;     ///< by time
+  std::vector<PortDemand> ports;          ///< those that carry something
+  std::optional<GatePlan> gates = {};     ///< if they were laid out
+};
+
+}  // namespace takt::scenario

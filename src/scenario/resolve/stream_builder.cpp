@@ -1,0 +1,167 @@
+#include "scenario/resolve/stream_builder.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "models/ethernet/sizes.hpp"
+#include "scenario/description/limits.hpp"
+#include "scenario/topology/named_path.hpp"
+
+namespace takt::scenario {
+
+std::optional<std::uint32_t> StreamBuilder::host(const std::string& name, const json::Place& place) {
+  const auto node = r_.topology.find(name);
+  if (!node) {
+    diagnostics_.error(place, "unknown node", {json::quote(name), "the name of a host", suggest_node(r_.topology, name, diagnostics_)});
+    return std::nullopt;
+  }
+  if (!r_.topology.nodes[*node].is_host()) {
+    diagnostics_.error(place, "not a host", {"the switch " + json::quote(name), "the name of a host"});
+    return std::nullopt;
+  }
+  return node;
+}
+
+std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
+  const std::size_t errors_before = diagnostics_.errors();
+  check_size(wanted);
+  if (!wanted.from || wanted.to.empty()) return std::nullopt;
+  std::set<std::uint32_t> receivers;
+  for (const auto& [to, place] : wanted.to) {
+    if (to == *wanted.from)
+      diagnostics_.error(place, "a stream to its own sender", {json::quote(r_.topology.nodes[to].name), "another host"});
+    if (!receivers.insert(to).second)
+      diagnostics_.error(place, "a receiver twice", {json::quote(r_.topology.nodes[to].name), "each receiver once"});
+  }
+  if (diagnostics_.errors() != errors_before) return std::nullopt;
+  std::optional<MemberPaths> members;
+  if (wanted.redundancy != nullptr) members = member_paths(wanted);
+  std::vector<Path> paths = members ? members->paths : wanted.redundancy != nullptr ? std::vector<Path>{} : paths_of(wanted);
+  if (diagnostics_.errors() != errors_before) return std::nullopt;
+
+  for (const Path& path : paths) path_nodes_ += path.size();
+  if (path_nodes_ > most_path_nodes) {
+    diagnostics_.error(wanted.where.place(), "too many nodes on all paths together", {"more with this stream", "at most " + std::to_string(most_path_nodes)});
+    return std::nullopt;
+  }
+
+  const bool is_group = wanted.to.size() > 1 || wanted.is_group || wanted.path != nullptr || members || identified_.contains(wanted.name);
+  const models::AddressIndex address = is_group ? new_group() : models::AddressIndex{wanted.to.front().first};
+  models::StreamPlan plan;
+  plan.name = wanted.name;
+  plan.talker = models::NodeIndex{*wanted.from};
+  plan.destination = address;
+  plan.vlan = wanted.vlan;
+  plan.priority = wanted.priority;
+  plan.headers = wanted.headers;
+  plan.ether_type = wanted.ether_type;
+  plan.udp_port = wanted.udp_port;
+  plan.udp_source_port = wanted.udp_source_port;
+  plan.ip_group = wanted.ip_group;
+  for (const auto& [to, place] : wanted.to) plan.listeners.push_back(models::NodeIndex{to});
+  if (!members)
+    for (const Path& path : paths) add_filtering(path, wanted.vlan, address);
+
+  const models::StreamIndex index{static_cast<std::uint32_t>(r_.plan.streams.size())};
+  r_.plan.streams.push_back(std::move(plan));
+  r_.streams.push_back({index, std::move(paths), {}, wanted.where, wanted.of_program, wanted.payload});
+  if (members) add_members(wanted, *members, index);
+  return index;
+}
+
+bool StreamBuilder::check_size(const NewStream& wanted) {
+  const Octets msdu = wanted.headers + wanted.payload;
+  if (msdu <= models::maximum_msdu) return true;
+  diagnostics_.error(wanted.of_program ? wanted.where.at("fields") : wanted.where.at("payload"), "more than one frame",
+                     {std::to_string(msdu.count) + " octets after the EtherType", "at most 1500 with all headers"});
+  return false;
+}
+
+std::vector<Path> StreamBuilder::paths_of(const NewStream& wanted) {
+  std::vector<Path> paths;
+  if (wanted.path != nullptr) {
+    if (auto path = explicit_path(wanted)) paths.push_back(std::move(*path));
+    return paths;
+  }
+  for (const auto& [to, place] : wanted.to) {
+    auto path = wanted.to.size() == 1 ? router_.to_host(*wanted.from, to) : router_.from_host(*wanted.from, to);
+    if (path)
+      paths.push_back(std::move(*path));
+    else
+      diagnostics_.error(place, "no path", {json::quote(r_.topology.nodes[to].name) + " cannot be reached from " + json::quote(r_.topology.nodes[*wanted.from].name),
+                                            "links that join them over switches"});
+  }
+  return paths;
+}
+
+std::optional<Path> StreamBuilder::explicit_path(const NewStream& wanted) {
+  if (wanted.to.size() != 1) {
+    diagnostics_.error(wanted.where.at("path"), "a path for several receivers", {std::to_string(wanted.to.size()) + " receivers", "one receiver"});
+    return std::nullopt;
+  }
+  return named_path(r_.topology, *wanted.path, *wanted.from, wanted.to.front().first, wanted.where.at("path"),
+                    [&](std::size_t i) { return wanted.where.at("path", i); }, diagnostics_);
+}
+
+std::optional<MemberPaths> StreamBuilder::member_paths(const NewStream& wanted) {
+  const Redundancy& redundancy = *wanted.redundancy;
+  if (wanted.to.size() != 1)
+    diagnostics_.error(redundancy.where.place(), "redundancy for several receivers", {std::to_string(wanted.to.size()) + " receivers", "one receiver"});
+  if (wanted.path != nullptr)
+    diagnostics_.error(wanted.where.at("path"), "a path of a redundant stream", {"\"path\" beside \"redundancy\"", "\"paths\" in \"redundancy\""});
+  if (!redundancy.vlans.empty() && !wanted.priority)
+    diagnostics_.error(redundancy.where.at("vlans"), "a VLAN without a priority", {"\"vlans\" of an untagged stream", "\"pcp\" too, since the tag carries both"});
+  if (wanted.to.size() != 1 || wanted.path != nullptr) return std::nullopt;
+  std::optional<MemberPaths> members = lay_members(r_, redundancy, *wanted.from, wanted.to.front().first, diagnostics_);
+  if (members && !redundancy.vlans.empty() && redundancy.vlans.size() != members->paths.size())
+    diagnostics_.error(redundancy.where.at("vlans"), "not a VLAN for each path", {std::to_string(redundancy.vlans.size()), std::to_string(members->paths.size())});
+  return members;
+}
+
+models::AddressIndex StreamBuilder::new_group() { return {static_cast<std::uint32_t>(r_.plan.nodes.size()) + groups_++}; }
+
+void StreamBuilder::add_members(const NewStream& wanted, const MemberPaths& members, models::StreamIndex index) {
+  ResolvedRedundancy made;
+  made.stream = index;
+  made.description = wanted.redundancy;
+  made.split = members.paths.front()[members.split];
+  made.merge = members.paths.front()[members.merge(members.paths.front())];
+  const models::AddressIndex compound = r_.plan.streams[index.value].destination;
+  for (std::size_t i = 0; i < members.paths.size(); ++i) {
+    const Path& path = members.paths[i];
+    models::StreamMember member;
+    member.destination = new_group();
+    member.vlan = wanted.redundancy->vlans.empty() ? wanted.vlan : wanted.redundancy->vlans[i];
+    member.port = *r_.topology.port_towards(path[0], path[1]);
+    // Before the split and behind the merge there is one stream; the node that splits forwards members already, the one that
+    // merges the stream.
+    for (std::size_t at = 1; at + 1 < path.size(); ++at) {
+      const bool is_member = at >= members.split && at < members.merge(path);
+      add_hop(path, at, is_member ? member.vlan : wanted.vlan, is_member ? member.destination : compound);
+    }
+    made.members.push_back(member);
+  }
+  r_.redundancies.push_back(std::move(made));
+}
+
+void StreamBuilder::add_hop(const Path& path, std::size_t at, models::VlanId vlan, models::AddressIndex address) {
+  r_.plan.filtering.push_back({models::NodeIndex{path[at]}, vlan, address, *r_.topology.port_towards(path[at], path[at + 1])});
+}
+
+void StreamBuilder::add_filtering(const Path& path, models::VlanId vlan, models::AddressIndex address) {
+  for (std::size_t at = 1; at + 1 < path.size(); ++at) add_hop(path, at, vlan, address);
+}
+
+/// Streams that an ingress names are told apart by their addresses, so each has one of its own.
+void StreamBuilder::note_identified_streams() {
+  for (const TopologyNode& node : r_.topology.nodes) {
+    const auto* const bridge = std::get_if<SwitchNode>(&node.description);
+    if (bridge == nullptr || !bridge->ingress) continue;
+    for (const StreamFilterEntry& filter : bridge->ingress->filters)
+      if (filter.stream) identified_.insert(*filter.stream);
+    for (const IdentifiedStream& stream : bridge->ingress->streams)
+      if (stream.null && stream.null->stream) identified_.insert(*stream.null->stream);
+  }
+}
+
+}  // namespace takt::scenario

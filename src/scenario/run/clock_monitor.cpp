@@ -1,0 +1,45 @@
+#include "scenario/run/clock_monitor.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace takt::scenario {
+namespace {
+constexpr sim::Duration near_enough = sim::Duration::from_ps(1'000'000);  // a servo calls itself locked while it still closes in
+}
+
+ClockMonitor::ClockMonitor(sim::Simulation& simulation, const models::Network& network, sim::Duration every, std::vector<Limit> limits)
+    : simulation_(&simulation), network_(&network), every_(every), limits_(std::move(limits)), source_(simulation.add(*this)) {
+  for (std::uint32_t n = 0; n < network.plan().nodes.size(); ++n)
+    if (network.station(models::NodeIndex{n}) != nullptr) figures_.push_back({models::NodeIndex{n}, {}, 0, {}, {}, 0, 0});
+}
+
+void ClockMonitor::handle(sim::Simulation& simulation, const sim::Event&) {
+  for (ClockFigures& figures : figures_) look_at(*network_->station(figures.node), figures);
+  simulation.schedule(source_, simulation.now() + every_, sim::Phase::control, source_.id(), 0, 0);
+}
+
+void ClockMonitor::look_at(const models::gptp::Station& station, ClockFigures& figures) {
+  if (!station.is_up()) return;
+  const sim::TrueTime now = simulation_->now();
+  const models::NodeIndex grandmaster = station.grandmaster();
+  const sim::Duration offset = sim::Duration::from_ps(network_->clock(figures.node).local_at(now).ps() - network_->clock(grandmaster).local_at(now).ps());
+  if (sink_ != nullptr) sink_->sample(now, figures.node, grandmaster, offset);
+  for (Limit& limit : limits_) {
+    if (now < limit.after || (limit.node && *limit.node != figures.node)) continue;
+    ++limit.samples;
+    limit.greatest = std::max(limit.greatest, offset < sim::Duration() ? sim::Duration() - offset : offset);
+  }
+  if (!figures.locked) {
+    const sim::Duration distance = offset < sim::Duration() ? sim::Duration() - offset : offset;
+    if (station.target().state() != models::gptp::TargetState::locked || distance > near_enough) return;
+    figures.locked = now;
+  }
+  figures.least = figures.samples == 0 ? offset : std::min(figures.least, offset);
+  figures.greatest = figures.samples == 0 ? offset : std::max(figures.greatest, offset);
+  ++figures.samples;
+  figures.sum += offset.ps();
+  figures.sum_of_squares += static_cast<sim::int128>(offset.ps()) * offset.ps();
+}
+
+}  // namespace takt::scenario

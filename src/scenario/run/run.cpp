@@ -1,0 +1,315 @@
+#include "scenario/run/run.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "scenario/applications/dds_port.hpp"
+#include "scenario/applications/gateway_bridge.hpp"
+#include "scenario/applications/opc_ua_port.hpp"
+#include "scenario/programs/program_shape.hpp"
+#include "scenario/resolve/nesting.hpp"
+#include "scenario/resolve/plug.hpp"
+#include "vocabulary/protocol.hpp"
+
+namespace takt::scenario {
+
+/// Calls the methods that the scenario's script asks for, before anything else of their instant.
+class Run::Script final : public sim::Component {
+ public:
+  Script(Run& run, sim::Simulation& simulation) : run_(&run), source_(simulation.add(*this)) {
+    const std::vector<ResolvedAction>& actions = run.resolved_->script;
+    for (std::size_t i = 0; i < actions.size(); ++i)
+      simulation.schedule(source_, actions[i].at, sim::Phase::control, source_.id(), 0, i);
+  }
+
+  void handle(sim::Simulation&, const sim::Event& event) override {
+    std::visit([this](const auto& action) { act(action); }, run_->resolved_->script[event.argument].what);
+  }
+
+ private:
+  void act(const ResolvedCall& call) {
+    const LiveProgram& live = *run_->programs_[call.program];
+    if (live.roles) {
+      call_role(live, call);
+      return;
+    }
+    models::Process& process = *run_->programs_[call.program]->processes[call.participant];
+    process.call([&](models::Application& application, models::HostServices& host) {
+      static_cast<ProgramApplication&>(application).call(host, method_of(call.method));
+    });
+  }
+  /// With roles: on whoever has the role; nobody has it: refused.
+  static void call_role(const LiveProgram& live, const ResolvedCall& call) {
+    const program::Method method = vocabulary::method_of(call.method);
+    std::size_t process = 0;
+    if (call.participant != 0) {
+      const handshake::Binding& binding = live.roles->binding(call.participant - std::size_t{1});
+      if (!binding.bound()) {
+        live.monitor->on_call(call.participant, method, program::StatusCode::BadInvalidState);
+        return;
+      }
+      process = binding.candidate + std::size_t{1};
+    }
+    live.processes[process]->call([&](models::Application& application, models::HostServices& host) { static_cast<PlugApplication&>(application).call(host, method); });
+  }
+  void act(const ResolvedPlug& change) {
+    run_->programs_[change.program]->processes[change.candidate + std::size_t{1}]->call([&](models::Application& application, models::HostServices& host) {
+      auto& candidate = static_cast<CandidateApplication&>(application);
+      change.joins ? candidate.join(host) : candidate.leave(host);
+    });
+  }
+  void act(const ResolvedGates& change) { run_->network_.request_gates(change.node, change.port, change.gates); }
+  void act(const ResolvedLink& change) { run_->network_.set_link(change.link, change.up); }
+  void act(const ResolvedNode& change) {
+    if (!change.up) run_->crash_programs(change.node);
+    run_->network_.set_node(change.node, change.up);
+  }
+  void act(const ResolvedStuckGate& change) { run_->network_.force_gate(change.node, change.port, change.traffic_class, change.open); }
+  void act(const ResolvedClockFault& fault) {
+    if (fault.step) run_->network_.step_clock(fault.node, *fault.step);
+    if (fault.offset) run_->network_.set_frequency_offset(fault.node, *fault.offset);
+  }
+  void act(const ResolvedRoutes& change) {
+    for (const ResolvedRoutes::Entry& entry : change.entries) run_->network_.reroute(entry.bridge, entry.vlan, entry.address, entry.ports);
+  }
+
+  Run* run_;
+  sim::EventSource source_;
+};
+
+Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle)
+    : resolved_(&resolved), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan) {
+  simulation_.set_tie_shuffle(tie_shuffle);
+  for (std::uint32_t i = 0; i < resolved.programs.size(); ++i) add_program(i, resolved.programs[i]);
+  nest_programs();
+  application_monitor_ = std::make_unique<ApplicationMonitor>(simulation_, resolved.signals);
+  for (std::uint32_t i = 0; i < resolved.applications.size(); ++i) add_application(i, resolved.applications[i]);
+  script_ = std::make_unique<Script>(*this, simulation_);
+  watch_clocks();
+  network_.start();
+}
+
+void Run::watch_clocks() {
+  if (!resolved_->scenario.clocks.gptp) return;
+  std::vector<ClockMonitor::Limit> limits;
+  for (const Requirement& requirement : resolved_->scenario.require) {
+    if (!requirement.sync) continue;
+    ClockMonitor::Limit limit;
+    limit.after = sim::TrueTime() + requirement.after;
+    if (requirement.node) limit.node = models::NodeIndex{*resolved_->topology.find(*requirement.node)};
+    limits.push_back(limit);
+  }
+  clock_monitor_ = std::make_unique<ClockMonitor>(simulation_, network_, resolved_->scenario.clocks.gptp->report_every, std::move(limits));
+  clock_monitor_->start();
+}
+
+Run::~Run() = default;
+
+/// What the participant answers at once, instead of publishing it every cycle.
+void Run::add_replies(const ResolvedProgram& program, std::size_t participant, ProgramApplication::Settings& settings) const {
+  const std::string path = resolved_->topology.nodes[program.participants[participant].value].name + "/" + program.name;
+  settings.replies.emplace(program, static_cast<std::uint8_t>(participant), resolved_->scenario.seed, path);
+  settings.endpoint.on_demand.assign(program.process_data.size(), false);
+  for (const ResolvedReply& reply : program.replies) settings.endpoint.on_demand[reply.with] = true;
+}
+
+wire::EndpointSettings Run::endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) const {
+  const Program& description = *program.description;
+  wire::EndpointSettings endpoint;
+  endpoint.handshake.variant = format->shape().variant;
+  endpoint.handshake.role = participant == 0 ? handshake::Role::Master : handshake::Role::Slave;
+  endpoint.handshake.index = static_cast<std::uint8_t>(participant);
+  endpoint.handshake.slaves = static_cast<std::uint8_t>(program.participant_names.size() - 1);
+  endpoint.handshake.incarnation = 1;
+  endpoint.handshake.subscription = description.subscription == Subscription::star ? handshake::Subscription::Star : handshake::Subscription::AllToAll;
+  endpoint.handshake.nested = program.nested.contains(static_cast<std::uint8_t>(participant));
+  endpoint.format = std::move(format);
+  endpoint.cycle = description.cycle;
+  endpoint.offset = program.phases[participant];
+  endpoint.receive_timeout = program.receive_timeout;
+  endpoint.initialisation = description.initialisation;
+  endpoint.publish_on_change = description.publish == Publish::on_change;
+  endpoint.priority = description.pcp;
+  return endpoint;
+}
+
+void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
+  if (program.has_roles()) {
+    add_program_with_roles(number, program);
+    return;
+  }
+  auto live = std::make_unique<LiveProgram>();
+  const auto format = std::make_shared<const wire::ProgramFormat>(shape_of(program));
+  live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, format->shape().variant, program.participants.size());
+  for (std::size_t p = 0; p < program.participants.size(); ++p) {
+    ProgramApplication::Settings settings;
+    settings.endpoint = endpoint_settings(program, p, format);
+    settings.state_stream = program.state_streams[p];
+    for (const ResolvedProcessData& data : program.process_data) settings.data_streams.push_back(data.stream);
+    if (!program.replies.empty()) add_replies(program, p, settings);
+    auto application = std::make_unique<ProgramApplication>(std::move(settings), *live->monitor);
+    live->applications.push_back(application.get());
+    live->processes.push_back(&network_.add_process(program.participants[p], program.name, std::move(application)));
+  }
+  if (!program.replies.empty()) live->monitor->set_round_trips(program);
+  connect_streams(program, *live);
+  programs_.push_back(std::move(live));
+}
+
+void Run::add_program_with_roles(std::uint32_t number, const ResolvedProgram& program) {
+  auto live = std::make_unique<LiveProgram>();
+  wire::PlugShape shape;
+  shape.program = shape_of(program);
+  for (const Role& role : program.description->roles) shape.skills.push_back(handshake::skill_id(role.skill));
+  for (const ResolvedCandidate& each : program.candidates) shape.candidates.push_back(resolved_->topology.nodes[each.node.value].name);
+  const auto format = std::make_shared<const wire::ProgramFormat>(shape.program);
+  live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, handshake::Variant::Robust, program.participant_names.size());
+  live->roles = std::make_unique<PlugMonitor>(simulation_, number, *live->monitor, shape.skills.size());
+
+  wire::PlugSettings settings;
+  settings.format = std::make_shared<const wire::PlugFormat>(std::move(shape));
+  settings.announce_cycle = program.announce_every;
+  settings.announce_timeout = program.announce_every * announcements_missed + program.announce_every / 2;
+  settings.endpoint = endpoint_settings(program, 0, format);
+  PlugApplication::Streams streams{program.state_streams[0], program.table_stream, {}};
+  for (const ResolvedProcessData& data : program.process_data) streams.data.push_back(data.from == 0 ? std::optional(data.stream) : std::nullopt);
+  LiveProgram* const raw = live.get();
+  auto master = std::make_unique<PlugMasterApplication>(
+      settings, program.description->on_replacement == OnReplacement::restart, std::move(streams), *live->monitor, *live->roles,
+      [raw](const handshake::Binding& binding) { return binding.bound() ? raw->candidates[binding.candidate]->state_of(binding.life) : std::nullopt; });
+  live->plug_master = master.get();
+  models::Process& master_process = network_.add_process(program.participants[0], program.name, std::move(master));
+  live->processes.push_back(&master_process);
+
+  for (std::uint8_t c = 0; c < program.candidates.size(); ++c) {
+    const ResolvedCandidate& each = program.candidates[c];
+    settings.endpoint = endpoint_settings(program, 1, format);  // the index follows with the role
+    std::vector<handshake::SkillId> skills;
+    for (const std::string& skill : each.skills) skills.push_back(handshake::skill_id(skill));
+    auto application = std::make_unique<CandidateApplication>(settings, c, std::move(skills), !each.is_absent,
+                                                              PlugApplication::Streams{each.state, each.announcements, each.data}, *live->monitor, *live->roles);
+    live->candidates.push_back(application.get());
+    models::Process& process = network_.add_process(each.node, program.name, std::move(application));
+    live->processes.push_back(&process);
+    network_.listen(each.node, program.state_streams[0], &process);
+    network_.listen(each.node, program.table_stream, &process);
+    for (const ResolvedProcessData& data : program.process_data)
+      if (data.from == 0) network_.listen(each.node, data.stream, &process);
+    for (const models::StreamIndex stream : {each.state, each.announcements}) network_.listen(program.participants[0], stream, &master_process);
+    for (const auto& stream : each.data)
+      if (stream) network_.listen(program.participants[0], *stream, &master_process);
+  }
+  programs_.push_back(std::move(live));
+}
+
+/// What each thread publishes by, or takes from.
+void Run::add_ports(std::uint32_t number, const ResolvedApplication& application, TopicApplication::Settings& settings) const {
+  const auto address = [&](std::uint32_t of, std::uint32_t thread) {
+    const ResolvedApplication& publisher = resolved_->applications[of];
+    return OpcUaAddress{publisher.publisher_id, static_cast<std::uint16_t>(thread + 1), static_cast<std::uint16_t>(publisher.threads[thread].topic + 1)};
+  };
+  std::map<std::uint32_t, DdsNode*> nodes;
+  for (std::uint32_t p = 0; p < resolved_->dds->participants.size(); ++p) {
+    if (resolved_->dds->participants[p].application != number) continue;
+    settings.nodes.push_back(std::make_unique<DdsNode>(resolved_->dds->participants[p], p));
+    nodes[p] = settings.nodes.back().get();
+  }
+  for (std::uint32_t t = 0; t < application.threads.size(); ++t) {
+    const ResolvedThread& thread = application.threads[t];
+    const ResolvedTopic& topic = resolved_->topics[thread.topic];
+    settings.writers.emplace_back();
+    settings.readers.emplace_back();
+    if (thread.participant) {
+      DdsNode& node = *nodes.at(*thread.participant);
+      if (thread.publishes)
+        settings.writers.back() = std::make_unique<DdsWriter>(node, topic, thread, t);
+      else
+        settings.readers.back() = std::make_unique<DdsReader>(node, topic, thread, t);
+      continue;
+    }
+    if (thread.publishes) {
+      settings.writers.back() = std::make_unique<OpcUaWriter>(topic.layout, address(number, t), thread.stream);
+      continue;
+    }
+    std::vector<OpcUaAddress> heard;
+    for (const ResolvedInput& input : thread.inputs) heard.push_back(address(input.application, input.thread));
+    settings.readers.back() = std::make_unique<OpcUaReader>(topic.layout, std::move(heard));
+  }
+}
+
+void Run::add_application(std::uint32_t number, const ResolvedApplication& application) {
+  TopicApplication::Settings settings;
+  settings.number = number;
+  settings.application = &application;
+  settings.topics = &resolved_->topics;
+  settings.path = resolved_->topology.nodes[application.node.value].name + "/" + application.name;
+  settings.seed = resolved_->scenario.seed;
+  add_ports(number, application, settings);
+  if (application.gateway)
+    settings.bridge = std::make_unique<GatewayBridge>(*application.gateway, resolved_->topics[application.threads[0].topic], resolved_->topics[application.threads[1].topic]);
+  auto live = std::make_unique<TopicApplication>(std::move(settings), *application_monitor_);
+  applications_.push_back(live.get());
+  models::Process& process = network_.add_process(application.node, application.name, std::move(live));
+  for (const ResolvedThread& thread : application.threads)
+    for (const ResolvedInput& input : thread.inputs)
+      if (!input.stream.is_none()) network_.listen(application.node, input.stream, &process);
+  for (const auto& node : applications_.back()->nodes())
+    for (const ResolvedParticipant::Heard& heard : node->settings().hears) network_.listen(application.node, heard.stream, &process);
+}
+
+ThreadFigures Run::thread(std::size_t application, std::size_t thread) const {
+  const sim::LocalTime now = network_.clock(resolved_->applications[application].node).local_at(simulation_.now());
+  return applications_[application]->figures(thread, now);
+}
+
+void Run::nest_programs() {
+  for (std::size_t i = 0; i < programs_.size(); ++i)
+    if (const auto& outer = resolved_->programs[i].outer)
+      nestings_.push_back(ProgramApplication::nest(*programs_[outer->program]->applications[outer->participant], *programs_[i]->applications[0]));
+  for (const std::vector<std::uint32_t>& tree : trees_of(*resolved_)) {
+    std::vector<handshake::TreeGroup> groups;
+    for (const std::uint32_t number : tree) {
+      handshake::TreeGroup group{resolved_->programs[number].participants.size(), 0, 0};
+      if (const auto& outer = resolved_->programs[number].outer) {
+        group.outer = static_cast<std::size_t>(std::find(tree.begin(), tree.end(), outer->program) - tree.begin());
+        group.outer_index = outer->participant;
+      }
+      groups.push_back(group);
+    }
+    trees_.push_back(std::make_unique<TreeMonitor>(simulation_, tree, std::move(groups)));
+    for (std::size_t g = 0; g < tree.size(); ++g) programs_[tree[g]]->monitor->set_tree(*trees_.back(), g);
+  }
+}
+
+void Run::crash_programs(models::NodeIndex node) {
+  for (std::size_t i = 0; i < programs_.size(); ++i) {
+    if (programs_[i]->roles) {
+      const ResolvedProgram& program = resolved_->programs[i];
+      if (program.participants[0] == node) programs_[i]->plug_master->crash();
+      for (std::size_t c = 0; c < program.candidates.size(); ++c)
+        if (program.candidates[c].node == node) programs_[i]->candidates[c]->crash();
+      continue;
+    }
+    const std::vector<models::NodeIndex>& participants = resolved_->programs[i].participants;
+    for (std::size_t p = 0; p < participants.size(); ++p)
+      if (participants[p] == node) programs_[i]->applications[p]->crash();
+  }
+  for (std::size_t a = 0; a < applications_.size(); ++a)
+    if (resolved_->applications[a].node == node) applications_[a]->crash();
+}
+
+/// Hands the streams of the program to the processes of those that subscribe to them.
+void Run::connect_streams(const ResolvedProgram& program, const LiveProgram& live) {
+  const auto connect = [&](std::size_t from, models::StreamIndex stream) {
+    if (from != 0) network_.listen(program.participants[0], stream, live.processes[0]);
+    if (from != 0 && program.description->subscription == Subscription::star) return;
+    for (std::size_t slave = 1; slave < program.participants.size(); ++slave)
+      if (slave != from) network_.listen(program.participants[slave], stream, live.processes[slave]);
+  };
+  for (std::size_t p = 0; p < program.participants.size(); ++p) connect(p, program.state_streams[p]);
+  for (const ResolvedProcessData& data : program.process_data) connect(data.from, data.stream);
+}
+
+}  // namespace takt::scenario

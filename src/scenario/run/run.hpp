@@ -1,0 +1,87 @@
+// A live run of a resolved scenario: network, Programs, script. One object; several can live side by side.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "models/network.hpp"
+#include "scenario/applications/topic_application.hpp"
+#include "scenario/programs/plug_application.hpp"
+#include "scenario/programs/program_application.hpp"
+#include "scenario/programs/program_monitor.hpp"
+#include "scenario/resolve/resolved.hpp"
+#include "scenario/run/clock_monitor.hpp"
+#include "sim/simulation.hpp"
+
+namespace takt::scenario {
+
+class Run {
+ public:
+  /// Everything is built and scheduled; nothing has happened yet. `resolved` outlives the run.
+  explicit Run(const Resolved& resolved, std::uint64_t tie_shuffle = 0);
+  ~Run();
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  const Resolved& resolved() const { return *resolved_; }
+  sim::Simulation& simulation() { return simulation_; }
+  const sim::Simulation& simulation() const { return simulation_; }
+  const models::Network& network() const { return network_; }
+  /// Of trees of nested programs.
+  const std::vector<std::unique_ptr<TreeMonitor>>& trees() const { return trees_; }
+  const ProgramMonitor& monitor(std::size_t program) const { return *programs_[program]->monitor; }
+  /// Null without gPTP.
+  const ClockMonitor* clocks() const { return clock_monitor_.get(); }
+  /// Takes the series of clock offsets from now on. Precondition: there is gPTP.
+  void set_clock_sink(ClockSampleSink* sink) { clock_monitor_->set_sink(sink); }
+  handshake::PublishedState state(std::size_t program, std::size_t participant) const {
+    const LiveProgram& live = *programs_[program];
+    if (!live.roles) return live.applications[participant]->state();
+    return participant == 0 ? live.plug_master->state() : live.roles->state(participant - 1);
+  }
+  /// What a thread of an application has done so far.
+  ThreadFigures thread(std::size_t application, std::size_t thread) const;
+  const TopicApplication& application(std::size_t number) const { return *applications_[number]; }
+  const DigitalOutput& signal(std::size_t number) const { return application_monitor_->signal(number); }
+  /// Null for a program without roles.
+  const PlugMonitor* roles(std::size_t program) const { return programs_[program]->roles.get(); }
+
+  sim::TrueTime end() const { return sim::TrueTime() + resolved_->scenario.duration; }
+  /// Goes on for at most about `max_events` events. True when the scenario's duration is over.
+  bool advance(std::uint64_t max_events = ~0ULL) { return simulation_.run(end(), max_events); }
+
+ private:
+  struct LiveProgram {
+    std::unique_ptr<ProgramMonitor> monitor;
+    std::vector<models::Process*> processes;              // by participant; with roles the master and the candidates
+    std::vector<ProgramApplication*> applications;        // none with roles
+    std::unique_ptr<PlugMonitor> roles;                   // only with roles
+    PlugMasterApplication* plug_master = nullptr;
+    std::vector<CandidateApplication*> candidates;
+  };
+  class Script;
+
+  void watch_clocks();
+  void add_program(std::uint32_t number, const ResolvedProgram& program);
+  void add_replies(const ResolvedProgram& program, std::size_t participant, ProgramApplication::Settings& settings) const;
+  wire::EndpointSettings endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) const;
+  void add_program_with_roles(std::uint32_t number, const ResolvedProgram& program);
+  void nest_programs();
+  void add_ports(std::uint32_t number, const ResolvedApplication& application, TopicApplication::Settings& settings) const;
+  void add_application(std::uint32_t number, const ResolvedApplication& application);
+  void crash_programs(models::NodeIndex node);
+  void connect_streams(const ResolvedProgram& program, const LiveProgram& live);
+
+  const Resolved* resolved_;
+  sim::Simulation simulation_;
+  models::Network network_;
+  std::vector<std::unique_ptr<LiveProgram>> programs_;
+  std::unique_ptr<ApplicationMonitor> application_monitor_;
+  std::vector<TopicApplication*> applications_;
+  std::vector<std::unique_ptr<wire::Nesting>> nestings_;
+  std::vector<std::unique_ptr<TreeMonitor>> trees_;
+  std::unique_ptr<Script> script_;
+  std::unique_ptr<ClockMonitor> clock_monitor_;
+};
+
+}  // namespace takt::scenario

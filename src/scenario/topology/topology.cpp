@@ -1,0 +1,236 @@
+#include "scenario/topology/topology.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <utility>
+
+#include "scenario/description/limits.hpp"
+#include "scenario/json/suggest.hpp"
+#include "scenario/topology/generators.hpp"
+
+namespace takt::scenario {
+namespace {
+
+constexpr std::int64_t ps_per_millimetre = 5;  // 5 ns/m, light in copper and glass
+
+class Builder {
+ public:
+  Builder(const NetworkSection& network, json::Diagnostics& diagnostics) : network_(network), diagnostics_(diagnostics) {}
+
+  Topology build() {
+    for (const Generator& generator : network_.generate) add_generated(generator);
+    for (const auto& [name, node] : network_.nodes) add_written(name, node);
+    // Ports that are named take their numbers first, so that the others find the free ones.
+    std::vector<ParsedLink> parsed;
+    for (const Link& link : network_.links)
+      if (auto ends = parse_link(link)) parsed.push_back(*ends);
+    for (ParsedLink& link : parsed)
+      for (End* end : {&link.a, &link.b})
+        if (end->port) claim_named(*end, *link.link);
+    for (const GeneratedLink& link : generated_links_) join({link.a, {}, 0}, {link.b, {}, 0}, link.rate, link.delay);
+    for (const ParsedLink& link : parsed) join(link.a, link.b, link.link->rate, delay_of(*link.link));
+    check_hosts();
+    return std::move(topology_);
+  }
+
+ private:
+  struct End {
+    std::uint32_t node = 0;
+    std::optional<std::uint16_t> port;
+    std::size_t which = 0;
+  };
+  struct ParsedLink {
+    const Link* link = nullptr;
+    End a;
+    End b;
+  };
+  struct GeneratedLink {
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;
+    DataRate rate;
+    Duration delay;
+  };
+
+  std::optional<std::uint32_t> add(std::string name, Node description, json::Source where, const json::Place& place) {
+    const auto next = static_cast<std::uint32_t>(topology_.nodes.size());
+    if (!topology_.index.emplace(name, next).second) {
+      diagnostics_.error(place, "duplicate node name", {json::quote(name) + " a second time", "a name of its own for each node"});
+      return std::nullopt;
+    }
+    topology_.nodes.push_back({std::move(name), std::move(description), std::move(where)});
+    topology_.neighbours.emplace_back();
+    used_ports_.emplace_back();
+    return next;
+  }
+
+  void add_generated(const Generator& generator) {
+    const Generated made = generate(generator, most_nodes - std::min<std::uint64_t>(most_nodes, topology_.nodes.size()), diagnostics_);
+    std::vector<std::optional<std::uint32_t>> indices;
+    indices.reserve(made.nodes.size());
+    for (const Generated::Node& node : made.nodes) {
+      if (node.is_host)
+        indices.push_back(add(node.name, HostNode{generator.where, generator.os, generator.traffic_classes, generator.queues, {}},
+                              generator.where, generator.where.place()));
+      else
+        indices.push_back(add(node.name, switch_of(generator), generator.where, generator.where.place()));
+    }
+    const Duration delay = Duration::from_ps(generator.length.millimetres * ps_per_millimetre);
+    for (const Generated::Link& link : made.links) {
+      if (!indices[link.a] || !indices[link.b]) continue;
+      const DataRate rate = link.to_host ? generator.host_rate.value_or(generator.rate) : generator.rate;
+      check_rate(rate, generator.where.at(link.to_host && generator.host_rate ? "host_rate" : "rate"));
+      generated_links_.push_back({*indices[link.a], *indices[link.b], rate, delay});
+    }
+  }
+
+  static SwitchNode switch_of(const Generator& generator) {
+    SwitchNode made;
+    made.where = generator.where;
+    made.forwarding_delay = generator.forwarding_delay;
+    made.traffic_classes = generator.traffic_classes;
+    made.queues = generator.queues;
+    made.egress = generator.egress;
+    made.ingress = generator.ingress;
+    return made;
+  }
+
+  void add_written(const std::string& name, const Node& node) {
+    const json::Source where = std::visit([](const auto& n) { return n.where; }, node);
+    if (name.empty() || name.find_first_of(":/") != std::string::npos) {
+      diagnostics_.error(where.place(), "not a name for a node", {json::quote(name), "at least one character, no ':' and no '/'"});
+      return;
+    }
+    add(name, node, where, where.place());
+  }
+
+  std::optional<ParsedLink> parse_link(const Link& link) {
+    if (link.ends.size() != 2) return std::nullopt;  // already reported by the table
+    check_rate(link.rate, link.where.at("rate"));
+    const auto a = parse_end(link, 0);
+    const auto b = parse_end(link, 1);
+    if (!a || !b) return std::nullopt;
+    if (a->node == b->node) {
+      diagnostics_.error(link.where.at("ends"), "a link to itself",
+                         {"both ends at " + json::quote(topology_.nodes[a->node].name), "two different nodes"});
+      return std::nullopt;
+    }
+    return ParsedLink{&link, *a, *b};
+  }
+
+  std::optional<End> parse_end(const Link& link, std::size_t which) {
+    const std::string& text = link.ends[which];
+    const std::size_t colon = text.find(':');
+    const std::string_view name = std::string_view(text).substr(0, colon);
+    const auto node = topology_.find(name);
+    if (!node) {
+      diagnostics_.error(link.where.at("ends", which), "unknown node",
+                         {json::quote(name), "a name under /network/nodes or of a generated node", suggest_node(topology_, name, diagnostics_)});
+      return std::nullopt;
+    }
+    End end{*node, std::nullopt, which};
+    if (colon != std::string::npos) {
+      const std::string_view digits = std::string_view(text).substr(colon + 1);
+      std::uint32_t port = 0;
+      const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+      if (error != std::errc() || stop != digits.data() + digits.size() || port >= most_ports) {
+        diagnostics_.error(link.where.at("ends", which), "not a port",
+                           {json::quote(digits), "a number from 0 to " + std::to_string(most_ports - 1) + " after the ':'"});
+        return std::nullopt;
+      }
+      end.port = static_cast<std::uint16_t>(port);
+    }
+    return end;
+  }
+
+  void claim_named(const End& end, const Link& link) {
+    if (topology_.nodes[end.node].is_host() && *end.port != 0) {
+      diagnostics_.error(link.where.at("ends", end.which), "a host has one port", {"port " + std::to_string(*end.port), "port 0"});
+      return;
+    }
+    if (!used_ports_[end.node].insert(*end.port).second)
+      diagnostics_.error(link.where.at("ends", end.which), "two links on one port",
+                         {json::quote(link.ends[end.which]) + " a second time", "a port of its own for each link"});
+  }
+
+  std::uint16_t take_port(const End& end) {
+    if (end.port) return *end.port;
+    std::set<std::uint16_t>& used = used_ports_[end.node];
+    if (used.size() >= most_ports) return 0;  // check_hosts() reports the node
+    std::uint16_t port = next_port_.size() > end.node ? next_port_[end.node] : std::uint16_t{0};
+    while (used.contains(port)) ++port;
+    used.insert(port);
+    if (next_port_.size() <= end.node) next_port_.resize(topology_.nodes.size(), 0);
+    next_port_[end.node] = static_cast<std::uint16_t>(port + 1);
+    return port;
+  }
+
+  void join(const End& a, const End& b, DataRate rate, Duration delay) {
+    const std::uint16_t port_a = take_port(a);
+    const std::uint16_t port_b = take_port(b);
+    topology_.links.push_back({{models::NodeIndex{a.node}, port_a}, {models::NodeIndex{b.node}, port_b}, rate, delay});
+    topology_.neighbours[a.node].push_back({b.node, port_a, port_b});
+    topology_.neighbours[b.node].push_back({a.node, port_b, port_a});
+  }
+
+  void check_rate(DataRate rate, const json::Place& place) {
+    if (!rate.has_exact_octet_time())
+      diagnostics_.error(place, "a rate whose octet does not last a whole number of picoseconds",
+                         {json::to_text(rate), "a rate of Ethernet such as 10Mbps, 100Mbps, 1Gbps, 2.5Gbps, 5Gbps, 10Gbps, 25Gbps, 40Gbps, 50Gbps or 100Gbps"});
+  }
+
+  static Duration delay_of(const Link& link) {
+    if (link.delay) return *link.delay;
+    return Duration::from_ps(link.length.value_or(Length{10'000}).millimetres * ps_per_millimetre);
+  }
+
+  void check_hosts() {
+    for (std::uint32_t n = 0; n < topology_.nodes.size(); ++n) {
+      const TopologyNode& node = topology_.nodes[n];
+      const std::size_t count = topology_.neighbours[n].size();
+      if (count > most_ports)
+        diagnostics_.error(node.where.place(), "too many links at one node", {std::to_string(count), "at most " + std::to_string(most_ports)});
+      if (!node.is_host()) continue;
+      if (count > 1)
+        diagnostics_.error(node.where.place(), "two links on one port",
+                           {std::to_string(count) + " links at host " + json::quote(node.name), "one link, since a host has one port"});
+      else if (count == 0)
+        diagnostics_.warning(node.where.place(), "a host without a link", {json::quote(node.name)});
+    }
+  }
+
+  const NetworkSection& network_;
+  json::Diagnostics& diagnostics_;
+  Topology topology_;
+  std::vector<std::set<std::uint16_t>> used_ports_;
+  std::vector<std::uint16_t> next_port_;  // below it all ports of the node are used
+  std::vector<GeneratedLink> generated_links_;
+};
+
+}  // namespace
+
+std::optional<std::uint32_t> Topology::find(std::string_view name) const {
+  const auto found = index.find(name);
+  if (found == index.end()) return std::nullopt;
+  return found->second;
+}
+
+std::optional<std::uint16_t> Topology::port_towards(std::uint32_t from, std::uint32_t to) const {
+  for (const Neighbour& neighbour : neighbours[from])
+    if (neighbour.node == to) return neighbour.port;
+  return std::nullopt;
+}
+
+Topology build_topology(const NetworkSection& network, json::Diagnostics& diagnostics) {
+  return Builder(network, diagnostics).build();
+}
+
+std::string suggest_node(const Topology& topology, std::string_view name, const json::Diagnostics& diagnostics) {
+  if (diagnostics.full()) return {};
+  std::vector<std::string_view> names;
+  names.reserve(topology.nodes.size());
+  for (const TopologyNode& node : topology.nodes) names.push_back(node.name);
+  return json::suggest(name, names);
+}
+
+}  // namespace takt::scenario

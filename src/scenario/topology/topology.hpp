@@ -1,0 +1,47 @@
+// The nodes and links of a scenario, generated and written ones together, with numbered ports.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "models/plan.hpp"
+#include "scenario/description/description.hpp"
+
+namespace takt::scenario {
+
+struct TopologyNode {
+  std::string name;
+  Node description;     ///< HostNode or SwitchNode
+  json::Source where;
+  bool is_host() const { return std::holds_alternative<HostNode>(description); }
+};
+
+/// One end of a link as seen from a node.
+struct Neighbour {
+  std::uint32_t node = 0;
+  std::uint16_t port = 0;       ///< of this node
+  std::uint16_t their_port = 0; ///< of the neighbour
+};
+
+struct Topology {
+  std::vector<TopologyNode> nodes;
+  std::vector<models::LinkPlan> links;
+  std::vector<std::vector<Neighbour>> neighbours;      ///< of each node, in the order of the links
+  std::map<std::string, std::uint32_t, std::less<>> index;
+
+  std::optional<std::uint32_t> find(std::string_view name) const;
+  /// The port of `from` that leads to its neighbour `to`; the first if there are several links.
+  std::optional<std::uint16_t> port_towards(std::uint32_t from, std::uint32_t to) const;
+};
+
+/// Builds the topology; mistakes go to `diagnostics`. What could be built is returned even then.
+Topology build_topology(const NetworkSection& network, json::Diagnostics& diagnostics);
+
+/// The known node name nearest to `name`, or ""; not worked out for a diagnostic that would not be kept.
+std::string suggest_node(const Topology& topology, std::string_view name, const json::Diagnostics& diagnostics);
+
+}  // namespace takt::scenario

@@ -43,6 +43,8 @@ Line line_of(const Finding& finding, const Proved& proved) {
     line.verdict = Verdict::refuted;
   else if (is_proved)
     line.verdict = Verdict::pass;
+  const bool exceeds = proved.time && finding.requirement.limit && *proved.time > *finding.requirement.limit;
+  if (exceeds && line.reason.empty()) line.reason = finding.worst.failed ? "a run exceeds the limit" : "no run that was found exceeds the limit, but the bound does";
   return line;
 }
 

@@ -38,6 +38,16 @@ def shipped(name="robot-arm"):
 
 
 class CliTest(unittest.TestCase):
+    def test_the_reference_is_the_generated_one(self):
+        """To renew it: takt schema KIND --reference > docs/reference/KIND.md"""
+        for kind in ("scenario", "study", "node", "applications"):
+            with self.subTest(kind):
+                status, page, _ = takt("schema", kind, "--reference")
+                self.assertEqual(status, 0)
+                self.assertEqual(page, (SCENARIOS.parent / "docs" / "reference" / f"{kind}.md").read_text())
+                self.assertIn("properties", json.loads(takt("schema", kind)[1]))
+        self.assertNotEqual(takt("schema", "plant")[0], 0)
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="takt-cli-")
         self.addCleanup(folder.cleanup)

@@ -119,6 +119,8 @@ const BadCase programs_cases[] = {
      R"(2:1: error at /require/0: missing key: found "stream" without a limit, expected "latency", "jitter", "dropped" or "delivered")"},
     {"UnknownStream", with_requirement(R"({"stream": "p/state/c", "latency": "1ms"})"),
      R"(2:12: error at /require/0/stream: unknown stream: found "p/state/c", expected the name of a stream (did you mean "p/state/a"?))"},
+    {"StreamOfAProgramWithAMistake", scenario_with(R"("programs": [{"name": "p", "master": "a", "slaves": ["x"], "cycle": "1ms"}], "require": [{"stream": "p/state/a", "latency": "1ms"}])"),
+     R"(2:54: error at /programs/0/slaves/0: unknown node: found "x", expected the name of a host)"},
 };
 
 INSTANTIATE_TEST_SUITE_P(BadStream, BadInput, testing::ValuesIn(streams_cases), name_of_case);

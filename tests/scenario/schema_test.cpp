@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
@@ -41,6 +42,20 @@ bool validates(const std::string& text) {
 // To renew it: takt schema > scenarios/takt.schema.json
 TEST(ScenarioSchema, TheCommittedOneIsTheGeneratedOne) {
   EXPECT_EQ(content(std::string(TAKT_SOURCE_DIR) + "/scenarios/takt.schema.json"), generated_schema());
+}
+
+// A member that stands twice would be read as the last one, silently.
+TEST(ScenarioSchema, HasNoMemberTwice) {
+  std::vector<std::set<std::string>> open;
+  const auto is_new = [&](int, nlohmann::json::parse_event_t event, nlohmann::json& value) {
+    if (event == nlohmann::json::parse_event_t::object_start) open.emplace_back();
+    if (event == nlohmann::json::parse_event_t::object_end) open.pop_back();
+    if (event == nlohmann::json::parse_event_t::key) {
+      EXPECT_TRUE(open.back().insert(value.get<std::string>()).second) << value;
+    }
+    return true;
+  };
+  EXPECT_TRUE(nlohmann::json::parse(generated_schema(), is_new).is_object());
 }
 
 TEST(ScenarioSchema, AcceptsEveryShippedScenario) {

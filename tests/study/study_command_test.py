@@ -108,7 +108,7 @@ class StudyTest(unittest.TestCase):
                 self.run_study(study, "--dry-run", "--quiet")
 
     def test_schema_is_the_shipped_one(self):
-        self.assertEqual(takt("schema", "--study")[1], (SOURCE / "scenarios" / "studies" / "takt-study.schema.json").read_text())
+        self.assertEqual(takt("schema", "study")[1], (SOURCE / "scenarios" / "studies" / "takt-study.schema.json").read_text())
 
     def test_killed_at_any_moment(self):
         study = self.study(duration="40ms", replications=40)

@@ -77,6 +77,7 @@ TEST(Sandwich, VerdictsFollowFromTheLimit) {
   ASSERT_EQ(found.lines.size(), 5u);
   const Verdict expected[] = {Verdict::pass, Verdict::refuted, Verdict::pass, Verdict::pass, Verdict::refuted};
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(found.lines[i].verdict, expected[i]) << found.lines[i].requirement.text << ": " << found.lines[i].reason;
+  EXPECT_EQ(found.lines[1].reason, "a run exceeds the limit");
   EXPECT_EQ(found.verdict(), Verdict::refuted);
   EXPECT_GT(*found.lines[0].tightness(), 0.99);
   const std::string json = json_report("two", found, std::vector<std::string>(5));

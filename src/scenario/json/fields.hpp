@@ -177,8 +177,12 @@ std::string encode(const T& value) {
 
 /// The JSON Schema (draft-07) of a document: accepts all that decode() accepts, and refuses all it can express.
 template <Described T>
-std::string schema(std::string_view title) {
+Node schema_tree(std::string_view title) {
   return root_schema(describe(Type<T>{}), title);
+}
+template <Described T>
+std::string schema(std::string_view title) {
+  return pretty(schema_tree<T>(title));
 }
 
 }  // namespace takt::scenario::json

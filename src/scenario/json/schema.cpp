@@ -263,20 +263,22 @@ Node schema_by(const Enumeration& table, SchemaBuilder&) {
   return schema;
 }
 
-std::string root_schema(const Object& table, std::string_view title) {
+Node root_schema(const Object& table, std::string_view title) {
   SchemaBuilder builder;
   Node body = object_schema(table, "", "", builder);
   Node schema = Node::object();
   schema.add("$schema", Node::of_string("http://json-schema.org/draft-07/schema#"));
   schema.add("title", Node::of_string(title));
-  Node link = of_type("string");
-  describe_with(link, "The JSON Schema of this file, for editors; takt ignores it.");
-  auto& properties = body.find("properties")->members;
-  properties.insert(properties.begin(), Member{"$schema", {}, std::move(link)});
+  Node& properties = *body.find("properties");
+  if (properties.find("$schema") == nullptr) {
+    Node link = of_type("string");
+    describe_with(link, "The JSON Schema of this file, for editors; takt ignores it.");
+    properties.members.insert(properties.members.begin(), Member{"$schema", {}, std::move(link)});
+  }
   for (Member& member : body.members) schema.members.push_back(std::move(member));
   Node definitions = builder.take_definitions();
   if (!definitions.members.empty()) schema.add("definitions", std::move(definitions));
-  return pretty(schema);
+  return schema;
 }
 
 void check_table(const Object& table) {

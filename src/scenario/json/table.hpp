@@ -180,7 +180,7 @@ Node schema_by(const Object& table, SchemaBuilder& builder);
 Node schema_by(const Enumeration& table, SchemaBuilder& builder);
 Node schema_by(const Tagged& table, SchemaBuilder& builder);
 Node schema_by(const Custom& table, SchemaBuilder& builder);
-std::string root_schema(const Object& table, std::string_view title);
+Node root_schema(const Object& table, std::string_view title);
 
 /// "from 1us to 10s", "of at least 1us", "" ...: the range of a number or quantity in words.
 std::string range_text(const Dimension* dimension, const Bounds& bounds);

@@ -439,9 +439,18 @@ class Resolver {
       diagnostics_.error(requirement.where.place(), "missing key", {"\"stream\" without a limit", "\"latency\", \"jitter\", \"dropped\" or \"delivered\""});
     if (stream_names_.empty())
       for (const models::StreamPlan& stream : r_.plan.streams) stream_names_.insert(stream.name);
-    if (stream_names_.contains(*requirement.stream)) return;
+    if (stream_names_.contains(*requirement.stream) || is_of_broken_program(*requirement.stream)) return;
     const std::vector<std::string_view> names(stream_names_.begin(), stream_names_.end());
     diagnostics_.error(requirement.where.at("stream"), "unknown stream", {json::quote(*requirement.stream), "the name of a stream", json::suggest(*requirement.stream, names)});
+  }
+
+  /// A Program with a mistake has no streams: that is said where the mistake is, not again of each of its streams.
+  bool is_of_broken_program(std::string_view stream) const {
+    if (!diagnostics_.has_errors()) return false;
+    return std::ranges::any_of(r_.scenario.programs, [&](const Program& program) {
+      const std::string prefix = program.name + "/";
+      return stream.starts_with(prefix) && std::ranges::none_of(stream_names_, [&](std::string_view name) { return name.starts_with(prefix); });
+    });
   }
 
   Resolved& r_;

@@ -14,8 +14,11 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
+
+sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import processes  # noqa: E402
 
 TAKT = ""
 SCENARIOS = pathlib.Path()
@@ -264,9 +267,10 @@ class Signals(CliTest):
 
     def interrupt(self, number, *arguments):
         process = self.start(*arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        time.sleep(0.7)
+        processes.wait_for_handler(process, number)
+        processes.wait_for_work(process, 0.3)
         process.send_signal(number)
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=processes.PATIENCE)
         return process.returncode, out, err
 
     def test_interrupt_ends_cleanly(self):
@@ -313,17 +317,18 @@ class Signals(CliTest):
         controller, terminal = pty.openpty()
         process = self.start(stdout=subprocess.DEVNULL, stderr=terminal)
         os.close(terminal)
-        time.sleep(2.0)
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(timeout=60), 130)
+        bar = re.compile(r"\[.{30}\] +\d+\.\d % ")
         drawn = b""
+        while not bar.search(drawn.decode(errors="replace")):
+            drawn += os.read(controller, 65536)
+        process.send_signal(signal.SIGINT)
         try:
             while chunk := os.read(controller, 65536):
                 drawn += chunk
         except OSError:
             pass  # the terminal's other end is closed
         os.close(controller)
-        self.assertRegex(drawn.decode(), re.compile(r"\[.{30}\] +\d+\.\d % "))
+        self.assertEqual(process.wait(timeout=processes.PATIENCE), 130)
         self.assertTrue(drawn.endswith(b"\r\033[K"), "the bar removes itself")
 
 

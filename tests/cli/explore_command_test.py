@@ -11,8 +11,11 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
+
+sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import processes  # noqa: E402
 
 TAKT = ""
 SCENARIOS = pathlib.Path()
@@ -111,7 +114,8 @@ class Interruption(unittest.TestCase):
 
     def test_a_partial_verdict_after_ctrl_c(self):
         with subprocess.Popen([TAKT, "explore", *self.LONG, "--format", "json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
-            time.sleep(2)
+            processes.wait_for_handler(running, signal.SIGINT)
+            processes.wait_for_work(running, 1)
             running.send_signal(signal.SIGINT)
             out, _ = running.communicate(timeout=120)
         answer = json.loads(out)

@@ -15,8 +15,11 @@ import sqlite3
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
+
+sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import processes  # noqa: E402
 
 TAKT = ""
 SOURCE = pathlib.Path()
@@ -147,15 +150,11 @@ class StudyTest(unittest.TestCase):
     def test_workers_die_with_their_parent(self):
         study = self.study(duration="20s", replications=20)
         process = subprocess.Popen([TAKT, "study", study, "--jobs", "2", "--out", self.folder / "s.sqlite"], stderr=subprocess.DEVNULL)
-        time.sleep(0.7)
-        children = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process.pid)], capture_output=True, text=True, check=False).stdout.split()
+        processes.wait_until("two workers", lambda: len(processes.children_of(process)) == 2)
+        children = processes.children_of(process)
         process.kill()
         process.wait()
-        deadline = time.time() + 20
-        while any(pathlib.Path(f"/proc/{child}").exists() for child in children) and time.time() < deadline:
-            time.sleep(0.05)
-        self.assertGreater(len(children), 0)
-        self.assertFalse([child for child in children if pathlib.Path(f"/proc/{child}").exists()])
+        processes.wait_until("the end of the workers", lambda: not [child for child in children if processes.is_alive(child)])
 
     def test_full_disk(self):
         mount = self.folder / "small"
@@ -231,7 +230,7 @@ class StudyTest(unittest.TestCase):
         if browser is None:
             self.skipTest("no chromium here: the report is not rendered")
         screenshot = self.folder / "s.png"
-        common = [browser, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={self.folder / 'profile'}", "--virtual-time-budget=2000"]
+        common = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", f"--user-data-dir={self.folder / 'profile'}", "--virtual-time-budget=2000"]
         # The document as the browser understood it, and what it wrote to its console.
         dump = subprocess.run([*common, "--enable-logging=stderr", "--dump-dom", page.as_uri()], capture_output=True, text=True, timeout=120, check=True)
         self.assertNotIn("CONSOLE", dump.stderr)

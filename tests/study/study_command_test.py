@@ -119,7 +119,7 @@ class StudyTest(unittest.TestCase):
         chance = random.Random(4711)
         before, kills, finished, wanted = set(), 0, 0, int(os.environ.get("TAKT_KILLS", "50"))
         while kills < wanted:
-            self.assertLess(finished, 10 * wanted, "the study is too short to be killed")
+            self.assertLess(finished, 10 * wanted, "the study is too short to be killed")   # 480 runs of 40 ms take no less anywhere
             process = subprocess.Popen([TAKT, "study", study, "--jobs", "2", "--out", store, *(["--resume"] if store.exists() else [])],
                                        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True)
             try:
@@ -134,13 +134,7 @@ class StudyTest(unittest.TestCase):
                 process.communicate()
                 kills += 1
             if store.exists():
-                try:
-                    now = self.sound(store)
-                except sqlite3.OperationalError as error:
-                    self.assertIn("no such table", str(error))   # killed before the first commit: nothing was finished
-                    for left in self.folder.glob("s.sqlite*"):
-                        left.unlink()
-                    now = set()
+                now = self.sound(store)
                 self.assertLessEqual(before, now, "a finished point is lost")
                 before = now
         final = results(self.run_study(study, "--out", store, *(["--resume"] if store.exists() else [])))

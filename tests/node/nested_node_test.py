@@ -30,7 +30,7 @@ class Nested(real_node_test.Ctl):
         self.addCleanup(self.group.kill)
         for node in self.NAMES:
             transport = {"kind": "udp", "port": port[node], "destinations": [f"127.0.0.1:{port[other]}" for other in self.NAMES if other != node]}
-            config = {"node": node, "programs": programs or self.PROGRAMS, "transport": transport, "control": str(self.group.sockets[node])} | (more or {}).get(node, {})
+            config = {"node": node, "programs": programs or self.PROGRAMS, "transport": transport, "control": str(self.group.sockets[node])} | real_node_test.LIFE | (more or {}).get(node, {})
             path = self.folder / f"{node}.json"
             path.write_text(json.dumps(config), encoding="utf-8")
             self.group.processes[node] = subprocess.Popen([real_node_test.TAKT, "node", str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)

@@ -59,7 +59,7 @@ class Package(unittest.TestCase):
         for name, port in ports.items():
             other = next(each for each in ports if each != name)
             config = {"node": name, "program": PROGRAM, "transport": {"kind": "udp", "port": port, "destinations": [f"127.0.0.1:{ports[other]}"]},
-                      "control": str(self.folder / f"{name}.sock"), "log_values_every": "0ns"}
+                      "control": str(self.folder / f"{name}.sock"), "duration": "600s", "log_values_every": "0ns"}
             if name == "plc":
                 config |= {"sources": [{"data_set": "targets", "kind": "constant", "value": 8}]}
             files[name] = self.folder / f"{name}.json"

@@ -42,7 +42,7 @@ class Ground {
       ground->folder_ = (fs::temp_directory_path() / ("takt-emulate-" + std::to_string(::getpid()))).string();
       std::error_code error;
       fs::create_directories(ground->folder_, error);
-      ground->network_ = {"lo", 40'000 + ::getpid() % 10'000, 10 + ::getpid() % 200};
+      ground->network_ = {"lo", 32'000 + ::getpid() % 700, 1 + ::getpid() % 80};  // below the ports that the system gives to others
       return ground;
     }
     Plan plan;

@@ -1,4 +1,5 @@
 """dumpcap on an interface, from before the first frame until after the last one."""
+import os
 import re
 import shutil
 import signal
@@ -8,7 +9,6 @@ import subprocess
 import time
 
 PATIENCE = 100  # seconds; what takes longer hangs
-MARK = b"takt: what is captured before this is whole"
 
 
 class Capture:
@@ -16,6 +16,7 @@ class Capture:
 
     def __init__(self, interface, file, capture_filter="", format_option="-n"):
         self.interface, self.file, self.process, self.problem, self.dropped = interface, file, None, "", 0
+        self.mark = b"what is captured before this is whole" + os.urandom(16)  # another test may mark the end of its own
         if shutil.which("dumpcap") is None:
             self.problem = "no dumpcap"
             return
@@ -33,7 +34,7 @@ class Capture:
     def end(self):
         """When what was sent before is in the file. Then `dropped` says how many frames the kernel had no room for."""
         until = time.monotonic() + PATIENCE
-        while MARK not in self.file.read_bytes():
+        while self.mark not in self.file.read_bytes():
             assert time.monotonic() < until, "the capture does not see the mark"
             self.send_mark()
             time.sleep(0.05)
@@ -45,11 +46,11 @@ class Capture:
     def send_mark(self):
         if self.interface == "lo":
             with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
-                sender.sendto(MARK, ("127.0.0.1", 9))  # discard
+                sender.sendto(self.mark, ("127.0.0.1", 9))  # discard
             return
         with socket.socket(socket.AF_PACKET, socket.SOCK_RAW) as sender:
             sender.bind((self.interface, 0))
-            sender.send(b"\x02\0\0\0\0\1" + b"\x02\0\0\0\0\2" + struct.pack(">H", 0x88B5) + MARK)  # local experiments
+            sender.send(b"\x02\0\0\0\0\1" + b"\x02\0\0\0\0\2" + struct.pack(">H", 0x88B5) + self.mark)  # local experiments
 
     def kill(self):
         if self.process is not None and self.process.poll() is None:

@@ -30,7 +30,7 @@ SMALL = """{"name": "small", "duration": "10ms", "network": {
 """
 
 
-def takt(*arguments, cwd=None, timeout=120):
+def takt(*arguments, cwd=None, timeout=1000):
     """Status, standard output and standard error of one run."""
     done = subprocess.run([TAKT, *map(str, arguments)], capture_output=True, text=True, cwd=cwd, timeout=timeout, check=False)
     return done.returncode, done.stdout, done.stderr
@@ -300,7 +300,7 @@ class Signals(CliTest):
         read_end, write_end = os.pipe()
         os.close(read_end)
         done = subprocess.run([TAKT, "run", str(shipped()), "--duration", "1.5s"], stdout=write_end, stderr=subprocess.PIPE, text=True,
-                              timeout=60, check=False)
+                              timeout=1000, check=False)
         os.close(write_end)
         self.assertIn(done.returncode, (-signal.SIGPIPE, 1, 3))
         self.assertNotIn("internal error", done.stderr)
@@ -310,7 +310,7 @@ class Signals(CliTest):
         if not os.path.exists("/dev/full"):
             self.skipTest("no /dev/full")
         with open("/dev/full", "w", encoding="utf-8") as full:
-            done = subprocess.run([TAKT, "run", str(self.write(SMALL % "1ms"))], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60, check=False)
+            done = subprocess.run([TAKT, "run", str(self.write(SMALL % "1ms"))], stdout=full, stderr=subprocess.PIPE, text=True, timeout=1000, check=False)
         self.assertEqual(done.returncode, 3, done.stderr)
 
     def test_a_bar_on_a_terminal(self):

@@ -28,7 +28,7 @@ TWO_PROGRAMS = """{"name": "two", "duration": "10ms", "network": {
 NAMED = ("variant", "slaves", "faults", "states", "depth", "cpu_s", "exhausted", "properties")
 
 
-def explore(*arguments, timeout=300):
+def explore(*arguments, timeout=1000):
     done = subprocess.run([TAKT, "explore", *map(str, arguments)], capture_output=True, text=True, timeout=timeout, check=False)
     return done.returncode, done.stdout, done.stderr
 
@@ -117,7 +117,7 @@ class Interruption(unittest.TestCase):
             processes.wait_for_handler(running, signal.SIGINT)
             processes.wait_for_work(running, 1)
             running.send_signal(signal.SIGINT)
-            out, _ = running.communicate(timeout=120)
+            out, _ = running.communicate(timeout=1000)
         answer = json.loads(out)
         self.assertEqual(running.returncode, 130)
         self.assertTrue(answer["interrupted"])
@@ -134,7 +134,7 @@ class Interruption(unittest.TestCase):
             while b"M states" not in seen or b"a second" not in seen or b" MB" not in seen:
                 seen += os.read(main, 4096)
             running.send_signal(signal.SIGINT)
-            running.wait(timeout=120)
+            running.wait(timeout=1000)
         os.close(main)
         self.assertIn(b"depth", seen)
 

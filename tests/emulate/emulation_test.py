@@ -69,7 +69,7 @@ class Emulation(unittest.TestCase):
         return str(path)
 
     def emulate(self, *arguments, status=0, patience=100):
-        done = subprocess.run([TAKT, "emulate", *arguments, "--patience", str(patience), "--format", "json"], capture_output=True, text=True, timeout=250, check=False)
+        done = subprocess.run([TAKT, "emulate", *arguments, "--patience", str(patience), "--format", "json"], capture_output=True, text=True, timeout=1000, check=False)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return json.loads(done.stdout)
 
@@ -152,7 +152,7 @@ class Emulation(unittest.TestCase):
             process = subprocess.Popen([TAKT, "emulate", self.file(duration="1000s")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
             self.wait_for_running(process.pid)
             process.send_signal(number)
-            out, err = process.communicate(timeout=100)
+            out, err = process.communicate(timeout=1000)
             self.assertEqual(process.returncode, status, out + err)
             self.assertFalse([name for name in namespaces() if name.startswith(f"takt-{process.pid}-")])
         process = subprocess.Popen([TAKT, "emulate", self.file(duration="1000s")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -168,7 +168,7 @@ class Emulation(unittest.TestCase):
 
 class Refusals(unittest.TestCase):
     def emulate(self, path, prefix=()):
-        done = subprocess.run([*prefix, TAKT, "emulate", path], capture_output=True, text=True, timeout=60, check=False)
+        done = subprocess.run([*prefix, TAKT, "emulate", path], capture_output=True, text=True, timeout=1000, check=False)
         return done.returncode, done.stdout, done.stderr
 
     def test_nothing_to_run(self):

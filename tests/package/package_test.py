@@ -24,7 +24,7 @@ PROGRAM = {
 
 
 def run(*command):
-    done = subprocess.run([str(each) for each in command], capture_output=True, text=True, timeout=240, check=False)
+    done = subprocess.run([str(each) for each in command], capture_output=True, text=True, timeout=1000, check=False)
     assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
     return done
 
@@ -50,7 +50,7 @@ class Package(unittest.TestCase):
 
     def ctl(self, node, *request):
         """What `takt ctl` prints; nothing while the node does not answer."""
-        return subprocess.run([TAKT, "ctl", self.folder / f"{node}.sock", *request], capture_output=True, text=True, timeout=100, check=False).stdout
+        return subprocess.run([TAKT, "ctl", self.folder / f"{node}.sock", *request], capture_output=True, text=True, timeout=1000, check=False).stdout
 
     def test_the_robot_follows_its_master(self):
         first = reservation.ports()
@@ -83,7 +83,7 @@ class Package(unittest.TestCase):
                     break
         for process in (plc, robot):
             process.send_signal(signal.SIGTERM)
-            out, err = process.communicate(timeout=100)
+            out, err = process.communicate(timeout=1000)
             self.assertEqual(process.returncode, 0, out + err)
         self.assertGreater(len(heard), 0)
         for fields in heard:

@@ -123,7 +123,7 @@ class Slurm:
         log.close()
 
     def say(self, *command):
-        return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False, env=self.environment, timeout=60).stdout
+        return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False, env=self.environment, timeout=1000).stdout
 
     def tail(self, program):
         text = ""

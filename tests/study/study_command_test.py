@@ -36,7 +36,7 @@ STUDY = """{"name": "small", "scenario": {"name": "pair", "duration": "%(duratio
 """
 
 
-def takt(*arguments, timeout=300, **options):
+def takt(*arguments, timeout=1000, **options):
     done = subprocess.run([TAKT, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, check=False, **options)
     return done.returncode, done.stdout, done.stderr
 
@@ -226,7 +226,7 @@ class StudyTest(unittest.TestCase):
         screenshot = self.folder / "s.png"
         common = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", f"--user-data-dir={self.folder / 'profile'}", "--virtual-time-budget=2000"]
         # The document as the browser understood it, and what it wrote to its console.
-        dump = subprocess.run([*common, "--enable-logging=stderr", "--dump-dom", page.as_uri()], capture_output=True, text=True, timeout=120, check=True)
+        dump = subprocess.run([*common, "--enable-logging=stderr", "--dump-dom", page.as_uri()], capture_output=True, text=True, timeout=1000, check=True)
         self.assertNotIn("CONSOLE", dump.stderr)
         charts = re.findall(r"<svg.*?</svg>", dump.stdout, re.S)
         marks = {re.search(r'class="title">([^<]*)<', chart).group(1): len(re.findall(r'class="mark"', chart)) for chart in charts}
@@ -237,7 +237,7 @@ class StudyTest(unittest.TestCase):
         self.assertEqual(marks["delay over gap, by size"], 12)
         self.assertEqual(marks["variants that pass, by gap"], 4)
         self.assertGreaterEqual(marks["delay against mean"], 13)
-        subprocess.run([*common, "--hide-scrollbars", "--window-size=1200,3000", f"--screenshot={screenshot}", page.as_uri()], capture_output=True, timeout=120, check=True)
+        subprocess.run([*common, "--hide-scrollbars", "--window-size=1200,3000", f"--screenshot={screenshot}", page.as_uri()], capture_output=True, timeout=1000, check=True)
         self.assertGreater(screenshot.stat().st_size, 50_000, "an empty page has a few kilobytes")
 
 

@@ -8,7 +8,7 @@ import struct
 import subprocess
 import time
 
-PATIENCE = 100  # seconds; what takes longer hangs
+PATIENCE = 300  # seconds; what takes longer hangs
 
 
 class Capture:

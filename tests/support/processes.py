@@ -3,7 +3,7 @@ import os
 import pathlib
 import time
 
-PATIENCE = 100  # seconds; what takes longer hangs
+PATIENCE = 300  # seconds; what takes longer hangs
 
 
 def wait_until(what, is_so):

@@ -5,7 +5,6 @@ usage: nested_node_test.py TAKT [unittest options]
 """
 import json
 import signal
-import subprocess
 import sys
 import unittest
 
@@ -25,7 +24,7 @@ class Nested(real_node_test.Ctl):
     def start_nodes(self, more=None, programs=None):
         port = {name: real_node_test.PORTS + i for i, name in enumerate(self.NAMES)}
         self.group = real_node_test.Group.__new__(real_node_test.Group)
-        self.group.processes = {}
+        self.group.processes, self.group.files = {}, {}
         self.group.sockets = {node: self.folder / f"{node}.sock" for node in self.NAMES}
         self.addCleanup(self.group.kill)
         for node in self.NAMES:
@@ -33,7 +32,7 @@ class Nested(real_node_test.Ctl):
             config = {"node": node, "programs": programs or self.PROGRAMS, "transport": transport, "control": str(self.group.sockets[node])} | real_node_test.LIFE | (more or {}).get(node, {})
             path = self.folder / f"{node}.json"
             path.write_text(json.dumps(config), encoding="utf-8")
-            self.group.processes[node] = subprocess.Popen([real_node_test.TAKT, "node", str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.group.start(node, path)
 
     def test_methods_reach_the_whole_tree(self):
         self.start_nodes({"middle": {"sources": [{"program": "my axes", "data_set": "d", "kind": "constant", "value": 7}], "log_values_every": "50ms"}, "right": {"log_values_every": "50ms"}})
@@ -73,7 +72,7 @@ class Nested(real_node_test.Ctl):
         self.assertEqual(self.ctl("plc", "start")[0], 0)
         self.group.wait_for_state("Running")
         self.group.processes["right"].kill()
-        self.group.processes.pop("right").communicate()
+        self.group.processes.pop("right").wait()
         self.group.wait("Halted", lambda found: all(each["state"] == "Halted" for status in found.values() for each in status.get("programs", [status])))
         logs = self.group.end()
         causes = [(e["program"], e["cause"]) for e in logs["middle"] if e["event"] == "intent" and e["kind"] == "halt"]

@@ -104,20 +104,26 @@ class Group:
     """The nodes of one test, started as processes."""
 
     def __init__(self, test, folder, transport_of, prefix_of=lambda node: [], program=None, more=None):
-        self.processes = {}
+        self.processes, self.files = {}, {}
         self.sockets = {node: folder / f"{node}.sock" for node in NODES}
         for node in NODES:
             config = {"node": node, "program": program or PROGRAM, "transport": transport_of(node), "control": str(self.sockets[node])} | LIFE | (more or {}).get(node, {})
             path = folder / f"{node}.json"
             path.write_text(json.dumps(config), encoding="utf-8")
-            self.processes[node] = subprocess.Popen(prefix_of(node) + [TAKT, "node", str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.start(node, path, prefix_of(node))
         test.addCleanup(self.kill)
+
+    def start(self, node, path, prefix=()):
+        """Into files: a pipe that nobody reads would stop a node that logs much."""
+        with open(path.with_suffix(".out"), "w", encoding="utf-8") as out, open(path.with_suffix(".err"), "w", encoding="utf-8") as err:
+            self.processes[node] = subprocess.Popen([*prefix, TAKT, "node", str(path)], stdout=out, stderr=err)
+        self.files[node] = path
 
     def kill(self):
         for process in self.processes.values():
             if process.poll() is None:
                 process.kill()
-            process.communicate()
+            process.wait()
 
     def status(self, node):
         """What a node says of itself; nothing while it does not answer."""
@@ -170,7 +176,8 @@ class Group:
         events = {}
         self.said = {}
         for node, process in self.processes.items():
-            out, err = process.communicate(timeout=PATIENCE)
+            process.wait(timeout=PATIENCE)
+            out, err = (self.files[node].with_suffix(suffix).read_text(encoding="utf-8") for suffix in (".out", ".err"))
             self.said[node] = err
             assert process.returncode == 0, (node, process.returncode, out, err)
             events[node] = [json.loads(line) for line in out.splitlines()]
@@ -252,7 +259,7 @@ class Loopback(NodeTest):
         self.assertEqual(group.call("plc", "Start").returncode, 0)
         group.wait_for_state("Running")
         group.processes["right"].send_signal(signal.SIGKILL)
-        group.processes.pop("right").communicate()
+        group.processes.pop("right").wait()
         group.wait("Halted", lambda found: all(each["state"] == "Halted" for each in found.values()))
         events = group.end()
         causes = [e["cause"] for e in events["plc"] if e["event"] == "intent" and e["kind"] == "halt"]
@@ -314,6 +321,18 @@ class Control(Ctl):
         self.assertIn("plc.sock", err)
         self.assertEqual(self.ctl("plc", "stop")[0], 2)
 
+    def test_a_node_that_has_stopped(self):
+        """Whoever asks it gives up, also when its socket has no more room for connections."""
+        group = Group(self, self.folder, loopback)
+        group.wait("an answer", lambda found: True)
+        group.processes["plc"].send_signal(signal.SIGSTOP)
+        asking = [subprocess.Popen([TAKT, "ctl", str(self.folder / "plc.sock"), "status"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(12)]
+        self.addCleanup(lambda: [each.kill() for each in asking])
+        for each in asking:
+            self.assertEqual((each.communicate(timeout=PATIENCE)[0], each.returncode), ("", 3))
+        group.processes["plc"].send_signal(signal.SIGCONT)
+        group.wait("an answer", lambda found: True)
+
     def test_one_node_a_socket(self):
         group = Group(self, self.folder, loopback)
         group.wait_for_state("Halted")
@@ -323,10 +342,9 @@ class Control(Ctl):
         self.assertIn("already", again.stderr)
         # A killed node leaves its socket; the next one takes its place.
         group.processes["plc"].kill()
-        group.processes.pop("plc").communicate()
+        group.processes.pop("plc").wait()
         self.assertTrue((self.folder / "plc.sock").exists())
-        process = subprocess.Popen([TAKT, "node", str(self.folder / "plc.json")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        group.processes["plc"] = process
+        group.start("plc", self.folder / "plc.json")
         group.wait_for_state("Halted")
 
     def test_by_name(self):

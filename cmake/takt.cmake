@@ -47,4 +47,15 @@ function(takt_test name)
   target_link_libraries(${name} PRIVATE takt_options ${ARG_LINKS} GTest::gtest GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE TAKT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${ARG_DEFINES})
   add_test(NAME ${name} COMMAND ${name})
+  if(rapidcheck IN_LIST ARG_LINKS)
+    # The same cases in every run; RC_PARAMS="max_success=10000" and no seed, without ctest, try harder.
+    set_tests_properties(${name} PROPERTIES ENVIRONMENT "RC_PARAMS=seed=2026")
+  endif()
+endfunction()
+
+# takt_test_support(NAME): the test includes from tests/support.
+function(takt_test_support name)
+  if(TAKT_TESTS)
+    target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  endif()
 endfunction()

@@ -12,7 +12,7 @@
 namespace takt::cli {
 namespace {
 
-ExitStatus run_emulation(const ScenarioOptions& options, const std::string& keep) {
+ExitStatus run_emulation(const ScenarioOptions& options, const std::string& keep, int patience) {
   const auto resolved = load_without_applications(options, "takt emulate", true);
   if (!resolved) return ExitStatus::bad_input;
   const emulate::Plan plan = emulate::plan_of(*resolved);
@@ -21,6 +21,7 @@ ExitStatus run_emulation(const ScenarioOptions& options, const std::string& keep
   const InterruptGuard interrupt;
   emulate::Settings settings;
   settings.keep = keep;
+  settings.patience_ns = std::int64_t{patience} * 1'000'000'000;
   settings.stop_requested = [](const void* guard) { return static_cast<const InterruptGuard*>(guard)->requested(); };
   settings.context = &interrupt;
   emulate::Result result;
@@ -41,16 +42,20 @@ void add_emulate_command(CLI::App& app, ExitStatus& status) {
   CLI::App& command = *app.add_subcommand("emulate", "Run a scenario on real nodes in network namespaces and compare it with the simulated run");
   const auto options = std::make_shared<ScenarioOptions>();
   const auto keep = std::make_shared<std::string>();
+  const auto patience = std::make_shared<int>(10);
   add_scenario_options(command, *options);
   command.add_option("--keep", *keep, "Keep the files and logs of the nodes in this folder")->type_name("FOLDER");
+  command.add_option("--patience", *patience, "Seconds for nodes to come where the simulated run was, before the script goes on without them")
+      ->check(CLI::Range(0, 3600))
+      ->capture_default_str();
   command.footer(
       "Examples:\n"
       "  sudo takt emulate scenarios/three-slaves-star.json\n"
       "  sudo takt emulate scenarios/three-slaves-star.json --set programs.0.receive_timeout=1s     on a busy machine\n"
-      "Needs root. It lasts as long as the scenario does. Gates, shapers, streams, clocks and chance are left out and named.\n"
+      "Needs root. It lasts as long as the scenario does, longer where the machine is slow. Gates, shapers, streams, clocks and chance are left out and named.\n"
       "Exit status: 0 the same order of transitions, 1 another one, 2 bad input or nothing that can be emulated, 3 the machine\n"
       "does not permit it, 130 interrupted. Whatever happens, namespaces and nodes are removed.");
-  command.callback([options, keep, &status] { status = run_emulation(*options, *keep); });
+  command.callback([options, keep, patience, &status] { status = run_emulation(*options, *keep, *patience); });
 }
 
 }  // namespace takt::cli

@@ -40,9 +40,9 @@ ExitStatus run_applications(const std::string& file, bool is_check) {
     return ExitStatus::internal_error;
   }
   print_warnings(warnings);
+  const InterruptGuard interrupt;  // before the start is told, which somebody may answer with a signal
   std::printf("{\"event\": \"start\", \"node\": %s}\n", scenario::json::quote(loaded->config.node).c_str());
   std::fflush(stdout);
-  const InterruptGuard interrupt;
   host->run([](const void* guard) { return static_cast<const InterruptGuard*>(guard)->requested(); }, &interrupt);
   const auto statistics = host->statistics();
   const std::string json = node::to_json(loaded->config.node, statistics);

@@ -23,7 +23,8 @@ namespace {
 namespace json = scenario::json;
 namespace fs = std::filesystem;
 
-constexpr int settling_ms = 3'500;  // of the files, and for the last process to start
+constexpr int settling_ms = 3'500;  // of the files, and for the last thread to start
+constexpr int start_timeout_ms = 60'000;
 constexpr int window_ms = 10;
 constexpr int stop_timeout_ms = 10'000;
 
@@ -41,7 +42,7 @@ class Ground {
       ground->folder_ = (fs::temp_directory_path() / ("takt-emulate-" + std::to_string(::getpid()))).string();
       std::error_code error;
       fs::create_directories(ground->folder_, error);
-      ground->network_ = {"lo", 40'000 + ::getpid() % 10'000, 10 + ::getpid() % 200};
+      ground->network_ = {"lo", 32'000 + ::getpid() % 700, 1 + ::getpid() % 80};  // below the ports that the system gives to others
       return ground;
     }
     Plan plan;
@@ -56,11 +57,8 @@ class Ground {
     for (std::uint32_t n = 0; n < nodes && problem.empty(); ++n)
       problem = run_command({"ip", "-n", ground->machine_->namespace_of(n), "addr", "add", fmt::format("10.75.0.{}/24", n + 1), "dev", "eth0"});
     if (!problem.empty()) return nullptr;
-    // The kernel looks after new links once a second; before that a bridge forwards nothing, and what DDS participants first say of themselves,
-    // which they say again after many seconds only, would be lost.
-    const timespec until_links_are_up = {2, 0};
-    ::nanosleep(&until_links_are_up, nullptr);
-    return ground;
+    problem = wait_for_bridge(ground->machine_->namespace_of(bridge));
+    return problem.empty() ? std::move(ground) : nullptr;
   }
   ~Ground() {
     std::error_code error;
@@ -76,6 +74,21 @@ class Ground {
 
  private:
   Ground() = default;
+  /// The kernel looks after new links once a second; before that a bridge forwards nothing, and what DDS participants first say of themselves,
+  /// which they say again after many seconds only, would be lost.
+  static std::string wait_for_bridge(const std::string& network_namespace) {
+    constexpr int step_ms = 50;
+    const timespec step = {0, step_ms * 1'000'000L};
+    std::string problem;
+    for (int waited = 0; waited < start_timeout_ms; waited += step_ms) {
+      // 3: forwarding, all of them.
+      problem = run_command({"ip", "netns", "exec", network_namespace, "sh", "-c", "test \"$(cat /sys/class/net/p*/brport/state | sort -u)\" = 3"});
+      if (problem.empty()) return {};
+      ::nanosleep(&step, nullptr);
+    }
+    return "the bridge does not forward: " + problem;
+  }
+
   std::unique_ptr<Machine> machine_;
   CoexistenceNetwork network_;
   std::string folder_;
@@ -121,6 +134,7 @@ class Measurement {
     std::string name;
     std::string statistics;
     std::string errors;
+    std::string log;
     std::unique_ptr<Child> child;
   };
 
@@ -139,13 +153,29 @@ class Measurement {
       Child::Settings child;
       child.command = {own_executable(), "node", stem + ".json"};
       child.network_namespace = ground.namespace_of(n);
-      child.output = stem + ".log";
+      node.log = stem + ".log";
+      child.output = node.log;
       child.errors = node.errors;
       node.child = std::make_unique<Child>(child);
     }
-    const bool done = wait(nodes, settling_ms + settings_.windows * window_ms * 11 / 10) && stop(nodes);
+    const bool done = wait_for_starts(nodes) && wait(nodes, settling_ms + settings_.windows * window_ms * 11 / 10) && stop(nodes);
     if (!settings_.keep.empty()) keep(ground);
     return done && std::all_of(nodes.begin(), nodes.end(), [&](const Running& node) { return collect(node, study, column); });
+  }
+
+  /// Until all nodes have told of their start, from which they count.
+  bool wait_for_starts(std::vector<Running>& nodes) {
+    const auto has_told = [](const Running& node) {
+      std::error_code absent;
+      const std::uintmax_t size = fs::file_size(node.log, absent);
+      return !absent && size > 0;
+    };
+    for (Running& node : nodes)
+      for (int waited = 0; !has_told(node); waited += window_ms) {
+        if (waited >= start_timeout_ms) return fail(node, "does not start");
+        if (!wait(nodes, window_ms)) return false;
+      }
+    return true;
   }
 
   bool wait(std::vector<Running>& nodes, int milliseconds) {
@@ -157,7 +187,7 @@ class Measurement {
         problem_ = "interrupted";
         return false;
       }
-      const timespec time = {0, step * 1'000'000L};
+      const timespec time = {0, std::min(step, milliseconds - waited) * 1'000'000L};
       ::nanosleep(&time, nullptr);
     }
     return true;

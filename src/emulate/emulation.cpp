@@ -10,11 +10,14 @@
 #include <deque>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
+#include <optional>
 
 #include "emulate/child.hpp"
 #include "emulate/log_reader.hpp"
 #include "emulate/machine.hpp"
+#include "emulate/pace.hpp"
 #include "node/control_socket.hpp"
 #include "scenario/json/document.hpp"
 #include "scenario/run/run.hpp"
@@ -67,6 +70,7 @@ class Emulation {
       : resolved_(resolved), plan_(plan), settings_(settings), result_(result), problem_(problem) {}
 
   bool run() {
+    simulate();
     machine_ = Machine::lay(plan_, problem_);
     if (!machine_) return false;
     write_files();
@@ -78,6 +82,13 @@ class Emulation {
   }
 
  private:
+  void simulate() {
+    scenario::Run simulation(resolved_);
+    simulation.advance();
+    for (std::size_t p = 0; p < resolved_.programs.size(); ++p) simulated_.push_back(history_of(simulation.monitor(p)));
+    pace_.emplace(simulated_);
+  }
+
   void write_files() {
     for (const PlannedNode& planned : plan_.nodes) {
       LiveNode& node = nodes_.emplace_back();
@@ -168,19 +179,88 @@ class Emulation {
     return true;
   }
 
+  /// Until the nodes are as far as the simulated run before `at`. When they have not come there for so long they will not, and the comparison says so.
+  bool wait_for_pace(sim::Duration at) {
+    const std::int64_t until = now_ns() + settings_.patience_ns;
+    for (;; sleep_until(now_ns() + slice_ns)) {
+      if (is_stopped() || !check_nodes()) return false;
+      std::vector<LoggedStep> steps;
+      for (const LiveNode& node : nodes_)
+        if (is_apart_ || !read_log(node, steps)) break;
+      if (is_apart_ || (pace_->is_reached(histories_of(steps, resolved_.programs.size()), at) && (!has_restarted_ || is_everybody_known()))) {
+        has_restarted_ = false;
+        return true;
+      }
+      if (now_ns() < until) continue;
+      is_apart_ = true;
+      return note(fmt::format("not all nodes are where they were in the simulated run at {} ms; they are not waited for any more", at.ps() / 1'000'000'000));
+    }
+  }
+
+  /// Whether nodes have heard the present lives of each other. A start that comes before is halted by a restart that is heard after it.
+  bool is_everybody_known() {
+    std::map<std::pair<std::string, std::string>, std::string> incarnations;  // by Program and participant
+    std::vector<json::Document> answers;
+    for (const LiveNode& node : nodes_) {
+      if (!node.child) continue;
+      std::string problem;
+      json::Diagnostics diagnostics;
+      const auto status = node::ask_node(node.socket, "status", problem);
+      auto document = status ? json::parse(*status, "status", diagnostics) : std::nullopt;
+      if (!document) return false;
+      for_each_program(document->root(), [&](const json::Node& program) { incarnations[{text_of(program, "program"), node.name}] = text_of(program, "incarnation"); });
+      answers.push_back(std::move(*document));
+    }
+    bool are_known = true;
+    for (const json::Document& answer : answers)
+      for_each_program(answer.root(), [&](const json::Node& program) {
+        const json::Node* const peers = program.find("peers");
+        for (std::size_t p = 0; peers != nullptr && p < peers->items.size(); ++p) {
+          const auto living = incarnations.find({text_of(program, "program"), text_of(peers->items[p], "name")});
+          are_known = are_known && (living == incarnations.end() || living->second == text_of(peers->items[p], "incarnation"));
+        }
+      });
+    return are_known;
+  }
+  template <class Visit>
+  static void for_each_program(const json::Node& status, const Visit& visit) {
+    const json::Node* const programs = status.find("programs");
+    if (programs == nullptr) return visit(status);
+    for (const json::Node& program : programs->items) visit(program);
+  }
+
   bool run_script() {
     const std::int64_t begin = now_ns();
     for (const Action& action : plan_.actions) {
-      if (!wait_until(begin + action.at.ps() / 1000)) return false;
-      if (!std::visit([this](const auto& what) { return act(what); }, action.what)) return false;
+      if (!wait_until(begin + action.at.ps() / 1000) || !wait_for_pace(action.at)) return false;
+      if (!std::visit([&](const auto& what) { return act(what, action.at); }, action.what)) return false;
     }
-    return wait_until(begin + resolved_.scenario.duration.ps() / 1000);
+    const sim::Duration end = resolved_.scenario.duration;
+    return wait_until(begin + end.ps() / 1000) && wait_for_pace(end);
   }
 
-  bool act(const CallAction& call) {
+  /// What was Good in the simulated run may be refused here at first: a slave suspends only when it has heard that its master runs.
+  bool act(const CallAction& call, sim::Duration at) {
+    const PlannedNode::Part& part = nodes_[call.node].plan->parts[call.part];
+    const bool is_expected = !is_apart_ && pace_->is_good(part.program, part.participant, call.method, at);
+    const std::int64_t until = now_ns() + settings_.patience_ns;
+    for (bool is_last = !is_expected;; is_last = now_ns() >= until) {
+      std::string refusal;
+      if (!ask(call, refusal)) return false;
+      if (refusal.empty()) return true;
+      if (is_last) return note(refusal);
+      sleep_until(now_ns() + slice_ns);
+      if (is_stopped() || !check_nodes()) return false;
+    }
+  }
+
+  bool ask(const CallAction& call, std::string& refusal) {
     LiveNode& node = nodes_[call.node];
     std::string method(program::name_of(call.method));
-    if (!node.child) return note(method + " on " + node.name + " falls into its crash");
+    if (!node.child) {
+      refusal = method + " on " + node.name + " falls into its crash";
+      return true;
+    }
     std::string request = method;
     std::transform(request.begin(), request.end(), request.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (node.plan->parts.size() > 1) request += ' ' + resolved_.programs[node.plan->parts[call.part].program].name;
@@ -190,19 +270,21 @@ class Emulation {
     json::Diagnostics diagnostics;
     const auto document = json::parse(*answer, "answer", diagnostics);
     const std::string status = document ? text_of(document->root(), "status") : *answer;
-    return status == "Good" || note(method + " on " + node.name + ": " + status);
+    if (status != "Good") refusal = method + " on " + node.name + ": " + status;
+    return true;
   }
-  bool act(const LinkAction& change) {
+  bool act(const LinkAction& change, sim::Duration) {
     const std::string failed = machine_->set_cable(change.cable, change.up);
     return failed.empty() || fail(failed);
   }
-  bool act(const HostAction& change) {
+  bool act(const HostAction& change, sim::Duration) {
     for (LiveNode& node : nodes_) {
       if (node.plan->host != change.host) continue;
-      if (change.up)
+      if (change.up) {
         start(node, true);
-      else
-        node.child.reset();
+        has_restarted_ = true;
+      }
+      if (!change.up) node.child.reset();
     }
     return true;
   }
@@ -230,16 +312,14 @@ class Emulation {
 
   bool collect() {
     for (const LiveNode& node : nodes_)
-      if (!read_log(node)) return false;
+      if (!collect_log(node)) return false;
     const std::vector<History> emulated = histories_of(steps_, resolved_.programs.size());
     result_.invariants = check_invariants(resolved_, steps_);
-    scenario::Run simulation(resolved_);
-    simulation.advance();
     for (std::size_t p = 0; p < resolved_.programs.size(); ++p) {
       const scenario::Program& program = *resolved_.programs[p].description;
       std::vector<std::string> names = {program.master};
       names.insert(names.end(), program.slaves.begin(), program.slaves.end());
-      result_.programs.push_back({program.name, compare(history_of(simulation.monitor(p)), emulated[p], names)});
+      result_.programs.push_back({program.name, compare(simulated_[p], emulated[p], names)});
     }
     return true;
   }
@@ -252,13 +332,20 @@ class Emulation {
     return history;
   }
 
-  bool read_log(const LiveNode& node) {
+  /// Appends what the node has logged so far. Its status is returned in `end`, if it is asked for.
+  bool read_log(const LiveNode& node, std::vector<LoggedStep>& steps, std::string* end = nullptr) {
     std::ifstream log(node.log);
     LogReader reader(resolved_, *node.plan);
     for (std::string line; std::getline(log, line);)
       if (!reader.take(line)) return fail("the log of " + node.name + " cannot be read: " + line);
-    for (LoggedStep& step : reader.finish()) steps_.push_back(step);
-    result_.nodes.push_back({node.name, reader.status()});
+    for (LoggedStep& step : reader.finish()) steps.push_back(step);
+    if (end != nullptr) *end = reader.status();
+    return true;
+  }
+  bool collect_log(const LiveNode& node) {
+    std::string status;
+    if (!read_log(node, steps_, &status)) return false;
+    result_.nodes.push_back({node.name, std::move(status)});
     return true;
   }
 
@@ -268,6 +355,10 @@ class Emulation {
   Result& result_;
   std::string& problem_;
   std::unique_ptr<Machine> machine_;
+  std::vector<History> simulated_;  // by program
+  std::optional<Pace> pace_;
+  bool has_restarted_ = false;  // and it is not sure that all have heard of it
+  bool is_apart_ = false;  // the nodes went another way than the simulated run
   std::vector<LoggedStep> steps_;
   std::deque<LiveNode> nodes_;  // behind machine_, so that they end before it goes
 };

@@ -30,6 +30,8 @@ struct Result {
 };
 
 struct Settings {
+  /// So long nodes are waited for that are not where the simulated run was; a script that is late stays the same script.
+  std::int64_t patience_ns = 10'000'000'000;
   std::string keep;  ///< folder for the nodes' files and logs; "": they are removed
   bool (*stop_requested)(const void* context) = nullptr;
   const void* context = nullptr;

@@ -84,6 +84,11 @@ std::unique_ptr<Machine> Machine::lay(const Plan& plan, std::string& problem) {
 }
 
 std::string Machine::make() {
+  // Left behind by a process that had the same number.
+  std::error_code error;
+  fs::remove_all(folder_, error);
+  for (const std::string& name : names_)
+    if (fs::exists("/run/netns/" + name, error)) run_command({"ip", "netns", "del", name});
   if (::mkdir(folder_.c_str(), 0700) != 0) return folder_ + ": " + std::strerror(errno);
   std::string lines;
   for (const std::string& name : names_) lines += "netns add " + name + "\n";

@@ -167,8 +167,8 @@ MappingError get_field(const uadp::RawField& field, const IdlMember& member, dds
   return MappingError::none;
 }
 
-/// Octets that a payload has at most, if the fields have so many: alignment and length of each member, and of strings the octet 0 and its alignment.
-std::size_t most_octets(std::size_t fields, std::size_t members) { return dds::encapsulation_size + 2 * fields + 16 * members; }
+/// Octets that a member has at most: its alignment and length, and of strings the octet 0 and its alignment.
+std::size_t most_octets(const uadp::Variant& value) { return 16 + 2 * value.octets.size(); }
 
 template <class Named>
 std::optional<std::size_t> find(const std::vector<Named>& all, const std::string& name) {
@@ -234,7 +234,9 @@ MappingError TypeMapping::to_cdr(Octets fields, std::vector<std::byte>& payload)
   given_.clear();
   for (std::size_t i = 0; i < fields_.size(); ++i) given_.push_back(uadp::get_variant(reader));
   if (reader.failed() || reader.left() != 0) return MappingError::malformed;
-  payload.resize(most_octets(fields.size(), type_.members.size()));
+  std::size_t most = dds::encapsulation_size;
+  for (const std::size_t source : sources_) most += most_octets(given_[source]);  // a field may be the source of several members
+  payload.resize(most);
   dds::CdrWriter writer(payload);
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const MappingError error = put_member(fields_[sources_[i]].type, type_.members[i], given_[sources_[i]], writer);

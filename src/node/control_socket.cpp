@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -34,9 +35,16 @@ bool address_of(const std::string& path, sockaddr_un& address, std::string& prob
 
 const sockaddr* general(const sockaddr_un& address) { return reinterpret_cast<const sockaddr*>(&address); }
 
+/// A node that has stopped does not take connections; without a limit whoever connects would wait as long as it.
+void limit_connecting(const FileDescriptor& fd) {
+  const timeval limit = {answer_timeout_ms / 1000, 0};
+  ::setsockopt(fd.number(), SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
+}
+
 bool somebody_listens(const sockaddr_un& address) {
   const FileDescriptor probe(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
-  return ::connect(probe.number(), general(address), sizeof address) == 0;
+  limit_connecting(probe);
+  return ::connect(probe.number(), general(address), sizeof address) == 0 || errno == EAGAIN;
 }
 
 std::string default_folder() {
@@ -133,6 +141,7 @@ std::optional<std::string> ask_node(const std::string& node, std::string_view re
   sockaddr_un address;
   if (!address_of(path, address, problem)) return std::nullopt;
   const FileDescriptor fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  limit_connecting(fd);
   if (!fd.is_open() || ::connect(fd.number(), general(address), sizeof address) != 0) {
     problem = what_failed("no node at " + path);
     return std::nullopt;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -125,7 +126,7 @@ sqlite3* open_database(const std::string& path, int flags, std::string& problem)
 constexpr const char* modes = "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;";
 
 void remove_files(const std::string& path) {
-  for (const char* const suffix : {"", "-wal", "-shm"}) std::remove((path + suffix).c_str());
+  for (const char* const suffix : {"", "-wal", "-shm", "-journal"}) std::remove((path + suffix).c_str());
 }
 
 std::uint64_t hash_of(std::uint64_t hash, std::string_view text) {
@@ -140,11 +141,13 @@ std::unique_ptr<Store> Store::create(const std::string& path, const Plan& plan, 
     problem = path + " is there already: go on with it by --resume, or name another one by --out";
     return nullptr;
   }
+  // Under another name until it is one: who is killed before leaves nothing that is neither a store nor absent.
+  const std::string unfinished = path + ".new";
+  remove_files(unfinished);
   std::unique_ptr<Store> store(new Store);
-  store->database_ = open_database(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, problem);
+  store->database_ = open_database(unfinished, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, problem);
   if (store->database_ == nullptr) return problem = path + ": " + problem, nullptr;
   sqlite3* const database = store->database_;
-  problem = execute(database, modes);
   if (problem.empty()) problem = execute(database, "BEGIN;" + tables_of(plan.factors.size(), plan.measures.size()) + view_of(plan));
   if (problem.empty()) {
     put_meta(database, "schema", std::to_string(store_version), problem);
@@ -159,11 +162,18 @@ std::unique_ptr<Store> Store::create(const std::string& path, const Plan& plan, 
     put_variants(database, plan, problem);
     if (problem.empty()) problem = execute(database, "COMMIT");
   }
-  if (problem.empty()) problem = store->read_header();
-  if (problem.empty()) return store;
-  problem = path + ": " + problem;
   store.reset();
-  remove_files(path);
+  if (problem.empty() && std::rename(unfinished.c_str(), path.c_str()) != 0) problem = std::strerror(errno);
+  if (problem.empty()) {
+    store = open(path, problem);
+    if (!store) return nullptr;
+    problem = execute(store->database_, modes);
+    if (problem.empty()) return store;
+    store.reset();
+    remove_files(path);
+  }
+  problem = path + ": " + problem;
+  remove_files(unfinished);
   return nullptr;
 }
 

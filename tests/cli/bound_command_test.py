@@ -18,7 +18,7 @@ TANDEM = """{"servers": {"s0": {"rate": 20, "latency": 20}, "s1": {"rate": 20, "
 
 
 def bound(*arguments):
-    done = subprocess.run([TAKT, "bound", *map(str, arguments)], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([TAKT, "bound", *map(str, arguments)], capture_output=True, text=True, timeout=1000, check=False)
     return done.returncode, done.stdout, done.stderr
 
 

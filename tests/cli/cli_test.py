@@ -14,8 +14,11 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
+
+sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import processes  # noqa: E402
 
 TAKT = ""
 SCENARIOS = pathlib.Path()
@@ -27,7 +30,7 @@ SMALL = """{"name": "small", "duration": "10ms", "network": {
 """
 
 
-def takt(*arguments, cwd=None, timeout=120):
+def takt(*arguments, cwd=None, timeout=1000):
     """Status, standard output and standard error of one run."""
     done = subprocess.run([TAKT, *map(str, arguments)], capture_output=True, text=True, cwd=cwd, timeout=timeout, check=False)
     return done.returncode, done.stdout, done.stderr
@@ -274,9 +277,10 @@ class Signals(CliTest):
 
     def interrupt(self, number, *arguments):
         process = self.start(*arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        time.sleep(0.7)
+        processes.wait_for_handler(process, number)
+        processes.wait_for_work(process, 0.3)
         process.send_signal(number)
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=processes.PATIENCE)
         return process.returncode, out, err
 
     def test_interrupt_ends_cleanly(self):
@@ -306,7 +310,7 @@ class Signals(CliTest):
         read_end, write_end = os.pipe()
         os.close(read_end)
         done = subprocess.run([TAKT, "run", str(shipped()), "--duration", "1.5s"], stdout=write_end, stderr=subprocess.PIPE, text=True,
-                              timeout=60, check=False)
+                              timeout=1000, check=False)
         os.close(write_end)
         self.assertIn(done.returncode, (-signal.SIGPIPE, 1, 3))
         self.assertNotIn("internal error", done.stderr)
@@ -316,24 +320,25 @@ class Signals(CliTest):
         if not os.path.exists("/dev/full"):
             self.skipTest("no /dev/full")
         with open("/dev/full", "w", encoding="utf-8") as full:
-            done = subprocess.run([TAKT, "run", str(self.write(SMALL % "1ms"))], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60, check=False)
+            done = subprocess.run([TAKT, "run", str(self.write(SMALL % "1ms"))], stdout=full, stderr=subprocess.PIPE, text=True, timeout=1000, check=False)
         self.assertEqual(done.returncode, 3, done.stderr)
 
     def test_a_bar_on_a_terminal(self):
         controller, terminal = pty.openpty()
         process = self.start(stdout=subprocess.DEVNULL, stderr=terminal)
         os.close(terminal)
-        time.sleep(2.0)
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(timeout=60), 130)
+        bar = re.compile(r"\[.{30}\] +\d+\.\d % ")
         drawn = b""
+        while not bar.search(drawn.decode(errors="replace")):
+            drawn += os.read(controller, 65536)
+        process.send_signal(signal.SIGINT)
         try:
             while chunk := os.read(controller, 65536):
                 drawn += chunk
         except OSError:
             pass  # the terminal's other end is closed
         os.close(controller)
-        self.assertRegex(drawn.decode(), re.compile(r"\[.{30}\] +\d+\.\d % "))
+        self.assertEqual(process.wait(timeout=processes.PATIENCE), 130)
         self.assertTrue(drawn.endswith(b"\r\033[K"), "the bar removes itself")
 
 

@@ -11,8 +11,11 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
+
+sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import processes  # noqa: E402
 
 TAKT = ""
 SCENARIOS = pathlib.Path()
@@ -25,7 +28,7 @@ TWO_PROGRAMS = """{"name": "two", "duration": "10ms", "network": {
 NAMED = ("variant", "slaves", "faults", "states", "depth", "cpu_s", "exhausted", "properties")
 
 
-def explore(*arguments, timeout=300):
+def explore(*arguments, timeout=1000):
     done = subprocess.run([TAKT, "explore", *map(str, arguments)], capture_output=True, text=True, timeout=timeout, check=False)
     return done.returncode, done.stdout, done.stderr
 
@@ -111,9 +114,10 @@ class Interruption(unittest.TestCase):
 
     def test_a_partial_verdict_after_ctrl_c(self):
         with subprocess.Popen([TAKT, "explore", *self.LONG, "--format", "json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
-            time.sleep(2)
+            processes.wait_for_handler(running, signal.SIGINT)
+            processes.wait_for_work(running, 1)
             running.send_signal(signal.SIGINT)
-            out, _ = running.communicate(timeout=120)
+            out, _ = running.communicate(timeout=1000)
         answer = json.loads(out)
         self.assertEqual(running.returncode, 130)
         self.assertTrue(answer["interrupted"])
@@ -130,7 +134,7 @@ class Interruption(unittest.TestCase):
             while b"M states" not in seen or b"a second" not in seen or b" MB" not in seen:
                 seen += os.read(main, 4096)
             running.send_signal(signal.SIGINT)
-            running.wait(timeout=120)
+            running.wait(timeout=1000)
         os.close(main)
         self.assertIn(b"depth", seen)
 

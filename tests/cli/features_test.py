@@ -21,7 +21,7 @@ CHECKED_PORTS = "Ports beyond strict priority (numbers are traffic classes)"
 
 
 def takt(*arguments):
-    done = subprocess.run([TAKT, *map(str, arguments)], capture_output=True, text=True, timeout=120, check=False)
+    done = subprocess.run([TAKT, *map(str, arguments)], capture_output=True, text=True, timeout=1000, check=False)
     return done.returncode, done.stdout, done.stderr
 
 

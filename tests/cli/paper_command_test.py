@@ -16,7 +16,7 @@ SOURCE = pathlib.Path()
 
 
 def paper(*arguments):
-    done = subprocess.run([TAKT, "paper", *map(str, arguments)], capture_output=True, text=True, timeout=550, check=False, cwd=SOURCE)
+    done = subprocess.run([TAKT, "paper", *map(str, arguments)], capture_output=True, text=True, timeout=1000, check=False, cwd=SOURCE)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -63,7 +63,7 @@ class Paper:
         made = sorted((self.out / "scenarios").glob("*.json"))
         self.assertTrue(made)
         for path in made[:3]:
-            done = subprocess.run([TAKT, "check", str(path)], capture_output=True, text=True, timeout=60, check=False)
+            done = subprocess.run([TAKT, "check", str(path)], capture_output=True, text=True, timeout=1000, check=False)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_missing_scenarios(self):

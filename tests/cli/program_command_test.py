@@ -12,7 +12,7 @@ TAKT = ""
 
 
 def program(*arguments):
-    done = subprocess.run([TAKT, "program", *arguments], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([TAKT, "program", *arguments], capture_output=True, text=True, timeout=1000, check=False)
     return done.returncode, done.stdout, done.stderr
 
 

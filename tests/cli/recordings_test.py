@@ -22,7 +22,7 @@ SHORT = {"cqf-three-buffers": "200ms", "frer-ring": "100ms", "gates-on-a-line": 
 
 def run(scenario, *arguments):
     """The result of a run as JSON. A requirement may fail where the run was shortened."""
-    done = subprocess.run([TAKT, "run", str(scenario), "--format", "json", *map(str, arguments)], capture_output=True, text=True, timeout=240, check=False)
+    done = subprocess.run([TAKT, "run", str(scenario), "--format", "json", *map(str, arguments)], capture_output=True, text=True, timeout=1000, check=False)
     if done.returncode not in (0, 1):
         raise AssertionError(f"{scenario.name} ended with {done.returncode}\n{done.stderr}")
     return json.loads(done.stdout)
@@ -33,7 +33,7 @@ def tshark(capture, *fields):
     command = ["tshark", "-n", "-r", str(capture), "-o", "ip.check_checksum:TRUE", "-o", "udp.check_checksum:TRUE", "-T", "fields"]
     for field in fields:
         command += ["-e", field]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=True)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=1000, check=True)
     return [line.split("\t") for line in done.stdout.splitlines()]
 
 

@@ -14,13 +14,13 @@ using namespace takt;
 /// What was understood survives a round trip, but for the rounding of durations, which the first one does.
 template <class Data>
 void try_discovery(dds::Octets payload) {
+  static std::vector<std::byte> buffer(1U << 17);  // not made anew for each input, which took most of the time
+  static std::vector<std::byte> other(1U << 17);
   Data first, second, third;
-  std::vector<std::byte> buffer(1U << 17);
   if (decode(payload, first) != dds::DataVerdict::ok) return;
   const dds::Octets once = encode(buffer, first);
   if (once.empty()) return;
   TAKT_CHECK(decode(once, second) == dds::DataVerdict::ok, "what was understood is sound when written again");
-  std::vector<std::byte> other(1U << 17);
   const dds::Octets twice = encode(other, second);
   TAKT_CHECK(decode(twice, third) == dds::DataVerdict::ok && third == second, "a value survives");
 }
@@ -38,7 +38,7 @@ void read_payload(dds::Octets payload) {
 
 /// The submessages that were understood, written again; nothing if they do not fit.
 std::vector<std::byte> canonical(dds::Octets octets) {
-  std::vector<std::byte> buffer(1U << 18);
+  static std::vector<std::byte> buffer(1U << 18);
   dds::MessageDecoder decoder(octets);
   dds::MessageEncoder encoder(buffer, decoder.header());
   while (decoder.next()) {

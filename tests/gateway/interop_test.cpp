@@ -16,6 +16,7 @@
 #include "node/socket.hpp"
 #include "pubsub/communication.hpp"
 #include "sample_values.hpp"
+#include "support/reservation.hpp"
 
 namespace takt::gateway {
 namespace {
@@ -75,9 +76,14 @@ class Stock {
 };
 
 std::string place() { return STOCK_FOLDER; }
-/// Tests that run side by side do not meet.
-std::uint16_t domain() { return static_cast<std::uint16_t>(10 + ::getpid() % 200); }
-std::uint16_t port(int number) { return static_cast<std::uint16_t>(20'000 + (::getpid() % 10'000) * 2 + number); }
+std::uint16_t domain() {
+  static const takt::testing::Reservation reserved = takt::testing::Reservation::domain();
+  return reserved.number();
+}
+std::uint16_t port(int number) {
+  static const takt::testing::Reservation reserved = takt::testing::Reservation::ports();
+  return static_cast<std::uint16_t>(reserved.number() + number);
+}
 
 std::unique_ptr<node::Socket> socket_from_to(std::uint16_t own, std::uint16_t other) {
   node::UdpTransport transport;
@@ -102,10 +108,14 @@ TypeMapping mapping(Direction direction) {
   return made.value();
 }
 
+/// Nothing is lost, whoever finds whom first and however slow the other is: two endpoints do not match at the same instant, and to a volatile reader
+/// all is history that was written before it heard of the writer.
 vocabulary::Qos reliable() {
   vocabulary::Qos qos;
   qos.reliability = vocabulary::Reliability::reliable;
+  qos.durability = vocabulary::Durability::transient_local;
   qos.history = vocabulary::History::keep_all;
+  qos.max_blocking_time = 1000_s;
   return qos;
 }
 

@@ -110,6 +110,17 @@ TEST(TypeMapping, AnEmptySequenceHasNoAlignmentOfItsElements) {
   EXPECT_EQ(payload, octets("0001 0003 00000000 09 000000"));
 }
 
+// The room for a payload was reckoned from the octets of all fields, each once.
+TEST(TypeMapping, AFieldMayBeTheSourceOfSeveralMembers) {
+  const std::vector<IdlMember> members = {member("a", IdlKind::string), member("b", IdlKind::string), member("c", IdlKind::string), member("d", IdlKind::string)};
+  TypeMapping mapping = made(Direction::to_dds, {field("s", BuiltInType::String)}, members, {{"s", "a"}, {"s", "b"}, {"s", "c"}, {"s", "d"}});
+  std::vector<std::byte> given = octets("0c c8000000");
+  given.insert(given.end(), 200, std::byte{'x'});
+  std::vector<std::byte> payload;
+  ASSERT_EQ(mapping.to_cdr(given, payload), MappingError::none);
+  EXPECT_EQ(payload.size(), 4u + 4 * (4 + 204));  // 200 octets, the octet 0 and three to the next length; padded the last time
+}
+
 struct Wrong {
   const char* hex;
   MappingError error;

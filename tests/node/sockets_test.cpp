@@ -6,6 +6,7 @@
 #include "node/socket.hpp"
 #include "pubsub/communication.hpp"
 #include "pubsub/data_set.hpp"
+#include "support/reservation.hpp"
 
 namespace takt::node {
 namespace {
@@ -22,12 +23,15 @@ std::unique_ptr<Socket> open(std::uint16_t port, std::uint16_t other) {
 
 void wait_for(const Socket& socket) {
   pollfd waiting{socket.file_descriptor(), POLLIN, 0};
-  ASSERT_EQ(::poll(&waiting, 1, 10'000), 1);
+  ASSERT_EQ(::poll(&waiting, 1, -1), 1);
 }
 
 TEST(Sockets, CarryDataSets) {
-  const auto here = open(48461, 48462);
-  const auto there = open(48462, 48461);
+  const auto ports = testing::Reservation::ports();
+  const std::uint16_t first = ports.number();
+  const std::uint16_t second = static_cast<std::uint16_t>(first + 1);
+  const auto here = open(first, second);
+  const auto there = open(second, first);
   pubsub::DataSet<std::tuple<double, std::array<std::int32_t, 3>, std::string>> sent({2.5, {1, 2, 3}, "text"});
   pubsub::DataSet<std::tuple<double, std::array<std::int32_t, 3>, std::string>> received;
   int messages = 0;
@@ -58,7 +62,8 @@ TEST(Sockets, CarryDataSets) {
 }
 
 TEST(Sockets, SayWhatIsInTheWayOfLaunchTimes) {
-  const auto socket = open(48463, 48464);
+  const auto ports = testing::Reservation::ports();
+  const auto socket = open(ports.number(), ports.number());
   EXPECT_NE(socket->enable_launch_times(ClockName::tai), "") << "no interface is named";
 }
 

@@ -19,7 +19,7 @@ TASKS = 3
 
 
 def run(*command, **options):
-    return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=True, timeout=300, **options).stdout
+    return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=True, timeout=1000, **options).stdout
 
 
 def by_slurm(out):
@@ -27,7 +27,7 @@ def by_slurm(out):
     scratch.mkdir()
     try:
         with one_node_slurm.Slurm(scratch) as slurm:
-            done = subprocess.run(["sbatch", "--wait", f"--array=1-{TASKS}", SCRIPT, STUDY, out], capture_output=True, text=True, check=False, timeout=240, cwd=out,
+            done = subprocess.run(["sbatch", "--wait", f"--array=1-{TASKS}", SCRIPT, STUDY, out], capture_output=True, text=True, check=False, timeout=1000, cwd=out,
                                   env={**slurm.environment, "TAKT": str(TAKT)})
             logs = sorted(out.glob("*.log"))
             assert done.returncode == 0, (done.stderr, [log.read_text() for log in logs])

@@ -8,7 +8,11 @@ import re
 import shutil
 import socket
 import subprocess
+import sys
 import time
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import reservation  # noqa: E402
 
 DAEMONS = ("munged", "slurmctld", "slurmd")
 CLIENTS = ("sbatch", "sinfo", "squeue", "scancel")
@@ -59,16 +63,6 @@ def find(program):
     return shutil.which(program) or shutil.which(program, path="/usr/sbin:/sbin")
 
 
-def free_ports(count):
-    held = [socket.socket() for _ in range(count)]
-    for each in held:
-        each.bind(("127.0.0.1", 0))
-    ports = [each.getsockname()[1] for each in held]
-    for each in held:
-        each.close()
-    return ports
-
-
 class Slurm:
     """A context: in it `environment` lets Slurm's commands find this cluster."""
 
@@ -76,6 +70,7 @@ class Slurm:
         self.folder = pathlib.Path(folder)
         self.at = self.folder
         self.started = []
+        self.port = reservation.ports()
         self.environment = dict(os.environ)
 
     def __enter__(self):
@@ -119,7 +114,7 @@ class Slurm:
         key = self.at / "munge.key"
         key.write_bytes(os.urandom(1024))
         key.chmod(0o400)
-        (self.at / "slurm.conf").write_text(CONFIGURATION.format(host=self.host, folder=self.at, ports=free_ports(2)))
+        (self.at / "slurm.conf").write_text(CONFIGURATION.format(host=self.host, folder=self.at, ports=[self.port, self.port + 1]))
         (self.at / "cgroup.conf").write_text(cgroups)
 
     def start(self, program, *arguments):
@@ -128,7 +123,7 @@ class Slurm:
         log.close()
 
     def say(self, *command):
-        return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False, env=self.environment, timeout=60).stdout
+        return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False, env=self.environment, timeout=1000).stdout
 
     def tail(self, program):
         text = ""

@@ -1,5 +1,7 @@
 #include "dds/history/writer_history.hpp"
 
+#include "dds/history/expiry.hpp"
+
 namespace takt::dds {
 
 WriterHistory::WriterHistory(const Settings& settings)
@@ -30,7 +32,7 @@ const CacheChange& WriterHistory::add(ChangeKind kind, const InstanceKey& key, s
 
 const CacheChange& WriterHistory::add(CacheChange change, sim::LocalTime now) {
   change.number = last_ + 1;
-  change.expires = change.source.plus_saturated(settings_.lifespan);
+  change.expires = expiry_of(change.source, settings_.lifespan);
   const ChangeKind kind = change.kind;
   const InstanceKey key = change.key;
   place(std::move(change));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "dds/history/expiry.hpp"
+
 namespace takt::dds {
 namespace {
 
@@ -43,7 +45,7 @@ LocalWriter::LocalWriter(WriterHandle writer_handle, const WriterConfig& writer_
   if (!kept) return;
   const SequenceNumber last = kept->last();
   for (CacheChange& change : kept->changes()) {
-    change.expires = change.source.plus_saturated(config.qos.lifespan.duration);
+    change.expires = expiry_of(change.source, config.qos.lifespan.duration);
     rtps.history().restore(std::move(change));
   }
   rtps.history().go_on_after(last);

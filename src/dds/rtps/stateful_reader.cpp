@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dds/history/expiry.hpp"
 #include "sim/check.hpp"
 
 namespace takt::dds {
@@ -132,7 +133,7 @@ bool StatefulReader::deliver(WriterProxy& proxy, SequenceNumber number, const Pe
     }
   }
   const Guid& writer = change.original ? change.original->writer : proxy.writer.guid;
-  const Arrival arrival{writer, proxy.writer.ownership_strength, counted, change.kind, change.key, change.source, change.source.plus_saturated(proxy.writer.lifespan), payload,
+  const Arrival arrival{writer, proxy.writer.ownership_strength, counted, change.kind, change.key, change.source, expiry_of(change.source, proxy.writer.lifespan), payload,
                         change.original.has_value()};
   const Admission admission = history_.add(arrival, now);
   if (admission == Admission::accepted) ++arrived_;

@@ -25,7 +25,7 @@ struct ThreadStatistics {
   std::uint64_t calls = 0;
   std::uint64_t missed = 0;     ///< activations
   std::uint64_t sent = 0;       ///< samples that the protocol took
-  std::uint64_t taken = 0;      ///< samples that came
+  std::uint64_t taken = 0;      ///< samples that came; those that no activation took any more are taken at the end
   std::uint64_t lost = 0;       ///< of OPC UA: numbers that were jumped over
   Distribution late;            ///< from an activation to waking up
   WindowFigures call_windows;   ///< criterion 1

@@ -150,7 +150,8 @@ Qos qos_of(const vocabulary::Qos& asked, std::string& problem) {
     default: problem = "Cyclone DDS keeps no transient and no persistent data";
   }
   const auto depth = static_cast<std::int32_t>(asked.depth.value_or(1));
-  dds_qset_history(qos.get(), asked.history == History::keep_all ? DDS_HISTORY_KEEP_ALL : DDS_HISTORY_KEEP_LAST, depth);
+  const dds_history_kind_t history = asked.history == History::keep_all ? DDS_HISTORY_KEEP_ALL : DDS_HISTORY_KEEP_LAST;
+  dds_qset_history(qos.get(), history, depth);
   dds_qset_deadline(qos.get(), ns_of(asked.deadline, DDS_INFINITY));
   dds_qset_latency_budget(qos.get(), ns_of(asked.latency_budget, 0));
   constexpr dds_liveliness_kind_t liveliness[] = {DDS_LIVELINESS_AUTOMATIC, DDS_LIVELINESS_MANUAL_BY_PARTICIPANT, DDS_LIVELINESS_MANUAL_BY_TOPIC};
@@ -162,6 +163,9 @@ Qos qos_of(const vocabulary::Qos& asked, std::string& problem) {
   dds_qset_destination_order(qos.get(), asked.destination_order == DestinationOrder::by_source ? DDS_DESTINATIONORDER_BY_SOURCE_TIMESTAMP : DDS_DESTINATIONORDER_BY_RECEPTION_TIMESTAMP);
   const ResourceLimits limits = asked.resource_limits.value_or(ResourceLimits{});
   dds_qset_resource_limits(qos.get(), limit_of(limits.max_samples), limit_of(limits.max_instances), limit_of(limits.max_samples_per_instance));
+  // What a transient-local writer has for late readers is its history (DDS 1.4, 2.2.3.4). Cyclone limits it by the policy of durability services, which by
+  // itself is one sample.
+  dds_qset_durability_service(qos.get(), 0, history, depth, limit_of(limits.max_samples), limit_of(limits.max_instances), limit_of(limits.max_samples_per_instance));
   return qos;
 }
 

@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include "dds/history/expiry.hpp"
 #include "sim/check.hpp"
 
 namespace takt::dds {
@@ -85,6 +86,16 @@ TEST(WriterHistory, AnInstanceThatIsWrittenAgainIsNotForgotten) {
   add(history, a);
   history.release(SequenceNumber{3});
   EXPECT_EQ(numbers(history), (std::vector<std::int64_t>{1, 2}));
+}
+
+// A timestamp of another scale saturates far before local time 0. With an infinite lifespan it made the change expire at 0, by an overflow.
+TEST(WriterHistory, AnInfiniteLifespanNeverEndsWhateverTheTimestamp) {
+  const sim::LocalTime before_all = sim::LocalTime::from_ps(-sim::Duration::max().ps());
+  EXPECT_EQ(expiry_of(before_all, infinite), sim::LocalTime::never());
+  EXPECT_EQ(expiry_of(sim::LocalTime(), infinite), sim::LocalTime::never());
+  EXPECT_EQ(expiry_of(before_all, 1_s), before_all + 1_s);
+  EXPECT_EQ(expiry_of(sim::LocalTime::from_ps(1), sim::Duration::max() - sim::Duration::from_ps(1)), sim::LocalTime::never());
+  EXPECT_EQ(expiry_of(sim::LocalTime() + 2_s, 1_s), sim::LocalTime() + 3_s);
 }
 
 TEST(WriterHistory, LifespanCountsFromTheWrite) {

@@ -18,7 +18,7 @@ TWIN = pathlib.Path(__file__).resolve().parent / "robust.pml"
 
 
 def output_of(*command, cwd=None):
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, cwd=cwd, check=False, timeout=500)
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, cwd=cwd, check=False, timeout=1000)
     return done.stdout + done.stderr
 
 

@@ -22,10 +22,12 @@ static inline dds_entity_t checked(dds_entity_t entity, const char* what) {
   return entity;
 }
 
-/// Reliable, and nothing is replaced before it is taken.
+/// Reliable, nothing is replaced before it is taken, and who matches late gets all of it: a reader may not know of a writer yet that knows of it.
 static inline dds_qos_t* reliable(void) {
   dds_qos_t* const qos = dds_create_qos();
-  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(10));
+  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_INFINITY);
+  dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+  dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_ALL, 0, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);
   return qos;
 }

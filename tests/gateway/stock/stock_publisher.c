@@ -86,7 +86,7 @@ int main(int count, char** arguments) {
       write_motion(writer, n);
     dds_sleepfor(DDS_MSECS(atoi(arguments[4])));
   }
-  dds_wait_for_acks(writer, DDS_SECS(10));
+  checked(dds_wait_for_acks(writer, DDS_INFINITY), "acknowledgements");
   dds_delete(participant);
   return 0;
 }

@@ -1,6 +1,7 @@
 #include "analysis/frame_sequence.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 namespace takt::analysis {
@@ -10,6 +11,8 @@ constexpr std::size_t most_frames = 20'000;
 /// Hyperperiods that are followed: frames of the second one are held against those of the third, the first and the last one are there for their neighbours.
 constexpr Ps rounds = 4;
 constexpr int most_steps = 1'000;
+/// Clusters of so many frames are looked at in every order that may be.
+constexpr std::size_t most_in_any_order = 5;
 constexpr Ps never_before = -unbounded_ps;
 
 struct Arrival {
@@ -206,32 +209,60 @@ class Sequence {
     Ps works = 0;
     Ps last_bit = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      works = sum(works, flows_[arrivals_[i].flow].work);
-      last_bit = std::max(last_bit, flows_[arrivals_[i].flow].last_bit);
+      Arrival& arrival = arrivals_[i];
+      works = sum(works, flows_[arrival.flow].work);
+      last_bit = std::max(last_bit, flows_[arrival.flow].last_bit);
+      arrival.first_start = starts_.perhaps(arrival.earliest, flows_[arrival.flow].last_bit);
     }
+    if (end - begin <= most_in_any_order)
+      pass_in_any_order(begin, end);
+    else
+      for (std::size_t i = begin; i < end; ++i) arrivals_[i].started = start(std::max(arrivals_[i].latest, before_), works - flows_[arrivals_[i].flow].work, last_bit);
     Ps done = before_;
     for (std::size_t i = begin; i < end; ++i) {
-      Arrival& arrival = arrivals_[i];
-      const Ps work = flows_[arrival.flow].work;
-      arrival.started = start(std::max(arrival.latest, before_), works - work, last_bit);
-      arrival.first_start = starts_.perhaps(arrival.earliest, flows_[arrival.flow].last_bit);
-      if (!is_bounded(arrival.started)) return false;
-      note_wait(arrival, works - work, last_bit);
-      done = std::max(done, sum(arrival.started, work));
+      if (!is_bounded(arrivals_[i].started)) return false;
+      note_wait(arrivals_[i], end - begin == 1);
+      done = std::max(done, sum(arrivals_[i].started, flows_[arrivals_[i].flow].work));
     }
     before_ = done;
     return is_bounded(done);
   }
 
+  /// One behind the other, each as it fits. What comes first has come when what is behind it has.
+  void pass_in_any_order(std::size_t begin, std::size_t end) {
+    std::vector<std::size_t> order(end - begin);
+    std::iota(order.begin(), order.end(), begin);
+    for (std::size_t i = begin; i < end; ++i) arrivals_[i].started = 0;
+    bool is_first = true;
+    do {
+      bool may_be = true;
+      for (std::size_t a = 0; a < order.size() && may_be; ++a)
+        for (std::size_t b = a + 1; b < order.size() && may_be; ++b)
+          may_be = arrivals_[order[a]].earliest <= arrivals_[order[b]].latest && !is_of_one_train(arrivals_[order[b]], arrivals_[order[a]]);
+      if (!may_be) continue;
+      Ps before = before_;
+      for (std::size_t i = 0; i < order.size(); ++i) {
+        Arrival& arrival = arrivals_[order[i]];
+        Ps latest = arrival.latest;
+        for (std::size_t behind = i + 1; behind < order.size(); ++behind) latest = std::min(latest, arrivals_[order[behind]].latest);
+        const Ps started = start(std::max(latest, before), 0, flows_[arrival.flow].last_bit);
+        arrival.started = is_first ? started : std::max(arrival.started, started);
+        before = sum(started, flows_[arrival.flow].work);
+      }
+      is_first = false;
+    } while (std::next_permutation(order.begin(), order.end()));
+  }
+
   /// Only the frames of a round with all of its neighbours count.
-  void note_wait(const Arrival& arrival, Ps others_of_cluster, Ps last_bit) {
+  void note_wait(const Arrival& arrival, bool is_alone) {
     if (bound_.flows.empty()) bound_.flows.assign(flows_.size(), {0, unbounded_ps, never_before});
     if (round_of(arrival) != rounds - 2) return;
     SequencedTimes& times = bound_.flows[arrival.flow];
-    if (others_ || others_of_cluster > 0) {
+    if (others_ || !is_alone) {
       times.wait = std::max(times.wait, arrival.started - arrival.earliest);
       return;
     }
+    const Ps last_bit = flows_[arrival.flow].last_bit;
     // The start grows with the arrival by jumps: worst is the earliest arrival, or one that just misses a window.
     std::vector<Ps> instants{arrival.earliest};
     for (const Ps end : starts_.ends(arrival.earliest, arrival.latest, last_bit)) instants.push_back(end + 1);
@@ -262,15 +293,15 @@ class Sequence {
     std::vector<std::tuple<Ps, bool, Ps>> changes;
     for (const Arrival& arrival : arrivals_) {
       const Ps work = flows_[arrival.flow].work;
-      changes.emplace_back(arrival.earliest, false, work);
-      changes.emplace_back(arrival.started + work, true, work);   // after what comes at that instant
+      changes.emplace_back(arrival.earliest, true, work);
+      changes.emplace_back(arrival.started + work, false, work);   // before what comes at that instant
     }
     std::sort(changes.begin(), changes.end());
     Ps work = 0;
     std::int64_t frames = 0;
-    for (const auto& [time, leaves, amount] : changes) {
-      work += leaves ? -amount : amount;
-      frames += leaves ? -1 : 1;
+    for (const auto& [time, comes, amount] : changes) {
+      work += comes ? amount : -amount;
+      frames += comes ? 1 : -1;
       bound_.backlog = std::max(bound_.backlog, work);
       bound_.backlog_frames = std::max(bound_.backlog_frames, frames);
     }

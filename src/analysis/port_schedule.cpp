@@ -37,11 +37,19 @@ SequenceWindows PortAnalysis::windows_of(const GateCycle& gates, TrafficClass q)
 std::optional<SequenceBound> PortAnalysis::sequence_of(TrafficClass q, std::string& reason) const {
   if (!is_gated(q) || is_shaped(q) || is_preemptable(q) || model_.cqf || contains(config_.shaping.timed, q) || !model_.clock.is_synchronised || !model_.counts_packets) return std::nullopt;
   std::vector<SequencedFlow> flows;
+  bool are_known = true;
   for (const PortFlow& flow : traffic_.flows) {
     if (!is_in_class(flow, q)) continue;
-    if (!flow.phase || flow.lowest_class != flow.highest_class) return std::nullopt;
+    if (!flow.phase || flow.lowest_class != flow.highest_class) {
+      are_known = false;
+      continue;
+    }
     const Ps work = octet_ * models::wire_length(flow.frame).count;
     flows.push_back({{flow.phase->first, flow.phase->period, flow.phase->width, stretched(work)}, stretched(work - gap_), flow.train, flow.rank});
+  }
+  if (!are_known) {
+    if (!flows.empty()) reason = "others of its class come at times that are not known, and into its windows";
+    return std::nullopt;
   }
   // A lower class may have begun a frame just before, and a higher one may have a backlog then.
   Ps blocked = 0;

@@ -64,8 +64,8 @@ class StreamBounds {
       for (const std::uint32_t last : flow.last[l]) {
         const HopResult& hop = network_.hops[last];
         const Ps propagation = graph_.ports[graph_.hops[last].port].propagation;
-        const Ps latency = sum(hop.worst, hop.delay, propagation, receive.greatest().ps());
-        const Ps least = sum(hop.best, hop.least_delay, propagation, receive.least().ps());
+        const Ps latency = sum(hop.worst_left, propagation, receive.greatest().ps());
+        const Ps least = sum(hop.best_left, propagation, receive.least().ps());
         bound.least = std::min(bound.least, Duration::from_ps(least));
         const SeparatedFlowBound separated = separated_.bound(last);
         const Ps second = sum(separated.latency, receive.greatest().ps());
@@ -94,7 +94,7 @@ class StreamBounds {
       const std::vector<std::uint32_t>& parents = graph_.hops[way.back()].parents;
       if (parents.empty()) break;
       way.push_back(*std::max_element(parents.begin(), parents.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return sum(network_.hops[a].worst, network_.hops[a].delay) < sum(network_.hops[b].worst, network_.hops[b].delay);
+        return network_.hops[a].worst_left < network_.hops[b].worst_left;
       }));
     }
     std::reverse(way.begin(), way.end());

@@ -120,6 +120,7 @@ void add_roles(const scenario::Resolved& r, const scenario::ResolvedProgram& pro
 
 void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& program, const BoundOptions& options, FlowGraph& graph) {
   if (program.has_roles()) return add_roles(r, program, options, graph);
+  const auto trains_before = static_cast<std::uint32_t>(graph.flows.size());   // no two Programs begin at the same flow
   const auto add = [&](std::uint8_t participant, models::StreamIndex stream, std::int64_t frames) {
     const models::NodeIndex node = program.participants[participant];
     add_published(r, node, stream, program.description->cycle.ps(), frames, options, graph);
@@ -128,6 +129,7 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
     const Ps wake_up = os.wake_up.greatest().ps() - os.wake_up.least().ps();
     if (frames == 1 && clock.is_synchronised && scenario::promises_phase(*program.description, r.plan.nodes[node.value].name))
       graph.flows.back().produced = ArrivalPhase{program.phases[participant].ps() + os.wake_up.least().ps() - clock.error, program.description->cycle.ps(), wake_up + 2 * clock.error};
+    if (graph.flows.back().produced) graph.flows.back().train = trains_before + participant;   // its state comes first, then its data
   };
   const bool on_change = program.description->publish == scenario::Publish::on_change;
   if (on_change) graph.assumptions.add(Assumption::program_publishes);
@@ -140,6 +142,7 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
     // A reply follows its request, whose latency is not known here. But who replies works at one message after the other.
     Flow& flow = graph.flows.back();
     flow.produced.reset();
+    flow.train.reset();
     const scenario::ResolvedProcessing& processing = program.processing[data.from];
     const Ps work = processing.per_message.least().ps() + processing.per_field.least().ps() * static_cast<Ps>(program.process_data[reply->to].values);
     flow.source = work > 0 ? FrameArrivals({work, 1, 0, flow.worst_source - flow.best_source}) : FrameArrivals(at_any_time());

@@ -53,6 +53,14 @@ Ps GateCycle::overhang(TrafficClass q, TrafficClass other, Ps frame, Ps gap) con
   return longest;
 }
 
+Ps GateCycle::overhang_at(const GateWindow& window, TrafficClass other, Ps frame, Ps gap) const {
+  const Ps from = window.from % cycle_;
+  if (is_open_at(other, from)) return std::min(frame, sum(close_after(other, from) - from, gap));
+  Ps closed_for = gap;
+  for (const GateWindow& before : windows_[other]) closed_for = std::min(closed_for, ((from - before.until) % cycle_ + cycle_) % cycle_);
+  return gap - closed_for;
+}
+
 PhasedSupply::PhasedSupply(const GateCycle& gates, TrafficClass q, Ps base, Ps lost_at_start, Ps lost_at_end) : cycle_(gates.cycle()), base_(base) {
   for (const GateWindow& window : gates.windows(q))
     if (const GateWindow left{window.from + lost_at_start, window.until - lost_at_end}; left.from <= left.until) {

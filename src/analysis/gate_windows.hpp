@@ -32,6 +32,8 @@ class GateCycle {
   /// How long a frame of class `other`, begun before a window of q opens, may run into it: at most `frame`, since it must end before its own gate closes,
   /// and `gap` in any case, the inter-packet gap of a frame that ends at the close.
   Ps overhang(models::TrafficClass q, models::TrafficClass other, Ps frame, Ps gap) const;
+  /// The same for one window, to the ps: nothing if the gate of `other` has been closed for a gap.
+  Ps overhang_at(const GateWindow& window, models::TrafficClass other, Ps frame, Ps gap) const;
 
  private:
   bool is_open_at(models::TrafficClass q, Ps time) const;

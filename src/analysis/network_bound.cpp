@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "analysis/flow_sources.hpp"
 #include "models/egress/class_set.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 /// More rounds than any sound network needs; what still grows then is taken for unbounded.
 constexpr int most_rounds = 5000;
+constexpr std::int64_t one = 1'000'000'000'000;
 
 class FixedPoint {
  public:
@@ -28,6 +30,7 @@ class FixedPoint {
   }
 
   NetworkResult run() {
+    for (const Flow& flow : graph_.flows) expect_no_wait(flow);
     for (const Flow& flow : graph_.flows)
       for (const std::uint32_t hop : flow.hops) arrive(hop);
     // What still grows after many rounds is unbounded; with that known, the others settle.
@@ -47,6 +50,8 @@ class FixedPoint {
     for (const std::uint32_t h : port.hops) {
       const Hop& hop = graph_.hops[h];
       PortFlow flow;
+      flow.train = train_of(h);
+      flow.rank = hop.flow;
       flow.frame = hop.frame;
       flow.lowest_class = hop.lowest_class;
       flow.highest_class = hop.highest_class;
@@ -73,6 +78,33 @@ class FixedPoint {
       flow.frame = messages.frame;
       flow.lowest_class = flow.highest_class = graph_.models[p].config->traffic_class_of_priority[7];
       traffic.flows.push_back(std::move(flow));
+    }
+  }
+
+  /// Flows that left their talker one behind the other stay so, as long as they go the same way through one queue of each port.
+  std::optional<std::uint32_t> train_of(std::uint32_t h) {
+    const Hop& hop = graph_.hops[h];
+    if (hop.parents.empty()) return graph_.flows[hop.flow].train;
+    if (hop.parents.size() > 1 || hop.headers_come_first || is_held(hop)) return std::nullopt;
+    const Hop& before = graph_.hops[hop.parents.front()];
+    const std::optional<std::uint32_t> train = train_of(hop.parents.front());
+    if (!train || before.lowest_class != before.highest_class || models::contains(graph_.models[before.port].config->shaping.timed, before.highest_class)) return std::nullopt;
+    const auto known = trains_.try_emplace({*train, before.port, before.highest_class}, static_cast<std::uint32_t>(graph_.flows.size() + graph_.hops.size() + trains_.size()));
+    return known.first->second;
+  }
+
+  /// To begin with, frames that are planned come when the last of them would if nobody waited, which is what gates are laid for. Where gates keep frames for others that would come
+  /// at other times, what follows would never get away from it.
+  void expect_no_wait(const Flow& flow) {
+    if (!flow.produced) return;
+    const Ps last = sum(flow.produced->first + flow.produced->width, flow.worst_source);
+    for (const std::uint32_t h : flow.hops) {
+      const Hop& hop = graph_.hops[h];
+      const GraphPort& port = graph_.ports[hop.port];
+      Ps comes = last;
+      for (const std::uint32_t parent : hop.parents)
+        comes = sum(result_.hops[parent].leaves->first, graph_.ports[graph_.hops[parent].port].propagation, r_.plan.nodes[port.node.value].forwarding_delay.ps());
+      result_.hops[h].leaves = ArrivalPhase{sum(comes, port.octet_time * (models::wire_length(hop.frame) - models::inter_packet_gap).count), flow.produced->period, 0};
     }
   }
 
@@ -134,7 +166,7 @@ class FixedPoint {
       const std::vector<std::uint32_t>& hops = graph_.ports[p].hops;
       for (std::size_t i = 0; i < hops.size(); ++i) {
         traffic_[p].flows[i].arrivals = arrivals_[hops[i]];
-        traffic_[p].flows[i].phase = phase_of(hops[i]);
+        traffic_[p].flows[i].phase = result_.hops[hops[i]].phase;
       }
       result_.ports[p] = bound_port(graph_.models[p], traffic_[p]);
       for (std::size_t i = 0; i < hops.size(); ++i) {
@@ -142,10 +174,14 @@ class FixedPoint {
         const PortFlowBound& bound = result_.ports[p].flows[i];
         if (header_after_[p]) {
           hop.delay = hop.least_delay = hop.reason.empty() ? *header_after_[p] : unbounded_ps;
+          hop.leaves.reset();
+          note_left(hops[i]);
           continue;
         }
         hop.delay = graph_.hops[hops[i]].unsupported.empty() && hop.reason.empty() ? bound.delay : unbounded_ps;
         hop.least_delay = bound.least_delay;
+        hop.leaves = is_bounded(hop.delay) ? bound.leaves : std::nullopt;
+        note_left(hops[i]);
       }
       // Schedulers that share a group wait for each other's frames, so all of them are looked at once all delays here are known.
       for (const std::uint32_t h : hops)
@@ -173,14 +209,18 @@ class FixedPoint {
         const GraphPort& port = graph_.ports[graph_.hops[parent].port];
         const Ps on_the_way = sum(port.propagation, r_.plan.nodes[graph_.ports[hop.port].node.value].forwarding_delay.ps());
         const bool may_be_cut = hop.headers_come_first && !header_after_[hop.port];
-        best = std::min(best, sum(before.best, may_be_cut ? before_the_header(parent) : before.least_delay, on_the_way));
-        worst = std::max(worst, sum(before.worst, delay_with_hold(hop, parent), on_the_way));
+        best = std::min(best, may_be_cut ? sum(before.best, before_the_header(parent), on_the_way) : sum(before.best_left, on_the_way));
+        worst = std::max(worst, is_held(hop) ? sum(before.worst, delay_with_hold(hop, parent), on_the_way) : sum(before.worst_left, on_the_way));
       }
     }
     HopResult& result = result_.hops[h];
     FrameArrivals arrivals;
+    best = std::min(best, worst);
     const Ps own_jitter = is_bounded(worst) ? worst - best : unbounded_ps;
-    if (hop.parents.size() == 1) {
+    if (hop.parents.size() == 1 && takes_up_jitter(hop.parents.front())) {
+      // Late ones are less late behind gates, but a meter before them knows nothing of that: the arrival curve is that of the talker.
+      arrivals = flow.source.delayed(is_bounded(worst) ? own_jitter - (flow.worst_source - flow.best_source) : unbounded_ps);
+    } else if (hop.parents.size() == 1) {
       const HopResult& before = result_.hops[hop.parents.front()];
       arrivals = arrivals_[hop.parents.front()].delayed(is_bounded(worst) ? own_jitter - (before.worst - before.best) : unbounded_ps);
     } else {
@@ -190,10 +230,13 @@ class FixedPoint {
     if (hop.metered) arrivals.add(*hop.metered);
     if (is_held(hop)) arrivals.add(hop.ats->shaped);
     if (!hop.parents.empty() && graph_.ports[graph_.hops[hop.parents.front()].port].may_double) arrivals = multiplied(arrivals, 2);
-    if (is_known_[h] && result.best == best && result.worst == worst && same(arrivals, arrivals_[h])) return;
+    const std::optional<ArrivalPhase> phase = phase_of(h, best, worst);
+    if (is_known_[h] && result.best == best && result.worst == worst && phase == result.phase && same(arrivals, arrivals_[h])) return;
     is_known_[h] = true;
     result.best = best;
     result.worst = worst;
+    result.phase = phase;
+    note_left(h);
     arrivals_[h] = std::move(arrivals);
     is_due_[hop.port] = true;   // and with it the hops behind
   }
@@ -205,16 +248,46 @@ class FixedPoint {
     return header ? *header - port.octet_time * (models::wire_length(graph_.hops[h].frame) - models::inter_packet_gap).count : 0;
   }
 
+  /// From production to the last bit: by the hops so far and this one, and by the schedule.
+  void note_left(std::uint32_t h) {
+    HopResult& hop = result_.hops[h];
+    const std::optional<ArrivalPhase>& produced = graph_.flows[graph_.hops[h].flow].produced;
+    hop.best_left = sum(hop.best, hop.least_delay);
+    hop.worst_left = sum(hop.worst, hop.delay);
+    if (!hop.leaves || !produced) return;
+    const std::int64_t rate_ppt = graph_.models[graph_.hops[h].port].clock.rate_ppt;
+    hop.worst_left = std::min(hop.worst_left, scaled_up(std::max<Ps>(0, hop.leaves->first + hop.leaves->width - produced->first), one + rate_ppt, one));
+    hop.best_left = std::max(hop.best_left, scaled_down(std::max<Ps>(0, hop.leaves->first - produced->first - produced->width), one - rate_ppt, one));
+  }
+  /// The schedule of the port says more than how long frames may be there.
+  bool takes_up_jitter(std::uint32_t h) const {
+    const HopResult& hop = result_.hops[h];
+    return hop.leaves && (hop.worst_left < sum(hop.worst, hop.delay) || hop.best_left > sum(hop.best, hop.least_delay));
+  }
+
   /// When the frames of a flow come to a hop, if that is known. A flow whose frames are doubled has no such times.
-  std::optional<ArrivalPhase> phase_of(std::uint32_t h) const {
-    const Flow& flow = graph_.flows[graph_.hops[h].flow];
-    const HopResult& result = result_.hops[h];
-    if (!flow.produced || !is_bounded(result.worst)) return std::nullopt;
+  std::optional<ArrivalPhase> phase_of(std::uint32_t h, Ps best, Ps worst) const {
+    const Hop& hop = graph_.hops[h];
+    const Flow& flow = graph_.flows[hop.flow];
+    if (!flow.produced || !is_bounded(worst)) return std::nullopt;
     for (const std::uint32_t each : flow.hops)
       if (graph_.ports[graph_.hops[each].port].may_double) return std::nullopt;
     // Clocks may drift a little on the way.
-    const Ps drift = scaled_up(result.worst, graph_.models[graph_.hops[h].port].clock.rate_ppt, 1'000'000'000'000);
-    return ArrivalPhase{flow.produced->first + result.best - drift, flow.produced->period, sum(flow.produced->width + 2 * drift, result.worst - result.best)};
+    const std::int64_t rate_ppt = graph_.models[hop.port].clock.rate_ppt;
+    const Ps drift = scaled_up(worst, rate_ppt, one);
+    Ps first = flow.produced->first + best - drift;
+    Ps last = sum(flow.produced->first + flow.produced->width, worst, drift);
+    if (hop.parents.size() == 1 && !is_held(hop) && !hop.headers_come_first && result_.hops[hop.parents.front()].leaves) {
+      const ArrivalPhase& leaves = *result_.hops[hop.parents.front()].leaves;
+      const Ps on_the_way = sum(graph_.ports[graph_.hops[hop.parents.front()].port].propagation, r_.plan.nodes[graph_.ports[hop.port].node.value].forwarding_delay.ps());
+      const Ps scheduled_first = leaves.first + scaled_down(on_the_way, one - rate_ppt, one);
+      const Ps scheduled_last = sum(leaves.first + leaves.width, scaled_up(on_the_way, one + rate_ppt, one));
+      // Both hold; while delays are still looked for they may not yet fit together.
+      const bool fit_together = std::max(first, scheduled_first) <= std::min(last, scheduled_last);
+      first = fit_together ? std::max(first, scheduled_first) : scheduled_first;
+      last = fit_together ? std::min(last, scheduled_last) : scheduled_last;
+    }
+    return is_bounded(last) ? std::optional(ArrivalPhase{first, flow.produced->period, last - first}) : std::nullopt;
   }
 
   static bool same(const FrameArrivals& a, const FrameArrivals& b) {
@@ -325,6 +398,7 @@ class FixedPoint {
   std::vector<bool> is_due_;                   // by port
   std::vector<bool> is_known_;                 // by hop
   std::map<std::uint64_t, std::vector<std::uint32_t>> ats_groups_;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, models::TrafficClass>, std::uint32_t> trains_;   // behind a port, by the train before it, port and class
   NetworkResult result_;
 };
 

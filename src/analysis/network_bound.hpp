@@ -14,6 +14,10 @@ struct HopResult {
   Ps worst = 0;
   Ps delay = 0;                   ///< at the port
   Ps least_delay = 0;
+  Ps best_left = 0;               ///< from production to the last bit on the wire; not just the sum, where a schedule of gates holds
+  Ps worst_left = 0;
+  std::optional<ArrivalPhase> phase;   ///< when frames come to the port, if that is known
+  std::optional<ArrivalPhase> leaves;  ///< when their last bits leave it, where a schedule of gates says it
   std::string reason;             ///< why `worst` is unbounded, if this hop is where it begins
 };
 

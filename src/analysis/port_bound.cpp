@@ -1,217 +1,20 @@
 #include "analysis/port_bound.hpp"
 
-#include <algorithm>
-#include <limits>
-
-#include "analysis/class_demand.hpp"
-#include "analysis/gate_windows.hpp"
-#include "analysis/scheduled_bound.hpp"
-#include "models/egress/class_set.hpp"
-#include "models/egress/preemption.hpp"
-#include "models/ethernet/sizes.hpp"
+#include "analysis/port_analysis.hpp"
 
 namespace takt::analysis {
-namespace {
 
-using models::ClassSet;
-using models::contains;
 using models::TrafficClass;
+using models::contains;
 using models::traffic_class_count;
 
-/// Where the search for a fixed point gives up: delays beyond this are as good as unbounded.
-constexpr Ps longest_search_ps = 100'000'000'000'000;   // 100 s
-constexpr int most_steps = 100'000;
+namespace {
+
 constexpr std::size_t most_bends = 20'000;
-constexpr std::size_t most_jumps_of_others = 50;
 /// Stretches in which work grows slower than the port sends are looked at so many times.
 constexpr Ps looks_at_a_slope = 32;
 
-class PortAnalysis {
- public:
-  PortAnalysis(const PortModel& model, const PortTraffic& traffic)
-      : model_(model), traffic_(traffic), config_(*model.config), octet_(model.octet_time), gap_(octet_ * models::inter_packet_gap.count) {
-    bound_.flows.resize(traffic.flows.size());
-    for (TrafficClass q = 0; q < traffic_class_count; ++q) demands_.emplace_back(traffic, models::with(0, q), octet_);
-    shaped_rate_.fill(std::numeric_limits<double>::infinity());
-    shaped_burst_.fill(std::numeric_limits<double>::infinity());
-    if (config_.shaping.gates) gates_.emplace_back(with_hold(*config_.shaping.gates));
-    for (const models::GateConfig& gates : model.more_gates) gates_.emplace_back(with_hold(gates));
-  }
-
-  PortBound run() {
-    if (model_.cqf) bound_cqf();
-    // Express classes first: preemptable ones wait for all of them.
-    for (const bool preemptable : {false, true})
-      for (TrafficClass q = traffic_class_count; q-- > 0;)
-        if (is_preemptable(q) == preemptable) bound_class(q);
-    return std::move(bound_);
-  }
-
- private:
-  bool is_preemptable(TrafficClass q) const { return config_.preemption && contains(config_.preemption->preemptable, q); }
-  bool is_shaped(TrafficClass q) const { return config_.shaping.shapers[q].has_value(); }
-  bool is_in_cqf(TrafficClass q) const { return model_.cqf && contains(model_.cqf->classes, q); }
-  bool is_gated(TrafficClass q) const {
-    return std::any_of(gates_.begin(), gates_.end(), [&](const GateCycle& gates) { return !gates.is_always_open(q); });
-  }
-  /// A frame of the class waits for nothing but other frames.
-  bool is_work_conserving(TrafficClass q) const { return !is_shaped(q) && !is_gated(q) && !is_in_cqf(q); }
-  bool overlap(TrafficClass a, TrafficClass b) const {
-    if (holds_late_ && is_preemptable(a) != is_preemptable(b)) return true;
-    return gates_.empty() || std::any_of(gates_.begin(), gates_.end(), [&](const GateCycle& gates) { return gates.overlap(a, b); });
-  }
-  /// Frames of h go before waiting ones of q.
-  bool goes_before(TrafficClass h, TrafficClass q) const {
-    if (is_preemptable(h) != is_preemptable(q)) return !is_preemptable(h);
-    return h > q;
-  }
-
-  /// The longest frame of another class that may be under way when a frame of class q could start.
-  Ps blocking(TrafficClass q) const {
-    if (!model_.counts_packets) return 0;
-    Ps longest = 0;
-    for (TrafficClass other = 0; other < traffic_class_count; ++other) {
-      if (other == q || demands_[other].is_empty() || goes_before(other, q)) continue;
-      longest = std::max(longest, overlap(q, other) ? block_of(other, q) : gap_);
-    }
-    return longest;
-  }
-  /// For how long one frame of `other` keeps a frame of q from the medium.
-  Ps block_of(TrafficClass other, TrafficClass q) const {
-    const Ps frame = demands_[other].longest();
-    if (!is_preemptable(other) || is_preemptable(q)) return frame;
-    return std::min(frame, octet_ * models::longest_express_wait(config_.preemption->add_frag_size).count);
-  }
-  /// What of a window of q may be taken by a frame that began before it.
-  Ps overhang(const GateCycle& gates, TrafficClass q) const {
-    Ps longest = 0;
-    for (TrafficClass other = 0; other < traffic_class_count; ++other) {
-      if (demands_[other].is_empty()) continue;
-      const bool counted_already = other == q || goes_before(other, q);
-      longest = std::max(longest, counted_already ? gap_ : gates.overhang(q, other, block_of(other, q), gap_));
-    }
-    return longest;
-  }
-
-  /// What classes that go before q send in an interval of that length in which q waits: closed at its end.
-  Ps interference(TrafficClass q, Ps length) const {
-    Ps all = 0;
-    for (TrafficClass h = 0; h < traffic_class_count; ++h) {
-      const ClassDemand& demand = demands_[h];
-      if (h == q || demand.is_empty() || !goes_before(h, q) || !overlap(q, h) || (is_in_cqf(h) && is_in_cqf(q))) continue;
-      // Who has waited for a gate or for credit may have a backlog when the interval begins; but what is sent has come within its delay.
-      const Ps reach = is_work_conserving(h) ? length : sum(length, class_delay_[h]);
-      Ps work = demand.work(reach);
-      if (is_shaped(h)) work = std::min(work, rounded_up(shaped_burst_[h] + shaped_rate_[h] * static_cast<double>(length)));
-      if (is_preemptable(q) && !is_preemptable(h)) work = sum(work, product(octet_ * models::overhead_of_a_cut.count, std::min(demand.frames(reach), work / demand.shortest() + 1)));
-      all = sum(all, work);
-    }
-    return all;
-  }
-
-  /// What cuts of frames of class q add in an interval of that length: each express frame makes one at most.
-  Ps cuts(TrafficClass q, Ps length) const {
-    if (!is_preemptable(q)) return 0;
-    Ps all = 0;
-    for (TrafficClass h = 0; h < traffic_class_count; ++h)
-      if (!demands_[h].is_empty() && !is_preemptable(h))
-        all = sum(all, product(octet_ * models::overhead_of_a_cut.count, demands_[h].frames(is_work_conserving(h) ? length : sum(length, class_delay_[h]))));
-    return all;
-  }
-  /// From the first to the last bit of a frame that occupies the medium for `work`, which express frames may cut.
-  Ps transmission(TrafficClass q, Ps work) const {
-    Ps time = 0;
-    for (int step = 0; step < most_steps && time <= longest_search_ps; ++step) {
-      Ps next = sum(work - gap_, cuts(q, time));
-      for (TrafficClass h = 0; h < traffic_class_count; ++h)
-        if (!demands_[h].is_empty() && !is_preemptable(h)) next = sum(next, demands_[h].work(is_work_conserving(h) ? time : sum(time, class_delay_[h])));
-      if (next <= time) return time;
-      time = next;
-    }
-    return unbounded_ps;
-  }
-
-  struct Service {
-    Ps blocked = 0;                          // by one frame, once
-    std::vector<PeriodicSupply> windows;     // of each list; empty: always open
-    bool is_shaped = false;
-    double idle_share = 0;                   // of the port's rate while the gate is open
-    double credit = 0;                       // the greatest, in time on the medium
-  };
-
-  Ps through_gates(const Service& service, Ps need) const {
-    Ps longest = service.windows.empty() ? need : 0;
-    for (const PeriodicSupply& windows : service.windows) longest = std::max(longest, windows.time_for(need));
-    return longest;
-  }
-
-  /// When work that comes after `before` has been sent can start, counted from the start of a busy period. Unbounded if that is not found.
-  Ps start(TrafficClass q, const Service& service, Ps before) const {
-    if (!is_bounded(before)) return unbounded_ps;
-    Ps time = 0;
-    for (int step = 0; step < most_steps; ++step) {
-      Ps need = service.is_shaped ? rounded_up((static_cast<double>(sum(before, cuts(q, time))) + service.credit) / service.idle_share)
-                                  : sum(service.blocked, before, interference(q, time));
-      if (contains(model_.unordered, q)) need = sum(need - std::min(before, need), std::max(before, demands_[q].work(time)));
-      const Ps next = through_gates(service, need);
-      if (next > longest_search_ps) return unbounded_ps;
-      if (next <= time) return time;
-      time = next;
-    }
-    return unbounded_ps;
-  }
-
-  /// Windows without the part in which the longest frame does not fit any more, and without what others may take of their starts.
-  std::vector<PeriodicSupply> usable_windows(TrafficClass q) const {
-    std::vector<PeriodicSupply> all;
-    if (!is_gated(q)) return all;
-    const Ps guard = model_.counts_packets ? demands_[q].longest() - gap_ : 0;
-    for (const GateCycle& gates : gates_) {
-      if (gates.is_always_open(q)) continue;
-      const Ps hold = is_preemptable(q) ? hold_advance_ : 0;   // asked for so long before a window closes
-      all.emplace_back(gates, q, overhang(gates, q) + model_.clock.error, guard + model_.clock.error + hold, model_.clock.rate_ppt);
-    }
-    return all;
-  }
-  /// While the MAC holds, the gates of preemptable classes are as good as closed.
-  models::GateConfig with_hold(models::GateConfig gates) {
-    if (!config_.preemption) return gates;
-    bool holds = false;
-    for (int round = 0; round < 2; ++round)   // the first one finds what the second one begins with
-      for (models::GateControlEntry& entry : gates.admin_control_list) {
-        if (entry.operation != models::GateOperation::set_gate_states) holds = entry.operation == models::GateOperation::set_and_hold_mac;
-        if (round == 1 && holds) entry.gate_states = static_cast<models::GateStates>(entry.gate_states & ~config_.preemption->preemptable);
-        holds_ = holds_ || holds;
-      }
-    const Ps longest_wait = octet_ * models::longest_express_wait(config_.preemption->add_frag_size).count;
-    hold_advance_ = holds_ ? std::max(longest_wait, config_.preemption->hold_advance.value_or(sim::Duration()).ps()) : 0;
-    holds_late_ = holds_ && config_.preemption->hold_advance && config_.preemption->hold_advance->ps() < longest_wait;
-    return gates;
-  }
-
-  std::optional<Service> service_of(TrafficClass q, std::string& reason);
-  bool make_shaped(TrafficClass q, Service& service, std::string& reason);
-  void bound_class(TrafficClass q);
-  void bound_flows(TrafficClass q, const Service& service, Ps busy);
-  std::vector<Ps> waits_at_phases(TrafficClass q, const Service& service, Ps busy) const;
-  void bound_cqf();
-  void set_unbounded(TrafficClass q, std::string reason) { bound_.classes[q].reason = std::move(reason); }
-
-  const PortModel& model_;
-  const PortTraffic& traffic_;
-  const models::PortConfig& config_;
-  Ps octet_;
-  Ps gap_;
-  bool holds_ = false;          // some entry of a list does
-  bool holds_late_ = false;     // a preemptable frame may reach into what is held
-  Ps hold_advance_ = 0;
-  std::vector<ClassDemand> demands_;
-  std::vector<GateCycle> gates_;
-  PortBound bound_;
-  std::array<Ps, traffic_class_count> class_delay_{};
-  std::array<double, traffic_class_count> shaped_rate_{};    // of each shaped class: what it sends in t is at most burst + rate * t
-  std::array<double, traffic_class_count> shaped_burst_{};
-};
+}  // namespace
 
 /// Credit: from an instant with credit 0 and an empty queue, the class sends what the idle slope gives in the time its gate is open, less the credit that it has. That
 /// is at most idle slope * N, where N is the longest time for which the class waits with credit: one frame of a lower class, and what goes before it.
@@ -294,8 +97,51 @@ void PortAnalysis::bound_class(TrafficClass q) {
   PortClassBound& bound = bound_.classes[q];
   bound.is_used = true;
   class_delay_[q] = unbounded_ps;
-  const std::optional<Service> service = service_of(q, bound.reason);
-  if (!service) return;
+  std::string missed;
+  const std::optional<SequenceBound> sequence = sequence_of(q, missed);
+  std::vector<Ps> delays;
+  // Frames that have their windows to themselves wait for nothing else: no other argument says more.
+  if (!sequence || !sequence->is_exact) delays = delays_in_busy_period(q, bound.reason);
+  if (delays.empty()) {
+    if (!sequence) {
+      if (!missed.empty()) bound.reason = missed;
+      return;
+    }
+    bound.reason.clear();
+    delays.assign(traffic_.flows.size(), unbounded_ps);
+  }
+  class_delay_[q] = 0;
+  for (std::size_t f = 0, scheduled = 0; f < traffic_.flows.size(); ++f) {
+    const PortFlow& flow = traffic_.flows[f];
+    if (!is_in_class(flow, q)) continue;
+    const Ps last_bit = octet_ * models::wire_length(flow.frame).count - gap_;
+    PortFlowBound& made = bound_.flows[f];
+    Ps delay = delays[f];
+    if (sequence) {
+      const SequencedTimes& times = sequence->flows[scheduled++];
+      delay = std::min(delay, sum(stretched(times.wait), last_bit));
+      made.leaves = ArrivalPhase{flow.phase->first + times.earliest + shrunk(last_bit), flow.phase->period, times.latest - times.earliest + stretched(last_bit) - shrunk(last_bit)};
+    }
+    made.delay = q != flow.highest_class ? std::max(made.delay, delay) : delay;   // or it was bounded in a higher class already
+    made.least_delay = model_.counts_packets ? last_bit : 0;
+    class_delay_[q] = std::max(class_delay_[q], delay);
+  }
+  if (!is_bounded(class_delay_[q])) {
+    bound.reason = "the link is too full to tell";
+    return;
+  }
+  // What is in the queue, or on the wire, has come within the longest delay and the gap behind the frame.
+  bound.backlog = demands_[q].work(sum(class_delay_[q], gap_));
+  bound.backlog_frames = demands_[q].frames(sum(class_delay_[q], gap_));
+  if (!sequence) return;
+  bound.backlog = std::min(bound.backlog, sequence->backlog);
+  bound.backlog_frames = std::min(bound.backlog_frames, sequence->backlog_frames);
+}
+
+/// By flow of the port; empty if there is none, with the reason.
+std::vector<Ps> PortAnalysis::delays_in_busy_period(TrafficClass q, std::string& reason) {
+  const std::optional<Service> service = service_of(q, reason);
+  if (!service) return {};
   // In the long run there must be room, or the search for a busy period goes on for ever.
   double room = service->is_shaped ? service->idle_share : 1;
   for (const PeriodicSupply& windows : service->windows) room = std::min(room, windows.share() * (service->is_shaped ? service->idle_share : 1));
@@ -304,25 +150,22 @@ void PortAnalysis::bound_class(TrafficClass q) {
     for (TrafficClass h = 0; h < traffic_class_count; ++h)
       if (h != q && !demands_[h].is_empty() && goes_before(h, q) && overlap(q, h)) taken += is_shaped(h) ? std::min(shaped_rate_[h], demands_[h].rate()) : demands_[h].rate();
   if (!(taken <= room)) {
-    bound.reason = taken < 1e300 ? "more comes than the class can send" : "a stream without a least gap between its frames";
-    return;
+    reason = !(taken < 1e300) ? "a stream without a least gap between its frames"
+             : room > 0       ? "more comes than the class can send"
+                              : "no window of its gate leaves room for its longest frame and what may run into the window";
+    return {};
   }
   // The longest busy period: until all that has come since its start is sent.
   Ps busy = 0;
   for (int step = 0; step < most_steps; ++step) {
     const Ps next = start(q, *service, demands_[q].work(busy));
     if (!is_bounded(next)) {
-      bound.reason = "a class before it is unbounded, or the link is too full to tell";
-      return;
+      reason = "a class before it is unbounded, or the link is too full to tell";
+      return {};
     }
     if (next <= busy) break;
     busy = next;
   }
-  bound_flows(q, *service, busy);
-}
-
-void PortAnalysis::bound_flows(TrafficClass q, const Service& service, Ps busy) {
-  PortClassBound& bound = bound_.classes[q];
   const ClassDemand& demand = demands_[q];
   const Ps look_ahead = contains(config_.shaping.timed, q) ? model_.late_by : 0;
   const std::vector<Ps> bends = demand.bends(sum(busy, look_ahead), most_bends);
@@ -338,12 +181,12 @@ void PortAnalysis::bound_flows(TrafficClass q, const Service& service, Ps busy) 
       const Ps last_bit = works[i] - gap_;
       const Ps all = demand.work(sum(seen, look_ahead));
       Ps done;
-      if (is_preemptable(q) && service.is_shaped)
-        done = sum(start(q, service, std::max<Ps>(0, all - works[i])), transmission(q, works[i]));
+      if (is_preemptable(q) && service->is_shaped)
+        done = sum(start(q, *service, std::max<Ps>(0, all - works[i])), transmission(q, works[i]));
       else if (is_preemptable(q))
-        done = start(q, service, std::max<Ps>(0, all - gap_));   // it may be cut until its last bit
+        done = start(q, *service, std::max<Ps>(0, all - gap_));   // it may be cut until its last bit
       else
-        done = sum(start(q, service, std::max<Ps>(0, all - works[i])), model_.counts_packets ? last_bit : 0);
+        done = sum(start(q, *service, std::max<Ps>(0, all - works[i])), model_.counts_packets ? last_bit : 0);
       longest[i] = std::max(longest[i], is_bounded(done) ? done - at : unbounded_ps);
     }
   };
@@ -359,79 +202,16 @@ void PortAnalysis::bound_flows(TrafficClass q, const Service& service, Ps busy) 
       for (Ps at = from; at < until; at += step) look(at, std::min(at + step, until));
     }
   }
-  const std::vector<Ps> waits = waits_at_phases(q, service, busy);
-  class_delay_[q] = 0;
+  const std::vector<Ps> waits = waits_at_phases(q, *service, busy);
+  std::vector<Ps> delays(traffic_.flows.size(), unbounded_ps);
   for (std::size_t f = 0, scheduled = 0; f < traffic_.flows.size(); ++f) {
     const PortFlow& flow = traffic_.flows[f];
-    if (q < flow.lowest_class || flow.highest_class < q || is_in_cqf(flow.highest_class)) continue;
+    if (!is_in_class(flow, q)) continue;
     const auto work = static_cast<std::size_t>(std::lower_bound(works.begin(), works.end(), octet_ * models::wire_length(flow.frame).count) - works.begin());
-    PortFlowBound& made = bound_.flows[f];
-    const bool was_bounded_elsewhere = q != flow.highest_class;
-    Ps delay = longest[work];
-    if (!waits.empty() && flow.phase) delay = std::min(delay, sum(waits[scheduled++], works[work] - gap_));
-    made.delay = was_bounded_elsewhere ? std::max(made.delay, delay) : delay;
-    made.least_delay = model_.counts_packets ? works[work] - gap_ : 0;
-    class_delay_[q] = std::max(class_delay_[q], delay);
+    delays[f] = longest[work];
+    if (!waits.empty() && flow.phase) delays[f] = std::min(delays[f], sum(waits[scheduled++], works[work] - gap_));
   }
-  if (!is_bounded(class_delay_[q])) {
-    bound.reason = "the link is too full to tell";
-    return;
-  }
-  // What is in the queue, or on the wire, has come within the longest delay and the gap behind the frame.
-  bound.backlog = demand.work(sum(class_delay_[q], gap_));
-  bound.backlog_frames = demand.frames(sum(class_delay_[q], gap_));
-}
-
-/// Where frames of a gated class come at known phases, on the time that the gates follow too: how long each of these flows waits. Empty otherwise.
-std::vector<Ps> PortAnalysis::waits_at_phases(TrafficClass q, const Service& service, Ps busy) const {
-  if (!is_gated(q) || service.is_shaped || is_preemptable(q) || contains(config_.shaping.timed, q) || !model_.clock.is_synchronised || !model_.counts_packets) return {};
-  std::vector<ScheduledFlow> flows;
-  std::vector<std::pair<const FrameArrivals*, Ps>> at_any_time;
-  UnscheduledWork others;
-  for (const PortFlow& flow : traffic_.flows) {
-    if (q < flow.lowest_class || flow.highest_class < q || is_in_cqf(flow.highest_class)) continue;
-    const Ps work = octet_ * models::wire_length(flow.frame).count;
-    if (flow.phase) {
-      flows.push_back({flow.phase->first, flow.phase->period, flow.phase->width, work});
-      continue;
-    }
-    if (!flow.arrivals.is_limited()) return {};
-    at_any_time.emplace_back(&flow.arrivals, work);
-    for (Ps jump = flow.arrivals.next_jump(0); jump <= busy; jump = flow.arrivals.next_jump(jump)) {
-      others.jumps.push_back(jump);
-      if (others.jumps.size() > most_jumps_of_others) return {};
-    }
-  }
-  std::sort(others.jumps.begin(), others.jumps.end());
-  others.in = [&](Ps length) {
-    Ps all = 0;
-    for (const auto& [arrivals, work] : at_any_time) all = sum(all, product(work, arrivals->count(length)));
-    return all;
-  };
-  std::vector<Ps> longest(flows.size(), 0);
-  for (const GateCycle& gates : gates_) {
-    // Clocks that are off by their error, and drift while a frame waits.
-    const Ps error = model_.clock.error + scaled_up(sum(gates.cycle(), busy), model_.clock.rate_ppt, 1'000'000'000'000);
-    const PhasedSupply windows(gates, q, gates.base(), overhang(gates, q) + error, demands_[q].longest() - gap_ + error);
-    const StartFrom start = [&](Ps from, Ps before) {
-      Ps time = 0;
-      for (int step = 0; step < most_steps; ++step) {
-        Ps need = sum(service.blocked, before);
-        // The busy period begins with a frame of this class, so any other class may have a backlog then.
-        for (TrafficClass h = 0; h < traffic_class_count; ++h)
-          if (h != q && !demands_[h].is_empty() && goes_before(h, q) && overlap(q, h)) need = sum(need, demands_[h].work(sum(time, class_delay_[h])));
-        const Ps next = windows.time_from(from, need);
-        if (next > longest_search_ps) return unbounded_ps;
-        if (next <= time) return time;
-        time = next;
-      }
-      return unbounded_ps;
-    };
-    const std::optional<std::vector<Ps>> waits = longest_waits(flows, gates.cycle(), windows.ends(), busy, start, others);
-    if (!waits) return {};
-    for (std::size_t f = 0; f < flows.size(); ++f) longest[f] = std::max(longest[f], (*waits)[f]);
-  }
-  return longest;
+  return delays;
 }
 
 /// What comes in a cycle is sent in the next one but (buffers - 2), if it fits.
@@ -482,8 +262,6 @@ void PortAnalysis::bound_cqf() {
     bound_.flows[f].least_delay = last_bit + (holds ? waits : 0);
   }
 }
-
-}  // namespace
 
 PortBound bound_port(const PortModel& model, const PortTraffic& traffic) { return PortAnalysis(model, traffic).run(); }
 

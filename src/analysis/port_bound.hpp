@@ -34,6 +34,7 @@ struct ArrivalPhase {
   Ps first = 0;
   Ps period = 0;
   Ps width = 0;
+  bool operator==(const ArrivalPhase&) const = default;
 };
 
 struct PortFlow {
@@ -44,6 +45,8 @@ struct PortFlow {
   models::TrafficClass highest_class = 0;
   std::size_t link = 0;                      ///< index in PortTraffic::links
   bool uses_cqf = false;                     ///< the stream gate of cyclic queuing and forwarding has given it its class
+  std::optional<std::uint32_t> train = {};   ///< frames of one train come by rank in each turn, whatever the clocks say
+  std::uint32_t rank = 0;
 };
 
 /// A port's part in cyclic queuing and forwarding (see scenario/resolve/cqf.hpp).
@@ -75,6 +78,7 @@ struct PortModel {
 struct PortFlowBound {
   Ps delay = unbounded_ps;           ///< from arrival to the last bit, preamble included
   Ps least_delay = 0;
+  std::optional<ArrivalPhase> leaves = {};   ///< when the last bits do, where a schedule of gates says it
 };
 
 struct PortClassBound {

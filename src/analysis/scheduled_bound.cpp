@@ -16,21 +16,22 @@ struct Arrival {
   std::size_t flow = 0;
 };
 
-/// The least common multiple of the periods and the cycle, or nothing if it holds too many frames.
-std::optional<Ps> hyperperiod(const std::vector<ScheduledFlow>& flows, Ps cycle) {
+}  // namespace
+
+std::optional<Ps> hyperperiod(const std::vector<Ps>& periods, Ps cycle) {
   Ps all = cycle;
-  for (const ScheduledFlow& flow : flows) {
-    const sim::int128 next = static_cast<sim::int128>(all / std::gcd(all, flow.period)) * flow.period;
+  for (const Ps period : periods) {
+    const sim::int128 next = static_cast<sim::int128>(all / std::gcd(all, period)) * period;
     if (next > static_cast<sim::int128>(cycle) * 1'000'000) return std::nullopt;
     all = static_cast<Ps>(next);
   }
   return all;
 }
 
-}  // namespace
-
 std::optional<std::vector<Ps>> longest_waits(const std::vector<ScheduledFlow>& flows, Ps cycle, const std::vector<Ps>& ends, Ps busy, const StartFrom& start, const UnscheduledWork& others) {
-  const std::optional<Ps> all = hyperperiod(flows, cycle);
+  std::vector<Ps> periods;
+  for (const ScheduledFlow& flow : flows) periods.push_back(flow.period);
+  const std::optional<Ps> all = hyperperiod(periods, cycle);
   if (!all || flows.empty() || !is_bounded(busy)) return std::nullopt;
   // The frames of one hyperperiod, and before them those of a busy period; earlier ones may still come late.
   std::vector<Arrival> arrivals;

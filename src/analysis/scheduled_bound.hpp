@@ -23,6 +23,9 @@ struct ScheduledFlow {
   Ps work = 0;      ///< of a frame
 };
 
+/// The least common multiple of the periods and the cycle, or nothing if that is more than a million cycles.
+std::optional<Ps> hyperperiod(const std::vector<Ps>& periods, Ps cycle);
+
 /// What comes at no known phase: the most work in a closed interval, and the lengths at which that jumps, ascending, up to the longest busy period.
 struct UnscheduledWork {
   std::function<Ps(Ps length)> in;

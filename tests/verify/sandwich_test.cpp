@@ -58,6 +58,24 @@ TEST(Sandwich, OfEveryShippedScenario) {
   EXPECT_GE(bounds, 40u);
 }
 
+// Streams with windows of their own: what is simulated, the worst that can be found and the bound are one.
+TEST(Sandwich, AutomaticGatesAreProved) {
+  scenario::json::Diagnostics diagnostics;
+  const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/scenarios/tsn/automatic-gates.json", {}, diagnostics);
+  ASSERT_TRUE(resolved) << diagnostics.to_text();
+  const Verification found = verify(*resolved, small());
+  std::size_t streams = 0;
+  for (const Line& line : found.lines) {
+    if (!line.requirement.text.starts_with("stream") && !line.requirement.text.starts_with("reaction")) continue;
+    EXPECT_EQ(line.verdict, Verdict::pass) << line.requirement.text << ": " << line.reason;
+    ASSERT_TRUE(line.bound) << line.requirement.text << ": " << line.reason;
+    if (!line.requirement.text.starts_with("stream")) continue;
+    ++streams;
+    EXPECT_EQ(line.simulated, line.bound) << line.requirement.text;
+  }
+  EXPECT_EQ(streams, 2u);
+}
+
 Verification verified(const std::string& requirements) {
   scenario::json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(R"({"name": "two", "duration": "20ms",

@@ -1,0 +1,219 @@
+// The analysis of one port, class by class. For port_bound.cpp and port_schedule.cpp alone; everybody else calls bound_port().
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/class_demand.hpp"
+#include "analysis/frame_sequence.hpp"
+#include "analysis/gate_windows.hpp"
+#include "analysis/port_bound.hpp"
+#include "models/egress/class_set.hpp"
+#include "models/egress/preemption.hpp"
+#include "models/ethernet/sizes.hpp"
+
+namespace takt::analysis {
+
+/// Where the search for a fixed point gives up: delays beyond this are as good as unbounded.
+inline constexpr Ps longest_search_ps = 100'000'000'000'000;   // 100 s
+inline constexpr int most_steps = 100'000;
+/// Rates are in parts of so many.
+inline constexpr std::int64_t one_ppt = 1'000'000'000'000;
+
+class PortAnalysis {
+ public:
+  PortAnalysis(const PortModel& model, const PortTraffic& traffic)
+      : model_(model), traffic_(traffic), config_(*model.config), octet_(model.octet_time), gap_(octet_ * models::inter_packet_gap.count) {
+    bound_.flows.resize(traffic.flows.size());
+    for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q) demands_.emplace_back(traffic, models::with(0, q), octet_);
+    shaped_rate_.fill(std::numeric_limits<double>::infinity());
+    shaped_burst_.fill(std::numeric_limits<double>::infinity());
+    if (config_.shaping.gates) gates_.emplace_back(with_hold(*config_.shaping.gates));
+    for (const models::GateConfig& gates : model.more_gates) gates_.emplace_back(with_hold(gates));
+  }
+
+  PortBound run() {
+    if (model_.cqf) bound_cqf();
+    // Express classes first: preemptable ones wait for all of them.
+    for (const bool preemptable : {false, true})
+      for (models::TrafficClass q = models::traffic_class_count; q-- > 0;)
+        if (is_preemptable(q) == preemptable) bound_class(q);
+    return std::move(bound_);
+  }
+
+ private:
+  bool is_preemptable(models::TrafficClass q) const { return config_.preemption && models::contains(config_.preemption->preemptable, q); }
+  bool is_shaped(models::TrafficClass q) const { return config_.shaping.shapers[q].has_value(); }
+  bool is_in_cqf(models::TrafficClass q) const { return model_.cqf && models::contains(model_.cqf->classes, q); }
+  bool is_gated(models::TrafficClass q) const {
+    return std::any_of(gates_.begin(), gates_.end(), [&](const GateCycle& gates) { return !gates.is_always_open(q); });
+  }
+  bool is_in_class(const PortFlow& flow, models::TrafficClass q) const { return flow.lowest_class <= q && q <= flow.highest_class && !is_in_cqf(flow.highest_class); }
+  /// A length of time by another clock, at most and at least.
+  Ps stretched(Ps length) const { return scaled_up(length, one_ppt + model_.clock.rate_ppt, one_ppt); }
+  Ps shrunk(Ps length) const { return scaled_down(length, one_ppt - model_.clock.rate_ppt, one_ppt); }
+  /// A frame of the class waits for nothing but other frames.
+  bool is_work_conserving(models::TrafficClass q) const { return !is_shaped(q) && !is_gated(q) && !is_in_cqf(q); }
+  bool overlap(models::TrafficClass a, models::TrafficClass b) const {
+    if (holds_late_ && is_preemptable(a) != is_preemptable(b)) return true;
+    return gates_.empty() || std::any_of(gates_.begin(), gates_.end(), [&](const GateCycle& gates) { return gates.overlap(a, b); });
+  }
+  /// Frames of h go before waiting ones of q.
+  bool goes_before(models::TrafficClass h, models::TrafficClass q) const {
+    if (is_preemptable(h) != is_preemptable(q)) return !is_preemptable(h);
+    return h > q;
+  }
+
+  /// The longest frame of another class that may be under way when a frame of class q could start.
+  Ps blocking(models::TrafficClass q) const {
+    if (!model_.counts_packets) return 0;
+    Ps longest = 0;
+    for (models::TrafficClass other = 0; other < models::traffic_class_count; ++other) {
+      if (other == q || demands_[other].is_empty() || goes_before(other, q)) continue;
+      longest = std::max(longest, overlap(q, other) ? block_of(other, q) : gap_);
+    }
+    return longest;
+  }
+  /// For how long one frame of `other` keeps a frame of q from the medium.
+  Ps block_of(models::TrafficClass other, models::TrafficClass q) const {
+    const Ps frame = demands_[other].longest();
+    if (!is_preemptable(other) || is_preemptable(q)) return frame;
+    return std::min(frame, octet_ * models::longest_express_wait(config_.preemption->add_frag_size).count);
+  }
+  /// What of a window of q may be taken by a frame that began before it.
+  Ps overhang(const GateCycle& gates, models::TrafficClass q) const {
+    Ps longest = 0;
+    for (models::TrafficClass other = 0; other < models::traffic_class_count; ++other) {
+      if (demands_[other].is_empty()) continue;
+      const bool counted_already = other == q || goes_before(other, q);
+      longest = std::max(longest, counted_already ? gap_ : gates.overhang(q, other, block_of(other, q), gap_));
+    }
+    return longest;
+  }
+
+  /// What classes that go before q send in an interval of that length in which q waits: closed at its end.
+  Ps interference(models::TrafficClass q, Ps length) const {
+    Ps all = 0;
+    for (models::TrafficClass h = 0; h < models::traffic_class_count; ++h) {
+      const ClassDemand& demand = demands_[h];
+      if (h == q || demand.is_empty() || !goes_before(h, q) || !overlap(q, h) || (is_in_cqf(h) && is_in_cqf(q))) continue;
+      // Who has waited for a gate or for credit may have a backlog when the interval begins; but what is sent has come within its delay.
+      const Ps reach = is_work_conserving(h) ? length : sum(length, class_delay_[h]);
+      Ps work = demand.work(reach);
+      if (is_shaped(h)) work = std::min(work, rounded_up(shaped_burst_[h] + shaped_rate_[h] * static_cast<double>(length)));
+      if (is_preemptable(q) && !is_preemptable(h)) work = sum(work, product(octet_ * models::overhead_of_a_cut.count, std::min(demand.frames(reach), work / demand.shortest() + 1)));
+      all = sum(all, work);
+    }
+    return all;
+  }
+
+  /// What cuts of frames of class q add in an interval of that length: each express frame makes one at most.
+  Ps cuts(models::TrafficClass q, Ps length) const {
+    if (!is_preemptable(q)) return 0;
+    Ps all = 0;
+    for (models::TrafficClass h = 0; h < models::traffic_class_count; ++h)
+      if (!demands_[h].is_empty() && !is_preemptable(h))
+        all = sum(all, product(octet_ * models::overhead_of_a_cut.count, demands_[h].frames(is_work_conserving(h) ? length : sum(length, class_delay_[h]))));
+    return all;
+  }
+  /// From the first to the last bit of a frame that occupies the medium for `work`, which express frames may cut.
+  Ps transmission(models::TrafficClass q, Ps work) const {
+    Ps time = 0;
+    for (int step = 0; step < most_steps && time <= longest_search_ps; ++step) {
+      Ps next = sum(work - gap_, cuts(q, time));
+      for (models::TrafficClass h = 0; h < models::traffic_class_count; ++h)
+        if (!demands_[h].is_empty() && !is_preemptable(h)) next = sum(next, demands_[h].work(is_work_conserving(h) ? time : sum(time, class_delay_[h])));
+      if (next <= time) return time;
+      time = next;
+    }
+    return unbounded_ps;
+  }
+
+  struct Service {
+    Ps blocked = 0;                          // by one frame, once
+    std::vector<PeriodicSupply> windows;     // of each list; empty: always open
+    bool is_shaped = false;
+    double idle_share = 0;                   // of the port's rate while the gate is open
+    double credit = 0;                       // the greatest, in time on the medium
+  };
+
+  Ps through_gates(const Service& service, Ps need) const {
+    Ps longest = service.windows.empty() ? need : 0;
+    for (const PeriodicSupply& windows : service.windows) longest = std::max(longest, windows.time_for(need));
+    return longest;
+  }
+
+  /// When work that comes after `before` has been sent can start, counted from the start of a busy period. Unbounded if that is not found.
+  Ps start(models::TrafficClass q, const Service& service, Ps before) const {
+    if (!is_bounded(before)) return unbounded_ps;
+    Ps time = 0;
+    for (int step = 0; step < most_steps; ++step) {
+      Ps need = service.is_shaped ? rounded_up((static_cast<double>(sum(before, cuts(q, time))) + service.credit) / service.idle_share)
+                                  : sum(service.blocked, before, interference(q, time));
+      if (models::contains(model_.unordered, q)) need = sum(need - std::min(before, need), std::max(before, demands_[q].work(time)));
+      const Ps next = through_gates(service, need);
+      if (next > longest_search_ps) return unbounded_ps;
+      if (next <= time) return time;
+      time = next;
+    }
+    return unbounded_ps;
+  }
+
+  /// Windows without the part in which the longest frame does not fit any more, and without what others may take of their starts.
+  std::vector<PeriodicSupply> usable_windows(models::TrafficClass q) const {
+    std::vector<PeriodicSupply> all;
+    if (!is_gated(q)) return all;
+    const Ps guard = model_.counts_packets ? demands_[q].longest() - gap_ : 0;
+    for (const GateCycle& gates : gates_) {
+      if (gates.is_always_open(q)) continue;
+      const Ps hold = is_preemptable(q) ? hold_advance_ : 0;   // asked for so long before a window closes
+      all.emplace_back(gates, q, overhang(gates, q) + model_.clock.error, guard + model_.clock.error + hold, model_.clock.rate_ppt);
+    }
+    return all;
+  }
+  /// While the MAC holds, the gates of preemptable classes are as good as closed.
+  models::GateConfig with_hold(models::GateConfig gates) {
+    if (!config_.preemption) return gates;
+    bool holds = false;
+    for (int round = 0; round < 2; ++round)   // the first one finds what the second one begins with
+      for (models::GateControlEntry& entry : gates.admin_control_list) {
+        if (entry.operation != models::GateOperation::set_gate_states) holds = entry.operation == models::GateOperation::set_and_hold_mac;
+        if (round == 1 && holds) entry.gate_states = static_cast<models::GateStates>(entry.gate_states & ~config_.preemption->preemptable);
+        holds_ = holds_ || holds;
+      }
+    const Ps longest_wait = octet_ * models::longest_express_wait(config_.preemption->add_frag_size).count;
+    hold_advance_ = holds_ ? std::max(longest_wait, config_.preemption->hold_advance.value_or(sim::Duration()).ps()) : 0;
+    holds_late_ = holds_ && config_.preemption->hold_advance && config_.preemption->hold_advance->ps() < longest_wait;
+    return gates;
+  }
+
+  std::optional<Service> service_of(models::TrafficClass q, std::string& reason);
+  bool make_shaped(models::TrafficClass q, Service& service, std::string& reason);
+  void bound_class(models::TrafficClass q);
+  std::vector<Ps> delays_in_busy_period(models::TrafficClass q, std::string& reason);
+  std::optional<SequenceBound> sequence_of(models::TrafficClass q, std::string& reason) const;
+  SequenceWindows windows_of(const GateCycle& gates, models::TrafficClass q) const;
+  std::vector<Ps> waits_at_phases(models::TrafficClass q, const Service& service, Ps busy) const;
+  void bound_cqf();
+  void set_unbounded(models::TrafficClass q, std::string reason) { bound_.classes[q].reason = std::move(reason); }
+
+  const PortModel& model_;
+  const PortTraffic& traffic_;
+  const models::PortConfig& config_;
+  Ps octet_;
+  Ps gap_;
+  bool holds_ = false;          // some entry of a list does
+  bool holds_late_ = false;     // a preemptable frame may reach into what is held
+  Ps hold_advance_ = 0;
+  std::vector<ClassDemand> demands_;
+  std::vector<GateCycle> gates_;
+  PortBound bound_;
+  std::array<Ps, models::traffic_class_count> class_delay_{};
+  std::array<double, models::traffic_class_count> shaped_rate_{};    // of each shaped class: what it sends in t is at most burst + rate * t
+  std::array<double, models::traffic_class_count> shaped_burst_{};
+};
+
+}  // namespace takt::analysis

@@ -1,0 +1,141 @@
+// Frames at known times of a gated class: what the schedule of the gates makes of them.
+#include "analysis/port_analysis.hpp"
+#include "analysis/scheduled_bound.hpp"
+
+namespace takt::analysis {
+
+using models::TrafficClass;
+using models::contains;
+using models::traffic_class_count;
+
+namespace {
+
+constexpr std::size_t most_jumps_of_others = 50;
+
+}  // namespace
+
+/// The windows of a class with what others may take of each: frames of classes whose gates are open when it opens, and the gap behind those of others.
+SequenceWindows PortAnalysis::windows_of(const GateCycle& gates, TrafficClass q) const {
+  SequenceWindows made;
+  made.cycle = gates.cycle();
+  made.base = gates.base();
+  made.error = model_.clock.error;
+  made.is_always_open = gates.is_always_open(q);
+  for (const GateWindow& window : gates.windows(q)) {
+    Ps taken = holds_ ? overhang(gates, q) : 0;   // before a hold the gates of preemptable classes only count as closed
+    for (TrafficClass other = 0; other < traffic_class_count; ++other) {
+      if (other == q || demands_[other].is_empty()) continue;
+      // Frames of a class that goes before are counted as they come, whenever they begin.
+      taken = std::max(taken, goes_before(other, q) && overlap(q, other) ? gap_ : gates.overhang_at(window, other, block_of(other, q), gap_));
+    }
+    made.windows.push_back({window.from, window.until, taken});
+  }
+  return made;
+}
+
+/// Where all frames of a gated class come at known times, on the time that the gates follow too: each into its window. The reason if they may miss them.
+std::optional<SequenceBound> PortAnalysis::sequence_of(TrafficClass q, std::string& reason) const {
+  if (!is_gated(q) || is_shaped(q) || is_preemptable(q) || model_.cqf || contains(config_.shaping.timed, q) || !model_.clock.is_synchronised || !model_.counts_packets) return std::nullopt;
+  std::vector<SequencedFlow> flows;
+  bool are_known = true;
+  for (const PortFlow& flow : traffic_.flows) {
+    if (!is_in_class(flow, q)) continue;
+    if (!flow.phase || flow.lowest_class != flow.highest_class) {
+      are_known = false;
+      continue;
+    }
+    const Ps work = octet_ * models::wire_length(flow.frame).count;
+    flows.push_back({{flow.phase->first, flow.phase->period, flow.phase->width, stretched(work)}, stretched(work - gap_), flow.train, flow.rank});
+  }
+  if (!are_known) {
+    if (!flows.empty()) reason = "others of its class come at times that are not known, and into its windows";
+    return std::nullopt;
+  }
+  // A lower class may have begun a frame just before, and a higher one may have a backlog then.
+  Ps blocked = 0;
+  std::vector<TrafficClass> higher;
+  for (TrafficClass other = 0; other < traffic_class_count; ++other) {
+    if (other == q || demands_[other].is_empty() || !overlap(q, other)) continue;
+    if (goes_before(other, q)) higher.push_back(other);
+    else blocked = std::max(blocked, block_of(other, q));
+  }
+  OthersWork others;
+  if (blocked > 0 || !higher.empty())
+    others = [&](Ps length) {
+      Ps all = blocked;
+      for (const TrafficClass h : higher) all = sum(all, demands_[h].work(sum(length, class_delay_[h])));
+      return stretched(all);
+    };
+  std::optional<SequenceBound> made;
+  for (const GateCycle& gates : gates_) {
+    const SequenceWindows windows = windows_of(gates, q);
+    std::optional<SequenceBound> next = bound_sequence(flows, windows, others, reason);
+    if (!next) return std::nullopt;
+    if (!made) {
+      made = std::move(next);
+      continue;
+    }
+    for (std::size_t f = 0; f < flows.size(); ++f) {
+      SequencedTimes& times = made->flows[f];
+      times = {std::max(times.wait, next->flows[f].wait), std::min(times.earliest, next->flows[f].earliest), std::max(times.latest, next->flows[f].latest)};
+    }
+    made->backlog = std::max(made->backlog, next->backlog);
+    made->backlog_frames = std::max(made->backlog_frames, next->backlog_frames);
+    made->is_exact = made->is_exact && next->is_exact;
+  }
+  return made;
+}
+
+/// Where frames of a gated class come at known phases, on the time that the gates follow too: how long each of these flows waits. Empty otherwise.
+std::vector<Ps> PortAnalysis::waits_at_phases(TrafficClass q, const Service& service, Ps busy) const {
+  if (!is_gated(q) || service.is_shaped || is_preemptable(q) || contains(config_.shaping.timed, q) || !model_.clock.is_synchronised || !model_.counts_packets) return {};
+  std::vector<ScheduledFlow> flows;
+  std::vector<std::pair<const FrameArrivals*, Ps>> at_any_time;
+  UnscheduledWork others;
+  for (const PortFlow& flow : traffic_.flows) {
+    if (!is_in_class(flow, q)) continue;
+    const Ps work = octet_ * models::wire_length(flow.frame).count;
+    if (flow.phase) {
+      flows.push_back({flow.phase->first, flow.phase->period, flow.phase->width, work});
+      continue;
+    }
+    if (!flow.arrivals.is_limited()) return {};
+    at_any_time.emplace_back(&flow.arrivals, work);
+    for (Ps jump = flow.arrivals.next_jump(0); jump <= busy; jump = flow.arrivals.next_jump(jump)) {
+      others.jumps.push_back(jump);
+      if (others.jumps.size() > most_jumps_of_others) return {};
+    }
+  }
+  std::sort(others.jumps.begin(), others.jumps.end());
+  others.in = [&](Ps length) {
+    Ps all = 0;
+    for (const auto& [arrivals, work] : at_any_time) all = sum(all, product(work, arrivals->count(length)));
+    return all;
+  };
+  std::vector<Ps> longest(flows.size(), 0);
+  for (const GateCycle& gates : gates_) {
+    // Clocks that are off by their error, and drift while a frame waits.
+    const Ps error = model_.clock.error + scaled_up(sum(gates.cycle(), busy), model_.clock.rate_ppt, 1'000'000'000'000);
+    const PhasedSupply windows(gates, q, gates.base(), overhang(gates, q) + error, demands_[q].longest() - gap_ + error);
+    const StartFrom start = [&](Ps from, Ps before) {
+      Ps time = 0;
+      for (int step = 0; step < most_steps; ++step) {
+        Ps need = sum(service.blocked, before);
+        // The busy period begins with a frame of this class, so any other class may have a backlog then.
+        for (TrafficClass h = 0; h < traffic_class_count; ++h)
+          if (h != q && !demands_[h].is_empty() && goes_before(h, q) && overlap(q, h)) need = sum(need, demands_[h].work(sum(time, class_delay_[h])));
+        const Ps next = windows.time_from(from, need);
+        if (next > longest_search_ps) return unbounded_ps;
+        if (next <= time) return time;
+        time = next;
+      }
+      return unbounded_ps;
+    };
+    const std::optional<std::vector<Ps>> waits = longest_waits(flows, gates.cycle(), windows.ends(), busy, start, others);
+    if (!waits) return {};
+    for (std::size_t f = 0; f < flows.size(); ++f) longest[f] = std::max(longest[f], (*waits)[f]);
+  }
+  return longest;
+}
+
+}  // namespace takt::analysis

@@ -21,9 +21,15 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
 class Digest {
  public:
   /// `kind` names the sort of record, `who` the place, `what` the content.
-  void add(std::uint32_t kind, std::uint64_t who, TrueTime when, std::uint64_t what) {
-    std::uint64_t hash = mix64(who + 0x9E3779B97F4A7C15ULL * (kind + 1));
-    hash = mix64(hash ^ static_cast<std::uint64_t>(when.ps()));
+  void add(std::uint32_t kind, std::uint64_t who, TrueTime when, std::uint64_t what) { add(key_of(kind, who), when, what); }
+
+  /// What records of one sort from one place share: who writes many of them makes it once.
+  struct Key {
+    std::uint64_t hash = 0;
+  };
+  static constexpr Key key_of(std::uint32_t kind, std::uint64_t who) { return {mix64(who + 0x9E3779B97F4A7C15ULL * (kind + 1))}; }
+  void add(Key key, TrueTime when, std::uint64_t what) {
+    const std::uint64_t hash = mix64(key.hash ^ static_cast<std::uint64_t>(when.ps()));
     sum_ += mix64(hash + what);
   }
   std::uint64_t value() const { return sum_; }

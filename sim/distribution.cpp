@@ -102,8 +102,11 @@ Distribution Distribution::clamped(Duration floor, Duration ceiling) const {
 }
 
 Duration Distribution::draw(RandomStream& stream) const {
-  if (kind_ == Kind::constant) return std::clamp(location_, floor_, ceiling_);
-  return std::clamp(draw_raw(stream), floor_, ceiling_);
+  const Distribution* from = this;
+  if (kind_ == Kind::mixture) from = &parts_[stream.below(1'000'000'000) < tail_parts_per_billion_ ? 1 : 0];  // no mixture itself
+  // A measured table is what hosts draw from most.
+  const Duration raw = from->equal_weights_ ? from->points_[stream.below(from->points_.back().weight)].value : from->draw_raw(stream);
+  return std::clamp(std::clamp(raw, from->floor_, from->ceiling_), floor_, ceiling_);
 }
 
 Duration Distribution::draw_raw(RandomStream& stream) const {
@@ -123,13 +126,12 @@ Duration Distribution::draw_raw(RandomStream& stream) const {
       return rounded(as_double(location_) * exact_exp(shape_ * normal_quantile(stream.unit())));
     case Kind::empirical: {
       const std::uint64_t pick = stream.below(points_.back().weight);
-      if (equal_weights_) return points_[pick].value;
       const auto found = std::upper_bound(points_.begin(), points_.end(), pick,
                                           [](std::uint64_t value, const Point& point) { return value < point.weight; });
       return found->value;
     }
     case Kind::mixture:
-      return parts_[stream.below(1'000'000'000) < tail_parts_per_billion_ ? 1 : 0].draw(stream);
+      break;  // draw() chooses one of its parts
   }
   TAKT_CHECK(false, "a distribution of no kind");
 }

@@ -74,12 +74,16 @@ class EventSource {
   explicit EventSource(ComponentId id) : id_(id) {}
   ComponentId id() const { return id_; }
   /// How many events it has scheduled.
-  std::uint64_t count() const { return serial_; }
-  /// The serial of the next event, moved to where Event keeps it. 2^48 events of one source do not occur.
-  std::uint64_t next_serial_word() { return serial_++ << 16; }
+  std::uint64_t count() const { return serial_word_ >> 16; }
+  /// The serial of the next event, where Event keeps it. 2^48 events of one source do not occur.
+  std::uint64_t next_serial_word() {
+    const std::uint64_t word = serial_word_;
+    serial_word_ += 1 << 16;
+    return word;
+  }
 
  private:
-  std::uint64_t serial_ = 0;
+  std::uint64_t serial_word_ = 0;  ///< serial of the next event, moved by the 16 bits of the kind
   ComponentId id_;
 };
 

@@ -5,6 +5,16 @@
 
 namespace takt::sim {
 
+void EventQueue::push_elsewhere(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument) {
+  const Event event(time, order, serial_kind, argument);
+  if (time >= near_end_) {
+    push_far(event);
+    return;
+  }
+  near_.push(event);
+  if (near_.size() > crowded_) spread();
+}
+
 void EventQueue::push_far(const Event& event) {
   ++waiting_;
   if (event.time < horizon_)

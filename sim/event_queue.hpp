@@ -116,28 +116,34 @@ class NearEvents {
     return sorted_[--count_];
   }
 
-  [[gnu::always_inline]] void push(const Event& event) {
-    if (!heap_.empty() || count_ == most_sorted) [[unlikely]] {
-      push_long(event);
-      return;
-    }
-    std::uint32_t at = count_++;
-    while (at > 0 && sorted_[at - 1] < event) {
-      sorted_[at] = sorted_[at - 1];
+  /// Sorts the event in, where the array has room for it; otherwise it does nothing and returns false.
+  [[gnu::always_inline]] bool push_if_short(const Event& event) {
+    if (count_ >= room_) [[unlikely]] return false;
+    Event* const first = sorted_.data();
+    Event* at = first + count_++;
+    while (at != first && at[-1] < event) {
+      *at = at[-1];
       --at;
     }
-    sorted_[at] = event;
+    *at = event;
+    return true;
+  }
+
+  void push(const Event& event) {
+    if (!push_if_short(event)) [[unlikely]] push_long(event);
   }
 
   template <class Sink>
   void drain(Sink&& sink) {
     while (count_ > 0) sink(sorted_[--count_]);
     heap_.drain(sink);
+    room_ = most_sorted;
   }
 
  private:
   /// While the heap holds events, the array holds none.
   [[gnu::noinline]] void push_long(const Event& event) {
+    room_ = 0;
     while (count_ > 0) heap_.push(sorted_[--count_]);
     heap_.push(event);
   }
@@ -146,11 +152,13 @@ class NearEvents {
       sorted_[count_++] = heap_.pop();
       return;
     }
+    room_ = most_sorted;
     std::uint32_t at = count_ = static_cast<std::uint32_t>(heap_.size());
     while (at > 0) sorted_[--at] = heap_.pop();
   }
 
   std::uint32_t count_ = 0;
+  std::uint32_t room_ = most_sorted;       ///< of the array: none while the heap holds events
   std::array<Event, most_sorted> sorted_;  ///< descending: the first event is the last one
   EventHeap heap_;
 };
@@ -176,12 +184,8 @@ class EventQueue {
   const Event* upcoming(std::uint32_t ahead) const { return near_.upcoming(ahead); }
 
   void push(const Event& event) {
-    if (event.time < near_end_) [[likely]] {
-      near_.push(event);
-      if (near_.size() > crowded_) [[unlikely]] spread();
-      return;
-    }
-    push_far(event);
+    if (event.time < near_end_ && near_.push_if_short(event)) [[likely]] return;
+    push_elsewhere(event.time, event.order, event.serial_kind, event.argument);
   }
 
  private:
@@ -191,7 +195,10 @@ class EventQueue {
   };
   static constexpr std::uint32_t none = 0xFFFF'FFFF;
   static constexpr std::size_t near_only_limit = 64;
+  static_assert(near_only_limit >= NearEvents::most_sorted, "a near part that is a sorted array is never crowded");
 
+  /// The way of what does not fit into the sorted array. It takes words, since a reference would keep every event in memory.
+  void push_elsewhere(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument);
   void push_far(const Event& event);
   void put_into_bucket(const Event& event);
   void advance();

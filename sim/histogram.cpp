@@ -7,6 +7,8 @@
 
 namespace takt::sim {
 
+void Histogram::add_octave(std::size_t octave) { octaves_[octave] = std::make_unique<Octave>(); }
+
 Duration Histogram::lower_edge(Place place) {
   if (place.octave == 0) return Duration::from_ps(static_cast<std::int64_t>(place.bucket));
   return Duration::from_ps(static_cast<std::int64_t>((place.bucket + sub_buckets) << (place.octave - 1)));

@@ -25,7 +25,7 @@ class Histogram {
     if (ps < least_) least_ = ps;
     if (ps > greatest_) greatest_ = ps;
     const Place place = place_of(static_cast<std::uint64_t>(ps));
-    if (!octaves_[place.octave]) [[unlikely]] octaves_[place.octave] = std::make_unique<Octave>();
+    if (!octaves_[place.octave]) [[unlikely]] add_octave(place.octave);
     recent_ = &(*octaves_[place.octave])[place.bucket];
     ++*recent_;
   }
@@ -67,6 +67,7 @@ class Histogram {
     const int top = 63 - __builtin_clzll(ps);
     return {static_cast<std::size_t>(top - sub_bits + 1), static_cast<std::size_t>(ps >> (top - sub_bits)) - sub_buckets};
   }
+  void add_octave(std::size_t octave);
   static Duration lower_edge(Place place);
   static Duration upper_edge(Place place);
 

@@ -47,8 +47,8 @@ void Simulation::set_tie_shuffle(std::uint64_t key) {
   tie_shuffle_ = key & Event::pair_mask;
 }
 
-std::uint64_t Simulation::shuffled(std::uint64_t order) const {
-  return (order & phase_mask) | scramble(order & Event::pair_mask, tie_shuffle_);
+void Simulation::push_shuffled(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument) {
+  queue_.push({time, (order & phase_mask) | scramble(order & Event::pair_mask, tie_shuffle_), serial_kind, argument});
 }
 
 std::uint64_t Simulation::unshuffled(std::uint64_t order) const {
@@ -70,6 +70,9 @@ inline void Simulation::look_ahead() const {
 template <bool is_shuffled, bool looks_ahead>
 bool Simulation::loop(TrueTime until, std::uint64_t max_events) {
   const std::uint64_t stop_at = max_events > ~0ULL - events_ ? ~0ULL : events_ + max_events;
+  const TrueTime last = std::min(until, TrueTime::never() - Duration::from_ps(1));
+  // From so many events on it looks whether to stop, and how many are pending.
+  std::uint64_t pause_at = std::min(stop_at, (events_ | 0x3FF) + 1);
   Event event;
   try {
     for (;;) {
@@ -78,15 +81,18 @@ bool Simulation::loop(TrueTime until, std::uint64_t max_events) {
         settle_all();
         continue;
       }
-      if (next > until || next == TrueTime::never()) break;
-      if (events_ >= stop_at && next > now_) return false;
+      if (next > last) break;
+      if (events_ >= pause_at) [[unlikely]] {
+        if (events_ >= stop_at && next > now_) return false;
+        pending_peak_ = std::max(pending_peak_, queue_.size());
+        pause_at = std::min(stop_at, (events_ | 0x3FF) + 1);
+      }
       event = queue_.pop();
       if constexpr (is_shuffled) event.order = unshuffled(event.order);
       if constexpr (looks_ahead) look_ahead();
       now_ = event.time;
       ++events_;
       components_[event.target().index]->handle(*this, event);
-      if ((events_ & 0x3FF) == 0) pending_peak_ = std::max(pending_peak_, queue_.size());
     }
   } catch (const InvariantBroken& broken) {
     rethrow_with_context(broken, event);

@@ -49,10 +49,17 @@ class Simulation {
   /// Schedules an event. `time` is not before now().
   void schedule(EventSource& source, TrueTime time, Phase phase, ComponentId target, EventKind kind,
                 std::uint64_t argument) {
+    schedule(source, time, Event::order_of(phase, target, source.id()), kind, argument);
+  }
+
+  /// The same for who schedules many events to one target in one phase and has made the word of their order once.
+  void schedule(EventSource& source, TrueTime time, std::uint64_t order, EventKind kind, std::uint64_t argument) {
     TAKT_CHECK(time >= now_, "an event cannot be scheduled in the past");
-    std::uint64_t order = Event::order_of(phase, target, source.id());
-    if (tie_shuffle_ != 0) [[unlikely]] order = shuffled(order);
-    queue_.push({time, order, source.next_serial_word() | kind, argument});
+    const std::uint64_t serial_kind = source.next_serial_word() | kind;
+    if (tie_shuffle_ != 0) [[unlikely]]
+      push_shuffled(time, order, serial_kind, argument);
+    else
+      queue_.push({time, order, serial_kind, argument});
   }
 
   /// Asks for component.settle() at the end of the present instant. The component remembers that it has asked.
@@ -64,6 +71,11 @@ class Simulation {
   /// True if nothing else happens at the present instant: no event is pending for it and nobody waits to settle. A handler
   /// may then do as its last act what it would otherwise leave to settle().
   bool instant_is_complete() { return settling_.empty() && queue_.first_time() > now_; }
+  /// The same as far as it is known without work: false also where instant_is_complete() must be asked.
+  bool instant_is_surely_complete() const {
+    const Event* const next = queue_.upcoming(0);
+    return next != nullptr && next->time > now_ && settling_.empty();
+  }
 
   /// Handles the events up to and including `until`, at most about `max_events` of them. Returns true when `until` has been
   /// reached (now() is `until` then), false when there is more to do. It never stops in the middle of an instant.
@@ -87,7 +99,7 @@ class Simulation {
   bool loop(TrueTime until, std::uint64_t max_events);
   void look_ahead() const;
   void settle_all();
-  std::uint64_t shuffled(std::uint64_t order) const;
+  void push_shuffled(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument);
   std::uint64_t unshuffled(std::uint64_t order) const;
   [[noreturn]] void rethrow_with_context(const InvariantBroken& broken, const Event& event) const;
 

@@ -4,23 +4,30 @@
 
 namespace takt::models {
 
+/// The way of nearly every frame: it calls nothing but what it ends with.
+inline void Bridge::pass_on(sim::Simulation& simulation, ArrivalArgument arrival) {
+  const Frame& frame = traffic_->frame(arrival.frame);
+  const std::uint32_t port = filtering_database_.port_at_once(frame.vlan, frame.destination);
+  if (port != FilteringDatabase::not_at_once && port != arrival.port) [[likely]]
+    ports_[port].offer_last(simulation, arrival.frame, frame, arrival.port);
+  else
+    forward(simulation, arrival.frame, arrival.port, nullptr);
+}
+
 void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
   TAKT_CHECK(event.kind() == static_cast<sim::EventKind>(NodeEvent::frame_arrived), "a bridge receives frames only");
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
-  if (looks_closer_ || arrival.notes != 0) [[unlikely]] {
-    if (looks_closer_ || arrival.notes != withdrawable) {
-      look_closer(simulation, arrival);
-      return;
-    }
-    if (!ports_[arrival.port].opposite()->has_come(simulation.now(), arrival.frame)) return;
-  }
-  const Frame& frame = traffic_->frame(arrival.frame);
-  const FilteringDatabase::Entry entry = filtering_database_.find(frame.vlan, frame.destination);
-  if (entry.found() && entry.is_one_port() && entry.port() != arrival.port) [[likely]] {
-    ports_[entry.port()].offer_last(simulation, arrival.frame, arrival.port);
-    return;
-  }
-  forward(simulation, arrival.frame, arrival.port, nullptr);
+  if (looks_closer_ || arrival.notes != 0) [[unlikely]]
+    receive_noted(simulation, arrival);
+  else
+    pass_on(simulation, arrival);
+}
+
+void Bridge::receive_noted(sim::Simulation& simulation, ArrivalArgument arrival) {
+  if (looks_closer_ || arrival.notes != withdrawable)
+    look_closer(simulation, arrival);
+  else if (ports_[arrival.port].opposite()->has_come(simulation.now(), arrival.frame))
+    pass_on(simulation, arrival);
 }
 
 void Bridge::prefetch(const sim::Event& event, Ahead ahead) const {

@@ -49,6 +49,8 @@ class alignas(64) Bridge final : public sim::Component {
     bool only_header = false;
     Header header;
   };
+  void pass_on(sim::Simulation& simulation, ArrivalArgument arrival);
+  [[gnu::noinline]] void receive_noted(sim::Simulation& simulation, ArrivalArgument arrival);
   void look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
   void forward(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header);
   void forward_to_many(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, std::span<const std::uint16_t> egress, const Header* header);

@@ -43,6 +43,14 @@ class FilteringDatabase {
       if ((word & key_mask) == key || word == empty_word) return Entry(word);
     }
   }
+  /// The port of an entry that names one port and lies where it is looked for first, as nearly all do; otherwise not_at_once, and
+  /// find() must be asked.
+  std::uint32_t port_at_once(VlanId vlan, AddressIndex address) const {
+    const std::uint64_t key = key_of(vlan, address);
+    const std::uint64_t rest = words_[home_of(key)] ^ key;  // of a word with this key: what is not key
+    return rest < several ? static_cast<std::uint32_t>(rest) : not_at_once;
+  }
+  static constexpr std::uint32_t not_at_once = 0xFFFF'FFFF;
   /// The ports of an entry that was found, in ascending order. The span lives until the next add().
   std::span<const std::uint16_t> ports_of(const Entry& entry) const { return sets_[entry.port()]; }
 

@@ -27,8 +27,8 @@ void EgressPort::connect(sim::Simulation& simulation, Shared& shared, const Port
   config_ = &config;
   clock_ = &clock;
   opposite_ = opposite;
-  octet_time_ps_ = static_cast<std::uint64_t>(octet_time.ps()) & 0xFFFFF;
-  peer_node_ = far_end.node;
+  octet_time_ps_ = static_cast<std::uint32_t>(octet_time.ps());
+  peer_order_ = sim::Event::order_of(sim::Phase::arrival, far_end.node, source_.id());
   peer_port_ = far_end.port;
   peer_delay_ps_ = static_cast<std::uint64_t>(far_end.delay.ps()) & 0xFFF'FFFF'FFFF;
   if (!config.shaping.is_plain()) make_shaping();
@@ -93,6 +93,41 @@ void EgressPort::handle(sim::Simulation& simulation, const sim::Event& event) {
     settle_many(simulation);
   else
     settle_later(simulation);
+}
+
+void EgressPort::offer(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank) {
+  settle_later(simulation);
+  if (!has_arrival_) {
+    has_arrival_ = true;
+    arrival_ = {frame, rank};
+  } else {
+    more_arrivals_.push_back({frame, rank});
+  }
+}
+
+/// offer_last() where the instant may not be complete, or the frame does not just start.
+void EgressPort::take_last(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
+  if (!simulation.instant_is_complete()) {
+    offer(simulation, frame, rank);
+    return;
+  }
+  if (simulation.now() >= busy_until_) {
+    if (way_ == Way::straight) {
+      start(simulation, frame, record);
+      return;
+    }
+    if (way_ == Way::gated) {
+      pass_gate(simulation, frame);
+      return;
+    }
+    if (way_ == Way::merging) {
+      start_with_extras(simulation, frame, class_of(frame));
+      return;
+    }
+  }
+  has_arrival_ = true;
+  arrival_ = {frame, rank};
+  settle_many(simulation);
 }
 
 void EgressPort::settle(sim::Simulation& simulation) {
@@ -182,11 +217,23 @@ void EgressPort::settle_many(sim::Simulation& simulation) {
       find_way();
       return;
     }
+    if (has_arrival_ && !shaping_ && simulation.now() < busy_until_) {
+      has_arrival_ = false;
+      admit(simulation, arrival_.frame);
+      find_way();
+      if (!queues_.empty()) wake_at(simulation, busy_until_);
+      return;
+    }
     if (!has_arrival_ && is_one_class(queues_.waiting())) {
       settle_waiting(simulation);
       return;
     }
   }
+  settle_all_classes(simulation);
+}
+
+/// Whatever has come and waits.
+void EgressPort::settle_all_classes(sim::Simulation& simulation) {
   if (extras_ && !extras_->headers.empty() && settle_headers(simulation)) return;
   promised_ = sim::TrueTime::never();
   if (has_arrival_) more_arrivals_.insert(more_arrivals_.begin(), arrival_);
@@ -198,6 +245,29 @@ void EgressPort::settle_many(sim::Simulation& simulation) {
   }
   sort_by_rank(more_arrivals_);
   const sim::TrueTime now = simulation.now();
+  if (!shaping_ && !extras_) {  // only the classes count
+    if (now >= busy_until_) {
+      int greatest = queues_.empty() ? -1 : highest_class(queues_.waiting());
+      std::size_t first = more_arrivals_.size();  // none of this instant, but the head of a queue
+      for (std::size_t i = 0; i < more_arrivals_.size(); ++i) {
+        const int q = class_of(more_arrivals_[i].frame);
+        if (q <= greatest) continue;
+        greatest = q;
+        first = i;
+      }
+      if (first < more_arrivals_.size()) {
+        start(simulation, more_arrivals_[first].frame);
+        more_arrivals_.erase(more_arrivals_.begin() + static_cast<std::ptrdiff_t>(first));
+      } else if (greatest >= 0) {
+        start(simulation, pop(simulation, static_cast<TrafficClass>(greatest)));
+      }
+    }
+    for (const Arrival& arrival : more_arrivals_) admit(simulation, arrival.frame);
+    more_arrivals_.clear();
+    find_way();
+    if (!queues_.empty()) wake_at(simulation, busy_until_);
+    return;
+  }
   if (shaping_) {
     std::erase_if(more_arrivals_, [&](const Arrival& arrival) { return !passes_max_sdu(simulation, arrival.frame); });
     for (const Arrival& arrival : more_arrivals_) shaping_->frame_waits(now, class_of(arrival.frame));
@@ -280,32 +350,6 @@ EgressPort::Choice EgressPort::choose(sim::TrueTime now, ClassSet candidates, co
   if (other.found) return {other, rest.has_value()};
   other.ask_again = std::min(other.ask_again, express.ask_again);
   return {other};
-}
-
-HoldRequest EgressPort::hold_request(sim::TrueTime now) {
-  if (!shaping_) return {};
-  return extras_->merge->hold_request(shaping_->gates(), clock_->local_at(now));
-}
-
-/// While the medium is busy at a port that preempts: cuts the frame under way if an express frame may start, or if the MAC is
-/// asked to hold. Says when to look again.
-sim::TrueTime EgressPort::look_while_busy(sim::Simulation& simulation, ClassSet candidates, const Heads& heads) {
-  MacMerge& merge = *extras_->merge;
-  const sim::TrueTime now = simulation.now();
-  if (!merge.under_way()) return when_to_look(now);
-  const std::optional<MacMerge::Cut> earliest = merge.earliest_cut(now);
-  if (!earliest) return when_to_look(now);
-  const HoldRequest hold = hold_request(now);
-  sim::TrueTime next = busy_until_;
-  bool wanted = hold.hold;
-  if (!wanted) {
-    const Selection express = select(now, candidates & static_cast<ClassSet>(~merge.preemptable()), heads, earliest->free_at - now);
-    wanted = express.found;
-    next = std::min({next, express.ask_again, when_to_look(now)});
-  }
-  if (!wanted) return next;
-  cut(simulation, *earliest);
-  return busy_until_;
 }
 
 /// When to look again after a frame has started: at its end, or at a port that preempts when the MAC will be asked to hold.
@@ -410,18 +454,30 @@ void EgressPort::give_up(sim::Simulation& simulation, FrameIndex frame, DropReas
   shared_->traffic->drop(frame, reason, id(), simulation);
 }
 
-void EgressPort::start(sim::Simulation& simulation, FrameIndex frame) {
-  const Frame& record = shared_->traffic->frame(frame);
-  const auto octet = static_cast<std::int64_t>(octet_time_ps_);
+/// Puts a frame on the free medium. Nothing that is called here comes back, so that the common case saves no registers.
+void EgressPort::start(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  if (record.link_local || simulation.trace() != nullptr) [[unlikely]]
+    start_announced(simulation, frame, record);
+  else
+    transmit(simulation, frame, record);
+}
+
+/// The same where somebody wants to know.
+void EgressPort::start_announced(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  if (record.link_local) shared_->link_local->transmission_starts(simulation, id(), frame);
+  transmit(simulation, frame, record);
+  if (sim::TraceSink* const trace = simulation.trace())
+    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, TransmissionDetail{record.length, class_of(frame)}.pack()});
+}
+
+inline void EgressPort::transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  const std::int64_t octet = octet_time_ps_;
   const std::int64_t until_last_bit = octet * (preamble_and_sfd.count + record.length);
   const sim::TrueTime now = simulation.now();
-  if (record.link_local) [[unlikely]] shared_->link_local->transmission_starts(simulation, id(), frame);
   busy_until_ = now + sim::Duration::from_ps(until_last_bit + octet * inter_packet_gap.count);
   wire_octets_sent_ += wire_length(Octets{record.length}).count;
-  simulation.schedule(source_, now + sim::Duration::from_ps(until_last_bit + static_cast<std::int64_t>(peer_delay_ps_)), sim::Phase::arrival, peer_node_,
-                      static_cast<sim::EventKind>(NodeEvent::frame_arrived), ArrivalArgument::pack(frame, peer_port_));
-  if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
-    trace->record({now, static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, TransmissionDetail{record.length, class_of(frame)}.pack()});
+  simulation.schedule(source_, now + sim::Duration::from_ps(until_last_bit + static_cast<std::int64_t>(peer_delay_ps_)), peer_order_,
+                      static_cast<sim::EventKind>(NodeEvent::frame_arrived), ArrivalArgument::pack(frame, peer_port()));
 }
 
 void EgressPort::wake_at(sim::Simulation& simulation, sim::TrueTime time) {

@@ -85,42 +85,15 @@ class alignas(64) EgressPort final : public sim::Component {
 
   /// Hands the port a frame at the present instant. Frames that come at one instant are put into a canonical order, by
   /// `rank` (the ingress port in a bridge, the talker in a host), so that it does not matter which was handed over first.
-  void offer(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank) {
-    if (!settling_) {
-      settling_ = true;
-      simulation.settle_later(*this);
-    }
-    if (!has_arrival_) {
-      has_arrival_ = true;
-      arrival_ = {frame, rank};
-    } else {
-      more_arrivals_.push_back({frame, rank});
-    }
-  }
+  void offer(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank);
 
-  /// The same as the last act of an event handler: spares the detour if nothing else happens at this instant.
-  void offer_last(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank) {
-    if (!simulation.instant_is_complete()) [[unlikely]] {
-      offer(simulation, frame, rank);
-      return;
-    }
-    if (simulation.now() >= busy_until_) [[likely]] {
-      if (way_ == Way::straight) [[likely]] {
-        start(simulation, frame);
-        return;
-      }
-      if (way_ == Way::gated) {
-        pass_gate(simulation, frame);
-        return;
-      }
-      if (way_ == Way::merging) {
-        start_with_extras(simulation, frame, class_of(frame));
-        return;
-      }
-    }
-    has_arrival_ = true;
-    arrival_ = {frame, rank};
-    settle_many(simulation);
+  /// The same as the last act of an event handler: spares the detour if nothing else happens at this instant. `record` is that of
+  /// the frame.
+  void offer_last(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
+    if (simulation.instant_is_surely_complete() && simulation.now() >= busy_until_ && way_ == Way::straight) [[likely]]
+      start(simulation, frame, record);
+    else
+      take_last(simulation, frame, record, rank);
   }
 
   /// The same for a frame of which only the header has come: it may start at once if this port cuts its class through, the medium
@@ -161,7 +134,7 @@ class alignas(64) EgressPort final : public sim::Component {
 
   /// Management sets ConfigChange: another gate list (IEEE 802.1Q 8.6.9.3).
   ConfigChange request_gates(sim::Simulation& simulation, const GateConfig& gates);
-  sim::Duration octet_time() const { return sim::Duration::from_ps(static_cast<std::int64_t>(octet_time_ps_)); }
+  sim::Duration octet_time() const { return sim::Duration::from_ps(octet_time_ps_); }
   /// How many octets of a frame, preamble included, have come when the peer is told of its header.
   Octets header_notice(const Frame& frame) const {
     return extras_->noticed_header + (frame.tagged ? vlan_tag : Octets{0}) + (frame.r_tagged ? r_tag : Octets{0});
@@ -238,6 +211,7 @@ class alignas(64) EgressPort final : public sim::Component {
   };
 
   void settle_many(sim::Simulation& simulation);
+  void settle_all_classes(sim::Simulation& simulation);
   void settle_one(sim::Simulation& simulation, FrameIndex frame);
   void settle_waiting(sim::Simulation& simulation);
   void pass_gate(sim::Simulation& simulation, FrameIndex frame);
@@ -264,7 +238,11 @@ class alignas(64) EgressPort final : public sim::Component {
   void cut(sim::Simulation& simulation, const MacMerge::Cut& cut);
   FrameIndex pop(sim::Simulation& simulation, TrafficClass q);
   bool passes_max_sdu(sim::Simulation& simulation, FrameIndex frame);
-  void start(sim::Simulation& simulation, FrameIndex frame);
+  void start(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  void start(sim::Simulation& simulation, FrameIndex frame) { start(simulation, frame, shared_->traffic->frame(frame)); }
+  [[gnu::noinline]] void start_announced(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  void transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  void take_last(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank);
   void admit(sim::Simulation& simulation, FrameIndex frame);
   void give_up(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
   void wake_at(sim::Simulation& simulation, sim::TrueTime time);
@@ -275,6 +253,7 @@ class alignas(64) EgressPort final : public sim::Component {
   void gates_changed(sim::Simulation& simulation);
   /// What waits may become ready earlier or later than was thought.
   void ask_again(sim::Simulation& simulation);
+  std::uint16_t peer_port() const { return static_cast<std::uint16_t>(peer_port_); }
   sim::Duration peer_delay() const { return sim::Duration::from_ps(static_cast<std::int64_t>(peer_delay_ps_)); }
   TrafficClass class_of(FrameIndex frame) const {
     return config_->traffic_class_of_priority[shared_->traffic->frame(frame).queue_priority];
@@ -288,16 +267,16 @@ class alignas(64) EgressPort final : public sim::Component {
   bool settling_ = false;
   bool has_arrival_ = false;
   Way way_ = Way::straight;
-  std::uint16_t peer_port_ = 0;
-  sim::ComponentId peer_node_;
-  std::uint64_t octet_time_ps_ : 20 = 0;
+  std::uint32_t octet_time_ps_ = 0;
+  std::uint64_t peer_order_ = 0;             // of events for the peer (sim::Event::order_of)
   std::uint64_t peer_delay_ps_ : 44 = 0;     // see LinkEnd::delay
+  std::uint64_t peer_port_ : 16 = 0;
   sim::TrueTime busy_until_;
-  sim::EventSource source_;
-  Shared* shared_ = nullptr;
   std::uint64_t wire_octets_sent_ = 0;
+  sim::EventSource source_;
   // Touched when frames wait.
   Arrival arrival_;
+  Shared* shared_ = nullptr;
   sim::TrueTime wake_at_ = sim::TrueTime::never();
   const PortConfig* config_ = nullptr;
   const LocalClock* clock_ = nullptr;

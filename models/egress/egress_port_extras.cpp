@@ -20,14 +20,40 @@ void EgressPort::start_with_extras(sim::Simulation& simulation, FrameIndex frame
   }
   busy_until_ = last_bit + octet_time() * inter_packet_gap.count;
   wire_octets_sent_ += wire_length(Octets{record.length}).count;
-  simulation.schedule(source_, arrival, sim::Phase::arrival, peer_node_, static_cast<sim::EventKind>(NodeEvent::frame_arrived),
-                      ArrivalArgument::pack(frame, peer_port_, notes));
+  simulation.schedule(source_, arrival, peer_order_, static_cast<sim::EventKind>(NodeEvent::frame_arrived),
+                      ArrivalArgument::pack(frame, peer_port(), notes));
   if (preemptable)
     merge->started({frame, q, now, Octets{record.length}, arrival});
   else if (merge != nullptr)
     merge->express_started();
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({now, static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, TransmissionDetail{record.length, q}.pack()});
+}
+
+HoldRequest EgressPort::hold_request(sim::TrueTime now) {
+  if (!shaping_) return {};
+  return extras_->merge->hold_request(shaping_->gates(), clock_->local_at(now));
+}
+
+/// While the medium is busy at a port that preempts: cuts the frame under way if an express frame may start, or if the MAC is
+/// asked to hold. Says when to look again.
+sim::TrueTime EgressPort::look_while_busy(sim::Simulation& simulation, ClassSet candidates, const Heads& heads) {
+  MacMerge& merge = *extras_->merge;
+  const sim::TrueTime now = simulation.now();
+  if (!merge.under_way()) return when_to_look(now);
+  const std::optional<MacMerge::Cut> earliest = merge.earliest_cut(now);
+  if (!earliest) return when_to_look(now);
+  const HoldRequest hold = hold_request(now);
+  sim::TrueTime next = busy_until_;
+  bool wanted = hold.hold;
+  if (!wanted) {
+    const Selection express = select(now, candidates & static_cast<ClassSet>(~merge.preemptable()), heads, earliest->free_at - now);
+    wanted = express.found;
+    next = std::min({next, express.ask_again, when_to_look(now)});
+  }
+  if (!wanted) return next;
+  cut(simulation, *earliest);
+  return busy_until_;
 }
 
 /// The frame under way ends early; the medium is free when its mCRC and the gap are over.
@@ -56,8 +82,8 @@ void EgressPort::resume(sim::Simulation& simulation) {
     sending_ = rest.traffic_class;
   }
   ++other_events_;
-  simulation.schedule(source_, arrival, sim::Phase::arrival, peer_node_, static_cast<sim::EventKind>(NodeEvent::frame_arrived),
-                      ArrivalArgument::pack(rest.frame, peer_port_, extras_->conditional || shared_->traffic->frame(rest.frame).marked ? conditional : withdrawable));
+  simulation.schedule(source_, arrival, peer_order_, static_cast<sim::EventKind>(NodeEvent::frame_arrived),
+                      ArrivalArgument::pack(rest.frame, peer_port(), extras_->conditional || shared_->traffic->frame(rest.frame).marked ? conditional : withdrawable));
   merge.started({rest.frame, rest.traffic_class, now, rest.remaining, arrival});
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({now, static_cast<std::uint32_t>(Occurrence::resumed), id(), rest.frame.value,
@@ -98,8 +124,8 @@ bool EgressPort::confirm(sim::Simulation& simulation, FrameIndex& frame, std::ui
     ++other_events_;
     // The double is stored, so of a header it comes when the frame is complete.
     const sim::TrueTime complete = now + octet_time() * (preamble_and_sfd.count + std::int64_t{length} - octets.count);
-    simulation.schedule(source_, complete, sim::Phase::arrival, peer_node_, static_cast<sim::EventKind>(NodeEvent::frame_arrived),
-                        ArrivalArgument::pack(twin, peer_port_, static_cast<unsigned>(notes & ~header_only) | confirmed));
+    simulation.schedule(source_, complete, peer_order_, static_cast<sim::EventKind>(NodeEvent::frame_arrived),
+                        ArrivalArgument::pack(twin, peer_port(), static_cast<unsigned>(notes & ~header_only) | confirmed));
   }
   if (fate.damaged) {
     frame = shared_->traffic->own(frame);

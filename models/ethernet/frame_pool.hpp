@@ -20,26 +20,25 @@ class Pool {
   const T& operator[](Handle handle) const { return chunks_[handle.value / chunk_size][handle.value % chunk_size]; }
 
   Handle allocate() {
-    if (free_.empty()) [[unlikely]] grow();
-    const Handle handle = free_.back();
-    free_.pop_back();
-    return handle;
+    if (free_count_ == 0) [[unlikely]] grow();
+    return free_[--free_count_];
   }
-  void free(Handle handle) { free_.push_back(handle); }
-  std::size_t live() const { return chunks_.size() * chunk_size - free_.size(); }
+  void free(Handle handle) { free_[free_count_++] = handle; }
+  std::size_t live() const { return chunks_.size() * chunk_size - free_count_; }
 
  private:
   static constexpr std::size_t chunk_size = sizeof(T) > 512 ? 32 : 256;
 
-  void grow() {
+  [[gnu::noinline]] void grow() {
     const auto base = static_cast<std::uint32_t>(chunks_.size() * chunk_size);
     chunks_.push_back(std::make_unique<T[]>(chunk_size));
-    free_.reserve(chunks_.size() * chunk_size);
-    for (std::uint32_t i = chunk_size; i-- > 0;) free_.push_back(Handle{base + i});
+    free_.resize(chunks_.size() * chunk_size);
+    for (std::uint32_t i = chunk_size; i-- > 0;) free(Handle{base + i});
   }
 
   std::vector<std::unique_ptr<T[]>> chunks_;
-  std::vector<Handle> free_;
+  std::vector<Handle> free_;  ///< as long as there are slots, so that freeing never asks for room; the first free_count_ of them count
+  std::size_t free_count_ = 0;
 };
 
 /// The octets of an MSDU that protocol code wrote; at most 1500.
@@ -58,25 +57,24 @@ class FramePool {
   const Frame& operator[](FrameIndex handle) const { return frames_[handle.value]; }
 
   FrameIndex allocate() {
-    if (free_.empty()) [[unlikely]] grow();
-    const FrameIndex handle = free_.back();
-    free_.pop_back();
-    return handle;
+    if (free_count_ == 0) [[unlikely]] grow();
+    return free_[--free_count_];
   }
-  void free(FrameIndex handle) { free_.push_back(handle); }
-  std::size_t live() const { return frames_.size() - free_.size(); }
+  void free(FrameIndex handle) { free_[free_count_++] = handle; }
+  std::size_t live() const { return frames_.size() - free_count_; }
 
  private:
-  void grow() {
+  [[gnu::noinline]] void grow() {
     const auto base = static_cast<std::uint32_t>(frames_.size());
     const std::uint32_t more = base < 64 ? 64 : base;
     frames_.resize(base + more);
-    free_.reserve(base + more);
-    for (std::uint32_t i = more; i-- > 0;) free_.push_back(FrameIndex{base + i});
+    free_.resize(base + more);
+    for (std::uint32_t i = more; i-- > 0;) free(FrameIndex{base + i});
   }
 
   std::vector<Frame> frames_;
-  std::vector<FrameIndex> free_;
+  std::vector<FrameIndex> free_;  ///< as in Pool
+  std::size_t free_count_ = 0;
 };
 
 using PayloadPool = Pool<Payload, PayloadIndex>;

@@ -108,14 +108,17 @@ class Traffic {
   /// Puts tags on or takes them off. Precondition: the record is not shared.
   void set_tags(FrameIndex index, bool tagged, bool r_tagged);
 
-  /// The frame has reached a listener. It stays alive until released.
-  void count_delivery(const Frame& frame, NodeIndex listener, sim::Simulation& simulation) {
+  /// The digest's key of deliveries of the stream at `listener`.
+  static constexpr sim::Digest::Key delivery_key(StreamIndex stream, NodeIndex listener) {
+    return sim::Digest::key_of(static_cast<std::uint32_t>(Occurrence::delivery), static_cast<std::uint64_t>(stream.value) << 32 | listener.value);
+  }
+
+  /// The frame has reached a listener, whose key `listener` is. It stays alive until released.
+  void count_delivery(const Frame& frame, sim::Digest::Key listener, sim::Simulation& simulation) {
     Stream& stream = streams_[frame.stream.value];
     ++stream.delivered;
     stream.latency.add(simulation.now() - frame.produced);
-    simulation.digest().add(static_cast<std::uint32_t>(Occurrence::delivery),
-                            static_cast<std::uint64_t>(frame.stream.value) << 32 | listener.value, simulation.now(),
-                            frame.sequence);
+    simulation.digest().add(listener, simulation.now(), frame.sequence);
   }
 
   /// This copy of the frame ends here.

@@ -221,7 +221,7 @@ void Station::take_in(const Arrived& arrived) {
     traffic_->drop(arrived.frame, DropReason::node_down, source_.id(), *simulation_);
     return;
   }
-  traffic_->count_delivery(record, node_, *simulation_);
+  traffic_->count_delivery(record, Traffic::delivery_key(record.stream, node_), *simulation_);
   const std::optional<Message> message = decode(traffic_->payload(record.payload).view());
   // The first symbol after the SFD came a frame's length before its last bit.
   const sim::TrueTime point = arrived.last_bit - ports_[arrived.port].octet_time() * std::int64_t{record.length};

@@ -5,6 +5,7 @@
 namespace takt::models {
 namespace {
 constexpr auto deliver_now = static_cast<sim::EventKind>(NodeEvent::first_free);
+constexpr std::size_t few_listeners = 4;  // to go through them is faster than to search
 }
 
 Host::Host(sim::Simulation& simulation, Traffic& traffic, NodeIndex node, const OsLatency& latency, std::string_view path,
@@ -24,38 +25,47 @@ void Host::listen(StreamIndex stream, Process* process) {
   if (at != listeners_.end() && at->stream == stream && at->process == nullptr)
     at->process = process;
   else if (at == listeners_.end() || at->stream != stream || process != nullptr)
-    listeners_.insert(at, {stream, process});
+    listeners_.insert(at, {stream, process, Traffic::delivery_key(stream, node_)});
 }
 
 const Host::Listener* Host::listener_of(StreamIndex stream) const {
-  if (listeners_.size() == 1) [[likely]]
-    return listeners_[0].stream == stream ? listeners_.data() : nullptr;
+  if (listeners_.size() <= few_listeners) [[likely]] {
+    for (const Listener& listener : listeners_)
+      if (listener.stream == stream) return &listener;
+    return nullptr;
+  }
   const auto at = std::lower_bound(listeners_.begin(), listeners_.end(), stream,
                                    [](const Listener& listener, StreamIndex s) { return listener.stream < s; });
   return at != listeners_.end() && at->stream == stream ? &*at : nullptr;
 }
 
 void Host::handle(sim::Simulation& simulation, const sim::Event& event) {
-  ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
-  if (looks_closer_ || arrival.notes != 0) [[unlikely]] {
-    if (event.kind() != deliver_now) {
-      const std::optional<FrameIndex> frame = look_closer(simulation, arrival);
-      if (!frame) return;
-      arrival.frame = *frame;
-    } else if (!up_) {
-      traffic_->drop(arrival.frame, DropReason::node_down, id(), simulation);
-      return;
-    }
-  }
-  if (traffic_->frame(arrival.frame).link_local && link_local_ != nullptr) [[unlikely]] {
+  const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
+  if (looks_closer_ || arrival.notes != 0) [[unlikely]]
+    receive_noted(simulation, event.kind(), arrival);
+  else
+    take_in(simulation, event.kind(), arrival);
+}
+
+inline void Host::take_in(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
+  if (traffic_->frame(arrival.frame).link_local && link_local_ != nullptr) [[unlikely]]
     link_local_->receive(simulation, arrival.frame, arrival.port, simulation.now() - fixed_receive_);
-    return;
-  }
-  if (event.kind() == deliver_now || receives_at_once_) {
+  else if (kind == deliver_now || receives_at_once_)
     deliver(simulation, arrival.frame);
+  else
+    simulation.schedule(source_, receive_.pass(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(arrival.frame, arrival.port));
+}
+
+void Host::receive_noted(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
+  if (kind != deliver_now) {
+    const std::optional<FrameIndex> frame = look_closer(simulation, arrival);
+    if (!frame) return;
+    arrival.frame = *frame;
+  } else if (!up_) {
+    traffic_->drop(arrival.frame, DropReason::node_down, id(), simulation);
     return;
   }
-  simulation.schedule(source_, receive_.pass(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(arrival.frame, arrival.port));
+  take_in(simulation, kind, arrival);
 }
 
 /// A frame in a condition of its own, or a host that does more than deliver: what goes on, if anything.
@@ -88,7 +98,7 @@ void Host::deliver(sim::Simulation& simulation, FrameIndex index) {
     traffic_->drop(index, DropReason::no_filtering_entry, id(), simulation);
     return;
   }
-  traffic_->count_delivery(frame, node_, simulation);
+  traffic_->count_delivery(frame, listener->delivery, simulation);
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::received), id(), index.value, static_cast<std::uint64_t>(frame.stream.value) << 32 | node_.value});
   if (listener->process != nullptr && !frame.payload.is_none()) {

@@ -44,8 +44,11 @@ class Host final : public sim::Component {
   struct Listener {
     StreamIndex stream;
     Process* process = nullptr;
+    sim::Digest::Key delivery;       ///< Traffic::delivery_key of the stream here
   };
   std::optional<FrameIndex> look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
+  void take_in(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
+  [[gnu::noinline]] void receive_noted(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
   void deliver(sim::Simulation& simulation, FrameIndex frame);
   const Listener* listener_of(StreamIndex stream) const;
 

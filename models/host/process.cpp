@@ -42,7 +42,7 @@ void Process::hand_over(FrameIndex frame, bool last) {
   if (!output_->is_plain()) [[unlikely]]
     output_->offer(*simulation_, frame, id().index, now());
   else if (last)
-    output_->port().offer_last(*simulation_, frame, id().index);
+    output_->port().offer_last(*simulation_, frame, traffic_->frame(frame), id().index);
   else
     output_->port().offer(*simulation_, frame, id().index);
 }

@@ -35,7 +35,10 @@ Talker::Talker(sim::Simulation& simulation, Traffic& traffic, HostOutput& output
       schedule_(std::move(schedule)),
       own_transmit_(latency.transmit, simulation.seed(), path, "os transmit"),
       transmits_at_once_(own_transmit_.is_none()),
-      chance_(simulation.seed(), path, "schedule") {}
+      chance_(simulation.seed(), path, "schedule") {
+  const auto* const periodic = std::get_if<PeriodicSchedule>(&schedule_);
+  if (periodic != nullptr && periodic->jitter == sim::Duration()) fixed_step_ = periodic->period;
+}
 
 sim::LocalTime Talker::time_of_next() {
   using sim::Duration;
@@ -62,19 +65,19 @@ sim::LocalTime Talker::time_of_next() {
       schedule_);
 }
 
-void Talker::start(sim::Simulation& simulation) { schedule_next(simulation); }
-
 inline void Talker::schedule_event(sim::Simulation& simulation) {
   simulation.schedule(source_, std::max(clock_->true_at(last_), simulation.now()), phase_, source_.id(), produce_now, generation_);
 }
 
-void Talker::schedule_next(sim::Simulation& simulation) {
-  const sim::LocalTime time = time_of_next();
+inline void Talker::schedule_next(sim::Simulation& simulation) {
+  const sim::LocalTime time = count_ > 0 && fixed_step_ > sim::Duration() ? last_.plus_saturated(fixed_step_) : time_of_next();
   is_over_ = time >= until_;
   if (is_over_) return;
   last_ = time;
   schedule_event(simulation);
 }
+
+void Talker::start(sim::Simulation& simulation) { schedule_next(simulation); }
 
 void Talker::clock_changed(sim::Simulation& simulation) {
   if (is_over_) return;
@@ -86,6 +89,13 @@ void Talker::prefetch(const sim::Event&, Ahead ahead) const {
   if (ahead == Ahead::one_event) return;
   traffic_->prefetch_account(stream_);
   output_->port().prefetch_hot();
+}
+
+inline void Talker::hand_over(sim::Simulation& simulation, FrameIndex frame) {
+  if (output_->is_plain()) [[likely]]
+    output_->port().offer_last(simulation, frame, traffic_->frame(frame), source_.id().index);
+  else
+    output_->offer(simulation, frame, source_.id().index, clock_->local_at(simulation.now()));
 }
 
 void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
@@ -114,13 +124,6 @@ void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
   ++count_;
   schedule_next(simulation);
   if (transmits_at_once_) hand_over(simulation, frame);
-}
-
-void Talker::hand_over(sim::Simulation& simulation, FrameIndex frame) {
-  if (output_->is_plain()) [[likely]]
-    output_->port().offer_last(simulation, frame, source_.id().index);
-  else
-    output_->offer(simulation, frame, source_.id().index, clock_->local_at(simulation.now()));
 }
 
 }  // namespace takt::models

@@ -88,6 +88,7 @@ class Talker final : public sim::Component {
   TalkerSchedule schedule_;
   LatencyLine own_transmit_;
   LatencyLine* transmit_ = &own_transmit_;
+  sim::Duration fixed_step_;       // from one frame to the next; 0 if they do not come at equal distances
   bool transmits_at_once_;
   bool shares_latency_ = false;
   sim::RandomStream chance_;

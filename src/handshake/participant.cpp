@@ -15,19 +15,25 @@ Participant<MaxPeers>::Participant(const Config& config) : config_(config) {
 
 template <std::size_t MaxPeers>
 Outputs Participant<MaxPeers>::step(const Input& input) {
+  // Nearly all steps are these, once a cycle for each peer.
+  if (input.kind == Input::Kind::Received && config_.variant == Variant::Robust && machine_.state() != program::State::Ready &&
+      !machine_.initialising() && robust_says_nothing_new(input)) {
+    peers_[input.peer].sequence = input.sequence;
+    Outputs outputs;
+    outputs.arm_timeout = PeerSet{1} << input.peer;
+    return outputs;  // robust_barrier() would not move from here
+  }
+  return take(input);
+}
+
+/// A step with all that may come of it.
+template <std::size_t MaxPeers>
+Outputs Participant<MaxPeers>::take(const Input& input) {
   const bool robust = config_.variant == Variant::Robust;
   Outputs outputs;
-  // Nearly all steps are these, once a cycle for each peer.
-  if (robust && input.kind == Input::Kind::Received && robust_says_nothing_new(input)) {
-    peers_[input.peer].sequence = input.sequence;
-    outputs.arm_timeout = PeerSet{1} << input.peer;
-    if (machine_.state() != program::State::Ready && !machine_.initialising()) return outputs;
-    const std::uint32_t run_before = run_;
-    robust_barrier(outputs);  // moves there only
-    outputs.publish = outputs.change_count != 0 || run_ != run_before;
-    return outputs;
-  }
-  const Word before = word();
+  // What word() tells besides the intent, which says itself that it has changed.
+  const PublishedState state_before = state();
+  const std::uint32_t run_before = run_;
   switch (input.kind) {
     case Input::Kind::Command:
       // A nested group is started through the group that it is nested in.
@@ -61,7 +67,7 @@ Outputs Participant<MaxPeers>::step(const Input& input) {
       if (robust) robust_silent(input.peer, outputs);
       break;
   }
-  outputs.publish = word() != before;
+  outputs.publish = outputs.publish || state() != state_before || run_ != run_before;
   if (input.coupled && outputs.raised) outputs.alarm = Alarm::OtherGroup;
   return outputs;
 }
@@ -69,7 +75,7 @@ Outputs Participant<MaxPeers>::step(const Input& input) {
 /// A word of which robust_received would note the sequence number only: what the peer said last, under the intent that stands here, and
 /// no sign of a barrier that was taken without this participant.
 template <std::size_t MaxPeers>
-bool Participant<MaxPeers>::robust_says_nothing_new(const Input& input) const {
+inline bool Participant<MaxPeers>::robust_says_nothing_new(const Input& input) const {
   TAKT_CHECK(input.peer < peer_count(), "a word comes from a peer");
   const Peer& peer = peers_[input.peer];
   const Word& word = input.word;
@@ -175,18 +181,7 @@ void Participant<MaxPeers>::record(std::uint8_t transition, PublishedState from,
   if (state() == PublishedState::Running) outputs.process_started = true;
 }
 
-/// Keeps ready_ and running_ true for one peer whose word has changed.
-template <std::size_t MaxPeers>
-void Participant<MaxPeers>::sort_peer(std::size_t peer) {
-  const PeerSet bit = PeerSet{1} << peer;
-  const bool counts = peers_[peer].run == intent_.run;  // `paper`: both are always 0
-  ready_ &= ~bit;
-  running_ &= ~bit;
-  if (counts && peers_[peer].state == PublishedState::Ready) ready_ |= bit;
-  if (counts && peers_[peer].state == PublishedState::Running) running_ |= bit;
-}
-
-/// The same for all peers, after intent_ has changed.
+/// Keeps ready_ and running_ true for all peers, after intent_ has changed.
 template <std::size_t MaxPeers>
 void Participant<MaxPeers>::sort_all_peers() {
   for (std::size_t peer = 0; peer < peer_count(); ++peer) sort_peer(peer);

@@ -108,12 +108,19 @@ class Participant {
   PeerSet all_peers() const { return ~PeerSet{0} >> (64 - peer_count()); }
 
   // participant.cpp: shared by both variants
+  Outputs take(const Input& input);
   void move_to(PublishedState target, Outputs& outputs);
   void enter_init(Outputs& outputs);
   void initialised(std::uint32_t run, Outputs& outputs);
   void finished(bool coupled, Outputs& outputs);
   void record(std::uint8_t transition, PublishedState from, Outputs& outputs);
-  void sort_peer(std::size_t peer);
+  /// Keeps ready_ and running_ true for one peer whose word has changed.
+  void sort_peer(std::size_t peer) {
+    const PeerSet counts = peers_[peer].run == intent_.run ? 1 : 0;  // `paper`: both are always 0
+    const PeerSet others = ~(PeerSet{1} << peer);
+    ready_ = (ready_ & others) | (peers_[peer].state == PublishedState::Ready ? counts : 0) << peer;
+    running_ = (running_ & others) | (peers_[peer].state == PublishedState::Running ? counts : 0) << peer;
+  }
   void sort_all_peers();
 
   // robust.cpp

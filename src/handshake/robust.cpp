@@ -149,6 +149,7 @@ void Participant<MaxPeers>::adopt(const Intent& intent, Outputs& outputs) {
     return;
   }
   intent_ = intent;
+  outputs.publish = true;
   sort_all_peers();
   // One that is nested joins the new run when the other group is ready for it (Initialised).
   if (intent.kind == IntentKind::Start && state() == ready && !config_.nested) run_ = intent.run;
@@ -161,10 +162,10 @@ void Participant<MaxPeers>::raise(IntentKind kind, std::uint32_t above, Outputs&
   // Saturates: only a hostile word carries such a number, and then halts still win by their kind.
   const std::uint32_t greatest = std::max(intent_.number, above);
   const std::uint32_t number = greatest == std::numeric_limits<std::uint32_t>::max() ? greatest : greatest + 1;
-  intent_.number = number;
-  intent_.kind = kind;
-  intent_.origin = config_.index;
-  intent_.run = kind == IntentKind::Start ? run_of(config_.incarnation, number) : kind == IntentKind::Halt ? 0 : run_;
+  const std::uint32_t run = kind == IntentKind::Start ? run_of(config_.incarnation, number) : kind == IntentKind::Halt ? 0 : run_;
+  const Intent made{number, kind, config_.index, run};
+  outputs.publish = outputs.publish || made != intent_;
+  intent_ = made;
   sort_all_peers();
   outputs.raised = true;
   outputs.raised_kind = kind;

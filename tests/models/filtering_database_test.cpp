@@ -18,10 +18,28 @@ using Ports = std::vector<std::uint16_t>;
 
 Ports ports_of(const FilteringDatabase& database, VlanId vlan, std::uint32_t address) {
   const FilteringDatabase::Entry entry = database.find(vlan, AddressIndex{address});
+  // What is known at once is what find() says.
+  const std::uint32_t at_once = database.port_at_once(vlan, AddressIndex{address});
+  if (at_once != FilteringDatabase::not_at_once) {
+    EXPECT_TRUE(entry.found() && entry.is_one_port());
+    EXPECT_EQ(at_once, entry.port());
+  }
   if (!entry.found()) return {};
   if (entry.is_one_port()) return {entry.port()};
   const auto several = database.ports_of(entry);
   return {several.begin(), several.end()};
+}
+
+// A lone entry lies where it is looked for first; one of several ports, or of another VLAN, is never known at once.
+TEST(FilteringDatabase, KnowsOnePortAtOnce) {
+  FilteringDatabase database;
+  EXPECT_EQ(database.port_at_once(1, AddressIndex{5}), FilteringDatabase::not_at_once);
+  database.add(1, AddressIndex{5}, 0x7FFF);
+  EXPECT_EQ(database.port_at_once(1, AddressIndex{5}), 0x7FFFu);
+  EXPECT_EQ(database.port_at_once(2, AddressIndex{5}), FilteringDatabase::not_at_once);
+  EXPECT_EQ(database.port_at_once(1, AddressIndex{4}), FilteringDatabase::not_at_once);
+  database.add(1, AddressIndex{5}, 3);
+  EXPECT_EQ(database.port_at_once(1, AddressIndex{5}), FilteringDatabase::not_at_once);
 }
 
 TEST(FilteringDatabase, EmptyKnowsNothing) {

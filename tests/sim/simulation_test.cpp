@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "tests/sim/recorder.hpp"
@@ -110,6 +111,21 @@ TEST_F(SimulationTest, SettlesAfterAllEventsOfTheInstant) {
   schedule(11, Phase::control, b, 5);
   EXPECT_TRUE(simulation.run(at_ps(20)));
   EXPECT_EQ(log, (Log{event(10, a, 1), event(10, b, 2), event(10, a, 3), event(10, b, 4), settled(10, a), event(11, b, 5)}));
+}
+
+// With something to come later the instant is surely complete; with nothing to come, or somebody who waits, one has to ask.
+TEST_F(SimulationTest, AnInstantIsSurelyCompleteWhereTheNextEventIsKnown) {
+  std::vector<std::pair<bool, bool>> seen;
+  a.on_event = [&](Simulation& s, const Event& e) {
+    if (e.kind() == 3) s.settle_later(b);
+    seen.push_back({s.instant_is_surely_complete(), s.instant_is_complete()});
+  };
+  schedule(10, Phase::arrival, a, 1);
+  schedule(10, Phase::timer, a, 2);
+  schedule(11, Phase::arrival, a, 3);
+  schedule(12, Phase::arrival, a, 4);
+  EXPECT_TRUE(simulation.run(at_ps(20)));
+  EXPECT_EQ(seen, (std::vector<std::pair<bool, bool>>{{false, false}, {true, true}, {false, false}, {false, true}}));
 }
 
 TEST_F(SimulationTest, SettlesAtTheEndOfARunAndBeforeTheEventLimit) {

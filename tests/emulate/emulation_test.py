@@ -115,6 +115,35 @@ class Emulation(unittest.TestCase):
         result = self.emulate(self.file(duration="2500ms", programs=[program], script=script, faults=[{"kind": "crash", "node": "right", "at": "600ms", "for": "800ms"}]))
         self.assertTrue(result["same"], json.dumps(result["programs"]))
 
+    # A killed node is replaced by the spare, comes back as one, and gets the role of one that leaves: all in the order of the simulated run.
+    def test_roles(self):
+        keep = self.folder / "kept"
+        host = {"kind": "host", "offers": ["welding"]}
+        nodes = {"plc": {"kind": "host"}, "robotA": host, "robotB": host, "robotC": host, "sw": {"kind": "switch"}}
+        network = {"nodes": nodes, "links": [{"ends": [name, "sw"]} for name in nodes if name != "sw"]}
+        program = {"name": "cell", "master": "plc", "roles": [{"name": "left", "skill": "welding"}, {"name": "right", "skill": "welding"}], "absent": ["robotC"], "cycle": "5ms",
+                   "receive_timeout": "1s", "announce_every": "300ms", "on_replacement": "restart", "initialisation": "10ms"}
+        script = [{"at": "100.3ms", "program": "cell", "call": "Start"}, {"at": "300ms", "join": "robotC"}, {"at": "4.5s", "leave": "robotB"},
+                  {"at": "5.3s", "program": "cell", "call": "Suspend", "on": "right"}]
+        path = self.file(duration="5800ms", network=network, programs=[program], script=script, faults=[{"kind": "crash", "node": "robotA", "at": "1.2s", "for": "2s"}])
+        result = self.emulate(path, "--keep", str(keep))
+        self.assertEqual(result["invariants"]["violated"], [])
+        self.assertTrue(result["same"], json.dumps(result["programs"]) + json.dumps(result["notes"]))
+        roles = {role["name"]: role["emulated"] for role in result["programs"][0]["roles"]}
+        self.assertEqual(roles, {"left": ["robotA", "robotC"], "right": ["robotB", "robotA"]})
+        states = {each["name"]: each["emulated"] for each in result["programs"][0]["participants"]}
+        run = ["Halted.INIT", "Ready", "Running"]
+        self.assertEqual(states["plc"], run + ["Halted"] + run + ["Halted"] + run + ["Suspended"])
+        self.assertEqual(states["right"], run + ["Halted"] + run + ["Halted"] + run + ["Suspended"])
+        log = [json.loads(line) for line in (keep / "p0-c0.jsonl").read_text(encoding="utf-8").splitlines()]
+        self.assertEqual([event.get("role") for event in log if event["event"] == "role taken"], ["left", "right"])
+        self.assertEqual(len([event for event in log if event["event"] == "start"]), 2)
+
+    def test_the_shipped_cell_with_roles(self):
+        result = self.emulate(str(SOURCES / "scenarios" / "programs" / "plug-and-produce.json"), *PATIENT, "--set", "programs.0.announce_every=300ms", "--set", "programs.1.receive_timeout=1s")
+        self.assertEqual(result["invariants"]["violated"], [])
+        self.assertTrue(result["same"], json.dumps(result["programs"]) + json.dumps(result["notes"]))
+
     def test_a_difference_is_seen(self):
         # Half a second without a link: with this time-out nodes halt, but the simulator is told otherwise by a second file.
         program = SMALL["programs"][0] | {"receive_timeout": "100ms"}

@@ -169,7 +169,7 @@ class Emulation {
     auto group = status ? group_of_status(*status, resolved_.programs[program]) : std::nullopt;
     for (std::size_t role = 0; group && !of_master_alone && role < group->nodes.size(); ++role) {
       const LiveNode* const node = node_called(program, group->nodes[role]);
-      if (node == nullptr) continue;
+      if (node == nullptr || !node->child) continue;  // its participant is gone
       const auto answer = node::ask_node(node->socket, "status", problem);
       const auto state = answer ? state_of_status(*answer) : std::nullopt;
       if (!state) return std::nullopt;

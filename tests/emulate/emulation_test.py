@@ -140,9 +140,13 @@ class Emulation(unittest.TestCase):
         self.assertEqual(len([event for event in log if event["event"] == "start"]), 2)
 
     def test_the_shipped_cell_with_roles(self):
-        result = self.emulate(str(SOURCES / "scenarios" / "programs" / "plug-and-produce.json"), *PATIENT, "--set", "programs.0.announce_every=300ms", "--set", "programs.1.receive_timeout=1s")
+        # Who is gone is gone for longer than the patience, so that there is one way only for it to go.
+        slower = ["programs.0.announce_every=300ms", "programs.1.receive_timeout=1s", "faults.0.for=2s", "script.3.at=3.5s", "script.4.at=4s", "script.5.at=4.6s", "script.6.at=4.8s"]
+        result = self.emulate(str(SOURCES / "scenarios" / "programs" / "plug-and-produce.json"), *PATIENT, *(word for each in slower for word in ("--set", each)), "--duration", "5s")
         self.assertEqual(result["invariants"]["violated"], [])
         self.assertTrue(result["same"], json.dumps(result["programs"]) + json.dumps(result["notes"]))
+        roles = {role["name"]: role["emulated"] for role in result["programs"][0]["roles"]}
+        self.assertEqual(roles, {"left": ["robotA", "robotC", "robotA"], "right": ["robotB"], "hand": ["gripper1", "", "robotC"]})
 
     def test_a_difference_is_seen(self):
         # Half a second without a link: with this time-out nodes halt, but the simulator is told otherwise by a second file.

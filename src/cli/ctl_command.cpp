@@ -59,9 +59,9 @@ void add_ctl_command(CLI::App& app, ExitStatus& status) {
   CLI::App& command = *app.add_subcommand("ctl", "Call a method of a running node, or ask for its status");
   const auto options = std::make_shared<CtlOptions>();
   command.add_option("NODE", options->node, "The node's name, or the path of its control socket")->required();
-  command.add_option("REQUEST", options->request, "start, suspend, resume, halt, reset or status")
+  command.add_option("REQUEST", options->request, "start, suspend, resume, halt, reset, join, leave or status")
       ->required()
-      ->check(CLI::IsMember(std::vector<std::string>{"start", "suspend", "resume", "halt", "reset", "status"}));
+      ->check(CLI::IsMember(std::vector<std::string>{"start", "suspend", "resume", "halt", "reset", "join", "leave", "status"}));
   command.add_option("PROGRAM", options->program, "Of which Program, where the node is in several; the outermost if absent")->check([](const std::string& name) {
     return name.empty() || name.size() > 200 ? std::string("the name of a Program has 1 to 200 octets") : std::string();
   });
@@ -71,6 +71,7 @@ void add_ctl_command(CLI::App& app, ExitStatus& status) {
       "  takt ctl plc start\n"
       "  takt ctl plc status --format json\n"
       "  takt ctl machine1 suspend axis\n"
+      "  takt ctl robotC join                    a node that offers its skills; the master's status shows which node has which role\n"
       "  takt ctl /run/cell/left.sock halt\n"
       "A method's answer is its StatusCode (OPC 10000-10) and the state behind it; the others of the group follow later.\n"
       "Exit status: 0 Good, 1 another StatusCode, 2 bad input, 3 no such node.");

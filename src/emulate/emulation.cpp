@@ -15,9 +15,11 @@
 #include <optional>
 
 #include "emulate/child.hpp"
+#include "emulate/expectation.hpp"
 #include "emulate/log_reader.hpp"
 #include "emulate/machine.hpp"
 #include "emulate/pace.hpp"
+#include "emulate/role_steps.hpp"
 #include "node/control_socket.hpp"
 #include "scenario/json/document.hpp"
 #include "scenario/run/run.hpp"
@@ -30,6 +32,7 @@ namespace fs = std::filesystem;
 
 constexpr int start_timeout_ms = 20'000;
 constexpr int stop_timeout_ms = 5'000;
+constexpr int settle_timeout_ms = 20'000;  // for a group with roles to come to where the simulated one was
 constexpr std::int64_t slice_ns = 20'000'000;  // of waiting, between two looks at signals and nodes
 
 std::int64_t now_ns() {
@@ -61,6 +64,7 @@ struct LiveNode {
   std::string log;
   std::string errors;
   std::string socket;
+  bool is_absent = false;        ///< a candidate that will not announce itself when it starts
   std::unique_ptr<Child> child;  ///< null while its host is down
 };
 
@@ -73,9 +77,12 @@ class Emulation {
     simulate();
     machine_ = Machine::lay(plan_, problem_);
     if (!machine_) return false;
-    write_files();
-    for (LiveNode& node : nodes_) start(node, false);
-    const bool done = wait_for_nodes() && run_script();
+    expectation_ = expectation_of(resolved_, plan_);
+    has_roles_ = expectation_.has_value();
+    name_files();
+    for (LiveNode& node : nodes_)
+      if (!joins_at_start(node)) start(node, false);
+    const bool done = start_candidates() && wait_for_nodes() && run_script();
     stop();
     keep_files();
     return done && collect();
@@ -83,29 +90,41 @@ class Emulation {
 
  private:
   void simulate() {
-    scenario::Run simulation(resolved_);
-    simulation.advance();
-    for (std::size_t p = 0; p < resolved_.programs.size(); ++p) simulated_.push_back(history_of(simulation.monitor(p)));
+    simulation_ = std::make_unique<scenario::Run>(resolved_);
+    simulation_->advance();
+    for (std::size_t p = 0; p < resolved_.programs.size(); ++p) simulated_.push_back(history_of(simulation_->monitor(p)));
     pace_.emplace(simulated_);
   }
 
-  void write_files() {
+  void name_files() {
     for (const PlannedNode& planned : plan_.nodes) {
       LiveNode& node = nodes_.emplace_back();
       const std::string path = machine_->folder() + "/" + planned.name;
+      const PlannedNode::Part& part = planned.parts.front();
+      const scenario::ResolvedProgram& program = resolved_.programs[part.program];
       node.plan = &planned;
-      node.name = resolved_.programs[planned.parts.front().program].participant_names[planned.parts.front().participant];
+      node.name = part.candidate ? resolved_.topology.nodes[planned.host].name : program.participant_names[part.participant];
       node.file = path + ".json";
       node.log = path + ".jsonl";
       node.errors = path + ".err";
       node.socket = path + ".sock";
-      std::string config = planned.config;
-      config.replace(config.find(control_mark), std::string(control_mark).size(), node.socket);
-      std::ofstream(node.file) << config;
+      node.is_absent = planned.is_absent;
+      write_file(node);
     }
   }
 
+  static void write_file(const LiveNode& node) {
+    std::string config = node.plan->config;
+    const auto put = [&config](std::string_view mark, const std::string& text) {
+      if (const std::size_t at = config.find(mark); at != std::string::npos) config.replace(at, mark.size(), text);
+    };
+    put(control_mark, node.socket);
+    put(absent_mark, node.is_absent ? "true" : "false");
+    std::ofstream(node.file) << config;
+  }
+
   void start(LiveNode& node, bool again) {
+    write_file(node);
     Child::Settings settings;
     settings.command = {own_executable(), "node", node.file};
     settings.network_namespace = machine_->namespace_of(node.plan->host);
@@ -113,6 +132,85 @@ class Emulation {
     settings.errors = node.errors;
     settings.append = again;
     node.child = std::make_unique<Child>(settings);
+  }
+
+  static bool joins_at_start(const LiveNode& node) { return node.plan->parts.front().candidate && !node.is_absent; }
+
+  /// One after the other, as they got their roles in the simulated run: who is there first gets the first role.
+  bool start_candidates() {
+    for (std::uint32_t p = 0; expectation_ && p < expectation_->order.size(); ++p)
+      for (const std::uint8_t c : expectation_->order[p]) {
+        LiveNode& node = node_of(p, c);
+        if (!joins_at_start(node)) continue;
+        start(node, false);
+        const auto is_present = [&] {
+          const auto state = group_state(p, true);
+          return state && state->present[c];
+        };
+        if (!wait_for(is_present, "node " + node.name + " does not reach the master of " + resolved_.programs[p].name)) return false;
+      }
+    return true;
+  }
+
+  template <class Done>
+  bool wait_for(const Done& done, const std::string& problem) {
+    for (const std::int64_t until = now_ns() + std::int64_t{start_timeout_ms} * 1'000'000; !done(); sleep_until(now_ns() + slice_ns)) {
+      if (is_stopped() || !check_nodes()) return false;
+      if (now_ns() > until) return fail(problem);
+    }
+    return true;
+  }
+
+  LiveNode& node_of(std::uint32_t program, std::optional<std::uint8_t> candidate) {
+    return *std::find_if(nodes_.begin(), nodes_.end(), [&](const LiveNode& each) {
+      const PlannedNode::Part& part = each.plan->parts.front();
+      return part.program == program && part.candidate == candidate && (part.candidate || part.participant == 0);
+    });
+  }
+  LiveNode* node_called(std::uint32_t program, const std::string& candidate) {
+    const auto found = std::find_if(nodes_.begin(), nodes_.end(), [&](const LiveNode& each) {
+      return each.plan->parts.front().program == program && each.plan->parts.front().candidate && each.name == candidate;
+    });
+    return found == nodes_.end() ? nullptr : &*found;
+  }
+
+  /// Of a group with roles, as its master has it, and its nodes their states; nothing if somebody does not answer.
+  std::optional<GroupState> group_state(std::uint32_t program, bool of_master_alone = false) {
+    std::string problem;
+    const auto status = node::ask_node(node_of(program, std::nullopt).socket, "status", problem);
+    auto group = status ? group_of_status(*status, resolved_.programs[program]) : std::nullopt;
+    for (std::size_t role = 0; group && !of_master_alone && role < group->nodes.size(); ++role) {
+      const LiveNode* const node = node_called(program, group->nodes[role]);
+      if (node == nullptr || !node->child) continue;  // its participant is gone
+      const auto answer = node::ask_node(node->socket, "status", problem);
+      const auto state = answer ? state_of_status(*answer) : std::nullopt;
+      if (!state) return std::nullopt;
+      group->states[role + 1] = *state;
+    }
+    return group;
+  }
+
+  /// Until groups with roles are where the simulated ones were before this action. If they do not come there, the others show it: once is
+  /// enough to wait for it.
+  bool settle(std::size_t action) {
+    for (std::uint32_t p = 0; expectation_ && p < resolved_.programs.size(); ++p) {
+      const auto& expected = expectation_->before[action][p];
+      if (!expected || !node_of(p, std::nullopt).child) continue;  // a master that is down says nothing
+      std::string differs;
+      for (const std::int64_t until = now_ns() + std::int64_t{settle_timeout_ms} * 1'000'000;;) {
+        const auto found = group_state(p);
+        differs = found ? difference(*expected, *found, resolved_, p) : "a node does not answer";
+        if (differs.empty()) break;
+        if (is_stopped() || !check_nodes()) return false;
+        if (now_ns() > until) {
+          note("no longer as simulated from " + (action < plan_.actions.size() ? json::to_text(plan_.actions[action].at) : std::string("the end")) + " on: " + differs);
+          expectation_.reset();
+          return true;
+        }
+        sleep_until(now_ns() + slice_ns);
+      }
+    }
+    return true;
   }
 
   bool fail(std::string why) {
@@ -163,11 +261,17 @@ class Emulation {
     const json::Node* const peers = program.find("peers");
     if (peers == nullptr) return false;
     for (const json::Node& peer : peers->items) {
-      if (!text_of(peer, "state").empty()) continue;
+      if (!text_of(peer, "state").empty() || nobody_has(program, text_of(peer, "name"))) continue;
       not_yet = "it does not hear " + text_of(peer, "name");
       return false;
     }
     return true;
+  }
+
+  /// Who has such a role is not to be heard.
+  static bool nobody_has(const json::Node& program, const std::string& role) {
+    const json::Node* const roles = program.find("roles");
+    return roles != nullptr && std::any_of(roles->items.begin(), roles->items.end(), [&](const json::Node& each) { return text_of(each, "name") == role && text_of(each, "node").empty(); });
   }
 
   /// Until `ns`, unless something happens.
@@ -230,23 +334,35 @@ class Emulation {
   }
 
   bool run_script() {
-    const std::int64_t begin = now_ns();
-    for (const Action& action : plan_.actions) {
-      if (!wait_until(begin + action.at.ps() / 1000) || !wait_for_pace(action.at)) return false;
-      if (!std::visit([&](const auto& what) { return act(what, action.at); }, action.what)) return false;
+    std::int64_t begin = now_ns();
+    for (std::size_t a = 0; a < plan_.actions.size(); ++a) {
+      const sim::Duration at = plan_.actions[a].at;
+      if (!wait_for_time(begin, at, a)) return false;
+      if (!std::visit([&](const auto& what) { return act(what, at); }, plan_.actions[a].what)) return false;
     }
-    const sim::Duration end = resolved_.scenario.duration;
-    return wait_until(begin + end.ps() / 1000) && wait_for_pace(end);
+    return wait_for_time(begin, resolved_.scenario.duration, plan_.actions.size());
+  }
+
+  /// Not before the time of an action, and not before the nodes are where the simulated run was. With roles, what had to be waited for puts off all that follows.
+  bool wait_for_time(std::int64_t& begin, sim::Duration at, std::size_t action) {
+    const std::int64_t due = begin + at.ps() / 1000;
+    if (!wait_until(due)) return false;
+    if (!has_roles_) return wait_for_pace(at);
+    if (!settle(action)) return false;
+    begin += std::max<std::int64_t>(0, now_ns() - due);
+    return true;
   }
 
   /// What was Good in the simulated run may be refused here at first: a slave suspends only when it has heard that its master runs.
   bool act(const CallAction& call, sim::Duration at) {
+    const std::string method(program::name_of(call.method));
+    if (call.role) return act_on_role(call, method);
     const PlannedNode::Part& part = nodes_[call.node].plan->parts[call.part];
-    const bool is_expected = !is_apart_ && pace_->is_good(part.program, part.participant, call.method, at);
+    const bool is_expected = !has_roles_ && !is_apart_ && pace_->is_good(part.program, part.participant, call.method, at);
     const std::int64_t until = now_ns() + settings_.patience_ns;
     for (bool is_last = !is_expected;; is_last = now_ns() >= until) {
       std::string refusal;
-      if (!ask(call, refusal)) return false;
+      if (!ask(nodes_[call.node], method, call.part, refusal)) return false;
       if (refusal.empty()) return true;
       if (is_last) return note(refusal);
       sleep_until(now_ns() + slice_ns);
@@ -254,16 +370,30 @@ class Emulation {
     }
   }
 
-  bool ask(const CallAction& call, std::string& refusal) {
-    LiveNode& node = nodes_[call.node];
-    std::string method(program::name_of(call.method));
+  /// At whoever has the role by the master's word.
+  bool act_on_role(const CallAction& call, const std::string& method) {
+    const std::uint32_t program = plan_.nodes[call.node].parts[call.part].program;
+    const auto group = group_state(program, true);
+    LiveNode* const node = group ? node_called(program, group->nodes[*call.role]) : nullptr;
+    if (node == nullptr) return note(method + " on " + resolved_.programs[program].participant_names[*call.role + std::size_t{1}] + ": nobody has the role");
+    return ask_once(*node, method);
+  }
+
+  bool ask_once(LiveNode& node, const std::string& method) {
+    std::string refusal;
+    if (!ask(node, method, 0, refusal)) return false;
+    return refusal.empty() || note(refusal);
+  }
+
+  /// False if the node does not answer. What it says if that is not Good, or that it is dead, is `refusal`.
+  bool ask(LiveNode& node, const std::string& method, std::uint32_t part, std::string& refusal) {
     if (!node.child) {
       refusal = method + " on " + node.name + " falls into its crash";
       return true;
     }
     std::string request = method;
     std::transform(request.begin(), request.end(), request.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (node.plan->parts.size() > 1) request += ' ' + resolved_.programs[node.plan->parts[call.part].program].name;
+    if (node.plan->parts.size() > 1) request += ' ' + resolved_.programs[node.plan->parts[part].program].name;
     std::string problem;
     const auto answer = node::ask_node(node.socket, request, problem);
     if (!answer) return fail(method + " on " + node.name + ": " + problem);
@@ -272,6 +402,11 @@ class Emulation {
     const std::string status = document ? text_of(document->root(), "status") : *answer;
     if (status != "Good") refusal = method + " on " + node.name + ": " + status;
     return true;
+  }
+  bool act(const PlugAction& change, sim::Duration) {
+    LiveNode& node = nodes_[change.node];
+    node.is_absent = !change.joins;
+    return ask_once(node, change.joins ? "Join" : "Leave");
   }
   bool act(const LinkAction& change, sim::Duration) {
     const std::string failed = machine_->set_cable(change.cable, change.up);
@@ -313,15 +448,23 @@ class Emulation {
   bool collect() {
     for (const LiveNode& node : nodes_)
       if (!collect_log(node)) return false;
-    const std::vector<History> emulated = histories_of(steps_, resolved_.programs.size());
-    result_.invariants = check_invariants(resolved_, steps_);
+    RoleSteps roles = steps_of_roles(resolved_, std::move(steps_));
+    const std::vector<History> emulated = histories_of(roles.steps, resolved_.programs.size());
+    result_.invariants = check_invariants(resolved_, std::move(roles.steps));
     for (std::size_t p = 0; p < resolved_.programs.size(); ++p) {
-      const scenario::Program& program = *resolved_.programs[p].description;
-      std::vector<std::string> names = {program.master};
-      names.insert(names.end(), program.slaves.begin(), program.slaves.end());
-      result_.programs.push_back({program.name, compare(simulated_[p], emulated[p], names)});
+      const scenario::ResolvedProgram& program = resolved_.programs[p];
+      result_.programs.push_back({program.name, compare(simulated_[p], emulated[p], program.participant_names)});
+      for (std::size_t role = 0; role < program.description->roles.size(); ++role)
+        result_.programs.back().roles.push_back({program.participant_names[role + 1], nodes_with(p, role), roles.histories[p][role].nodes});
     }
     return true;
+  }
+
+  std::vector<std::string> nodes_with(std::size_t program, std::size_t role) const {
+    std::vector<std::string> names;
+    for (const scenario::BindingRecord& record : simulation_->roles(program)->history())
+      if (record.role == role) names.push_back(record.candidate ? resolved_.topology.nodes[resolved_.programs[program].candidates[*record.candidate].node.value].name : std::string());
+    return names;
   }
 
   static History history_of(const scenario::ProgramMonitor& monitor) {
@@ -355,18 +498,25 @@ class Emulation {
   Result& result_;
   std::string& problem_;
   std::unique_ptr<Machine> machine_;
+  std::unique_ptr<scenario::Run> simulation_;
   std::vector<History> simulated_;  // by program
   std::optional<Pace> pace_;
   bool has_restarted_ = false;  // and it is not sure that all have heard of it
   bool is_apart_ = false;  // the nodes went another way than the simulated run
+  std::optional<Expectation> expectation_;  // nothing without roles, or once it has been missed
+  bool has_roles_ = false;
   std::vector<LoggedStep> steps_;
   std::deque<LiveNode> nodes_;  // behind machine_, so that they end before it goes
 };
 
 }  // namespace
 
+bool ProgramResult::is_same() const {
+  return comparison.is_same() && std::all_of(roles.begin(), roles.end(), [](const RoleResult& each) { return each.simulated == each.emulated; });
+}
+
 bool Result::is_same() const {
-  return std::all_of(programs.begin(), programs.end(), [](const ProgramResult& each) { return each.comparison.is_same(); }) && invariants.violated.empty();
+  return std::all_of(programs.begin(), programs.end(), [](const ProgramResult& each) { return each.is_same(); }) && invariants.violated.empty();
 }
 
 bool emulate(const scenario::Resolved& resolved, const Plan& plan, const Settings& settings, Result& result, std::string& problem) {

@@ -10,9 +10,18 @@
 
 namespace takt::emulate {
 
+/// Which nodes had a role, one after the other; "" is nobody.
+struct RoleResult {
+  std::string name;
+  std::vector<std::string> simulated;
+  std::vector<std::string> emulated;
+};
+
 struct ProgramResult {
   std::string name;
   Comparison comparison;
+  std::vector<RoleResult> roles{};
+  bool is_same() const;
 };
 
 struct NodeResult {

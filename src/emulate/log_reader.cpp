@@ -1,13 +1,13 @@
 #include "emulate/log_reader.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "scenario/json/document.hpp"
 
 namespace takt::emulate {
 namespace {
 
-namespace json = scenario::json;
 using handshake::PublishedState;
 
 std::string text_of(const json::Node& object, std::string_view key) {
@@ -33,9 +33,16 @@ std::optional<handshake::IntentKind> intent_from(std::string_view name) {
   return std::nullopt;
 }
 
+/// From 0.
+std::optional<std::uint8_t> role_from(const scenario::ResolvedProgram& program, const std::string& name) {
+  const auto found = std::find(program.participant_names.begin(), program.participant_names.end(), name);
+  if (!program.has_roles() || found == program.participant_names.end() || found == program.participant_names.begin()) return std::nullopt;
+  return static_cast<std::uint8_t>(found - program.participant_names.begin() - 1);
+}
+
 }  // namespace
 
-LogReader::LogReader(const scenario::Resolved& resolved, const PlannedNode& node) {
+LogReader::LogReader(const scenario::Resolved& resolved, const PlannedNode& node) : resolved_(resolved) {
   for (const PlannedNode::Part& part : node.parts) parts_.push_back({resolved.programs[part.program].name, part});
 }
 
@@ -51,14 +58,19 @@ bool LogReader::take(const std::string& line) {
     if (has_started_) crash();
     has_started_ = true;
   }
-  if (kind != "transition" && kind != "intent" && kind != "run") return true;
+  constexpr std::array<std::string_view, 6> kinds = {"transition", "intent", "run", "bound", "role taken", "role dropped"};
+  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) return true;
   const std::string program = text_of(event, "program");
   const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& each) { return program.empty() || each.program == program; });
   if (part == parts_.end()) return false;
+  if (kind == "bound") return take_binding(*part, event);
+  if (kind.starts_with("role")) return take_role(*part, kind, event);
+  if (part->part.candidate && !part->role) return false;
   LoggedStep step;
   step.time = time_;
   step.program = part->part.program;
-  step.participant = part->part.participant;
+  step.participant = part->role ? static_cast<std::uint8_t>(*part->role + 1) : part->part.participant;
+  step.self = self_of(*part);
   step.run = number_of<std::uint32_t>(event, "run");
   step.intent_run = number_of<std::uint32_t>(event, "intent_run");
   if (kind == "intent" && !(step.raised = intent_from(text_of(event, "kind")))) return false;
@@ -73,17 +85,51 @@ bool LogReader::take(const std::string& line) {
   return true;
 }
 
+bool LogReader::take_binding(const Part& part, const json::Node& event) {
+  const scenario::ResolvedProgram& program = resolved_.programs[part.part.program];
+  const auto role = role_from(program, text_of(event, "role"));
+  if (!role) return false;
+  LoggedStep step;
+  step.time = time_;
+  step.program = part.part.program;
+  step.participant = static_cast<std::uint8_t>(*role + 1);
+  step.bound = handshake::Binding();
+  const std::string node = text_of(event, "to");
+  for (std::size_t c = 0; c < program.candidates.size(); ++c)
+    if (resolved_.topology.nodes[program.candidates[c].node.value].name == node) step.bound = {static_cast<std::uint8_t>(c), number_of<std::uint32_t>(event, "life")};
+  steps_.push_back(step);
+  return step.bound->bound() == !node.empty();
+}
+
+bool LogReader::take_role(Part& part, std::string_view kind, const json::Node& event) {
+  gone(part);
+  if (kind == "role dropped") return true;
+  part.role = role_from(resolved_.programs[part.part.program], text_of(event, "role"));
+  part.life = number_of<std::uint32_t>(event, "life");
+  return part.role.has_value();
+}
+
+std::optional<handshake::Binding> LogReader::self_of(const Part& part) const {
+  return part.part.candidate ? std::optional(handshake::Binding{*part.part.candidate, part.life}) : std::nullopt;
+}
+
 void LogReader::crash() {
-  for (Part& part : parts_) {
-    LoggedStep step;
-    step.time = time_;
-    step.program = part.part.program;
-    step.participant = part.part.participant;
-    step.is_crash = true;
-    if (part.state != PublishedState::Halted) step.change = handshake::StateChange{0, part.state, PublishedState::Halted};
-    part.state = PublishedState::Halted;
-    steps_.push_back(step);
-  }
+  for (Part& part : parts_) gone(part);
+}
+
+/// Its participant is no more. A candidate without a role has none.
+void LogReader::gone(Part& part) {
+  if (part.part.candidate && !part.role) return;
+  LoggedStep step;
+  step.time = time_;
+  step.program = part.part.program;
+  step.participant = part.role ? static_cast<std::uint8_t>(*part.role + 1) : part.part.participant;
+  step.self = self_of(part);
+  step.is_crash = true;
+  if (part.state != PublishedState::Halted) step.change = handshake::StateChange{0, part.state, PublishedState::Halted};
+  part.state = PublishedState::Halted;
+  part.role.reset();
+  steps_.push_back(step);
 }
 
 std::vector<LoggedStep> LogReader::finish() {

@@ -4,13 +4,17 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "emulate/comparison.hpp"
 #include "emulate/plan.hpp"
-#include "handshake/word.hpp"
+#include "handshake/binder.hpp"
+#include "scenario/json/document.hpp"
 
 namespace takt::emulate {
+
+namespace json = scenario::json;
 
 /// A line of a log.
 struct LoggedStep {
@@ -22,6 +26,8 @@ struct LoggedStep {
   std::optional<handshake::StateChange> change;   ///< of a crash: to Halted, if it was in another state
   std::uint32_t run = 0;                          ///< of the word after the step
   std::uint32_t intent_run = 0;
+  std::optional<handshake::Binding> self{};       ///< of a candidate: who it is. Whether the step is the participant's is still to be found out (role_steps.hpp)
+  std::optional<handshake::Binding> bound{};      ///< at the master: the role of this participant has this node, and no more
 };
 
 /// Reads one node's log line by line.
@@ -41,8 +47,16 @@ class LogReader {
     std::string program;
     PlannedNode::Part part;
     handshake::PublishedState state = handshake::PublishedState::Halted;
+    std::optional<std::uint8_t> role{};  ///< that a candidate has
+    std::uint32_t life = 0;              ///< for which it has it
   };
   void crash();
+  void gone(Part& part);
+  bool take_binding(const Part& part, const json::Node& event);
+  bool take_role(Part& part, std::string_view kind, const json::Node& event);
+  std::optional<handshake::Binding> self_of(const Part& part) const;
+
+  const scenario::Resolved& resolved_;
 
   std::vector<Part> parts_;
   bool has_started_ = false;

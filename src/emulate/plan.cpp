@@ -21,7 +21,8 @@ constexpr std::size_t most_nodes = 250;  // of the topology: each is a namespace
 /// Members of a scenario's Program that a node's file has too, and those that are said otherwise there or not at all.
 constexpr std::array<std::string_view, 11> shared = {"name",    "variant",      "master",          "slaves",         "cycle",       "offset",
                                                      "publish", "subscription", "receive_timeout", "initialisation", "process_data"};
-constexpr std::array<std::string_view, 5> translated = {"pcp", "vlan", "violations", "phases", "within"};
+constexpr std::array<std::string_view, 3> shared_roles = {"roles", "announce_every", "on_replacement"};
+constexpr std::array<std::string_view, 7> translated = {"pcp", "vlan", "violations", "phases", "within", "candidates", "absent"};
 
 template <class Range>
 bool holds(const Range& range, std::string_view text) {
@@ -73,23 +74,37 @@ class Planner {
 
   void add_program(std::uint32_t number) {
     const scenario::ResolvedProgram& program = resolved_.programs[number];
-    if (!program.description->roles.empty()) {
-      plan_.refusals.push_back("program " + program.name + " has \"roles\", which real nodes do not know");
-      return;
-    }
     const json::Node written = json::encode_value(*program.description);
     const json::Node usual = json::encode_value(scenario::Program{});
     json::Node file = json::Node::object();
     for (const json::Member& member : written.members) {
       const json::Node* const without = usual.find(member.key);
-      if (holds(shared, member.key))
+      if (member.key == (program.has_roles() ? "slaves" : "roles")) continue;
+      if (holds(shared, member.key) || (program.has_roles() && holds(shared_roles, member.key)))
         file.add(member.key, member.value);
       else if (!holds(translated, member.key) && (without == nullptr || !json::equal(*without, member.value)))
         plan_.refusals.push_back("program " + program.name + " has \"" + member.key + "\", which real nodes do not know");
     }
     file.add("publisher_id", json::Node::of_integer(program.first_publisher_id));
+    if (program.has_roles()) {
+      json::Node& candidates = file.add("candidates", json::Node::array());
+      for (const scenario::ResolvedCandidate& each : program.candidates) candidates.items.push_back(json::Node::of_string(name_of(each)));
+    }
     files_[number] = std::move(file);
     for (std::size_t p = 0; p < program.participants.size(); ++p) add_part(number, static_cast<std::uint8_t>(p));
+    for (std::size_t c = 0; c < program.candidates.size(); ++c) add_candidate(number, static_cast<std::uint8_t>(c));
+  }
+
+  const std::string& name_of(const scenario::ResolvedCandidate& candidate) const { return resolved_.topology.nodes[candidate.node.value].name; }
+
+  void add_candidate(std::uint32_t number, std::uint8_t candidate) {
+    const scenario::ResolvedCandidate& resolved = resolved_.programs[number].candidates[candidate];
+    PlannedNode node;
+    node.parts = {{number, 0, candidate}};
+    node.host = resolved.node.value;
+    node.name = "p" + std::to_string(number) + "-c" + std::to_string(candidate);
+    node.is_absent = resolved.is_absent;
+    plan_.nodes.push_back(std::move(node));
   }
 
   /// The master of a nested Program is where it is a slave of the outer one.
@@ -109,9 +124,15 @@ class Planner {
 
   void write_file(PlannedNode& node) {
     const scenario::ResolvedProgram& first = resolved_.programs[node.parts.front().program];
-    const std::string& name = first.participant_names[node.parts.front().participant];
+    const auto candidate = node.parts.front().candidate;
+    const std::string& name = candidate ? name_of(first.candidates[*candidate]) : first.participant_names[node.parts.front().participant];
     json::Node file = json::Node::object();
     file.add("node", json::Node::of_string(name));
+    if (candidate) {
+      json::Node& offers = file.add("offers", json::Node::array());
+      for (const std::string& skill : first.candidates[*candidate].skills) offers.items.push_back(json::Node::of_string(skill));
+      file.add("absent", json::Node::of_string(std::string_view(absent_mark).substr(1, std::string_view(absent_mark).size() - 2)));
+    }
     json::Node programs = json::Node::array();
     for (const PlannedNode::Part& part : node.parts) {
       const scenario::ResolvedProgram& resolved = resolved_.programs[part.program];
@@ -137,10 +158,19 @@ class Planner {
   }
 
   void add(sim::Duration at, const scenario::ResolvedCall& call) {
+    const bool is_of_role = resolved_.programs[call.program].has_roles() && call.participant != 0;
     for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n)
-      for (std::uint32_t part = 0; part < plan_.nodes[n].parts.size(); ++part)
-        if (plan_.nodes[n].parts[part].program == call.program && plan_.nodes[n].parts[part].participant == call.participant)
-          plan_.actions.push_back({at, CallAction{n, part, method_of(call.method)}});
+      for (std::uint32_t part = 0; part < plan_.nodes[n].parts.size(); ++part) {
+        const PlannedNode::Part& each = plan_.nodes[n].parts[part];
+        if (each.program != call.program || each.candidate || each.participant != (is_of_role ? 0 : call.participant)) continue;
+        plan_.actions.push_back({at, CallAction{n, part, method_of(call.method), is_of_role ? std::optional(static_cast<std::uint8_t>(call.participant - 1)) : std::nullopt}});
+      }
+  }
+  void add(sim::Duration at, const scenario::ResolvedPlug& change) {
+    const auto found = std::find_if(plan_.nodes.begin(), plan_.nodes.end(), [&](const PlannedNode& node) {
+      return node.parts.front().program == change.program && node.parts.front().candidate == change.candidate;
+    });
+    plan_.actions.push_back({at, PlugAction{static_cast<std::uint32_t>(found - plan_.nodes.begin()), change.joins}});
   }
   void add(sim::Duration at, const scenario::ResolvedLink& change) {
     const auto found = std::find_if(plan_.cables.begin(), plan_.cables.end(), [&](const Cable& cable) { return cable.link == change.link; });
@@ -158,7 +188,6 @@ class Planner {
   void add(sim::Duration, const scenario::ResolvedGates&) { left_out_.insert("gate lists"); }
   void add(sim::Duration, const scenario::ResolvedStuckGate&) { left_out_.insert("stuck gates"); }
   void add(sim::Duration, const scenario::ResolvedClockFault&) { left_out_.insert("faults of clocks"); }
-  void add(sim::Duration, const scenario::ResolvedPlug&) {}  // the Program's roles are refused already
   void add(sim::Duration, const scenario::ResolvedRoutes&) { left_out_.insert("rerouting"); }
 
   void note_what_is_left_out() {

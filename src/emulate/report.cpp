@@ -20,6 +20,12 @@ json::Node list_of(const std::vector<std::string>& texts) {
   return list;
 }
 
+std::string nodes_of(const std::vector<std::string>& nodes) {
+  std::string text;
+  for (const std::string& each : nodes) text += (text.empty() ? "" : ", ") + (each.empty() ? "nobody" : each);
+  return text.empty() ? "nobody" : text;
+}
+
 json::Node states_of(const std::vector<handshake::StateChange>& changes) {
   json::Node list = json::Node::array();
   for (const handshake::StateChange& change : changes) list.items.push_back(json::Node::of_string(name_of(change.to)));
@@ -29,7 +35,7 @@ json::Node states_of(const std::vector<handshake::StateChange>& changes) {
 json::Node node_of(const ProgramResult& program) {
   json::Node node = json::Node::object();
   node.add("program", json::Node::of_string(program.name));
-  node.add("same", json::Node::of_bool(program.comparison.is_same()));
+  node.add("same", json::Node::of_bool(program.is_same()));
   json::Node& participants = node.add("participants", json::Node::array());
   for (const ParticipantComparison& each : program.comparison.participants) {
     json::Node participant = json::Node::object();
@@ -38,6 +44,16 @@ json::Node node_of(const ProgramResult& program) {
     participant.add("simulated", states_of(each.simulated));
     participant.add("emulated", states_of(each.emulated));
     participants.items.push_back(std::move(participant));
+  }
+  if (!program.roles.empty()) {
+    json::Node& roles = node.add("roles", json::Node::array());
+    for (const RoleResult& each : program.roles) {
+      json::Node role = json::Node::object();
+      role.add("name", json::Node::of_string(each.name));
+      role.add("simulated", list_of(each.simulated));
+      role.add("emulated", list_of(each.emulated));
+      roles.items.push_back(std::move(role));
+    }
   }
   node.add("orders", json::Node::of_integer(static_cast<sim::int128>(program.comparison.orders)));
   node.add("violated", list_of(program.comparison.violated));
@@ -56,6 +72,9 @@ std::string to_text(const Result& result, const std::string& scenario) {
       out += each.same ? fmt::format("    {}\n", sequence_of(each.emulated))
                        : fmt::format("    simulated: {}\n    emulated:  {}\n", sequence_of(each.simulated), sequence_of(each.emulated));
     }
+    for (const RoleResult& each : program.roles)
+      out += each.simulated == each.emulated ? fmt::format("  role {:<11} {}\n", each.name, nodes_of(each.emulated))
+                                             : fmt::format("  role {:<11} NOT as simulated\n    simulated: {}\n    emulated:  {}\n", each.name, nodes_of(each.simulated), nodes_of(each.emulated));
     out += fmt::format("  {} orders between participants, {} violated\n", program.comparison.orders, program.comparison.violated.size());
     for (const std::string& each : program.comparison.violated) out += fmt::format("    {}\n", each);
   }

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "node/plug_check.hpp"
 #include "node/program_check.hpp"
 #include "scenario/json/suggest.hpp"
 
@@ -23,6 +24,7 @@ class Checker {
     for (const Program& program : all_) add(program);
     check_publishers();
     check_nesting(all_, diagnostics_);
+    check_offers(config_, all_, diagnostics_);
     if (loaded_.programs.empty()) refuse_stranger();
     if (!diagnostics_.has_errors()) join();
     for (Source& source : config_.sources) check(source);
@@ -49,17 +51,23 @@ class Checker {
   }
 
   void add(const Program& program) {
-    const std::vector<std::string> participants = participants_of(program);
+    const std::size_t errors_before = diagnostics_.errors();
+    const std::vector<std::string> nodes = nodes_of(program);
     const std::uint32_t first = program.publisher_id.value_or(publishers_.empty() ? 1 : publishers_.back().behind);
-    publishers_.push_back({&program, first, first + static_cast<std::uint32_t>(participants.size())});
+    publishers_.push_back({&program, first, first + static_cast<std::uint32_t>(1 + program.slaves.size() + program.roles.size() + program.candidates.size())});
+    check_roles(program, diagnostics_);
     wire::ProgramShape shape = checked_shape(program, static_cast<std::uint16_t>(first), diagnostics_);
-    const auto self = std::find(participants.begin(), participants.end(), config_.node);
-    if (self == participants.end()) return;
+    const auto self = std::find(nodes.begin(), nodes.end(), config_.node);
+    if (self == nodes.end()) return;
     LoadedProgram loaded;
     loaded.program = program;
-    loaded.endpoint = endpoint_settings(program, static_cast<std::uint8_t>(self - participants.begin()),
+    const bool is_candidate = !program.roles.empty() && self != nodes.begin();
+    loaded.endpoint = endpoint_settings(program, static_cast<std::uint8_t>(is_candidate ? 1 : self - nodes.begin()),
                                         std::visit([](const auto& transport) { return transport.pcp; }, config_.transport));
-    if (!diagnostics_.has_errors()) loaded.endpoint.format = std::make_shared<const wire::ProgramFormat>(std::move(shape));
+    if (diagnostics_.errors() == errors_before) {
+      loaded.roles = roles_at(config_, program, shape);
+      loaded.endpoint.format = std::make_shared<const wire::ProgramFormat>(std::move(shape));
+    }
     loaded_.programs.push_back(std::move(loaded));
   }
 
@@ -77,12 +85,13 @@ class Checker {
   }
 
   void refuse_stranger() {
-    std::vector<std::string> participants;
+    std::vector<std::string> nodes;
     for (const Program& program : all_)
-      for (std::string& name : participants_of(program)) participants.push_back(std::move(name));
-    const std::vector<std::string_view> names(participants.begin(), participants.end());
+      for (std::string& name : nodes_of(program)) nodes.push_back(std::move(name));
+    const bool has_roles = std::any_of(all_.begin(), all_.end(), [](const Program& program) { return !program.roles.empty(); });
+    const std::vector<std::string_view> names(nodes.begin(), nodes.end());
     diagnostics_.error(config_.where.at("node"), all_.size() == 1 ? "not a participant of the program" : "not a participant of any program",
-                       {json::quote(config_.node), "the master or a slave", json::suggest(config_.node, names)});
+                       {json::quote(config_.node), has_roles ? "the master, a slave or a candidate" : "the master or a slave", json::suggest(config_.node, names)});
   }
 
   /// Both sides of a nesting at this node wait for each other.
@@ -105,13 +114,20 @@ class Checker {
     return std::nullopt;
   }
 
+  /// This node does, or does while it has the role.
+  bool publishes(const Program& program, const ProcessData& data) const {
+    if (program.roles.empty() || data.from == program.master) return data.from == config_.node;
+    return config_.node != program.master &&
+           std::any_of(program.roles.begin(), program.roles.end(), [&](const Role& role) { return role.name == data.from && may_have(config_, role); });
+  }
+
   void check(Source& source) {
     if (source.program && !number_of(*source.program, source.where.at("program"))) return;
     std::vector<std::string_view> names;
     std::vector<std::pair<const Program*, const ProcessData*>> found;
     for (const LoadedProgram& each : loaded_.programs)
       for (const ProcessData& data : each.program.process_data) {
-        if (data.from != config_.node || (source.program && *source.program != each.program.name)) continue;
+        if (!publishes(each.program, data) || (source.program && *source.program != each.program.name)) continue;
         names.push_back(data.name);
         if (data.name == source.data_set) found.emplace_back(&each.program, &data);
       }
@@ -136,13 +152,27 @@ class Checker {
 
   void check(const ScriptEntry& entry) {
     if (loaded_.programs.empty()) return;
+    if (entry.plug) {
+      check_plug(entry);
+      return;
+    }
     const auto program = entry.program ? number_of(*entry.program, entry.where.at("program")) : outermost(loaded_.programs);
     if (!program && !entry.program)
       diagnostics_.error(entry.where.place(), "a call without a program", {"several programs of this node that are not nested", "\"program\""});
     if (!program) return;
-    if (entry.call == Method::start && loaded_.programs[*program].outer)
+    if (*entry.call == Method::start && loaded_.programs[*program].outer)
       diagnostics_.error(entry.where.at("program"), "Start of a nested program", {json::quote(loaded_.programs[*program].program.name), "the outermost program, which starts it"});
-    loaded_.script.push_back({entry.at, *program, method_of(entry.call)});
+    loaded_.script.push_back({entry.at, *program, method_of(*entry.call)});
+  }
+
+  void check_plug(const ScriptEntry& entry) {
+    const auto named = entry.program ? number_of(*entry.program, entry.where.at("program")) : std::nullopt;
+    if (entry.program && !named) return;
+    const auto offered = offered_in(loaded_.programs);
+    if (offered && (!named || named == offered))
+      loaded_.script.push_back({entry.at, *offered, *entry.plug});
+    else if (!diagnostics_.has_errors())
+      diagnostics_.error(entry.where.at("plug"), "not a candidate of the program", {json::quote(config_.node), "a node that offers a skill a role needs"});
   }
 
   LoadedConfig& loaded_;
@@ -162,6 +192,11 @@ std::optional<std::size_t> outermost(const std::vector<LoadedProgram>& programs)
     found = i;
   }
   return found;
+}
+
+std::optional<std::size_t> offered_in(const std::vector<LoadedProgram>& programs) {
+  const auto found = std::find_if(programs.begin(), programs.end(), [](const LoadedProgram& each) { return each.roles && each.roles->candidate; });
+  return found == programs.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - programs.begin()));
 }
 
 std::unique_ptr<LoadedConfig> load_config(const std::string& path, json::Diagnostics& diagnostics) {

@@ -11,7 +11,7 @@
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "vocabulary/protocol.hpp"
-#include "wire/program_endpoint.hpp"
+#include "wire/plug_endpoint.hpp"
 
 namespace takt::node {
 
@@ -22,8 +22,10 @@ using sim::Duration;
 using vocabulary::DataField;
 using vocabulary::DataType;
 using vocabulary::Method;
+using vocabulary::OnReplacement;
 using vocabulary::ProcessData;
 using vocabulary::Publish;
+using vocabulary::Role;
 using vocabulary::Subscription;
 using vocabulary::Variant;
 
@@ -35,7 +37,11 @@ struct Program {
   std::string name;
   Variant variant = Variant::robust;
   std::string master;
-  std::vector<std::string> slaves;
+  std::vector<std::string> slaves;           ///< or
+  std::vector<Role> roles;
+  std::vector<std::string> candidates;       ///< with roles: the nodes that may have one
+  std::optional<Duration> announce_every;    ///< 10 cycles if absent
+  OnReplacement on_replacement = OnReplacement::stay_halted;
   std::optional<std::string> within;  ///< program in which it is nested
   Duration cycle;
   Duration offset;
@@ -70,11 +76,15 @@ struct EthernetTransport {
 
 using Transport = std::variant<UdpTransport, EthernetTransport>;
 
+/// What a node that offers its skills does as a whole.
+enum class Plug : std::uint8_t { join, leave };
+
 struct ScriptEntry {
   json::Source where;
   std::optional<std::string> program;  ///< the only one that is not nested in another of this node, if absent
   Duration at;  ///< after the start of this node
-  Method call = Method::start;
+  std::optional<Method> call;          ///< or
+  std::optional<Plug> plug;
   bool operator==(const ScriptEntry&) const = default;
 };
 
@@ -99,6 +109,8 @@ struct Config {
   std::string node;
   std::optional<Program> program;  ///< this one, or
   std::vector<Program> programs;   ///< those, of which the node is in some
+  std::vector<std::string> offers; ///< skills, of a candidate
+  bool absent = false;             ///< a candidate that announces itself only when it is told to
   Transport transport;
   ClockName clock = ClockName::monotonic;
   std::optional<Duration> duration;
@@ -116,23 +128,33 @@ const json::Object& describe(json::Type<Program>);
 const json::Object& describe(json::Type<UdpTransport>);
 const json::Object& describe(json::Type<EthernetTransport>);
 const json::Tagged& describe(json::Type<Transport>);
+const json::Enumeration& describe(json::Type<Plug>);
 const json::Object& describe(json::Type<ScriptEntry>);
 const json::Enumeration& describe(json::Type<SourceKind>);
 const json::Object& describe(json::Type<Source>);
 const json::Object& describe(json::Type<Config>);
 
+/// What this node is in a group with roles.
+struct LoadedRoles {
+  std::shared_ptr<const wire::PlugFormat> format;
+  Duration announce_cycle;
+  std::optional<std::uint8_t> candidate;      ///< its number; the master has none
+  std::vector<handshake::SkillId> skills;     ///< of the candidate
+};
+
 /// A Program that the node is in.
 struct LoadedProgram {
   Program program;
-  wire::EndpointSettings endpoint;     ///< but for the incarnation
+  wire::EndpointSettings endpoint;     ///< but for the incarnation; of a candidate but for its index, too
+  std::optional<LoadedRoles> roles;
   std::optional<std::size_t> outer;    ///< in LoadedConfig::programs: this node is a slave there, and the master here
 };
 
-/// A method call of the script.
+/// What the script does.
 struct LoadedCall {
   Duration at;
   std::size_t program = 0;  ///< in LoadedConfig::programs
-  program::Method method = program::Method::Start;
+  std::variant<program::Method, Plug> what;
 };
 
 /// A file that has been checked, and the endpoints that it asks for.
@@ -144,6 +166,9 @@ struct LoadedConfig {
 
 /// Which of a node's Programs a command that names none is for: the only one that is not nested in another of them.
 std::optional<std::size_t> outermost(const std::vector<LoadedProgram>& programs);
+
+/// The one in which the node offers its skills; nothing if there is none.
+std::optional<std::size_t> offered_in(const std::vector<LoadedProgram>& programs);
 
 /// Null if there was a mistake.
 std::unique_ptr<LoadedConfig> load_config(const std::string& path, json::Diagnostics& diagnostics);

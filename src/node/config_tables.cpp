@@ -23,7 +23,11 @@ const json::Object& describe(json::Type<Program>) {
       required<&Program::name>("name", "The same at all nodes.", {.min_length = 1, .max_length = 200}),
       optional<&Program::variant>("variant", "Which handshake synchronises the participants."),
       required<&Program::master>("master", "The name of the master."),
-      required<&Program::slaves>("slaves", "The names of the slaves.", {.min_items = 1, .max_items = 64}),
+      optional<&Program::slaves>("slaves", "The names of the slaves.", {.min_items = 1, .max_items = 64}),
+      optional<&Program::roles>("roles", "Roles instead of slaves: each is bound to a node that announces the skill it needs.", {.min_items = 1, .max_items = 64}),
+      optional<&Program::candidates>("candidates", "The names of the nodes that may have a role; the same list at all nodes.", {.min_items = 1, .max_items = 64}),
+      optional<&Program::announce_every>("announce_every", "Interval of announcements; who misses three is gone. 10 cycles if absent.", {.min = 10_us, .max = 3600_s}),
+      optional<&Program::on_replacement>("on_replacement", "What follows when a node that was lost in a start or a run has been replaced."),
       optional<&Program::within>("within", "The program of this file in which this one is nested: its master is a slave there."),
       required<&Program::cycle>("cycle", "Publishing interval of state and process data.", {.min = 10_us, .max = 3600_s}),
       optional<&Program::offset>("offset", "Phase of publishing within the cycle.", {.max = 3600_s}),
@@ -34,7 +38,9 @@ const json::Object& describe(json::Type<Program>) {
       optional<&Program::publisher_id>("publisher_id", "PublisherId of the master; the slaves have the next ones. If absent 1, or the next behind the program before it.", {.min = 1, .max = 65471}),
       optional<&Program::process_data>("process_data", "Data sets that the participants exchange.", {.max_items = 256}),
   };
-  static constexpr json::Object table = json::object<Program>("program", "A distributed OPC UA Program, as in a scenario.", fields);
+  static constexpr std::string_view members[] = {"slaves", "roles"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(members)};
+  static constexpr json::Object table = json::object<Program>("program", "A distributed OPC UA Program, as in a scenario.", fields, {.groups = groups});
   return table;
 }
 
@@ -66,13 +72,23 @@ const json::Tagged& describe(json::Type<Transport>) {
   return table;
 }
 
+const json::Enumeration& describe(json::Type<Plug>) {
+  static constexpr json::EnumName names[] = {name(Plug::join, "join", "it announces its skills from now on"),
+                                             name(Plug::leave, "leave", "it asks to be let go, and is silent from then on")};
+  static constexpr json::Enumeration table = json::enumeration<Plug>("what a node that offers its skills does", names);
+  return table;
+}
+
 const json::Object& describe(json::Type<ScriptEntry>) {
   static constexpr json::Field fields[] = {
       required<&ScriptEntry::at>("at", "After the start of this node.", {.max = 3600_s}),
-      required<&ScriptEntry::call>("call", "The method that is called here."),
+      optional<&ScriptEntry::call>("call", "The method that is called here."),
+      optional<&ScriptEntry::plug>("plug", "This node joins or leaves."),
       optional<&ScriptEntry::program>("program", "Of which program; the only one that is not nested in another of this node, if absent."),
   };
-  static constexpr json::Object table = json::object<ScriptEntry>("script_entry", "A method call.", fields);
+  static constexpr std::string_view members[] = {"call", "plug"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(members)};
+  static constexpr json::Object table = json::object<ScriptEntry>("script_entry", "A method call, or a node that joins or leaves.", fields, {.groups = groups});
   return table;
 }
 
@@ -104,6 +120,8 @@ const json::Object& describe(json::Type<Config>) {
       required<&Config::node>("node", "Which participant this node is."),
       optional<&Config::program>("program", "The Program, the same at all nodes."),
       optional<&Config::programs>("programs", "Several Programs instead, nested or not. Those that the node is not in are passed over, so all nodes may have the same list.", {.min_items = 1, .max_items = 256}),
+      optional<&Config::offers>("offers", "Skills that this node offers to the program with roles of which it is a candidate.", {.min_items = 1, .max_items = 8}),
+      optional<&Config::absent>("absent", "This candidate announces itself only when takt ctl or the script lets it join."),
       required<&Config::transport>("transport", "How its messages travel."),
       optional<&Config::clock>("clock", "The clock that the nodes share."),
       optional<&Config::duration>("duration", "How long it runs; until a signal if absent.", {.min = 1_ms, .max = 3600_s}),

@@ -26,15 +26,16 @@ json::Node of(const Distribution& distribution) {
 }
 
 const std::string& participant_name(const ProgramStatus& status, std::size_t participant) {
-  return participant == 0 ? status.program.master : status.program.slaves[participant - 1];
+  if (participant == 0) return status.program.master;
+  return status.program.roles.empty() ? status.program.slaves[participant - 1] : status.program.roles[participant - 1].name;
 }
 
 json::Node peers_of(const ProgramStatus& status, sim::LocalTime now) {
   json::Node all = json::Node::array();
-  for (std::size_t p = 0; p < status.peers.peers().size(); ++p) {
+  for (std::size_t p = 0; status.member.endpoint() != nullptr && p < status.peers.peers().size(); ++p) {
     const PeerStatistics& peer = status.peers.peers()[p];
     json::Node node = json::Node::object();
-    node.add("name", text(participant_name(status, status.endpoint.participant().participant_of(p))));
+    node.add("name", text(participant_name(status, status.member.endpoint()->participant().participant_of(p))));
     node.add("state", peer.state ? text(handshake::name_of(*peer.state)) : json::Node());
     if (peer.state) node.add("silent_ns", number((now - peer.last_heard).ps() / 1000));
     node.add("incarnation", number(peer.incarnation));
@@ -46,12 +47,13 @@ json::Node peers_of(const ProgramStatus& status, sim::LocalTime now) {
 }
 
 json::Node statistics_of(const ProgramStatus& status, std::uint64_t send_failures) {
-  const wire::EndpointCounts& counts = status.endpoint.counts();
+  const wire::ProgramEndpoint* const endpoint = status.member.endpoint();
+  const wire::EndpointCounts counts = endpoint == nullptr ? wire::EndpointCounts() : endpoint->counts();
   json::Node node = json::Node::object();
   node.add("late", of(status.cycles.late));
   node.add("cpu", of(status.cycles.cpu));
   node.add("jitter_ns", number(status.cycles.late.greatest() - status.cycles.late.least()));
-  node.add("missed_cycles", number(status.endpoint.missed_cycles()));
+  node.add("missed_cycles", number(endpoint == nullptr ? 0 : endpoint->missed_cycles()));
   node.add("missed_by_code", number(status.cycles.missed_by_code));
   node.add("missed_by_system", number(status.cycles.missed_by_system));
   node.add("taken", number(counts.taken));
@@ -64,6 +66,7 @@ json::Node statistics_of(const ProgramStatus& status, std::uint64_t send_failure
 }
 
 std::string scalar(const json::Node* node) { return node == nullptr || node->text.empty() ? "-" : node->text; }
+bool is_true(const json::Node* node) { return node != nullptr && node->boolean; }
 std::string microseconds(const json::Node& distribution, std::string_view what) {
   const json::Node* const ns = distribution.find(what);
   return ns == nullptr ? "-" : fmt::format("{:.1f}", json::double_of(*ns) / 1000);
@@ -79,28 +82,96 @@ std::string line_of(std::string_view what, const json::Node* distribution) {
 
 namespace {
 
+/// What the master knows: which node has which role, and who else is there.
+void add_roles(json::Node& node, const ProgramStatus& status) {
+  const handshake::Binder& binder = status.member.master()->binder();
+  json::Node& roles = node.add("roles", json::Node::array());
+  std::vector<std::optional<std::size_t>> role_of(status.program.candidates.size());
+  for (std::size_t r = 0; r < binder.roles(); ++r) {
+    const handshake::Binding& binding = binder.binding(r);
+    json::Node& role = roles.items.emplace_back(json::Node::object());
+    role.add("name", text(status.program.roles[r].name));
+    role.add("skill", text(status.program.roles[r].skill));
+    role.add("node", binding.bound() ? text(status.program.candidates[binding.candidate]) : json::Node());
+    if (binding.bound()) role.add("life", number(binding.life));
+    if (binding.bound()) role_of[binding.candidate] = r;
+  }
+  json::Node& candidates = node.add("candidates", json::Node::array());
+  for (std::uint8_t c = 0; c < binder.candidates(); ++c) {
+    json::Node& candidate = candidates.items.emplace_back(json::Node::object());
+    candidate.add("name", text(status.program.candidates[c]));
+    candidate.add("present", json::Node::of_bool(binder.present(c)));
+    candidate.add("role", role_of[c] ? text(status.program.roles[*role_of[c]].name) : json::Node());
+  }
+  node.add("complete", json::Node::of_bool(binder.complete()));
+}
+
+void add_candidate(json::Node& node, const ProgramStatus& status) {
+  const handshake::Candidate& candidate = status.member.candidate()->candidate();
+  node.add("bound_to", candidate.role() ? text(status.program.roles[*candidate.role()].name) : json::Node());
+  node.add("announces", json::Node::of_bool(candidate.announces()));
+  node.add("leaving", json::Node::of_bool(candidate.announcement().leaving));
+  node.add("life", number(candidate.announcement().life));
+}
+
 void add_program(json::Node& node, const ProgramStatus& status, const NodeStatus& of) {
-  const auto& participant = status.endpoint.participant();
-  const bool has_intents = participant.config().variant == handshake::Variant::Robust;
+  const wire::ProgramEndpoint* const endpoint = status.member.endpoint();
+  const bool is_master = endpoint != nullptr && endpoint->participant().config().role == handshake::Role::Master;
+  const bool has_intents = status.program.variant == Variant::robust;
   node.add("program", text(status.program.name));
   node.add("variant", text(has_intents ? "robust" : "paper"));
-  node.add("role", text(participant.config().role == handshake::Role::Master ? "master" : "slave"));
-  node.add("state", text(handshake::name_of(participant.state())));
-  node.add("incarnation", number(participant.config().incarnation));
-  if (has_intents) {
-    json::Node& intent = node.add("intent", json::Node::object());
-    intent.add("number", number(participant.intent().number));
-    intent.add("kind", text(handshake::name_of(participant.intent().kind)));
-    intent.add("origin", text(participant_name(status, participant.intent().origin)));
-    node.add("run", number(participant.run()));
+  node.add("role", text(is_master ? "master" : status.member.candidate() == nullptr ? "slave" : "candidate"));
+  if (status.member.master() != nullptr) add_roles(node, status);
+  if (status.member.candidate() != nullptr) add_candidate(node, status);
+  node.add("state", text(handshake::name_of(status.member.state())));
+  if (endpoint != nullptr) {
+    const auto& participant = endpoint->participant();
+    node.add("incarnation", number(participant.config().incarnation));
+    if (has_intents) {
+      json::Node& intent = node.add("intent", json::Node::object());
+      intent.add("number", number(participant.intent().number));
+      intent.add("kind", text(handshake::name_of(participant.intent().kind)));
+      intent.add("origin", text(participant_name(status, participant.intent().origin)));
+      node.add("run", number(participant.run()));
+    }
   }
   node.add("peers", peers_of(status, of.now));
   node.add("statistics", statistics_of(status, of.send_failures));
 }
 
+/// "plc: Running, master of cell (robust)"; "robotA: Running, left of cell (robust)"; "robotC: spare of cell (robust)".
+std::string head_of(const std::string& name, const json::Node& root) {
+  const std::string of = scalar(root.find("program")) + " (" + scalar(root.find("variant")) + ")";
+  const json::Node* const bound_to = root.find("bound_to");
+  if (bound_to == nullptr) return fmt::format("{}: {}, {} of {}\n", name, scalar(root.find("state")), scalar(root.find("role")), of);
+  const bool announces = is_true(root.find("announces"));
+  const char* const leaving = is_true(root.find("leaving")) ? ", leaving" : "";
+  if (bound_to->text.empty()) return fmt::format("{}: {} {}\n", name, announces ? "spare of" : "away from", of);
+  return fmt::format("{}: {}, {} of {}{}\n", name, scalar(root.find("state")), bound_to->text, of, leaving);
+}
+
+std::string lines_of_roles(const json::Node& root) {
+  std::string out;
+  if (const json::Node* const roles = root.find("roles"))
+    for (const json::Node& role : roles->items) {
+      const json::Node* const node = role.find("node");
+      out += fmt::format("  role {} ({}): {}\n", scalar(role.find("name")), scalar(role.find("skill")), node == nullptr || node->text.empty() ? "nobody" : node->text);
+    }
+  std::string spares;
+  std::string away;
+  if (const json::Node* const candidates = root.find("candidates"))
+    for (const json::Node& each : candidates->items) {
+      if (each.find("role") != nullptr && !each.find("role")->text.empty()) continue;
+      std::string& list = is_true(each.find("present")) ? spares : away;
+      list += (list.empty() ? "" : ", ") + scalar(each.find("name"));
+    }
+  if (!spares.empty()) out += fmt::format("  spare: {}\n", spares);
+  if (!away.empty()) out += fmt::format("  away: {}\n", away);
+  return out;
+}
+
 std::string text_of_program(const std::string& name, const json::Node& root) {
-  std::string out = fmt::format("{}: {}, {} of {} ({})\n", name, scalar(root.find("state")), scalar(root.find("role")), scalar(root.find("program")),
-                                scalar(root.find("variant")));
+  std::string out = head_of(name, root) + lines_of_roles(root);
   if (const json::Node* const intent = root.find("intent"); intent != nullptr && scalar(intent->find("number")) != "0")
     out += fmt::format("  last intent: {} by {}, number {}\n", scalar(intent->find("kind")), scalar(intent->find("origin")), scalar(intent->find("number")));
   const json::Node* const peers = root.find("peers");

@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "node/config.hpp"
+#include "node/group_member.hpp"
 #include "node/statistics.hpp"
-#include "wire/program_endpoint.hpp"
 
 namespace takt::node {
 
 /// All parts are the node's own.
 struct ProgramStatus {
   const Program& program;
-  const wire::ProgramEndpoint& endpoint;
+  const GroupMember& member;
   const CycleStatistics& cycles;
   const PeerWatch& peers;
 };
@@ -26,7 +26,7 @@ struct NodeStatus {
 };
 
 /// {"node": ..., "program": ..., "state": ..., "peers": [...], "statistics": {...}}, on one line without a newline. Of several Programs
-/// {"node": ..., "programs": [...]}, each as above.
+/// {"node": ..., "programs": [...]}, each as above. A master of roles has "roles" and "candidates", a candidate "bound_to".
 std::string to_json(const NodeStatus& status);
 /// Some lines of text from what to_json made; the text itself if it is something else.
 std::string status_text(const std::string& json);

@@ -27,11 +27,12 @@ void check_times(const Program& program, json::Diagnostics& diagnostics) {
 }
 
 /// The participant that publishes a data set; 0 after a mistake.
-std::uint8_t sender_of(const ProcessData& data, const std::vector<std::string>& participants, json::Diagnostics& diagnostics) {
+std::uint8_t sender_of(const ProcessData& data, const std::vector<std::string>& participants, bool has_roles, json::Diagnostics& diagnostics) {
   const auto found = std::find(participants.begin(), participants.end(), data.from);
   if (found != participants.end()) return static_cast<std::uint8_t>(found - participants.begin());
   const std::vector<std::string_view> names(participants.begin(), participants.end());
-  diagnostics.error(data.where.at("from"), "not a participant of the program", {json::quote(data.from), "the master or a slave", json::suggest(data.from, names)});
+  const std::string sender = has_roles ? "the master or a role" : "the master or a slave";
+  diagnostics.error(data.where.at("from"), "not a participant of the program", {json::quote(data.from), sender, json::suggest(data.from, names)});
   return 0;
 }
 
@@ -56,6 +57,11 @@ class NestingChecker {
     }
     if (is_in_a_circle(program)) {
       diagnostics_.error(place, "programs nested in a circle", {json::quote(program.name) + " within itself, by way of " + json::quote(*program.within), "a tree of programs"});
+      return;
+    }
+    if (!program.roles.empty() || !outer->roles.empty()) {
+      const Program& which = program.roles.empty() ? *outer : program;
+      diagnostics_.error(place, "a program with roles is nested", {json::quote(which.name) + ", which has \"roles\"", "programs with \"slaves\""});
       return;
     }
     const std::vector<std::string_view> slaves(outer->slaves.begin(), outer->slaves.end());
@@ -96,6 +102,14 @@ class NestingChecker {
 std::vector<std::string> participants_of(const Program& program) {
   std::vector<std::string> names = {program.master};
   names.insert(names.end(), program.slaves.begin(), program.slaves.end());
+  for (const Role& role : program.roles) names.push_back(role.name);
+  return names;
+}
+
+std::vector<std::string> nodes_of(const Program& program) {
+  std::vector<std::string> names = {program.master};
+  const std::vector<std::string>& others = program.roles.empty() ? program.slaves : program.candidates;
+  names.insert(names.end(), others.begin(), others.end());
   return names;
 }
 
@@ -108,10 +122,11 @@ wire::ProgramShape checked_shape(const Program& program, std::uint16_t first_pub
   shape.participants = participants_of(program);
   shape.first_publisher_id = first_publisher_id;
   std::set<std::string_view> names = {"state"};
+  if (!program.roles.empty()) names.insert({"bindings", "announce"});
   for (const ProcessData& data : program.process_data) {
-    wire::DataSetShape data_set = data_set_shape_of(data, sender_of(data, shape.participants, diagnostics));
+    wire::DataSetShape data_set = data_set_shape_of(data, sender_of(data, shape.participants, !program.roles.empty(), diagnostics));
     if (!names.insert(data.name).second)
-      diagnostics.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set (\"state\" is taken)"});
+      diagnostics.error(data.where.at("name"), "duplicate name", {json::quote(data.name), program.roles.empty() ? "a name of its own for each data set (\"state\" is taken)" : "a name of its own for each data set (\"state\", \"bindings\" and \"announce\" are taken)"});
     const std::uint32_t octets = wire::process_data_octets(wire::octets_of(data_set));
     if (octets > most_octets)
       diagnostics.error(data.where.at("fields"), "more than one frame", {std::to_string(octets) + " octets", "at most " + std::to_string(most_octets)});
@@ -125,7 +140,7 @@ wire::EndpointSettings endpoint_settings(const Program& program, std::uint8_t in
   settings.handshake.variant = variant_of(program.variant);
   settings.handshake.index = index;
   settings.handshake.role = index == 0 ? handshake::Role::Master : handshake::Role::Slave;
-  settings.handshake.slaves = static_cast<std::uint8_t>(program.slaves.size());
+  settings.handshake.slaves = static_cast<std::uint8_t>(program.slaves.size() + program.roles.size());
   settings.handshake.subscription = subscription_of(program.subscription);
   settings.cycle = program.cycle;
   settings.offset = program.offset;

@@ -9,8 +9,10 @@
 
 namespace takt::node {
 
-/// The master and the slaves.
+/// The master and the slaves, or the roles.
 std::vector<std::string> participants_of(const Program& program);
+/// The nodes: the master and the slaves, or the candidates.
+std::vector<std::string> nodes_of(const Program& program);
 
 /// Participants, times and messages, which have to fit into a frame. With a mistake the shape
 /// is not to be used.

@@ -65,7 +65,7 @@ RealNode::RealNode(const LoadedConfig& loaded, std::unique_ptr<Socket> socket, s
 void RealNode::host(const LoadedConfig& loaded, std::FILE* log, const std::vector<Application*>& applications, Duration lead) {
   const bool are_several = loaded.programs.size() > 1;
   for (std::size_t i = 0; i < loaded.programs.size(); ++i)
-    programs_.push_back(std::make_unique<HostedProgram>(loaded.programs[i], HostedProgram::Node{*socket_, clock_, incarnation_, lead},
+    programs_.push_back(std::make_unique<HostedProgram>(loaded.programs[i], HostedProgram::Node{config_, *socket_, clock_, incarnation_, lead},
                                                         TransitionLog(log, are_several ? loaded.programs[i].program.name : std::string()),
                                                         i < applications.size() ? applications[i] : nullptr));
   for (std::size_t i = 0; i < programs_.size(); ++i)
@@ -122,19 +122,28 @@ void RealNode::take_received() {
 
 void RealNode::wake_due(sim::LocalTime now) {
   for (const auto& program : programs_) program->wake_cycle(now);
-  for (; next_call_ < script_.size() && started_ + script_[next_call_].at <= now; ++next_call_) call(script_[next_call_].method, script_[next_call_].program);
+  for (; next_call_ < script_.size() && started_ + script_[next_call_].at <= now; ++next_call_) act(script_[next_call_]);
   for (const auto& program : programs_) program->wake_others(now);
+}
+
+void RealNode::act(const LoadedCall& call) {
+  HostedProgram& hosted = *programs_[call.program];
+  if (const auto* const method = std::get_if<program::Method>(&call.what))
+    hosted.call(*method);
+  else
+    hosted.plug(std::get<Plug>(call.what));
 }
 
 void RealNode::take_requests() {
   while (const auto request = control_->next()) control_->answer(answer_to(*request));
 }
 
-/// Requests are method names in lower case, or "status"; behind a space there may be the name of a Program.
+/// Requests are method names in lower case, "join", "leave" or "status"; behind a space there may be the name of a Program.
 std::string RealNode::answer_to(std::string_view request) {
   const std::string_view word = request.substr(0, request.find(' '));
   const std::string_view of = word.size() < request.size() ? request.substr(word.size() + 1) : std::string_view();
   if (word == "status" && of.empty()) return status();
+  if (word == "join" || word == "leave") return answer_to_plug(word == "join" ? Plug::join : Plug::leave, of);
   std::string problem;
   const auto program = program_for(of, problem);
   if (!program) return fmt::format("{{\"error\": {}}}", json::quote(problem));
@@ -143,13 +152,28 @@ std::string RealNode::answer_to(std::string_view request) {
   for (const program::MethodInfo& each : program::methods) {
     std::string name(each.name);
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (name != word) continue;
-    const program::StatusCode status = hosted.call(each.method);
-    const std::string named = programs_.size() > 1 ? fmt::format("\"program\": {}, ", json::quote(hosted.name())) : std::string();
-    return fmt::format("{{{}\"method\": \"{}\", \"status\": \"{}\", \"code\": {}, \"state\": \"{}\"}}", named, each.name, program::name_of(status),
-                       static_cast<std::uint32_t>(status), handshake::name_of(hosted.state()));
+    if (name == word) return answer_of(hosted, each.name, hosted.call(each.method));
   }
   return R"({"error": "unknown request"})";
+}
+
+/// Without a name: in the only Program to which the node offers its skills.
+std::string RealNode::answer_to_plug(Plug what, std::string_view of) {
+  std::string problem;
+  auto found = std::find_if(programs_.begin(), programs_.end(), [](const auto& program) { return program->is_candidate(); });
+  if (!of.empty()) {
+    const auto program = program_for(of, problem);
+    if (!program) return fmt::format("{{\"error\": {}}}", json::quote(problem));
+    if (!programs_[*program]->is_candidate()) found = programs_.end();
+  }
+  if (found == programs_.end()) return fmt::format("{{\"error\": {}}}", json::quote(config_.node + " is not a candidate for roles" + (of.empty() ? "" : " of " + std::string(of))));
+  return answer_of(**found, what == Plug::join ? "Join" : "Leave", (*found)->plug(what));
+}
+
+std::string RealNode::answer_of(const HostedProgram& hosted, std::string_view method, program::StatusCode status) const {
+  const std::string named = programs_.size() > 1 ? fmt::format("\"program\": {}, ", json::quote(hosted.name())) : std::string();
+  return fmt::format("{{{}\"method\": \"{}\", \"status\": \"{}\", \"code\": {}, \"state\": \"{}\"}}", named, method, program::name_of(status),
+                     static_cast<std::uint32_t>(status), handshake::name_of(hosted.state()));
 }
 
 std::optional<std::size_t> RealNode::program_for(std::string_view name, std::string& problem) const {

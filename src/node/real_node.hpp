@@ -31,6 +31,8 @@ class RealNode {
   /// counts those of the file that this node is in.
   program::StatusCode call(program::Method method, std::size_t program = 0) { return programs_[program]->call(method); }
   void finished(std::size_t program = 0) { programs_[program]->finished(); }
+  /// A node that offers its skills joins or leaves.
+  program::StatusCode plug(Plug what, std::size_t program = 0) { return programs_[program]->plug(what); }
 
   handshake::PublishedState state(std::size_t program = 0) const { return programs_[program]->state(); }
   /// State, peers and statistics as JSON.
@@ -44,9 +46,12 @@ class RealNode {
   NodeStatus status_now(std::optional<std::size_t> only = {}) const;
   sim::LocalTime next_time() const;
   void wake_due(sim::LocalTime now);
+  void act(const LoadedCall& call);
   void take_received();
   void take_requests();
   std::string answer_to(std::string_view request);
+  std::string answer_to_plug(Plug what, std::string_view of);
+  std::string answer_of(const HostedProgram& hosted, std::string_view method, program::StatusCode status) const;
   /// The Program that a request is for; nothing, and `problem` says why, if that cannot be told.
   std::optional<std::size_t> program_for(std::string_view name, std::string& problem) const;
 

@@ -64,4 +64,10 @@ void PeerWatch::heard(std::size_t peer, const handshake::Word& word, sim::LocalT
   marks.intended.reset();
 }
 
+void PeerWatch::forget(std::size_t peer) {
+  peers_[peer].state.reset();
+  peers_[peer].incarnation = 0;
+  marks_[peer] = {};
+}
+
 }  // namespace takt::node

@@ -65,6 +65,8 @@ class PeerWatch {
   /// The own word has been published.
   void published(const handshake::Word& word, sim::LocalTime now);
   void heard(std::size_t peer, const handshake::Word& word, sim::LocalTime now);
+  /// Another one is this peer from now on, and has not been heard. What was measured stays.
+  void forget(std::size_t peer);
 
   const std::vector<PeerStatistics>& peers() const { return peers_; }
 

@@ -28,7 +28,7 @@ void write(std::FILE* file, const std::string& line) {
 }  // namespace
 
 TransitionLog::TransitionLog(std::FILE* file, std::string_view program)
-    : file_(file), program_(program.empty() ? std::string() : "\"program\": " + scenario::json::quote(program) + ", ") {}
+    : file_(file), program_(program.empty() ? std::string() : "\"program\": " + scenario::json::quote(program) + ", "), names_(program_) {}
 
 void TransitionLog::started(std::int64_t time, std::string_view node, std::uint32_t incarnation) {
   write(file_, fmt::format("{{\"time_ns\": {}, \"event\": \"start\", \"node\": {}, \"incarnation\": {}}}\n", time,
@@ -41,17 +41,37 @@ void TransitionLog::stepped(std::int64_t time, const handshake::Outputs& outputs
   if (!is_news && !outputs.raised && outputs.change_count == 0) return;
   const std::string runs = fmt::format("\"run\": {}, \"intent_run\": {}", after.run, after.intent.run);
   if (outputs.raised)
-    write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"intent\", \"kind\": \"{}\", \"cause\": \"{}\", {}}}\n", time, program_,
+    write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"intent\", \"kind\": \"{}\", \"cause\": \"{}\", {}}}\n", time, names_,
                              handshake::name_of(outputs.raised_kind), name_of(outputs.alarm), runs));
   for (const handshake::StateChange& change : outputs.changes())
-    write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"transition\", \"number\": {}, \"from\": \"{}\", \"to\": \"{}\", {}}}\n", time, program_, change.transition,
+    write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"transition\", \"number\": {}, \"from\": \"{}\", \"to\": \"{}\", {}}}\n", time, names_, change.transition,
                              handshake::name_of(change.from), handshake::name_of(change.to), runs));
-  if (!outputs.raised && outputs.change_count == 0) write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"run\", {}}}\n", time, program_, runs));
+  if (!outputs.raised && outputs.change_count == 0) write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"run\", {}}}\n", time, names_, runs));
 }
 
 void TransitionLog::called(std::int64_t time, program::Method method, program::StatusCode status) {
-  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"call\", \"method\": \"{}\", \"good\": {}, \"status\": \"{}\"}}\n", time, program_, program::name_of(method),
+  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"call\", \"method\": \"{}\", \"good\": {}, \"status\": \"{}\"}}\n", time, names_, program::name_of(method),
                            program::is_good(status), program::name_of(status)));
+}
+
+void TransitionLog::bound(std::int64_t time, std::string_view role, std::string_view node, std::uint32_t life) {
+  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"bound\", \"role\": {}, \"to\": {}, \"life\": {}}}\n", time, program_, scenario::json::quote(role),
+                           node.empty() ? "null" : scenario::json::quote(node), life));
+}
+
+void TransitionLog::took_role(std::int64_t time, std::string_view role, std::uint32_t life) {
+  names_ = program_ + "\"role\": " + scenario::json::quote(role) + ", ";
+  last_ = {};
+  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"role taken\", \"life\": {}}}\n", time, names_, life));
+}
+
+void TransitionLog::dropped_role(std::int64_t time) {
+  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"role dropped\"}}\n", time, names_));
+  names_ = program_;
+}
+
+void TransitionLog::plugged(std::int64_t time, Plug what) {
+  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"{}\"}}\n", time, program_, what == Plug::join ? "join" : "leave"));
 }
 
 void TransitionLog::ended(const NodeStatus& status) { write(file_, "{\"event\": \"end\", " + to_json(status).substr(1) + "\n"); }

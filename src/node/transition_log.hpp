@@ -22,11 +22,19 @@ class TransitionLog {
   void stepped(std::int64_t time, const handshake::Outputs& outputs, const handshake::Word& after);
   void called(std::int64_t time, program::Method method, program::StatusCode status);
 
+  /// The master has bound a role to this life of a node, or to none (an empty name).
+  void bound(std::int64_t time, std::string_view role, std::string_view node, std::uint32_t life);
+  /// This node has a role from now on, as this life, and what it does there is named with it. Or it has none any more.
+  void took_role(std::int64_t time, std::string_view role, std::uint32_t life);
+  void dropped_role(std::int64_t time);
+  void plugged(std::int64_t time, Plug what);
+
   void ended(const NodeStatus& status);
 
  private:
   std::FILE* file_;
   std::string program_;           ///< as a member with a comma behind it; or empty
+  std::string names_;             ///< the same, and the role
   handshake::Word last_;          ///< whose run and intent have been written
 };
 

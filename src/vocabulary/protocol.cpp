@@ -1,6 +1,7 @@
 #include "vocabulary/protocol.hpp"
 
 #include <array>
+#include <utility>
 
 namespace takt::vocabulary {
 namespace {
@@ -34,6 +35,20 @@ wire::DataSetShape data_set_shape_of(const ProcessData& data, std::uint8_t from)
   shape.from = from;
   for (const auto& [name, field] : data.fields) shape.fields.push_back({name, built_in_type_of(field.type), field.count});
   return shape;
+}
+
+wire::PlugShape plug_shape_of(wire::ProgramShape program, std::span<const Role> roles, std::vector<std::string> candidates) {
+  wire::PlugShape shape;
+  shape.program = std::move(program);
+  for (const Role& role : roles) shape.skills.push_back(handshake::skill_id(role.skill));
+  shape.candidates = std::move(candidates);
+  return shape;
+}
+
+std::vector<handshake::SkillId> skill_ids_of(std::span<const std::string> skills) {
+  std::vector<handshake::SkillId> ids;
+  for (const std::string& skill : skills) ids.push_back(handshake::skill_id(skill));
+  return ids;
 }
 
 }  // namespace takt::vocabulary

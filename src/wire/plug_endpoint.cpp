@@ -9,6 +9,15 @@ using handshake::Binding;
 using handshake::Candidate;
 using handshake::Input;
 
+PlugSettings plug_settings(EndpointSettings endpoint, std::shared_ptr<const PlugFormat> format, sim::Duration announce_cycle) {
+  PlugSettings settings;
+  settings.endpoint = std::move(endpoint);
+  settings.format = std::move(format);
+  settings.announce_cycle = announce_cycle;
+  settings.announce_timeout = announce_cycle * announcements_missed + announce_cycle / 2;
+  return settings;
+}
+
 PlugMaster::PlugMaster(PlugSettings settings, bool restarts)
     : settings_(std::move(settings)), restarts_(restarts), endpoint_(settings_.endpoint), binder_(new_binder()), announcements_(settings_.format->candidates()) {
   TAKT_CHECK(settings_.announce_cycle > sim::Duration(), "announcements are repeated");
@@ -40,6 +49,11 @@ program::StatusCode PlugMaster::call(PlugHost& host, program::Method method) {
   return status;
 }
 
+void PlugMaster::finished(PlugHost& host) {
+  endpoint_.finished(host);
+  settle(host);
+}
+
 void PlugMaster::receive(PlugHost& host, uadp::Octets network_message) {
   const auto message = settings_.format->decode(network_message);
   if (const auto* const announcement = message ? std::get_if<AnnouncementMessage>(&*message) : nullptr) {
@@ -47,7 +61,7 @@ void PlugMaster::receive(PlugHost& host, uadp::Octets network_message) {
     if (!arrivals.take(announcement->sequence, announcement->announcement.life, host.now(), settings_.announce_timeout)) return;
     binder_.announced(announcement->candidate, announcement->announcement);
     host.set_alarm(table_alarm() + 1 + announcement->candidate, host.now() + settings_.announce_timeout);
-  } else {
+  } else if (!message) {  // or a table, which is its own
     endpoint_.receive(host, network_message);
   }
   settle(host);
@@ -123,22 +137,31 @@ program::StatusCode CandidateEndpoint::call(PlugHost& host, program::Method meth
   return endpoint_ ? endpoint_->call(host, method) : program::StatusCode::BadInvalidState;
 }
 
+void CandidateEndpoint::finished(PlugHost& host) {
+  if (endpoint_) endpoint_->finished(host);
+}
+
 void CandidateEndpoint::receive(PlugHost& host, uadp::Octets network_message) {
   const auto message = settings_.format->decode(network_message);
   const auto* const table = message ? std::get_if<TableMessage>(&*message) : nullptr;
   if (table == nullptr) {
-    if (endpoint_) endpoint_->receive(host, network_message);
+    if (!message && endpoint_) endpoint_->receive(host, network_message);  // what others announce is for the master
     return;
   }
   if (!tables_.take(table->sequence, table->incarnation, host.now(), settings_.announce_timeout)) return;
-  const std::uint32_t life = candidate_.announcement().life;
+  const Binding before = self();
+  const auto role = candidate_.role();
   const Candidate::Change change = candidate_.table(std::span(table->bindings).first(settings_.format->roles()), table->used_lives[number_]);
-  if (change == Candidate::Change::Released) endpoint_.reset();
+  if (change == Candidate::Change::Released) {
+    endpoint_.reset();
+    host.role_dropped(*role, before);
+  }
   if (change == Candidate::Change::Bound) {
     take_role();
+    host.role_taken(*candidate_.role(), before);
     endpoint_->start(host);
   }
-  if (candidate_.announcement().life != life) announce(host);
+  if (self() != before) announce(host);
 }
 
 void CandidateEndpoint::take_role() {

@@ -16,6 +16,9 @@ class PlugHost : public EndpointHost {
  public:
   /// At the master: a role has another node, or none.
   virtual void role_bound(std::size_t role, const handshake::Binding& binding) = 0;
+  /// At a candidate: it has this role now, or has been let go. `self` is the life that the role was bound to.
+  virtual void role_taken(std::size_t role, const handshake::Binding& self) = 0;
+  virtual void role_dropped(std::size_t role, const handshake::Binding& self) = 0;
 };
 
 struct PlugSettings {
@@ -26,6 +29,14 @@ struct PlugSettings {
   sim::Duration announce_timeout;  ///< after that a node that has announced nothing is gone
 };
 
+/// How many announcements in a row may be missed.
+inline constexpr std::int64_t announcements_missed = 3;
+/// How many cycles there are from one announcement to the next, if nobody says otherwise.
+inline constexpr std::int64_t cycles_of_announcement = 10;
+
+/// `endpoint` is that of the master, or of a candidate but for index and incarnation.
+PlugSettings plug_settings(EndpointSettings endpoint, std::shared_ptr<const PlugFormat> format, sim::Duration announce_cycle);
+
 /// The master of a group with roles.
 class PlugMaster {
  public:
@@ -35,6 +46,7 @@ class PlugMaster {
   void forget(std::uint32_t incarnation);
   /// A Start while a role has no node is refused with BadResourceUnavailable.
   program::StatusCode call(PlugHost& host, program::Method method);
+  void finished(PlugHost& host);
   void receive(PlugHost& host, uadp::Octets network_message);
   void wake(PlugHost& host, std::size_t alarm);
   std::size_t alarm_count() const { return table_alarm() + 1 + settings_.format->candidates(); }
@@ -70,11 +82,14 @@ class CandidateEndpoint {
   void leave(PlugHost& host);
   /// BadInvalidState without a role.
   program::StatusCode call(PlugHost& host, program::Method method);
+  void finished(PlugHost& host);
   void receive(PlugHost& host, uadp::Octets network_message);
   void wake(PlugHost& host, std::size_t alarm);
   static constexpr std::size_t alarm_count() { return announce_alarm + 1; }
 
   const handshake::Candidate& candidate() const { return candidate_; }
+  /// This life of this node.
+  handshake::Binding self() const { return {number_, candidate_.announcement().life}; }
   /// Null without a role.
   const ProgramEndpoint* endpoint() const { return endpoint_ ? &*endpoint_ : nullptr; }
 

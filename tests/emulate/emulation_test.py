@@ -128,6 +128,38 @@ class Emulation(unittest.TestCase):
         self.assertTrue(result["same"], json.dumps(result["programs"]))
         for participant in result["programs"][0]["participants"]:
             self.assertEqual(participant["emulated"][-2:], ["Running", "Halted"])
+    # A killed node is replaced by the spare, comes back as one, and gets the role of one that leaves: all in the order of the simulated run.
+    def test_roles(self):
+        keep = self.folder / "kept"
+        host = {"kind": "host", "offers": ["welding"]}
+        nodes = {"plc": {"kind": "host"}, "robotA": host, "robotB": host, "robotC": host, "sw": {"kind": "switch"}}
+        network = {"nodes": nodes, "links": [{"ends": [name, "sw"]} for name in nodes if name != "sw"]}
+        program = {"name": "cell", "master": "plc", "roles": [{"name": "left", "skill": "welding"}, {"name": "right", "skill": "welding"}], "absent": ["robotC"], "cycle": "5ms",
+                   "receive_timeout": "1s", "announce_every": "300ms", "on_replacement": "restart", "initialisation": "10ms"}
+        script = [{"at": "100.3ms", "program": "cell", "call": "Start"}, {"at": "300ms", "join": "robotC"}, {"at": "4.5s", "leave": "robotB"},
+                  {"at": "5.3s", "program": "cell", "call": "Suspend", "on": "right"}]
+        path = self.file(duration="5800ms", network=network, programs=[program], script=script, faults=[{"kind": "crash", "node": "robotA", "at": "1.2s", "for": "2s"}])
+        result = self.emulate(path, "--keep", str(keep))
+        self.assertEqual(result["invariants"]["violated"], [])
+        self.assertTrue(result["same"], json.dumps(result["programs"]) + json.dumps(result["notes"]))
+        roles = {role["name"]: role["emulated"] for role in result["programs"][0]["roles"]}
+        self.assertEqual(roles, {"left": ["robotA", "robotC"], "right": ["robotB", "robotA"]})
+        states = {each["name"]: each["emulated"] for each in result["programs"][0]["participants"]}
+        run = ["Halted.INIT", "Ready", "Running"]
+        self.assertEqual(states["plc"], run + ["Halted"] + run + ["Halted"] + run + ["Suspended"])
+        self.assertEqual(states["right"], run + ["Halted"] + run + ["Halted"] + run + ["Suspended"])
+        log = [json.loads(line) for line in (keep / "p0-c0.jsonl").read_text(encoding="utf-8").splitlines()]
+        self.assertEqual([event.get("role") for event in log if event["event"] == "role taken"], ["left", "right"])
+        self.assertEqual(len([event for event in log if event["event"] == "start"]), 2)
+
+    def test_the_shipped_cell_with_roles(self):
+        # Who is gone is gone for longer than the patience, so that there is one way only for it to go.
+        slower = ["programs.0.announce_every=300ms", "programs.1.receive_timeout=1s", "faults.0.for=2s", "script.3.at=3.5s", "script.4.at=4s", "script.5.at=4.6s", "script.6.at=4.8s"]
+        result = self.emulate(str(SOURCES / "scenarios" / "programs" / "plug-and-produce.json"), *PATIENT, *(word for each in slower for word in ("--set", each)), "--duration", "5s")
+        self.assertEqual(result["invariants"]["violated"], [])
+        self.assertTrue(result["same"], json.dumps(result["programs"]) + json.dumps(result["notes"]))
+        roles = {role["name"]: role["emulated"] for role in result["programs"][0]["roles"]}
+        self.assertEqual(roles, {"left": ["robotA", "robotC", "robotA"], "right": ["robotB"], "hand": ["gripper1", "", "robotC"]})
 
     def test_a_difference_is_seen(self):
         # Frames that chance loses are not emulated: they halt the group in the simulator alone.

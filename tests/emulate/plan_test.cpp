@@ -127,6 +127,45 @@ TEST(Plan, OneNodeHasOneTransport) {
   EXPECT_TRUE(speaks_of(Planned(nested_scenario(tagged)).plan.refusals, "VLANs"));
 }
 
+const std::string roles = R"(, "c": {"kind": "host", "offers": ["welding"]}, "d": {"kind": "host", "offers": ["welding", "painting"]}}, "links": [{"ends": ["m", "x"]}, {"ends": ["a", "x"]}, {"ends": ["c", "x"]}, {"ends": ["d", "x"]}]}, "programs": [
+ {"name": "p", "master": "m", "cycle": "1ms", "roles": [{"name": "r", "skill": "welding"}], "absent": ["d"], "announce_every": "20ms", "on_replacement": "restart"}],
+ "script": [{"at": "100ms", "program": "p", "call": "Start"}, {"at": "200ms", "join": "d"}, {"at": "300ms", "leave": "c"}, {"at": "400ms", "program": "p", "call": "Suspend", "on": "r"}]})";
+
+// The master and each candidate are nodes; a call on a role waits for whoever has it.
+TEST(Plan, RolesHaveCandidates) {
+  const std::string begin = R"({"name": "s", "duration": "1s", "network": {"nodes": {"m": {"kind": "host"}, "a": {"kind": "host"}, "x": {"kind": "switch"})";
+  const Planned planned(begin + roles);
+  EXPECT_TRUE(planned.plan.refusals.empty());
+  ASSERT_EQ(planned.plan.nodes.size(), 3u);
+  EXPECT_EQ(planned.plan.nodes[0].parts[0].candidate, std::nullopt);
+  EXPECT_EQ(planned.plan.nodes[2].parts[0].candidate, 1);
+  EXPECT_FALSE(planned.plan.nodes[1].is_absent);
+  EXPECT_TRUE(planned.plan.nodes[2].is_absent);
+  const std::vector<Action>& actions = planned.plan.actions;
+  ASSERT_EQ(actions.size(), 4u);
+  EXPECT_EQ(std::get<CallAction>(actions[0].what).role, std::nullopt);
+  EXPECT_TRUE(std::get<PlugAction>(actions[1].what).joins);
+  EXPECT_EQ(std::get<PlugAction>(actions[1].what).node, 2u);
+  EXPECT_EQ(std::get<PlugAction>(actions[2].what).node, 1u);
+  EXPECT_EQ(std::get<CallAction>(actions[3].what).node, 0u);
+  EXPECT_EQ(std::get<CallAction>(actions[3].what).role, 0);
+  for (const PlannedNode& node : planned.plan.nodes) {
+    std::string config = node.config;
+    if (const std::size_t mark = config.find(absent_mark); mark != std::string::npos) config.replace(mark, std::string(absent_mark).size(), "true");
+    const std::string path = std::string(::testing::TempDir()) + "takt-planned-roles.json";
+    std::ofstream(path) << config;
+    scenario::json::Diagnostics diagnostics;
+    const auto loaded = node::load_config(path, diagnostics);
+    std::filesystem::remove(path);
+    ASSERT_TRUE(loaded) << config << diagnostics.to_text();
+    ASSERT_TRUE(loaded->programs[0].roles);
+    EXPECT_EQ(loaded->programs[0].roles->candidate, node.parts[0].candidate);
+    EXPECT_EQ(loaded->programs[0].program.on_replacement, node::OnReplacement::restart);
+    EXPECT_EQ(loaded->programs[0].roles->announce_cycle, sim::Duration::from_ps(20'000'000'000));
+    EXPECT_EQ(loaded->config.absent, node.parts[0].candidate.has_value());
+  }
+}
+
 TEST(Plan, WithoutAProgramThereIsNothingToRun) { EXPECT_FALSE(Planned(scenario("", R"({"ends": ["a", "x"]})", "")).plan.refusals.empty()); }
 
 }  // namespace

@@ -35,7 +35,7 @@ class PlugGroup {
   PlugGroup(std::vector<SkillId> roles, std::vector<std::vector<SkillId>> offers, bool restarts = false)
       : observer(Variant::Robust, roles.size() + 1), roles_(std::move(roles)), offers_(std::move(offers)), restarts_(restarts),
         master_(config(0, 1)), binder_(roles_, offers_.size(), restarts), members_(offers_.size()), ghosts_(roles_.size()), awaited_(roles_.size()),
-        sequence_(offers_.size() + 1), heard_announcement_(offers_.size()), heard_table_(offers_.size()), pending_(offers_.size() + 1) {
+        sequence_(offers_.size() + 1), heard_announcement_(offers_.size()), announced_(offers_.size()), heard_table_(offers_.size()), pending_(offers_.size() + 1) {
     for (std::uint8_t c = 0; c < offers_.size(); ++c) candidates_.emplace_back(c, 1, offers_[c]);
   }
 
@@ -44,6 +44,9 @@ class PlugGroup {
   const Member& master() const { return master_; }
   const Binder& binder() const { return binder_; }
   const Candidate& candidate(std::size_t c) const { return candidates_[c]; }
+  /// Everything that what comes next depends on, but for sequence numbers.
+  std::uint64_t hash() const;
+
   /// The participant on a candidate, if it has a role.
   const std::optional<Member>& member(std::size_t c) const { return members_[c]; }
 
@@ -67,11 +70,12 @@ class PlugGroup {
       if (members_[station - 1]) step_member(station - 1, Input::peer_silent(0));
       return;
     }
+    if (const Binding& lost = binder_.binding(peer % roles()); lost.bound()) announced_[lost.candidate].reset();
     binder_.role_silent(peer % roles());
     step_master(Input::peer_silent(peer % roles()));
     settle();
   }
-  void announcement_missed(std::size_t c) { binder_.silent(static_cast<std::uint8_t>(c)), settle(); }
+  void announcement_missed(std::size_t c) { announced_[c].reset(), binder_.silent(static_cast<std::uint8_t>(c)), settle(); }
 
   void restart(std::size_t station) {
     pending_[station] = {};
@@ -80,6 +84,7 @@ class PlugGroup {
       master_ = Member(config(0, ++incarnation_));
       binder_ = Binder(roles_, offers_.size(), restarts_);
       heard_announcement_.assign(offers_.size(), {});
+      announced_.assign(offers_.size(), std::nullopt);
       observer.on_restart(0);
       return;
     }
@@ -198,7 +203,10 @@ class PlugGroup {
   void deliver_to_master(const PlugMessage& message) {
     const std::size_t c = message.from - 1;
     if (message.kind == PlugMessage::Kind::Announcement) {
-      if (heard_announcement_[c].take(message.announcement.life, message.sequence)) binder_.announced(static_cast<std::uint8_t>(c), message.announcement);
+      if (heard_announcement_[c].take(message.announcement.life, message.sequence)) {
+        announced_[c] = message.announcement;
+        binder_.announced(static_cast<std::uint8_t>(c), message.announcement);
+      }
       settle();
       return;
     }
@@ -267,6 +275,24 @@ class PlugGroup {
     }
   }
 
+  /// Whether the binder means to start the group again: it would, if everybody were there and Halted.
+  bool wants_restart() const {
+    Binder binder = binder_;
+    static_cast<void>(binder.next({}));
+    for (std::uint8_t c = 0; c < offers_.size(); ++c) {
+      Announcement announcement = candidates_[c].announcement();
+      announcement.life = next_life(std::max(announcement.life, binder.used_life(c)));
+      announcement.leaving = false;
+      binder.announced(c, announcement);
+    }
+    for (int step = 0; step < 16; ++step) {
+      const auto input = binder.next({PublishedState::Halted, false, ~PeerSet{0}});
+      if (!input) return false;
+      if (input->kind == Input::Kind::Command) return true;
+    }
+    return false;
+  }
+
   std::vector<SkillId> roles_;
   std::vector<std::vector<SkillId>> offers_;
   bool restarts_;
@@ -279,8 +305,40 @@ class PlugGroup {
   std::vector<bool> awaited_;                            // by role: the ghost waits until its participant is Halted
   std::vector<std::uint16_t> sequence_;                  // by station
   std::vector<Heard> heard_announcement_;                // at the master, by candidate
+  std::vector<std::optional<Announcement>> announced_;   // at the master, by candidate: what the binder goes by
   std::vector<Heard> heard_table_;                       // by candidate
   std::vector<std::optional<std::uint32_t>> pending_;    // by station: the run that is being initialised
 };
+
+inline std::uint64_t PlugGroup::hash() const {
+  std::uint64_t digest = observer.hash();
+  const auto mix = [&digest](std::uint64_t value) {
+    digest = (digest ^ value) * 0x9E3779B97F4A7C15ULL;
+    digest ^= digest >> 31;
+  };
+  const auto mix_announcement = [&](const Announcement& announcement) { mix(std::uint64_t{announcement.life} << 1 | (announcement.leaving ? 1 : 0)); };
+  const auto mix_binding = [&](const Binding& binding) { mix(std::uint64_t{binding.candidate} << 32 | binding.life); };
+  const auto mix_heard = [&](const Heard& heard) { mix(std::uint64_t{heard.life} << 1 | (heard.ever ? 1 : 0)); };
+  mix(master_.hash());
+  mix(incarnation_);
+  mix(wants_restart() ? 1 : 0);
+  for (std::size_t role = 0; role < roles(); ++role) {
+    mix_binding(binder_.binding(role));
+    mix_binding(ghosts_[role]);
+    mix(awaited_[role] ? 1 : 0);
+  }
+  for (std::uint8_t c = 0; c < offers_.size(); ++c) {
+    mix_announcement(candidates_[c].announcement());
+    mix((candidates_[c].announces() ? 1U : 0U) | (candidates_[c].role() ? 2U + *candidates_[c].role() * 4U : 0U));
+    mix(members_[c] ? members_[c]->hash() : 0);
+    mix(binder_.used_life(c));
+    mix(announced_[c] ? 1 : 0);
+    if (announced_[c]) mix_announcement(*announced_[c]);
+    mix_heard(heard_announcement_[c]);
+    mix_heard(heard_table_[c]);
+  }
+  for (const std::optional<std::uint32_t>& run : pending_) mix(run ? std::uint64_t{*run} + 1 : 0);
+  return digest;
+}
 
 }  // namespace takt::handshake

@@ -13,10 +13,10 @@
 #include "scenario/description/faults.hpp"
 #include "scenario/description/ingress.hpp"
 #include "scenario/description/latency.hpp"
-#include "scenario/description/plug.hpp"
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
+#include "vocabulary/plug.hpp"
 #include "vocabulary/program.hpp"
 
 namespace takt::scenario {
@@ -243,8 +243,10 @@ struct Stream {
 using vocabulary::DataField;
 using vocabulary::DataType;
 using vocabulary::Method;
+using vocabulary::OnReplacement;
 using vocabulary::ProcessData;
 using vocabulary::Publish;
+using vocabulary::Role;
 using vocabulary::Subscription;
 using vocabulary::Variant;
 

@@ -43,26 +43,19 @@ void CandidateApplication::call(models::HostServices& host, program::Method meth
   if (role) monitor_->on_call(*role + std::size_t{1}, method, status);
 }
 
-void CandidateApplication::receive(models::HostServices& host, models::StreamIndex, std::span<const std::byte> payload) {
-  const auto role = endpoint_.candidate().role();
-  const handshake::Binding before = self();
-  endpoint_.receive(at(host), payload);
-  if (role && before != self()) roles_->on_dropped(*role, before);
-}
-
 void CandidateApplication::forget() {
   const auto role = endpoint_.candidate().role();
-  const handshake::Binding before = self();
+  const handshake::Binding before = endpoint_.self();
   endpoint_.forget(handshake::next_life(before.life));
   if (role) roles_->on_dropped(*role, before);
 }
 
 void CandidateApplication::stepped(const handshake::Outputs& outputs, const handshake::Word& after) {
-  roles_->on_step(*endpoint_.candidate().role(), self(), outputs, after);
+  roles_->on_step(*endpoint_.candidate().role(), endpoint_.self(), outputs, after);
 }
 
 void CandidateApplication::process_data(const wire::ProcessDataMessage& message) {
-  roles_->on_process_data(*endpoint_.candidate().role(), self(), message.sender, message.run);
+  roles_->on_process_data(*endpoint_.candidate().role(), endpoint_.self(), message.sender, message.run);
 }
 
 }  // namespace takt::scenario

@@ -57,6 +57,7 @@ class PlugMasterApplication final : public PlugApplication {
       : PlugApplication(std::move(streams), monitor, roles), endpoint_(std::move(settings), restarts), state_of_(std::move(state_of)) {}
 
   handshake::PublishedState state() const { return endpoint_.endpoint().participant().state(); }
+  const handshake::Binder& binder() const { return endpoint_.binder(); }
 
   void call(models::HostServices& host, program::Method method) override;
   models::AlarmId alarm_count() const override { return static_cast<models::AlarmId>(endpoint_.alarm_count()); }
@@ -69,6 +70,8 @@ class PlugMasterApplication final : public PlugApplication {
   void stepped(const handshake::Outputs& outputs, const handshake::Word& after) override { monitor_->on_step(0, outputs, after); }
   void process_data(const wire::ProcessDataMessage& message) override { monitor_->on_process_data(message.sender, 0, message.run); }
   void role_bound(std::size_t role, const handshake::Binding& binding) override { roles_->on_bound(role, binding, state_of_(binding)); }
+  void role_taken(std::size_t, const handshake::Binding&) override {}
+  void role_dropped(std::size_t, const handshake::Binding&) override {}
 
   wire::PlugMaster endpoint_;
   StateOf state_of_;
@@ -79,7 +82,7 @@ class CandidateApplication final : public PlugApplication {
  public:
   CandidateApplication(wire::PlugSettings settings, std::uint8_t number, std::vector<handshake::SkillId> skills, bool joins, Streams streams,
                        ProgramMonitor& monitor, PlugMonitor& roles)
-      : PlugApplication(std::move(streams), monitor, roles), number_(number), endpoint_(std::move(settings), number, 1, std::move(skills), joins) {}
+      : PlugApplication(std::move(streams), monitor, roles), endpoint_(std::move(settings), number, 1, std::move(skills), joins) {}
 
   void join(models::HostServices& host) { endpoint_.join(at(host)); }
   void leave(models::HostServices& host) { endpoint_.leave(at(host)); }
@@ -89,7 +92,7 @@ class CandidateApplication final : public PlugApplication {
   void call(models::HostServices& host, program::Method method) override;
   models::AlarmId alarm_count() const override { return static_cast<models::AlarmId>(endpoint_.alarm_count()); }
   void start(models::HostServices& host) override { endpoint_.start(at(host)); }
-  void receive(models::HostServices& host, models::StreamIndex stream, std::span<const std::byte> payload) override;
+  void receive(models::HostServices& host, models::StreamIndex, std::span<const std::byte> payload) override { endpoint_.receive(at(host), payload); }
   void wake(models::HostServices& host, models::AlarmId alarm) override { endpoint_.wake(at(host), alarm); }
 
  private:
@@ -97,9 +100,9 @@ class CandidateApplication final : public PlugApplication {
   void stepped(const handshake::Outputs& outputs, const handshake::Word& after) override;
   void process_data(const wire::ProcessDataMessage& message) override;
   void role_bound(std::size_t, const handshake::Binding&) override {}
-  handshake::Binding self() const { return {number_, endpoint_.candidate().announcement().life}; }
+  void role_taken(std::size_t, const handshake::Binding&) override {}
+  void role_dropped(std::size_t role, const handshake::Binding& self) override { roles_->on_dropped(role, self); }
 
-  std::uint8_t number_;
   wire::CandidateEndpoint endpoint_;
 };
 

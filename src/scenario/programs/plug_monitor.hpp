@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "handshake/binder.hpp"
+#include "handshake/role_observer.hpp"
 #include "scenario/programs/program_monitor.hpp"
 
 namespace takt::scenario {
@@ -17,12 +17,11 @@ struct BindingRecord {
   std::optional<std::uint8_t> candidate;  ///< none: nobody
 };
 
-/// A ghost before a ProgramMonitor: a participant there is a role, whoever has it. Who has been let go and does not know it yet is
-/// nobody's participant; what it does counts no more.
+/// A handshake::RoleObserver before a ProgramMonitor.
 class PlugMonitor {
  public:
   PlugMonitor(sim::Simulation& simulation, std::uint32_t number, ProgramMonitor& program, std::size_t roles)
-      : simulation_(&simulation), number_(number), program_(&program), roles_(roles) {}
+      : simulation_(&simulation), number_(number), program_(&program), observer_(roles) {}
 
   /// `before`: the state in which the participant of that life is already, if there is one.
   void on_bound(std::size_t role, const handshake::Binding& binding, std::optional<handshake::PublishedState> before);
@@ -32,22 +31,17 @@ class PlugMonitor {
   void on_dropped(std::size_t role, const handshake::Binding& self);
   void on_process_data(std::size_t role, const handshake::Binding& self, std::size_t from, std::uint32_t sent_in);
 
-  handshake::PublishedState state(std::size_t role) const { return roles_[role].state; }
-  const handshake::Binding& binding(std::size_t role) const { return roles_[role].binding; }
+  handshake::PublishedState state(std::size_t role) const { return observer_.state(role); }
+  const handshake::Binding& binding(std::size_t role) const { return observer_.binding(role); }
   const std::vector<BindingRecord>& history() const { return history_; }
 
  private:
   static constexpr std::size_t most_records = 10'000;
-  struct Role {
-    handshake::Binding binding;
-    bool is_awaited = false;  ///< a restarted master has bound a life that is still in a former run: seen from when it is Halted on
-    handshake::PublishedState state = handshake::PublishedState::Halted;
-  };
 
   sim::Simulation* simulation_;
   std::uint32_t number_;
   ProgramMonitor* program_;
-  std::vector<Role> roles_;
+  handshake::RoleObserver observer_;
   std::vector<BindingRecord> history_;
 };
 

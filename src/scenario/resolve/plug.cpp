@@ -9,7 +9,7 @@
 #include "scenario/programs/program_shape.hpp"
 #include "uadp/builtin_type.hpp"
 #include "vocabulary/protocol.hpp"
-#include "wire/plug_format.hpp"
+#include "wire/plug_endpoint.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -42,7 +42,7 @@ class RoleResolver {
 
  private:
   void check() {
-    program_.announce_every = description_.announce_every.value_or(description_.cycle * 10);
+    program_.announce_every = description_.announce_every.value_or(description_.cycle * wire::cycles_of_announcement);
     if (program_.announce_every < description_.cycle)
       diagnostics_.error(description_.where.at("announce_every"), "announcements within one cycle",
                          {json::to_text(program_.announce_every), "at least the cycle of " + json::to_text(description_.cycle)});

@@ -16,7 +16,4 @@ void check_candidates(const Resolved& resolved, json::Diagnostics& diagnostics);
 /// "join" or "leave" of the script.
 void resolve_plug_action(Resolved& resolved, const ScriptEntry& entry, json::Diagnostics& diagnostics);
 
-/// How many announcements in a row may be missed.
-inline constexpr std::int64_t announcements_missed = 3;
-
 }  // namespace takt::scenario

@@ -10,7 +10,6 @@
 #include "scenario/applications/opc_ua_port.hpp"
 #include "scenario/programs/program_shape.hpp"
 #include "scenario/resolve/nesting.hpp"
-#include "scenario/resolve/plug.hpp"
 #include "vocabulary/protocol.hpp"
 
 namespace takt::scenario {
@@ -160,19 +159,14 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
 
 void Run::add_program_with_roles(std::uint32_t number, const ResolvedProgram& program) {
   auto live = std::make_unique<LiveProgram>();
-  wire::PlugShape shape;
-  shape.program = shape_of(program);
-  for (const Role& role : program.description->roles) shape.skills.push_back(handshake::skill_id(role.skill));
-  for (const ResolvedCandidate& each : program.candidates) shape.candidates.push_back(resolved_->topology.nodes[each.node.value].name);
-  const auto format = std::make_shared<const wire::ProgramFormat>(shape.program);
+  std::vector<std::string> names;
+  for (const ResolvedCandidate& each : program.candidates) names.push_back(resolved_->topology.nodes[each.node.value].name);
+  const auto format = std::make_shared<const wire::PlugFormat>(vocabulary::plug_shape_of(shape_of(program), program.description->roles, std::move(names)));
+  const auto program_format = std::make_shared<const wire::ProgramFormat>(format->shape().program);
   live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, handshake::Variant::Robust, program.participant_names.size());
-  live->roles = std::make_unique<PlugMonitor>(simulation_, number, *live->monitor, shape.skills.size());
+  live->roles = std::make_unique<PlugMonitor>(simulation_, number, *live->monitor, format->roles());
 
-  wire::PlugSettings settings;
-  settings.format = std::make_shared<const wire::PlugFormat>(std::move(shape));
-  settings.announce_cycle = program.announce_every;
-  settings.announce_timeout = program.announce_every * announcements_missed + program.announce_every / 2;
-  settings.endpoint = endpoint_settings(program, 0, format);
+  wire::PlugSettings settings = wire::plug_settings(endpoint_settings(program, 0, program_format), format, program.announce_every);
   PlugApplication::Streams streams{program.state_streams[0], program.table_stream, {}};
   for (const ResolvedProcessData& data : program.process_data) streams.data.push_back(data.from == 0 ? std::optional(data.stream) : std::nullopt);
   LiveProgram* const raw = live.get();
@@ -185,10 +179,8 @@ void Run::add_program_with_roles(std::uint32_t number, const ResolvedProgram& pr
 
   for (std::uint8_t c = 0; c < program.candidates.size(); ++c) {
     const ResolvedCandidate& each = program.candidates[c];
-    settings.endpoint = endpoint_settings(program, 1, format);  // the index follows with the role
-    std::vector<handshake::SkillId> skills;
-    for (const std::string& skill : each.skills) skills.push_back(handshake::skill_id(skill));
-    auto application = std::make_unique<CandidateApplication>(settings, c, std::move(skills), !each.is_absent,
+    settings.endpoint = endpoint_settings(program, 1, program_format);  // the index follows with the role
+    auto application = std::make_unique<CandidateApplication>(settings, c, vocabulary::skill_ids_of(each.skills), !each.is_absent,
                                                               PlugApplication::Streams{each.state, each.announcements, each.data}, *live->monitor, *live->roles);
     live->candidates.push_back(application.get());
     models::Process& process = network_.add_process(each.node, program.name, std::move(application));

@@ -45,6 +45,8 @@ class Run {
   const DigitalOutput& signal(std::size_t number) const { return application_monitor_->signal(number); }
   /// Null for a program without roles.
   const PlugMonitor* roles(std::size_t program) const { return programs_[program]->roles.get(); }
+  /// Of the master of a program with roles.
+  const handshake::Binder& binder(std::size_t program) const { return programs_[program]->plug_master->binder(); }
 
   sim::TrueTime end() const { return sim::TrueTime() + resolved_->scenario.duration; }
   /// Goes on for at most about `max_events` events. True when the scenario's duration is over.

@@ -1,7 +1,7 @@
 // The vocabulary of plug and produce.
-#include "scenario/description/plug.hpp"
+#include "vocabulary/plug.hpp"
 
-namespace takt::scenario {
+namespace takt::vocabulary {
 
 using json::name;
 using json::required;
@@ -24,4 +24,4 @@ const json::Enumeration& describe(json::Type<OnReplacement>) {
   return table;
 }
 
-}  // namespace takt::scenario
+}  // namespace takt::vocabulary

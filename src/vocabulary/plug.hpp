@@ -1,4 +1,4 @@
-// What a scenario says of plug and produce: roles that a group needs, instead of slaves by name.
+// What files say of plug and produce: roles that a group needs, instead of slaves by name.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,9 @@
 
 #include "scenario/json/fields.hpp"
 
-namespace takt::scenario {
+namespace takt::vocabulary {
+
+namespace json = scenario::json;
 
 /// A place in a group for any node that offers a skill.
 struct Role {
@@ -21,4 +23,4 @@ enum class OnReplacement : std::uint8_t { stay_halted, restart };
 const json::Object& describe(json::Type<Role>);
 const json::Enumeration& describe(json::Type<OnReplacement>);
 
-}  // namespace takt::scenario
+}  // namespace takt::vocabulary

@@ -1,0 +1,103 @@
+#include "node/plug_check.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "scenario/json/suggest.hpp"
+
+namespace takt::node {
+namespace {
+
+bool holds(const std::vector<std::string>& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+
+void refuse_without_roles(const Program& program, json::Diagnostics& diagnostics) {
+  const auto refuse = [&](bool is_there, std::string_view key) {
+    if (is_there) diagnostics.error(program.where.at(key), "belongs to a program with roles", {json::quote(key), "\"roles\" instead of \"slaves\""});
+  };
+  refuse(!program.candidates.empty(), "candidates");
+  refuse(program.announce_every.has_value(), "announce_every");
+  refuse(program.on_replacement != OnReplacement::stay_halted, "on_replacement");
+}
+
+void check_names(const Program& program, json::Diagnostics& diagnostics) {
+  std::set<std::string_view> names = {program.master};
+  std::map<handshake::SkillId, std::string_view> skills;
+  for (const Role& role : program.roles) {
+    if (!names.insert(role.name).second)
+      diagnostics.error(role.where.at("name"), "duplicate name", {json::quote(role.name) + " a second time", "a name of its own for each role and the master"});
+    const auto [known, is_new] = skills.emplace(handshake::skill_id(role.skill), role.skill);
+    if (!is_new && known->second != role.skill)
+      diagnostics.error(role.where.at("skill"), "two skills that look the same on the network", {json::quote(role.skill) + " and " + json::quote(known->second), "another name for one"});
+  }
+  std::set<std::string_view> nodes = {program.master};
+  for (std::size_t i = 0; i < program.candidates.size(); ++i)
+    if (!nodes.insert(program.candidates[i]).second)
+      diagnostics.error(program.where.at("candidates", i), "a node twice",
+                        {json::quote(program.candidates[i]) + (program.candidates[i] == program.master ? ", which is the master" : ""), "each candidate once, and not the master"});
+}
+
+}  // namespace
+
+void check_roles(const Program& program, json::Diagnostics& diagnostics) {
+  if (program.roles.empty()) {
+    refuse_without_roles(program, diagnostics);
+    return;
+  }
+  if (program.candidates.empty())
+    diagnostics.error(program.where.at("roles"), "roles that no node may have", {"no \"candidates\"", "the names of the nodes that may have a role"});
+  if (program.variant == Variant::paper)
+    diagnostics.error(program.where.at("variant"), "roles with the handshake of the paper", {"\"paper\", which cannot tell one node from the next", "\"robust\""});
+  if (program.subscription == Subscription::all_to_all)
+    diagnostics.error(program.where.at("subscription"), "roles with all-to-all subscription", {"\"all-to-all\"", "\"star\": who has a role hears the master"});
+  if (program.announce_every && *program.announce_every < program.cycle)
+    diagnostics.error(program.where.at("announce_every"), "announcements within one cycle",
+                      {json::to_text(*program.announce_every), "at least the cycle of " + json::to_text(program.cycle)});
+  check_names(program, diagnostics);
+}
+
+void check_offers(const Config& config, std::span<const Program> programs, json::Diagnostics& diagnostics) {
+  const Program* of = nullptr;
+  for (const Program& program : programs) {
+    if (!holds(program.candidates, config.node) || program.roles.empty()) continue;
+    if (of != nullptr)
+      diagnostics.error(program.where.at("candidates"), "a node that offers its skills to two programs",
+                        {json::quote(config.node) + " to " + json::quote(of->name) + " and " + json::quote(program.name), "\"candidates\" of one program"});
+    of = &program;
+  }
+  const auto refuse = [&](bool is_there, std::string_view key) {
+    if (is_there) diagnostics.error(config.where.at(key), "belongs to a candidate", {json::quote(config.node) + ", which no program has among its \"candidates\"", "no " + json::quote(key)});
+  };
+  if (of == nullptr) {
+    refuse(!config.offers.empty(), "offers");
+    refuse(config.absent, "absent");
+    return;
+  }
+  std::set<std::string> needed;
+  for (const Role& role : of->roles) needed.insert(role.skill);
+  std::string all;
+  for (const std::string& skill : needed) all += (all.empty() ? "" : ", ") + json::quote(skill);
+  if (config.offers.empty()) {
+    diagnostics.error(config.where.at("node"), "a candidate without skills", {json::quote(config.node) + " without \"offers\"", "\"offers\" with some of " + all});
+  } else if (std::none_of(config.offers.begin(), config.offers.end(), [&](const std::string& skill) { return needed.contains(skill); })) {
+    const std::vector<std::string_view> names(needed.begin(), needed.end());
+    diagnostics.error(config.where.at("offers", 0), "a candidate for no role", {json::quote(config.offers.front()), "a skill that a role of " + json::quote(of->name) + " needs: " + all,
+                                                                               json::suggest(config.offers.front(), names)});
+  }
+}
+
+std::optional<LoadedRoles> roles_at(const Config& config, const Program& program, const wire::ProgramShape& shape) {
+  if (program.roles.empty()) return std::nullopt;
+  LoadedRoles roles;
+  roles.format = std::make_shared<const wire::PlugFormat>(vocabulary::plug_shape_of(shape, program.roles, program.candidates));
+  roles.announce_cycle = program.announce_every.value_or(program.cycle * wire::cycles_of_announcement);
+  if (config.node == program.master) return roles;
+  const auto number = std::find(program.candidates.begin(), program.candidates.end(), config.node) - program.candidates.begin();
+  roles.candidate = static_cast<std::uint8_t>(number);
+  roles.skills = vocabulary::skill_ids_of(config.offers);
+  return roles;
+}
+
+bool may_have(const Config& config, const Role& role) { return holds(config.offers, role.skill); }
+
+}  // namespace takt::node

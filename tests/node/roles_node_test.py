@@ -1,0 +1,156 @@
+#!/usr/bin/env python3
+"""Real nodes in a group with roles: who offers its skills gets a role, a spare takes over from a killed node, and a node leaves. Waits for what must
+come, however long it takes.
+
+usage: roles_node_test.py TAKT [unittest options]
+"""
+import json
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+sys.dont_write_bytecode = True
+import real_node_test  # noqa: E402
+
+
+class Roles(real_node_test.Ctl):
+    """plc is the master; three robots weld, two are needed. Only a node that is gone is silent for seconds."""
+
+    NAMES = ("plc", "robotA", "robotB", "robotC")
+    PROGRAM = {"name": "cell", "master": "plc", "cycle": "5ms", "receive_timeout": "3s", "initialisation": "20ms", "announce_every": "800ms", "on_replacement": "restart",
+               "roles": [{"name": "left", "skill": "welding"}, {"name": "right", "skill": "welding"}], "candidates": ["robotA", "robotB", "robotC"],
+               "process_data": [{"name": "seam", "from": "left", "fields": {"x": "Double"}}]}
+
+    def setUp(self):
+        super().setUp()
+        self.group = real_node_test.Group.__new__(real_node_test.Group)
+        self.group.processes = {}
+        self.addCleanup(self.group.kill)
+        self.logs = {}
+
+    def start(self, node, more=None):
+        port = {name: 48441 + i for i, name in enumerate(self.NAMES)}
+        transport = {"kind": "udp", "port": port[node], "destinations": [f"127.0.0.1:{port[other]}" for other in self.NAMES if other != node]}
+        config = {"node": node, "program": self.PROGRAM, "transport": transport, "control": str(self.folder / f"{node}.sock"), "realtime": True} | (more or {})
+        if node != "plc":
+            config = {"offers": ["welding"], "sources": [{"data_set": "seam", "kind": "constant", "value": 7}]} | config
+        path = self.folder / f"{node}.json"
+        path.write_text(json.dumps(config), encoding="utf-8")
+        self.group.processes[node] = subprocess.Popen([real_node_test.TAKT, "node", str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def status(self, node):
+        code, out, _ = self.ctl(node, "status", "--format", "json")
+        return json.loads(out) if code == 0 else None
+
+    def wait(self, what, done):
+        for _ in range(3000):
+            status = self.status("plc")
+            if status and done(status):
+                return status
+            time.sleep(0.02)
+        self.fail(f"not {what}: {status}")
+
+    @staticmethod
+    def roles_of(status):
+        return {role["name"]: role["node"] for role in status["roles"]}
+
+    @staticmethod
+    def present(status, node):
+        return {each["name"]: each["present"] for each in status["candidates"]}[node]
+
+    def wait_for(self, state, **roles):
+        self.wait(f"{state} with {roles}", lambda status: status["state"] == state and self.roles_of(status) == roles and status["complete"])
+        for role, node in roles.items():
+            for _ in range(3000):
+                status = self.status(node)
+                if status and (status["bound_to"], status["state"]) == (role, state):
+                    break
+                time.sleep(0.02)
+            self.assertEqual((status["bound_to"], status["state"]), (role, state), node)
+
+    def start_all(self):
+        self.start("plc")
+        self.wait("there", lambda status: True)
+        self.assertEqual(self.ctl("plc", "start")[:2], (1, f"Start: Bad_ResourceUnavailable; {self.folder / 'plc.sock'} is Halted\n"))
+        for node in ("robotA", "robotB"):
+            self.start(node)
+            self.wait(f"{node} there", lambda status, node=node: self.present(status, node))
+        self.start("robotC", {"absent": True})
+        self.wait_for("Halted", left="robotA", right="robotB")
+        self.assertEqual(self.ctl("plc", "start")[0], 0)
+        self.wait_for("Running", left="robotA", right="robotB")
+
+    def join_the_spare(self):
+        for _ in range(3000):
+            if self.status("robotC"):
+                break
+            time.sleep(0.02)
+        self.assertIn("robotC: away from cell (robust)\n", self.ctl("robotC", "status")[1])
+        self.assertFalse(self.present(self.status("plc"), "robotC"))
+        self.assertEqual(self.ctl("robotC", "join")[:2], (0, f"Join: Good; {self.folder / 'robotC.sock'} is Halted\n"))
+        self.wait("robotC there", lambda status: self.present(status, "robotC"))
+
+    def end(self):
+        for process in self.group.processes.values():
+            process.send_signal(signal.SIGTERM)
+        return self.group.events()
+
+    def test_a_spare_takes_over_and_the_old_node_is_the_next_spare(self):
+        self.start_all()
+        self.join_the_spare()
+        text = self.ctl("plc", "status")[1]
+        for line in ("plc: Running, master of cell (robust)\n", "  role left (welding): robotA\n", "  role right (welding): robotB\n", "  spare: robotC\n", "  peer left: Running, heard "):
+            self.assertIn(line, text)
+        self.assertIn("robotB: Running, right of cell (robust)\n", self.ctl("robotB", "status")[1])
+        self.assertIn("robotC: spare of cell (robust)\n", self.ctl("robotC", "status")[1])
+        self.assertEqual(self.ctl("robotC", "suspend")[0], 1)  # a spare is in no group
+        self.group.processes["robotA"].kill()
+        self.group.processes.pop("robotA").communicate()
+        self.wait_for("Running", left="robotC", right="robotB")
+        self.start("robotA")
+        self.wait("robotA a spare", lambda status: self.present(status, "robotA"))
+        self.wait_for("Running", left="robotC", right="robotB")
+        self.assertIn("robotA: spare of cell (robust)\n", self.ctl("robotA", "status")[1])
+        logs = self.end()
+        self.assertEqual([(e["role"], e["to"]) for e in logs["plc"] if e["event"] == "bound"], [("left", "robotA"), ("right", "robotB"), ("left", "robotC")])
+        changes = [event for event in logs["robotC"] if event["event"] == "transition"]
+        self.assertEqual([event["to"] for event in changes], ["Halted.INIT", "Ready", "Running"])
+        self.assertEqual({event["role"] for event in changes}, {"left"})
+        self.assertEqual([e["to"] for e in logs["robotB"] if e["event"] == "transition"], ["Halted.INIT", "Ready", "Running", "Halted", "Halted.INIT", "Ready", "Running"])
+        causes = {e["cause"] for e in logs["plc"] if e["event"] == "intent" and e["kind"] == "halt"}
+        self.assertTrue(causes and causes <= {"silent peer", "peer left"}, causes)  # of its words or of its announcements
+        self.assertEqual([event for event in logs["robotA"] if event["event"] == "transition"], [])  # of its second life
+        self.assertEqual((logs["robotA"][-1]["bound_to"], logs["robotC"][-1]["bound_to"]), (None, "left"))
+
+    def test_a_node_leaves(self):
+        self.start_all()
+        self.join_the_spare()
+        code, out, err = self.ctl("plc", "leave")
+        self.assertEqual((code, out, err), (2, "", "takt: plc is not a candidate for roles\n"))
+        self.assertEqual(self.ctl("robotB", "leave")[0], 0)
+        self.wait_for("Running", left="robotA", right="robotC")
+        self.wait("robotB away", lambda status: not self.present(status, "robotB"))
+        self.assertEqual(self.ctl("robotC", "suspend")[0], 0)
+        self.wait_for("Suspended", left="robotA", right="robotC")
+        self.assertIn("robotB: away from cell (robust)\n", self.ctl("robotB", "status")[1])
+        self.assertIn("  away: robotB\n", self.ctl("plc", "status")[1])
+        logs = self.end()
+        self.assertEqual([(e["event"], e.get("role")) for e in logs["robotB"] if e["event"] in ("leave", "role taken", "role dropped")], [("role taken", "right"), ("leave", None), ("role dropped", "right")])
+        self.assertIn(("halt", "peer left"), [(e["kind"], e["cause"]) for e in logs["plc"] if e["event"] == "intent"])
+
+    # Nothing left to fill the role: the group halts, a Start is refused until the script of the leaver lets it come back.
+    def test_a_role_that_nobody_has(self):
+        self.start("plc")
+        self.start("robotA", {"script": [{"at": "1s", "plug": "join"}], "absent": True, "sources": []})
+        self.wait("half complete", lambda status: self.roles_of(status) == {"left": "robotA", "right": None})
+        self.assertIn("  role right (welding): nobody\n", self.ctl("plc", "status")[1])
+        self.assertEqual(self.ctl("plc", "start")[:2], (1, f"Start: Bad_ResourceUnavailable; {self.folder / 'plc.sock'} is Halted\n"))
+        logs = self.end()
+        self.assertEqual([e["event"] for e in logs["robotA"] if e["event"] in ("join", "role taken")], ["join", "role taken"])
+
+
+if __name__ == "__main__":
+    real_node_test.TAKT = sys.argv.pop(1)
+    unittest.main(verbosity=2)

@@ -7,7 +7,7 @@
 
 #include "scenario/resolve/resolve.hpp"
 #include "study/point.hpp"
-#include "study/topology_measures.hpp"
+#include "scenario/topology/graph_figures.hpp"
 #include "support.hpp"
 
 namespace takt::study {

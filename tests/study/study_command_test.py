@@ -75,7 +75,8 @@ class StudyTest(unittest.TestCase):
         for i, part in enumerate(parts, 1):
             self.run_study(study, "--shard", f"{i}/3", "--out", part)
         merged = self.folder / "merged.sqlite"
-        self.run_study("merge", merged, *parts)
+        self.assertIn("48 of 48 points", self.run_study("merge", merged, *parts))
+        self.assertIn("--resume --out", self.run_study("merge", self.folder / "two.sqlite", *parts[1:]))
         self.assertEqual(results(self.run_study(study, "--resume", "--out", merged)), expected)
         self.run_study(study, "--resume", "--out", parts[1])
         self.assertEqual(results(self.run_study(study, "--resume", "--out", parts[1])), expected)
@@ -241,7 +242,7 @@ class StudyTest(unittest.TestCase):
     def test_figures_that_no_run_has(self):
         study = self.study()
         text = study.read_text()
-        for of, words in (("/streams/x/latency/max", 'did you mean "latency_ps"?'), ("latency.y.max", 'unknown stream: found "y", expected the name of a stream of some variant (did you mean "x"?)'),
+        for of, words in (("/streams/x/latency/max", 'did you mean "latency_ps"?'), ("latency.y.max", 'unknown stream: found "y", expected the name of a stream of some variant'),
                           ("/streams/x/latency_ps", "not a single figure"), ("/dropped/*/now", "which has no members")):
             study.write_text(text.replace('"of": "latency.x.mean"', f'"of": "{of}"'))
             self.assertIn(words, self.run_study(study, "--dry-run", status=2))
@@ -259,6 +260,8 @@ class StudyTest(unittest.TestCase):
         self.assertIn("the runs part at", out)
         self.assertRegex(out, r"reaction\.start\.max .*B is greater")
         self.assertEqual(takt("compare", scenario, scenario, "--set-b", "nonsense=1")[0], 2)
+        study = self.study()
+        self.assertEqual(takt("compare", study, study)[2].count('"network" is missing'), 1)   # a mistake of one file, told once
 
     def test_report_in_a_browser(self):
         browser = next((found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None)
@@ -266,6 +269,9 @@ class StudyTest(unittest.TestCase):
         self.run_study(study, "--out", store)
         self.run_study("report", store, "--out", page)
         html = page.read_text()
+        # Only a limit says what is better.
+        self.assertRegex(html, r"delay in us</th>.*\n.*>best<")
+        self.assertRegex(html, r"mean in us</th>.*\n.*>least<")
         self.assertNotIn("http://", html.replace("http://www.w3.org/2000/svg", ""))
         if browser is None:
             self.skipTest("no chromium here: the report is not rendered")

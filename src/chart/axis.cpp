@@ -40,8 +40,9 @@ Axis::Axis(const std::vector<double>& values, Scale scale, double from, double t
     return;
   }
   if (high_ - low_ <= 1e-12 * std::max(std::abs(low_), std::abs(high_))) {
+    // Nothing but zeros: counts of what did not happen, which are never negative.
     const double room = high_ == 0 ? 1 : std::abs(high_) * 0.1;
-    low_ -= room;
+    low_ -= high_ == 0 ? 0 : room;
     high_ += room;
   }
   step_ = round_step((high_ - low_) / 6);

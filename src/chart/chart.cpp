@@ -72,10 +72,12 @@ void draw_rules(Svg& svg, const Frame& frame, const Axis& axis, const std::vecto
   }
 }
 
-void draw_whisker(Svg& svg, double x, const Sample& sample, const Axis& y) {
+/// `colour` is that of the curve where several stand side by side.
+void draw_whisker(Svg& svg, double x, const Sample& sample, const Axis& y, const std::string& colour = {}) {
   if (!sample.low || !sample.high || *sample.high <= *sample.low) return;
-  svg.line({x, y.at(*sample.low)}, {x, y.at(*sample.high)}, Class{"whisker"});
-  for (const double end : {*sample.low, *sample.high}) svg.line({x - 3, y.at(end)}, {x + 3, y.at(end)}, Class{"whisker"});
+  std::string commands = fmt::format("M{} {}V{}", coordinate(x), coordinate(y.at(*sample.low)), coordinate(y.at(*sample.high)));
+  for (const double end : {*sample.low, *sample.high}) commands += fmt::format("M{} {}h6", coordinate(x - 3), coordinate(y.at(end)));
+  svg.path(commands, colour.empty() ? "#222" : colour, Class{"whisker"});
 }
 
 std::string title_of(const std::string& name, const std::string& x, const Sample& sample) {
@@ -120,13 +122,16 @@ std::string draw(const LineChart& chart) {
     svg.text({x.at(tick.value), frame.y_end() + 16}, tick.text, Anchor::middle, Class{"tick"});
   }
   svg.text({(left + frame.x_end()) / 2, frame.y_end() + 32}, chart.x.label, Anchor::middle, Class{"label"});
+  const bool is_crowded = chart.series.size() > 1;   // whiskers of several curves at one place stand beside each other, each in its curve's colour
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
     const Series& series = chart.series[s];
+    const double aside = 4 * (static_cast<double>(s) - static_cast<double>(chart.series.size() - 1) / 2);
     std::string commands;
     for (const Sample& sample : series.samples) commands += fmt::format("{}{} {}", commands.empty() ? "M" : "L", coordinate(x.at(sample.x)), coordinate(y.at(sample.y)));
     if (series.is_joined && series.samples.size() > 1) svg.path(commands, colours[s], Class{"curve"});
     for (const Sample& sample : series.samples) {
-      draw_whisker(svg, x.at(sample.x), sample, y);
+      if (is_crowded) draw_whisker(svg, x.at(sample.x) + aside, sample, y, colours[s]);
+      else draw_whisker(svg, x.at(sample.x), sample, y);
       svg.mark_circle({x.at(sample.x), y.at(sample.y)}, series.is_joined ? 3 : 3.5, colours[s], title_of(series.name, number_text(sample.x), sample));
     }
   }

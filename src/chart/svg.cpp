@@ -113,8 +113,8 @@ std::string Svg::element(std::string_view label) const {
 
 std::string_view style_sheet() {
   return "svg text{font:11px system-ui,sans-serif;fill:#333}svg .title{font-weight:600;font-size:12px}svg .axis{stroke:#666;stroke-width:1}"
-         "svg .grid{stroke:#e4e4e4;stroke-width:1}svg .limit{stroke:#c0392b;stroke-width:1.5;stroke-dasharray:5 4}svg .whisker{stroke:#555;stroke-width:1}"
-         "svg .curve{fill:none;stroke-width:1.8}svg .area{stroke:none;opacity:.15}svg .note{fill:#777}svg .mark{cursor:default}svg .on-dark{fill:#fff}\n";
+         "svg .grid{stroke:#e4e4e4;stroke-width:1}svg .limit{stroke:#c0392b;stroke-width:1.5;stroke-dasharray:5 4}svg .whisker{fill:none;stroke-width:1}"
+         "svg .curve{fill:none;stroke-width:1.8}svg .area{stroke:none;opacity:.15}svg .note{fill:#555;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}svg .mark{cursor:default}svg .on-dark{fill:#fff}\n";
 }
 
 std::string_view ink(std::size_t number) {

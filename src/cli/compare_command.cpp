@@ -38,6 +38,11 @@ std::optional<scenario::json::Document> load(const std::string& file, const std:
 ExitStatus run(const CompareOptions& options) {
   scenario::json::Diagnostics diagnostics;
   const auto a = load(options.a, options.overrides_of_a, diagnostics);
+  // The mistakes of one file are told once.
+  if (options.a == options.b && diagnostics.has_errors()) {
+    std::fputs(diagnostics.to_text().c_str(), stderr);
+    return ExitStatus::bad_input;
+  }
   const auto b = load(options.b, options.overrides_of_b, diagnostics);
   std::fputs(diagnostics.to_text().c_str(), stderr);
   if (!a || !b || diagnostics.has_errors()) return ExitStatus::bad_input;
@@ -70,8 +75,8 @@ void add_compare_command(CLI::App& app, ExitStatus& status) {
   command.add_option("B", options->b, "Another one, or the same with --set-b")->required();
   command.add_option("--set-a", options->overrides_of_a, "Another value in A: network.links.0.rate=100Mbps (repeatable)")->type_name("POINTER=VALUE")->allow_extra_args(false);
   command.add_option("--set-b", options->overrides_of_b, "Another value in B (repeatable)")->type_name("POINTER=VALUE")->allow_extra_args(false);
-  command.add_option("--pairs", options->pairs, "Pairs of runs, each with one seed for both")->check(CLI::Range(1u, 100'000u))->type_name("N");
-  command.add_option("--seed", options->first_seed, "The first seed")->type_name("N");
+  command.add_option("--pairs", options->pairs, "Pairs of runs, each with one seed for both (10)")->check(CLI::Range(1u, 100'000u))->type_name("N");
+  command.add_option("--seed", options->first_seed, "The first seed (1)")->type_name("N");
   command.add_option("--jobs", options->jobs, "Processes; the result is the same for any number")->check(CLI::Range(1u, 1024u))->type_name("N");
   command.add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}))->type_name("FORMAT");
   command.add_flag("--quiet", options->quiet, "No progress");

@@ -8,7 +8,7 @@
 #include "cli/load.hpp"
 #include "cli/progress.hpp"
 #include "cli/recording.hpp"
-#include "output/json_report.hpp"
+#include "results/result_json.hpp"
 #include "output/result_folder.hpp"
 #include "output/text_report.hpp"
 #include "results/evaluate.hpp"
@@ -65,7 +65,7 @@ ExitStatus run(const RunOptions& options) {
     if (const std::string problem = output::write_result_folder(options.out, result, scenario::json::encode(resolved->scenario)); !problem.empty())
       return cannot_write(problem);
   }
-  const std::string page = options.scenario.is_json() ? output::run_json(result) : options.quiet ? output::run_line(result) : output::run_report(result);
+  const std::string page = options.scenario.is_json() ? results::run_json(result) : options.quiet ? output::run_line(result) : output::run_report(result);
   std::fputs(page.c_str(), stdout);
   return status_of(result);
 }

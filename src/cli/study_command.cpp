@@ -119,6 +119,10 @@ ExitStatus answer(study::Plan& plan, const StudyOptions& options, const study::R
   std::string problem;
   const auto question = study::read_question(plan, options.find, options.at, problem);
   if (!question) return bad("--find: " + problem);
+  scenario::json::Diagnostics diagnostics;
+  study::check_names_of_measures(plan, plan.study.measures.size(), diagnostics);
+  std::fputs(diagnostics.to_text().c_str(), stderr);
+  if (diagnostics.has_errors()) return ExitStatus::bad_input;
   const study::Finding finding = study::find(plan, *question, how);
   if (!finding.problem.empty()) {
     std::fprintf(stderr, "takt: %s\n", finding.problem.c_str());
@@ -150,6 +154,21 @@ ExitStatus run(const StudyOptions& options) {
   return interrupt.requested() ? ExitStatus::interrupted : ExitStatus::pass;
 }
 
+/// How many points a merged store has, and how to come by the others.
+ExitStatus say_merged(const std::string& path) {
+  std::string problem;
+  const auto store = study::Store::open(path, problem);
+  std::uint64_t digest = 0;
+  std::uint64_t count = 0;
+  if (store) problem = store->results_digest(digest, count);
+  if (!problem.empty()) return bad(path + ": " + problem);
+  const std::uint64_t all = store->header().points();
+  std::printf("%s: %llu of %llu points in %s, results %016llx\n", store->header().name.c_str(), static_cast<unsigned long long>(count), static_cast<unsigned long long>(all), path.c_str(),
+              static_cast<unsigned long long>(digest));
+  if (count < all) std::printf("takt study FILE --resume --out %s runs what is missing\n", path.c_str());
+  return ExitStatus::pass;
+}
+
 void add_merge(CLI::App& study, ExitStatus& status) {
   CLI::App& command = *study.add_subcommand("merge", "Join the stores of a study's shards into a new one");
   const auto out = std::make_shared<std::string>();
@@ -159,7 +178,7 @@ void add_merge(CLI::App& study, ExitStatus& status) {
   command.footer("Example:\n  takt study merge all.sqlite part-*.sqlite");
   command.callback([out, parts, &status] {
     const std::string problem = study::merge_stores(*out, *parts);
-    status = problem.empty() ? ExitStatus::pass : bad(problem);
+    status = problem.empty() ? say_merged(*out) : bad(problem);
   });
 }
 
@@ -179,7 +198,7 @@ void add_report(CLI::App& study, ExitStatus& status) {
   const auto store = std::make_shared<std::string>();
   const auto out = std::make_shared<std::string>("study.html");
   command.add_option("STORE", *store, "The store (study.sqlite)")->required();
-  command.add_option("--out", *out, "The HTML file that is written")->type_name("FILE");
+  command.add_option("--out", *out, "The HTML file that is written (study.html)")->type_name("FILE");
   command.footer("Example:\n  takt study report slaves.sqlite --out slaves.html");
   command.callback([store, out, &status] { status = report(*store, *out); });
 }
@@ -206,18 +225,20 @@ ExitStatus shrink(const ShrinkOptions& options) {
     std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
     return ExitStatus::internal_error;
   }
-  std::printf("point %llu (%s, seed %llu): %zu of %zu faults suffice to fail, found in %u runs; takt run %s\n", static_cast<unsigned long long>(options.point),
+  std::string broken;
+  for (const std::string& limit : shrunk.broken) broken += (broken.empty() ? " " : ", ") + limit;
+  std::printf("point %llu (%s, seed %llu): %zu of %zu faults suffice to fail%s, found in %u runs; takt run %s\n", static_cast<unsigned long long>(options.point),
               study::name_of(*plan, plan->variants[plan->variant_of(options.point)]).c_str(), static_cast<unsigned long long>(plan->seed_of(options.point)), shrunk.scenario.faults.size(),
-              shrunk.faults_before, shrunk.runs, options.out.c_str());
+              shrunk.faults_before, broken.c_str(), shrunk.runs, options.out.c_str());
   return ExitStatus::pass;
 }
 
 void add_shrink(CLI::App& study, ExitStatus& status) {
-  CLI::App& command = *study.add_subcommand("shrink", "The least faults with which a point still fails, as a scenario");
+  CLI::App& command = *study.add_subcommand("shrink", "The least faults with which a point still fails, as a scenario that fails by itself");
   const auto options = std::make_shared<ShrinkOptions>();
   command.add_option("FILE", options->file, "The study file")->required();
-  command.add_option("POINT", options->point, "The number of a point that fails")->required();
-  command.add_option("--out", options->out, "The scenario that is written")->type_name("FILE");
+  command.add_option("POINT", options->point, "The number of a point that fails; takt study report names some")->required();
+  command.add_option("--out", options->out, "The scenario that is written (shrunk.json)")->type_name("FILE");
   command.footer("Example:\n  takt study shrink FILE 17 --out worst.json && takt run worst.json");
   command.callback([options, &status] { status = shrink(*options); });
 }
@@ -228,8 +249,8 @@ void add_study_command(CLI::App& app, ExitStatus& status) {
   CLI::App& command = *app.add_subcommand("study", "What if: run the variants of a scenario, keep the figures, report");
   const auto options = std::make_shared<StudyOptions>();
   command.add_option("FILE", options->file, "The study file (JSON, comments allowed)");
-  command.add_option("--jobs", options->jobs, "Processes; the results are the same for any number")->check(CLI::Range(1u, 1024u))->type_name("N");
-  command.add_option("--out", options->out, "The store of the results (SQLite)")->type_name("STORE");
+  command.add_option("--jobs", options->jobs, "Processes; the results are the same for any number (as many as the machine has cores)")->check(CLI::Range(1u, 1024u))->type_name("N");
+  command.add_option("--out", options->out, "The store of the results, SQLite (study.sqlite)")->type_name("STORE");
   command.add_flag("--resume", options->resume, "Go on with a store: run only what is missing");
   command.add_option("--shard", options->shard, "Only the I-th of N parts of the points, for several machines")->type_name("I/N");
   command.add_flag("--dry-run", options->dry_run, "Expand and check everything, print the variants, run nothing");

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "output/json_report.hpp"
+#include "results/result_json.hpp"
 
 namespace takt::output {
 namespace {
@@ -91,7 +91,7 @@ std::string write_result_folder(const std::string& folder, const results::RunRes
   const std::pair<const char*, std::string> files[] = {
       {"scenario.json", resolved_scenario},      {"streams.csv", streams_csv(result)}, {"reactions.csv", reactions_csv(result)},
       {"ports.csv", ports_csv(result)},          {"histograms.csv", histograms_csv(result)},
-      {"result.json", run_json(result)},  // last: where it is, everything is
+      {"result.json", results::run_json(result)},  // last: where it is, everything is
   };
   for (const auto& [name, content] : files)
     if (std::string problem = write_file((base / name).string(), content); !problem.empty()) return problem;

@@ -41,7 +41,7 @@ std::string requirements_part(const RunResult& result) {
   std::string out = heading("Requirements");
   for (const results::RequirementResult& r : result.requirements) {
     std::string figures;
-    if (r.measured && r.limit) {
+    if (r.measured && r.limit && !r.figure) {
       const std::int64_t limit = r.limit->ps();
       figures = fmt::format("{} of {}", readable(*r.measured), readable(*r.limit));
       if (limit > 0) figures += fmt::format(" ({:.0f} %)", 100.0 * static_cast<double>(r.measured->ps()) / static_cast<double>(limit));

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "results/collect_applications.hpp"
 #include "results/collect_clocks.hpp"
 #include "results/collect_ingress.hpp"
+#include "results/result_json.hpp"
 #include "results/version.hpp"
+#include "scenario/figures/requirement.hpp"
+#include "scenario/topology/graph_figures.hpp"
 
 namespace takt::results {
 namespace {
@@ -271,6 +275,30 @@ class Judge {
     add(std::move(verdict));
   }
 
+  /// `result` is what the run leaves behind, as result.json has it. Of a run that was interrupted nothing can be said: a mean may fall again.
+  void figure(const scenario::Requirement& requirement, const scenario::json::Node& result) {
+    scenario::json::Diagnostics diagnostics;
+    const auto asked = scenario::read_figure_requirement(requirement, diagnostics);
+    TAKT_CHECK(asked, "a requirement that was resolved has a figure");
+    const auto found = scenario::value_of(asked->figure, result);
+    const char* const bound = asked->limit.is_upper ? "at most" : "at least";
+    RequirementResult verdict;
+    verdict.kind = RequirementKind::figure;
+    verdict.figure = FigureResult{asked->name, asked->figure.unit, found, asked->limit.value, asked->limit.is_upper};
+    verdict.text = fmt::format("figure {} {} {}", asked->name, bound, asked->limit.text);
+    const std::optional<Duration> time = found && asked->figure.is_time ? std::optional(duration_of(*found, asked->figure)) : std::nullopt;
+    verdict.remark = (!found                            ? std::string("the run has no such figure")
+                      : time && !requirement.unit       ? "found " + json_text(*time)
+                                                        : "found " + scenario::text_of(*found, asked->figure.unit)) +
+                     fmt::format(", asked {} {}", bound, asked->limit.text);
+    if (asked->figure.is_time && asked->limit.is_upper) {
+      verdict.measured = time;
+      verdict.limit = duration_of(asked->limit.value, asked->figure);
+    }
+    verdict.verdict = result_.partial ? Verdict::undecided : asked->limit.holds(found) ? Verdict::pass : Verdict::fail;
+    add(std::move(verdict));
+  }
+
   /// Every Program keeps its invariants, whether or not a requirement says so.
   void invariants(const ProgramResult& program) {
     RequirementResult verdict;
@@ -284,6 +312,8 @@ class Judge {
   }
 
  private:
+  /// To the picosecond: what the division by the unit has made of a whole number of them, and of a mean the nearest.
+  static Duration duration_of(double value, const scenario::Figure& figure) { return Duration::from_ps(std::llround(value * figure.divisor)); }
   static std::string json_text(Duration d) { return scenario::json::to_text(d); }
   Verdict held() const { return result_.partial ? Verdict::undecided : Verdict::pass; }
   Verdict missing() const { return result_.partial ? Verdict::undecided : Verdict::fail; }
@@ -349,6 +379,20 @@ const char* name_of(Verdict verdict) {
   return "?";
 }
 
+namespace {
+
+/// The result as JSON, without requirements and verdict; null if no requirement looks at it.
+scenario::json::Node figures_of(const scenario::Run& run, const RunResult& result) {
+  const auto& require = run.resolved().scenario.require;
+  if (std::none_of(require.begin(), require.end(), [](const scenario::Requirement& r) { return r.figure.has_value(); })) return {};
+  scenario::json::Node node = run_node(result);
+  const auto is_of_graph = [](const scenario::Requirement& r) { return r.figure && (r.figure->starts_with("topology") || r.figure->starts_with("/topology")); };
+  if (std::any_of(require.begin(), require.end(), is_of_graph)) node.add("topology", scenario::topology_node(run.resolved()));
+  return node;
+}
+
+}  // namespace
+
 RunResult evaluate(const scenario::Run& run, bool partial) {
   const scenario::Scenario& scenario = run.resolved().scenario;
   RunResult result;
@@ -373,6 +417,7 @@ RunResult evaluate(const scenario::Run& run, bool partial) {
   result.ingress = ingress_of(run);
   result.redundancy = redundancy_of(run);
 
+  const scenario::json::Node figures = figures_of(run, result);
   Judge judge(result);
   std::size_t next_limit = 0;  // of the clock monitor, in the order of the requirements
   for (const scenario::Requirement& requirement : scenario.require) {
@@ -384,6 +429,8 @@ RunResult evaluate(const scenario::Run& run, bool partial) {
       judge.application(requirement);
     else if (requirement.signal)
       judge.signal(requirement);
+    else if (requirement.figure)
+      judge.figure(requirement, figures);
     else
       judge.stream(requirement);
   }

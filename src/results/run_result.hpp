@@ -117,7 +117,16 @@ struct ProgramResult {
 };
 
 /// What a requirement is about.
-enum class RequirementKind : std::uint8_t { reaction, latency, jitter, dropped, delivered, sync, success, buffered, irregular, invariants };
+enum class RequirementKind : std::uint8_t { reaction, latency, jitter, dropped, delivered, sync, success, buffered, irregular, figure, invariants };
+
+/// A figure of the result and the limit that was asked of it, both in its unit.
+struct FigureResult {
+  std::string name;
+  std::string unit;
+  std::optional<double> found;             ///< none if the run has no such figure
+  double asked = 0;
+  bool is_upper = true;
+};
 
 struct RequirementResult {
   RequirementKind kind{};
@@ -130,6 +139,7 @@ struct RequirementResult {
   std::optional<Duration> measured;
   std::optional<Duration> limit;
   std::string remark;                      ///< what was counted, or why it failed without a figure
+  std::optional<FigureResult> figure = {}; ///< of one that asks for a figure
 };
 
 struct PortResult {

@@ -142,8 +142,10 @@ std::string text_of(const Comparison& comparison, const std::string& a, const st
   text += fmt::format("\n{:<22} {:>26} {:>26} {:>26}\n", "mean, 95 % interval", "A", "B", "B - A");
   for (const ComparedMeasure& m : comparison.measures) {
     const std::string name = m.name + (m.unit.empty() ? "" : " " + m.unit);
-    text += fmt::format("{:<22} {:>26} {:>26} {:>26}  {}", name, interval(m.a), interval(m.b), interval(m.difference), verdict_of(m));
-    text += m.unpaired > 0 ? fmt::format("; in {} pairs only one run has it\n", m.unpaired) : "\n";
+    text += fmt::format("{:<22} {:>26} {:>26} {:>26}", name, interval(m.a), interval(m.b), interval(m.difference));
+    const std::string verdict = verdict_of(m);
+    if (!verdict.empty()) text += "  " + verdict;
+    text += m.unpaired > 0 ? fmt::format("{}in {} pairs only one run has it\n", verdict.empty() ? "  " : "; ", m.unpaired) : "\n";
   }
   for (const std::string& trouble : comparison.troubles) text += "without a result: " + trouble + "\n";
   if (!comparison.parting) return text;

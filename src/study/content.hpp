@@ -27,6 +27,7 @@ struct ContentMeasure {
   std::string unit;
   bool lower_is_better = true;          ///< unless a limit says "at_least"
   std::vector<double> values;           ///< by row; NaN: missing
+  bool is_limited = false;              ///< a limit says which is better
 };
 
 /// A point without a result.
@@ -51,6 +52,8 @@ struct Content {
   double cpu_seconds = 0;
 
   std::size_t rows() const { return variant.size(); }
+  /// The point's number.
+  std::uint64_t point_of(std::size_t row) const { return variant[row] * header.replications + replication[row]; }
   const std::string& level_text(std::uint32_t v, std::size_t factor) const { return factors[factor].texts[variants[v][factor]]; }
   std::string name_of(std::uint32_t v) const;
 };

@@ -9,21 +9,9 @@ using json::name;
 using json::optional;
 using json::required;
 
-void decode_any(const json::Node& node, Value& value, json::Reader& reader) {
-  value.node = node;
-  value.where = reader.source(node);
-}
-json::Node encode_any(const Value& value) { return value.node; }
-json::Node schema_any(json::SchemaBuilder&) { return json::Node::object(); }
-
 constexpr std::size_t most_levels = 100'000;
 
 }  // namespace
-
-const json::Custom& describe(json::Type<Value>) {
-  static constexpr json::Custom table = json::custom<Value, decode_any, encode_any, schema_any>();
-  return table;
-}
 
 const json::Object& describe(json::Type<Setting>) {
   static constexpr json::Field fields[] = {
@@ -144,15 +132,6 @@ const json::Object& describe(json::Type<Design>) {
       optional<&Design::seed>("seed", "The seed of random designs."),
   };
   static constexpr json::Object table = json::object<Design>("design", "Which combinations of levels are run.", fields, {.shorthand = "kind"});
-  return table;
-}
-
-const json::Enumeration& describe(json::Type<Take>) {
-  static constexpr json::EnumName names[] = {
-      name(Take::max, "max", "the greatest"), name(Take::min, "min", "the least"),       name(Take::mean, "mean", "the mean"),
-      name(Take::sum, "sum", "the sum"),      name(Take::count, "count", "their number"),
-  };
-  static constexpr json::Enumeration table = json::enumeration<Take>("what is taken of several values", names);
   return table;
 }
 

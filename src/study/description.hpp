@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scenario/description/description.hpp"
+#include "scenario/json/any.hpp"
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -17,12 +18,8 @@ namespace takt::study {
 
 namespace json = scenario::json;
 
-/// Any JSON value, as it was written.
-struct Value {
-  json::Node node;
-  json::Source where;
-  bool operator==(const Value& other) const { return json::equal(node, other.node); }
-};
+using Value = json::Any;
+using scenario::Take;
 
 /// A place of the scenario that a factor sets. Without `as` and `each` the level itself is put there.
 struct Setting {
@@ -100,8 +97,6 @@ struct Design {
   bool operator==(const Design&) const = default;
 };
 
-enum class Take : std::uint8_t { max, min, mean, sum, count };
-
 struct Measure {
   json::Source where;
   std::string name;
@@ -154,7 +149,6 @@ struct Study {
   bool operator==(const Study&) const = default;
 };
 
-const json::Custom& describe(json::Type<Value>);
 const json::Object& describe(json::Type<Setting>);
 const json::Enumeration& describe(json::Type<Scale>);
 const json::Object& describe(json::Type<Range>);
@@ -164,7 +158,6 @@ const json::Custom& describe(json::Type<TopologyLevel>);
 const json::Object& describe(json::Type<Factor>);
 const json::Enumeration& describe(json::Type<DesignKind>);
 const json::Object& describe(json::Type<Design>);
-const json::Enumeration& describe(json::Type<Take>);
 const json::Object& describe(json::Type<Measure>);
 const json::Object& describe(json::Type<Limit>);
 const json::Object& describe(json::Type<Replications>);

@@ -1,6 +1,7 @@
 // GraphML files, read by Boost.Graph.
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/graphml.hpp>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -24,6 +25,32 @@ struct GraphEdge {
 };
 template <class Directed>
 using GraphOf = boost::adjacency_list<boost::vecS, boost::vecS, Directed, GraphNode, GraphEdge>;
+
+/// What an attribute is in each element of a name, such as the ids of nodes and the ends of edges.
+std::vector<std::string> attributes_of(const std::string& text, std::string_view element, std::string_view attribute) {
+  std::vector<std::string> values;
+  const std::string begin = "<" + std::string(element);
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
+    const std::string_view tag = std::string_view(text).substr(at, text.find('>', at) - at);
+    for (std::size_t name = tag.find(attribute, begin.size()); name != std::string_view::npos; name = tag.find(attribute, name + 1)) {
+      const std::size_t quote = name + attribute.size() + 1;
+      if (!std::isspace(static_cast<unsigned char>(tag[name - 1])) || quote >= tag.size() || tag[quote - 1] != '=') continue;
+      values.emplace_back(tag.substr(quote + 1, tag.find(tag[quote], quote + 1) - quote - 1));
+      break;
+    }
+  }
+  return values;
+}
+
+/// The library makes a node of whatever an edge names. An end that no node has, or "".
+std::string undeclared_end(const std::string& text) {
+  const std::vector<std::string> ids = attributes_of(text, "node", "id");
+  const std::set<std::string> declared(ids.begin(), ids.end());
+  for (const char* end : {"source", "target"})
+    for (const std::string& id : attributes_of(text, "edge", end))
+      if (!declared.contains(id)) return id;
+  return {};
+}
 
 template <class Graph>
 Graph read_as(const std::string& text) {
@@ -72,6 +99,7 @@ std::optional<PlainGraph> read_graphml(const std::string& path, std::string& pro
   if (error || !file) return problem = "it cannot be opened", std::nullopt;
   if (size > largest_file) return problem = "it is larger than 16 MiB", std::nullopt;
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (const std::string end = undeclared_end(text); !end.empty()) return problem = "an edge ends at \"" + end + "\", which is the id of no node", std::nullopt;
   try {
     // The library reads a file only into a graph of its kind.
     try {

@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <set>
 
-#include "scenario/json/suggest.hpp"
+#include "scenario/figures/requirement.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "sim/digest.hpp"
 #include "study/design.hpp"
 
 namespace takt::study {
 namespace {
+
+constexpr std::size_t most_to_look_at = 64;   // variants, for the sake of names in measures
 
 std::uint64_t hash_of(std::string_view text) {
   std::uint64_t hash = sim::mix64(text.size() + 0x9E3779B97F4A7C15ULL);
@@ -87,6 +90,8 @@ std::unique_ptr<Plan> load_plan(const std::string& path, json::Diagnostics& diag
   if (plan->points() > most_points)
     diagnostics.error(study.where.place(), "too many points", {fmt::format("{} variants with {} replications", plan->variants.size(), study.replications.count), fmt::format("at most {}", most_points)});
   if (diagnostics.has_errors()) return nullptr;
+  check_names_of_measures(*plan, 0, diagnostics);
+  if (diagnostics.has_errors()) return nullptr;
   plan->text = text_of(study, plan->factors, *base);
   plan->digest = hash_of(plan->text);
   return plan;
@@ -132,6 +137,36 @@ std::optional<scenario::Scenario> scenario_of(const Plan& plan, const Variant& v
   json::decode(document, scenario, diagnostics);
   if (diagnostics.errors() != errors_before) return std::nullopt;
   return scenario;
+}
+
+void check_names_of_measures(const Plan& plan, std::size_t first, json::Diagnostics& diagnostics) {
+  std::map<std::size_t, scenario::UnknownName> unknown;   // by measure, as long as no variant has the name
+  std::set<std::pair<std::size_t, std::uint32_t>> levels_seen;
+  bool is_first = true;
+  std::size_t looked_at = 0;
+  for (const Variant& variant : plan.variants) {
+    if (!is_first && unknown.empty()) return;
+    bool is_new = false;
+    for (std::size_t f = 0; f < variant.size(); ++f) is_new = levels_seen.emplace(f, variant[f]).second || is_new;
+    if (!is_new && plan.variants.size() > most_to_look_at) continue;
+    ++looked_at;
+    json::Diagnostics ignored;   // a variant that cannot be is told of when the variants are checked
+    auto scenario = scenario_of(plan, variant, plan.study.replications.first_seed, ignored);
+    const auto resolved = scenario ? scenario::resolve(std::move(*scenario), ignored) : nullptr;
+    if (!resolved) continue;
+    for (std::size_t m = first; m < plan.measures.size(); ++m) {
+      if (!is_first && !unknown.contains(m)) continue;
+      if (const auto name = scenario::unknown_name(plan.measures[m], *resolved)) unknown.insert_or_assign(m, *name);
+      else unknown.erase(m);
+    }
+    is_first = false;
+  }
+  for (const auto& [m, name] : unknown) {
+    const json::Place place = m < plan.study.measures.size() ? plan.study.measures[m].where.at("of") : json::Place{"--find", 0, 0, ""};
+    const json::Details details{json::quote(name.name), "the name of a " + name.kind + " of some variant", name.suggestion};
+    if (looked_at == plan.variants.size()) diagnostics.error(place, "unknown " + name.kind, details);
+    else diagnostics.warning(place, "unknown " + name.kind, details);
+  }
 }
 
 }  // namespace takt::study

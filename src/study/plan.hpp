@@ -57,6 +57,10 @@ struct Plan {
 /// Reads and expands a study file. Everything but the variants' own soundness (point.hpp) is checked; null after an error.
 std::unique_ptr<Plan> load_plan(const std::string& path, json::Diagnostics& diagnostics);
 
+/// Reports names in measures (of streams, Programs ...) from the given one on that nothing has: an error if no variant at all has them, a
+/// warning if only so many variants were looked at that together have every level.
+void check_names_of_measures(const Plan& plan, std::size_t first, json::Diagnostics& diagnostics);
+
 /// "slaves = 3, cycle = 200us"
 std::string name_of(const Plan& plan, const Variant& variant);
 

@@ -5,11 +5,11 @@
 #include <cstring>
 #include <ctime>
 
-#include "output/json_report.hpp"
+#include "results/result_json.hpp"
 #include "results/evaluate.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
-#include "study/topology_measures.hpp"
+#include "scenario/topology/graph_figures.hpp"
 
 namespace takt::study {
 namespace {
@@ -88,7 +88,7 @@ Outcome run_scenario(const Plan& plan, const scenario::Scenario& scenario) {
   scenario::Run run(*resolved);
   run.advance();
   const results::RunResult result = results::evaluate(run, false);
-  json::Node node = output::run_node(result);
+  json::Node node = results::run_node(result);
   if (asks_for_topology(plan)) node.add("topology", topology_node(*resolved));
   Outcome outcome;
   outcome.verdict = results::name_of(result.verdict);

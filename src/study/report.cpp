@@ -40,6 +40,26 @@ Counts counts_of(const Content& content) {
   return counts;
 }
 
+/// The rows of points that came to their end and do not pass.
+std::vector<std::size_t> failing_rows(const Content& content) {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < content.rows(); ++row)
+    if (content.status[row] == Status::done && !content.passes[row]) rows.push_back(row);
+  return rows;
+}
+
+std::string broken_by(const Content& content, std::size_t row) {
+  std::string text;
+  for (const PlannedLimit& limit : content.limits) {
+    const ContentMeasure& measure = content.measures[limit.measure];
+    const double value = measure.values[row];
+    const bool is_missing = value != value;
+    if (limit.holds(is_missing ? std::nullopt : std::optional(value))) continue;
+    text += (text.empty() ? "" : "; ") + limit.text + ": " + (is_missing ? std::string("none") : scenario::text_of(value, measure.unit));
+  }
+  return text.empty() ? "requirements of the scenario" : text;
+}
+
 class Page {
  public:
   explicit Page(const Content& content) : content_(content) {}
@@ -52,6 +72,7 @@ class Page {
     best_and_worst_variants();
     fronts();
     where_limits_break();
+    failing_points();
     troubles();
     return std::move(html_) + "</body></html>\n";
   }
@@ -81,7 +102,7 @@ class Page {
     std::string limits;
     for (const PlannedLimit& limit : content_.limits) limits += (limits.empty() ? "" : ", ") + limit.text;
     row("limits", limits.empty() ? "those of the scenario" : limits);
-    row("CPU time", fmt::format("{:.1f} s", content_.cpu_seconds));
+    row("CPU time", with_unit(content_.cpu_seconds, "s"));
     row("configuration", content_.header.digest + ", takt " + content_.header.takt);
     add("</table>\n<table><tr><th>factor</th><th>levels</th></tr>\n");
     for (const ContentFactor& factor : content_.factors) {
@@ -125,7 +146,7 @@ class Page {
   }
 
   void best_and_worst_variants() {
-    section("Best and worst variants", "By the mean over the replications; least and greatest in brackets.");
+    section("Best and worst variants", "By the mean over the replications; the least and the greatest of them in brackets. Of a measure without a limit: the least and the greatest.");
     for (std::size_t m = 0; m < content_.measures.size(); ++m) {
       const ContentMeasure& measure = content_.measures[m];
       const std::vector<Summary> summaries = by_variant(content_, m);
@@ -136,6 +157,9 @@ class Page {
         if (summaries[a].mean == summaries[b].mean) return a < b;
         return measure.lower_is_better ? summaries[a].mean < summaries[b].mean : summaries[a].mean > summaries[b].mean;
       };
+      // What is better, only a limit says.
+      const char* const first = measure.is_limited ? "best" : "least";
+      const char* const last = measure.is_limited ? "worst" : "greatest";
       const std::size_t shown = std::min(order.size(), 2 * best_and_worst);
       const std::size_t best = std::min(best_and_worst, shown);
       std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(best), order.end(), is_better);
@@ -144,7 +168,7 @@ class Page {
       add("<table><tr><th>" + escaped(label_of(measure)) + "</th><th></th><th>variant</th></tr>\n");
       for (std::size_t i = 0; i < shown; ++i) {
         const Summary& summary = summaries[order[i]];
-        add(fmt::format("<tr><td class=\"n\">{} ({} to {})</td><td>{}</td><td>{}</td></tr>\n", short_number(summary.mean), short_number(summary.min), short_number(summary.max), i < best ? "best" : "worst",
+        add(fmt::format("<tr><td class=\"n\">{} ({} to {})</td><td>{}</td><td>{}</td></tr>\n", short_number(summary.mean), short_number(summary.min), short_number(summary.max), i < best ? first : last,
                         escaped(content_.name_of(order[i]))));
       }
       add("</table>\n");
@@ -156,7 +180,7 @@ class Page {
     std::size_t count = 0;
     for (std::size_t a = 0; a < content_.measures.size(); ++a)
       for (std::size_t b = a + 1; b < content_.measures.size() && count < 6; ++b, ++count) all += pareto_chart(content_, a, b);
-    charts("Pareto fronts", "Variants that no other one beats in both measures.", all);
+    charts("Pareto fronts", "Variants that no other one beats in both measures. Less is better, unless a limit of the measure says at_least.", all);
   }
 
   void where_limits_break() {
@@ -180,6 +204,18 @@ class Page {
       if (breaks.size() > most_rows) add(fmt::format("<tr><td></td><td></td><td>and {} more combinations</td></tr>\n", breaks.size() - most_rows));
       add("</table>\n");
     }
+  }
+
+  void failing_points() {
+    const std::vector<std::size_t> rows = failing_rows(content_);
+    if (rows.empty()) return;
+    section("Points that do not pass", "By their numbers: takt study shrink FILE POINT finds the least of its faults with which a point still fails, and writes it as a scenario.");
+    add("<table><tr><th>point</th><th>variant</th><th>replication</th><th>what it breaks</th></tr>\n");
+    for (std::size_t i = 0; i < std::min(rows.size(), most_rows); ++i)
+      add(fmt::format("<tr><td class=\"n\">{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"fail\">{}</td></tr>\n", content_.point_of(rows[i]), escaped(content_.name_of(content_.variant[rows[i]])),
+                      content_.replication[rows[i]], escaped(broken_by(content_, rows[i]))));
+    if (rows.size() > most_rows) add(fmt::format("<tr><td></td><td>and {} more</td><td></td><td></td></tr>\n", rows.size() - most_rows));
+    add("</table>\n");
   }
 
   void troubles() {
@@ -212,9 +248,14 @@ std::string text_summary(const Content& content) {
     for (const double value : content.measures[m].values)
       if (value == value) all.push_back(value);
     const Summary summary = summary_of(all, 0);
-    text += fmt::format("  {:<24} {} to {}, mean {} {}, {} missing\n", content.measures[m].name, short_number(summary.min), short_number(summary.max), short_number(summary.mean), content.measures[m].unit,
+    text += fmt::format("  {:<24} {} to {}, mean {}{}{}, {} missing\n", content.measures[m].name, short_number(summary.min), short_number(summary.max), short_number(summary.mean),
+                        content.measures[m].unit.empty() ? "" : " ", content.measures[m].unit,
                         content.rows() - all.size());
   }
+  const std::vector<std::size_t> failing = failing_rows(content);
+  constexpr std::size_t most_named = 10;
+  for (std::size_t i = 0; i < std::min(failing.size(), most_named); ++i) text += fmt::format("{}{}", i == 0 ? "  points that do not pass: " : ", ", content.point_of(failing[i]));
+  if (!failing.empty()) text += failing.size() > most_named ? " ...\n" : "\n";
   return text;
 }
 

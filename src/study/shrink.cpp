@@ -13,6 +13,31 @@ namespace {
 
 using Faults = std::vector<scenario::Fault>;
 
+/// The study's limit as a requirement of a scenario.
+scenario::Requirement requirement_of(const Plan& plan, const Limit& limit) {
+  const auto measure = static_cast<std::size_t>(
+      std::find_if(plan.measures.begin(), plan.measures.end(), [&](const PlannedMeasure& m) { return m.name == limit.measure; }) - plan.measures.begin());
+  const Measure& said = plan.study.measures[measure];
+  scenario::Requirement requirement;
+  requirement.figure = said.of;
+  requirement.only = said.only;
+  if (said.of.starts_with('/')) requirement.take = said.take;   // a short form says it itself
+  if (!plan.measures[measure].unit.empty()) requirement.unit = plan.measures[measure].unit;
+  requirement.at_most = limit.at_most;
+  requirement.at_least = limit.at_least;
+  return requirement;
+}
+
+/// The scenario judges as the study does. A limit of the verdict is kept by what the scenario requires itself.
+void require_limits(const Plan& plan, scenario::Scenario& scenario) {
+  const auto is_verdict = [&](const Limit& limit) {
+    return std::any_of(plan.measures.begin(), plan.measures.end(), [&](const PlannedMeasure& m) { return m.name == limit.measure && m.steps.front() == "verdict"; });
+  };
+  if (!plan.study.requirements_count && std::none_of(plan.study.limits.begin(), plan.study.limits.end(), is_verdict)) scenario.require.clear();
+  for (const Limit& limit : plan.study.limits)
+    if (!is_verdict(limit)) scenario.require.push_back(requirement_of(plan, limit));
+}
+
 class Shrinker {
  public:
   Shrinker(const Plan& plan, const RunOptions& options, Shrunk& shrunk) : plan_(plan), options_(options), shrunk_(shrunk) {}
@@ -24,6 +49,7 @@ class Shrinker {
       shrunk_.problem = shrunk_.interrupted ? "" : "the point has no result" + (outcome ? ": " + outcome->error : "");
       return;
     }
+    note_broken(*outcome);
     if (outcome->passes) {
       shrunk_.problem = "the point passes: there is nothing to shrink";
       return;
@@ -61,7 +87,14 @@ class Shrinker {
     const auto outcome = try_with(faults);
     if (!outcome || outcome->status != Status::done || outcome->passes) return false;
     shrunk_.scenario.faults = faults;
+    note_broken(*outcome);
     return true;
+  }
+
+  void note_broken(const Outcome& outcome) {
+    shrunk_.broken.clear();
+    for (const PlannedLimit& limit : plan_.limits)
+      if (outcome.status == Status::done && !limit.holds(outcome.values[limit.measure])) shrunk_.broken.push_back(limit.text);
   }
 
   /// Without ever smaller parts, until no single fault can be left out.
@@ -123,6 +156,7 @@ Shrunk shrink(const Plan& plan, std::uint64_t point, const RunOptions& options) 
     return shrunk;
   }
   shrunk.scenario = std::move(*scenario);
+  require_limits(plan, shrunk.scenario);
   Shrinker(plan, options, shrunk).run();
   return shrunk;
 }

@@ -93,7 +93,7 @@ class Searcher {
       Finding& finding = search_.findings[i];
       if (is_part && !counts_in_a_part(seen.kind)) continue;
       // How many frames come until the end depends on when the talker begins, and says nothing about the network.
-      if (!is_as_it_is && seen.kind == RequirementKind::delivered) continue;
+      if (!is_as_it_is && (seen.kind == RequirementKind::delivered || (seen.figure && !seen.figure->is_upper))) continue;
       // What was not complete at the end might have been so later.
       const bool failed = seen.verdict == results::Verdict::fail && (!is_part || seen.measured || seen.kind == RequirementKind::invariants) &&
                           !(is_part && seen.measured && seen.limit && *seen.measured <= *seen.limit);

@@ -19,14 +19,20 @@ std::vector<std::string> texts_of(const analysis::Assumptions& assumptions) {
   return texts;
 }
 
+/// Whether takt bound has a line for it.
+bool is_bounded(RequirementKind kind) {
+  using enum RequirementKind;
+  return kind == reaction || kind == latency || kind == jitter || kind == dropped || kind == delivered || kind == sync;
+}
+
 class Prover {
  public:
   Prover(const scenario::Resolved& resolved, const ProofOptions& options) : resolved_(resolved), options_(options), bounds_(analysis::bound(resolved)) {}
 
-  /// `limit`: which limit of the scenario's requirements it is; those of invariants come behind them.
+  /// `limit`: which of those limits of the scenario's requirements it is that takt bound looks at.
   Proved of(const RequirementResult& requirement, std::size_t limit) {
     if (requirement.kind == RequirementKind::invariants) return invariants(requirement);
-    if (limit >= bounds_.requirements.size()) return {{}, false, "nothing is known about it", {}};
+    if (!is_bounded(requirement.kind) || limit >= bounds_.requirements.size()) return {{}, false, "nothing is known about it", {}};
     const analysis::RequirementBound& bound = bounds_.requirements[limit].bound;
     if (requirement.kind == RequirementKind::delivered) return delivered(requirement);
     Proved proved{bound.duration, false, bound.reason, texts_of(bound.assumptions)};
@@ -107,7 +113,11 @@ class Prover {
 std::vector<Proved> prove(const scenario::Resolved& resolved, const std::vector<RequirementResult>& requirements, const ProofOptions& options) {
   Prover prover(resolved, options);
   std::vector<Proved> proofs;
-  for (std::size_t i = 0; i < requirements.size(); ++i) proofs.push_back(prover.of(requirements[i], i));
+  std::size_t limit = 0;
+  for (const RequirementResult& requirement : requirements) {
+    proofs.push_back(prover.of(requirement, limit));
+    limit += is_bounded(requirement.kind) ? 1 : 0;
+  }
   return proofs;
 }
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "output/json_report.hpp"
+#include "results/result_json.hpp"
 #include "output/text_report.hpp"
 #include "results/evaluate.hpp"
 #include "scenario/json/override.hpp"
@@ -46,7 +46,7 @@ std::uint64_t digest_of(const scenario::Resolved& resolved) {
   const bool is_complete = run.advance(most_events);
   const results::RunResult result = results::evaluate(run, !is_complete);
   json::Diagnostics diagnostics;
-  TAKT_CHECK(json::parse(output::run_json(result), "result.json", diagnostics), "a result is valid JSON");
+  TAKT_CHECK(json::parse(results::run_json(result), "result.json", diagnostics), "a result is valid JSON");
   TAKT_CHECK(!output::run_report(result).empty() && !output::check_report(resolved).empty(), "there is a report");
   return run.simulation().digest().value();
 }

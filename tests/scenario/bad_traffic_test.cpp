@@ -102,7 +102,7 @@ const BadCase programs_cases[] = {
     {"UnknownMethod", with_script(R"({"at": "1us", "program": "p", "call": "start"})"),
      R"(2:39: error at /script/0/call: unknown name for a Program control method: found "start", expected "Start", "Suspend", "Resume", "Halt" or "Reset" (did you mean "Start"?))"},
     {"RequirementOfNothing", with_requirement(R"({"within": "1ms"})"),
-     R"(2:1: error at /require/0: a field is missing: expected exactly one of "reaction", "stream", "sync", "application" or "signal")"},
+     R"(2:1: error at /require/0: a field is missing: expected exactly one of "reaction", "stream", "sync", "application", "signal" or "figure")"},
     {"ReactionWithoutLimit", with_requirement(R"({"reaction": "start"})"),
      R"(2:1: error at /require/0: missing key: found "reaction" without a limit, expected "within")"},
     {"ReactionOfAnUnknownProgram", with_requirement(R"({"reaction": "start", "program": "P", "within": "1ms"})"),
@@ -111,12 +111,16 @@ const BadCase programs_cases[] = {
      R"(2:26: error at /require/0/reaction: a reaction without a program: found no programs, expected "programs")"},
     {"ReactionAndStream", with_requirement(R"({"reaction": "start", "within": "1ms", "stream": "p/state/a", "latency": "1ms"})"),
      R"(2:33: error at /require/0/within: does not belong to this requirement: found "within", expected a requirement with "reaction"
-2:50: error at /require/0/stream: fields that exclude each other: found "stream" beside "reaction", expected exactly one of "reaction", "stream", "sync", "application" or "signal"
+2:50: error at /require/0/stream: fields that exclude each other: found "stream" beside "reaction", expected exactly one of "reaction", "stream", "sync", "application", "signal" or "figure"
 2:74: error at /require/0/latency: does not belong to this requirement: found "latency", expected a requirement with "stream")"},
     {"LimitOfTheOtherSubject", with_requirement(R"({"reaction": "start", "within": "1ms", "latency": "1ms"})"),
      R"(2:51: error at /require/0/latency: does not belong to this requirement: found "latency", expected a requirement with "stream")"},
     {"StreamWithoutLimit", with_requirement(R"({"stream": "p/state/a"})"),
      R"(2:1: error at /require/0: missing key: found "stream" without a limit, expected "latency", "jitter", "dropped" or "delivered")"},
+    {"FigureWithoutLimit", with_requirement(R"({"figure": "dropped"})"),
+     R"(2:1: error at /require/0: missing key: found "figure" without a limit, expected "at_most" or "at_least")"},
+    {"UnknownFigure", with_requirement(R"({"figure": "/events/0", "at_most": 1})"),
+     R"(2:12: error at /require/0/figure: unknown figure: found "/events/0", expected /events, which has no members)"},
     {"UnknownStream", with_requirement(R"({"stream": "p/state/c", "latency": "1ms"})"),
      R"(2:12: error at /require/0/stream: unknown stream: found "p/state/c", expected the name of a stream (did you mean "p/state/a"?))"},
     {"StreamOfAProgramWithAMistake", scenario_with(R"("programs": [{"name": "p", "master": "a", "slaves": ["x"], "cycle": "1ms"}], "require": [{"stream": "p/state/a", "latency": "1ms"}])"),

@@ -48,7 +48,7 @@ TEST(Measure, ShortFormsAndPointers) {
   EXPECT_EQ(figure("/streams/a~1b/latency_ps/p99"), 2.0) << "times are in us unless they say";
   EXPECT_EQ(figure("/ports/*/utilisation", "", {}, Take::sum), 0.75);
   EXPECT_EQ(figure("/ports/1/utilisation"), 0.5);
-  EXPECT_EQ(figure("/nothing/there"), std::nullopt);
+  EXPECT_EQ(figure("/dropped/link_loss"), 0.0) << "reasons that did not occur are not in a result";
   Value start;
   start.node = json::Node::of_string("start");
   EXPECT_EQ(figure("/programs/*/reactions/*/duration_ps", "", {{"kind", start}}, Take::count), 2.0);
@@ -68,6 +68,9 @@ TEST(Measure, MistakesAreTold) {
   EXPECT_NE(problem("reaction.stop.max", "").find("unknown figure"), std::string::npos);
   EXPECT_NE(problem("dropped", "us").find("a unit of time for what is no time"), std::string::npos);
   EXPECT_NE(problem("latency.max", "frames").find("not a unit of time"), std::string::npos);
+  EXPECT_NE(problem("/nothing/there", "").find("unknown figure"), std::string::npos);
+  EXPECT_NE(problem("/streams/a/delivred", "").find("did you mean \"delivered\"?"), std::string::npos);
+  EXPECT_NE(problem("/ports/*/node", "").find("a figure that is no number"), std::string::npos);
 }
 
 TEST(Limit, IsInTheMeasuresUnit) {

@@ -5,6 +5,7 @@ usage: study_command_test.py TAKT SOURCE_FOLDER [unittest options]
 
 TAKT_KILLS says how often the kill test kills (50 if it is not set).
 """
+import json
 import os
 import pathlib
 import random
@@ -77,7 +78,8 @@ class StudyTest(unittest.TestCase):
         for i, part in enumerate(parts, 1):
             self.run_study(study, "--shard", f"{i}/3", "--out", part)
         merged = self.folder / "merged.sqlite"
-        self.run_study("merge", merged, *parts)
+        self.assertIn("48 of 48 points", self.run_study("merge", merged, *parts))
+        self.assertIn("--resume --out", self.run_study("merge", self.folder / "two.sqlite", *parts[1:]))
         self.assertEqual(results(self.run_study(study, "--resume", "--out", merged)), expected)
         self.run_study(study, "--resume", "--out", parts[1])
         self.assertEqual(results(self.run_study(study, "--resume", "--out", parts[1])), expected)
@@ -202,6 +204,44 @@ class StudyTest(unittest.TestCase):
         study.write_text(text.replace('"dropped": 0', '"dropped": 100000'))
         self.assertIn("the point passes", self.run_study("shrink", study, 0, "--out", worst, status=2))
 
+    def test_shrunk_limits_fail_without_the_study(self):
+        # A limit of the study alone: 20 frames may be lost. Each outage of 1 ms costs about 50; what is left is one outage, made as short as 20 frames allow.
+        study, worst = self.study(), self.folder / "worst.json"
+        text = study.read_text().replace('"streams": [', """"faults": [
+            {"kind": "link-down", "link": ["b", "s"], "at": "1ms", "for": "1ms"}, {"kind": "link-down", "link": ["b", "s"], "at": "3ms", "for": "1ms"}],
+          "require": [{"stream": "x", "delivered": 1000000}], "streams": [""")
+        text = text.replace('"measures": [', '"requirements_count": false, "measures": [{"name": "lost", "of": "/streams/*/dropped/*", "take": "sum", "unit": "frames"}, ')
+        text = text.replace('[{"measure": "delay", "at_most": "40us"}]', '[{"measure": "lost", "at_most": 20}, {"measure": "delay", "at_most": "1s"}]')
+        study.write_text(text)
+        out = self.run_study("shrink", study, 0, "--out", worst)
+        self.assertIn("1 of 2 faults suffice to fail lost <= 20 frames", out)
+        code, page, err = takt("run", worst)
+        self.assertEqual(code, 1, page + err)
+        self.assertRegex(page, r"FAIL  figure /streams/\*/dropped/\* \(sum\) at most 20 frames +found (2[1-9]|[34][0-9]) frames, asked at most 20 frames")
+        self.assertIn("pass  figure latency.x.max at most 1s", page)
+        self.assertNotIn("1000000", page)   # the study does not count the scenario's own requirements
+        self.assertEqual(takt("check", worst)[0], 0)
+        code, page, err = takt("run", worst, "--format", "json")
+        failed = [each for each in json.loads(page)["requirements"] if each["verdict"] == "fail"]
+        self.assertEqual([(each["figure"], each["at_most"], each["unit"]) for each in failed], [("/streams/*/dropped/* (sum)", 20, "frames")])
+        # Without its fault it passes, so it is the fault that breaks the limit.
+        self.assertEqual(takt("run", worst, "--quiet", "--set", "faults=[]")[0], 0)
+        # The report names the points to shrink.
+        store = self.folder / "s.sqlite"
+        self.run_study(study, "--out", store)
+        self.assertIn("points that do not pass: 0, 1, ", self.run_study("report", store, "--out", self.folder / "s.html"))
+        self.assertIn("lost &lt;= 20 frames: ", (self.folder / "s.html").read_text())
+
+    def test_figures_that_no_run_has(self):
+        study = self.study()
+        text = study.read_text()
+        for of, words in (("/streams/x/latency/max", 'did you mean "latency_ps"?'), ("latency.y.max", 'unknown stream: found "y", expected the name of a stream of some variant'),
+                          ("/streams/x/latency_ps", "not a single figure"), ("/dropped/*/now", "which has no members")):
+            study.write_text(text.replace('"of": "latency.x.mean"', f'"of": "{of}"'))
+            self.assertIn(words, self.run_study(study, "--dry-run", status=2))
+        study.write_text(text)
+        self.assertIn('unknown stream: found "y"', self.run_study(study, "--find", "max gap such that latency.y.max < 1us", status=2))
+
     def test_compare(self):
         scenario = SOURCE / "scenarios" / "direct-link.json"
         code, out, err = takt("compare", scenario, scenario, "--pairs", 2)
@@ -213,6 +253,8 @@ class StudyTest(unittest.TestCase):
         self.assertIn("the runs part at", out)
         self.assertRegex(out, r"reaction\.start\.max .*B is greater")
         self.assertEqual(takt("compare", scenario, scenario, "--set-b", "nonsense=1")[0], 2)
+        study = self.study()
+        self.assertEqual(takt("compare", study, study)[2].count('"network" is missing'), 1)   # a mistake of one file, told once
 
     def test_report_in_a_browser(self):
         browser = next((found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None)
@@ -220,6 +262,9 @@ class StudyTest(unittest.TestCase):
         self.run_study(study, "--out", store)
         self.run_study("report", store, "--out", page)
         html = page.read_text()
+        # Only a limit says what is better.
+        self.assertRegex(html, r"delay in us</th>.*\n.*>best<")
+        self.assertRegex(html, r"mean in us</th>.*\n.*>least<")
         self.assertNotIn("http://", html.replace("http://www.w3.org/2000/svg", ""))
         if browser is None:
             self.skipTest("no chromium here: the report is not rendered")

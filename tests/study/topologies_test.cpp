@@ -7,7 +7,7 @@
 
 #include "scenario/resolve/resolve.hpp"
 #include "study/point.hpp"
-#include "study/topology_measures.hpp"
+#include "scenario/topology/graph_figures.hpp"
 #include "support.hpp"
 
 namespace takt::study {
@@ -101,6 +101,7 @@ TEST(Topologies, GraphmlBecomesANetwork) {
 TEST(Topologies, MistakesAreTold) {
   const Folder folder;
   folder.write("bad.graphml", "<graphml><graph></oops>");
+  folder.write("end.graphml", R"(<graphml><graph edgedefault="undirected"><node id="1"/><node id='2'/><edge id="e" source="1" target="3"/></graph></graphml>)");
   const std::pair<const char*, const char*> cases[] = {
       {R"({"a": {"topology": "comb", "switches": 3}})", "\"teeth\""},
       {R"({"a": {"topology": "dual-star", "switches": 3, "degree": 2}})", "no such parameter"},
@@ -111,6 +112,7 @@ TEST(Topologies, MistakesAreTold) {
       {R"({"a": {"graphml": "none.graphml", "switches": 3}})", "unknown field \"switches\""},
       {R"({"a": {"graphml": "none.graphml"}})", "cannot be opened"},
       {R"({"a": {"graphml": "bad.graphml"}})", "cannot read this GraphML file"},
+      {R"({"a": {"graphml": "end.graphml"}})", "an edge ends at \"3\", which is the id of no node"},
   };
   for (const auto& [topologies, expected] : cases) {
     json::Diagnostics diagnostics;

@@ -11,8 +11,10 @@
 #include "scenario/applications/description_applications.hpp"
 #include "scenario/description/clocks.hpp"
 #include "scenario/description/faults.hpp"
+#include "scenario/description/figures.hpp"
 #include "scenario/description/ingress.hpp"
 #include "scenario/description/latency.hpp"
+#include "scenario/json/any.hpp"
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -329,6 +331,12 @@ struct Requirement {
   std::optional<double> buffered = {};   ///< percent
   std::optional<std::string> signal = {};
   std::optional<double> irregular = {};  ///< percent
+  std::optional<std::string> figure = {};
+  json::NameMap<json::Any> only = {};
+  std::optional<Take> take = {};
+  std::optional<std::string> unit = {};
+  std::optional<json::Any> at_most = {};   ///< a number in the unit, or a duration
+  std::optional<json::Any> at_least = {};
   Duration after;
   bool operator==(const Requirement&) const = default;
 };

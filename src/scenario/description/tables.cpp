@@ -209,10 +209,18 @@ const json::Object& describe(json::Type<Requirement>) {
       optional<&Requirement::buffered>("buffered", "Least share of the expected values that a subscribing thread buffered (criterion 2), in percent.", {.min = 0, .max = 100}),
       optional<&Requirement::signal>("signal", "The digital output that is meant."),
       optional<&Requirement::irregular>("irregular", "Greatest share of pulses whose length is more than 10 % off, in percent.", {.min = 0, .max = 100}),
+      optional<&Requirement::figure>("figure", "Any figure of result.json: a JSON pointer, * for every member, or a short form such as reaction.start.max.",
+                                     {.min_length = 2, .max_length = 1000}),
+      optional<&Requirement::only>("only", "Members that the object with the figure must have, such as {\"kind\": \"start\"}."),
+      optional<&Requirement::take>("take", "What is taken if the pointer leads to several values; max if absent."),
+      optional<&Requirement::unit>("unit", "In which a number of at_most or at_least is: ps, ns, us, ms or s for times, % for shares, otherwise a label.", {.max_length = 20}),
+      optional<&Requirement::at_most>("at_most", "The greatest that the figure may be: a number, or a duration such as 7ms."),
+      optional<&Requirement::at_least>("at_least", "The least that it may be."),
       optional<&Requirement::after>("after", "From this instant on.", {.max = longest}),
   };
-  static constexpr std::string_view subjects[] = {"reaction", "stream", "sync", "application", "signal"};
-  static constexpr json::Group groups[] = {json::exactly_one_of(subjects)};
+  static constexpr std::string_view subjects[] = {"reaction", "stream", "sync", "application", "signal", "figure"};
+  static constexpr std::string_view bounds[] = {"at_most", "at_least"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(subjects), json::at_most_one_of(bounds)};
   static constexpr json::Object table = json::object<Requirement>("requirement", "What the run must show.", fields, {.groups = groups});
   return table;
 }

@@ -6,6 +6,7 @@
 
 #include "models/ethernet/sizes.hpp"
 #include "scenario/applications/resolve_applications.hpp"
+#include "scenario/figures/requirement.hpp"
 #include "scenario/json/override.hpp"
 #include "scenario/json/suggest.hpp"
 #include "scenario/programs/program_shape.hpp"
@@ -395,6 +396,7 @@ class Resolver {
 
   void check_requirement(const Requirement& requirement) {
     if (requirement.program) find_program(*requirement.program, requirement.where.at("program"));
+    if (!check_figure(r_, requirement, diagnostics_)) return;
     const auto refuse = [&](bool is_there, std::string_view key, std::string_view subject) {
       if (is_there) diagnostics_.error(requirement.where.at(key), "does not belong to this requirement", {json::quote(key), "a requirement with \"" + std::string(subject) + "\""});
     };

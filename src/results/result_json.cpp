@@ -1,11 +1,13 @@
-#include "output/json_report.hpp"
+#include "results/result_json.hpp"
 
 #include <fmt/format.h>
 
-#include "output/application_report.hpp"
+#include <algorithm>
+
+#include "results/application_json.hpp"
 #include "scenario/json/node.hpp"
 
-namespace takt::output {
+namespace takt::results {
 namespace {
 
 using scenario::json::Node;
@@ -25,21 +27,27 @@ Node dropped_of(const std::vector<std::pair<std::string, std::uint64_t>>& drops)
   return node;
 }
 
-Node requirements_of(const results::RunResult& result) {
+Node requirements_of(const RunResult& result) {
   Node array = Node::array();
-  for (const results::RequirementResult& r : result.requirements) {
+  for (const RequirementResult& r : result.requirements) {
     Node node = Node::object();
     node.add("text", Node::of_string(r.text));
-    node.add("verdict", Node::of_string(results::name_of(r.verdict)));
+    node.add("verdict", Node::of_string(name_of(r.verdict)));
     node.add("measured_ps", optional_picoseconds(r.measured));
     node.add("limit_ps", optional_picoseconds(r.limit));
     node.add("remark", Node::of_string(r.remark));
+    if (r.figure) {
+      node.add("figure", Node::of_string(r.figure->name));
+      node.add("found", r.figure->found ? Node::of_double(*r.figure->found) : Node());
+      node.add(r.figure->is_upper ? "at_most" : "at_least", Node::of_double(r.figure->asked));
+      node.add("unit", Node::of_string(r.figure->unit));
+    }
     array.items.push_back(std::move(node));
   }
   return array;
 }
 
-Node summary_node(const results::LatencySummary& summary) {
+Node summary_node(const LatencySummary& summary) {
   Node node = Node::object();
   node.add("min", picoseconds(summary.min));
   node.add("mean", picoseconds(summary.mean));
@@ -50,16 +58,16 @@ Node summary_node(const results::LatencySummary& summary) {
   return node;
 }
 
-Node round_trips_of(const results::ProgramResult& program) {
+Node round_trips_of(const ProgramResult& program) {
   Node all = Node::object();
-  for (const results::RoundTripResult& r : program.round_trips) {
+  for (const RoundTripResult& r : program.round_trips) {
     Node node = Node::object();
     node.add("request", Node::of_string(r.request));
     node.add("count", integer(r.count));
     node.add("time_ps", r.time ? summary_node(*r.time) : Node());
     node.add("one_way_ps", r.one_way ? summary_node(*r.one_way) : Node());
     Node histogram = Node::array();
-    for (const results::HistogramBucket& bucket : r.histogram) {
+    for (const HistogramBucket& bucket : r.histogram) {
       Node row = Node::array();
       row.items = {picoseconds(bucket.from), picoseconds(bucket.to), integer(bucket.count)};
       histogram.items.push_back(std::move(row));
@@ -70,9 +78,9 @@ Node round_trips_of(const results::ProgramResult& program) {
   return all;
 }
 
-Node streams_of(const results::RunResult& result) {
+Node streams_of(const RunResult& result) {
   Node all = Node::object();
-  for (const results::StreamResult& s : result.streams) {
+  for (const StreamResult& s : result.streams) {
     Node node = Node::object();
     node.add("sent", integer(s.sent));
     node.add("delivered", integer(s.delivered));
@@ -86,7 +94,7 @@ Node streams_of(const results::RunResult& result) {
   return all;
 }
 
-Node reaction_node(const results::ReactionResult& r) {
+Node reaction_node(const ReactionResult& r) {
   Node node = Node::object();
   node.add("kind", Node::of_string(r.kind));
   node.add("initiator", Node::of_string(r.initiator));
@@ -98,22 +106,22 @@ Node reaction_node(const results::ReactionResult& r) {
   return node;
 }
 
-Node programs_of(const results::RunResult& result) {
+Node programs_of(const RunResult& result) {
   Node all = Node::object();
-  for (const results::ProgramResult& p : result.programs) {
+  for (const ProgramResult& p : result.programs) {
     Node node = Node::object();
     node.add("variant", Node::of_string(p.variant));
     Node reactions = Node::array();
-    for (const results::ReactionResult& r : p.reactions) reactions.items.push_back(reaction_node(r));
+    for (const ReactionResult& r : p.reactions) reactions.items.push_back(reaction_node(r));
     node.add("reactions", std::move(reactions));
     if (!p.tree_reactions.empty()) {
       Node tree = Node::array();
-      for (const results::ReactionResult& r : p.tree_reactions) tree.items.push_back(reaction_node(r));
+      for (const ReactionResult& r : p.tree_reactions) tree.items.push_back(reaction_node(r));
       node.add("tree_reactions", std::move(tree));
     }
     if (!p.bindings.empty()) {
       Node bindings = Node::array();
-      for (const results::BindingResult& b : p.bindings) {
+      for (const BindingResult& b : p.bindings) {
         Node binding = Node::object();
         binding.add("at_ps", picoseconds(b.at));
         binding.add("role", Node::of_string(b.role));
@@ -126,7 +134,7 @@ Node programs_of(const results::RunResult& result) {
     for (std::size_t i = 0; i < p.participants.size(); ++i) states.add(p.participants[i], Node::of_string(p.states[i]));
     node.add("states", std::move(states));
     Node violations = Node::array();
-    for (const results::ViolationResult& v : p.violations) {
+    for (const ViolationResult& v : p.violations) {
       Node violation = Node::object();
       violation.add("at_ps", picoseconds(v.at));
       violation.add("invariant", Node::of_string(v.invariant));
@@ -136,7 +144,7 @@ Node programs_of(const results::RunResult& result) {
     }
     node.add("violations", std::move(violations));
     Node timeline = Node::array();
-    for (const results::TimelineEntry& e : p.timeline) {
+    for (const TimelineEntry& e : p.timeline) {
       Node entry = Node::object();
       entry.add("at_ps", picoseconds(e.at));
       entry.add("participant", Node::of_string(p.participants[e.participant]));
@@ -152,9 +160,9 @@ Node programs_of(const results::RunResult& result) {
   return all;
 }
 
-Node ports_of(const results::RunResult& result) {
+Node ports_of(const RunResult& result) {
   Node array = Node::array();
-  for (const results::PortResult& p : result.ports) {
+  for (const PortResult& p : result.ports) {
     Node node = Node::object();
     node.add("node", Node::of_string(p.node));
     node.add("port", integer(p.port));
@@ -172,7 +180,7 @@ Node ports_of(const results::RunResult& result) {
   return array;
 }
 
-Node filter_node(const results::StreamFilterResult& f) {
+Node filter_node(const StreamFilterResult& f) {
   Node node = Node::object();
   node.add("stream", f.stream.empty() ? Node() : Node::of_string(f.stream));
   node.add("pcp", f.priority ? integer(*f.priority) : Node());
@@ -186,7 +194,7 @@ Node filter_node(const results::StreamFilterResult& f) {
   return node;
 }
 
-Node gate_node(const results::StreamGateResult& g) {
+Node gate_node(const StreamGateResult& g) {
   Node node = Node::object();
   node.add("passed", integer(g.passed));
   node.add("closed", integer(g.closed));
@@ -196,7 +204,7 @@ Node gate_node(const results::StreamGateResult& g) {
   return node;
 }
 
-Node meter_node(const results::FlowMeterResult& m) {
+Node meter_node(const FlowMeterResult& m) {
   Node node = Node::object();
   node.add("green", integer(m.frames[0]));
   node.add("yellow", integer(m.frames[1]));
@@ -206,7 +214,7 @@ Node meter_node(const results::FlowMeterResult& m) {
   return node;
 }
 
-Node scheduler_node(const results::AtsSchedulerResult& s) {
+Node scheduler_node(const AtsSchedulerResult& s) {
   Node node = Node::object();
   node.add("passed", integer(s.passed));
   node.add("discarded", integer(s.discarded));
@@ -222,10 +230,10 @@ Node by_name(const Rows& rows, Node (*node_of)(const typename Rows::value_type&)
   return all;
 }
 
-Node clocks_of(const results::RunResult& result) {
+Node clocks_of(const RunResult& result) {
   Node all = Node::array();
   const auto ps = [](sim::Duration duration) { return Node::of_integer(duration.ps()); };
-  for (const results::ClockResult& c : result.clocks) {
+  for (const ClockResult& c : result.clocks) {
     Node node = Node::object();
     node.add("node", Node::of_string(c.node));
     node.add("grandmaster", Node::of_string(c.grandmaster));
@@ -237,12 +245,13 @@ Node clocks_of(const results::RunResult& result) {
     offset.add("mean_ps", ps(c.mean));
     offset.add("rms_ps", ps(c.rms));
     offset.add("max_ps", ps(c.greatest));
+    offset.add("abs_max_ps", ps(std::max(c.greatest, sim::Duration() - c.least)));
     node.add("offset", std::move(offset));
     node.add("rate_error_ppt", Node::of_integer(c.frequency_error_ppt));
     node.add("steps", integer(c.steps));
     node.add("messages", integer(c.messages));
     Node changes = Node::array();
-    for (const results::ClockChangeResult& change : c.changes) {
+    for (const ClockChangeResult& change : c.changes) {
       Node entry = Node::object();
       entry.add("at_ps", ps(change.at.since_start()));
       entry.add("grandmaster", Node::of_string(change.grandmaster));
@@ -255,13 +264,13 @@ Node clocks_of(const results::RunResult& result) {
   return all;
 }
 
-Node ingress_of(const results::RunResult& result) {
+Node ingress_of(const RunResult& result) {
   Node all = Node::object();
-  for (const results::IngressResult& i : result.ingress) {
+  for (const IngressResult& i : result.ingress) {
     Node node = Node::object();
     node.add("unidentified", integer(i.unidentified));
     Node filters = Node::array();
-    for (const results::StreamFilterResult& filter : i.filters) filters.items.push_back(filter_node(filter));
+    for (const StreamFilterResult& filter : i.filters) filters.items.push_back(filter_node(filter));
     node.add("filters", std::move(filters));
     node.add("gates", by_name(i.gates, gate_node));
     node.add("meters", by_name(i.meters, meter_node));
@@ -271,7 +280,7 @@ Node ingress_of(const results::RunResult& result) {
   return all;
 }
 
-void add_counters(Node& node, const results::RecoveryCounters& c) {
+void add_counters(Node& node, const RecoveryCounters& c) {
   node.add("passed", integer(c.passed));
   node.add("discarded", integer(c.discarded));
   node.add("out_of_order", integer(c.out_of_order));
@@ -281,7 +290,7 @@ void add_counters(Node& node, const results::RecoveryCounters& c) {
   node.add("resets", integer(c.resets));
 }
 
-Node recovery_node(const results::RecoveryResult& r) {
+Node recovery_node(const RecoveryResult& r) {
   Node node = Node::object();
   node.add("node", Node::of_string(r.node));
   node.add("stream", Node::of_string(r.stream));
@@ -296,7 +305,7 @@ Node recovery_node(const results::RecoveryResult& r) {
   }
   node.add("latent_errors", std::move(latent));
   Node individual = Node::array();
-  for (const results::RecoveryResult::Individual& each : r.individual) {
+  for (const RecoveryResult::Individual& each : r.individual) {
     Node one = Node::object();
     one.add("member", each.member ? integer(*each.member) : Node());
     one.add("port", integer(each.port));
@@ -307,9 +316,9 @@ Node recovery_node(const results::RecoveryResult& r) {
   return node;
 }
 
-Node redundancy_of(const results::RunResult& result) {
+Node redundancy_of(const RunResult& result) {
   Node splits = Node::array();
-  for (const results::SplitResult& s : result.redundancy.splits) {
+  for (const SplitResult& s : result.redundancy.splits) {
     Node node = Node::object();
     node.add("node", Node::of_string(s.node));
     node.add("stream", Node::of_string(s.stream));
@@ -319,7 +328,7 @@ Node redundancy_of(const results::RunResult& result) {
     splits.items.push_back(std::move(node));
   }
   Node recoveries = Node::array();
-  for (const results::RecoveryResult& r : result.redundancy.recoveries) recoveries.items.push_back(recovery_node(r));
+  for (const RecoveryResult& r : result.redundancy.recoveries) recoveries.items.push_back(recovery_node(r));
   Node node = Node::object();
   node.add("splits", std::move(splits));
   node.add("recoveries", std::move(recoveries));
@@ -328,7 +337,7 @@ Node redundancy_of(const results::RunResult& result) {
 
 }  // namespace
 
-scenario::json::Node run_node(const results::RunResult& result) {
+scenario::json::Node run_node(const RunResult& result) {
   Node root = Node::object();
   root.add("takt", Node::of_string(result.version));
   root.add("scenario", Node::of_string(result.scenario));
@@ -337,7 +346,7 @@ scenario::json::Node run_node(const results::RunResult& result) {
   root.add("partial", Node::of_bool(result.partial));
   root.add("digest", Node::of_string(fmt::format("{:016x}", result.digest)));
   root.add("events", integer(result.events));
-  root.add("verdict", Node::of_string(results::name_of(result.verdict)));
+  root.add("verdict", Node::of_string(name_of(result.verdict)));
   root.add("requirements", requirements_of(result));
   root.add("streams", streams_of(result));
   root.add("programs", programs_of(result));
@@ -351,6 +360,6 @@ scenario::json::Node run_node(const results::RunResult& result) {
   return root;
 }
 
-std::string run_json(const results::RunResult& result) { return scenario::json::pretty(run_node(result)); }
+std::string run_json(const RunResult& result) { return scenario::json::pretty(run_node(result)); }
 
-}  // namespace takt::output
+}  // namespace takt::results

@@ -1,4 +1,4 @@
-#include "study/topology_measures.hpp"
+#include "scenario/topology/graph_figures.hpp"
 
 #include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
@@ -8,11 +8,9 @@
 
 #include "scenario/topology/disjoint_paths.hpp"
 
-namespace takt::study {
+namespace takt::scenario {
 namespace {
 
-using scenario::Topology;
-using scenario::json::Node;
 using EdgeNumber = boost::property<boost::edge_index_t, std::size_t>;
 using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, boost::no_property, EdgeNumber>;
 
@@ -24,7 +22,7 @@ Graph switches_of(const Topology& topology) {
     if (!topology.nodes[i].is_host()) number[i] = count++;
   Graph graph(count);
   for (std::uint32_t a = 0; a < topology.nodes.size(); ++a)
-    for (const scenario::Neighbour& neighbour : topology.neighbours[a])
+    for (const Neighbour& neighbour : topology.neighbours[a])
       if (neighbour.node > a && !topology.nodes[a].is_host() && !topology.nodes[neighbour.node].is_host())
         boost::add_edge(number[a], number[neighbour.node], boost::num_edges(graph), graph);
   return graph;
@@ -55,10 +53,10 @@ std::size_t bridges_of(const Graph& graph) {
   return static_cast<std::size_t>(std::count(size.begin(), size.end(), 1u));
 }
 
-std::optional<std::size_t> disjoint_paths_of(const scenario::Resolved& resolved) {
+std::optional<std::size_t> disjoint_paths_of(const Resolved& resolved) {
   std::optional<std::size_t> fewest;
   const Topology& topology = resolved.topology;
-  for (const scenario::Program& program : resolved.scenario.programs) {
+  for (const Program& program : resolved.scenario.programs) {
     const auto master = topology.find(program.master);
     for (const std::string& name : program.slaves) {
       const auto slave = topology.find(name);
@@ -66,7 +64,7 @@ std::optional<std::size_t> disjoint_paths_of(const scenario::Resolved& resolved)
       std::size_t count = 1;
       // As many as there are without a common switch; links alone are not disjoint enough for a switch that fails.
       for (std::size_t wanted = 2; wanted <= 8; ++wanted) {
-        const scenario::DisjointPaths paths = scenario::disjoint_paths(topology, *master, *slave, wanted);
+        const DisjointPaths paths = disjoint_paths(topology, *master, *slave, wanted);
         if (paths.paths.size() < wanted || !paths.shared_switches.empty()) break;
         count = wanted;
       }
@@ -76,14 +74,14 @@ std::optional<std::size_t> disjoint_paths_of(const scenario::Resolved& resolved)
   return fewest;
 }
 
-Node integer(std::size_t value) { return Node::of_integer(static_cast<sim::int128>(value)); }
-Node integer(const std::optional<std::size_t>& value) { return value ? integer(*value) : Node(); }
+json::Node integer(std::size_t value) { return json::Node::of_integer(static_cast<sim::int128>(value)); }
+json::Node integer(const std::optional<std::size_t>& value) { return value ? integer(*value) : json::Node(); }
 
 }  // namespace
 
-Node topology_node(const scenario::Resolved& resolved) {
+json::Node topology_node(const Resolved& resolved) {
   const Graph graph = switches_of(resolved.topology);
-  Node node = Node::object();
+  json::Node node = json::Node::object();
   node.add("switches", integer(boost::num_vertices(graph)));
   node.add("links", integer(boost::num_edges(graph)));
   node.add("diameter", integer(diameter_of(graph)));
@@ -92,4 +90,4 @@ Node topology_node(const scenario::Resolved& resolved) {
   return node;
 }
 
-}  // namespace takt::study
+}  // namespace takt::scenario

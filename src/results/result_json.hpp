@@ -6,11 +6,11 @@
 #include "results/run_result.hpp"
 #include "scenario/json/node.hpp"
 
-namespace takt::output {
+namespace takt::results {
 
 /// Keys and meaning: docs/results.md. All times are whole picoseconds in keys that end with _ps.
-std::string run_json(const results::RunResult& result);
+std::string run_json(const RunResult& result);
 /// The same before it is text.
-scenario::json::Node run_node(const results::RunResult& result);
+scenario::json::Node run_node(const RunResult& result);
 
-}  // namespace takt::output
+}  // namespace takt::results

@@ -1,0 +1,106 @@
+#include "scenario/figures/requirement.hpp"
+
+#include <algorithm>
+
+#include "models/ethernet/frame.hpp"
+#include "scenario/figures/known_figures.hpp"
+#include "scenario/json/suggest.hpp"
+
+namespace takt::scenario {
+namespace {
+
+template <class Rows>
+std::vector<std::string_view> names_of(const Rows& rows) {
+  std::vector<std::string_view> names;
+  for (const auto& row : rows) names.push_back(row.name);
+  return names;
+}
+
+std::vector<std::string_view> names_of(const Resolved& resolved, std::string_view kind) {
+  if (kind == "stream") return names_of(resolved.plan.streams);
+  if (kind == "program") return names_of(resolved.programs);
+  if (kind == "application") return names_of(resolved.applications);
+  if (kind == "signal") return names_of(resolved.signals);
+  if (kind == "node") return names_of(resolved.topology.nodes);
+  std::vector<std::string_view> reasons;
+  for (std::uint8_t i = 0; i < static_cast<std::uint8_t>(models::DropReason::count); ++i) reasons.emplace_back(models::name_of(static_cast<models::DropReason>(i)));
+  return reasons;
+}
+
+/// "/streams/*/latency_ps/max (mean)": the pointer and what else says which values are meant.
+std::string name_of(const Requirement& requirement) {
+  std::string more;
+  const auto add = [&](const std::string& text) { more += (more.empty() ? "" : ", ") + text; };
+  if (requirement.take)
+    for (const json::EnumName& name : describe(json::Type<Take>{}).names)
+      if (name.value == static_cast<std::int64_t>(*requirement.take)) add(std::string(name.name));
+  for (const auto& [key, value] : requirement.only) add(key + " = " + (value.node.kind == json::Kind::string ? value.node.text : json::compact(value.node)));
+  return *requirement.figure + (more.empty() ? "" : " (" + more + ")");
+}
+
+}  // namespace
+
+std::optional<UnknownName> unknown_name(const Figure& figure, const Resolved& resolved) {
+  const Lookup lookup = look_up(figure.steps);
+  if (lookup.figures.empty()) return std::nullopt;
+  const std::vector<std::string> pattern = steps_of(lookup.figures.front()->pattern);
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    const std::string_view kind = placeholder_of(pattern[i]);
+    if (kind.empty() || figure.steps[i] == "*") continue;
+    const std::vector<std::string_view> names = names_of(resolved, kind);
+    if (std::find(names.begin(), names.end(), figure.steps[i]) == names.end())
+      return UnknownName{std::string(kind), figure.steps[i], json::suggest(figure.steps[i], names)};
+  }
+  return std::nullopt;
+}
+
+std::optional<FigureRequirement> read_figure_requirement(const Requirement& requirement, json::Diagnostics& diagnostics) {
+  const auto figure =
+      read_figure({requirement.where, "figure", *requirement.figure, requirement.only, requirement.take, requirement.unit.value_or(""), false}, diagnostics);
+  const bool is_upper = requirement.at_most.has_value();
+  const std::optional<json::Any>& bound = is_upper ? requirement.at_most : requirement.at_least;
+  if (!bound) {
+    diagnostics.error(requirement.where.place(), "missing key", {"\"figure\" without a limit", "\"at_most\" or \"at_least\""});
+    return std::nullopt;
+  }
+  if (!figure) return std::nullopt;
+  const json::Place place = requirement.where.at(is_upper ? "at_most" : "at_least");
+  if (figure->is_time && !requirement.unit && bound->node.kind == json::Kind::number) {
+    diagnostics.error(place, "a time without a unit", {json::excerpt(bound->node), "a duration such as \"7ms\", or \"unit\" beside it"});
+    return std::nullopt;
+  }
+  const auto limit = read_limit(*figure, is_upper, bound->node, place, diagnostics);
+  if (!limit) return std::nullopt;
+  return FigureRequirement{*figure, *limit, name_of(requirement)};
+}
+
+bool check_figure(const Resolved& resolved, const Requirement& requirement, json::Diagnostics& diagnostics) {
+  const auto refuse = [&](bool is_there, std::string_view key, const char* expected) {
+    if (is_there) diagnostics.error(requirement.where.at(key), "does not belong to this requirement", {json::quote(key), expected});
+  };
+  if (!requirement.figure) {
+    const char* const other = "a requirement with \"figure\"";
+    refuse(!requirement.only.empty(), "only", other);
+    refuse(requirement.take.has_value(), "take", other);
+    refuse(requirement.unit.has_value(), "unit", other);
+    refuse(requirement.at_most.has_value(), "at_most", other);
+    refuse(requirement.at_least.has_value(), "at_least", other);
+    return true;
+  }
+  const auto asked = read_figure_requirement(requirement, diagnostics);
+  const char* const expected = "\"only\", \"take\", \"unit\", \"at_most\" or \"at_least\" beside \"figure\"";
+  for (const auto& [is_there, key] : {std::pair(requirement.program.has_value(), "program"), std::pair(requirement.within.has_value(), "within"),
+                                      std::pair(requirement.tree, "tree"), std::pair(requirement.latency.has_value(), "latency"),
+                                      std::pair(requirement.jitter.has_value(), "jitter"), std::pair(requirement.dropped.has_value(), "dropped"),
+                                      std::pair(requirement.delivered.has_value(), "delivered"), std::pair(requirement.node.has_value(), "node"),
+                                      std::pair(requirement.thread.has_value(), "thread"), std::pair(requirement.success.has_value(), "success"),
+                                      std::pair(requirement.buffered.has_value(), "buffered"), std::pair(requirement.irregular.has_value(), "irregular"),
+                                      std::pair(requirement.after > Duration(), "after")})
+    refuse(is_there, key, expected);
+  if (!asked) return false;
+  if (const auto unknown = unknown_name(asked->figure, resolved))
+    diagnostics.error(requirement.where.at("figure"), "unknown " + unknown->kind, {json::quote(unknown->name), "the name of a " + unknown->kind, unknown->suggestion});
+  return false;
+}
+
+}  // namespace takt::scenario

@@ -55,6 +55,7 @@ Node thread_node(const results::ThreadResult& t) {
   if (t.publishes) {
     node.add("published", integer(t.published));
     node.add("refused", integer(t.refused));
+    node.add("timed_out", integer(t.timed_out));
   } else {
     node.add("arrived", integer(t.arrived));
     node.add("buffered", integer(t.buffered));
@@ -108,6 +109,18 @@ Node buffer_node(const results::BufferResult& b) {
   return node;
 }
 
+Node kept_node(const std::vector<results::KeptResult>& topics) {
+  Node all = Node::object();
+  for (const results::KeptResult& each : topics) {
+    Node node = Node::object();
+    node.add("received", integer(each.received));
+    node.add("restored", integer(each.restored));
+    node.add("kept", integer(each.kept));
+    all.add(each.topic, std::move(node));
+  }
+  return all;
+}
+
 std::string participant_row(const std::string& name, const results::ParticipantResult& p, std::size_t width) {
   std::string row = fmt::format("  {:<{}}  domain {}: {} messages, {} octets sent, {} heartbeats, {} acknacks, {} resent; discovery {} messages, {} octets, {} matches{}\n", name, width, p.domain,
                                 p.messages_sent, p.octets_sent, p.heartbeats_sent, p.acknacks_sent, p.resent, p.discovery_messages, p.discovery_octets, p.matches,
@@ -123,7 +136,7 @@ std::string row_of(const results::ApplicationResult& application, const results:
   std::string row = fmt::format("  {:<{}}  {:>9}  {:>10}  {:>9}  {:>9}  {:>10}", application.name + "/" + t.name, width, readable(t.every), t.activations, t.missed,
                                 t.calls.tests, percent_text(t.calls.percent));
   row += fmt::format("  {:>10}  {}", t.values ? percent_text(t.values->percent) : "", response);
-  for (const auto& [count, what] : {std::pair(t.refused, "refused"), std::pair(t.overwritten, "overwritten"), std::pair(t.values ? t.values->beyond : 0, "too late"), std::pair(t.lost, "lost"),
+  for (const auto& [count, what] : {std::pair(t.refused, "refused"), std::pair(t.timed_out, "timed out"), std::pair(t.overwritten, "overwritten"), std::pair(t.values ? t.values->beyond : 0, "too late"), std::pair(t.lost, "lost"),
                                     std::pair(t.calls.discarded, "tests discarded")})
     if (count > 0) row += fmt::format(", {} {}", count, what);
   return row + "\n";
@@ -144,11 +157,12 @@ Node applications_node(const results::RunResult& result) {
   for (const results::ApplicationResult& a : result.applications) {
     Node node = Node::object();
     node.add("node", Node::of_string(a.node));
-    node.add("kind", Node::of_string(a.is_gateway ? "gateway" : "application"));
+    node.add("kind", Node::of_string(a.is_gateway ? "gateway" : a.is_service ? "persistence" : "application"));
     Node threads = Node::object();
     for (const results::ThreadResult& t : a.threads) threads.add(t.name, thread_node(t));
     node.add("threads", std::move(threads));
     if (a.buffer) node.add("buffer", buffer_node(*a.buffer));
+    if (a.is_service) node.add("kept", kept_node(a.kept));
     if (!a.participants.empty()) {
       Node participants = Node::array();
       for (const results::ParticipantResult& p : a.participants) participants.items.push_back(participant_node(p));
@@ -199,6 +213,9 @@ std::string applications_part(const results::RunResult& result) {
       out += fmt::format("\nGateway {}: {} values received, {} forwarded, {} overwritten, {} dropped, {} stale, {} not mapped; age min {}, mean {}, max {}\n", a.name, a.buffer->received,
                          a.buffer->forwarded, a.buffer->overwritten, a.buffer->dropped, a.buffer->stale, a.buffer->not_mapped, readable(a.buffer->age_min), readable(a.buffer->age_mean),
                          readable(a.buffer->age_max));
+  for (const results::ApplicationResult& a : result.applications)
+    for (const results::KeptResult& each : a.kept)
+      out += fmt::format("\nPersistence service {}: topic {}, {} samples received, {} restored at its last start, {} kept\n", a.name, each.topic, each.received, each.restored, each.kept);
   if (result.signals.empty()) return out;
   out += "\nDigital outputs\n";
   width = 0;

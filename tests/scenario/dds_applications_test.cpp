@@ -23,7 +23,7 @@ results::RunResult result_of(const std::string& text) {
   return results::evaluate(run, false);
 }
 
-// For two seconds nobody acknowledges: the history fills, one write waits until its time is over, those that come meanwhile are refused.
+// For two seconds, and until the next HEARTBEAT after them, nobody acknowledges: the history fills, one write waits until its time is over, those that come meanwhile are refused.
 TEST(DdsApplications, AWriteThatTimesOutIsNotPublished) {
   const std::string qos = R"("qos": {"reliability": "reliable", "history": "keep-all", "max_blocking_time": "32ms", "resource_limits": {"max_samples": 4}})";
   const std::string cut = R"(, "faults": [{"kind": "link-down", "at": "2s", "for": "2s", "link": ["a", "b"]}])";
@@ -32,7 +32,7 @@ TEST(DdsApplications, AWriteThatTimesOutIsNotPublished) {
   const results::ThreadResult& subscribe = result.applications[1].threads[0];
   EXPECT_EQ(publish.timed_out, result.applications[0].participants[0].writes_timed_out);
   EXPECT_GT(publish.timed_out, 40u);            // one in each 40 ms
-  EXPECT_LT(publish.timed_out, 51u);
+  EXPECT_LT(publish.timed_out, 126u);           // HEARTBEATs are 3 s apart
   EXPECT_GE(publish.refused, 3 * publish.timed_out - 3);
   EXPECT_EQ(publish.published + publish.refused + publish.timed_out, publish.done);  // none waits at the end
   // What was published has come, but for what nobody was there to hear, and what is under way.
@@ -41,7 +41,8 @@ TEST(DdsApplications, AWriteThatTimesOutIsNotPublished) {
   EXPECT_GE(subscribe.arrived + before_match + 1, publish.published);
   // Criterion 2: neither what timed out nor what was refused is a value.
   ASSERT_TRUE(subscribe.values);
-  EXPECT_EQ(subscribe.values->counted + subscribe.values->beyond, subscribe.buffered);
+  EXPECT_LE(subscribe.values->counted + subscribe.values->beyond, subscribe.buffered);
+  EXPECT_GE(subscribe.values->counted + subscribe.values->beyond + 2, subscribe.buffered);  // the last window is open
   EXPECT_LE(subscribe.values->counted + publish.timed_out + publish.refused, subscribe.values->expected);
 }
 

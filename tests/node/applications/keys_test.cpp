@@ -76,8 +76,9 @@ TEST(Keys, MistakesAreNamed) {
   EXPECT_FALSE(load(R"({"node": "n", "transport": {"kind": "udp", "destinations": ["239.0.0.1"]},
     "topics": [{"name": "a", "protocol": "opc-ua", "fields": {"n": "UInt32"}, "keys": ["n"]}, {"name": "b", "protocol": "dds", "fields": {"n": "UInt32", "v": "Double"}, "keys": ["m"]},
                {"name": "c", "protocol": "dds", "fields": {"n": "UInt32"}, "keys": ["n"]},
-               {"name": "d", "protocol": "dds", "fields": {"n": {"type": "UInt64", "count": 3}, "v": "Double"}, "keys": ["n"]}],
-    "applications": [{"name": "p", "threads": [{"name": "one", "publish": "a", "every": "1ms", "payload": {"pattern": "counter", "instances": 2}}]}]})",
+               {"name": "d", "protocol": "dds", "fields": {"n": {"type": "UInt64", "count": 3}, "v": "Double"}, "keys": ["n"]},
+               {"name": "e", "protocol": "opc-ua", "fields": {"n": "UInt32"}}],
+    "applications": [{"name": "p", "threads": [{"name": "one", "publish": "e", "every": "1ms", "payload": {"pattern": "counter", "instances": 2}}]}]})",
                     diagnostics));
   std::vector<std::string> said;
   for (const auto& each : diagnostics.sorted()) said.push_back(each.place.pointer + ": " + each.message);

@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "node/applications/host.hpp"
+#include "node/applications/statistics_file.hpp"
 #include "node/built_in_values.hpp"
 #include "node/real_node.hpp"
 
@@ -19,18 +20,12 @@ void print_warnings(const std::string& warnings) {
     std::fprintf(stderr, "takt: warning: %s\n", warnings.substr(begin, warnings.find('\n', begin) - begin).c_str());
 }
 
-bool write_file(const std::string& path, const std::string& text) {
-  std::FILE* const file = std::fopen(path.c_str(), "w");
-  if (file == nullptr) return false;
-  const bool is_written = std::fputs(text.c_str(), file) >= 0;
-  return std::fclose(file) == 0 && is_written;
-}
-
 ExitStatus run_applications(const std::string& file, bool is_check) {
   scenario::json::Diagnostics diagnostics;
   const auto loaded = node::load_applications(file, diagnostics);
+  const bool is_sound = loaded && (is_check || node::check_statistics(loaded->config, diagnostics));
   std::fputs(diagnostics.to_text().c_str(), stderr);
-  if (!loaded) return ExitStatus::bad_input;
+  if (!is_sound) return ExitStatus::bad_input;
   if (is_check) return ExitStatus::pass;
   std::string problem;
   std::string warnings;
@@ -49,8 +44,9 @@ ExitStatus run_applications(const std::string& file, bool is_check) {
   std::printf("{\"event\": \"end\", %s\n", json.substr(1).c_str());
   std::fflush(stdout);
   std::fputs(node::to_text(statistics).c_str(), stderr);
-  if (loaded->config.statistics && !write_file(*loaded->config.statistics, json + "\n")) {
-    std::fprintf(stderr, "takt: cannot write %s\n", loaded->config.statistics->c_str());
+  if (!loaded->config.statistics) return ExitStatus::pass;
+  if (const std::string unwritten = node::write_statistics(*loaded->config.statistics, json + "\n"); !unwritten.empty()) {
+    std::fprintf(stderr, "takt: cannot write %s: %s\n", loaded->config.statistics->c_str(), unwritten.c_str());
     return ExitStatus::internal_error;
   }
   return ExitStatus::pass;

@@ -26,7 +26,7 @@ std::string row_of(const results::ApplicationResult& application, const results:
   std::string row = fmt::format("  {:<{}}  {:>9}  {:>10}  {:>9}  {:>9}  {:>10}", application.name + "/" + t.name, width, readable(t.every), t.activations, t.missed,
                                 t.calls.tests, percent_text(t.calls.percent));
   row += fmt::format("  {:>10}  {}", t.values ? percent_text(t.values->percent) : "", response);
-  for (const auto& [count, what] : {std::pair(t.refused, "refused"), std::pair(t.overwritten, "overwritten"), std::pair(t.values ? t.values->beyond : 0, "too late"), std::pair(t.lost, "lost"),
+  for (const auto& [count, what] : {std::pair(t.refused, "refused"), std::pair(t.timed_out, "timed out"), std::pair(t.overwritten, "overwritten"), std::pair(t.values ? t.values->beyond : 0, "too late"), std::pair(t.lost, "lost"),
                                     std::pair(t.calls.discarded, "tests discarded")})
     if (count > 0) row += fmt::format(", {} {}", count, what);
   return row + "\n";
@@ -67,6 +67,9 @@ std::string applications_part(const results::RunResult& result) {
       out += fmt::format("\nGateway {}: {} values received, {} forwarded, {} overwritten, {} dropped, {} stale, {} not mapped; age min {}, mean {}, max {}\n", a.name, a.buffer->received,
                          a.buffer->forwarded, a.buffer->overwritten, a.buffer->dropped, a.buffer->stale, a.buffer->not_mapped, readable(a.buffer->age_min), readable(a.buffer->age_mean),
                          readable(a.buffer->age_max));
+  for (const results::ApplicationResult& a : result.applications)
+    for (const results::KeptResult& each : a.kept)
+      out += fmt::format("\nPersistence service {}: topic {}, {} samples received, {} restored at its last start, {} kept\n", a.name, each.topic, each.received, each.restored, each.kept);
   if (result.signals.empty()) return out;
   out += "\nDigital outputs\n";
   width = 0;

@@ -46,6 +46,7 @@ Node thread_node(const ThreadResult& t) {
   if (t.publishes) {
     node.add("published", integer(t.published));
     node.add("refused", integer(t.refused));
+    node.add("timed_out", integer(t.timed_out));
   } else {
     node.add("arrived", integer(t.arrived));
     node.add("buffered", integer(t.buffered));
@@ -99,6 +100,18 @@ Node buffer_node(const BufferResult& b) {
   return node;
 }
 
+Node kept_node(const std::vector<KeptResult>& topics) {
+  Node all = Node::object();
+  for (const KeptResult& each : topics) {
+    Node node = Node::object();
+    node.add("received", integer(each.received));
+    node.add("restored", integer(each.restored));
+    node.add("kept", integer(each.kept));
+    all.add(each.topic, std::move(node));
+  }
+  return all;
+}
+
 }  // namespace
 
 Node applications_node(const RunResult& result) {
@@ -106,11 +119,12 @@ Node applications_node(const RunResult& result) {
   for (const ApplicationResult& a : result.applications) {
     Node node = Node::object();
     node.add("node", Node::of_string(a.node));
-    node.add("kind", Node::of_string(a.is_gateway ? "gateway" : "application"));
+    node.add("kind", Node::of_string(a.is_gateway ? "gateway" : a.is_service ? "persistence" : "application"));
     Node threads = Node::object();
     for (const ThreadResult& t : a.threads) threads.add(t.name, thread_node(t));
     node.add("threads", std::move(threads));
     if (a.buffer) node.add("buffer", buffer_node(*a.buffer));
+    if (a.is_service) node.add("kept", kept_node(a.kept));
     if (!a.participants.empty()) {
       Node participants = Node::array();
       for (const ParticipantResult& p : a.participants) participants.items.push_back(participant_node(p));

@@ -44,6 +44,7 @@ struct ThreadResult {
   CriterionResult calls;                   ///< criterion 1
   std::uint64_t published = 0;             ///< samples, of a publishing thread
   std::uint64_t refused = 0;
+  std::uint64_t timed_out = 0;             ///< waited for room for too long: not published
   std::uint64_t arrived = 0;               ///< samples that calls found, of a subscribing thread
   std::uint64_t buffered = 0;
   std::uint64_t overwritten = 0;
@@ -86,13 +87,23 @@ struct BufferResult {
   sim::Duration age_max;
 };
 
+/// A topic that a persistence service keeps.
+struct KeptResult {
+  std::string topic;
+  std::uint64_t received = 0;              ///< samples, from their writers
+  std::uint64_t restored = 0;              ///< samples that its last start found in its storage
+  std::uint64_t kept = 0;                  ///< samples at the end
+};
+
 struct ApplicationResult {
   std::string name;
   std::string node;
   bool is_gateway = false;
+  bool is_service = false;                 ///< a persistence service
   std::vector<ThreadResult> threads;
   std::vector<ParticipantResult> participants;
   std::optional<BufferResult> buffer;      ///< of a gateway
+  std::vector<KeptResult> kept;            ///< of a persistence service
 };
 
 /// A digital output, in true time.

@@ -31,6 +31,7 @@ ThreadResult result_of(const scenario::ResolvedThread& thread, const std::string
   result.calls = criterion_of(figures.calls, thread.window);
   result.published = figures.published;
   result.refused = figures.refused;
+  result.timed_out = figures.timed_out;
   result.arrived = figures.arrived;
   result.buffered = figures.buffered;
   result.overwritten = figures.overwritten;
@@ -60,10 +61,14 @@ std::vector<ApplicationResult> applications_of(const scenario::Run& run) {
     result.name = application.name;
     result.node = resolved.topology.nodes[application.node.value].name;
     result.is_gateway = application.gateway.has_value();
+    result.is_service = application.service.has_value();
     for (std::size_t t = 0; t < application.threads.size(); ++t)
       result.threads.push_back(result_of(application.threads[t], resolved.topics[application.threads[t].topic].description->name, run.thread(a, t)));
     const scenario::TopicApplication& live = run.application(a);
-    for (const auto& node : live.nodes()) result.participants.push_back(result_of(*node));
+    for (const auto& node : live.nodes()) {
+      result.participants.push_back(result_of(*node));
+      for (const scenario::KeptFigures& kept : node->kept()) result.kept.push_back({kept.topic, kept.received, kept.restored, kept.kept});
+    }
     if (live.bridge() != nullptr) result.buffer = result_of(live.bridge()->figures());
   }
   return results;

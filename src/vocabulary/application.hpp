@@ -20,6 +20,8 @@ struct Payload {
   json::Source where;
   std::optional<Pattern> pattern;
   std::optional<std::string> copy_of;
+  std::optional<std::uint32_t> instance;   ///< of a topic with keys, as the next
+  std::optional<std::uint32_t> instances;
   bool operator==(const Payload&) const = default;
 };
 

@@ -20,8 +20,8 @@ const json::Enumeration& describe(json::Type<Protocol>) {
 
 const json::Enumeration& describe(json::Type<Pattern>) {
   static constexpr json::EnumName names[] = {
-      name(Pattern::counter, "counter", "the first field counts the publications, from 1 on"),
-      name(Pattern::alternate, "alternate", "the first field is 1 and 0 by turns"),
+      name(Pattern::counter, "counter", "the first field, keys apart, counts the publications, from 1 on"),
+      name(Pattern::alternate, "alternate", "the first field, keys apart, is 1 and 0 by turns"),
   };
   static constexpr json::Enumeration table = json::enumeration<Pattern>("a pattern", names);
   return table;
@@ -29,8 +29,10 @@ const json::Enumeration& describe(json::Type<Pattern>) {
 
 const json::Object& describe(json::Type<Payload>) {
   static constexpr json::Field fields[] = {
-      optional<&Payload::pattern>("pattern", "What the first field of each sample is; all other values are zero."),
+      optional<&Payload::pattern>("pattern", "What the first field of each sample is that is no key; all other values are zero."),
       optional<&Payload::copy_of>("copy_of", "A topic that the application subscribes to: its newest sample is published; nothing before the first one."),
+      optional<&Payload::instance>("instance", "Of a topic with keys: what its key fields hold; 0 if absent."),
+      optional<&Payload::instances>("instances", "Of a topic with keys: so many instances, from that one on, by turns; 1 if absent.", {.min = 1, .max = 1'000'000}),
   };
   static constexpr std::string_view contents[] = {"pattern", "copy_of"};
   static constexpr json::Group groups[] = {json::exactly_one_of(contents)};

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
@@ -28,6 +30,16 @@ struct ResourceLimits {
   bool operator==(const ResourceLimits&) const = default;
 };
 
+/// What a persistence service keeps of a topic. What is absent has the default of DDS.
+struct DurabilityService {
+  json::Source where;
+  std::optional<Duration> cleanup_delay;
+  std::optional<History> history;
+  std::optional<std::uint32_t> depth;
+  std::optional<ResourceLimits> resource_limits;
+  bool operator==(const DurabilityService&) const = default;
+};
+
 /// Quality of service of a writer and of its readers. What is absent has the default of DDS, or what the topic says.
 struct Qos {
   json::Source where;
@@ -46,6 +58,8 @@ struct Qos {
   std::optional<Duration> time_based_filter;
   std::optional<DestinationOrder> destination_order;
   std::optional<ResourceLimits> resource_limits;
+  std::optional<DurabilityService> durability_service;
+  std::optional<std::vector<std::string>> partition;
   bool operator==(const Qos&) const = default;
 };
 
@@ -56,6 +70,7 @@ const json::Enumeration& describe(json::Type<Liveliness>);
 const json::Enumeration& describe(json::Type<Ownership>);
 const json::Enumeration& describe(json::Type<DestinationOrder>);
 const json::Object& describe(json::Type<ResourceLimits>);
+const json::Object& describe(json::Type<DurabilityService>);
 const json::Object& describe(json::Type<Qos>);
 
 }  // namespace takt::vocabulary

@@ -80,6 +80,17 @@ const json::Object& describe(json::Type<ResourceLimits>) {
   return table;
 }
 
+const json::Object& describe(json::Type<DurabilityService>) {
+  static constexpr json::Field fields[] = {
+      optional<&DurabilityService::cleanup_delay>("cleanup_delay", "How long an instance that was disposed is still kept; 0 if absent.", {.max = longest_step}),
+      optional<&DurabilityService::history>("history", "Which samples are kept; keep-last if absent."),
+      optional<&DurabilityService::depth>("depth", "Samples of an instance that keep-last keeps; 1 if absent.", {.min = 1, .max = most_samples}),
+      optional<&DurabilityService::resource_limits>("resource_limits", "What is kept at most."),
+  };
+  static constexpr json::Object table = json::object<DurabilityService>("durability_service", "What a persistence service keeps of a transient or persistent topic.", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<Qos>) {
   static constexpr json::Field fields[] = {
       optional<&Qos::reliability>("reliability", "Whether lost samples are sent again; best-effort if absent."),
@@ -97,6 +108,9 @@ const json::Object& describe(json::Type<Qos>) {
       optional<&Qos::time_based_filter>("time_based_filter", "Readers take at most one sample in so long; 0 if absent.", {.max = longest_step}),
       optional<&Qos::destination_order>("destination_order", "Order of samples; by-reception if absent."),
       optional<&Qos::resource_limits>("resource_limits", "What is kept at most."),
+      optional<&Qos::durability_service>("durability_service", "What a persistence service keeps, of transient and persistent durability."),
+      optional<&Qos::partition>("partition", "Writers and readers find each other if they have a name in common; * ? and [...] stand for any that fits; the name \"\" if absent.",
+                                {.min_items = 1, .max_items = 64, .unique = true, .items = {.max_length = 255}}),
   };
   static constexpr json::Object table = json::object<Qos>("qos", "Quality of service, with the names of OMG DDS 1.4.", fields);
   return table;

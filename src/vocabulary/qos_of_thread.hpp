@@ -7,6 +7,7 @@
 
 namespace takt::vocabulary {
 
+/// What a table has refused counts as not said.
 Qos merged(const std::optional<Qos>& topic, const std::optional<Qos>& thread);
 
 }  // namespace takt::vocabulary

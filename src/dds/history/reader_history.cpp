@@ -66,6 +66,7 @@ Admission ReaderHistory::add(const Arrival& arrival, sim::LocalTime now) {
   Stored& stored = samples_[place];
   stored.expires = arrival.expires;
   stored.sample.info = {arrival.writer, arrival.number, arrival.key, arrival.source, now};
+  stored.sample.info.identity = arrival.identity;
   stored.sample.info.disposed_generation_count = instance.disposed_generations;
   stored.sample.info.no_writers_generation_count = instance.no_writers_generations;
   stored.sample.payload.assign(arrival.payload.begin(), arrival.payload.end());
@@ -89,6 +90,7 @@ Admission ReaderHistory::end(Instances::iterator at, const Arrival& arrival, sim
   const bool is_outdated = settings_.by_source && ((instance.taken && place < *instance.taken) || (!instance.places.empty() && place < *instance.places.rbegin()));
   Stored told;
   told.sample.info = {arrival.writer, arrival.number, arrival.key, arrival.source, now, false};
+  told.sample.info.identity = arrival.identity;
   if (disposes(arrival.kind) && allowed && !is_outdated && instance.state == InstanceState::alive) leave(at, InstanceState::not_alive_disposed, told);
   if (unregisters(arrival.kind)) {
     instance.writers.erase(arrival.writer);
@@ -213,6 +215,7 @@ void ReaderHistory::writer_gone(const Guid& writer, sim::LocalTime now) {
     if (instance.writers.erase(writer) == 0) continue;
     Stored told;
     told.sample.info = {writer, {}, at->first, now, now, false};
+    told.sample.info.identity = writer;
     if (instance.writers.empty() && instance.state == InstanceState::alive) leave(at, InstanceState::not_alive_no_writers, told);
     forget_if_over(at);
   }

@@ -26,6 +26,7 @@ struct Arrival {
   sim::LocalTime expires = sim::LocalTime::never();
   Octets payload;
   bool is_past = false;  ///< brought by a persistence service: must not replace what is newer
+  Guid identity{};       ///< of the writer, as SampleInfo tells it
 };
 
 /// What became of an arrival. What is `rejected` may come again when there is room; of all others the reader has seen the last.

@@ -25,6 +25,7 @@ struct SampleInfo {
   InstanceState instance_state = InstanceState::alive;
   std::uint32_t disposed_generation_count = 0;    ///< how often the instance had come back after being disposed
   std::uint32_t no_writers_generation_count = 0;  ///< the same after having had no writers
+  Guid identity{};            ///< under which the writer's numbers count: its persistence GUID if it has one
 };
 
 struct Sample {

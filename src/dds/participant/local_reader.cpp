@@ -48,10 +48,9 @@ std::optional<Sample> LocalReader::take(sim::LocalTime now, Outbox& outbox) {
 
 void LocalReader::commit(const SampleInfo& info) {
   if (!kept || info.number < first_sequence_number) return;  // without a number: a writer left
-  const Guid writer = rtps.identity_of(info.writer);
-  NumberRanges& numbers = taken_[writer];
+  NumberRanges& numbers = taken_[info.identity];
   numbers.insert(info.number);
-  kept->put(writer, numbers);
+  kept->put(info.identity, numbers);
 }
 
 void LocalReader::report(sim::LocalTime now, std::deque<Event>& events) {

@@ -58,7 +58,7 @@ std::vector<std::string> PersistenceService::add(const DurableTopic& topic, sim:
   // What was kept but not committed when the service ended.
   for (const auto& [number, change] : participant_.writer(*writer.handle).rtps.history().changes())
     if (change.original) participant_.mark_delivered(*reader.handle, *change.original);
-  places_[topic.topic] = {*reader.handle, *writer.handle, topic.qos.durability_service.service_cleanup_delay, std::nullopt, {}};
+  places_[topic.topic] = {*reader.handle, *writer.handle, topic.qos.durability_service.service_cleanup_delay, std::nullopt, 0, false, {}};
   return {};
 }
 
@@ -68,12 +68,14 @@ void PersistenceService::run(sim::LocalTime now) {
     while (!place.held) {
       std::optional<Sample> sample = participant_.take(place.reader, now);
       if (!sample) break;
+      place.received += sample->info.valid_data ? 1 : 0;
       if (!keep(place, *sample, now)) place.held = std::move(sample);
     }
     while (!place.cleanups.empty() && place.cleanups.begin()->first.first <= now) {
       const auto& [when, original] = *place.cleanups.begin();
       const WriteResult result = participant_.write_for(place.writer, original, ChangeKind::disposed_unregistered, when.second, {}, now, now);
-      if (result.verdict == WriteVerdict::would_block) break;
+      place.cleanup_waits = result.verdict == WriteVerdict::would_block;
+      if (place.cleanup_waits) break;
       place.cleanups.erase(place.cleanups.begin());
     }
   }
@@ -86,7 +88,7 @@ bool PersistenceService::keep(Place& place, const Sample& sample, sim::LocalTime
     participant_.commit(place.reader, info);
     return true;
   }
-  const OriginalWriter original{participant_.reader(place.reader).rtps.identity_of(info.writer), info.number};
+  const OriginalWriter original{info.identity, info.number};
   const ChangeKind kind = info.valid_data ? ChangeKind::alive : ChangeKind::disposed;
   const WriteResult result = participant_.write_for(place.writer, original, kind, info.key, sample.payload, info.source_timestamp, now);
   if (result.verdict == WriteVerdict::would_block) return false;
@@ -99,8 +101,23 @@ bool PersistenceService::keep(Place& place, const Sample& sample, sim::LocalTime
 sim::LocalTime PersistenceService::next_wake() const {
   sim::LocalTime next = sim::LocalTime::never();
   for (const auto& [name, place] : places_)
-    if (!place.cleanups.empty()) next = std::min(next, place.cleanups.begin()->first.first);
+    if (!place.cleanups.empty() && !place.cleanup_waits) next = std::min(next, place.cleanups.begin()->first.first);
   return next;
+}
+
+std::uint64_t PersistenceService::received(const std::string& topic) const {
+  const auto at = places_.find(topic);
+  return at == places_.end() ? 0 : at->second.received;
+}
+
+std::optional<WriterHandle> PersistenceService::writer_of(const std::string& topic) const {
+  const auto at = places_.find(topic);
+  return at == places_.end() ? std::nullopt : std::optional(at->second.writer);
+}
+
+std::optional<ReaderHandle> PersistenceService::reader_of(const std::string& topic) const {
+  const auto at = places_.find(topic);
+  return at == places_.end() ? std::nullopt : std::optional(at->second.reader);
 }
 
 std::size_t PersistenceService::kept(const std::string& topic) const {

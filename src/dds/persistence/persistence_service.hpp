@@ -31,7 +31,13 @@ class PersistenceService {
   /// When instances that have ended are cleaned up next.
   sim::LocalTime next_wake() const;
 
+  /// Samples of the topic that it keeps now.
   std::size_t kept(const std::string& topic) const;
+  /// Samples of the topic that it has taken from writers since it was made.
+  std::uint64_t received(const std::string& topic) const;
+  /// Its endpoints; nothing for a topic that it does not keep.
+  std::optional<WriterHandle> writer_of(const std::string& topic) const;
+  std::optional<ReaderHandle> reader_of(const std::string& topic) const;
 
  private:
   struct Place {
@@ -39,6 +45,8 @@ class PersistenceService {
     WriterHandle writer;
     sim::Duration cleanup_delay;
     std::optional<Sample> held;  ///< waits for room
+    std::uint64_t received = 0;
+    bool cleanup_waits = false;  ///< for room, too
     std::map<std::pair<sim::LocalTime, InstanceKey>, OriginalWriter> cleanups;
   };
   /// False if there is no room.

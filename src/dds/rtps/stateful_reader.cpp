@@ -11,7 +11,6 @@ void StatefulReader::match(const MatchedWriter& writer, sim::LocalTime now) {
   TAKT_CHECK(!writers_.contains(writer.guid), "a writer is matched once");
   WriterProxy& proxy = writers_[writer.guid];
   proxy.writer = writer;
-  if (!writer.persistence_guid.is_unknown()) identities_[writer.guid] = writer.persistence_guid;
   proxy.reliable = settings_.reliable && writer.reliable;
   proxy.ack_count = ack_count_;
   proxy.nack_frag_count = ack_count_;
@@ -33,11 +32,6 @@ void StatefulReader::unmatch(const Guid& writer, sim::LocalTime now) {
   ack_count_ = std::max({ack_count_, at->second.ack_count, at->second.nack_frag_count});
   writers_.erase(at);
   history_.writer_gone(writer, now);
-}
-
-Guid StatefulReader::identity_of(const Guid& writer) const {
-  const auto at = identities_.find(writer);
-  return at == identities_.end() ? writer : at->second;
 }
 
 InstanceKey StatefulReader::key_of(const InlineQos& qos, PayloadKind kind, Octets payload) const {
@@ -122,11 +116,29 @@ void StatefulReader::take_change(WriterProxy& proxy, SequenceNumber number, Pend
   proxy.pending.emplace(number, std::move(change));
 }
 
+NumberRanges& StatefulReader::delivered_of(const Guid& identity) {
+  const auto [at, is_new] = delivered_.try_emplace(identity);
+  if (!is_new) return at->second;
+  remembered_.push_back(identity);
+  const auto is_matched = [&](const Guid& guid) {
+    return std::any_of(writers_.begin(), writers_.end(), [&](const auto& each) { return each.first == guid || each.second.writer.persistence_guid == guid; });
+  };
+  for (std::size_t tries = remembered_.size(); delivered_.size() > most_remembered + writers_.size() && tries > 0; --tries) {
+    const Guid oldest = remembered_.front();
+    remembered_.pop_front();
+    if (oldest == identity || is_matched(oldest)) remembered_.push_back(oldest);
+    else delivered_.erase(oldest);
+  }
+  return at->second;
+}
+
 bool StatefulReader::deliver(WriterProxy& proxy, SequenceNumber number, const PendingChange& change, Octets payload, sim::LocalTime now) {
   NumberRanges* delivered = nullptr;
   const SequenceNumber counted = change.original ? change.original->number : number;
+  const Guid& own_identity = proxy.writer.persistence_guid.is_unknown() ? proxy.writer.guid : proxy.writer.persistence_guid;
+  const Guid& identity = change.original ? change.original->writer : own_identity;
   if (change.original || settings_.tracks_delivered || !proxy.writer.persistence_guid.is_unknown()) {
-    delivered = &delivered_[change.original ? change.original->writer : identity_of(proxy.writer.guid)];
+    delivered = &delivered_of(identity);
     if (delivered->contains(counted)) {
       ++duplicates_;
       return true;
@@ -134,7 +146,7 @@ bool StatefulReader::deliver(WriterProxy& proxy, SequenceNumber number, const Pe
   }
   const Guid& writer = change.original ? change.original->writer : proxy.writer.guid;
   const Arrival arrival{writer, proxy.writer.ownership_strength, counted, change.kind, change.key, change.source, expiry_of(change.source, proxy.writer.lifespan), payload,
-                        change.original.has_value()};
+                        change.original.has_value(), identity};
   const Admission admission = history_.add(arrival, now);
   if (admission == Admission::accepted) ++arrived_;
   proxy.is_blocked = admission == Admission::rejected && proxy.reliable;

@@ -2,6 +2,7 @@
 // (DDSI-RTPS 2.5, 8.4.10, 8.4.11.2, 8.4.12).
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 
@@ -52,12 +53,14 @@ class StatefulReader {
   sim::LocalTime next_wake() const;
   void wake(sim::LocalTime now, Outbox& outbox);
 
-  /// Changes of this writer that were delivered before a restart. `writer` is an identity as of identity_of().
+  /// Changes of this writer that were delivered before a restart. `writer` is an identity as of SampleInfo.
   void restore_delivered(const Guid& writer, const NumberRanges& numbers) {
-    for (const auto& [first, last] : numbers.ranges()) delivered_[writer].insert(first, last);
+    for (const auto& [first, last] : numbers.ranges()) delivered_of(writer).insert(first, last);
   }
-  /// The name under which a writer's numbers count: its persistence GUID if it has one.
-  Guid identity_of(const Guid& writer) const;
+  /// Writers whose delivered changes are remembered, also when they are gone: at most so many, besides those that are matched. Of one that is forgotten, the
+  /// last to be heard of so many others ago, a persistence service may bring changes again.
+  static constexpr std::size_t most_remembered = 1024;
+  std::size_t remembered() const { return delivered_.size(); }
 
   /// The writer asserts that it is alive, by whatever its kind of liveliness asks for.
   void assert_alive(const Guid& writer, sim::LocalTime now);
@@ -82,13 +85,14 @@ class StatefulReader {
   void plan_answer(WriterProxy& proxy, sim::Duration delay, bool is_final, sim::LocalTime now, Outbox& outbox);
   void answer(WriterProxy& proxy, bool is_final, sim::LocalTime now, Outbox& outbox);
   void alive(WriterProxy& proxy, sim::LocalTime now);
+  NumberRanges& delivered_of(const Guid& identity);
 
   Settings settings_;
   ReaderHistory history_;
   std::map<Guid, WriterProxy> writers_;
   /// Of writers that may come back under another GUID, and of samples that a persistence service brings.
   std::map<Guid, NumberRanges> delivered_;
-  std::map<Guid, Guid> identities_;  ///< of writers that have a persistence GUID, also when they are gone
+  std::deque<Guid> remembered_;  ///< those of delivered_, in the order in which they came
   SampleLostStatus lost_;
   LivelinessChangedStatus liveliness_;
   std::uint64_t arrived_ = 0;

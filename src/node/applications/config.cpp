@@ -1,11 +1,13 @@
 #include "node/applications/config.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "node/dds/participant.hpp"
 #include "scenario/json/suggest.hpp"
 #include "sim/check.hpp"
+#include "vocabulary/keys.hpp"
 #include "vocabulary/protocol.hpp"
 
 namespace takt::node {
@@ -24,6 +26,9 @@ TopicShape shape_of(const Topic& topic, std::size_t position) {
     TAKT_CHECK(member.has_value(), "all types of the vocabulary are mapped");
     shape.type.members.push_back(*member);
   }
+  for (std::size_t f = 0; f < topic.fields.size(); ++f)
+    if (std::find(topic.keys.begin(), topic.keys.end(), topic.fields[f].first) != topic.keys.end()) shape.key_fields.push_back(f);
+  shape.value_field = vocabulary::value_field(topic.fields, topic.keys);
   return shape;
 }
 
@@ -41,6 +46,7 @@ class Checker {
 
   void run() {
     check_topics();
+    number_publications();
     const auto is_elsewhere = [this](const auto& each) { return each.on && *each.on != config_.node; };
     std::erase_if(config_.applications, is_elsewhere);
     std::erase_if(config_.gateways, is_elsewhere);
@@ -53,6 +59,16 @@ class Checker {
   }
 
  private:
+  /// A WriterGroup for each publication of a topic, in the order of the file, which may tell of other nodes: the same numbers at all of them.
+  void number_publications() {
+    std::map<std::string, std::uint16_t> counts;
+    for (ApplicationOfNode& application : config_.applications)
+      for (Thread& thread : application.threads)
+        if (thread.publish) thread.writer_group = ++counts[*thread.publish];
+    for (GatewayOfNode& gateway : config_.gateways) gateway.writer_group = ++counts[gateway.to];
+    for (std::size_t i = 0; i < config_.topics.size(); ++i) loaded_.shapes[i].writer_groups = std::max<std::uint16_t>(1, counts[config_.topics[i].name]);
+  }
+
   void check_topics() {
     std::set<std::string> names;
     std::set<std::uint16_t> ids;
@@ -64,17 +80,22 @@ class Checker {
       if (!is_dds && !ids.insert(loaded_.shapes.back().publisher_id).second)
         diagnostics_.error(topic.where.at("publisher_id"), "a PublisherId twice", {std::to_string(loaded_.shapes.back().publisher_id), "one of its own for each topic"});
       if (is_dds && topic.publisher_id) diagnostics_.error(topic.where.at("publisher_id"), "not of DDS", {"a PublisherId", "a topic of OPC UA"});
-      for (const auto& [is_there, key] : {std::pair{topic.type.has_value(), "type"}, std::pair{topic.domain.has_value(), "domain"}, std::pair{topic.qos.has_value(), "qos"}})
+      for (const auto& [is_there, key] : {std::pair{!topic.keys.empty(), "keys"}, std::pair{topic.type.has_value(), "type"}, std::pair{topic.domain.has_value(), "domain"}, std::pair{topic.qos.has_value(), "qos"}})
         if (!is_dds && is_there) diagnostics_.error(topic.where.at(key), "not of OPC UA", {json::quote(key), "a topic of DDS"});
       if (is_dds && !is_dds_name(topic.name))
         diagnostics_.error(topic.where.at("name"), "not a topic name of DDS", {json::quote(topic.name), "letters, digits, '_' and '/', and no digit first"});
       if (topic.qos) check_qos(*topic.qos);
+      const std::size_t errors_before = diagnostics_.errors();
+      if (is_dds) vocabulary::check_keys(topic.where, topic.keys, topic.fields, diagnostics_);
+      if (is_dds && diagnostics_.errors() == errors_before) loaded_.shapes.back().key = gateway::KeyLayout(loaded_.shapes.back().type, topic.keys);
     }
   }
 
   void check_qos(const vocabulary::Qos& qos) {
     if (qos.durability && *qos.durability > vocabulary::Durability::transient_local)
       diagnostics_.error(qos.where.at("durability"), "not on a real node", {"transient or persistent data, which Cyclone DDS does not keep", "volatile or transient-local"});
+    if (qos.durability_service)
+      diagnostics_.error(qos.where.at("durability_service"), "not on a real node", {"what a persistence service keeps, and Cyclone DDS has none", "volatile or transient-local data"});
   }
 
   /// The topic, which is used here; nothing if there is none.
@@ -89,7 +110,7 @@ class Checker {
     const bool is_opc_ua = found->protocol == Protocol::opc_ua;
     uses_opc_ua_ = uses_opc_ua_ || is_opc_ua;
     if (publishes && is_opc_ua && !published_.insert(name).second)
-      diagnostics_.error(place, "published twice", {json::quote(name), "one publisher of a topic of OPC UA: it has one PublisherId"});
+      diagnostics_.error(place, "published twice", {json::quote(name), "one thread of an application for each topic of OPC UA that it publishes to"});
     if (found->protocol == Protocol::dds && !has_dds()) diagnostics_.error(place, "DDS is not in this build", {json::quote(name) + ", a topic of DDS", dds_needed});
     return static_cast<std::size_t>(found - config_.topics.begin());
   }
@@ -102,11 +123,13 @@ class Checker {
     if (!names.insert(application.name).second)
       diagnostics_.error(application.where.at("name"), "duplicate name", {json::quote(application.name), "a name of its own for each application and gateway"});
     std::set<std::string> threads;
+    published_.clear();
     for (const Thread& thread : application.threads) {
       if (!threads.insert(thread.name).second) diagnostics_.error(thread.where.at("name"), "duplicate name", {json::quote(thread.name), "a name of its own for each thread"});
       check_phase(thread.where, "offset", thread.offset, thread.every);
       const char* const role = thread.publish ? "publish" : "subscribe";
       const auto topic = use(thread.publish ? *thread.publish : thread.subscribe.value_or(""), thread.where.at(role), thread.publish.has_value());
+      if (topic && thread.payload && thread.publish) vocabulary::check_instances(*thread.payload, !config_.topics[*topic].keys.empty() && !thread.payload->copy_of, diagnostics_);
       if (thread.payload && !thread.publish) diagnostics_.error(thread.where.at("payload"), "nothing is published", {"a payload", "a thread that publishes"});
       if (thread.buffer && !thread.subscribe) diagnostics_.error(thread.where.at("buffer"), "nothing is taken", {"a buffer", "a thread that subscribes"});
       if (thread.qos && topic && config_.topics[*topic].protocol != Protocol::dds) diagnostics_.error(thread.where.at("qos"), "not of OPC UA", {"quality of service", "a topic of DDS"});
@@ -132,6 +155,7 @@ class Checker {
   void check_gateway(const GatewayOfNode& gateway, std::set<std::string>& names) {
     if (!names.insert(gateway.name).second)
       diagnostics_.error(gateway.where.at("name"), "duplicate name", {json::quote(gateway.name), "a name of its own for each application and gateway"});
+    published_.clear();
     check_phase(gateway.where, "receive_offset", gateway.receive_offset, gateway.receive_every);
     check_phase(gateway.where, "send_offset", gateway.send_offset, gateway.send_every);
     const auto from = use(gateway.from, gateway.where.at("from"));
@@ -150,7 +174,7 @@ class Checker {
   ApplicationsConfig& config_;
   json::Diagnostics& diagnostics_;
   bool uses_opc_ua_ = false;
-  std::set<std::string> published_;  ///< topics of OPC UA
+  std::set<std::string> published_;  ///< topics of OPC UA, by the present application or gateway
 };
 
 }  // namespace

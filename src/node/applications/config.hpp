@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/key_layout.hpp"
 #include "gateway/type_mapping.hpp"
 #include "node/config.hpp"
 #include "vocabulary/application.hpp"
@@ -24,7 +25,8 @@ struct Topic {
   Protocol protocol = Protocol::opc_ua;
   json::NameMap<DataField> fields;
   std::optional<std::uint16_t> publisher_id;  ///< of OPC UA; 1 + the position among the topics if absent
-  std::optional<std::string> type;            ///< of DDS, as all below: the name of the IDL struct; the topic's if absent
+  std::vector<std::string> keys = {};         ///< of DDS, as all below: fields that tell instances apart
+  std::optional<std::string> type;            ///< the name of the IDL struct; the topic's if absent
   std::optional<std::uint16_t> domain;
   std::optional<vocabulary::Qos> qos;
   bool operator==(const Topic&) const = default;
@@ -42,6 +44,7 @@ struct Thread {
   std::optional<std::uint32_t> buffer;
   std::optional<std::uint64_t> tests;
   std::optional<vocabulary::Qos> qos;
+  std::uint16_t writer_group = 1;             ///< not in the file: its number among the publications of its topic, if that is of OPC UA
   bool operator==(const Thread&) const = default;
 };
 
@@ -78,6 +81,7 @@ struct GatewayOfNode {
   Overflow overflow = Overflow::overwrite_oldest;
   std::optional<Duration> stale_after;
   Scheduler scheduler = {};
+  std::uint16_t writer_group = 1;             ///< as that of a thread
   bool operator==(const GatewayOfNode&) const = default;
 };
 
@@ -116,7 +120,11 @@ struct TopicShape {
   std::vector<gateway::DataSetField> fields;
   gateway::IdlStruct type;
   std::uint16_t publisher_id = 1;
+  std::uint16_t writer_groups = 1;            ///< of OPC UA: publications of the topic in the file, wherever they are; at least 1
   std::uint16_t domain = 0;
+  gateway::KeyLayout key;                     ///< of DDS
+  std::vector<std::size_t> key_fields;
+  std::size_t value_field = 0;                ///< the first that is no key
 };
 
 /// A file that has been checked. What is on other nodes is no longer in `config`.

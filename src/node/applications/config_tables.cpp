@@ -19,6 +19,7 @@ const json::Object& describe(json::Type<Topic>) {
       required<&Topic::protocol>("protocol", "How its samples travel."),
       required<&Topic::fields>("fields", "The fields of a sample, and the members of the IDL struct in their order.", {.min_items = 1, .max_items = 256}),
       optional<&Topic::publisher_id>("publisher_id", "Of OPC UA: PublisherId of whoever publishes it; 1 + its position among the topics if absent.", {.min = 1}),
+      optional<&Topic::keys>("keys", "Of DDS: the fields that tell instances apart; together at most 16 octets.", {.max_items = 16, .unique = true}),
       optional<&Topic::type>("type", "Of DDS: the name of the IDL struct, with its modules (\"Plant::Sample\"); the name of the topic if absent.", {.min_length = 1, .max_length = 255}),
       optional<&Topic::domain>("domain", "Of DDS: the DomainId; 0 if absent.", {.max = 232}),
       optional<&Topic::qos>("qos", "Of DDS: quality of service of all writers and readers of the topic."),

@@ -21,7 +21,7 @@ std::int64_t monotonic_ns() { return DeadlineClock(ClockName::monotonic).now(); 
 class DdsTopicWriter final : public TopicWriter {
  public:
   explicit DdsTopicWriter(DdsWriter& writer) : writer_(writer) {}
-  bool write(uadp::Octets value) override { return writer_.write(value); }
+  WriteOutcome write(uadp::Octets value) override { return writer_.write(value); }
 
  private:
   DdsWriter& writer_;
@@ -108,12 +108,12 @@ DdsParticipant* ApplicationHost::participant_of(std::uint16_t domain, std::strin
   return participants_.emplace_back(domain, std::move(participant)).second.get();
 }
 
-TopicWriter* ApplicationHost::writer_of(const std::string& topic, const std::optional<vocabulary::Qos>& qos, std::string& problem) {
+TopicWriter* ApplicationHost::writer_of(const std::string& topic, std::uint16_t writer_group, const std::optional<vocabulary::Qos>& qos, std::string& problem) {
   const std::size_t index = loaded_.topic(topic);
   const TopicShape& shape = loaded_.shapes[index];
-  if (loaded_.config.topics[index].protocol == Protocol::opc_ua) return &opc_ua_->add_writer(shape);
+  if (loaded_.config.topics[index].protocol == Protocol::opc_ua) return &opc_ua_->add_writer(shape, writer_group);
   DdsParticipant* const participant = participant_of(shape.domain, problem);
-  DdsWriter* const writer = participant == nullptr ? nullptr : participant->add_writer({topic, shape.type.name, vocabulary::merged(loaded_.config.topics[index].qos, qos)}, problem);
+  DdsWriter* const writer = participant == nullptr ? nullptr : participant->add_writer({topic, shape.type.name, vocabulary::merged(loaded_.config.topics[index].qos, qos), shape.key}, problem);
   return writer == nullptr ? nullptr : dds_writers_.emplace_back(std::make_unique<DdsTopicWriter>(*writer)).get();
 }
 
@@ -122,7 +122,7 @@ TopicReader* ApplicationHost::reader_of(const std::string& topic, const std::opt
   const TopicShape& shape = loaded_.shapes[index];
   if (loaded_.config.topics[index].protocol == Protocol::opc_ua) return &opc_ua_->add_reader(shape);
   DdsParticipant* const participant = participant_of(shape.domain, problem);
-  DdsReader* const reader = participant == nullptr ? nullptr : participant->add_reader({topic, shape.type.name, vocabulary::merged(loaded_.config.topics[index].qos, qos)}, problem);
+  DdsReader* const reader = participant == nullptr ? nullptr : participant->add_reader({topic, shape.type.name, vocabulary::merged(loaded_.config.topics[index].qos, qos), shape.key}, problem);
   return reader == nullptr ? nullptr : dds_readers_.emplace_back(std::make_unique<DdsTopicReader>(*reader)).get();
 }
 
@@ -135,7 +135,7 @@ bool ApplicationHost::add_application(const ApplicationOfNode& application, std:
     const std::size_t index = loaded_.topic(topic);
     const TopicEnd end = {&loaded_.shapes[index], loaded_.config.topics[index].protocol == Protocol::dds};
     if (thread.publish) {
-      TopicWriter* const writer = writer_of(topic, thread.qos, problem);
+      TopicWriter* const writer = writer_of(topic, thread.writer_group, thread.qos, problem);
       if (writer == nullptr) return false;
       watched.add(make_publishing(end, *writer, thread.payload, watched.newest), thread.every, thread.offset, "publish", thread.name, topic).tests = thread.tests;
     } else {
@@ -155,7 +155,7 @@ bool ApplicationHost::add_gateway(const GatewayOfNode& given, std::string& probl
   auto mapping = mapping_between(loaded_.shapes[loaded_.topic(given.from)], loaded_.shapes[to], direction, problems);
   TAKT_CHECK(mapping.has_value(), "mappings have been checked");
   TopicReader* const reader = reader_of(given.from, std::nullopt, problem);
-  TopicWriter* const writer = reader == nullptr ? nullptr : writer_of(given.to, std::nullopt, problem);
+  TopicWriter* const writer = reader == nullptr ? nullptr : writer_of(given.to, given.writer_group, std::nullopt, problem);
   if (writer == nullptr) return false;
   Watched& watched = *watched_.emplace_back(std::make_unique<Watched>());
   watched.name = given.name;
@@ -183,6 +183,8 @@ void ApplicationHost::run_task(Task& task) {
     task.log.add(deadlines.number(), result.buffered);
     ++statistics.calls;
     statistics.sent += result.sent;
+    statistics.timed_out += result.timed_out;
+    statistics.not_sent += result.not_sent;
     statistics.taken += result.taken;
     deadlines.next();
   }

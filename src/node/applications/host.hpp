@@ -25,6 +25,8 @@ struct ThreadStatistics {
   std::uint64_t calls = 0;
   std::uint64_t missed = 0;     ///< activations
   std::uint64_t sent = 0;       ///< samples that the protocol took
+  std::uint64_t timed_out = 0;  ///< of DDS: samples that waited for room for max_blocking_time, and were not sent
+  std::uint64_t not_sent = 0;   ///< samples that the protocol or the socket refused
   std::uint64_t taken = 0;      ///< samples that came; those that no activation took any more are taken at the end
   std::uint64_t lost = 0;       ///< of OPC UA: numbers that were jumped over
   Distribution late;            ///< from an activation to waking up
@@ -55,7 +57,7 @@ class ApplicationHost {
   struct Watched;
   ApplicationHost(const LoadedApplications& loaded);
   bool open(std::string& problem);
-  TopicWriter* writer_of(const std::string& topic, const std::optional<vocabulary::Qos>& qos, std::string& problem);
+  TopicWriter* writer_of(const std::string& topic, std::uint16_t writer_group, const std::optional<vocabulary::Qos>& qos, std::string& problem);
   TopicReader* reader_of(const std::string& topic, const std::optional<vocabulary::Qos>& qos, std::string& problem);
   DdsParticipant* participant_of(std::uint16_t domain, std::string& problem);
   bool add_application(const ApplicationOfNode& application, std::string& problem);

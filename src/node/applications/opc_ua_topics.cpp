@@ -14,8 +14,11 @@ using namespace sim::literals;  // NOLINT
 constexpr sim::Duration seldom = 90 * 24 * 3600_s;
 constexpr std::size_t most_waiting = 65'536;  // values that no thread has taken
 
-pubsub::WriterGroupSettings group_settings() {
+constexpr std::uint16_t data_set_writer = 1;  // alone in its group
+
+pubsub::WriterGroupSettings group_settings(std::uint16_t writer_group) {
   pubsub::WriterGroupSettings settings;
+  settings.writer_group_id = writer_group;
   settings.publishing_interval = seldom;
   settings.publish_on_change = true;
   return settings;
@@ -49,19 +52,20 @@ struct OpcUaTopics::Shared {
 
 class OpcUaTopics::Writer final : public TopicWriter {
  public:
-  Writer(Shared& shared, const TopicShape& topic)
-      : shared_(shared), values_(topic.fields), publisher_(uadp::PublisherId::uint16(topic.publisher_id), group_settings()), communication_(*shared.socket, input_) {
-    publisher_.add_data_set("values", values_);
+  Writer(Shared& shared, const TopicShape& topic, std::uint16_t writer_group)
+      : shared_(shared), values_(topic.fields), publisher_(uadp::PublisherId::uint16(topic.publisher_id)), communication_(*shared.socket, input_) {
+    const std::uint16_t group = publisher_.add_writer_group(group_settings(writer_group));
+    publisher_.add_data_set("values", values_, {.data_set_writer_id = data_set_writer}, group);
     communication_.add_publisher(publisher_);
     communication_.enable(shared.now());
   }
 
-  bool write(uadp::Octets value) override {
+  WriteOutcome write(uadp::Octets value) override {
     const std::lock_guard lock(shared_.mutex);
-    if (!values_.assign(value)) return false;
+    if (!values_.assign(value)) return WriteOutcome::failed;
     const std::uint64_t failures = shared_.socket->send_failures();
     communication_.advance(shared_.now());
-    return shared_.socket->send_failures() == failures;
+    return shared_.socket->send_failures() == failures ? WriteOutcome::sent : WriteOutcome::failed;
   }
 
  private:
@@ -75,7 +79,11 @@ class OpcUaTopics::Writer final : public TopicWriter {
 class OpcUaTopics::Reader final : public TopicReader {
  public:
   Reader(Shared& shared, const TopicShape& topic) : shared_(shared), values_(topic.fields), subscriber_(uadp::PublisherId::uint16(topic.publisher_id)), communication_(output_, input_) {
-    subscriber_.add_data_set("values", values_);
+    for (std::uint16_t each = 1; each <= topic.writer_groups; ++each) {
+      names_.push_back("values of " + std::to_string(each));
+      const std::size_t group = subscriber_.add_reader_group(each);
+      subscriber_.add_data_set(names_.back(), values_, {.data_set_writer_id = data_set_writer}, group);
+    }
     values_.on_received([this] {
       if (waiting_.size() == most_waiting) waiting_.pop_front();
       const uadp::Octets octets = values_.octets();
@@ -93,7 +101,11 @@ class OpcUaTopics::Reader final : public TopicReader {
     waiting_.pop_front();
     return true;
   }
-  std::uint64_t lost() const override { return subscriber_.reader("values")->missed(); }
+  std::uint64_t lost() const override {
+    std::uint64_t sum = 0;
+    for (const std::string& name : names_) sum += subscriber_.reader(name)->missed();
+    return sum;
+  }
   void received(uadp::Octets message) { communication_.received(message, shared_.now()); }
 
  private:
@@ -102,6 +114,7 @@ class OpcUaTopics::Reader final : public TopicReader {
   NoOutput output_;
   NoInput input_;
   pubsub::Subscriber subscriber_;
+  std::vector<std::string> names_;  ///< of its readers, one for each WriterGroup
   pubsub::Communication communication_;
   std::deque<std::vector<std::byte>> waiting_;
 };
@@ -114,7 +127,9 @@ void OpcUaTopics::Shared::distribute() {
 OpcUaTopics::OpcUaTopics(std::unique_ptr<Socket> socket, std::int64_t (*now_ns)()) : shared_(std::make_unique<Shared>(std::move(socket), now_ns)) {}
 OpcUaTopics::~OpcUaTopics() = default;
 
-TopicWriter& OpcUaTopics::add_writer(const TopicShape& topic) { return *shared_->writers.emplace_back(std::make_unique<Writer>(*shared_, topic)); }
+TopicWriter& OpcUaTopics::add_writer(const TopicShape& topic, std::uint16_t writer_group) {
+  return *shared_->writers.emplace_back(std::make_unique<Writer>(*shared_, topic, writer_group));
+}
 TopicReader& OpcUaTopics::add_reader(const TopicShape& topic) { return *shared_->readers.emplace_back(std::make_unique<Reader>(*shared_, topic)); }
 std::uint64_t OpcUaTopics::send_failures() const { return shared_->socket->send_failures(); }
 

@@ -44,6 +44,8 @@ json::Node of(const ThreadStatistics& thread) {
   node.add("calls", number(thread.calls));
   node.add("missed", number(thread.missed));
   node.add("sent", number(thread.sent));
+  node.add("timed_out", number(thread.timed_out));
+  node.add("not_sent", number(thread.not_sent));
   node.add("taken", number(thread.taken));
   node.add("lost", number(thread.lost));
   node.add("late", of(thread.late));
@@ -99,6 +101,8 @@ std::string to_text(const std::vector<ApplicationStatistics>& statistics) {
       out += fmt::format("  {:<30} {:>9} {:>9} {:>8} {:>8} {:>10} {:>10} {:>12.1f} {:>12.1f}\n", each.name + "/" + thread.name, thread.every_ns / 1000, thread.calls, thread.missed, thread.taken,
                          percent_of(thread.call_windows), percent_of(thread.value_windows), static_cast<double>(thread.late.percentile(99)) / 1000,
                          static_cast<double>(thread.late.greatest()) / 1000);
+    for (const ThreadStatistics& thread : each.threads)
+      if (thread.timed_out + thread.not_sent > 0) out += fmt::format("  {}/{}: {} timed out, {} not sent\n", each.name, thread.name, thread.timed_out, thread.not_sent);
     if (!each.channel) continue;
     const gateway::ChannelFigures& figures = *each.channel;
     out += fmt::format("  {} buffer: {} received, {} forwarded, {} overwritten, {} dropped, {} stale, {} not mapped; age mean {:.1f} us, max {:.1f} us\n", each.name, figures.received(),

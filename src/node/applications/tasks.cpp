@@ -5,6 +5,7 @@
 #include "gateway/field_values.hpp"
 #include "sim/check.hpp"
 #include "uadp/store_number.hpp"
+#include "vocabulary/keys.hpp"
 
 namespace takt::node {
 namespace {
@@ -19,6 +20,10 @@ std::optional<gateway::TypeMapping> own_mapping(const TopicEnd& topic, Direction
   return mapping;
 }
 
+CallResult result_of(WriteOutcome outcome) {
+  return {.sent = outcome == WriteOutcome::sent ? 1U : 0U, .timed_out = outcome == WriteOutcome::timed_out ? 1U : 0U, .not_sent = outcome == WriteOutcome::failed ? 1U : 0U};
+}
+
 class Publishing final : public Work {
  public:
   Publishing(const TopicEnd& topic, TopicWriter& writer, const std::optional<Payload>& payload, NewestSamples& newest)
@@ -26,9 +31,8 @@ class Publishing final : public Work {
     const gateway::FieldValues zeros(topic.shape->fields);
     const uadp::Octets octets = zeros.octets();
     fields_.assign(octets.begin(), octets.end());
-    const uadp::RawField& first = topic.shape->fields.front().type;
-    first_value_ = first.is_array ? 5 : 1;  // behind the octet of the type, and the length of an array
-    first_type_ = first.type;
+    value_ = place_of(*topic.shape, topic.shape->value_field);
+    for (const std::size_t key : topic.shape->key_fields) keys_.push_back(place_of(*topic.shape, key));
   }
 
   CallResult call(std::int64_t) override {
@@ -36,22 +40,39 @@ class Publishing final : public Work {
       if (!newest_.get(*payload_.copy_of, fields_)) return {};
     } else {
       ++count_;
-      const bool is_number = uadp::store_number(first_type_, fields_.data() + first_value_, payload_.pattern == Pattern::alternate ? count_ % 2 : count_);
-      TAKT_CHECK(is_number, "fields of topics are numbers");
+      for (const Place& key : keys_) store(key, vocabulary::instance_of(payload_, count_));
+      store(value_, payload_.pattern == Pattern::alternate ? count_ % 2 : count_);
     }
-    if (mapping_ && mapping_->to_cdr(fields_, value_) != gateway::MappingError::none) return {};
-    return {.sent = writer_.write(mapping_ ? value_ : fields_) ? 1U : 0U};
+    if (mapping_ && mapping_->to_cdr(fields_, payload_octets_) != gateway::MappingError::none) return {};
+    return result_of(writer_.write(mapping_ ? payload_octets_ : fields_));
   }
 
  private:
+  /// The first value of a field among the Variants.
+  struct Place {
+    std::size_t at = 0;
+    uadp::BuiltInType type = uadp::BuiltInType::Double;
+  };
+  static Place place_of(const TopicShape& shape, std::size_t field) {
+    std::size_t at = 0;
+    // Each is the octet of its type, the length of an array, and the values.
+    const auto header = [&](std::size_t f) { return std::size_t{shape.fields[f].type.is_array ? 5U : 1U}; };
+    for (std::size_t f = 0; f < field; ++f) at += header(f) + uadp::fixed_octets(shape.fields[f].type.type) * (shape.fields[f].type.is_array ? shape.fields[f].type.array_length : 1);
+    return {at + header(field), shape.fields[field].type.type};
+  }
+  void store(const Place& place, std::uint64_t number) {
+    const bool is_number = uadp::store_number(place.type, fields_.data() + place.at, number);
+    TAKT_CHECK(is_number, "fields of topics are numbers");
+  }
+
   TopicWriter& writer_;
   NewestSamples& newest_;
   Payload payload_;
   std::optional<gateway::TypeMapping> mapping_;
   std::vector<std::byte> fields_;
-  std::vector<std::byte> value_;
-  std::size_t first_value_ = 0;
-  uadp::BuiltInType first_type_ = uadp::BuiltInType::Double;
+  std::vector<std::byte> payload_octets_;
+  Place value_;
+  std::vector<Place> keys_;
   std::uint64_t count_ = 0;
 };
 
@@ -117,7 +138,7 @@ class Sending final : public Work {
       if (!next) return {};
       value_.assign(next->octets.begin(), next->octets.end());
     }
-    return {.sent = writer_.write(value_) ? 1U : 0U};  // outside of the lock: a reliable writer may wait
+    return result_of(writer_.write(value_));  // outside of the lock: a reliable writer may wait
   }
 
  private:

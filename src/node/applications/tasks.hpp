@@ -16,6 +16,8 @@ namespace takt::node {
 /// What one call did.
 struct CallResult {
   std::uint32_t sent = 0;
+  std::uint32_t timed_out = 0;
+  std::uint32_t not_sent = 0;
   std::uint32_t taken = 0;     ///< samples that came
   std::uint32_t buffered = 0;  ///< those of them that the buffer held
 };

@@ -15,8 +15,7 @@ namespace takt::node {
 class TopicWriter {
  public:
   virtual ~TopicWriter() = default;
-  /// False if it was not sent.
-  virtual bool write(uadp::Octets value) = 0;
+  virtual WriteOutcome write(uadp::Octets value) = 0;
 };
 
 class TopicReader {
@@ -34,8 +33,8 @@ class OpcUaTopics {
   OpcUaTopics(std::unique_ptr<Socket> socket, std::int64_t (*now_ns)());
   ~OpcUaTopics();
 
-  /// Both are its own and live as long as it does. A topic has at most one writer and as many readers as one likes.
-  TopicWriter& add_writer(const TopicShape& topic);
+  /// Both are its own and live as long as it does. Each writer of a topic has a WriterGroup of its own; readers hear all of them.
+  TopicWriter& add_writer(const TopicShape& topic, std::uint16_t writer_group = 1);
   TopicReader& add_reader(const TopicShape& topic);
 
   std::uint64_t send_failures() const;

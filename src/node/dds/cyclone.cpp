@@ -22,6 +22,7 @@ constexpr std::size_t header_octets = 4;
 struct RawData : ddsi_serdata {
   std::vector<std::byte> payload;  ///< filled up to a multiple of 4, for Cyclone sends so much
   std::size_t size = 0;            ///< without that
+  gateway::KeyHash key{};          ///< zeros in topics without key
 
   void fill_up() {
     size = payload.size();
@@ -31,12 +32,37 @@ struct RawData : ddsi_serdata {
 
 const RawData& raw(const ddsi_serdata* data) { return *static_cast<const RawData*>(data); }
 
-/// Only samples that are whole come this far. The hash is of the key, and there is none.
+struct RawType : ddsi_sertype {
+  gateway::KeyLayout key;
+};
+
+const gateway::KeyLayout& key_of(const ddsi_sertype* type) { return static_cast<const RawType*>(type)->key; }
+
+/// Only samples that are whole come this far.
 RawData* make_data(const ddsi_sertype* type, ddsi_serdata_kind kind) {
   auto* const data = new RawData{};
   ddsi_serdata_init(data, type, kind);
-  data->hash = type->serdata_basehash;
   return data;
+}
+
+/// The payload is complete: what follows from it. What tells of an instance only has the key for a payload.
+ddsi_serdata* completed(RawData* data) {
+  const gateway::KeyLayout& key = key_of(data->type);
+  if (key.has_key()) data->key = data->kind == SDK_DATA ? key.of_data(data->payload) : key.of_key(data->payload);
+  std::uint32_t hash = 2166136261u;  // FNV-1a
+  for (const std::uint8_t octet : data->key) hash = (hash ^ octet) * 16777619u;
+  data->hash = data->type->serdata_basehash ^ (key.has_key() ? hash : 0u);
+  data->fill_up();
+  return data;
+}
+
+/// Of an instance.
+ddsi_serdata* data_of_key(const ddsi_sertype* type, const std::uint8_t* hash) {
+  RawData* const data = make_data(type, SDK_KEY);
+  if (!key_of(type).has_key()) return completed(data);
+  data->payload.resize(header_octets);  // CDR_BE, as the hash is
+  for (std::size_t i = 0; i < key_of(type).octets(); ++i) data->payload.push_back(std::byte{hash[i]});
+  return completed(data);
 }
 
 const std::byte* bytes(const void* at) { return static_cast<const std::byte*>(at); }
@@ -50,8 +76,7 @@ ddsi_serdata* data_from_fragments(const ddsi_sertype* type, ddsi_serdata_kind ki
     const std::size_t known = data->payload.size() - fragment->min;
     data->payload.insert(data->payload.end(), bytes(payload) + known, bytes(payload) + (fragment->maxp1 - fragment->min));
   }
-  data->fill_up();
-  return data;
+  return completed(data);
 }
 
 ddsi_serdata* data_from_parts(const ddsi_sertype* type, ddsi_serdata_kind kind, ddsrt_msg_iovlen_t count, const ddsrt_iovec_t* parts, std::size_t size) {
@@ -61,18 +86,16 @@ ddsi_serdata* data_from_parts(const ddsi_sertype* type, ddsi_serdata_kind kind, 
     const std::size_t length = std::min(parts[i].iov_len, size - data->payload.size());
     data->payload.insert(data->payload.end(), bytes(parts[i].iov_base), bytes(parts[i].iov_base) + length);
   }
-  data->fill_up();
-  return data;
+  return completed(data);
 }
 
 /// A sample of the application is an Octets when it writes, a vector when it takes.
 ddsi_serdata* data_from_sample(const ddsi_sertype* type, ddsi_serdata_kind kind, const void* sample) {
-  RawData* const data = make_data(type, kind);
-  if (kind != SDK_DATA) return data;
   const Octets payload = *static_cast<const Octets*>(sample);
+  if (kind != SDK_DATA) return data_of_key(type, key_of(type).of_data(payload).data());
+  RawData* const data = make_data(type, kind);
   data->payload.assign(payload.begin(), payload.end());
-  data->fill_up();
-  return data;
+  return completed(data);
 }
 
 bool data_to_sample(const ddsi_serdata* data, void* sample, void**, void*) {
@@ -91,18 +114,18 @@ ddsi_serdata* data_lend(const ddsi_serdata* data, std::size_t offset, std::size_
 
 constexpr ddsi_serdata_ops make_data_operations() {
   ddsi_serdata_ops ops = {};
-  ops.eqkey = [](const ddsi_serdata*, const ddsi_serdata*) { return true; };
+  ops.eqkey = [](const ddsi_serdata* one, const ddsi_serdata* other) { return raw(one).key == raw(other).key; };
   ops.get_size = [](const ddsi_serdata* data) { return static_cast<std::uint32_t>(raw(data).size); };
   ops.from_ser = data_from_fragments;
   ops.from_ser_iov = data_from_parts;
-  ops.from_keyhash = [](const ddsi_sertype* type, const ddsi_keyhash*) -> ddsi_serdata* { return make_data(type, SDK_KEY); };
+  ops.from_keyhash = [](const ddsi_sertype* type, const ddsi_keyhash* hash) -> ddsi_serdata* { return data_of_key(type, hash->value); };
   ops.from_sample = data_from_sample;
   ops.to_ser = data_to_octets;
   ops.to_ser_ref = data_lend;
   ops.to_ser_unref = [](ddsi_serdata* data, const ddsrt_iovec_t*) { ddsi_serdata_unref(data); };
   ops.to_sample = data_to_sample;
   ops.to_untyped = [](const ddsi_serdata* data) -> ddsi_serdata* {
-    RawData* const untyped = make_data(data->type, SDK_KEY);
+    ddsi_serdata* const untyped = data_of_key(data->type, raw(data).key.data());
     untyped->type = nullptr;
     return untyped;
   };
@@ -112,7 +135,7 @@ constexpr ddsi_serdata_ops make_data_operations() {
     if (size > 0) text[0] = '\0';
     return 0;
   };
-  ops.get_keyhash = [](const ddsi_serdata*, ddsi_keyhash* hash, bool) { std::memset(hash, 0, sizeof *hash); };
+  ops.get_keyhash = [](const ddsi_serdata* data, ddsi_keyhash* hash, bool) { std::copy(raw(data).key.begin(), raw(data).key.end(), hash->value); };
   return ops;
 }
 
@@ -121,7 +144,7 @@ constexpr ddsi_sertype_ops make_type_operations() {
   ops.version = ddsi_sertype_v0;
   ops.free = [](ddsi_sertype* type) {
     ddsi_sertype_fini(type);
-    delete type;
+    delete static_cast<RawType*>(type);
   };
   ops.zero_samples = [](const ddsi_sertype*, void*, std::size_t) {};
   ops.realloc_samples = [](void** samples, const ddsi_sertype*, void*, std::size_t, std::size_t count) { std::fill_n(samples, count, nullptr); };
@@ -166,13 +189,21 @@ Qos qos_of(const vocabulary::Qos& asked, std::string& problem) {
   // What a transient-local writer has for late readers is its history (DDS 1.4, 2.2.3.4). Cyclone limits it by the policy of durability services, which by
   // itself is one sample.
   dds_qset_durability_service(qos.get(), 0, history, depth, limit_of(limits.max_samples), limit_of(limits.max_instances), limit_of(limits.max_samples_per_instance));
+  if (asked.partition) {
+    std::vector<const char*> names;
+    for (const std::string& name : *asked.partition) names.push_back(name.c_str());
+    dds_qset_partition(qos.get(), static_cast<std::uint32_t>(names.size()), names.data());
+  }
   return qos;
 }
 
 class CycloneWriter final : public DdsWriter {
  public:
   explicit CycloneWriter(dds_entity_t writer) : writer_(writer) {}
-  bool write(Octets payload) override { return dds_write(writer_, &payload) == DDS_RETCODE_OK; }
+  WriteOutcome write(Octets payload) override {
+    const dds_return_t code = dds_write(writer_, &payload);
+    return code == DDS_RETCODE_OK ? WriteOutcome::sent : code == DDS_RETCODE_TIMEOUT ? WriteOutcome::timed_out : WriteOutcome::failed;
+  }
   std::uint32_t matched() const override {
     dds_publication_matched_status_t status = {};
     return dds_get_publication_matched_status(writer_, &status) == DDS_RETCODE_OK ? status.current_count : 0;
@@ -224,8 +255,10 @@ class CycloneParticipant final : public DdsParticipant {
   dds_entity_t add(const DdsTopic& asked, Create create, const char* what, std::string& problem) {
     const Qos qos = qos_of(asked.qos, problem);
     if (!problem.empty()) return -1;
-    auto* type = new ddsi_sertype{};
-    ddsi_sertype_init(type, asked.type.c_str(), &type_operations, &data_operations, true);
+    auto* const made = new RawType{};
+    made->key = asked.key;
+    ddsi_sertype* type = made;
+    ddsi_sertype_init(type, asked.type.c_str(), &type_operations, &data_operations, !asked.key.has_key());
     const dds_entity_t topic = dds_create_topic_sertype(participant_, asked.name.c_str(), &type, nullptr, nullptr, nullptr);
     if (topic < 0) {
       ddsi_sertype_unref(type);

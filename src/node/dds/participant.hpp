@@ -5,17 +5,21 @@
 #include <string>
 #include <vector>
 
+#include "gateway/key_layout.hpp"
 #include "uadp/octets.hpp"
 #include "vocabulary/dds.hpp"
 
 namespace takt::node {
 
+/// What became of a sample. `timed_out`: it waited for room for max_blocking_time, in vain.
+enum class WriteOutcome : std::uint8_t { sent, timed_out, failed };
+
 /// Writes samples of one topic. A sample is a serialized payload: encapsulation header and CDR.
 class DdsWriter {
  public:
   virtual ~DdsWriter() = default;
-  /// False if it was not taken: it waited for max_blocking_time in vain.
-  virtual bool write(uadp::Octets payload) = 0;
+  /// Waits until there is room, for max_blocking_time at most.
+  virtual WriteOutcome write(uadp::Octets payload) = 0;
   /// Readers that it has found. A volatile sample is for these alone.
   virtual std::uint32_t matched() const = 0;
 };
@@ -30,11 +34,12 @@ class DdsReader {
   virtual std::uint32_t matched() const = 0;
 };
 
-/// A topic without keys. Types are matched by their names; what a payload holds is the matter of who writes and who takes.
+/// Types are matched by their names; what a payload holds is the matter of who writes and who takes.
 struct DdsTopic {
   std::string name;
   std::string type;
   vocabulary::Qos qos;  ///< absent: as a scenario says
+  gateway::KeyLayout key = {};
 };
 
 /// A participant in a domain. Writers and readers are its, and go with it. Calls may come from several threads.

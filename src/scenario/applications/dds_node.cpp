@@ -23,7 +23,10 @@ bool take(std::vector<std::uint32_t>& list, std::uint32_t number) { return std::
 
 }  // namespace
 
-DdsNode::DdsNode(const ResolvedParticipant& participant, std::uint32_t number) : settings_(&participant), number_(number) {}
+DdsNode::DdsNode(const ResolvedParticipant& participant, std::uint32_t number, std::vector<dds::DurableTopic> keeps)
+    : settings_(&participant), number_(number), keeps_(std::move(keeps)) {
+  for (const dds::DurableTopic& topic : keeps_) kept_.push_back({topic.topic, 0, 0, 0});
+}
 DdsNode::~DdsNode() = default;
 
 void DdsNode::start(models::HostServices& host) {
@@ -32,11 +35,24 @@ void DdsNode::start(models::HostServices& host) {
   started_ = host.now();
   figures_.time_to_match.reset();
   participant_ = std::make_unique<dds::Participant>(config, host.now());
+  if (!keeps_.empty()) start_service(host.now());
+}
+
+/// What it keeps of persistent topics outlives a crash of its host, as a file does.
+void DdsNode::start_service(sim::LocalTime now) {
+  service_ = std::make_unique<dds::PersistenceService>(*participant_, persistent_, prefix_of(number_ + 1, 0));
+  for (std::size_t k = 0; k < keeps_.size(); ++k) {
+    const std::vector<std::string> problems = service_->add(keeps_[k], now);
+    TAKT_CHECK(problems.empty(), "a topic whose settings were checked");
+    kept_[k].restored = service_->kept(keeps_[k].topic);
+  }
 }
 
 void DdsNode::crash() {
   if (!participant_) return;
   add_up(figures_);
+  kept_ = kept();
+  service_.reset();
   participant_.reset();
   transient_ = {};
   writable_.clear();
@@ -60,7 +76,17 @@ void DdsNode::wake(models::HostServices& host) {
   if (participant_->next_wake() <= host.now()) participant_->wake(host.now());
 }
 
+std::vector<KeptFigures> DdsNode::kept() const {
+  std::vector<KeptFigures> all = kept_;
+  for (std::size_t k = 0; service_ && k < keeps_.size(); ++k) {
+    all[k].received += service_->received(keeps_[k].topic);
+    all[k].kept = service_->kept(keeps_[k].topic);
+  }
+  return all;
+}
+
 void DdsNode::settle(models::HostServices& host) {
+  if (service_) service_->run(host.now());
   while (const auto datagram = participant_->next_datagram()) send(host, *datagram);
   while (const auto event = participant_->next_event()) hear(*event);
 }
@@ -90,6 +116,8 @@ void DdsNode::hear(const dds::Event& event) {
       break;
     case dds::EventKind::incompatible_qos:
     case dds::EventKind::inconsistent_topic:
+      // Partitions keep apart what is meant to be apart (DDS 1.4, 2.2.3.13).
+      if (event.kind == dds::EventKind::incompatible_qos && event.policy == dds::PolicyId::partition) break;
       if (std::find(figures_.incompatible.begin(), figures_.incompatible.end(), event.reason) == figures_.incompatible.end()) figures_.incompatible.push_back(event.reason);
       break;
     case dds::EventKind::deadline_missed: ++figures_.deadlines_missed; break;

@@ -1,11 +1,12 @@
 // The participant of an application in a domain of DDS, on a simulated host: datagrams to streams, streams to datagrams.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "dds/participant/participant.hpp"
+#include "dds/persistence/persistence_service.hpp"
 #include "models/host/application.hpp"
 #include "scenario/applications/resolved_applications.hpp"
 #include "scenario/applications/resolved_dds.hpp"
@@ -34,10 +35,18 @@ struct ParticipantFigures {
   std::vector<std::string> incompatible;       ///< what did not match and why, each once
 };
 
+/// What a persistence service did with a topic, its crashes included.
+struct KeptFigures {
+  std::string topic;
+  std::uint64_t received = 0;                  ///< samples, from their writers
+  std::uint64_t restored = 0;                  ///< samples that its last start found in its storage
+  std::uint64_t kept = 0;                      ///< samples now; before a crash, if it is down
+};
+
 class DdsNode {
  public:
-  /// All references outlive it.
-  DdsNode(const ResolvedParticipant& participant, std::uint32_t number);
+  /// All references outlive it. `keeps`: of a persistence service.
+  DdsNode(const ResolvedParticipant& participant, std::uint32_t number, std::vector<dds::DurableTopic> keeps = {});
   ~DdsNode();
 
   void start(models::HostServices& host);
@@ -52,7 +61,7 @@ class DdsNode {
 
   void receive(models::HostServices& host, models::StreamIndex stream, uadp::Octets message);
   void wake(models::HostServices& host);
-  sim::LocalTime next_wake() const { return participant_->next_wake(); }
+  sim::LocalTime next_wake() const { return service_ ? std::min(participant_->next_wake(), service_->next_wake()) : participant_->next_wake(); }
   /// Sends what the participant wants to send and hears what it tells. To be called after anything was done with it.
   void settle(models::HostServices& host);
 
@@ -62,8 +71,11 @@ class DdsNode {
 
   const ResolvedParticipant& settings() const { return *settings_; }
   ParticipantFigures figures() const;
+  /// By topic; none but of a persistence service.
+  std::vector<KeptFigures> kept() const;
 
  private:
+  void start_service(sim::LocalTime now);
   void send(models::HostServices& host, const dds::DatagramView& datagram);
   void hear(const dds::Event& event);
   void add_up(ParticipantFigures& figures) const;
@@ -72,6 +84,9 @@ class DdsNode {
   std::uint32_t number_;
   std::uint32_t incarnation_ = 0;
   std::unique_ptr<dds::Participant> participant_;
+  std::vector<dds::DurableTopic> keeps_;
+  std::unique_ptr<dds::PersistenceService> service_;
+  std::vector<KeptFigures> kept_;   // of keeps_
   dds::MemoryStorage transient_;
   dds::MemoryStorage persistent_;
   sim::LocalTime started_;

@@ -11,6 +11,7 @@ dds::WriterConfig writer_config(const ResolvedTopic& topic, const ResolvedThread
   dds::WriterConfig config;
   config.topic = topic.description->name;
   config.type = topic.description->type.value_or(topic.description->name);
+  config.has_key = topic.key.has_key();
   config.qos = writer_qos(thread.qos, thread.transport_priority);
   config.asynchronous = topic.description->publication == Publication::asynchronous;
   if (topic.description->flow_control) config.flow_controller = topic.description->name;
@@ -21,12 +22,19 @@ dds::ReaderConfig reader_config(const ResolvedTopic& topic, const ResolvedThread
   dds::ReaderConfig config;
   config.topic = topic.description->name;
   config.type = topic.description->type.value_or(topic.description->name);
+  config.has_key = topic.key.has_key();
   config.qos = reader_qos(thread.qos, thread.buffer);
+  if (config.has_key)
+    config.key_of = [&key = topic.key](dds::PayloadKind kind, dds::Octets payload) { return kind == dds::PayloadKind::data ? key.of_data(payload) : key.of_key(payload); };
   return config;
 }
 
+dds::DurableTopic durable_topic(const ResolvedTopic& topic, const ResolvedService::Kept& kept) {
+  return {topic.description->name, topic.description->type.value_or(topic.description->name), topic.key.has_key(), writer_qos(kept.qos, kept.transport_priority)};
+}
+
 DdsWriter::DdsWriter(DdsNode& node, const ResolvedTopic& topic, const ResolvedThread& thread, std::uint32_t thread_number)
-    : node_(&node), layout_(topic.layout), config_(writer_config(topic, thread)), payload_(layout_.octets()) {
+    : node_(&node), layout_(topic.layout), key_(&topic.key), config_(writer_config(topic, thread)), payload_(layout_.octets()) {
   config_.storage = node.storage(thread.qos.durability.value_or(vocabulary::Durability::volatile_));
   if (config_.storage != nullptr) config_.persistence_guid = node.persistence_guid(thread_number);
 }
@@ -37,19 +45,28 @@ void DdsWriter::start(models::HostServices& host) {
   handle_ = *made.handle;
 }
 
-bool DdsWriter::write(models::HostServices& host, uadp::Octets sample) {
-  if (is_blocked_) return false;
-  layout_.encode(sample, payload_);
-  const dds::WriteResult result = node_->participant().write(handle_, dds::no_key, payload_, host.now());
+WriteOutcome DdsWriter::try_write(models::HostServices& host) {
+  const dds::WriteResult result = node_->participant().write(handle_, key_->of_data(payload_), payload_, host.now());
   is_blocked_ = result.verdict == dds::WriteVerdict::would_block;
-  return result.verdict != dds::WriteVerdict::refused;
+  if (is_blocked_) return WriteOutcome::waits;
+  return result.verdict == dds::WriteVerdict::refused ? WriteOutcome::refused : WriteOutcome::published;
 }
 
-void DdsWriter::go_on(models::HostServices& host) {
-  if (!is_blocked_) return;
-  if (node_->take_timed_out(handle_)) is_blocked_ = false;
-  if (!node_->take_writable(handle_) || !is_blocked_) return;
-  is_blocked_ = node_->participant().write(handle_, dds::no_key, payload_, host.now()).verdict == dds::WriteVerdict::would_block;
+WriteOutcome DdsWriter::write(models::HostServices& host, uadp::Octets sample) {
+  if (is_blocked_) return WriteOutcome::refused;
+  layout_.encode(sample, payload_);
+  return try_write(host);
+}
+
+std::optional<WriteOutcome> DdsWriter::go_on(models::HostServices& host) {
+  if (!is_blocked_) return std::nullopt;
+  if (node_->take_timed_out(handle_)) {
+    is_blocked_ = false;
+    return WriteOutcome::timed_out;
+  }
+  if (!node_->take_writable(handle_)) return std::nullopt;
+  const WriteOutcome outcome = try_write(host);
+  return outcome == WriteOutcome::waits ? std::nullopt : std::optional(outcome);
 }
 
 DdsReader::DdsReader(DdsNode& node, const ResolvedTopic& topic, const ResolvedThread& thread, std::uint32_t thread_number)

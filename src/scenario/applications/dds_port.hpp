@@ -1,6 +1,7 @@
 // Publications and subscriptions over DDS: a DataWriter or DataReader of the application's participant in the domain of the topic.
 #pragma once
 
+#include "dds/persistence/persistence_service.hpp"
 #include "scenario/applications/cdr_layout.hpp"
 #include "scenario/applications/dds_node.hpp"
 #include "scenario/applications/topic_port.hpp"
@@ -10,24 +11,28 @@ namespace takt::scenario {
 /// The endpoint of a thread; the storage of its node and its name there are filled in where its durability asks for them.
 dds::WriterConfig writer_config(const ResolvedTopic& topic, const ResolvedThread& thread);
 dds::ReaderConfig reader_config(const ResolvedTopic& topic, const ResolvedThread& thread);
+dds::DurableTopic durable_topic(const ResolvedTopic& topic, const ResolvedService::Kept& kept);
 
 class DdsWriter final : public TopicWriter {
  public:
-  /// All outlive it.
+  /// All outlive it; the topic, too.
   DdsWriter(DdsNode& node, const ResolvedTopic& topic, const ResolvedThread& thread, std::uint32_t thread_number);
 
   void start(models::HostServices& host) override;
-  bool write(models::HostServices& host, uadp::Octets sample) override;
+  WriteOutcome write(models::HostServices& host, uadp::Octets sample) override;
   void crash() override { is_blocked_ = false; }
-  void go_on(models::HostServices& host) override;
+  std::optional<WriteOutcome> go_on(models::HostServices& host) override;
 
  private:
+  WriteOutcome try_write(models::HostServices& host);
+
   DdsNode* node_;
   CdrLayout layout_;
+  const gateway::KeyLayout* key_;
   dds::WriterConfig config_;
   dds::WriterHandle handle_;
   std::vector<std::byte> payload_;   // of the last sample
-  bool is_blocked_ = false;
+  bool is_blocked_ = false;          // it waits for room
 };
 
 class DdsReader final : public TopicReader {

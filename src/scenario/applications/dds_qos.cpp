@@ -17,6 +17,10 @@ static_assert(same<dds::DestinationOrderKind>(vocabulary::DestinationOrder::by_s
 
 std::int32_t limit(const std::optional<std::uint32_t>& value) { return value ? static_cast<std::int32_t>(*value) : dds::unlimited; }
 
+dds::ResourceLimits limits_of(const vocabulary::ResourceLimits& limits) {
+  return {limit(limits.max_samples), limit(limits.max_instances), limit(limits.max_samples_per_instance)};
+}
+
 /// What writers and readers have in common.
 template <class To>
 void set_common(const Qos& qos, std::uint32_t depth, To& made) {
@@ -31,8 +35,8 @@ void set_common(const Qos& qos, std::uint32_t depth, To& made) {
   if (qos.lease_duration) made.liveliness.lease_duration = *qos.lease_duration;
   if (qos.ownership) made.ownership.kind = same<dds::OwnershipKind>(*qos.ownership);
   if (qos.destination_order) made.destination_order.kind = same<dds::DestinationOrderKind>(*qos.destination_order);
-  if (qos.resource_limits)
-    made.resource_limits = {limit(qos.resource_limits->max_samples), limit(qos.resource_limits->max_instances), limit(qos.resource_limits->max_samples_per_instance)};
+  if (qos.resource_limits) made.resource_limits = limits_of(*qos.resource_limits);
+  if (qos.partition) made.partition.names = *qos.partition;
 }
 
 }  // namespace
@@ -43,6 +47,12 @@ dds::DataWriterQos writer_qos(const Qos& qos, std::int32_t transport_priority) {
   if (qos.ownership_strength) made.ownership_strength.value = *qos.ownership_strength;
   if (qos.lifespan) made.lifespan.duration = *qos.lifespan;
   made.transport_priority.value = transport_priority;
+  if (const auto& service = qos.durability_service) {
+    made.durability_service.service_cleanup_delay = service->cleanup_delay.value_or(Duration());
+    if (service->history) made.durability_service.history.kind = same<dds::HistoryKind>(*service->history);
+    made.durability_service.history.depth = static_cast<std::int32_t>(service->depth.value_or(1));
+    if (service->resource_limits) made.durability_service.resource_limits = limits_of(*service->resource_limits);
+  }
   return made;
 }
 

@@ -31,7 +31,8 @@ struct Topic {
   json::NameMap<vocabulary::DataField> fields;
   std::optional<std::uint8_t> pcp;
   std::uint16_t vlan = 0;
-  std::optional<std::string> type;            ///< of DDS, as all below
+  std::vector<std::string> keys = {};         ///< of DDS, as all below: fields that tell instances apart
+  std::optional<std::string> type;
   std::optional<std::uint16_t> domain;
   std::optional<Qos> qos;
   std::optional<Publication> publication;
@@ -104,11 +105,21 @@ struct Gateway {
   bool operator==(const Gateway&) const = default;
 };
 
+/// A persistence service: keeps topics of DDS whose durability is transient or persistent.
+struct Persistence {
+  json::Source where;
+  std::string name;
+  std::string on;
+  std::vector<std::string> topics;
+  bool operator==(const Persistence&) const = default;
+};
+
 const json::Object& describe(json::Type<Topic>);
 const json::Object& describe(json::Type<Signal>);
 const json::Object& describe(json::Type<Thread>);
 const json::Object& describe(json::Type<Scheduler>);
 const json::Object& describe(json::Type<Application>);
 const json::Object& describe(json::Type<Gateway>);
+const json::Object& describe(json::Type<Persistence>);
 
 }  // namespace takt::scenario

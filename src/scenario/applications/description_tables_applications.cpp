@@ -19,6 +19,7 @@ const json::Object& describe(json::Type<Topic>) {
       required<&Topic::fields>("fields", "The fields of a sample.", {.min_items = 1, .max_items = 256}),
       optional<&Topic::pcp>("pcp", "Priority in a VLAN tag; untagged, priority 0, if absent.", {.max = 7}),
       optional<&Topic::vlan>("vlan", "VLAN identifier in the tag; 0 is a priority tag.", {.max = 4094}),
+      optional<&Topic::keys>("keys", "Of DDS: the fields that tell instances apart; together at most 16 octets.", {.max_items = 16, .unique = true}),
       optional<&Topic::type>("type", "Of DDS: the name of the IDL struct, with its modules (\"Plant::Sample\"); the name of the topic if absent.", {.min_length = 1, .max_length = 255}),
       optional<&Topic::domain>("domain", "Of DDS: the DomainId; 0 if absent.", {.max = 232}),
       optional<&Topic::qos>("qos", "Of DDS: quality of service of all writers and readers of the topic."),
@@ -102,6 +103,17 @@ const json::Object& describe(json::Type<Gateway>) {
       optional<&Gateway::scheduler>("scheduler", "How its threads are checked."),
   };
   static constexpr json::Object table = json::object<Gateway>("gateway", "From a topic of one protocol to a topic of the other, through a shared buffer.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Persistence>) {
+  static constexpr json::Field fields[] = {
+      required<&Persistence::name>("name", "Unique among applications, gateways, streams and programs.", {.min_length = 1, .max_length = 200}),
+      required<&Persistence::on>("on", "The host; it has no other part in these topics.", {.min_length = 1}),
+      required<&Persistence::topics>("topics", "Topics of DDS whose durability is transient or persistent.", {.min_items = 1, .max_items = 1000, .unique = true, .items = {.min_length = 1}}),
+  };
+  static constexpr json::Object table =
+      json::object<Persistence>("persistence", "A persistence service of DDS: keeps the last samples of topics for readers that come when the writers are gone.", fields);
   return table;
 }
 

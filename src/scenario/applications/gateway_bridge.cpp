@@ -16,26 +16,6 @@ std::vector<gateway::DataSetField> fields_of(const ResolvedTopic& topic) {
   return fields;
 }
 
-/// The struct that CdrLayout writes.
-gateway::IdlStruct struct_of(const ResolvedTopic& topic, std::vector<std::string>& problems) {
-  gateway::IdlStruct type;
-  type.name = topic.description->name;
-  for (const gateway::DataSetField& field : fields_of(topic)) {
-    std::string problem;
-    std::optional<gateway::IdlMember> member = gateway::idl_member_of({field.name, {field.type.type, false, 0, 0}}, problem);
-    if (!member) {
-      problems.push_back(problem);
-      continue;
-    }
-    if (field.type.is_array) {
-      member->collection = gateway::IdlCollection::array;
-      member->length = field.type.array_length;
-    }
-    type.members.push_back(std::move(*member));
-  }
-  return type;
-}
-
 gateway::TypeMapping sound_mapping(const ResolvedTopic& from, const ResolvedTopic& to) {
   std::vector<std::string> problems;
   auto mapping = mapping_between(from, to, problems);
@@ -60,9 +40,28 @@ void add(gateway::ChannelFigures& sum, const gateway::ChannelFigures& more) {
 
 }  // namespace
 
+gateway::IdlStruct idl_struct_of(const ResolvedTopic& topic, std::vector<std::string>& problems) {
+  gateway::IdlStruct type;
+  type.name = topic.description->name;
+  for (const gateway::DataSetField& field : fields_of(topic)) {
+    std::string problem;
+    std::optional<gateway::IdlMember> member = gateway::idl_member_of({field.name, {field.type.type, false, 0, 0}}, problem);
+    if (!member) {
+      problems.push_back(problem);
+      continue;
+    }
+    if (field.type.is_array) {
+      member->collection = gateway::IdlCollection::array;
+      member->length = field.type.array_length;
+    }
+    type.members.push_back(std::move(*member));
+  }
+  return type;
+}
+
 std::optional<gateway::TypeMapping> mapping_between(const ResolvedTopic& from, const ResolvedTopic& to, std::vector<std::string>& problems) {
   const bool to_dds = to.description->protocol == Protocol::dds;
-  const gateway::IdlStruct type = struct_of(to_dds ? to : from, problems);
+  const gateway::IdlStruct type = idl_struct_of(to_dds ? to : from, problems);
   if (!problems.empty()) return std::nullopt;
   return gateway::TypeMapping::make(to_dds ? gateway::Direction::to_dds : gateway::Direction::to_opc_ua, fields_of(to_dds ? from : to), type, {}, problems);
 }

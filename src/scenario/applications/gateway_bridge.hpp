@@ -10,6 +10,9 @@
 
 namespace takt::scenario {
 
+/// The struct that CdrLayout writes; a problem is a line.
+gateway::IdlStruct idl_struct_of(const ResolvedTopic& topic, std::vector<std::string>& problems);
+
 /// How the fields of `from` become those of `to`, by their names; one of the two is of DDS. Nothing if there is a problem; each is a line.
 std::optional<gateway::TypeMapping> mapping_between(const ResolvedTopic& from, const ResolvedTopic& to, std::vector<std::string>& problems);
 

@@ -57,6 +57,8 @@ class Inbox {
 
 }  // namespace
 
+OpcUaAddress address_of(const ResolvedTopic& topic, const ResolvedThread& publication) { return {topic.publisher_id, publication.writer_group, 1}; }
+
 struct OpcUaWriter::Publishing {
   Publishing(const SampleLayout& layout, const OpcUaAddress& address, pubsub::PublishedData& stack)
       : data_set(layout), publisher(uadp::PublisherId::uint16(address.publisher_id)), communication(stack, input) {
@@ -86,12 +88,12 @@ void OpcUaWriter::start(models::HostServices& host) {
 
 void OpcUaWriter::crash() { publishing_.reset(); }
 
-bool OpcUaWriter::write(models::HostServices& host, uadp::Octets sample) {
+WriteOutcome OpcUaWriter::write(models::HostServices& host, uadp::Octets sample) {
   host_ = &host;
   publishing_->data_set.set(sample);
   publishing_->communication.advance(host.now());
   host_ = nullptr;
-  return true;
+  return WriteOutcome::published;
 }
 
 void OpcUaWriter::publish(uadp::Octets network_message, const pubsub::Destination&) {

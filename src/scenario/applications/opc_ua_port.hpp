@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pubsub/communication.hpp"
+#include "scenario/applications/resolved_applications.hpp"
 #include "scenario/applications/sample_data_set.hpp"
 #include "scenario/applications/topic_port.hpp"
 
@@ -13,12 +14,14 @@ namespace takt::scenario {
 /// The port of UADP over UDP (OPC 10000-14, 7.3.2.2; IANA: opcua-udp).
 inline constexpr std::uint16_t opc_ua_udp_port = 4840;
 
-/// Who publishes: a Publisher of an application with a WriterGroup for each thread, and a DataSetWriter for each topic.
+/// Who publishes, numbered as real nodes do it: a Publisher for each topic, and a WriterGroup with one DataSetWriter for each thread that publishes to it.
 struct OpcUaAddress {
   std::uint16_t publisher_id = 0;
   std::uint16_t writer_group_id = 0;
   std::uint16_t data_set_writer_id = 0;
 };
+
+OpcUaAddress address_of(const ResolvedTopic& topic, const ResolvedThread& publication);
 
 class OpcUaWriter final : public TopicWriter, private pubsub::PublishedData {
  public:
@@ -30,7 +33,7 @@ class OpcUaWriter final : public TopicWriter, private pubsub::PublishedData {
   static std::size_t message_octets(const SampleLayout& layout, const OpcUaAddress& address);
 
   void start(models::HostServices& host) override;
-  bool write(models::HostServices& host, uadp::Octets sample) override;
+  WriteOutcome write(models::HostServices& host, uadp::Octets sample) override;
   void crash() override;
 
  private:

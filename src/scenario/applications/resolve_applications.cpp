@@ -13,6 +13,7 @@
 #include "scenario/applications/resolved_dds.hpp"
 #include "scenario/json/suggest.hpp"
 #include "scenario/resolve/os_profiles.hpp"
+#include "vocabulary/keys.hpp"
 #include "vocabulary/qos_of_thread.hpp"
 
 namespace takt::scenario {
@@ -47,6 +48,7 @@ class ApplicationResolver {
     check_domains();
     for (const Application& application : r_.scenario.applications) add(application);
     for (const Gateway& gateway : r_.scenario.gateways) add(gateway);
+    for (const Persistence& service : r_.scenario.persistence) add(service);
     for (ResolvedApplication& application : r_.applications) check_threads(application);
     check_hosts();
     if (diagnostics_.errors() != errors_before || !is_complete()) return;  // numbers below stand for what was found
@@ -71,7 +73,7 @@ class ApplicationResolver {
     if (!topic.pcp && topic.vlan != 0)
       diagnostics_.error(topic.where.at("vlan"), "a VLAN without a priority", {"\"vlan\" alone", "\"pcp\" too, since the tag carries both"});
     if (topic.protocol == Protocol::opc_ua) {
-      for (const auto& [present, key] : {std::pair(topic.type.has_value(), "type"), std::pair(topic.domain.has_value(), "domain"), std::pair(topic.qos.has_value(), "qos"),
+      for (const auto& [present, key] : {std::pair(!topic.keys.empty(), "keys"), std::pair(topic.type.has_value(), "type"), std::pair(topic.domain.has_value(), "domain"), std::pair(topic.qos.has_value(), "qos"),
                                          std::pair(topic.publication.has_value(), "publication"), std::pair(topic.flow_control.has_value(), "flow_control")})
         if (present) refuse_of_dds(topic.where.at(key), key);
     } else if (topic.flow_control && topic.publication != Publication::asynchronous) {
@@ -79,7 +81,16 @@ class ApplicationResolver {
     }
     ResolvedTopic made;
     made.description = &topic;
-    made.layout = SampleLayout(topic.fields);
+    // Topics of DDS count, so that a topic has the number that it has in the file of a node.
+    made.publisher_id = static_cast<std::uint16_t>(++publishers_);
+    if (publishers_ == most_publishers + 1)
+      diagnostics_.error(topic.where.place(), "too many topics and participants of programs", {std::to_string(publishers_), "at most " + std::to_string(most_publishers)});
+    const std::size_t errors_before = diagnostics_.errors();
+    vocabulary::check_keys(topic.where, topic.keys, topic.fields, diagnostics_);
+    const bool has_sound_keys = !topic.keys.empty() && topic.protocol == Protocol::dds && diagnostics_.errors() == errors_before;
+    made.layout = SampleLayout(topic.fields, has_sound_keys ? topic.keys : std::vector<std::string>());
+    std::vector<std::string> problems;
+    if (has_sound_keys) made.key = gateway::KeyLayout(idl_struct_of(made, problems), topic.keys);
     r_.topics.push_back(std::move(made));
     if (topic.protocol == Protocol::opc_ua && !topic.fields.empty() && OpcUaWriter::message_octets(r_.topics.back().layout, {1, 1, 1}) == 0)
       diagnostics_.error(topic.where.at("fields"), "a sample too long for a NetworkMessage", {std::to_string(r_.topics.back().layout.octets()) + " octets of values", "fields that fit 1472 octets with their headers"});
@@ -121,9 +132,6 @@ class ApplicationResolver {
     if (const auto node = host.empty() ? std::nullopt : builder_.host(host, where.at("on"))) made.node = models::NodeIndex{*node};
     made.scheduler = &scheduler;
     if (scheduler.response) made.scheduler_response = distribution_of(*scheduler.response, diagnostics_);
-    made.publisher_id = static_cast<std::uint16_t>(++publishers_);
-    if (publishers_ == most_publishers + 1)
-      diagnostics_.error(where.place(), "too many applications and participants of programs", {std::to_string(publishers_), "at most " + std::to_string(most_publishers)});
     return made;
   }
 
@@ -162,7 +170,12 @@ class ApplicationResolver {
       refuse(!one.publishes && thread.payload, "payload", "publish");
       if (thread.qos && one.topic < r_.topics.size() && r_.topics[one.topic].description->protocol == Protocol::opc_ua) refuse_of_dds(thread.where.at("qos"), "qos");
       if (one.topic < r_.topics.size()) one.qos = vocabulary::merged(r_.topics[one.topic].description->qos, thread.qos);
+      one.own_qos = thread.qos ? &*thread.qos : nullptr;
       if (one.publishes) one.pattern = thread.payload ? thread.payload->pattern : Pattern::counter;
+      if (thread.payload && one.publishes) {
+        one.payload = *thread.payload;
+        if (one.topic < r_.topics.size()) vocabulary::check_instances(*thread.payload, !r_.topics[one.topic].description->keys.empty() && !thread.payload->copy_of, diagnostics_);
+      }
       if (thread.signal) add_signal(*thread.signal, one, made);
       made.threads.push_back(std::move(one));
     }
@@ -231,6 +244,26 @@ class ApplicationResolver {
     r_.applications.push_back(std::move(made));
   }
 
+  void add(const Persistence& service) {
+    static const Scheduler unused;
+    ResolvedApplication made = begin(service.name, service.on, unused, service.where);
+    made.service.emplace();
+    for (std::size_t t = 0; t < service.topics.size(); ++t) {
+      const json::Place place = service.where.at("topics", t);
+      const std::uint32_t topic = topic_of(service.topics[t], place);
+      if (topic == unknown_topic) continue;
+      if (r_.topics[topic].description->protocol != Protocol::dds) {
+        refuse_of_dds(place, "persistence");
+        continue;
+      }
+      ResolvedService::Kept kept{topic, std::nullopt, 0, vocabulary::merged(r_.topics[topic].description->qos, std::nullopt), place};
+      if (kept.qos.durability.value_or(Durability::volatile_) < Durability::transient)
+        diagnostics_.error(place, "a topic that is not kept", {json::quote(service.topics[t]), "a topic whose \"qos\" has \"durability\": \"transient\" or \"persistent\""});
+      made.service->topics.push_back(std::move(kept));
+    }
+    r_.applications.push_back(std::move(made));
+  }
+
   void check_mapping(const Gateway& gateway, const ResolvedTopic& from, const ResolvedTopic& to) {
     std::vector<std::string> problems;
     if (mapping_between(from, to, problems)) return;
@@ -269,6 +302,14 @@ class ApplicationResolver {
         uses.push_back({thread.topic, application.node.value, thread.publishes});
       }
     }
+    for (const ResolvedApplication& application : r_.applications)
+      for (std::size_t k = 0; application.service && !application.node.is_none() && k < application.service->topics.size(); ++k) {
+        const ResolvedService::Kept& kept = application.service->topics[k];
+        if (std::any_of(uses.begin(), uses.end(), [&](const Use& use) { return use.topic == kept.topic && use.host == application.node.value; }))
+          diagnostics_.error(kept.where, "a topic that stays within a host",
+                             {json::quote(r_.topics[kept.topic].description->name) + " is used and kept on " + json::quote(r_.topology.nodes[application.node.value].name),
+                              "a persistence service on a host of its own"});
+      }
   }
 
   /// From each publisher of the topic a stream to all that subscribe to it.
@@ -283,6 +324,7 @@ class ApplicationResolver {
       diagnostics_.warning(description.where.at("name"), publishers.empty() ? "a topic that nobody publishes" : "a topic that nobody subscribes to", {json::quote(description.name)});
       if (publishers.empty()) return;
     }
+    for (std::size_t p = 0; p < publishers.size(); ++p) r_.applications[publishers[p].first].threads[publishers[p].second].writer_group = static_cast<std::uint16_t>(p + 1);
     if (subscribers.empty()) return;
     if (description.protocol == Protocol::dds) {
       // Of an exclusive topic readers get the samples of the strongest writer.
@@ -291,7 +333,8 @@ class ApplicationResolver {
       const auto strongest = *std::max_element(publishers.begin(), publishers.end(), [&](const auto& x, const auto& y) { return strength(x) < strength(y); });
       for (const auto& [heard_by, of] : subscribers)
         for (const auto& [a, t] : publishers)
-          if (!exclusive || std::pair(a, t) == strongest) r_.applications[heard_by].threads[of].inputs.push_back({a, t, {}});
+          if ((!exclusive || std::pair(a, t) == strongest) && share_a_partition(r_.applications[a].threads[t], r_.applications[heard_by].threads[of]))
+            r_.applications[heard_by].threads[of].inputs.push_back({a, t, {}});
       return;
     }
     for (const auto& [a, t] : publishers) {
@@ -309,7 +352,7 @@ class ApplicationResolver {
       wanted.headers = models::ipv4_and_udp_headers;
       wanted.is_group = true;
       wanted.udp_port = opc_ua_udp_port;
-      wanted.payload = Octets{static_cast<std::uint32_t>(OpcUaWriter::message_octets(r_.topics[topic].layout, {application.publisher_id, 1, 1}))};
+      wanted.payload = Octets{static_cast<std::uint32_t>(OpcUaWriter::message_octets(r_.topics[topic].layout, address_of(r_.topics[topic], thread)))};
       const auto index = builder_.add(wanted);
       if (!index) continue;
       thread.stream = *index;
@@ -319,6 +362,10 @@ class ApplicationResolver {
           demand.frames_per_second * 8.0 * models::wire_length(models::frame_length(wanted.headers + wanted.payload, description.pcp.has_value())).count;
       for (const auto& [heard_by, of] : subscribers) r_.applications[heard_by].threads[of].inputs.push_back({a, t, *index});
     }
+  }
+
+  static bool share_a_partition(const ResolvedThread& writer, const ResolvedThread& reader) {
+    return dds::have_common_partition({writer.qos.partition.value_or(std::vector<std::string>())}, {reader.qos.partition.value_or(std::vector<std::string>())});
   }
 
   void set_windows(ResolvedApplication& application) {

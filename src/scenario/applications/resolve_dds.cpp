@@ -8,6 +8,7 @@
 #include "dds/participant/participant.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "scenario/applications/dds_port.hpp"
+#include "scenario/applications/qos_places.hpp"
 #include "scenario/json/suggest.hpp"
 
 namespace takt::scenario {
@@ -33,6 +34,7 @@ class DdsResolver {
       if (diagnostics_.errors() != errors_before) continue;
       set_discovery(domain, members);
       warn_of_mismatches(members);
+      warn_of_lonely_partitions(members);
       lay_streams(domain, members);
     }
     for (ResolvedParticipant& each : r_.dds->participants)
@@ -41,10 +43,25 @@ class DdsResolver {
 
  private:
   using Members = std::vector<std::uint32_t>;   // participants
+  /// What a participant says of its endpoints, and where its file says it.
+  struct Known {
+    dds::StaticParticipant endpoints;
+    std::vector<QosSources> writers;            // by publication
+    std::vector<QosSources> readers;            // by subscription
+    void add(const dds::PublicationData& data, const QosSources& sources) {
+      endpoints.publications.push_back(data);
+      writers.push_back(sources);
+    }
+    void add(const dds::SubscriptionData& data, const QosSources& sources) {
+      endpoints.subscriptions.push_back(data);
+      readers.push_back(sources);
+    }
+  };
   ResolvedParticipant& participant(std::uint32_t number) { return r_.dds->participants[number]; }
   ResolvedApplication& application_of(std::uint32_t number) { return r_.applications[participant(number).application]; }
   std::uint32_t host_of(std::uint32_t number) { return application_of(number).node.value; }
   const Topic& topic_of(const ResolvedThread& thread) const { return *r_.topics[thread.topic].description; }
+  const Topic& topic_of(const ResolvedService::Kept& kept) const { return *r_.topics[kept.topic].description; }
   const Domain* description_of(std::uint16_t domain) const {
     const auto found = std::find_if(r_.scenario.domains.begin(), r_.scenario.domains.end(), [&](const Domain& each) { return each.id == domain; });
     return found == r_.scenario.domains.end() ? nullptr : &*found;
@@ -58,29 +75,41 @@ class DdsResolver {
     return threads;
   }
 
+  /// The topics that a persistence service keeps as that participant.
+  std::vector<ResolvedService::Kept*> kept_by(std::uint32_t number) {
+    std::vector<ResolvedService::Kept*> all;
+    if (auto& service = application_of(number).service)
+      for (ResolvedService::Kept& kept : service->topics)
+        if (kept.participant == number) all.push_back(&kept);
+    return all;
+  }
+
   void add_participants(std::uint32_t a) {
     std::map<std::uint16_t, std::uint32_t> of_domain;
-    for (ResolvedThread& thread : r_.applications[a].threads) {
-      const Topic& topic = topic_of(thread);
-      if (topic.protocol != Protocol::dds) continue;
-      const std::uint16_t domain = topic.domain.value_or(0);
-      const auto [found, is_new] = of_domain.try_emplace(domain, static_cast<std::uint32_t>(r_.dds->participants.size()));
-      thread.participant = found->second;
-      if (!is_new) continue;
-      ResolvedParticipant made;
-      made.application = a;
-      made.config.domain = domain;
-      made.config.address = 10U << 24 | (r_.applications[a].node.value + 1);
-      made.config.name = r_.applications[a].name;
-      for (const std::uint32_t other : domains_[domain])
-        if (host_of(other) == r_.applications[a].node.value) ++made.config.participant;
-      r_.dds->participants.push_back(std::move(made));
-      domains_[domain].push_back(found->second);
-      if (domains_[domain].size() == most_participants + 1)
-        diagnostics_.error(r_.applications[a].where.place(), "too many participants in a domain", {std::to_string(most_participants + 1), "at most " + std::to_string(most_participants)});
-      if (std::string problem = dds::port_problem(domain, r_.dds->participants.back().config.participant); !problem.empty())
-        diagnostics_.error(topic.where.at("domain"), "a domain without ports", {problem, "a lower DomainId, or fewer participants on a host"});
-    }
+    for (ResolvedThread& thread : r_.applications[a].threads)
+      if (topic_of(thread).protocol == Protocol::dds) thread.participant = participant_for(a, topic_of(thread), of_domain);
+    if (auto& service = r_.applications[a].service)
+      for (ResolvedService::Kept& kept : service->topics) kept.participant = participant_for(a, topic_of(kept), of_domain);
+  }
+
+  std::uint32_t participant_for(std::uint32_t a, const Topic& topic, std::map<std::uint16_t, std::uint32_t>& of_domain) {
+    const std::uint16_t domain = topic.domain.value_or(0);
+    const auto [found, is_new] = of_domain.try_emplace(domain, static_cast<std::uint32_t>(r_.dds->participants.size()));
+    if (!is_new) return found->second;
+    ResolvedParticipant made;
+    made.application = a;
+    made.config.domain = domain;
+    made.config.address = 10U << 24 | (r_.applications[a].node.value + 1);
+    made.config.name = r_.applications[a].name;
+    for (const std::uint32_t other : domains_[domain])
+      if (host_of(other) == r_.applications[a].node.value) ++made.config.participant;
+    r_.dds->participants.push_back(std::move(made));
+    domains_[domain].push_back(found->second);
+    if (domains_[domain].size() == most_participants + 1)
+      diagnostics_.error(r_.applications[a].where.place(), "too many participants in a domain", {std::to_string(most_participants + 1), "at most " + std::to_string(most_participants)});
+    if (std::string problem = dds::port_problem(domain, r_.dds->participants.back().config.participant); !problem.empty())
+      diagnostics_.error(topic.where.at("domain"), "a domain without ports", {problem, "a lower DomainId, or fewer participants on a host"});
+    return found->second;
   }
 
   /// Samples of topics go with the topic's priority and VLAN. All else goes with them, too, if they are the same for the whole domain.
@@ -88,17 +117,23 @@ class DdsResolver {
     std::set<Class> classes;
     for (const std::uint32_t member : members)
       for (const std::uint32_t t : threads_of(member)) classes.insert(class_of(topic_of(application_of(member).threads[t])));
+    for (const std::uint32_t member : members)
+      for (const ResolvedService::Kept* const kept : kept_by(member)) classes.insert(class_of(topic_of(*kept)));
     classes_[domain] = {classes.begin(), classes.end()};
     for (const std::uint32_t member : members) {
       for (const std::uint32_t t : threads_of(member)) {
         ResolvedThread& thread = application_of(member).threads[t];
-        const std::vector<Class>& all = classes_[domain];
-        const auto at = std::find(all.begin(), all.end(), class_of(topic_of(thread))) - all.begin();
-        thread.transport_priority = all.size() > 1 ? static_cast<std::int32_t>(at) + 1 : 0;
         const Topic& topic = topic_of(thread);
+        thread.transport_priority = transport_priority_of(domain, topic);
         if (topic.flow_control && thread.publishes) participant(member).config.flow_controllers.push_back({topic.name, dds::FlowScheduler::fifo, topic.flow_control->octets, topic.flow_control->every});
       }
+      for (ResolvedService::Kept* const kept : kept_by(member)) kept->transport_priority = transport_priority_of(domain, topic_of(*kept));
     }
+  }
+  std::int32_t transport_priority_of(std::uint16_t domain, const Topic& topic) {
+    const std::vector<Class>& all = classes_[domain];
+    const auto at = std::find(all.begin(), all.end(), class_of(topic)) - all.begin();
+    return all.size() > 1 ? static_cast<std::int32_t>(at) + 1 : 0;
   }
   static Class class_of(const Topic& topic) { return {topic.pcp, topic.vlan}; }
 
@@ -113,22 +148,49 @@ class DdsResolver {
         continue;
       }
       dds::Participant made(config, {});
-      dds::StaticParticipant known{application.name, {}, {}};
-      for (const std::uint32_t t : threads_of(member)) {
-        const ResolvedThread& thread = application.threads[t];
-        std::vector<std::string> problems;
-        if (thread.publishes) {
-          const auto writer = made.create_writer(writer_config(r_.topics[thread.topic], thread), {});
-          problems = writer.problems;
-          if (writer.handle) known.publications.push_back(made.data_of(*writer.handle));
-        } else {
-          const auto reader = made.create_reader(reader_config(r_.topics[thread.topic], thread), {});
-          problems = reader.problems;
-          if (reader.handle) known.subscriptions.push_back(made.data_of(*reader.handle));
-        }
-        for (const std::string& problem : problems) diagnostics_.error(thread.where.place(), "quality of service that cannot be", {problem, "policies that fit each other"});
-      }
-      known_[member] = std::move(known);
+      Known& known = known_[member];
+      known.endpoints.name = application.name;
+      for (const std::uint32_t t : threads_of(member)) probe(application.threads[t], made, known);
+      dds::MemoryStorage storage;
+      dds::PersistenceService service(made, storage, config.prefix);
+      for (const ResolvedService::Kept* const kept : kept_by(member)) probe(*kept, made, service, known);
+    }
+  }
+
+  void probe(const ResolvedService::Kept& kept, dds::Participant& made, dds::PersistenceService& service, Known& known) {
+    const auto& of_topic = topic_of(kept).qos;
+    const QosSources sources{nullptr, of_topic ? &*of_topic : nullptr, kept.where};
+    const dds::DurableTopic topic = durable_topic(r_.topics[kept.topic], kept);
+    const std::vector<std::string> problems = service.add(topic, {});
+    report(problems, sources);
+    if (!problems.empty()) return;
+    known.add(made.data_of(*service.writer_of(topic.topic)), sources);
+    known.add(made.data_of(*service.reader_of(topic.topic)), sources);
+  }
+
+  void probe(const ResolvedThread& thread, dds::Participant& made, Known& known) {
+    const QosSources sources = sources_of(thread);
+    if (thread.publishes) {
+      const auto writer = made.create_writer(writer_config(r_.topics[thread.topic], thread), {});
+      report(writer.problems, sources);
+      if (writer) known.add(made.data_of(*writer.handle), sources);
+    } else {
+      const auto reader = made.create_reader(reader_config(r_.topics[thread.topic], thread), {});
+      report(reader.problems, sources);
+      if (reader) known.add(made.data_of(*reader.handle), sources);
+    }
+  }
+
+  QosSources sources_of(const ResolvedThread& thread) const {
+    const auto& of_topic = topic_of(thread).qos;
+    return {thread.own_qos, of_topic ? &*of_topic : nullptr, thread.where.place()};
+  }
+
+  /// What a topic says wrong concerns each of its threads, and is said once.
+  void report(const std::vector<std::string>& problems, const QosSources& sources) {
+    for (const std::string& problem : problems) {
+      json::Place place = place_of_problem(sources, problem);
+      if (reported_.insert({place.pointer, problem}).second) diagnostics_.error(std::move(place), "quality of service that cannot be", {problem, "policies that fit each other"});
     }
   }
 
@@ -150,7 +212,7 @@ class DdsResolver {
       if (kind == Discovery::simple) continue;
       participant(member).config.discovery->kind = dds::DiscoveryKind::static_;
       for (const std::uint32_t other : members)
-        if (other != member) participant(member).config.discovery->participants.push_back(known_[other]);
+        if (other != member) participant(member).config.discovery->participants.push_back(known_[other].endpoints);
     }
   }
 
@@ -179,13 +241,50 @@ class DdsResolver {
   void warn_of_mismatches(const Members& members) {
     for (const std::uint32_t from : members)
       for (const std::uint32_t to : members)
-        for (const dds::PublicationData& publication : known_[from].publications)
-          for (const dds::SubscriptionData& subscription : known_[to].subscriptions) {
-            const dds::Matching matching = dds::match(publication, subscription);
-            if (from == to || matching.is_match() || matching.relation == dds::Relation::other_topic) continue;
-            diagnostics_.warning(application_of(to).where.at("threads"), "quality of service that does not match",
-                                 {json::quote(publication.endpoint.topic_name) + " from " + application_of(from).name + " to " + application_of(to).name + ": " + matching.reason});
+        if (from != to) warn_of_mismatches(known_[from], known_[to]);
+  }
+  /// Those that are no accident: different partitions keep apart what is meant to be apart, and a service has nothing to say to readers that do not ask for it.
+  static std::vector<dds::Mismatch> mismatches_of(const dds::PublicationData& writer, const dds::SubscriptionData& reader) {
+    if (!dds::have_common_partition(writer.qos.partition, reader.qos.partition)) return {};
+    return dds::match(writer, reader).mismatches;
+  }
+
+  /// A partition in which a writer meets no reader, or a reader no writer, of the topic.
+  void warn_of_lonely_partitions(const Members& members) {
+    for (const std::uint32_t member : members) {
+      const auto lonely = [&](const auto& data, const auto& others_of) {
+        if (data.qos.partition.names.empty()) return false;
+        bool has_others = false;
+        for (const std::uint32_t other : members)
+          for (const auto& remote : others_of(known_[other].endpoints)) {
+            if (other == member || remote.endpoint.topic_name != data.endpoint.topic_name) continue;
+            has_others = true;
+            if (dds::have_common_partition(data.qos.partition, remote.qos.partition)) return false;
           }
+        return has_others;
+      };
+      const auto warn = [&](const QosSources& sources, const std::string& topic, std::string_view whom) {
+        diagnostics_.warning(place_of_policy(sources, "partition"), "a partition without " + std::string(whom), {json::quote(topic), "a name in common with a " + std::string(whom).substr(2)});
+      };
+      const Known& known = known_[member];
+      for (std::size_t w = 0; w < known.writers.size(); ++w)
+        if (lonely(known.endpoints.publications[w], [](const dds::StaticParticipant& p) { return p.subscriptions; }))
+          warn(known.writers[w], known.endpoints.publications[w].endpoint.topic_name, "a reader");
+      for (std::size_t r = 0; r < known.readers.size(); ++r)
+        if (lonely(known.endpoints.subscriptions[r], [](const dds::StaticParticipant& p) { return p.publications; }))
+          warn(known.readers[r], known.endpoints.subscriptions[r].endpoint.topic_name, "a writer");
+    }
+  }
+
+  void warn_of_mismatches(const Known& from, const Known& to) {
+    for (std::size_t w = 0; w < from.writers.size(); ++w) {
+      const dds::PublicationData& writer = from.endpoints.publications[w];
+      const std::string who = json::quote(writer.endpoint.topic_name) + " from " + from.endpoints.name + " to " + to.endpoints.name + ": ";
+      for (std::size_t r = 0; r < to.readers.size(); ++r)
+        for (const dds::Mismatch& mismatch : mismatches_of(writer, to.endpoints.subscriptions[r]))
+          diagnostics_.warning(place_of_mismatch(to.readers[r], from.writers[w], mismatch), "quality of service that does not match",
+                               {who + std::string(dds::name_of(mismatch.policy)) + ": " + mismatch.reason});
+    }
   }
 
   dds::Ports ports(std::uint32_t member) { return dds::ports_of(participant(member).config.domain, participant(member).config.participant); }
@@ -215,27 +314,50 @@ class DdsResolver {
     }
   }
 
+  /// A writer or reader of a participant.
+  struct Use {
+    std::uint32_t topic = 0;
+    bool publishes = false;
+    double per_second = 0;         // samples that it writes
+  };
+  std::vector<Use> uses_of(std::uint32_t number) {
+    std::vector<Use> uses;
+    for (const std::uint32_t t : threads_of(number)) {
+      const ResolvedThread& thread = application_of(number).threads[t];
+      uses.push_back({thread.topic, thread.publishes, rate_of(thread)});
+    }
+    for (const ResolvedService::Kept* const kept : kept_by(number)) {
+      // What it hears it writes, at once, to the readers that ask for it.
+      double heard = 0;
+      for (const ResolvedApplication& application : r_.applications)
+        for (const ResolvedThread& thread : application.threads)
+          if (thread.topic == kept->topic && thread.publishes) heard += rate_of(thread);
+      uses.push_back({kept->topic, false, 0});
+      uses.push_back({kept->topic, true, heard});
+    }
+    return uses;
+  }
+  static double rate_of(const ResolvedThread& thread) { return thread.publishes ? 1e12 / static_cast<double>(thread.every.ps()) : 0; }
+
   /// Of samples one way, of acknowledgements the other.
   void lay_user_streams(const std::string& pair, std::uint16_t domain, const Class& base, std::uint32_t from, std::uint32_t to) {
     const dds::Locator user = dds::Locator::udp_v4(participant(to).config.address, ports(to).unicast_user);
     std::map<Class, StreamDemand> samples;
     bool answers = false;
-    for (const std::uint32_t a : threads_of(from)) {
-      for (const std::uint32_t b : threads_of(to)) {
-        const ResolvedThread& one = application_of(from).threads[a];
-        const ResolvedThread& other = application_of(to).threads[b];
+    for (const Use& one : uses_of(from)) {
+      for (const Use& other : uses_of(to)) {
         if (one.topic != other.topic || one.publishes == other.publishes) continue;
         if (!one.publishes) {
           answers = true;
           continue;
         }
-        StreamDemand& demand = samples[class_of(topic_of(one))];
-        const double per_second = 1e12 / static_cast<double>(one.every.ps());
+        const Topic& topic = *r_.topics[one.topic].description;
+        StreamDemand& demand = samples[class_of(topic)];
         const auto payload = static_cast<std::uint32_t>(CdrLayout(r_.topics[one.topic].layout).octets());
-        demand.frames_per_second += per_second;
+        demand.frames_per_second += one.per_second;
         demand.wire_bits_per_second +=
-            per_second * 8.0 *
-            models::wire_length(models::frame_length(models::ipv4_and_udp_headers + Octets{std::min<std::uint32_t>(sample_headers + payload, 1472)}, topic_of(one).pcp.has_value())).count;
+            one.per_second * 8.0 *
+            models::wire_length(models::frame_length(models::ipv4_and_udp_headers + Octets{std::min<std::uint32_t>(sample_headers + payload, 1472)}, topic.pcp.has_value())).count;
       }
     }
     if (samples.empty() && !answers) return;
@@ -280,7 +402,8 @@ class DdsResolver {
   json::Diagnostics& diagnostics_;
   std::map<std::uint16_t, Members> domains_;
   std::map<std::uint16_t, std::vector<Class>> classes_;
-  std::map<std::uint32_t, dds::StaticParticipant> known_;
+  std::map<std::uint32_t, Known> known_;
+  std::set<std::pair<std::string, std::string>> reported_;   // places and problems
   std::uint32_t server_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/key_layout.hpp"
 #include "models/ethernet/frame.hpp"
 #include "scenario/applications/description_applications.hpp"
 #include "scenario/applications/sample_layout.hpp"
@@ -16,6 +17,8 @@ namespace takt::scenario {
 struct ResolvedTopic {
   const Topic* description = nullptr;
   SampleLayout layout;
+  gateway::KeyLayout key;                       ///< of DDS; in a payload
+  std::uint16_t publisher_id = 0;               ///< of OPC UA
 };
 
 /// A publication that a subscribing thread hears.
@@ -34,12 +37,15 @@ struct ResolvedThread {
   sim::Distribution response = sim::Distribution::constant({});
   std::optional<std::uint64_t> tests;           ///< at most, of the scheduler
   std::optional<Pattern> pattern;               ///< of what it publishes
+  Payload payload;                              ///< of a pattern: its instances
   std::optional<std::uint32_t> copies;          ///< instead: the subscribing thread of the application whose last sample it publishes
   std::uint32_t buffer = 1;
   std::optional<std::uint32_t> signal;          ///< that it drives
-  std::optional<models::StreamIndex> stream;    ///< of a publication over OPC UA that anybody hears
+  std::uint16_t writer_group = 0;               ///< of a publication over OPC UA: from 1 on among those of its topic
+  std::optional<models::StreamIndex> stream;    ///< of such a publication that anybody hears
   std::optional<std::uint32_t> participant;     ///< of DDS, in resolved.dds
   Qos qos;                                      ///< of DDS: the topic's and its own
+  const Qos* own_qos = nullptr;                 ///< what the thread itself says; or null
   std::int32_t transport_priority = 0;          ///< of DDS: which streams carry its samples
   std::vector<ResolvedInput> inputs;            ///< of a subscription
   Duration window;                              ///< of criterion 1
@@ -55,14 +61,26 @@ struct ResolvedGateway {
   std::optional<Duration> stale_after;
 };
 
+/// Keeps topics of DDS for readers that come when their writers are gone.
+struct ResolvedService {
+  struct Kept {
+    std::uint32_t topic = 0;
+    std::optional<std::uint32_t> participant;   ///< in resolved.dds
+    std::int32_t transport_priority = 0;
+    Qos qos;                                    ///< the topic's
+    json::Place where;
+  };
+  std::vector<Kept> topics;
+};
+
 struct ResolvedApplication {
   std::string name;
   models::NodeIndex node;
-  std::vector<ResolvedThread> threads;          ///< of a gateway: receive, send
+  std::vector<ResolvedThread> threads;          ///< of a gateway: receive, send; of a persistence service none
   const Scheduler* scheduler = nullptr;
   sim::Distribution scheduler_response = sim::Distribution::constant({});
-  std::uint16_t publisher_id = 0;               ///< in OPC UA
   std::optional<ResolvedGateway> gateway;
+  std::optional<ResolvedService> service;
   json::Source where;
 };
 

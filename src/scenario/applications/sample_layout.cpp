@@ -4,24 +4,33 @@
 
 #include "sim/check.hpp"
 #include "uadp/store_number.hpp"
+#include "vocabulary/keys.hpp"
 #include "vocabulary/protocol.hpp"
 
 namespace takt::scenario {
 
-SampleLayout::SampleLayout(const json::NameMap<vocabulary::DataField>& fields) {
+SampleLayout::SampleLayout(const json::NameMap<vocabulary::DataField>& fields, const std::vector<std::string>& keys) : value_(vocabulary::value_field(fields, keys)) {
   for (const auto& [name, field] : fields) {
     fields_.push_back({name, vocabulary::built_in_type_of(field.type), field.count, octets_});
     octets_ += fields_.back().octets();
+    if (std::find(keys.begin(), keys.end(), name) != keys.end()) keys_.push_back(fields_.size() - 1);
   }
 }
 
 void SampleLayout::set_first(std::span<std::byte> sample, std::uint64_t value) const {
-  const bool is_number = uadp::store_number(fields_.front().type, sample.data(), value);
+  const bool is_number = uadp::store_number(fields_[value_].type, sample.data() + fields_[value_].offset, value);
   TAKT_CHECK(is_number, "fields of topics are numbers");
 }
 
+void SampleLayout::set_keys(std::span<std::byte> sample, std::uint64_t value) const {
+  for (const std::size_t key : keys_) {
+    const bool is_number = uadp::store_number(fields_[key].type, sample.data() + fields_[key].offset, value);
+    TAKT_CHECK(is_number, "fields of topics are numbers");
+  }
+}
+
 bool SampleLayout::first_is_zero(std::span<const std::byte> sample) const {
-  const auto first = sample.first(uadp::fixed_octets(fields_.front().type));
+  const auto first = sample.subspan(fields_[value_].offset, uadp::fixed_octets(fields_[value_].type));
   return std::all_of(first.begin(), first.end(), [](std::byte octet) { return octet == std::byte{0}; });
 }
 

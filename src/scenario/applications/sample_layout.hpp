@@ -26,20 +26,24 @@ class SampleLayout {
   };
 
   SampleLayout() = default;
-  explicit SampleLayout(const json::NameMap<vocabulary::DataField>& fields);
+  explicit SampleLayout(const json::NameMap<vocabulary::DataField>& fields, const std::vector<std::string>& keys = {});
 
   const std::vector<Field>& fields() const { return fields_; }
   std::size_t octets() const { return octets_; }
   /// All zeros.
   Sample zeros() const { return Sample(octets_); }
 
-  /// Sets the first value of the first field; integers keep its low bits.
+  /// Sets the first value of the first field that is no key; integers keep its low bits.
   void set_first(std::span<std::byte> sample, std::uint64_t value) const;
+  /// Sets the first value of each key field.
+  void set_keys(std::span<std::byte> sample, std::uint64_t value) const;
   bool first_is_zero(std::span<const std::byte> sample) const;
 
  private:
   std::vector<Field> fields_;
   std::size_t octets_ = 0;
+  std::size_t value_ = 0;            // the first field that is no key
+  std::vector<std::size_t> keys_;    // fields
 };
 
 }  // namespace takt::scenario

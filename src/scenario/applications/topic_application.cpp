@@ -6,6 +6,7 @@
 #include "scenario/applications/dds_node.hpp"
 #include "scenario/applications/gateway_bridge.hpp"
 #include "sim/check.hpp"
+#include "vocabulary/keys.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -106,7 +107,7 @@ void TopicApplication::settle(models::HostServices& host) {
   if (nodes_.empty()) return;
   for (std::size_t n = 0; n < nodes_.size(); ++n) nodes_[n]->settle(host);
   for (Live& live : threads_)
-    if (live.writer) live.writer->go_on(host);
+    if (const auto outcome = live.writer ? live.writer->go_on(host) : std::nullopt) count(live.seen, *outcome);
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     nodes_[n]->settle(host);
     host.set_alarm(static_cast<models::AlarmId>(threads_alarm + 1 + n), nodes_[n]->next_wake());
@@ -165,9 +166,19 @@ void TopicApplication::publish(models::HostServices& host, Live& live, sim::Loca
     live.sample = source.sample;
   } else {
     ++live.publications;
+    live.layout->set_keys(live.sample, vocabulary::instance_of(live.settings->payload, live.publications));
     live.layout->set_first(live.sample, live.settings->pattern == Pattern::alternate ? live.publications % 2 : live.publications);
   }
-  ++(live.writer->write(host, live.sample) ? live.seen.published : live.seen.refused);
+  count(live.seen, live.writer->write(host, live.sample));
+}
+
+void TopicApplication::count(ThreadFigures& seen, WriteOutcome outcome) {
+  switch (outcome) {
+    case WriteOutcome::published: ++seen.published; break;
+    case WriteOutcome::refused: ++seen.refused; break;
+    case WriteOutcome::timed_out: ++seen.timed_out; break;
+    case WriteOutcome::waits: break;
+  }
 }
 
 void TopicApplication::take(models::HostServices& host, std::uint32_t thread, sim::LocalTime now) {

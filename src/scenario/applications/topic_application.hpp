@@ -19,8 +19,9 @@ struct ThreadFigures {
   std::uint64_t done = 0;
   DurationFigures response;               ///< of the calls that took place, on the clock of the host
   WindowCounter::Figures calls;           ///< criterion 1
-  std::uint64_t published = 0;            ///< samples
-  std::uint64_t refused = 0;              ///< samples that the protocol could not take, or that waited for room for too long
+  std::uint64_t published = 0;            ///< samples that the protocol took, at once or when there was room
+  std::uint64_t refused = 0;              ///< samples that the protocol could not take
+  std::uint64_t timed_out = 0;            ///< samples that waited for room for too long, and were not published
   std::uint64_t arrived = 0;              ///< samples that a call found
   std::uint64_t buffered = 0;             ///< of them, those that the buffer held
   std::uint64_t overwritten = 0;          ///< of them, those that newer ones displaced
@@ -82,6 +83,7 @@ class TopicApplication final : public models::Application {
 
   void call(models::HostServices& host, std::uint32_t thread, sim::LocalTime now, sim::Duration response);
   void publish(models::HostServices& host, Live& live, sim::LocalTime now);
+  static void count(ThreadFigures& seen, WriteOutcome outcome);
   /// What participants want to send is sent, and they are woken when they want to be.
   void settle(models::HostServices& host);
   void take(models::HostServices& host, std::uint32_t thread, sim::LocalTime now);

@@ -9,15 +9,23 @@
 
 namespace takt::scenario {
 
+/// What became of a sample.
+enum class WriteOutcome : std::uint8_t {
+  published,
+  waits,      ///< for room in the protocol's history: go_on() tells what becomes of it
+  refused,    ///< the protocol cannot take it now
+  timed_out,  ///< it has waited for too long
+};
+
 /// A publication of a thread.
 class TopicWriter {
  public:
   virtual ~TopicWriter() = default;
   virtual void start(models::HostServices& host) = 0;
-  /// Encodes and sends a sample, or hands it to the protocol, which does. False if the protocol cannot take it now.
-  virtual bool write(models::HostServices& host, uadp::Octets sample) = 0;
-  /// The protocol was woken or has received something: what waits may go on.
-  virtual void go_on(models::HostServices&) {}
+  /// Encodes and sends a sample, or hands it to the protocol, which does.
+  virtual WriteOutcome write(models::HostServices& host, uadp::Octets sample) = 0;
+  /// The protocol was woken or has received something: what becomes of the sample that waits, if any; nothing while it still does.
+  virtual std::optional<WriteOutcome> go_on(models::HostServices&) { return std::nullopt; }
   virtual void crash() = 0;
 };
 

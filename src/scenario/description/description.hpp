@@ -369,6 +369,7 @@ struct Scenario {
   std::vector<Domain> domains = {};
   std::vector<Application> applications = {};
   std::vector<Gateway> gateways = {};
+  std::vector<Persistence> persistence = {};
   std::vector<Stream> streams;
   std::vector<ScriptEntry> script;
   std::vector<Fault> faults;

@@ -239,6 +239,7 @@ const json::Object& describe(json::Type<Scenario>) {
       optional<&Scenario::domains>("domains", "Domains of DDS; those that are not here have simple discovery.", {.max_items = 233}),
       optional<&Scenario::applications>("applications", "Applications with threads that publish and subscribe.", {.max_items = 10'000}),
       optional<&Scenario::gateways>("gateways", "Between topics of different protocols.", {.max_items = 10'000}),
+      optional<&Scenario::persistence>("persistence", "Persistence services of DDS.", {.max_items = 100}),
       optional<&Scenario::streams>("streams", "Other traffic.", {.max_items = most_names}),
       optional<&Scenario::script>("script", "What is done when.", {.max_items = most_names}),
       optional<&Scenario::faults>("faults", "What goes wrong.", {.max_items = most_names}),

@@ -126,6 +126,7 @@ class Resolver {
     for (const Program& program : r_.scenario.programs) check(program.name, program.where);
     for (const Application& application : r_.scenario.applications) check(application.name, application.where);
     for (const Gateway& gateway : r_.scenario.gateways) check(gateway.name, gateway.where);
+    for (const Persistence& service : r_.scenario.persistence) check(service.name, service.where);
   }
 
   void add_stream(const Stream& stream) {

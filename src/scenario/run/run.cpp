@@ -199,13 +199,16 @@ void Run::add_program_with_roles(std::uint32_t number, const ResolvedProgram& pr
 /// What each thread publishes by, or takes from.
 void Run::add_ports(std::uint32_t number, const ResolvedApplication& application, TopicApplication::Settings& settings) const {
   const auto address = [&](std::uint32_t of, std::uint32_t thread) {
-    const ResolvedApplication& publisher = resolved_->applications[of];
-    return OpcUaAddress{publisher.publisher_id, static_cast<std::uint16_t>(thread + 1), static_cast<std::uint16_t>(publisher.threads[thread].topic + 1)};
+    const ResolvedThread& publication = resolved_->applications[of].threads[thread];
+    return address_of(resolved_->topics[publication.topic], publication);
   };
   std::map<std::uint32_t, DdsNode*> nodes;
   for (std::uint32_t p = 0; p < resolved_->dds->participants.size(); ++p) {
     if (resolved_->dds->participants[p].application != number) continue;
-    settings.nodes.push_back(std::make_unique<DdsNode>(resolved_->dds->participants[p], p));
+    std::vector<dds::DurableTopic> keeps;
+    for (const ResolvedService::Kept& kept : application.service ? application.service->topics : std::vector<ResolvedService::Kept>())
+      if (kept.participant == p) keeps.push_back(durable_topic(resolved_->topics[kept.topic], kept));
+    settings.nodes.push_back(std::make_unique<DdsNode>(resolved_->dds->participants[p], p, std::move(keeps)));
     nodes[p] = settings.nodes.back().get();
   }
   for (std::uint32_t t = 0; t < application.threads.size(); ++t) {

@@ -161,5 +161,51 @@ TEST(Restart, WithoutAStorageNumbersBeginAgain) {
   EXPECT_EQ(second.write(other, no_key, payload_of(2), start).number, SequenceNumber{1});
 }
 
+/// A reader hears one sample of each of `restarts` writers, each under a GUID of its own, and takes it when its writer is gone.
+struct ManyWriters {
+  explicit ManyWriters(bool have_a_name) {
+    StatefulReader::Settings settings;
+    settings.tracks_delivered = true;
+    settings.history.history.keep_all = true;
+    StatefulReader reader(settings);
+    Outbox outbox({}, 1472);
+    for (std::uint32_t i = 0; i < restarts; ++i) {
+      MatchedWriter writer;
+      writer.guid = {{{1, static_cast<std::uint8_t>(i >> 8), static_cast<std::uint8_t>(i)}}, EntityId::user(1, EntityKind::writer_no_key)};
+      if (have_a_name) writer.persistence_guid = writer_name;
+      reader.match(writer, start);
+      const std::vector<std::byte> payload = payload_of(i);
+      Data data;
+      data.sequence_number = {static_cast<std::int64_t>(i) + 1};
+      data.payload_kind = PayloadKind::data;
+      data.payload = payload;
+      reader.receive(writer.guid, data, std::nullopt, start, outbox);
+      reader.unmatch(writer.guid, start);
+      most = std::max(most, reader.remembered());
+      const std::optional<Sample> sample = reader.take(start, outbox);
+      if (!sample || !sample->info.valid_data) continue;
+      ++taken;
+      named += sample->info.identity == (have_a_name ? writer_name : writer.guid) ? 1 : 0;
+      while (reader.take(start, outbox)) {  // that the writer has gone
+      }
+    }
+  }
+  static constexpr std::uint32_t restarts = 5000;
+  std::uint32_t taken = 0;
+  std::uint32_t named = 0;
+  std::size_t most = 0;
+};
+
+TEST(Restart, AsOftenAsItMayBeTheReaderRemembersNoMore) {
+  const ManyWriters named(true);
+  EXPECT_EQ(named.taken, ManyWriters::restarts);
+  EXPECT_EQ(named.named, ManyWriters::restarts);
+  EXPECT_EQ(named.most, 1u);
+  const ManyWriters nameless(false);
+  EXPECT_EQ(nameless.taken, ManyWriters::restarts);
+  EXPECT_EQ(nameless.named, ManyWriters::restarts);
+  EXPECT_EQ(nameless.most, StatefulReader::most_remembered + 1);  // with the one that is matched
+}
+
 }  // namespace
 }  // namespace takt::dds

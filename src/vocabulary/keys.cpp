@@ -1,0 +1,62 @@
+#include "vocabulary/keys.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "scenario/json/suggest.hpp"
+#include "uadp/builtin_type.hpp"
+#include "vocabulary/protocol.hpp"
+
+namespace takt::vocabulary {
+namespace {
+
+constexpr std::size_t most_octets = 16;  // of a key hash (DDSI-RTPS 2.5, 9.6.4.8) that is the key itself
+
+bool is_key(const std::vector<std::string>& keys, const std::string& name) { return std::find(keys.begin(), keys.end(), name) != keys.end(); }
+
+/// In CDR, in the order of the fields.
+std::size_t octets_of(const std::vector<std::string>& keys, const json::NameMap<DataField>& fields) {
+  std::size_t octets = 0;
+  for (const auto& [name, field] : fields) {
+    if (!is_key(keys, name)) continue;
+    const std::size_t size = uadp::fixed_octets(built_in_type_of(field.type));
+    octets = (octets + size - 1) / size * size + size * field.count;
+  }
+  return octets;
+}
+
+}  // namespace
+
+void check_keys(const json::Source& topic, const std::vector<std::string>& keys, const json::NameMap<DataField>& fields, json::Diagnostics& diagnostics) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, field] : fields) names.push_back(name);
+  bool all_known = true;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    if (std::find(names.begin(), names.end(), keys[k]) != names.end()) continue;
+    all_known = false;
+    diagnostics.error(topic.at("keys", k), "a key that is no field", {json::quote(keys[k]), "the name of a field of the topic", json::suggest(keys[k], names)});
+  }
+  if (!all_known || keys.empty()) return;
+  if (std::all_of(names.begin(), names.end(), [&](std::string_view name) { return is_key(keys, std::string(name)); }))
+    diagnostics.error(topic.at("keys"), "keys and nothing else", {"all fields are keys", "a field that is none, for the value"});
+  else if (const std::size_t octets = octets_of(keys, fields); octets > most_octets)
+    diagnostics.error(topic.at("keys"), "a key that is too long", {std::to_string(octets) + " octets", "at most " + std::to_string(most_octets) + ": longer ones would be hashed by MD5"});
+}
+
+void check_instances(const Payload& payload, bool has_keys, json::Diagnostics& diagnostics) {
+  if (has_keys) return;
+  for (const char* const key : {"instance", "instances"})
+    if (payload.where.has(key)) diagnostics.error(payload.where.at(key), "an instance of a topic without keys", {json::quote(key), "a topic of DDS with \"keys\""});
+}
+
+std::size_t value_field(const json::NameMap<DataField>& fields, const std::vector<std::string>& keys) {
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& each) { return !is_key(keys, each.first); });
+  return found == fields.end() ? 0 : static_cast<std::size_t>(found - fields.begin());
+}
+
+std::uint64_t instance_of(const Payload& payload, std::uint64_t publication) {
+  const std::uint64_t number = payload.instances.value_or(1);
+  return payload.instance.value_or(0) + (publication + number - 1) % number;
+}
+
+}  // namespace takt::vocabulary

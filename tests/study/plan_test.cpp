@@ -38,7 +38,7 @@ TEST(Plan, MistakesAreTold) {
       {R"("factors": [{"name": "a", "set": ["/x"], "values": [1]}], "constraints": ["a > 1"])", "no combination of levels is left"},
       {R"("factors": [{"name": "a", "set": ["/x"], "values": [1]}], "design": "random")", "\"points\""},
       {R"("factors": [{"name": "a", "set": ["/x"], "values": [1]}], "limits": [{"measure": "dely", "at_most": "1ms"}])", "did you mean \"delay\"?"},
-      {R"("factors": [{"name": "a", "set": ["/x"], "values": [1]}], "limits": [{"measure": "delay", "at_most": "1B"}])", "not a limit of this measure"},
+      {R"("factors": [{"name": "a", "set": ["/x"], "values": [1]}], "limits": [{"measure": "delay", "at_most": "1B"}])", "not a limit of this figure"},
       {R"("factors": [{"name": "a", "set": ["/x"], "values": [1]}], "sizes": 3)", "unknown field \"sizes\""},
       {R"("factors": [{"name": "a", "set": ["/x"], "range": {"from": 1, "to": 100000}}, {"name": "b", "set": ["/y"], "range": {"from": 1, "to": 100000}}])", "too many combinations"},
   };

@@ -13,7 +13,6 @@ namespace {
 using sim::Duration;
 using namespace sim::literals;  // NOLINT
 
-constexpr Ps ns = 1'000;
 constexpr Ps us = 1'000'000;
 
 std::unique_ptr<scenario::Resolved> load(const std::string& rest) {

@@ -108,9 +108,34 @@ class Checker {
     if (sum != list.cycle.ps()) return say("the entries of \"{}\" do not fill its cycle of {} ps", port, list.cycle.ps());
     for (const auto& [s, h] : here)
       if (stream(s).period.ps() <= 0 || list.cycle.ps() % stream(s).period.ps() != 0) return say("the cycle of \"{}\" is no multiple of the period of \"{}\"", port, stream(s).name);
+    check_arrivals(here);
     const std::vector<Passage> passages = passages_of(p, here);
     check_meetings(p, passages);
     check_gates(p, passages);
+  }
+
+  /// At a talker frames of one class stand in one queue: of two trains none may come before another one in one turn and behind it in the next.
+  void check_arrivals(const std::vector<std::pair<std::size_t, std::size_t>>& here) {
+    for (const auto& [a, hop_a] : here)
+      for (const auto& [b, hop_b] : here) {
+        if (a >= b || stream(a).train == stream(b).train || hop(a, hop_a).previous || hop(b, hop_b).previous || hop(a, hop_a).traffic_class != hop(b, hop_b).traffic_class) continue;
+        const int128 first_a = (stream(a).release - stream(a).early).ps(), last_a = stream(a).release.ps();
+        const int128 first_b = (stream(b).release - stream(b).early).ps(), last_b = stream(b).release.ps();
+        if (first_a == last_a && first_b == last_b) continue;
+        // Turns of a, until those of both have begun together again.
+        const int128 turns = stream(b).period.ps();
+        for (int128 n = 0; n < turns; ++n) {
+          const int128 later = n * stream(a).period.ps();
+          if (n > 0 && later % stream(b).period.ps() == 0) break;
+          // The turns of b that begin last before the end of this one of a, whichever they are.
+          int128 turn = (last_a + later - first_b) / stream(b).period.ps();
+          while (first_b + turn * stream(b).period.ps() > last_a + later) --turn;
+          if (last_b + turn * stream(b).period.ps() >= first_a + later) {
+            say("{} and {} may come in any order", name(a, hop_a), name(b, hop_b));
+            break;
+          }
+        }
+      }
   }
 
   /// All frames of a cycle that begins long after the first ones.

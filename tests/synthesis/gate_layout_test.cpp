@@ -101,6 +101,39 @@ TEST(GateLayout, TheCycleIsTheHyperperiod) {
   EXPECT_EQ(layout.schedule.lists[0].entries.size(), 7u * 3 + 1);
 }
 
+// Two streams of one host: the one that may come early stands in the other's window, if it is of the same class.
+TEST(GateLayout, FramesThatMayComeInAnyOrder) {
+  GateProblem problem = two_hops();
+  problem.streams.push_back(problem.streams[0]);
+  problem.streams[1].name = "y";
+  problem.streams[1].train = 1;
+  problem.streams[1].release = 50_us;
+  problem.streams[1].early = 39'999_ns;
+  EXPECT_TRUE(lay_out_gates(problem).conflicts.empty()) << "y comes a nanosecond behind x";
+  problem.streams[1].early = 40_us;
+  const GateLayout layout = lay_out_gates(problem);
+  ASSERT_EQ(layout.conflicts.size(), 1u);
+  EXPECT_EQ(layout.conflicts[0].kind, GateConflict::Kind::order);
+  EXPECT_EQ(layout.conflicts[0].second_from, 10_us);
+  EXPECT_EQ(layout.conflicts[0].second_until, 50_us);
+  problem.streams[1].hops[0].traffic_class = 5;
+  problem.streams[1].hops[1].traffic_class = 5;
+  EXPECT_TRUE(lay_out_gates(problem).conflicts.empty()) << "in another queue it is nobody's hindrance";
+  // The last of one turn and the first of the next.
+  problem = two_hops();
+  problem.streams.push_back(problem.streams[0]);
+  problem.streams[1].train = 1;
+  problem.streams[1].release = 5_us;
+  problem.streams[0].early = 5_us;
+  ASSERT_EQ(lay_out_gates(problem).conflicts.size(), 1u);
+  problem.streams[0].early = 4'999_ns;
+  EXPECT_TRUE(lay_out_gates(problem).conflicts.empty());
+  problem.streams[0].release = 104_us;
+  problem.streams[0].early = 0_ns;
+  problem.streams[1].early = 1_us;
+  EXPECT_EQ(lay_out_gates(problem).conflicts.at(0).kind, GateConflict::Kind::order);
+}
+
 TEST(GateLayout, ACycleOfTooManyEntries) {
   GateProblem problem = two_hops();
   problem.streams.push_back(problem.streams[0]);

@@ -68,12 +68,14 @@ class Maker {
     std::size_t talker = switches + chance_.below(hosts);
     stream.period = Duration::from_ps(periods[chance_.below(6)] * 1'000'000);
     stream.release = Duration::from_ps(static_cast<std::int64_t>(chance_.below(2'000'000'000)));
+    if (chance_.below(4) == 0) stream.early = Duration::from_ps(static_cast<std::int64_t>(chance_.below(5'000'000)));
     stream.train = static_cast<std::uint32_t>(problem_.streams.size());
     if (!problem_.streams.empty() && chance_.below(3) == 0) {
       const ScheduledStream& former = problem_.streams.back();
       talker = talker_;
       stream.period = former.period;
       stream.release = former.release;
+      stream.early = former.early;
       stream.train = former.train;
     }
     talker_ = talker;

@@ -20,6 +20,7 @@ struct Timing {
   Duration release;
   std::uint32_t train = 0;
   std::string unknown = {};   ///< why nobody knows
+  Duration early{};           ///< how much before its release it may be there
 };
 
 class Extraction {
@@ -76,8 +77,9 @@ class Extraction {
   }
 
   /// What a host adds before the port, at most; it must be less than a period, or two frames may be there at once.
-  Timing after(Duration phase, Duration delay, Duration period, std::uint32_t train) const {
+  Timing after(Duration phase, Duration least, Duration delay, Duration period, std::uint32_t train) const {
     Timing timing{period, {}, train};
+    timing.early = delay - least;
     if (delay >= period) timing.unknown = "up to " + json::to_text(delay) + " between the application and the port of its host, of a period of " + json::to_text(period);
     else timing.release = phase + delay;
     return timing;
@@ -93,7 +95,7 @@ class Extraction {
       else if (!stream.every) timing.unknown = "no period: \"every\" is missing";
       else if (!promises_phase(stream)) timing.unknown = "no \"offset\" that promises when it is sent";
       else if (stream.launch) timing.unknown = "\"launch\", which is a plan of its own";
-      else timing = after(*stream.offset, stream.jitter + os_of(r_.plan.streams[index.value].talker).transmit.greatest(), *stream.every, trains_++);
+      else timing = after(*stream.offset, os_of(r_.plan.streams[index.value].talker).transmit.least(), stream.jitter + os_of(r_.plan.streams[index.value].talker).transmit.greatest(), *stream.every, trains_++);
       set(index, std::move(timing));
     }
   }
@@ -104,7 +106,7 @@ class Extraction {
       if (program.has_roles()) continue;   // its streams keep the reason that all have first
       for (std::uint8_t p = 0; p < program.participants.size(); ++p) {
         const models::OsLatency& os = os_of(program.participants[p]);
-        Timing timing = after(program.phases[p], os.wake_up.greatest() + os.transmit.greatest(), description.cycle, trains_++);
+        Timing timing = after(program.phases[p], os.wake_up.least() + os.transmit.least(), os.wake_up.greatest() + os.transmit.greatest(), description.cycle, trains_++);
         if (description.publish != Publish::cyclic) timing.unknown = "\"publish\": \"on-change\", at no known time";
         else if (!promises_phase(description, program.participant_names[p]))
           timing.unknown = "no \"offset\" or \"phases\" that promises when " + json::quote(program.participant_names[p]) + " publishes";
@@ -141,6 +143,7 @@ class Extraction {
     made.name = plan_of(stream).name;
     made.period = timing.period;
     made.release = timing.release;
+    made.early = timing.early;
     made.train = timing.train;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;   // hops, by both nodes
     for (const Path& path : stream.paths)

@@ -112,6 +112,11 @@ class Layout {
 
   void compare(std::uint32_t p, Crossing a, Crossing b) {
     const std::int64_t common = std::gcd(stream(a).period.ps(), stream(b).period.ps());
+    if (comes_in_any_order(a, b, common)) {
+      layout_.conflicts.push_back({GateConflict::Kind::order, a.stream, b.stream, p, stream(a).release - stream(a).early, stream(a).release, stream(b).release - stream(b).early, stream(b).release,
+                                   layout_.schedule.lists[p].cycle, 0});
+      return;
+    }
     const std::int64_t length_a = (free_again(a) - earliest(a)).ps();
     const std::int64_t length_b = (free_again(b) - earliest(b)).ps();
     if (a.stream == b.stream) {
@@ -126,6 +131,14 @@ class Layout {
     const std::int64_t distance = modulo((earliest(b) - earliest(a)).ps(), common);
     if (length_a > distance) overlap(p, a, b, distance);
     else if (distance + length_b > common) overlap(p, a, b, distance - common);
+  }
+
+  /// At their talker, in one queue: the first to come would stand in the window of the other.
+  bool comes_in_any_order(Crossing a, Crossing b, std::int64_t common) const {
+    if (hop(a).previous || hop(b).previous || hop(a).traffic_class != hop(b).traffic_class || stream(a).train == stream(b).train) return false;
+    if (stream(a).early == Duration() && stream(b).early == Duration()) return false;  // at two instants; at one their windows overlap
+    const std::int64_t distance = modulo((stream(b).release - stream(b).early - stream(a).release + stream(a).early).ps(), common);
+    return stream(a).early.ps() >= distance || distance + stream(b).early.ps() >= common;
   }
 
   /// Somewhere in the cycle b begins `apart` after a.

@@ -42,6 +42,7 @@ struct ScheduledStream {
   sim::Duration release;                    ///< by when the first frame is surely at the talker's port
   std::uint32_t train = 0;                  ///< streams of one train are handed to the port in their order, at one instant
   std::vector<ScheduledHop> hops;           ///< the tree from the talker to all listeners
+  sim::Duration early{};                    ///< how long before its release, at most, a frame may be at the talker's port
   bool operator==(const ScheduledStream&) const = default;
 };
 
@@ -84,12 +85,12 @@ struct GateSchedule {
 
 /// Why there is no schedule.
 struct GateConflict {
-  enum class Kind : std::uint8_t { overlap, cycle_too_long };
+  enum class Kind : std::uint8_t { overlap, cycle_too_long, order };
   Kind kind = Kind::overlap;
   std::uint32_t first = 0;                  ///< streams; the same one if it meets itself
   std::uint32_t second = 0;
   std::uint32_t port = 0;
-  sim::Duration first_from;                 ///< of an overlap: what they occupy, an instance of each within the common cycle
+  sim::Duration first_from;                 ///< of an overlap: what they occupy; of an order: when they may come; an instance of each within the common cycle
   sim::Duration first_until;
   sim::Duration second_from;
   sim::Duration second_until;

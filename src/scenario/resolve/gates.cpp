@@ -82,6 +82,13 @@ class GateResolver {
                           "periods with a common multiple that takes at most " + std::to_string(most_gate_entries) + " entries and " + json::to_text(longest_gate_cycle)});
       return;
     }
+    if (conflict.kind == GateConflict::Kind::order) {
+      diagnostics_.error(gates_.where.place(), "frames that may come in any order",
+                         {"at " + json::quote(port) + " " + json::quote(first) + " from " + from_to(conflict.first_from, conflict.first_until) + " on its cycle and " + json::quote(second) + " from " +
+                              from_to(conflict.second_from, conflict.second_until) + ", as operating system and jitter go",
+                          "phases that are further apart, or another class, so that the first does not wait in the other's window"});
+      return;
+    }
     const std::string every = " of each " + json::to_text(conflict.cycle);
     diagnostics_.error(gates_.where.place(), "windows that overlap",
                        {"at " + json::quote(port) + " " + json::quote(first) + " from " + from_to(conflict.first_from, conflict.first_until) + " and " + json::quote(second) + " from " +

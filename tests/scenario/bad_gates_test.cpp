@@ -39,7 +39,7 @@ const BadCase cases[] = {
      R"(2:1: error at /streams/0: a stream that no gates can be laid for: found "a" with "launch", which is a plan of its own, expected what "gates": "auto" can plan, or another class)"},
     {"InAnyOrder", scheduled(good + R"(, {"name": "b", "from": "h1", "to": "h3", "payload": "100B", "every": "500us", "offset": "100us", "jitter": "100us", "pcp": 6},
 {"name": "c", "from": "h1", "to": "h3", "payload": "100B", "every": "500us", "offset": "150us", "pcp": 6})"),
-     R"(x)"},
+     R"(3:118: error at /gates: frames that may come in any order: found at "h1 to sw1" "b" from 100us to 200us and "c" at 150us of their periods, as operating system and jitter go, expected phases that are further apart, or another class, so that the first does not wait in the other's window)"},
     {"TwoAtOnce", scheduled(good + R"(, {"name": "b", "from": "h2", "to": "h3", "payload": "100B", "every": "250us", "offset": "0.5us", "pcp": 6})"),
      R"(2:223: error at /gates: windows that overlap: found at "sw1 to sw2" "a" from 1.314us to 2.578us and "b" from 1.814us to 3.078us of each 500us, expected an "offset" or "phases" that keep them apart
 2:223: error at /gates: windows that overlap: found at "sw2 to h3" "a" from 2.628us to 3.892us and "b" from 3.128us to 4.392us of each 500us, expected an "offset" or "phases" that keep them apart)"},

@@ -83,9 +83,10 @@ class GateResolver {
       return;
     }
     if (conflict.kind == GateConflict::Kind::order) {
+      const auto when = [&](Duration from, Duration until) { return from == until ? "at " + json::to_text(from) : "from " + from_to(from, until); };
       diagnostics_.error(gates_.where.place(), "frames that may come in any order",
-                         {"at " + json::quote(port) + " " + json::quote(first) + " from " + from_to(conflict.first_from, conflict.first_until) + " on its cycle and " + json::quote(second) + " from " +
-                              from_to(conflict.second_from, conflict.second_until) + ", as operating system and jitter go",
+                         {"at " + json::quote(port) + " " + json::quote(first) + " " + when(conflict.first_from, conflict.first_until) + " and " + json::quote(second) + " " +
+                              when(conflict.second_from, conflict.second_until) + " of their periods, as operating system and jitter go",
                           "phases that are further apart, or another class, so that the first does not wait in the other's window"});
       return;
     }

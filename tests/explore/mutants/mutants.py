@@ -5,7 +5,7 @@ usage: mutants.py --sources FOLDER --compiler CXX --archives A.a... --probe PROB
                   [--only NAME] [--print]
 
 Each edit of mutants.json replaces a piece of text that occurs exactly once in a copy of src/handshake/FILE. Only that file is
-compiled anew; the object goes before the library that holds the right one. A mutant that survives the explorer is shown
+compiled anew (of a header, all that include it); the object goes before the library that holds the right one. A mutant that survives the explorer is shown
 to the property tests of the handshake. Exit status 0: all were killed by what mutants.json says kills them.
 """
 import argparse
@@ -43,11 +43,18 @@ def run(command, timeout):
 def killer_of(options, mutant, folder):
     """What kills the mutant: a property, "check", a test's name; None if it survives. And the question, for people."""
     made = []
-    for name, text in mutated(options.sources, mutant).items():
-        source = folder / name
-        source.write_text(text, encoding="utf-8")
-        made.append(source.with_suffix(".o"))
-        includes = ["-I", options.sources, "-I", options.sources / "src"]
+    changed = mutated(options.sources, mutant)
+    # A header comes before the right one, and whoever may look into it is compiled anew.
+    (folder / "handshake").mkdir()
+    for name, text in changed.items():
+        (folder / "handshake" / name).write_text(text, encoding="utf-8")
+    units = {name for name in changed if name.endswith(".cpp")}
+    if len(units) < len(changed):
+        units |= {each.name for each in (options.sources / "src" / "handshake").glob("*.cpp") if '"handshake/participant.hpp"' in each.read_text(encoding="utf-8")}
+    for name in sorted(units):
+        source = folder / "handshake" / name if name in changed else options.sources / "src" / "handshake" / name
+        made.append(folder / f"{name}.o")
+        includes = ["-I", folder, "-I", options.sources, "-I", options.sources / "src"]
         status, _, err = run([options.compiler, "-std=c++20", "-O1", *includes, "-c", source, "-o", made[-1]], 300)
         if status != 0:
             return "does not compile", err[:2000]

@@ -6,7 +6,6 @@ usage: roles_node_test.py TAKT [unittest options]
 """
 import json
 import signal
-import subprocess
 import sys
 import time
 import unittest
@@ -26,7 +25,7 @@ class Roles(real_node_test.Ctl):
     def setUp(self):
         super().setUp()
         self.group = real_node_test.Group.__new__(real_node_test.Group)
-        self.group.processes = {}
+        self.group.processes, self.group.files = {}, {}
         self.addCleanup(self.group.kill)
         self.logs = {}
 
@@ -38,7 +37,7 @@ class Roles(real_node_test.Ctl):
             config = {"offers": ["welding"], "sources": [{"data_set": "seam", "kind": "constant", "value": 7}]} | config
         path = self.folder / f"{node}.json"
         path.write_text(json.dumps(config), encoding="utf-8")
-        self.group.processes[node] = subprocess.Popen([real_node_test.TAKT, "node", str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.group.start(node, path)
 
     def status(self, node):
         code, out, _ = self.ctl(node, "status", "--format", "json")
@@ -107,7 +106,7 @@ class Roles(real_node_test.Ctl):
         self.assertIn("robotC: spare of cell (robust)\n", self.ctl("robotC", "status")[1])
         self.assertEqual(self.ctl("robotC", "suspend")[0], 1)  # a spare is in no group
         self.group.processes["robotA"].kill()
-        self.group.processes.pop("robotA").communicate()
+        self.group.processes.pop("robotA").wait()
         self.wait_for("Running", left="robotC", right="robotB")
         self.start("robotA")
         self.wait("robotA a spare", lambda status: self.present(status, "robotA"))

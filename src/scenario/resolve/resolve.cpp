@@ -6,7 +6,6 @@
 
 #include "models/ethernet/sizes.hpp"
 #include "scenario/applications/resolve_applications.hpp"
-#include "scenario/figures/requirement.hpp"
 #include "scenario/json/override.hpp"
 #include "scenario/json/suggest.hpp"
 #include "scenario/programs/program_shape.hpp"
@@ -20,6 +19,7 @@
 #include "scenario/resolve/os_profiles.hpp"
 #include "scenario/resolve/plug.hpp"
 #include "scenario/resolve/replies.hpp"
+#include "scenario/resolve/requirements.hpp"
 #include "scenario/resolve/stream_builder.hpp"
 #include "scenario/resolve/trace_file.hpp"
 #include "vocabulary/protocol.hpp"
@@ -59,7 +59,7 @@ class Resolver {
     for (const ScriptEntry& entry : r_.scenario.script) add_action(entry);
     resolve_faults(r_, diagnostics_);
     std::stable_sort(r_.script.begin(), r_.script.end(), [](const ResolvedAction& a, const ResolvedAction& b) { return a.at < b.at; });
-    for (const Requirement& requirement : r_.scenario.require) check_requirement(requirement);
+    resolve_requirements(r_, diagnostics_);
     builder_ = nullptr;
   }
 
@@ -317,16 +317,6 @@ class Resolver {
     return std::nullopt;
   }
 
-  const Program* find_program(const std::string& name, const json::Place& place) {
-    std::vector<std::string_view> names;
-    for (const Program& program : r_.scenario.programs) {
-      if (program.name == name) return &program;
-      names.push_back(program.name);
-    }
-    diagnostics_.error(place, "unknown program", {json::quote(name), "the name of a program", json::suggest(name, names)});
-    return nullptr;
-  }
-
   void add_action(const ScriptEntry& entry) {
     if (r_.scenario.duration > Duration() && entry.at > r_.scenario.duration)  // 0: refused by the table
       diagnostics_.warning(entry.where.at("at"), "after the end of the simulation", {json::to_text(entry.at), "at most " + json::to_text(r_.scenario.duration)});
@@ -377,7 +367,7 @@ class Resolver {
       diagnostics_.error(entry.where.place(), "missing key", {"\"call\" without a program", "\"program\""});
       return;
     }
-    const Program* const program = find_program(*entry.program, entry.where.at("program"));
+    const Program* const program = find_program(r_.scenario, *entry.program, entry.where.at("program"), diagnostics_);
     if (program == nullptr) return;
     const auto participant = entry.on ? participant_of(*program, *entry.on, entry.where.at("on")) : std::optional<std::uint8_t>(0);
     if (!participant) return;
@@ -395,72 +385,10 @@ class Resolver {
     r_.script.push_back({sim::TrueTime() + entry.at, ResolvedCall{static_cast<std::uint32_t>(found - r_.programs.begin()), *participant, *entry.call}});
   }
 
-  void check_requirement(const Requirement& requirement) {
-    if (requirement.program) find_program(*requirement.program, requirement.where.at("program"));
-    if (!check_figure(r_, requirement, diagnostics_)) return;
-    const auto refuse = [&](bool is_there, std::string_view key, std::string_view subject) {
-      if (is_there) diagnostics_.error(requirement.where.at(key), "does not belong to this requirement", {json::quote(key), "a requirement with \"" + std::string(subject) + "\""});
-    };
-    if (requirement.reaction) {
-      if (!requirement.within) diagnostics_.error(requirement.where.place(), "missing key", {"\"reaction\" without a limit", "\"within\""});
-      if (r_.scenario.programs.empty()) diagnostics_.error(requirement.where.at("reaction"), "a reaction without a program", {"no programs", "\"programs\""});
-      refuse(requirement.latency.has_value(), "latency", "stream");
-      refuse(requirement.jitter.has_value(), "jitter", "stream");
-      refuse(requirement.dropped.has_value(), "dropped", "stream");
-      refuse(requirement.delivered.has_value(), "delivered", "stream");
-    }
-    if (requirement.sync) {
-      if (!r_.scenario.clocks.gptp) diagnostics_.error(requirement.where.at("sync"), "synchronisation without gPTP", {"no \"gptp\" in \"clocks\"", "\"gptp\""});
-      if (requirement.node && !r_.topology.find(*requirement.node))
-        diagnostics_.error(requirement.where.at("node"), "unknown node", {json::quote(*requirement.node), "the name of a node", suggest_node(r_.topology, *requirement.node, diagnostics_)});
-      refuse(requirement.latency.has_value(), "latency", "stream");
-      refuse(requirement.jitter.has_value(), "jitter", "stream");
-      refuse(requirement.dropped.has_value(), "dropped", "stream");
-      refuse(requirement.delivered.has_value(), "delivered", "stream");
-      refuse(requirement.within.has_value(), "within", "reaction");
-    } else {
-      refuse(requirement.node.has_value(), "node", "sync");
-      refuse(requirement.after > Duration(), "after", "sync");
-    }
-    const bool of_application = requirement.application.has_value();
-    refuse(!of_application && requirement.thread, "thread", "application");
-    refuse(!of_application && requirement.success, "success", "application");
-    refuse(!of_application && requirement.buffered, "buffered", "application");
-    refuse(!requirement.signal && requirement.irregular, "irregular", "signal");
-    if (of_application || requirement.signal) {
-      for (const auto& [present, key] : {std::pair(requirement.latency.has_value(), "latency"), std::pair(requirement.jitter.has_value(), "jitter"),
-                                         std::pair(requirement.dropped.has_value(), "dropped"), std::pair(requirement.delivered.has_value(), "delivered")})
-        refuse(present, key, "stream");
-      refuse(requirement.within.has_value(), "within", "reaction");
-      refuse(requirement.program.has_value(), "program", "reaction");
-      check_application_requirement(r_, requirement, diagnostics_);
-    }
-    if (!requirement.stream) return;
-    refuse(requirement.within.has_value(), "within", "reaction");
-    refuse(requirement.program.has_value(), "program", "reaction");
-    if (!requirement.latency && !requirement.jitter && !requirement.dropped && !requirement.delivered)
-      diagnostics_.error(requirement.where.place(), "missing key", {"\"stream\" without a limit", "\"latency\", \"jitter\", \"dropped\" or \"delivered\""});
-    if (stream_names_.empty())
-      for (const models::StreamPlan& stream : r_.plan.streams) stream_names_.insert(stream.name);
-    if (stream_names_.contains(*requirement.stream) || is_of_broken_program(*requirement.stream)) return;
-    const std::vector<std::string_view> names(stream_names_.begin(), stream_names_.end());
-    diagnostics_.error(requirement.where.at("stream"), "unknown stream", {json::quote(*requirement.stream), "the name of a stream", json::suggest(*requirement.stream, names)});
-  }
-
-  /// A Program with a mistake has no streams: that is said where the mistake is, not again of each of its streams.
-  bool is_of_broken_program(std::string_view stream) const {
-    if (!diagnostics_.has_errors()) return false;
-    return std::ranges::any_of(r_.scenario.programs, [&](const Program& program) {
-      const std::string prefix = program.name + "/";
-      return stream.starts_with(prefix) && std::ranges::none_of(stream_names_, [&](std::string_view name) { return name.starts_with(prefix); });
-    });
-  }
-
   Resolved& r_;
   json::Diagnostics& diagnostics_;
   StreamBuilder* builder_ = nullptr;
   std::size_t publishers_ = 0;  // PublisherIds that are taken, from 1 on
-  std::set<std::string_view> stream_names_;  // of the plan, once it is complete
 };
 
 }  // namespace

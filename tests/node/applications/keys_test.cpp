@@ -51,11 +51,11 @@ TEST(Instances, EachHasAHistoryOfItsOwn) {
   ASSERT_EQ(keyless.size(), 2u);
   const ThreadStatistics& of_keyed = keyed[1].threads[0];
   const ThreadStatistics& of_keyless = keyless[1].threads[0];
-  // The first call may come before the match. Each of the others finds all instances.
+  // The first call may come before the match. Each of the others finds all instances, and what came after the last one is taken at the end.
   EXPECT_GE(of_keyed.taken, 3 * (of_keyed.calls - 1));
-  EXPECT_LE(of_keyed.taken, 3 * of_keyed.calls);
+  EXPECT_LE(of_keyed.taken, 3 * (of_keyed.calls + 1));
   EXPECT_GT(of_keyed.calls, 1u);
-  EXPECT_LE(of_keyless.taken, of_keyless.calls);
+  EXPECT_LE(of_keyless.taken, of_keyless.calls + 1);
 }
 
 TEST(Partitions, KeepApart) {

@@ -1,0 +1,16 @@
+// What must hold: that it belongs together, and speaks of what is there.
+#pragma once
+
+#include <string>
+
+#include "scenario/resolve/resolved.hpp"
+
+namespace takt::scenario {
+
+/// Checks the requirements of the scenario; all else is resolved by then.
+void resolve_requirements(const Resolved& resolved, json::Diagnostics& diagnostics);
+
+/// The Program of that name; nothing and a diagnostic at `place` if there is none.
+const Program* find_program(const Scenario& scenario, const std::string& name, const json::Place& place, json::Diagnostics& diagnostics);
+
+}  // namespace takt::scenario

@@ -18,6 +18,7 @@
 #include "emulate/expectation.hpp"
 #include "emulate/log_reader.hpp"
 #include "emulate/machine.hpp"
+#include "emulate/node_status.hpp"
 #include "emulate/pace.hpp"
 #include "emulate/role_steps.hpp"
 #include "node/control_socket.hpp"
@@ -49,11 +50,6 @@ void sleep_until(std::int64_t ns) {
 std::string own_executable() {
   std::error_code error;
   return fs::read_symlink("/proc/self/exe", error).string();
-}
-
-std::string text_of(const json::Node& object, std::string_view key) {
-  const json::Node* const node = object.find(key);
-  return node == nullptr ? std::string() : node->text;
 }
 
 /// One node and what it does.
@@ -237,41 +233,13 @@ class Emulation {
     const std::int64_t until = now_ns() + std::int64_t{start_timeout_ms} * 1'000'000;
     for (LiveNode& node : nodes_) {
       std::string not_yet;
-      while (!has_heard_all(node, not_yet)) {
+      while (!has_heard_all(node.socket, not_yet)) {
         if (is_stopped() || !check_nodes()) return false;
         if (now_ns() > until) return fail("node " + node.name + " does not start: " + not_yet);
         sleep_until(now_ns() + slice_ns);
       }
     }
     return true;
-  }
-
-  static bool has_heard_all(const LiveNode& node, std::string& not_yet) {
-    const auto status = node::ask_node(node.socket, "status", not_yet);
-    if (!status) return false;
-    json::Diagnostics diagnostics;
-    const auto document = json::parse(*status, "status", diagnostics);
-    if (!document) return false;
-    const json::Node* const programs = document->root().find("programs");
-    if (programs == nullptr) return has_heard_all_of(document->root(), not_yet);
-    return std::all_of(programs->items.begin(), programs->items.end(), [&](const json::Node& program) { return has_heard_all_of(program, not_yet); });
-  }
-
-  static bool has_heard_all_of(const json::Node& program, std::string& not_yet) {
-    const json::Node* const peers = program.find("peers");
-    if (peers == nullptr) return false;
-    for (const json::Node& peer : peers->items) {
-      if (!text_of(peer, "state").empty() || nobody_has(program, text_of(peer, "name"))) continue;
-      not_yet = "it does not hear " + text_of(peer, "name");
-      return false;
-    }
-    return true;
-  }
-
-  /// Who has such a role is not to be heard.
-  static bool nobody_has(const json::Node& program, const std::string& role) {
-    const json::Node* const roles = program.find("roles");
-    return roles != nullptr && std::any_of(roles->items.begin(), roles->items.end(), [&](const json::Node& each) { return text_of(each, "name") == role && text_of(each, "node").empty(); });
   }
 
   /// Until `ns`, unless something happens.
@@ -326,13 +294,6 @@ class Emulation {
       });
     return are_known;
   }
-  template <class Visit>
-  static void for_each_program(const json::Node& status, const Visit& visit) {
-    const json::Node* const programs = status.find("programs");
-    if (programs == nullptr) return visit(status);
-    for (const json::Node& program : programs->items) visit(program);
-  }
-
   bool run_script() {
     std::int64_t begin = now_ns();
     for (std::size_t a = 0; a < plan_.actions.size(); ++a) {

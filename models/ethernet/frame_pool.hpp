@@ -23,7 +23,10 @@ class Pool {
     if (free_count_ == 0) [[unlikely]] grow();
     return free_[--free_count_];
   }
-  void free(Handle handle) { free_[free_count_++] = handle; }
+  void free(Handle handle) {
+    TAKT_CHECK(free_count_ < free_.size(), "what is freed was allocated");
+    free_[free_count_++] = handle;
+  }
   std::size_t live() const { return chunks_.size() * chunk_size - free_count_; }
 
  private:
@@ -60,7 +63,10 @@ class FramePool {
     if (free_count_ == 0) [[unlikely]] grow();
     return free_[--free_count_];
   }
-  void free(FrameIndex handle) { free_[free_count_++] = handle; }
+  void free(FrameIndex handle) {
+    TAKT_CHECK(free_count_ < free_.size(), "what is freed was allocated");
+    free_[free_count_++] = handle;
+  }
   std::size_t live() const { return frames_.size() - free_count_; }
 
  private:

@@ -37,6 +37,15 @@ TEST(Pool, TheLastFreedIsUsedFirst) {
   EXPECT_EQ(pool.live(), 4u);
 }
 
+TEST(Pool, NothingIsFreedTwice) {
+  Numbers numbers;
+  numbers.free(numbers.allocate());
+  EXPECT_THROW(numbers.free(FrameIndex{0}), sim::InvariantBroken);
+  FramePool frames;
+  frames.free(frames.allocate());
+  EXPECT_THROW(frames.free(FrameIndex{0}), sim::InvariantBroken);
+}
+
 TEST(Pool, AddressesAreStableWhileItGrows) {
   Numbers pool;
   const FrameIndex first = pool.allocate();

@@ -258,7 +258,7 @@ class Emulation {
       if (is_stopped() || !check_nodes()) return false;
       std::vector<LoggedStep> steps;
       for (const LiveNode& node : nodes_)
-        if (is_apart_ || !read_log(node, steps)) break;
+        if (!is_apart_ && !read_log(node, steps)) return false;
       if (is_apart_ || (pace_->is_reached(histories_of(steps, resolved_.programs.size()), at) && (!has_restarted_ || is_everybody_known()))) {
         has_restarted_ = false;
         return true;
@@ -294,6 +294,7 @@ class Emulation {
       });
     return are_known;
   }
+
   bool run_script() {
     std::int64_t begin = now_ns();
     for (std::size_t a = 0; a < plan_.actions.size(); ++a) {
@@ -436,11 +437,11 @@ class Emulation {
     return history;
   }
 
-  /// Appends what the node has logged so far. Its status is returned in `end`, if it is asked for.
+  /// Appends what the node has logged so far; a line that it has not written to its end yet comes later. Its status is returned in `end`, if it is asked for.
   bool read_log(const LiveNode& node, std::vector<LoggedStep>& steps, std::string* end = nullptr) {
     std::ifstream log(node.log);
     LogReader reader(resolved_, *node.plan);
-    for (std::string line; std::getline(log, line);)
+    for (std::string line; std::getline(log, line) && !log.eof();)
       if (!reader.take(line)) return fail("the log of " + node.name + " cannot be read: " + line);
     for (LoggedStep& step : reader.finish()) steps.push_back(step);
     if (end != nullptr) *end = reader.status();

@@ -268,10 +268,10 @@ class DdsResolver {
       };
       const Known& known = known_[member];
       for (std::size_t w = 0; w < known.writers.size(); ++w)
-        if (lonely(known.endpoints.publications[w], [](const dds::StaticParticipant& p) { return p.subscriptions; }))
+        if (lonely(known.endpoints.publications[w], [](const dds::StaticParticipant& p) -> const auto& { return p.subscriptions; }))
           warn(known.writers[w], known.endpoints.publications[w].endpoint.topic_name, "a reader");
       for (std::size_t r = 0; r < known.readers.size(); ++r)
-        if (lonely(known.endpoints.subscriptions[r], [](const dds::StaticParticipant& p) { return p.publications; }))
+        if (lonely(known.endpoints.subscriptions[r], [](const dds::StaticParticipant& p) -> const auto& { return p.publications; }))
           warn(known.readers[r], known.endpoints.subscriptions[r].endpoint.topic_name, "a writer");
     }
   }

@@ -1,4 +1,4 @@
-// What bounds rest on. Each bound says which of these it needs; where one does not hold, the bound may be exceeded.
+// What bounds and proofs rest on. Each says which assumptions it needs; an AssumptionLedger says what becomes of them in a scenario.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace takt::analysis {
 
 enum class Assumption : std::uint8_t {
-  no_fault,
+  nothing_else,
   listed_faults_only,
   os_latency,
   clock_rate,
@@ -16,10 +16,10 @@ enum class Assumption : std::uint8_t {
   gptp_traffic,
   gates_in_force,
   gates_do_not_change,
-  elimination,
+  no_disturbance,
+  drained,
   program_publishes,
   no_loss,
-  one_command,
   initialisation,
   sampled_states,
   count
@@ -43,8 +43,11 @@ class Assumptions {
   std::uint32_t bits_ = 0;
 };
 
-/// The name in reports, such as "no-fault", and a sentence.
+/// The name in reports, such as "clock-error", and a sentence.
 std::string_view name_of(Assumption assumption);
 std::string_view text_of(Assumption assumption);
+/// Only the plant can keep it (nothing else is sent, oscillators keep within their tolerance): it is a condition of every proof that needs it, and no
+/// run of the simulator can contradict it.
+bool is_condition(Assumption assumption);
 
 }  // namespace takt::analysis

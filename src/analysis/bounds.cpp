@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "analysis/assessment.hpp"
 #include "analysis/network_bound.hpp"
+#include "analysis/outages.hpp"
+#include "analysis/program_assessment.hpp"
 #include "analysis/program_reactions.hpp"
 #include "analysis/separated_flow.hpp"
 
@@ -31,7 +34,8 @@ std::vector<QueueBound> queue_bounds(const FlowGraph& graph, const NetworkResult
 
 class StreamBounds {
  public:
-  StreamBounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network) : r_(resolved), graph_(graph), network_(network), separated_(resolved, graph, network) {}
+  StreamBounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network)
+      : r_(resolved), graph_(graph), network_(network), separated_(resolved, graph, network), outages_(resolved) {}
 
   std::vector<StreamBound> make() {
     std::vector<StreamBound> bounds(r_.streams.size());
@@ -50,8 +54,8 @@ class StreamBounds {
       if (bound.least == Duration::max()) {
         bound.least = Duration();
         bound.latency = bound.total_flow = bound.separated_flow = std::nullopt;
-        bound.loses_nothing = false;
-        bound.reason = "nothing is known of when it is sent";
+        lose(bound, "nothing is known of when it is sent");
+        bound.reason = bound.loss_reason;
       }
     return bounds;
   }
@@ -81,8 +85,23 @@ class StreamBounds {
       }
     }
     if (bound.latency) bound.reason.clear();   // whatever one of the two analyses says
-    bound.loses_nothing = bound.loses_nothing && !flow.may_miss_launch;
-    for (const std::uint32_t h : flow.hops) bound.loses_nothing = bound.loses_nothing && has_room(graph_.hops[h]);
+    if (flow.may_miss_launch) lose(bound, "the operating system may hand a frame over after its launch time");
+    for (const std::uint32_t h : flow.hops) look_for_losses(graph_.hops[h], bound);
+  }
+
+  static void lose(StreamBound& bound, std::string why, bool is_fault = false) {
+    bound.loses_nothing = false;
+    bound.loses_by_faults_only = bound.loses_by_faults_only && is_fault;
+    if (bound.loss_reason.empty()) bound.loss_reason = std::move(why);
+  }
+
+  void look_for_losses(const Hop& hop, StreamBound& bound) const {
+    const GraphPort& port = graph_.ports[hop.port];
+    const auto at = [&] { return r_.plan.nodes[port.node.value].name + ":" + std::to_string(port.number); };
+    if (!has_room(hop)) lose(bound, "a full queue, a filter or a recovery may drop frames at " + at());
+    if (outages_.takes_link(port.link)) lose(bound, "the link of " + at() + " goes down", true);
+    for (const models::ImpairmentPlan& each : r_.plan.impairments)
+      if (each.link == port.link && each.from_a_to_b == port.from_a && (each.impairment.loss || each.impairment.corruption)) lose(bound, "chance loses frames on the link of " + at(), true);
   }
 
   static std::optional<Duration> later(const std::optional<Duration>& a, const std::optional<Duration>& b) { return a && b ? std::optional(std::max(*a, *b)) : std::nullopt; }
@@ -145,7 +164,21 @@ class StreamBounds {
   const FlowGraph& graph_;
   const NetworkResult& network_;
   SeparatedFlows separated_;
+  Outages outages_;
 };
+
+/// Nothing is promised that the scenario itself contradicts.
+void withdraw(Bounds& bounds) {
+  for (StreamBound& stream : bounds.streams) {
+    const std::string why = bounds.ledger.refutation(stream.assumptions);
+    if (why.empty()) continue;
+    stream.latency = stream.total_flow = stream.separated_flow = std::nullopt;
+    std::fill(stream.by_listener.begin(), stream.by_listener.end(), std::nullopt);
+    stream.loses_nothing = false;
+    stream.loss_reason = why;
+    stream.reason = why;
+  }
+}
 
 class RequirementBounds {
  public:
@@ -192,7 +225,7 @@ class RequirementBounds {
     if (stream.loses_nothing)
       bound.count = 0;
     else
-      bound.reason = "frames may be dropped by a full queue, a filter, a recovery or a link";
+      bound.reason = stream.loss_reason;
     return bound;
   }
 
@@ -209,10 +242,15 @@ Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
   bounds.rounds = network.rounds;
   bounds.streams = StreamBounds(resolved, graph, network).make();
   bounds.queues = queue_bounds(graph, network);
-  if (!resolved.plan.impairments.empty())   // chance loses frames
-    for (StreamBound& stream : bounds.streams) stream.loses_nothing = false;
-  for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) bounds.streams[redundancy.stream.value].loses_nothing = false;   // copies are
+  for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) {
+    StreamBound& stream = bounds.streams[redundancy.stream.value];
+    stream.loses_nothing = stream.loses_by_faults_only = false;   // copies are
+    if (stream.loss_reason.empty()) stream.loss_reason = "copies of a redundant stream are dropped";
+  }
+  bounds.ledger = assess(resolved, graph, options);
+  withdraw(bounds);
   add_reactions(resolved, options, bounds);
+  assess_programs(resolved, bounds);
   RequirementBounds(resolved, bounds).make();
   return bounds;
 }

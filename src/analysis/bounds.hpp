@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/assumption.hpp"
+#include "analysis/assumption_ledger.hpp"
 #include "scenario/resolve/resolved.hpp"
 
 namespace takt::analysis {
@@ -42,6 +42,8 @@ struct StreamBound {
   std::vector<std::optional<sim::Duration>> by_listener;   ///< as in the plan
   std::vector<HopBound> hops;                 ///< to that listener
   bool loses_nothing = false;                 ///< queues have room for every backlog and nothing else drops its frames
+  bool loses_by_faults_only = true;           ///< would lose nothing if nothing failed
+  std::string loss_reason;                    ///< what may drop them
   std::string reason;                         ///< why there is no bound
   Assumptions assumptions;
 };
@@ -85,6 +87,7 @@ struct RequirementBound {
 };
 
 struct Bounds {
+  AssumptionLedger ledger;                    ///< what becomes of the assumptions; what rests on a violated one has no bound here
   std::vector<StreamBound> streams;           ///< by stream index
   std::vector<QueueBound> queues;             ///< of classes that carry something
   std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset; of the outermost one of a tree then those of the tree

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "analysis/assessment.hpp"
 #include "analysis/flow_routes.hpp"
 #include "analysis/flow_sources.hpp"
 #include "models/egress/class_set.hpp"
@@ -22,13 +23,6 @@ std::int64_t greatest_deviation(const models::OscillatorConfig& oscillator, sim:
   for (const models::FrequencyPoint& point : oscillator.table) table = std::max(table, magnitude(point.frequency.parts_per_trillion));
   const double bound = std::min(ppt + static_cast<double>(table), static_cast<double>(magnitude(oscillator.bound.parts_per_trillion)));
   return static_cast<std::int64_t>(bound) + 1'000;   // and what fixed point rounds
-}
-
-sim::Duration clock_error(const scenario::Resolved& r, const BoundOptions& options) {
-  sim::Duration error;
-  for (const scenario::Requirement& requirement : r.scenario.require)
-    if (requirement.sync && !requirement.node) error = std::max(error, *requirement.sync);
-  return error > sim::Duration() ? error : options.clock_error;
 }
 
 PortModel model_of(const scenario::Resolved& r, const GraphPort& port, const BoundOptions& options) {
@@ -71,23 +65,24 @@ void note_unordered_classes(const scenario::Resolved& r, FlowGraph& graph) {
 
 void note_assumptions(const scenario::Resolved& r, FlowGraph& graph) {
   Assumptions& all = graph.assumptions;
+  all.add(Assumption::nothing_else);
   const auto is_random = [](const sim::Distribution& d) { return d.greatest() != d.least(); };
   for (const models::OsLatency& os : r.plan.os_latencies)
     if (is_random(os.transmit) || is_random(os.receive) || is_random(os.wake_up)) all.add(Assumption::os_latency);
+  if (!r.scenario.faults.empty()) all.add(Assumption::listed_faults_only);
   for (const scenario::ResolvedAction& action : r.script) {
-    if (std::holds_alternative<scenario::ResolvedGates>(action.what))
-      all.add(Assumption::gates_do_not_change);
-    else if (!std::holds_alternative<scenario::ResolvedCall>(action.what))
-      all.add(Assumption::no_fault);
+    if (std::holds_alternative<scenario::ResolvedGates>(action.what)) all.add(Assumption::gates_do_not_change);
+    if (std::holds_alternative<scenario::ResolvedStuckGate>(action.what) || std::holds_alternative<scenario::ResolvedClockFault>(action.what)) all.add(Assumption::no_disturbance);
   }
-  for (const models::PortConfig& config : r.plan.port_configs)
-    if (config.shaping.gates) all.add(Assumption::gates_in_force);
-  if (!r.redundancies.empty()) all.add(Assumption::elimination);
+  if (!graph.uncertain_paths.empty()) all.add(Assumption::no_disturbance);
+  if (first_instant_of_all_gates(r) > sim::Duration()) all.add(Assumption::gates_in_force);
   if (!r.plan.gptp.empty()) {
     all.add(Assumption::gptp_traffic);
     all.add(Assumption::clock_error);
   }
   if (std::any_of(r.plan.nodes.begin(), r.plan.nodes.end(), [](const models::NodePlan& node) { return node.clock.has_value(); })) all.add(Assumption::clock_rate);
+  for (const Assumption each : {Assumption::gates_do_not_change, Assumption::no_disturbance, Assumption::gates_in_force, Assumption::clock_error})
+    if (all.contains(each)) all.add(Assumption::drained);
 }
 
 }  // namespace
@@ -101,7 +96,7 @@ ClockQuality clock_quality(const scenario::Resolved& r, models::NodeIndex node, 
     // Everybody follows the grandmaster, who may be anybody.
     for (const models::NodePlan& other : r.plan.nodes)
       if (other.clock) quality.rate_ppt = std::max(quality.rate_ppt, greatest_deviation(other.clock->oscillator, r.scenario.duration));
-    quality.error = clock_error(r, options).ps();
+    quality.error = clock_premise(r, options).error.ps();
     return quality;
   }
   quality.rate_ppt = greatest_deviation(plan.clock->oscillator, r.scenario.duration);
@@ -118,7 +113,7 @@ FlowGraph make_flow_graph(const scenario::Resolved& resolved, const BoundOptions
                          [&](const models::ImpairmentPlan& i) { return i.link == l && i.from_a_to_b == from_a && i.impairment.duplication; });
     };
     for (const auto& [from, to, from_a] : {std::tuple(&link.a, &link.b, true), std::tuple(&link.b, &link.a, false)})
-      graph.ports.push_back({from->node, from->port, to->node, link.rate.octet_time().ps(), link.delay.ps(),
+      graph.ports.push_back({from->node, from->port, to->node, link.rate.octet_time().ps(), link.delay.ps(), l, from_a,
                              from->port_config.value_or(resolved.plan.nodes[from->node.value].port_config), doubles(from_a), {}});
   }
   for (const GraphPort& port : graph.ports) graph.models.push_back(model_of(resolved, port, options));

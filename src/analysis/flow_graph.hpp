@@ -17,6 +17,8 @@ struct GraphPort {
   models::NodeIndex peer;
   Ps octet_time = 0;
   Ps propagation = 0;
+  std::uint32_t link = 0;            ///< in plan.links
+  bool from_a = true;                ///< to the link's other end
   std::uint32_t config = 0;          ///< in plan.port_configs
   bool may_double = false;           ///< chance doubles frames on the link
   std::vector<std::uint32_t> hops;   ///< that pass it
@@ -71,6 +73,7 @@ struct FlowGraph {
   std::vector<Hop> hops;
   std::vector<PortModel> models;        ///< by port
   Assumptions assumptions;              ///< that all bounds need
+  std::vector<std::string> uncertain_paths = {};   ///< streams that rerouting may send in circles, or on too many ways: no bound of anything holds then
 };
 
 /// Flows and hops; see flow_sources.hpp and flow_routes.hpp for the parts.

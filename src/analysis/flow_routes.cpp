@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "analysis/outages.hpp"
 #include "models/egress/class_set.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "scenario/resolve/cqf.hpp"
@@ -29,18 +30,41 @@ class RouteMaker {
     hop_at_.clear();
     const std::size_t listeners = plan.listeners.size();
     graph_.flows[flow].last.assign(listeners, {});
+    const auto rerouted = rerouted_paths(r_, stream);
+    if (!rerouted) graph_.uncertain_paths.push_back(plan.name);
+    if (rerouted && !rerouted->empty()) {
+      prefixes_.clear();
+      for (const PossiblePath& each : *rerouted) note_last(flow, each.listener, walk(flow, each.path, nullptr, 0, true));
+      share_schedulers(flow);
+      return;
+    }
     for (std::size_t i = 0; i < stream.paths.size(); ++i) {
-      const std::uint32_t last = walk(flow, stream.paths[i], redundancy, i);
-      std::vector<std::uint32_t>& all = graph_.flows[flow].last[redundancy != nullptr ? 0 : i];
-      if (std::find(all.begin(), all.end(), last) == all.end()) all.push_back(last);
+      note_last(flow, redundancy != nullptr ? 0 : i, walk(flow, stream.paths[i], redundancy, i, false));
     }
   }
 
  private:
   static constexpr std::uint32_t nobody = 0xFFFF'FFFF;
 
+  void note_last(std::uint32_t flow, std::size_t listener, std::uint32_t hop) {
+    std::vector<std::uint32_t>& all = graph_.flows[flow].last[listener];
+    if (std::find(all.begin(), all.end(), hop) == all.end()) all.push_back(hop);
+  }
+
+  /// The hops of a rerouted flow at one port take the tokens of one scheduler.
+  void share_schedulers(std::uint32_t flow) {
+    for (const std::uint32_t h : graph_.flows[flow].hops)
+      if (graph_.hops[h].ats) graph_.hops[h].ats->is_shared = true;
+  }
+
+  /// A number for the nodes from the talker to this one: hops behind different ones are told apart, and each counts every frame. Of a frame that may have taken any of them,
+  /// and of the copies of a multicast that meet again while entries change, no more than that can come.
+  std::size_t number_of_prefix(const scenario::Path& path, std::size_t at) {
+    return prefixes_.try_emplace(scenario::Path(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(at) + 1), prefixes_.size() + 1).first->second;
+  }
+
   /// Adds the hops of one path that are not there yet; the last one.
-  std::uint32_t walk(std::uint32_t flow, const scenario::Path& path, const scenario::ResolvedRedundancy* redundancy, std::size_t number) {
+  std::uint32_t walk(std::uint32_t flow, const scenario::Path& path, const scenario::ResolvedRedundancy* redundancy, std::size_t number, bool is_rerouted) {
     const scenario::ResolvedStream& stream = r_.streams[graph_.flows[flow].stream.value];
     const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
     std::uint32_t parent = nobody;
@@ -57,7 +81,7 @@ class RouteMaker {
       const std::uint32_t port = port_at_.at({path[at], port_number});
       const models::PortConfig& config = r_.plan.port_configs[graph_.ports[port].config];
       if (config.untagged && at > 0) tagged = false;
-      const std::size_t member = is_member ? number + 1 : 0;
+      const std::size_t member = is_rerouted ? number_of_prefix(path, at) : is_member ? number + 1 : 0;
       const auto [known, is_new] = hop_at_.try_emplace({member, path[at], port_number}, static_cast<std::uint32_t>(graph_.hops.size()));
       const std::uint32_t hop = known->second;
       if (is_new) {
@@ -177,7 +201,8 @@ class RouteMaker {
   FlowGraph& graph_;
   std::map<std::pair<std::uint32_t, std::uint16_t>, std::uint32_t> port_at_;
   std::map<std::uint32_t, const scenario::ResolvedRedundancy*> redundancy_;
-  std::map<std::tuple<std::size_t, std::uint32_t, std::uint16_t>, std::uint32_t> hop_at_;   // by member, node, port
+  std::map<std::tuple<std::size_t, std::uint32_t, std::uint16_t>, std::uint32_t> hop_at_;   // by member or prefix, node, port
+  std::map<scenario::Path, std::size_t> prefixes_;   // of a rerouted flow
 };
 
 }  // namespace

@@ -84,7 +84,6 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, b
   pattern.jitter = sum(pattern.jitter, flow.worst_source - flow.best_source);
   if (const auto* const periodic = std::get_if<models::PeriodicSchedule>(&talker.schedule); periodic != nullptr && has_phase && clock.is_synchronised)
     flow.produced = ArrivalPhase{periodic->offset.ps() - clock.error, periodic->period.ps(), periodic->jitter.ps() + 2 * clock.error};
-  if (talker.babbles) graph.assumptions.add(Assumption::listed_faults_only);
   flow.source = FrameArrivals(pattern);
   graph.flows.push_back(std::move(flow));
 }

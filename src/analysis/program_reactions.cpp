@@ -37,8 +37,9 @@ class GroupMaker {
       made_.group.initialise.push_back(MaxPlus(sum(stretched(p, program_.description->initialisation.ps()), wake_up(p))));
       add_notifications(p);
     }
-    made_.assumptions.add(Assumption::no_loss);
-    made_.assumptions.add(Assumption::one_command);
+    for (const models::StreamIndex stream : program_.state_streams)
+      if (!bounds_.streams[stream.value].loses_nothing) made_.assumptions.add(Assumption::no_loss);
+    if (program_.description->publish == scenario::Publish::on_change) made_.assumptions.add(Assumption::program_publishes);
     if (program_.description->variant == scenario::Variant::paper) made_.assumptions.add(Assumption::sampled_states);
     return std::move(made_);
   }

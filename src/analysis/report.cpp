@@ -46,10 +46,17 @@ std::string requirement_text(const scenario::Requirement& requirement, const std
   return fmt::format("synchronised within {}", text_of(requirement.sync));
 }
 
-std::string requirement_answer(const RequirementBound& bound) {
-  if (bound.duration) return text_of(bound.duration);
-  if (bound.count) return std::to_string(*bound.count);
-  return "no bound: " + bound.reason;
+std::string requirement_answer(const RequirementBound& bound, const AssumptionLedger& ledger, Duration from) {
+  if (!bound.duration && !bound.count) return "no bound: " + bound.reason;
+  const std::string objection = ledger.objection(bound.assumptions, from);
+  return (bound.duration ? text_of(bound.duration) : std::to_string(*bound.count)) + (objection.empty() ? "" : ", but " + objection);
+}
+
+/// What becomes of an assumption: "discharged by its base times", "open: ...".
+std::string standing_text(const AssessedAssumption& each) {
+  if (each.standing == Standing::condition) return "a condition";
+  const char* const joint = each.standing == Standing::discharged ? " by " : ": ";
+  return std::string(name_of(each.standing)) + (each.why.empty() ? "" : joint + each.why);
 }
 
 std::string streams_text(const Bounds& bounds, const scenario::Resolved& r, const std::vector<Assumption>& all) {
@@ -85,9 +92,10 @@ std::string text_report(const scenario::Resolved& resolved, const Bounds& bounds
   text += streams_text(bounds, resolved, all) + reactions_text(bounds, resolved, all);
   if (!bounds.requirements.empty()) text += "\nRequirements and what they can be at most\n";
   for (const Bounds::Requirement& requirement : bounds.requirements)
-    text += fmt::format("  {:<48} {}\n", requirement_text(resolved.scenario.require[requirement.requirement], requirement.what), requirement_answer(requirement.bound));
+    text += fmt::format("  {:<48} {}\n", requirement_text(resolved.scenario.require[requirement.requirement], requirement.what),
+                        requirement_answer(requirement.bound, bounds.ledger, resolved.scenario.require[requirement.requirement].after));
   if (!all.empty()) text += "\nThese bounds rest on\n";
-  for (std::size_t i = 0; i < all.size(); ++i) text += fmt::format("  [{}] {}: {}\n", i + 1, name_of(all[i]), text_of(all[i]));
+  for (std::size_t i = 0; i < all.size(); ++i) text += fmt::format("  [{}] {}: {} ({})\n", i + 1, name_of(all[i]), bounds.ledger[all[i]].text, standing_text(bounds.ledger[all[i]]));
   return text;
 }
 
@@ -161,11 +169,21 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
     node.add("bound_ps", picoseconds(requirement.bound.duration));
     node.add("bound_count", requirement.bound.count ? Node::of_integer(static_cast<sim::int128>(*requirement.bound.count)) : Node());
     node.add("reason", Node::of_string(requirement.bound.reason));
+    const std::string objection = bounds.ledger.objection(requirement.bound.assumptions, resolved.scenario.require[requirement.requirement].after);
+    node.add("objection", objection.empty() ? Node() : Node::of_string(objection));
     node.add("assumptions", nodes_of(requirement.bound.assumptions));
     requirements.items.push_back(std::move(node));
   }
   Node& assumptions = root.add("assumptions", Node::object());
-  for (const Assumption assumption : all_assumptions(bounds)) assumptions.add(name_of(assumption), Node::of_string(text_of(assumption)));
+  for (const Assumption assumption : all_assumptions(bounds)) {
+    const AssessedAssumption& each = bounds.ledger[assumption];
+    Node node = Node::object();
+    node.add("text", Node::of_string(each.text));
+    node.add("standing", Node::of_string(name_of(each.standing)));
+    node.add("why", each.why.empty() ? Node() : Node::of_string(each.why));
+    node.add("holds_from_ps", Node::of_integer(each.holds_from.ps()));
+    assumptions.add(name_of(assumption), std::move(node));
+  }
   return scenario::json::pretty(root);
 }
 

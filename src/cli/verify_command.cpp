@@ -47,11 +47,22 @@ std::string write_worst(const std::string& folder, const verify::Verification& v
   return {};
 }
 
+/// A contradiction is worth sending in: both scenarios, beside the others or in a folder of their own. A problem, or empty.
+std::string write_witnesses(const std::string& folder, const scenario::Resolved& resolved, const verify::Contradiction& contradiction, verify::Witnesses& files) {
+  const std::filesystem::path path = folder.empty() ? std::filesystem::path(resolved.scenario.name + ".contradiction") : std::filesystem::path(folder);
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) return path.string() + ": " + error.message();
+  files = {(path / "contradiction-run.json").string(), (path / "contradiction-bound.json").string()};
+  if (std::string problem = output::write_file(files.run, scenario::json::encode(contradiction.run)); !problem.empty()) return problem;
+  return output::write_file(files.bound, scenario::json::encode(resolved.scenario));
+}
+
 ExitStatus status_of(const verify::Verification& verification) {
-  if (!verification.contradiction.empty()) return ExitStatus::internal_error;
   switch (verification.verdict()) {
     case verify::Verdict::pass: return ExitStatus::pass;
     case verify::Verdict::refuted: return ExitStatus::requirement_failed;
+    case verify::Verdict::contradiction: return ExitStatus::internal_error;
     case verify::Verdict::undecided: break;
   }
   return verification.partial ? ExitStatus::interrupted : ExitStatus::undecided;
@@ -78,12 +89,15 @@ ExitStatus run(VerifyOptions& options) {
       return ExitStatus::internal_error;
     }
   }
+  verify::Witnesses witnesses;
+  if (verification.contradiction)
+    if (const std::string problem = write_witnesses(options.out, *resolved, *verification.contradiction, witnesses); !problem.empty())
+      std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
   const std::string& name = resolved->scenario.name;
-  const std::string page = options.scenario.is_json() ? verify::json_report(name, verification, files)
+  const std::string page = options.scenario.is_json() ? verify::json_report(name, verification, files, witnesses)
                            : options.quiet            ? name + ": " + verify::name_of(verification.verdict()) + "\n"
-                                                      : verify::text_report(name, verification, files);
+                                                      : verify::text_report(name, verification, files, witnesses);
   std::fputs(page.c_str(), stdout);
-  if (!verification.contradiction.empty()) std::fprintf(stderr, "takt: internal error, please report it with the scenario:\n%s\n", verification.contradiction.c_str());
   return status_of(verification);
 }
 
@@ -102,7 +116,7 @@ void add_verify_command(CLI::App& app, ExitStatus& status) {
       "Examples:\n"
       "  takt verify scenarios/robot-arm.json --out out/worst\n"
       "  takt verify scenarios/robot-arm.json --seeds 20 --jobs 2 --format json | jq '.requirements[].verdict'\n"
-      "Exit status: 0 all proved, 1 one refuted, 2 bad input, 3 internal error, 4 one undecided, 130 interrupted.");
+      "Exit status: 0 all proved, 1 one refuted, 2 bad input, 3 a contradiction (a mistake of takt), 4 one undecided, 130 interrupted.");
   command.callback([options, &status] { status = run(*options); });
 }
 

@@ -421,6 +421,7 @@ RunResult evaluate(const scenario::Run& run, bool partial) {
   Judge judge(result);
   std::size_t next_limit = 0;  // of the clock monitor, in the order of the requirements
   for (const scenario::Requirement& requirement : scenario.require) {
+    const std::size_t first = result.requirements.size();
     if (requirement.reaction)
       judge.reaction(requirement);
     else if (requirement.sync)
@@ -433,6 +434,7 @@ RunResult evaluate(const scenario::Run& run, bool partial) {
       judge.figure(requirement, figures);
     else
       judge.stream(requirement);
+    for (std::size_t i = first; i < result.requirements.size(); ++i) result.requirements[i].requirement = static_cast<std::size_t>(&requirement - scenario.require.data());
   }
   for (const ProgramResult& program : result.programs) judge.invariants(program);
   return result;

@@ -130,6 +130,7 @@ struct FigureResult {
 
 struct RequirementResult {
   RequirementKind kind{};
+  std::optional<std::size_t> requirement = {};  ///< in Scenario::require; none: a Program's invariants
   std::string subject;                     ///< the stream, the Program or the node; empty: all Programs or all nodes
   std::string reaction;                    ///< "start", "halt" ..., if it is one
   bool of_tree = false;                    ///< of a Program and all that are nested in it

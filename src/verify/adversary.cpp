@@ -26,8 +26,8 @@ bool counts_in_a_part(RequirementKind kind) {
 
 class Searcher {
  public:
-  Searcher(const scenario::Resolved& resolved, const SearchOptions& options)
-      : resolved_(resolved), options_(options), instants_(resolved, freedoms_of(resolved)), chance_(resolved.scenario.seed, "adversary", "search") {
+  Searcher(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const SearchOptions& options)
+      : resolved_(resolved), bounds_(bounds), options_(options), instants_(resolved, freedoms_of(resolved)), chance_(resolved.scenario.seed, "adversary", "search") {
     search_.freedoms = freedoms_of(resolved);
   }
 
@@ -59,7 +59,7 @@ class Searcher {
       choice.seed += s;
       scenarios.push_back(scenario_of(resolved_.scenario, search_.freedoms, choice));
     }
-    const auto probes = probe_all(scenarios, options_.jobs, options_.interrupted);
+    const auto probes = probe_all(scenarios, bounds_, options_.jobs, options_.interrupted);
     for (std::size_t i = 0; i < probes.size(); ++i) {
       if (!probes[i]) return false;
       ++search_.runs;
@@ -83,11 +83,14 @@ class Searcher {
     shorter_ = shortened(resolved_.scenario, longest);
     is_shorter_ = shorter_.duration != resolved_.scenario.duration;
     if (!is_shorter_) return;
-    const std::optional<Probe> once = probe(shorter_, options_.interrupted);
+    const std::optional<Probe> once = probe(shorter_, bounds_, options_.interrupted);
     if (once) cost_of_run_ = once->events + cost_of_a_node * resolved_.plan.nodes.size();
   }
 
   void note(const Probe& probe, const Scenario& scenario, bool is_part, bool is_as_it_is = false) {
+    for (const Violation& violation : probe.violations)
+      if (std::none_of(search_.violations.begin(), search_.violations.end(), [&](const Violation& known) { return known.assumption == violation.assumption; })) search_.violations.push_back(violation);
+    if (!probe.contradiction.empty() && !search_.contradiction) search_.contradiction = Contradiction{probe.contradiction, scenario};
     for (std::size_t i = 0; i < search_.findings.size() && i < probe.requirements.size(); ++i) {
       const RequirementResult& seen = probe.requirements[i];
       Finding& finding = search_.findings[i];
@@ -123,7 +126,7 @@ class Searcher {
       many = std::min<std::size_t>(many, std::max<std::uint64_t>(1, (limit_ - spent_) / std::max<std::uint64_t>(1, cost_of_run_)));
       std::vector<Scenario> scenarios;
       for (std::size_t i = 0; i < many; ++i) scenarios.push_back(scenario_of(shorter_, search_.freedoms, choices[from + i]));
-      const auto probes = probe_all(scenarios, options_.jobs, options_.interrupted);
+      const auto probes = probe_all(scenarios, bounds_, options_.jobs, options_.interrupted);
       for (std::size_t i = 0; i < many; ++i) {
         if (!probes[i]) {  // interrupted
           search_.partial = true;
@@ -145,7 +148,7 @@ class Searcher {
     const RequirementKind kind = search_.findings[line].requirement.kind;
     if (!is_shorter_ || !best_ || search_.partial || (kind != RequirementKind::latency && kind != RequirementKind::jitter)) return;
     const Scenario full = scenario_of(resolved_.scenario, search_.freedoms, best_->second);
-    const std::optional<Probe> seen = probe(full, options_.interrupted);
+    const std::optional<Probe> seen = probe(full, bounds_, options_.interrupted);
     if (!seen) return;
     ++search_.runs;
     note(*seen, full, false);
@@ -263,6 +266,7 @@ class Searcher {
   }
 
   const scenario::Resolved& resolved_;
+  const analysis::Bounds& bounds_;
   const SearchOptions& options_;
   CriticalInstants instants_;
   sim::RandomStream chance_;
@@ -277,6 +281,6 @@ class Searcher {
 
 }  // namespace
 
-Search search(const scenario::Resolved& resolved, const SearchOptions& options) { return Searcher(resolved, options).run(); }
+Search search(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const SearchOptions& options) { return Searcher(resolved, bounds, options).run(); }
 
 }  // namespace takt::verify

@@ -9,6 +9,7 @@
 
 #include "results/run_result.hpp"
 #include "verify/freedom.hpp"
+#include "verify/monitor.hpp"
 
 namespace takt::verify {
 
@@ -37,10 +38,18 @@ struct Finding {
   bool exhaustive = false;                  ///< all combinations of critical instants were run
 };
 
+/// A run above a bound whose assumptions all hold: a mistake of takt.
+struct Contradiction {
+  std::string text;
+  scenario::Scenario run;                   ///< a file of it replays the run
+};
+
 struct Search {
   std::vector<Freedom> freedoms;
   std::vector<Finding> findings;
   std::uint64_t runs = 0;                   ///< in all
+  std::vector<Violation> violations;        ///< the first of each assumption
+  std::optional<Contradiction> contradiction = {};   ///< the first
   bool partial = false;                     ///< interrupted
 };
 
@@ -48,6 +57,6 @@ struct Search {
 /// are few, otherwise uphill one freedom after the other, from the scenario as it is, from where all meet, and from random places. Each
 /// run counts for all requirements. Where waiting may be left out (shortened.hpp), it is; the worst choice for a latency or jitter is then
 /// run in full length, since chance has its say in every frame.
-Search search(const scenario::Resolved& resolved, const SearchOptions& options);
+Search search(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const SearchOptions& options);
 
 }  // namespace takt::verify

@@ -1,9 +1,11 @@
 #include "verify/bounds.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
-#include "analysis/bounds.hpp"
+#include "analysis/program_assessment.hpp"
 #include "explore/search.hpp"
 
 namespace takt::verify {
@@ -13,111 +15,187 @@ using results::RequirementKind;
 using results::RequirementResult;
 using sim::Duration;
 
-std::vector<std::string> texts_of(const analysis::Assumptions& assumptions) {
-  std::vector<std::string> texts;
-  for (const analysis::Assumption assumption : assumptions.list()) texts.emplace_back(analysis::text_of(assumption));
-  return texts;
+/// As takt bound names it; nothing where it has no line for it.
+std::optional<std::string_view> bounded_as(RequirementKind kind) {
+  switch (kind) {
+    case RequirementKind::reaction: return "reaction";
+    case RequirementKind::latency: return "latency";
+    case RequirementKind::jitter: return "jitter";
+    case RequirementKind::dropped: return "dropped";
+    case RequirementKind::delivered: return "delivered";
+    case RequirementKind::sync: return "sync";
+    default: return std::nullopt;
+  }
 }
 
-/// Whether takt bound has a line for it.
-bool is_bounded(RequirementKind kind) {
-  using enum RequirementKind;
-  return kind == reaction || kind == latency || kind == jitter || kind == dropped || kind == delivered || kind == sync;
+/// A stream that loses frames fails a latency requirement, unless another one says how many it may lose.
+bool requires_losses_separately(const scenario::Scenario& scenario, const std::string& stream) {
+  return std::any_of(scenario.require.begin(), scenario.require.end(),
+                     [&](const scenario::Requirement& r) { return r.stream && *r.stream == stream && (r.dropped || r.delivered); });
 }
 
 class Prover {
  public:
-  Prover(const scenario::Resolved& resolved, const ProofOptions& options) : resolved_(resolved), options_(options), bounds_(analysis::bound(resolved)) {}
+  Prover(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const ProofOptions& options) : resolved_(resolved), options_(options), bounds_(bounds) {}
 
-  /// `limit`: which of those limits of the scenario's requirements it is that takt bound looks at.
-  Proved of(const RequirementResult& requirement, std::size_t limit) {
+  Proof of(const RequirementResult& requirement) {
     if (requirement.kind == RequirementKind::invariants) return invariants(requirement);
-    if (!is_bounded(requirement.kind) || limit >= bounds_.requirements.size()) return {{}, false, "nothing is known about it", {}};
-    const analysis::RequirementBound& bound = bounds_.requirements[limit].bound;
-    if (requirement.kind == RequirementKind::delivered) return delivered(requirement);
-    Proved proved{bound.duration, false, bound.reason, texts_of(bound.assumptions)};
-    if (requirement.kind == RequirementKind::dropped) {
-      proved.holds = bound.count && *bound.count <= requirement.count_limit.value_or(0);
-      if (bound.count && !proved.holds) proved.reason = "up to " + std::to_string(*bound.count) + " frames may be dropped";
+    Proof proof;
+    const auto what = bounded_as(requirement.kind);
+    const auto bound = std::find_if(bounds_.requirements.begin(), bounds_.requirements.end(),
+                                    [&](const analysis::Bounds::Requirement& each) { return what && each.requirement == requirement.requirement && each.what == *what; });
+    if (bound == bounds_.requirements.end()) {
+      proof.reason = "nothing is known about it";
+      return proof;
     }
-    return proved;
+    proof.from = resolved_.scenario.require[bound->requirement].after;
+    proof.time = bound->bound.duration;
+    proof.reason = bound->bound.reason;
+    proof.assumptions = bound->bound.assumptions;
+    if (requirement.kind == RequirementKind::delivered) return delivered(requirement, std::move(proof));
+    if (requirement.kind == RequirementKind::dropped)
+      judge_count(requirement, bound->bound.count, proof);
+    else
+      judge_time(requirement, proof);
+    return proof;
   }
 
  private:
+  const analysis::StreamBound* stream_named(const std::string& name) const {
+    const auto found = std::find_if(bounds_.streams.begin(), bounds_.streams.end(), [&](const analysis::StreamBound& s) { return s.name == name; });
+    return found == bounds_.streams.end() ? nullptr : &*found;
+  }
+
+  void judge_time(const RequirementResult& requirement, Proof& proof) const {
+    if (!proof.time || !requirement.limit) return;
+    if (*proof.time > *requirement.limit) return;
+    const bool is_of_stream = requirement.kind == RequirementKind::latency || requirement.kind == RequirementKind::jitter;
+    if (is_of_stream && !requires_losses_separately(resolved_.scenario, requirement.subject))
+      if (const analysis::StreamBound* const stream = stream_named(requirement.subject); stream == nullptr || !stream->loses_nothing) {
+        proof.reason = "frames may be lost, and no requirement \"dropped\" says how many" + (stream == nullptr ? std::string() : ": " + stream->loss_reason);
+        return;
+      }
+    proof.holds = true;
+  }
+
+  static void judge_count(const RequirementResult& requirement, std::optional<std::uint64_t> count, Proof& proof) {
+    if (!count) return;
+    proof.holds = *count <= requirement.count_limit.value_or(0);
+    if (!proof.holds) proof.reason = "up to " + std::to_string(*count) + " frames may be dropped";
+  }
+
   /// Whatever has been produced so early that it must have come.
-  Proved delivered(const RequirementResult& requirement) const {
-    Proved proved;
-    const auto bound = std::find_if(bounds_.streams.begin(), bounds_.streams.end(), [&](const analysis::StreamBound& s) { return s.name == requirement.subject; });
+  Proof delivered(const RequirementResult& requirement, Proof proof) const {
+    const analysis::StreamBound* const bound = stream_named(requirement.subject);
     const auto& streams = resolved_.scenario.streams;
     const auto stream = std::find_if(streams.begin(), streams.end(), [&](const scenario::Stream& s) { return s.name == requirement.subject; });
-    if (bound == bounds_.streams.end() || stream == streams.end() || !stream->every) {
-      proved.reason = "how many frames there are is not known beforehand";
+    if (bound == nullptr || stream == streams.end() || !stream->every) {
+      proof.reason = "how many frames there are is not known beforehand";
     } else if (!bound->loses_nothing || !bound->latency) {
-      proved.reason = bound->reason.empty() ? "frames may be lost" : bound->reason;
+      proof.reason = !bound->reason.empty() ? bound->reason : bound->loss_reason;
     } else {
-      const Duration last = resolved_.scenario.duration - *bound->latency - stream->jitter - stream->offset.value_or(Duration());
+      const Duration last = resolved_.scenario.duration - *bound->latency - stream->jitter - stream->offset.value_or(Duration()) - proof.from;
       const std::uint64_t frames = last < Duration() ? 0 : static_cast<std::uint64_t>(last.ps() / stream->every->ps() + 1) * resolved_.plan.streams[bound->index.value].listeners.size();
-      proved.holds = frames >= requirement.count_limit.value_or(0);
-      if (!proved.holds) proved.reason = "only " + std::to_string(frames) + " frames must have come at the end";
-      proved.assumptions = texts_of(bound->assumptions);
+      proof.holds = frames >= requirement.count_limit.value_or(0);
+      proof.reason = proof.holds ? "" : "only " + std::to_string(frames) + " frames must have come at the end";
+      proof.assumptions = bound->assumptions;
     }
-    return proved;
+    return proof;
   }
 
-  Proved invariants(const RequirementResult& requirement) {
+  Proof invariants(const RequirementResult& requirement) {
     const auto program = std::find_if(resolved_.programs.begin(), resolved_.programs.end(), [&](const scenario::ResolvedProgram& p) { return p.name == requirement.subject; });
-    if (program == resolved_.programs.end()) return {{}, false, "no such Program", {}};
-    if (program->description->violations == scenario::Violations::reported) return {{}, true, {}, {}};
-    if (program->has_roles()) return {{}, false, "who has a role is settled while the Program runs", {}};
-    if (!program->nested.empty()) return {{}, false, "takt explore looks at single groups, not at nodes that join two", {}};
+    const auto unknown = [](std::string why) { return Proof{{}, false, std::move(why), {}, {}, {}}; };
+    if (program == resolved_.programs.end()) return unknown("no such Program");
+    if (program->description->violations == scenario::Violations::reported) return {{}, true, {}, {}, {}, {}};
+    if (program->has_roles()) return unknown("who has a role is settled while the Program runs");
+    if (!program->nested.empty()) return unknown("takt explore looks at single groups, not at nodes that join two");
     const std::size_t slaves = program->participants.size() - 1;
-    if (slaves > explore::most_slaves) return {{}, false, "at most " + std::to_string(explore::most_slaves) + " slaves can be explored", {}};
-    if (program->description->subscription != scenario::Subscription::star) return {{}, false, "takt explore --subscription all-to-all looks at it", {}};
-    explore::Question question;
-    question.variant = program->description->variant == scenario::Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
-    question.slaves = static_cast<std::uint8_t>(slaves);
-    for (const explore::Fault fault : {explore::Fault::loss, explore::Fault::duplicate, explore::Fault::reorder, explore::Fault::crash, explore::Fault::restart, explore::Fault::timeout})
-      question.faults.insert(fault);
-    question.commands = slaves == 1 ? 3 : 1;
-    question.states = options_.states;
-    const auto key = std::pair(question.variant, question.slaves);
-    const auto known = explored_.find(key);
-    return known != explored_.end() ? known->second : explored_.emplace(key, explored(question)).first->second;
+    if (slaves > explore::most_slaves) return unknown("at most " + std::to_string(explore::most_slaves) + " slaves can be explored");
+    if (program->description->subscription != scenario::Subscription::star) return unknown("takt explore --subscription all-to-all looks at it");
+    return invariants_of(*program);
   }
 
-  Proved explored(const explore::Question& question) const {
+  /// Explores what the scenario can bring about: from any state in which the group rests, as many calls and faults as come before it rests again.
+  Proof invariants_of(const scenario::ResolvedProgram& program) {
+    explore::Question question;
+    question.variant = program.description->variant == scenario::Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
+    question.slaves = static_cast<std::uint8_t>(program.participants.size() - 1);
+    const analysis::EventsInARow row = analysis::events_in_a_row(resolved_, bounds_, static_cast<std::size_t>(&program - resolved_.programs.data()));
+    question.commands = static_cast<std::uint32_t>(std::max<std::size_t>(1, row.calls));
+    question.fault_budget = static_cast<std::uint32_t>(row.faults);
+    for (const explore::Fault fault : {explore::Fault::crash, explore::Fault::restart})
+      if (row.faults > 0) question.faults.insert(fault);
+    question.states = options_.states;
+    if (question.commands > explore::most_commands || question.fault_budget > explore::most_faults)
+      return {{}, false, fmt::format("{} calls and {} faults come before the group is at rest, more than can be explored", row.calls, row.faults), {}, {}, {}};
+    Proof proof;
+    proof.assumptions.add(analysis::Assumption::nothing_else);
+    if (!resolved_.scenario.faults.empty()) proof.assumptions.add(analysis::Assumption::listed_faults_only);
+    for (const models::StreamIndex stream : program.state_streams) {
+      const analysis::StreamBound& state = bounds_.streams[stream.value];
+      proof.assumptions.add(state.assumptions);
+      if (!state.loses_nothing && !is_lost_with_its_ends(program, state)) proof.assumptions.add(analysis::Assumption::no_loss);
+      if (!is_heard_in_time(program, state)) {
+        proof.reason = "a participant may be taken for silent: the time-out " + std::to_string(program.receive_timeout.ps() / 1'000'000) + " us is not longer than a cycle and the bound of " + state.name;
+        return proof;
+      }
+    }
+    const auto key = std::tuple(question.variant, question.slaves, question.commands, question.fault_budget);
+    auto known = explored_.find(key);
+    if (known == explored_.end()) known = explored_.emplace(key, explored(question)).first;
+    proof.holds = known->second.holds;
+    proof.reason = known->second.reason;
+    proof.remark = known->second.remark;
+    return proof;
+  }
+
+  /// Nothing but crashes of participants loses its frames: that is what the explored crashes stand for.
+  bool is_lost_with_its_ends(const scenario::ResolvedProgram& program, const analysis::StreamBound& state) const {
+    return state.loses_by_faults_only && resolved_.plan.impairments.empty() && std::all_of(resolved_.script.begin(), resolved_.script.end(), [&](const scenario::ResolvedAction& action) {
+      const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what);
+      const bool is_participant = node != nullptr && std::find(program.participants.begin(), program.participants.end(), node->node) != program.participants.end();
+      return is_participant || (node == nullptr && !std::holds_alternative<scenario::ResolvedLink>(action.what));
+    });
+  }
+
+  bool is_heard_in_time(const scenario::ResolvedProgram& program, const analysis::StreamBound& state) const {
+    if (!state.latency) return false;
+    const models::OsLatency& os = resolved_.plan.os_latencies[resolved_.plan.nodes[resolved_.plan.streams[state.index.value].talker.value].os_latency];
+    // Clocks are never so bad that a time-out is a tenth shorter, or a cycle a tenth longer.
+    const std::int64_t longest = program.description->cycle.ps() + program.description->cycle.ps() / 10 + (*state.latency - state.least).ps() + os.wake_up.greatest().ps();
+    return longest < program.receive_timeout.ps() - program.receive_timeout.ps() / 10;
+  }
+
+  Proof explored(const explore::Question& question) const {
     const explore::Answer answer = explore::explore(question, [&](const auto&...) { return !options_.interrupted || !options_.interrupted(); });
-    Proved proved;
+    Proof proof;
     for (const explore::Property property : {explore::Property::S1, explore::Property::S2, explore::Property::S3, explore::Property::S4, explore::Property::S5})
       if (answer[property] == explore::Verdict::violated)
-        proved.reason = "takt explore finds a run that violates " + std::string(explore::name_of(property)) + ", though perhaps not with this script";
-    if (!proved.reason.empty()) return proved;
+        proof.reason = "takt explore finds a run that violates " + std::string(explore::name_of(property)) + ", though perhaps not with this script";
+    if (!proof.reason.empty()) return proof;
     if (!answer.exhausted) {
-      proved.reason = std::to_string(answer.states) + " states of the handshake were looked at, not all; takt explore takes the time";
-      return proved;
+      proof.reason = fmt::format("{} states of the handshake were looked at, not all; takt explore takes the time", answer.states);
+      return proof;
     }
-    proved.holds = true;
-    proved.assumptions.push_back("the invariants were explored for at most " + std::to_string(question.commands) + " calls and one fault of the network or a participant in a row (" +
-                                 std::to_string(answer.states) + " states)");
-    return proved;
+    proof.holds = true;
+    proof.remark = fmt::format("explored: {} states, {} call{} and {} fault{} before the group rests", answer.states, question.commands, question.commands == 1 ? "" : "s",
+                               question.fault_budget, question.fault_budget == 1 ? "" : "s");
+    return proof;
   }
 
   const scenario::Resolved& resolved_;
   const ProofOptions& options_;
-  analysis::Bounds bounds_;
-  std::map<std::pair<handshake::Variant, std::uint8_t>, Proved> explored_;
+  const analysis::Bounds& bounds_;
+  std::map<std::tuple<handshake::Variant, std::uint8_t, std::uint32_t, std::uint32_t>, Proof> explored_;
 };
 
 }  // namespace
 
-std::vector<Proved> prove(const scenario::Resolved& resolved, const std::vector<RequirementResult>& requirements, const ProofOptions& options) {
-  Prover prover(resolved, options);
-  std::vector<Proved> proofs;
-  std::size_t limit = 0;
-  for (const RequirementResult& requirement : requirements) {
-    proofs.push_back(prover.of(requirement, limit));
-    limit += is_bounded(requirement.kind) ? 1 : 0;
-  }
+std::vector<Proof> prove(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const std::vector<RequirementResult>& requirements, const ProofOptions& options) {
+  Prover prover(resolved, bounds, options);
+  std::vector<Proof> proofs;
+  for (const RequirementResult& requirement : requirements) proofs.push_back(prover.of(requirement));
   return proofs;
 }
 

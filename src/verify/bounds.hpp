@@ -7,17 +7,20 @@
 #include <string>
 #include <vector>
 
+#include "analysis/bounds.hpp"
 #include "results/run_result.hpp"
 #include "scenario/resolve/resolved.hpp"
 
 namespace takt::verify {
 
-/// What no run that the scenario allows exceeds.
-struct Proved {
+/// What no run that the scenario allows exceeds, as long as what it rests on holds.
+struct Proof {
   std::optional<sim::Duration> time;        ///< of requirements about times
-  bool holds = false;                       ///< of the others: they are always met
+  bool holds = false;                       ///< the requirement is always met
   std::string reason;                       ///< why nothing is proved, else empty
-  std::vector<std::string> assumptions;     ///< what the proof rests on
+  std::string remark;                       ///< how it is proved, where that is no bound
+  analysis::Assumptions assumptions;        ///< what the proof rests on; the ledger says whether it stands
+  sim::Duration from;                       ///< since the start: the requirement counts from then on
 };
 
 struct ProofOptions {
@@ -25,7 +28,7 @@ struct ProofOptions {
   std::function<bool()> interrupted;
 };
 
-/// By requirement.
-std::vector<Proved> prove(const scenario::Resolved& resolved, const std::vector<results::RequirementResult>& requirements, const ProofOptions& options);
+/// By requirement. `bounds` are those of the scenario.
+std::vector<Proof> prove(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const std::vector<results::RequirementResult>& requirements, const ProofOptions& options);
 
 }  // namespace takt::verify

@@ -11,7 +11,7 @@
 
 namespace takt::verify {
 
-std::optional<Probe> probe(const scenario::Scenario& scenario, const std::function<bool()>& interrupted) {
+std::optional<Probe> probe(const scenario::Scenario& scenario, const analysis::Bounds& bounds, const std::function<bool()>& interrupted) {
   scenario::json::Diagnostics diagnostics;
   const auto resolved = scenario::resolve(scenario, diagnostics);
   if (!resolved) return std::nullopt;
@@ -19,17 +19,20 @@ std::optional<Probe> probe(const scenario::Scenario& scenario, const std::functi
   constexpr std::uint64_t events_a_slice = 500'000;
   while (!run.advance(events_a_slice))
     if (interrupted && interrupted()) return std::nullopt;
-  return Probe{results::evaluate(run, false).requirements, run.simulation().event_count(), run.simulation().digest().value()};
+  results::RunResult result = results::evaluate(run, false);
+  std::vector<Violation> violations = violations_in(run, result);
+  std::string contradiction = contradiction_in(*resolved, bounds, result);
+  return Probe{std::move(result.requirements), run.simulation().event_count(), run.simulation().digest().value(), std::move(violations), std::move(contradiction)};
 }
 
-std::vector<std::optional<Probe>> probe_all(std::span<const scenario::Scenario> scenarios, unsigned jobs, const std::function<bool()>& interrupted) {
+std::vector<std::optional<Probe>> probe_all(std::span<const scenario::Scenario> scenarios, const analysis::Bounds& bounds, unsigned jobs, const std::function<bool()>& interrupted) {
   std::vector<std::optional<Probe>> probes(scenarios.size());
   std::vector<std::exception_ptr> failures(scenarios.size());
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < scenarios.size(); i = next++) {
       try {
-        probes[i] = probe(scenarios[i], interrupted);
+        probes[i] = probe(scenarios[i], bounds, interrupted);
       } catch (...) {
         failures[i] = std::current_exception();
       }

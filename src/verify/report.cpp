@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "scenario/json/node.hpp"
 #include "scenario/json/quantity.hpp"
@@ -27,20 +26,49 @@ std::string figure(const std::optional<Duration>& time) {
 Node picoseconds(const std::optional<Duration>& time) { return time ? Node::of_integer(time->ps()) : Node(); }
 Node number(std::uint64_t value) { return Node::of_integer(static_cast<std::int64_t>(value)); }
 
-/// In which the sandwich is ordered: 8 columns would not fit, so each requirement has two lines.
+/// Eight columns would not fit, so each requirement has several lines.
 std::string line_text(const Line& line, const std::string& file) {
   std::string out = fmt::format("  {:<9}  {}\n", name_of(line.verdict), line.requirement.text);
   if (line.requirement.limit)
     out += fmt::format("             simulated {} <= adversarial {} <= bound {}; limit {}{}\n", figure(line.simulated), figure(line.adversarial), figure(line.bound),
                        figure(line.requirement.limit), line.tightness() ? fmt::format("; tightness {:.0f} %", 100 * *line.tightness()) : "");
   if (!line.reason.empty() && line.verdict != Verdict::pass) out += fmt::format("             {}\n", line.reason);
+  if (!line.remark.empty() && line.verdict == Verdict::pass) out += fmt::format("             {}\n", line.remark);
   if (!file.empty()) out += fmt::format("             replay: takt run {}\n", file);
   return out;
 }
 
+/// What only the plant can keep, of all that is proved.
+std::string conditions_text(const Verification& verification) {
+  analysis::Assumptions needed;
+  for (const Line& line : verification.lines)
+    if (line.verdict == Verdict::pass) needed.add(line.assumptions);
+  std::string out;
+  for (const analysis::Assumption assumption : needed.list())
+    if (verification.ledger[assumption].standing == analysis::Standing::condition) out += "  - " + verification.ledger[assumption].text + "\n";
+  return out.empty() ? out : "\nConditions of what is proved, which only the plant can keep:\n" + out;
+}
+
+std::string contradiction_text(const Contradiction& contradiction, const Witnesses& witnesses) {
+  std::string out = "\nCONTRADICTION: " + contradiction.text + ".\nThis is a mistake of takt; nothing above is to be trusted.\n";
+  if (!witnesses.run.empty()) out += "Please send in " + witnesses.run + ", which replays the run, and " + witnesses.bound + ", whose bound it is.\n";
+  return out;
+}
+
+Node assumption_node(analysis::Assumption assumption, const analysis::AssumptionLedger& ledger) {
+  const analysis::AssessedAssumption& each = ledger[assumption];
+  Node node = Node::object();
+  node.add("name", Node::of_string(analysis::name_of(assumption)));
+  node.add("text", Node::of_string(each.text));
+  node.add("standing", Node::of_string(analysis::name_of(each.standing)));
+  node.add("why", each.why.empty() ? Node() : Node::of_string(each.why));
+  node.add("holds_from_ps", Node::of_integer(each.holds_from.ps()));
+  return node;
+}
+
 }  // namespace
 
-std::string text_report(const std::string& scenario, const Verification& verification, const std::vector<std::string>& files) {
+std::string text_report(const std::string& scenario, const Verification& verification, const std::vector<std::string>& files, const Witnesses& witnesses) {
   std::string out = fmt::format("{}: {} of {} requirements proved, {} runs{}\n\n", scenario,
                                 std::count_if(verification.lines.begin(), verification.lines.end(), [](const Line& line) { return line.verdict == Verdict::pass; }),
                                 verification.lines.size(), verification.runs, verification.partial ? ", interrupted" : "");
@@ -52,17 +80,12 @@ std::string text_report(const std::string& scenario, const Verification& verific
       out += fmt::format("  {} within {}\n", verification.freedoms[i].name, figure(verification.freedoms[i].range));
     if (verification.freedoms.size() > most) out += fmt::format("  and {} more\n", verification.freedoms.size() - most);
   }
-  std::vector<std::string> assumptions;
-  std::set<std::string> seen;
-  for (const Line& line : verification.lines)
-    for (const std::string& assumption : line.assumptions)
-      if (seen.insert(assumption).second) assumptions.push_back(assumption);
-  if (!assumptions.empty()) out += "\nThe bounds rest on:\n";
-  for (const std::string& assumption : assumptions) out += "  - " + assumption + "\n";
+  out += conditions_text(verification);
+  if (verification.contradiction) out += contradiction_text(*verification.contradiction, witnesses);
   return out + fmt::format("\n{}: {}\n", scenario, name_of(verification.verdict()));
 }
 
-std::string json_report(const std::string& scenario, const Verification& verification, const std::vector<std::string>& files) {
+std::string json_report(const std::string& scenario, const Verification& verification, const std::vector<std::string>& files, const Witnesses& witnesses) {
   Node root = Node::object();
   root.add("scenario", Node::of_string(scenario));
   root.add("verdict", Node::of_string(name_of(verification.verdict())));
@@ -76,6 +99,7 @@ std::string json_report(const std::string& scenario, const Verification& verific
     open.items.push_back(std::move(node));
   }
   root.add("free", std::move(open));
+  analysis::Assumptions needed;
   Node requirements = Node::array();
   for (std::size_t i = 0; i < verification.lines.size(); ++i) {
     const Line& line = verification.lines[i];
@@ -90,13 +114,23 @@ std::string json_report(const std::string& scenario, const Verification& verific
     node.add("runs", number(line.runs));
     node.add("exhaustive", Node::of_bool(line.exhaustive));
     node.add("reason", line.reason.empty() ? Node() : Node::of_string(line.reason));
+    node.add("remark", line.remark.empty() ? Node() : Node::of_string(line.remark));
     Node assumptions = Node::array();
-    for (const std::string& assumption : line.assumptions) assumptions.items.push_back(Node::of_string(assumption));
+    for (const analysis::Assumption assumption : line.assumptions.list()) assumptions.items.push_back(Node::of_string(analysis::name_of(assumption)));
+    needed.add(line.assumptions);
     node.add("assumptions", std::move(assumptions));
     node.add("file", files[i].empty() ? Node() : Node::of_string(files[i]));
     requirements.items.push_back(std::move(node));
   }
   root.add("requirements", std::move(requirements));
+  Node& assumptions = root.add("assumptions", Node::array());
+  for (const analysis::Assumption assumption : needed.list()) assumptions.items.push_back(assumption_node(assumption, verification.ledger));
+  if (verification.contradiction) {
+    Node& contradiction = root.add("contradiction", Node::object());
+    contradiction.add("text", Node::of_string(verification.contradiction->text));
+    contradiction.add("run", Node::of_string(witnesses.run));
+    contradiction.add("bound", Node::of_string(witnesses.bound));
+  }
   return scenario::json::pretty(root);
 }
 

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 
-#include "scenario/json/quantity.hpp"
-
 namespace takt::verify {
 
 const char* name_of(Verdict verdict) {
-  constexpr const char* names[] = {"pass", "refuted", "undecided"};
+  constexpr const char* names[] = {"pass", "refuted", "undecided", "contradiction"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
@@ -17,6 +15,7 @@ std::optional<double> Line::tightness() const {
 }
 
 Verdict Verification::verdict() const {
+  if (contradiction) return Verdict::contradiction;
   Verdict worst = partial ? Verdict::undecided : Verdict::pass;
   for (const Line& line : lines) {
     if (line.verdict == Verdict::refuted) return Verdict::refuted;
@@ -27,48 +26,59 @@ Verdict Verification::verdict() const {
 
 namespace {
 
-Line line_of(const Finding& finding, const Proved& proved) {
+/// The one place that says pass: the proof holds, and so does all that it rests on.
+Line line_of(const Finding& finding, const Proof& proof, const analysis::AssumptionLedger& ledger) {
   Line line;
   line.requirement = finding.requirement;
   line.simulated = finding.simulated;
   line.adversarial = finding.worst.measured;
-  line.bound = proved.time;
-  line.reason = proved.reason;
-  line.assumptions = proved.assumptions;
+  const std::string objection = ledger.objection(proof.assumptions, proof.from);
+  if (objection.empty()) line.bound = proof.time;   // what does not stand is no bound
+  line.reason = proof.reason;
+  line.remark = proof.remark;
+  line.assumptions = proof.assumptions;
   line.worst = finding.worst.scenario;
   line.runs = finding.runs;
   line.exhaustive = finding.exhaustive;
-  const bool is_proved = proved.time ? finding.requirement.limit && *proved.time <= *finding.requirement.limit : proved.holds;
   if (finding.worst.failed)
     line.verdict = Verdict::refuted;
-  else if (is_proved)
+  else if (proof.holds && objection.empty())
     line.verdict = Verdict::pass;
-  const bool exceeds = proved.time && finding.requirement.limit && *proved.time > *finding.requirement.limit;
-  if (exceeds && line.reason.empty()) line.reason = finding.worst.failed ? "a run exceeds the limit" : "no run that was found exceeds the limit, but the bound does";
+  if (line.bound && line.requirement.limit && *line.bound > *line.requirement.limit)
+    line.reason = finding.worst.failed ? "a run exceeds the limit" : "no run that was found exceeds the limit, but the bound does";
+  if ((proof.holds || proof.time) && !objection.empty()) line.reason = objection;
   return line;
 }
 
-/// A run that no bound allows; empty if there is none.
-std::string contradiction_of(const Line& line) {
-  if (line.bound && line.adversarial && *line.adversarial > *line.bound)
-    return line.requirement.text + ": a run took " + scenario::json::to_text(*line.adversarial) + ", the bound is " + scenario::json::to_text(*line.bound);
-  return {};
+/// A requirement that is proved discharges what it says for others; one that a run refutes withdraws it.
+void settle(analysis::AssumptionLedger& ledger, const std::vector<Violation>& violations) {
+  for (const Violation& violation : violations) ledger.violate(violation.assumption, violation.witness);
+}
+
+/// A proof that stands, of a requirement that a run has failed.
+std::optional<Contradiction> contradiction_of(const Line& line, const Finding& finding, const Proof& proof, const analysis::AssumptionLedger& ledger) {
+  if (line.verdict != Verdict::refuted || !proof.holds || !ledger.objection(proof.assumptions, proof.from).empty()) return std::nullopt;
+  return Contradiction{line.requirement.text + ": a run fails what is proved", finding.worst.scenario};
 }
 
 }  // namespace
 
 Verification verify(const scenario::Resolved& resolved, const Options& options) {
   Verification result;
-  Search found = search(resolved, options.search);
+  const analysis::Bounds bounds = analysis::bound(resolved);
+  Search found = search(resolved, bounds, options.search);
   result.freedoms = std::move(found.freedoms);
   result.runs = found.runs;
   result.partial = found.partial;
+  result.contradiction = std::move(found.contradiction);
+  result.ledger = bounds.ledger;
+  settle(result.ledger, found.violations);
   std::vector<results::RequirementResult> requirements;
   for (const Finding& finding : found.findings) requirements.push_back(finding.requirement);
-  const std::vector<Proved> proofs = prove(resolved, requirements, options.proof);
+  const std::vector<Proof> proofs = prove(resolved, bounds, requirements, options.proof);
   for (std::size_t i = 0; i < found.findings.size(); ++i) {
-    result.lines.push_back(line_of(found.findings[i], proofs[i]));
-    if (result.contradiction.empty()) result.contradiction = contradiction_of(result.lines.back());
+    result.lines.push_back(line_of(found.findings[i], proofs[i], result.ledger));
+    if (!result.contradiction) result.contradiction = contradiction_of(result.lines.back(), found.findings[i], proofs[i], result.ledger);
   }
   return result;
 }

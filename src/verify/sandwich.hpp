@@ -11,9 +11,10 @@
 namespace takt::verify {
 
 enum class Verdict : std::uint8_t {
-  pass,       ///< proved: no run that the scenario allows exceeds the limit
-  refuted,    ///< there is a run that exceeds it
-  undecided,  ///< no run was found, and none is excluded
+  pass,           ///< proved: no run that the scenario allows exceeds the limit, and all that the proof rests on stands
+  refuted,        ///< there is a run that exceeds it
+  undecided,      ///< no run was found, and none is excluded
+  contradiction,  ///< a run exceeds what was proved: a mistake of takt, nothing here is to be trusted
 };
 const char* name_of(Verdict verdict);
 
@@ -24,7 +25,8 @@ struct Line {
   std::optional<sim::Duration> adversarial;
   std::optional<sim::Duration> bound;
   std::string reason;                       ///< why it is not proved
-  std::vector<std::string> assumptions;
+  std::string remark;                       ///< how it is proved, where that is no bound
+  analysis::Assumptions assumptions;        ///< what the bound or proof rests on
   scenario::Scenario worst;                 ///< replays the adversarial maximum
   std::uint64_t runs = 0;
   bool exhaustive = false;
@@ -34,12 +36,12 @@ struct Line {
 
 struct Verification {
   std::vector<Line> lines;
+  analysis::AssumptionLedger ledger;        ///< after proofs and runs
   std::vector<Freedom> freedoms;
   std::uint64_t runs = 0;
   bool partial = false;                     ///< interrupted: what has not been refuted or proved is undecided
-  /// A run above its bound, which is a mistake of takt; empty if there is none.
-  std::string contradiction;
-  Verdict verdict() const;                  ///< refuted if one is, else undecided if one is
+  std::optional<Contradiction> contradiction;
+  Verdict verdict() const;                  ///< contradiction if there is one, else refuted if one is, else undecided if one is
 };
 
 struct Options {

@@ -52,7 +52,7 @@ inline Verdict judge(const scenario::Run& run, const Bounds& bounds) {
   for (std::size_t s = 0; s < bounds.streams.size(); ++s) {
     const models::Stream& stream = run.network().traffic().streams()[s];
     const StreamBound& bound = bounds.streams[s];
-    if (bound.loses_nothing && bound.latency && !bound.assumptions.contains(Assumption::no_fault) && stream.dropped_in_all() > 0)
+    if (bound.loses_nothing && bound.latency && stream.dropped_in_all() > 0)
       verdict.violations.push_back(bound.name + ": " + std::to_string(stream.dropped_in_all()) + " frames dropped of a stream that loses none");
     if (stream.latency.empty()) continue;
     ++(bound.latency ? verdict.compared : verdict.unbounded);

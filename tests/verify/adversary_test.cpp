@@ -33,21 +33,21 @@ std::string two_talkers(const std::string& bulk = {}) {
 
 TEST(Adversary, MeetsAFrameThatHasJustBegun) {
   const auto scenario = resolved(two_talkers());
-  const Search found = search(*scenario, {});
+  const Search found = search(*scenario, analysis::bound(*scenario), {});
   ASSERT_EQ(found.findings.size(), 1u);
   const Finding& finding = found.findings[0];
   // As it is both begin at 0 and the long one comes later. At worst it has begun 1 ns before: 8 + 1400 + 28 + 18 + 4 + 12 octets of 8 ns.
   const Duration alone = *finding.simulated;
   EXPECT_EQ(*finding.worst.measured, alone + 1470 * 8_ns - 1_ns);
   EXPECT_TRUE(finding.exhaustive);
-  const std::optional<Probe> again = probe(finding.worst.scenario, {});
+  const std::optional<Probe> again = probe(finding.worst.scenario, {}, {});
   ASSERT_TRUE(again);
   EXPECT_EQ(again->requirements[0].measured, finding.worst.measured);
 }
 
 TEST(Adversary, LeavesAloneWhatThePlantPromises) {
   const auto scenario = resolved(two_talkers(R"(, "offset": "500us")"));
-  const Search found = search(*scenario, {});
+  const Search found = search(*scenario, analysis::bound(*scenario), {});
   ASSERT_EQ(found.freedoms.size(), 1u);
   EXPECT_EQ(found.freedoms[0].name, "phase of urgent");
   EXPECT_EQ(found.findings[0].worst.scenario.streams[1].offset, 500_us);
@@ -64,7 +64,7 @@ const char* const halted = R"({"name": "halted", "duration": "1s",
 
 TEST(Adversary, CallsJustBehindAPublication) {
   const auto scenario = resolved(halted);
-  const Search found = search(*scenario, {});
+  const Search found = search(*scenario, analysis::bound(*scenario), {});
   const Duration network = *found.findings[0].simulated;   // as it is, the call comes with the publication
   EXPECT_LT(network, 10_us);
   EXPECT_GE(*found.findings[0].worst.measured, 200_us - 1_ns);
@@ -76,9 +76,9 @@ TEST(Adversary, TheSameForAnyNumberOfJobs) {
   const auto scenario = resolved(halted);
   SearchOptions options;
   options.events = 400'000;
-  const Search alone = search(*scenario, options);
+  const Search alone = search(*scenario, analysis::bound(*scenario), options);
   options.jobs = 3;
-  const Search together = search(*scenario, options);
+  const Search together = search(*scenario, analysis::bound(*scenario), options);
   EXPECT_EQ(alone.runs, together.runs);
   for (std::size_t i = 0; i < alone.findings.size(); ++i) {
     EXPECT_EQ(alone.findings[i].worst.measured, together.findings[i].worst.measured);
@@ -91,7 +91,7 @@ TEST(Adversary, CanBeInterrupted) {
   SearchOptions options;
   int asked = 0;
   options.interrupted = [&] { return ++asked > 5; };
-  const Search found = search(*scenario, options);
+  const Search found = search(*scenario, analysis::bound(*scenario), options);
   EXPECT_TRUE(found.partial);
   EXPECT_EQ(found.findings.size(), 2u);
 }

@@ -1,0 +1,129 @@
+#include "analysis/assessment.hpp"
+
+#include <algorithm>
+
+#include "analysis/outages.hpp"
+#include "scenario/json/quantity.hpp"
+
+namespace takt::analysis {
+namespace {
+
+using scenario::json::to_text;
+using sim::Duration;
+
+class Assessor {
+ public:
+  Assessor(const scenario::Resolved& r, const FlowGraph& graph, const BoundOptions& options) : r_(r), graph_(graph), options_(options) {}
+
+  AssumptionLedger run() {
+    assess_clocks();
+    assess_gates();
+    assess_disturbances();
+    assess_beginning();
+    return std::move(ledger_);
+  }
+
+ private:
+  const std::string& name_of(models::NodeIndex node) const { return r_.plan.nodes[node.value].name; }
+  bool happens(const scenario::ResolvedAction& action) const { return action.at.since_start() < r_.scenario.duration; }
+
+  void assess_clocks() {
+    if (r_.plan.gptp.empty()) return;
+    const ClockPremise premise = clock_premise(r_, options_);
+    const std::string text = "clocks within " + to_text(premise.error);
+    ledger_.state(Assumption::clock_error, premise.after > Duration() ? text + " from " + to_text(premise.after) + " on" : text, premise.after);
+    if (!premise.requirement)
+      ledger_.leave_open(Assumption::clock_error, "no requirement \"sync\" says how good the clocks are, and since when");
+    else
+      ledger_.leave_open(Assumption::clock_error, "synchronisation is simulated, not bounded");
+  }
+
+  void assess_gates() {
+    const Duration begin = first_instant_of_all_gates(r_);
+    ledger_.state(Assumption::gates_in_force, "gate lists run", begin);
+    ledger_.discharge(Assumption::gates_in_force, "their base times");
+    Duration changed;
+    for (const scenario::ResolvedAction& action : r_.script) {
+      const auto* const gates = std::get_if<scenario::ResolvedGates>(&action.what);
+      if (gates == nullptr || !happens(action)) continue;
+      changed = std::max({changed, action.at.since_start(), gates->gates.admin_base_time.since_start()});
+    }
+    ledger_.state(Assumption::gates_do_not_change, "no gate list is exchanged", changed);
+    ledger_.discharge(Assumption::gates_do_not_change, "the script");
+  }
+
+  /// What is over at some instant is no disturbance from then on.
+  void assess_disturbances() {
+    Duration over;
+    std::vector<std::tuple<std::uint32_t, std::uint16_t, models::TrafficClass>> stuck;
+    for (const scenario::ResolvedAction& action : r_.script) {
+      if (!happens(action)) continue;
+      if (const auto* const gate = std::get_if<scenario::ResolvedStuckGate>(&action.what)) {
+        over = std::max(over, action.at.since_start());
+        const std::tuple place(gate->node.value, gate->port, gate->traffic_class);
+        std::erase(stuck, place);
+        if (gate->open) stuck.push_back(place);
+      }
+      if (const auto* const fault = std::get_if<scenario::ResolvedClockFault>(&action.what)) {
+        over = std::max(over, action.at.since_start());
+        if (fault->offset) ledger_.violate(Assumption::no_disturbance, "the clock of " + name_of(fault->node) + " gets another frequency at " + to_text(action.at.since_start()));
+      }
+    }
+    ledger_.state(Assumption::no_disturbance, "no gate is stuck, no clock jumps, no frame goes in circles", over);
+    if (!stuck.empty()) {
+      const auto& [node, port, traffic_class] = stuck.front();
+      ledger_.violate(Assumption::no_disturbance, "the gate of class " + std::to_string(traffic_class) + " at " + name_of(models::NodeIndex{node}) + ":" + std::to_string(port) + " is stuck to the end");
+    }
+    if (!graph_.uncertain_paths.empty())
+      ledger_.violate(Assumption::no_disturbance, "while the network is rerouted, frames of " + graph_.uncertain_paths.front() + " may go in circles, or on too many ways to look at");
+    ledger_.discharge(Assumption::no_disturbance, "the scenario");
+  }
+
+  void assess_beginning() {
+    Duration last;
+    for (const Assumption each : {Assumption::clock_error, Assumption::gates_in_force, Assumption::gates_do_not_change, Assumption::no_disturbance})
+      if (graph_.assumptions.contains(each)) last = std::max(last, ledger_[each].holds_from);
+    if (last == Duration()) {
+      ledger_.discharge(Assumption::drained, "everything holds from the start");
+      return;
+    }
+    ledger_.state(Assumption::drained, "what was sent before " + to_text(last) + " has left the network", last);
+    ledger_.leave_open(Assumption::drained, "how long that takes is not bounded");
+  }
+
+  const scenario::Resolved& r_;
+  const FlowGraph& graph_;
+  const BoundOptions& options_;
+  AssumptionLedger ledger_;
+};
+
+}  // namespace
+
+ClockPremise clock_premise(const scenario::Resolved& resolved, const BoundOptions& options) {
+  ClockPremise premise{options.clock_error, Duration(), std::nullopt};
+  const auto& require = resolved.scenario.require;
+  for (std::size_t i = 0; i < require.size(); ++i) {
+    if (!require[i].sync || require[i].node) continue;
+    // The weakest one is a consequence of each of the others, from whenever that holds.
+    premise.after = premise.requirement ? std::min(premise.after, require[i].after) : require[i].after;
+    if (!premise.requirement || *require[i].sync > premise.error) {
+      premise.error = *require[i].sync;
+      premise.requirement = i;
+    }
+  }
+  return premise;
+}
+
+Duration first_instant_of_all_gates(const scenario::Resolved& resolved) {
+  Duration begin;
+  for (const models::PortConfig& config : resolved.plan.port_configs)
+    if (config.shaping.gates) begin = std::max(begin, config.shaping.gates->admin_base_time.since_start());
+  for (const models::IngressConfig& ingress : resolved.plan.ingress_configs)
+    for (const models::StreamGateConfig& gate : ingress.stream_gates)
+      if (!gate.admin_control_list.empty()) begin = std::max(begin, gate.admin_base_time.since_start());
+  return begin;
+}
+
+AssumptionLedger assess(const scenario::Resolved& resolved, const FlowGraph& graph, const BoundOptions& options) { return Assessor(resolved, graph, options).run(); }
+
+}  // namespace takt::analysis

@@ -1,0 +1,26 @@
+// Which assumptions of bounds the scenario itself discharges, leaves open or contradicts.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "analysis/assumption_ledger.hpp"
+#include "analysis/bounds.hpp"
+#include "analysis/flow_graph.hpp"
+
+namespace takt::analysis {
+
+/// How good the clocks are that gPTP holds together, and who says so.
+struct ClockPremise {
+  sim::Duration error;
+  sim::Duration after;                       ///< since the start
+  std::optional<std::size_t> requirement;    ///< in Scenario::require; nothing: BoundOptions::clock_error
+};
+ClockPremise clock_premise(const scenario::Resolved& resolved, const BoundOptions& options);
+
+/// From when on every gate list of the scenario runs that it does not exchange later; 0 if all do from the start.
+sim::Duration first_instant_of_all_gates(const scenario::Resolved& resolved);
+
+AssumptionLedger assess(const scenario::Resolved& resolved, const FlowGraph& graph, const BoundOptions& options);
+
+}  // namespace takt::analysis

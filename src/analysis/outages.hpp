@@ -1,0 +1,40 @@
+// What the faults of a scenario take away: links that go down, nodes that crash, and where rerouting may lead frames meanwhile.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/resolve/resolved.hpp"
+
+namespace takt::analysis {
+
+/// Within the simulated time; what the script does at its end or later is left out.
+class Outages {
+ public:
+  explicit Outages(const scenario::Resolved& resolved);
+
+  bool any() const { return any_; }
+  /// The link, or one of its ends, is down at some time.
+  bool takes_link(std::uint32_t link) const { return links_[link]; }
+  bool takes_node(models::NodeIndex node) const { return nodes_[node.value]; }
+
+ private:
+  bool any_ = false;
+  std::vector<bool> links_;
+  std::vector<bool> nodes_;
+};
+
+/// A way that frames may take, and to which of the stream's listeners.
+struct PossiblePath {
+  scenario::Path path;
+  std::size_t listener = 0;
+};
+
+/// All ways that the frames of a stream may take over the run, if rerouting changes filtering entries of it: those of each configuration, and those that begin in one
+/// and end in a later one, since frames are under way when entries change. Empty if nothing changes for the stream; nothing at all if a frame may go in circles, or the
+/// ways are too many to look at.
+std::optional<std::vector<PossiblePath>> rerouted_paths(const scenario::Resolved& resolved, const scenario::ResolvedStream& stream);
+
+}  // namespace takt::analysis

@@ -1,0 +1,107 @@
+#include "analysis/program_assessment.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace takt::analysis {
+namespace {
+
+using sim::Duration;
+
+/// What a participant that publishes on change may publish in a cycle besides the cyclic word: its intent and three states of a start. One call or fault in
+/// a row brings no more.
+constexpr std::size_t most_events_in_a_cycle = 1;
+
+struct Event {
+  sim::TrueTime at;
+  bool is_call = false;
+};
+
+bool takes_part(const scenario::ResolvedProgram& program, models::NodeIndex node) {
+  return std::find(program.participants.begin(), program.participants.end(), node) != program.participants.end() ||
+         std::any_of(program.candidates.begin(), program.candidates.end(), [&](const scenario::ResolvedCandidate& candidate) { return candidate.node == node; });
+}
+
+/// A call or fault of one group of a tree moves the others.
+std::size_t root_of(const scenario::Resolved& r, std::size_t program) {
+  while (r.programs[program].outer) program = r.programs[program].outer->program;
+  return program;
+}
+
+std::vector<Event> events_of(const scenario::Resolved& r, std::size_t program) {
+  std::vector<Event> events;
+  const auto is_near = [&](std::size_t other) { return root_of(r, other) == root_of(r, program); };
+  for (const scenario::ResolvedAction& action : r.script) {
+    if (action.at.since_start() >= r.scenario.duration) continue;
+    if (const auto* const call = std::get_if<scenario::ResolvedCall>(&action.what); call != nullptr && is_near(call->program)) events.push_back({action.at, true});
+    if (const auto* const plug = std::get_if<scenario::ResolvedPlug>(&action.what); plug != nullptr && is_near(plug->program)) events.push_back({action.at, false});
+    if (const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what)) {
+      bool is_here = false;
+      for (std::size_t p = 0; p < r.programs.size(); ++p) is_here = is_here || (is_near(p) && takes_part(r.programs[p], node->node));
+      if (is_here) events.push_back({action.at, false});
+    }
+  }
+  std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
+  return events;
+}
+
+/// From any call or fault to the last transition that it brings about.
+std::optional<Duration> time_to_rest(const scenario::Resolved& r, const Bounds& bounds, std::size_t program) {
+  Duration longest;
+  const std::size_t root = root_of(r, program);
+  for (const ReactionBound& reaction : bounds.reactions) {
+    if (root_of(r, reaction.program) != root) continue;
+    if (!reaction.bound || !bounds.ledger.refutation(reaction.assumptions).empty()) return std::nullopt;
+    longest = std::max(longest, *reaction.bound);
+  }
+  for (const SilenceBound& silence : bounds.silences) {
+    if (root_of(r, silence.program) != root) continue;
+    if (!silence.bound) return std::nullopt;
+    longest = std::max(longest, *silence.bound);
+  }
+  return longest;
+}
+
+EventsInARow most_in_a_row(const std::vector<Event>& events, std::optional<Duration> rest) {
+  EventsInARow most;
+  EventsInARow now;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (i > 0 && rest && events[i].at - events[i - 1].at > *rest) now = {};
+    ++(events[i].is_call ? now.calls : now.faults);
+    most.calls = std::max(most.calls, now.calls);
+    most.faults = std::max(most.faults, now.faults);
+  }
+  return most;
+}
+
+}  // namespace
+
+EventsInARow events_in_a_row(const scenario::Resolved& resolved, const Bounds& bounds, std::size_t program) {
+  return most_in_a_row(events_of(resolved, program), time_to_rest(resolved, bounds, program));
+}
+
+void assess_programs(const scenario::Resolved& resolved, Bounds& bounds) {
+  bounds.ledger.leave_open(Assumption::sampled_states, "it depends on how calls meet");
+  bounds.ledger.discharge(Assumption::program_publishes, "calls and faults that are further apart than the group takes to come to rest");
+  for (std::size_t p = 0; p < resolved.programs.size(); ++p) {
+    const scenario::ResolvedProgram& program = resolved.programs[p];
+    for (const models::StreamIndex stream : program.state_streams)
+      if (const StreamBound& state = bounds.streams[stream.value]; !state.loses_nothing) bounds.ledger.leave_open(Assumption::no_loss, state.name + ": " + state.loss_reason);
+    if (program.has_roles() && !resolved.script.empty()) {
+      bounds.ledger.leave_open(Assumption::program_publishes, "who has a role in " + program.name + " is settled while it runs");
+      continue;
+    }
+    if (program.description->publish != scenario::Publish::on_change) continue;
+    const bool may_lose = std::any_of(program.state_streams.begin(), program.state_streams.end(), [&](models::StreamIndex stream) { return !bounds.streams[stream.value].loses_nothing; });
+    if (may_lose) bounds.ledger.leave_open(Assumption::program_publishes, "lost messages may halt " + program.name + " at any time");
+    std::optional<Duration> rest = time_to_rest(resolved, bounds, p);
+    if (rest) *rest += program.description->cycle;
+    const EventsInARow row = most_in_a_row(events_of(resolved, p), rest);
+    if (!rest)
+      bounds.ledger.leave_open(Assumption::program_publishes, "reactions of " + program.name + " have no bound");
+    else if (row.calls + row.faults > most_events_in_a_cycle)
+      bounds.ledger.leave_open(Assumption::program_publishes, std::to_string(row.calls + row.faults) + " calls and faults of " + program.name + " come before it is at rest");
+  }
+}
+
+}  // namespace takt::analysis

@@ -1,0 +1,87 @@
+#include "verify/monitor.hpp"
+
+#include <algorithm>
+
+#include "analysis/assessment.hpp"
+#include "scenario/json/quantity.hpp"
+
+namespace takt::verify {
+namespace {
+
+using analysis::Assumption;
+using scenario::json::to_text;
+
+/// As Assumption::program_publishes has it.
+constexpr std::size_t most_changes_in_a_cycle = 4;
+
+std::string with_seed(const results::RunResult& result) { return " in a run with seed " + std::to_string(result.seed); }
+
+void look_at_clocks(const scenario::Resolved& resolved, const results::RunResult& result, std::vector<Violation>& found) {
+  const analysis::ClockPremise premise = analysis::clock_premise(resolved, {});
+  if (!premise.requirement) return;
+  for (const results::RequirementResult& each : result.requirements)
+    if (each.requirement == premise.requirement && each.verdict == results::Verdict::fail)
+      found.push_back({Assumption::clock_error, (each.measured ? to_text(*each.measured) : "no sample") + with_seed(result)});
+}
+
+void look_at_words(const scenario::Resolved& resolved, const results::RunResult& result, std::vector<Violation>& found) {
+  for (const scenario::ResolvedProgram& program : resolved.programs)
+    for (const models::StreamIndex stream : program.state_streams)
+      if (const results::StreamResult& state = result.streams[stream.value]; state.dropped_in_all() > 0)
+        found.push_back({Assumption::no_loss, std::to_string(state.dropped_in_all()) + " of " + state.name + " were lost" + with_seed(result)});
+}
+
+void look_at_changes(const scenario::Run& run, const results::RunResult& result, std::vector<Violation>& found) {
+  for (std::size_t p = 0; p < run.resolved().programs.size(); ++p) {
+    const scenario::ResolvedProgram& program = run.resolved().programs[p];
+    if (program.description->publish != scenario::Publish::on_change) continue;
+    for (std::size_t participant = 0; participant < program.participant_names.size(); ++participant) {
+      std::vector<sim::TrueTime> changes;
+      for (const scenario::StateRecord& record : run.monitor(p).history())
+        if (record.participant == participant) changes.push_back(record.time);
+      for (std::size_t i = most_changes_in_a_cycle; i < changes.size(); ++i)
+        if (changes[i] - changes[i - most_changes_in_a_cycle] < program.description->cycle)
+          found.push_back({Assumption::program_publishes, program.participant_names[participant] + " changes more often in a cycle at " + to_text(changes[i].since_start()) + with_seed(result)});
+    }
+  }
+}
+
+std::string exceeded(const std::string& what, sim::Duration seen, sim::Duration bound) { return what + ": a run took " + to_text(seen) + ", the bound is " + to_text(bound); }
+
+std::string contradiction_of_streams(const analysis::Bounds& bounds, const results::RunResult& result) {
+  for (const analysis::StreamBound& bound : bounds.streams) {
+    if (bound.index.value >= result.streams.size() || !bounds.ledger.objection(bound.assumptions, {}).empty()) continue;
+    const results::StreamResult& stream = result.streams[bound.index.value];
+    if (bound.latency && stream.latency && stream.latency->max > *bound.latency) return exceeded("latency of " + bound.name, stream.latency->max, *bound.latency);
+    if (bound.latency && stream.latency && stream.latency->min < bound.least) return exceeded("fastest frame of " + bound.name, stream.latency->min, bound.least);
+    if (bound.loses_nothing && stream.dropped_in_all() > 0) return bound.name + ": a run lost " + std::to_string(stream.dropped_in_all()) + " frames, though nothing can be lost";
+  }
+  return {};
+}
+
+std::string contradiction_of_requirements(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const results::RunResult& result) {
+  for (const analysis::Bounds::Requirement& each : bounds.requirements) {
+    const scenario::Requirement& requirement = resolved.scenario.require[each.requirement];
+    if (each.what != "reaction" || !each.bound.duration || !bounds.ledger.objection(each.bound.assumptions, requirement.after).empty()) continue;
+    for (const results::RequirementResult& seen : result.requirements)
+      if (seen.requirement == each.requirement && seen.measured && *seen.measured > *each.bound.duration) return exceeded(seen.text, *seen.measured, *each.bound.duration);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<Violation> violations_in(const scenario::Run& run, const results::RunResult& result) {
+  std::vector<Violation> found;
+  look_at_clocks(run.resolved(), result, found);
+  look_at_words(run.resolved(), result, found);
+  look_at_changes(run, result, found);
+  return found;
+}
+
+std::string contradiction_in(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const results::RunResult& result) {
+  std::string found = contradiction_of_streams(bounds, result);
+  return found.empty() ? contradiction_of_requirements(resolved, bounds, result) : found;
+}
+
+}  // namespace takt::verify

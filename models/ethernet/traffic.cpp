@@ -6,6 +6,15 @@
 
 namespace takt::models {
 
+StreamIndex Traffic::add_stream(Stream stream) {
+  const StreamIndex index{static_cast<std::uint32_t>(streams_.size())};
+  // What does not change from frame to frame is part of the place, so that it costs nothing.
+  stream.production = sim::Digest::key_of(static_cast<std::uint32_t>(Occurrence::produced),
+                                          sim::Content(index.value, stream.source.value, stream.destination.value, stream.vlan, stream.priority, stream.tagged).value());
+  streams_.push_back(std::move(stream));
+  return index;
+}
+
 FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::TrueTime now) {
   Stream& stream = streams_[index.value];
   const FrameIndex handle = frames_.allocate();
@@ -65,7 +74,7 @@ void Traffic::drop(FrameIndex index, DropReason reason, sim::ComponentId where, 
   ++streams_[frame.stream.value].dropped[static_cast<std::size_t>(reason)];
   simulation.digest().add(static_cast<std::uint32_t>(Occurrence::drop),
                           static_cast<std::uint64_t>(frame.stream.value) << 32 | where.index, simulation.now(),
-                          frame.sequence << 8 | static_cast<std::uint64_t>(reason));
+                          record_of(frame) ^ sim::mix64(static_cast<std::uint64_t>(reason) + 1));
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::drop), where, index.value,
                    static_cast<std::uint64_t>(reason)});

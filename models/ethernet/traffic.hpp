@@ -14,14 +14,16 @@ namespace takt::models {
 
 /// Kinds of digest records and of trace records that the network writes.
 enum class Occurrence : std::uint32_t {
-  delivery = 1,  ///< a frame reached a listener; what = sequence
-  drop = 2,      ///< a frame ended early; what = sequence and reason
-  produced = 3,  ///< an application handed a frame over (trace only)
+  delivery = 1,  ///< a frame reached a listener; what = sequence and instant of production (so its latency counts)
+  drop = 2,      ///< a frame ended early; what = sequence, instant of production and reason
+  produced = 3,  ///< an application handed a frame over; what = sequence, length and source
   started = 4,   ///< the first bit of the preamble leaves a port; see TransmissionDetail (trace only)
   enqueued = 5,  ///< a frame waits in a queue (trace only)
   cut = 6,       ///< the fragment under way ends after so many octets of the frame; its mCRC follows; see TransmissionDetail (trace only)
   resumed = 7,   ///< the first bit of the preamble of a continuation leaves a port; see TransmissionDetail (trace only)
   clock_step = 10,    ///< a servo has stepped a node's clock; what = the step (digest only)
+  clock_rate = 13,    ///< a servo has set the rate of a node's clock; what = the adjustment (digest only)
+  clock_message = 14,  ///< a gPTP message came to a node; what = its octets (digest only)
   gates_changed = 9,  ///< a port was told of other gates, or one of its gates breaks (trace only)
   received = 11,  ///< a frame reaches the applications of a host; what = frame, detail = stream and node (trace only)
   output_changed = 12,  ///< a digital output of an application changes; what = its number, detail = its level (trace only)
@@ -44,6 +46,7 @@ struct alignas(64) Stream {
   std::uint64_t sent = 0;          ///< frames produced by the talker
   std::uint64_t delivered = 0;     ///< frames handed to listeners
   std::uint64_t copies = 0;        ///< extra copies made by bridges for multicast
+  sim::Digest::Key production;     ///< of the records of its frames' production; made by Traffic::add_stream
   AddressIndex source;
   AddressIndex destination;
   Octets headers{0};               ///< octets between EtherType and payload (28 for UDP over IPv4)
@@ -72,10 +75,7 @@ struct alignas(64) Stream {
 
 class Traffic {
  public:
-  StreamIndex add_stream(Stream stream) {
-    streams_.push_back(std::move(stream));
-    return {static_cast<std::uint32_t>(streams_.size() - 1)};
-  }
+  StreamIndex add_stream(Stream stream);
   Stream& stream(StreamIndex index) { return streams_[index.value]; }
   const Stream& stream(StreamIndex index) const { return streams_[index.value]; }
   const std::vector<Stream>& streams() const { return streams_; }
@@ -85,7 +85,8 @@ class Traffic {
   Payload& payload(PayloadIndex index) { return payloads_[index]; }
   const Payload& payload(PayloadIndex index) const { return payloads_[index]; }
 
-  /// Makes a frame of the stream with a payload of that many octets, and counts it as sent.
+  /// Makes a frame of the stream with a payload of that many octets, and counts it as sent. Who calls it tells count_production() when
+  /// the frame is as it shall be.
   FrameIndex produce(StreamIndex stream, Octets payload, sim::TrueTime now);
   /// The same with octets, which are copied.
   FrameIndex produce(StreamIndex stream, std::span<const std::byte> payload, sim::TrueTime now);
@@ -108,6 +109,12 @@ class Traffic {
   /// Puts tags on or takes them off. Precondition: the record is not shared.
   void set_tags(FrameIndex index, bool tagged, bool r_tagged);
 
+  /// The frame was produced at this instant.
+  void count_production(const Frame& frame, sim::Simulation& simulation) const {
+    simulation.digest().add(streams_[frame.stream.value].production, frame.produced,
+                            sim::joined(frame.sequence, static_cast<std::uint64_t>(frame.length) << 32 | frame.source.value));
+  }
+
   /// The digest's key of deliveries of the stream at `listener`.
   static constexpr sim::Digest::Key delivery_key(StreamIndex stream, NodeIndex listener) {
     return sim::Digest::key_of(static_cast<std::uint32_t>(Occurrence::delivery), static_cast<std::uint64_t>(stream.value) << 32 | listener.value);
@@ -118,7 +125,7 @@ class Traffic {
     Stream& stream = streams_[frame.stream.value];
     ++stream.delivered;
     stream.latency.add(simulation.now() - frame.produced);
-    simulation.digest().add(listener, simulation.now(), frame.sequence);
+    simulation.digest().add(listener, simulation.now(), record_of(frame));
   }
 
   /// This copy of the frame ends here.
@@ -145,6 +152,8 @@ class Traffic {
 
  private:
   FrameIndex separate(FrameIndex index);
+  /// What a record of the end of a frame says of it.
+  static constexpr std::uint64_t record_of(const Frame& frame) { return sim::joined(frame.sequence, static_cast<std::uint64_t>(frame.produced.ps())); }
 
   std::vector<Stream> streams_;
   FramePool frames_;

@@ -153,6 +153,7 @@ void Station::hand_over(std::uint64_t argument) {
   // All nodes share the stream; each port numbers what it sends, so that it does not matter who sends first at an instant.
   traffic_->frame(frame).source = AddressIndex{node_.value};
   waiting.sequence = traffic_->frame(frame).sequence = sent_by_port_[waiting.send.port - 1u]++;
+  traffic_->count_production(traffic_->frame(frame), *simulation_);
   ++messages_sent_;
   if (is_event(waiting.send.message))
     waiting.frame = frame;
@@ -222,7 +223,9 @@ void Station::take_in(const Arrived& arrived) {
     return;
   }
   traffic_->count_delivery(record, Traffic::delivery_key(record.stream, node_), *simulation_);
-  const std::optional<Message> message = decode(traffic_->payload(record.payload).view());
+  const std::span<const std::byte> octets = traffic_->payload(record.payload).view();
+  note(Occurrence::clock_message, sim::Content(sim::hash_of(octets), arrived.port).value());
+  const std::optional<Message> message = decode(octets);
   // The first symbol after the SFD came a frame's length before its last bit.
   const sim::TrueTime point = arrived.last_bit - ports_[arrived.port].octet_time() * std::int64_t{record.length};
   traffic_->release(arrived.frame);
@@ -242,10 +245,15 @@ void Station::discipline(const SyncSample& sample) {
   const ServoAction action = target_.sample(sample, shown);
   if (action.step != sim::Duration()) {
     ++steps_;
-    simulation_->digest().add(static_cast<std::uint32_t>(Occurrence::clock_step), node_.value, simulation_->now(), static_cast<std::uint64_t>(action.step.ps()));
+    note(Occurrence::clock_step, static_cast<std::uint64_t>(action.step.ps()));
   }
+  note(Occurrence::clock_rate, static_cast<std::uint64_t>(action.adjustment.multiple()));
   disciplined.step_and_adjust(simulation_->now(), action.step, action.adjustment);
   give_time();
+}
+
+void Station::note(Occurrence kind, std::uint64_t what) const {
+  simulation_->digest().add(static_cast<std::uint32_t>(kind), node_.value, simulation_->now(), what);
 }
 
 /// A grandmaster gives the time of its disciplined clock.

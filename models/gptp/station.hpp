@@ -95,6 +95,8 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   std::uint64_t of_this_life(std::uint32_t slot) const { return static_cast<std::uint64_t>(epoch_) << 32 | slot; }
   void report_egress(std::uint64_t argument);
   void discipline(const SyncSample& sample);
+  /// A record of this node for the digest.
+  void note(Occurrence kind, std::uint64_t what) const;
   void give_time();
   void expire();
   void rearm();

@@ -117,6 +117,7 @@ void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
     record.marked = true;
     record.eligible = last_ + *launch_;
   }
+  traffic_->count_production(traffic_->frame(frame), simulation);
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::produced), source_.id(), frame.value, stream_.value});
   if (!transmits_at_once_)

@@ -20,14 +20,19 @@ struct Outcome {
   std::uint64_t digest = 0;
 };
 
-/// The digest of a run over the direct link: frames with these numbers delivered one after the other from 576 ns on, every 672 ns, and
-/// then these dropped at the start for that reason.
+/// The digest of a run over the direct link: frames of 64 octets produced at the start; those with these numbers delivered one after the
+/// other from 576 ns on, every 672 ns, and then these dropped at the start for that reason. What a record says of a frame that ends is its
+/// sequence and when it was produced, which is 0 here.
 std::uint64_t digest_of(const std::vector<std::uint64_t>& delivered, const std::vector<std::uint64_t>& dropped, DropReason reason,
                         sim::ComponentId port) {
   sim::Digest digest;
+  const std::uint64_t addressing = sim::Content(0, 0, 1, 0, 0, 0).value();  // stream 0 from node 0 to node 1; no VLAN, no priority, no tag
+  for (std::uint64_t sequence = 0; sequence < delivered.size() + dropped.size(); ++sequence)
+    digest.add(3, addressing, at(0_ns), sim::joined(sequence, std::uint64_t{64} << 32 | 0));
   for (std::size_t i = 0; i < delivered.size(); ++i)
-    digest.add(1, 1, at(576_ns + 672_ns * static_cast<std::int64_t>(i)), delivered[i]);  // stream 0 at node 1
-  for (const std::uint64_t sequence : dropped) digest.add(2, port.index, at(0_ns), sequence << 8 | static_cast<std::uint64_t>(reason));
+    digest.add(1, 1, at(576_ns + 672_ns * static_cast<std::int64_t>(i)), sim::joined(delivered[i], 0));  // stream 0 at node 1
+  for (const std::uint64_t sequence : dropped)
+    digest.add(2, port.index, at(0_ns), sim::joined(sequence, 0) ^ sim::mix64(static_cast<std::uint64_t>(reason) + 1));
   return digest.value();
 }
 

@@ -1,7 +1,7 @@
 // Runs of the shipped scenarios: pinned digests, and everything that must not change a digest.
 //
 // tests/golden/scenario_digests.txt holds a line `name duration digest` for each (the duration is short, for the test's sake). After a change that is meant to change
-// what happens: TAKT_UPDATE_GOLDEN=1 build/release/takt_runs_test --gtest_filter=Runs.Digests*
+// what happens, or what the digest covers: tests/golden/renew.py build/release
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ TEST(Runs, EveryShippedScenarioPasses) {
 TEST(Runs, DigestsAreThePinnedOnes) {
   const bool is_update = std::getenv("TAKT_UPDATE_GOLDEN") != nullptr;
   const std::vector<Golden> lines = golden();
-  std::string now = "# name, duration, digest; how to renew it: tests/scenario/runs_test.cpp\n";
+  std::string now = "# name, duration, digest; how to renew it: tests/README.md\n";
   for (const std::string& name : shipped_names()) {
     const auto found = std::find_if(lines.begin(), lines.end(), [&](const Golden& one) { return one.name == name; });
     EXPECT_TRUE(is_update || found != lines.end()) << name << " has no pinned digest";

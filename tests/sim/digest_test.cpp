@@ -95,8 +95,38 @@ TEST(Digest, MixesWell) {
 TEST(Digest, PinnedValues) {
   EXPECT_EQ(mix64(0), 0u);
   EXPECT_EQ(mix64(1), 0x5692161D100B05E5ULL);
-  EXPECT_EQ(digest_of({{1, 2, 3, 4}}), 0x7F9EA3F662887ADCULL);
-  EXPECT_EQ(digest_of({{1, 2, 3, 4}, {2, 0x100000000ULL, 1'000'000, 99}}), 0x245E46BE3211D0A8ULL);
+  EXPECT_EQ(digest_of({{1, 2, 3, 4}}), 0xA941C812BBD35AB9ULL);
+  EXPECT_EQ(digest_of({{1, 2, 3, 4}, {2, 0x100000000ULL, 1'000'000, 99}}), 0xF6E3EEB0C6A05BB7ULL);
+}
+
+TEST(Digest, AllPartsOfWhatIsJoinedCount) {
+  std::set<std::uint64_t> seen;
+  for (std::uint64_t a = 0; a < 8; ++a)
+    for (std::uint64_t b = 0; b < 8; ++b) {
+      seen.insert(joined(a, b));
+      for (std::uint64_t c = 0; c < 8; ++c) seen.insert(Content(a, b, c).value());
+      seen.insert(Content(a, b).value());
+    }
+  EXPECT_EQ(seen.size(), 64u + 512u + 64u);
+}
+
+// Every octet counts where it stands, and so does their number: 0 to 20 octets, all zero but one.
+TEST(Digest, HashOfOctets) {
+  std::set<std::uint64_t> seen;
+  std::size_t count = 0;
+  for (std::size_t length = 0; length <= 20; ++length) {
+    std::vector<std::byte> octets(length);
+    seen.insert(hash_of(octets));
+    ++count;
+    for (std::size_t at = 0; at < length; ++at)
+      for (const int value : {1, 2, 128}) {
+        octets[at] = static_cast<std::byte>(value);
+        seen.insert(hash_of(octets));
+        octets[at] = std::byte{0};
+        ++count;
+      }
+  }
+  EXPECT_EQ(seen.size(), count);
 }
 
 }  // namespace

@@ -7,6 +7,13 @@ constexpr std::uint32_t state_changed = 100;
 constexpr std::uint32_t method_called = 101;
 constexpr std::uint32_t data_received = 102;
 constexpr std::uint32_t crashed = 103;
+constexpr std::uint32_t word_changed = 105;  // 104: see plug_monitor.cpp
+
+/// All that a word says.
+std::uint64_t content_of(const handshake::Word& word) {
+  const handshake::Intent& intent = word.intent;
+  return sim::Content(word.incarnation, word.state, word.run, intent.number, intent.kind, intent.origin, intent.run).value();
+}
 }  // namespace
 
 ProgramMonitor::ProgramMonitor(sim::Simulation& simulation, std::uint32_t number, handshake::Variant variant, std::size_t participants)
@@ -22,8 +29,9 @@ void ProgramMonitor::on_step(std::size_t participant, const handshake::Outputs& 
     ++changes_;
     if (history_.size() < most_records) history_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), change});
     simulation_->digest().add(state_changed, static_cast<std::uint64_t>(number_) << 32 | participant, simulation_->now(),
-                              static_cast<std::uint64_t>(change.from) << 8 | static_cast<std::uint64_t>(change.to));
+                              static_cast<std::uint64_t>(change.transition) << 16 | static_cast<std::uint64_t>(change.from) << 8 | static_cast<std::uint64_t>(change.to));
   }
+  simulation_->digest().add(word_changed, static_cast<std::uint64_t>(number_) << 32 | participant, simulation_->now(), content_of(after));
   note_violations();
 }
 

@@ -10,9 +10,13 @@
 #include "scenario/applications/opc_ua_port.hpp"
 #include "scenario/programs/program_shape.hpp"
 #include "scenario/resolve/nesting.hpp"
+#include "scenario/run/action_content.hpp"
 #include "vocabulary/protocol.hpp"
 
 namespace takt::scenario {
+namespace {
+constexpr std::uint32_t script_action = 120;  // kind of digest record
+}
 
 /// Calls the methods that the scenario's script asks for, before anything else of their instant.
 class Run::Script final : public sim::Component {
@@ -23,8 +27,10 @@ class Run::Script final : public sim::Component {
       simulation.schedule(source_, actions[i].at, sim::Phase::control, source_.id(), 0, i);
   }
 
-  void handle(sim::Simulation&, const sim::Event& event) override {
-    std::visit([this](const auto& action) { act(action); }, run_->resolved_->script[event.argument].what);
+  void handle(sim::Simulation& simulation, const sim::Event& event) override {
+    const ResolvedAction& action = run_->resolved_->script[event.argument];
+    simulation.digest().add(script_action, action.what.index(), simulation.now(), content_of(action));
+    std::visit([this](const auto& what) { act(what); }, action.what);
   }
 
  private:

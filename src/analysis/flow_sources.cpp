@@ -148,6 +148,19 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
   }
 }
 
+/// What applications send, and when, is settled in the run: any number of frames at any time.
+void add_unknown(const scenario::Resolved& r, FlowGraph& graph) {
+  std::vector<bool> is_known(r.plan.streams.size());
+  for (const Flow& flow : graph.flows) is_known[flow.stream.value] = true;
+  for (const scenario::ResolvedStream& stream : r.streams) {
+    if (is_known[stream.index.value]) continue;
+    Flow flow;
+    flow.stream = stream.index;
+    flow.source = FrameArrivals(at_any_time());
+    graph.flows.push_back(std::move(flow));
+  }
+}
+
 Ps interval_ps(int log_seconds) { return rounded_up(std::ldexp(1e12, log_seconds)); }
 
 }  // namespace
@@ -157,6 +170,7 @@ void add_flows(const scenario::Resolved& resolved, const BoundOptions& options, 
   for (const models::TalkerPlan& talker : resolved.plan.talkers)
     add_talker(resolved, talker, with_phases.contains(resolved.plan.streams[talker.stream.value].name), options, graph);
   for (const scenario::ResolvedProgram& program : resolved.programs) add_program(resolved, program, options, graph);
+  add_unknown(resolved, graph);
 }
 
 std::vector<GptpMessages> gptp_messages(const scenario::Resolved& resolved, models::NodeIndex node) {

@@ -75,7 +75,7 @@ void add_bound_command(CLI::App& app, ExitStatus& status) {
       status = *done;
       return;
     }
-    const auto resolved = load_without_applications(*options, "takt bound");
+    const auto resolved = load(*options);
     if (!resolved) {
       status = ExitStatus::bad_input;
       return;

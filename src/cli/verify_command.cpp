@@ -69,7 +69,7 @@ ExitStatus status_of(const verify::Verification& verification) {
 }
 
 ExitStatus run(VerifyOptions& options) {
-  const auto resolved = load_without_applications(options.scenario, "takt verify", options.quiet);
+  const auto resolved = load(options.scenario, options.quiet);
   if (!resolved) return ExitStatus::bad_input;
   const InterruptGuard interrupt;
   StatusLine line(!options.quiet && !options.scenario.is_json());

@@ -82,7 +82,8 @@ std::string text_report(const std::string& scenario, const Verification& verific
   }
   out += conditions_text(verification);
   if (verification.contradiction) out += contradiction_text(*verification.contradiction, witnesses);
-  return out + fmt::format("\n{}: {}\n", scenario, name_of(verification.verdict()));
+  const bool is_vacuous = verification.lines.empty() && !verification.contradiction;
+  return out + fmt::format("\n{}: {}\n", scenario, is_vacuous ? "nothing was required" : name_of(verification.verdict()));
 }
 
 std::string json_report(const std::string& scenario, const Verification& verification, const std::vector<std::string>& files, const Witnesses& witnesses) {

@@ -18,6 +18,7 @@ using sim::Duration;
 
 constexpr std::uint64_t cost_of_a_node = 300;    // of building a run, in events
 constexpr std::size_t most_in_a_batch = 64;
+constexpr std::size_t seeds_at_a_place = 16;
 
 /// What a shorter run says of a requirement counts only if a longer one would say it too.
 bool counts_in_a_part(RequirementKind kind) {
@@ -201,14 +202,17 @@ class Searcher {
     return true;
   }
 
-  /// Everybody meets the first of the requirement's streams where they share a port for the first time.
+  /// Everybody meets the first of the requirement's streams where they share a port for the first time, and operating systems are as slow as can be.
   Choice meeting(const RequirementResult& requirement, Choice choice) const {
     for (std::size_t f = 0; f < search_.freedoms.size(); ++f) {
       const std::vector<Duration> values = instants_.of(f, requirement, choice);
-      choice.values[f] = values.size() > 1 ? values[1] : values[0];
+      choice.values[f] = search_.freedoms[f].is_latency() && values.size() > 1 ? slowest(search_.freedoms[f]) : values.size() > 1 ? values[1] : values[0];
     }
     return choice;
   }
+
+  /// A timer is at its worst if it is late after it was early; the ways to the network and from it are at their worst whenever they are slow.
+  static Duration slowest(const Freedom& latency) { return latency.latency == Freedom::Latency::wake_up ? either_end : always_greatest; }
 
   Choice anywhere() {
     Choice choice = as_it_is();
@@ -253,6 +257,9 @@ class Searcher {
         take_best(line, steps, best, at);
       }
     }
+    std::vector<Choice> luck(seeds_at_a_place, at);
+    for (Choice& choice : luck) choice.seed = resolved_.scenario.seed + chance_.below(1u << 16);
+    take_best(line, luck, best, at);
   }
 
   bool take_best(std::size_t line, const std::vector<Choice>& steps, std::int64_t& best, Choice& at) {

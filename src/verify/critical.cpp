@@ -114,10 +114,26 @@ std::vector<std::size_t> CriticalInstants::streams_of(const results::Requirement
   return found;
 }
 
+/// Who sends or hears the streams of the requirement. Others disturb them by when they send, which is free already.
+bool CriticalInstants::matters(const Freedom& latency, const results::RequirementResult& requirement) const {
+  const std::vector<std::size_t> streams = streams_of(requirement);
+  if (latency.kind == Freedom::Kind::generator_latency || streams.empty()) return true;
+  const auto node = resolved_->topology.find(resolved_->scenario.network.nodes[latency.item].first);
+  return std::any_of(streams.begin(), streams.end(), [&](std::size_t stream) {
+    const models::StreamPlan& plan = resolved_->plan.streams[stream];
+    if (latency.latency != Freedom::Latency::receive) return plan.talker.value == *node;
+    return std::find(plan.listeners.begin(), plan.listeners.end(), models::NodeIndex{*node}) != plan.listeners.end();
+  });
+}
+
 std::vector<Duration> CriticalInstants::of(std::size_t f, const results::RequirementResult& requirement, const Choice& choice) const {
   const Freedom& freedom = freedoms_[f];
   std::vector<Duration> values{choice.values[f]};
   const auto add = [&](Duration value) { values.push_back(modulo(value, freedom.range)); };
+  if (freedom.is_latency()) {
+    if (matters(freedom, requirement)) values = {by_chance, always_least, always_greatest, either_end};
+    return values;
+  }
   if (freedom.kind == Freedom::Kind::call) {
     const scenario::ScriptEntry& entry = resolved_->scenario.script[freedom.item];
     // A reaction to one method does not depend on when another one was called.
@@ -126,7 +142,9 @@ std::vector<Duration> CriticalInstants::of(std::size_t f, const results::Require
       if (entry.program && program.name != *entry.program) continue;
       for (const models::StreamIndex stream : program.state_streams) {
         const Duration to_publishing = modulo(phase_of(stream.value, choice) - entry.at, program.description->cycle);
-        for (const Duration moved : {to_publishing, to_publishing + just})
+        // Just behind a publication whose timer was quick, or slow.
+        const sim::Distribution& wake_up = resolved_->plan.os_latencies[resolved_->plan.nodes[resolved_->plan.streams[stream.value].talker.value].os_latency].wake_up;
+        for (const Duration moved : {to_publishing, to_publishing + just, to_publishing + wake_up.least() + just, to_publishing + wake_up.greatest() + just})
           if (moved < freedom.range) add(moved);
       }
     }

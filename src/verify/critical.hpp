@@ -32,6 +32,7 @@ class CriticalInstants {
   };
   sim::Duration phase_of(std::size_t stream, const Choice& choice) const;
   std::vector<std::size_t> streams_of(const results::RequirementResult& requirement) const;
+  bool matters(const Freedom& latency, const results::RequirementResult& requirement) const;
   std::vector<std::size_t> streams_moved_by(std::size_t freedom) const;
   std::vector<Visit> visits_of(std::size_t stream) const;
 

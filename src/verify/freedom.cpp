@@ -20,7 +20,7 @@ void add_talkers(const Scenario& scenario, std::vector<Freedom>& found) {
   for (std::size_t s = 0; s < scenario.streams.size(); ++s) {
     const scenario::Stream& stream = scenario.streams[s];
     const Duration period = stream.every ? *stream.every : stream.burst ? stream.burst->every : Duration();
-    if (!scenario::promises_phase(stream) && period > Duration()) found.push_back({Freedom::Kind::talker, s, 0, period, "phase of " + stream.name});
+    if (!scenario::promises_phase(stream) && period > Duration()) found.push_back({Freedom::Kind::talker, s, 0, period, "phase of " + stream.name, {}, {}, {}});
   }
 }
 
@@ -30,7 +30,7 @@ void add_publishers(const Scenario& scenario, std::vector<Freedom>& found) {
     if (!program.roles.empty()) continue;   // who takes part, and since when, is settled in the run
     for (std::size_t participant = 0; participant <= program.slaves.size(); ++participant) {
       const std::string& name = participant_name(program, participant);
-      if (!scenario::promises_phase(program, name)) found.push_back({Freedom::Kind::publisher, p, participant, program.cycle, "phase of " + program.name + " on " + name});
+      if (!scenario::promises_phase(program, name)) found.push_back({Freedom::Kind::publisher, p, participant, program.cycle, "phase of " + program.name + " on " + name, {}, {}, {}});
     }
   }
 }
@@ -47,8 +47,76 @@ void add_calls(const Scenario& scenario, std::vector<Freedom>& found) {
     const auto next = std::upper_bound(times.begin(), times.end(), entry.at);
     const Duration room = (next == times.end() ? scenario.duration : *next) - entry.at;
     const Duration range = std::min(program->cycle, room);
-    if (range > Duration()) found.push_back({Freedom::Kind::call, i, 0, range, "instant of call " + std::to_string(i + 1)});
+    if (range > Duration()) found.push_back({Freedom::Kind::call, i, 0, range, "instant of call " + std::to_string(i + 1), {}, {}, {}});
   }
+}
+
+/// When the fault is over; nothing for those that are not about links and nodes, or that last to the end.
+struct FaultSpan {
+  Duration begin;
+  Duration end;
+};
+template <class F>
+FaultSpan span_of(const F& fault) {
+  if constexpr (requires { fault.lasts; })
+    return {fault.at, fault.lasts ? fault.at + *fault.lasts : fault.at};
+  else
+    return {fault.at, fault.at};
+}
+
+void add_faults(const Scenario& scenario, std::vector<Freedom>& found) {
+  Duration longest;
+  for (const scenario::Stream& stream : scenario.streams) longest = std::max(longest, stream.every.value_or(Duration()));
+  for (const Program& program : scenario.programs) longest = std::max(longest, program.cycle);
+  std::vector<FaultSpan> spans;
+  for (const scenario::Fault& fault : scenario.faults) spans.push_back(std::visit([](const auto& each) { return span_of(each); }, fault));
+  for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
+    // A gate that is stuck for longer, or a clock that jumps later, would be another premise of the bounds.
+    if (!std::holds_alternative<scenario::LinkDown>(scenario.faults[i]) && !std::holds_alternative<scenario::Crash>(scenario.faults[i])) continue;
+    Duration next = scenario.duration;
+    for (std::size_t other = 0; other < spans.size(); ++other)
+      if (other != i && spans[other].end >= spans[i].begin) next = std::min(next, spans[other].begin);
+    const Duration range = std::min(longest, next - spans[i].end);
+    if (range > Duration()) found.push_back({Freedom::Kind::fault, i, 0, range, "instant of fault " + std::to_string(i + 1), {}, {}, {}});
+  }
+}
+
+constexpr std::pair<Freedom::Latency, const char*> latencies[] = {{Freedom::Latency::transmit, "transmit latency"}, {Freedom::Latency::receive, "receive latency"}, {Freedom::Latency::wake_up, "wake-up latency"}};
+
+void add_latencies(const models::OsLatency& os, Freedom::Kind kind, std::size_t item, const std::string& whose, std::vector<Freedom>& found) {
+  for (const auto& [latency, name] : latencies) {
+    const sim::Distribution& distribution = latency == Freedom::Latency::transmit ? os.transmit : latency == Freedom::Latency::receive ? os.receive : os.wake_up;
+    if (distribution.least() == distribution.greatest()) continue;
+    found.push_back({kind, item, 0, either_end + Duration::from_ps(1), std::string(name) + " of " + whose, latency, distribution.least(), distribution.greatest()});
+  }
+}
+
+void add_latencies(const scenario::Resolved& r, std::vector<Freedom>& found) {
+  const auto& nodes = r.scenario.network.nodes;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (const auto node = r.topology.find(nodes[n].first); node && std::holds_alternative<scenario::HostNode>(nodes[n].second))
+      add_latencies(r.plan.os_latencies[r.plan.nodes[*node].os_latency], Freedom::Kind::host_latency, n, nodes[n].first, found);
+  const auto& generate = r.scenario.network.generate;
+  for (std::size_t g = 0; g < generate.size(); ++g) {
+    // Any host of it stands for all.
+    const auto host = std::find_if(r.topology.nodes.begin(), r.topology.nodes.end(), [&](const scenario::TopologyNode& node) {
+      const auto* const description = std::get_if<scenario::HostNode>(&node.description);
+      const bool is_listed = std::any_of(nodes.begin(), nodes.end(), [&](const auto& listed) { return listed.first == node.name; });
+      return description != nullptr && !is_listed && description->os == generate[g].os;
+    });
+    if (host != r.topology.nodes.end())
+      add_latencies(r.plan.os_latencies[r.plan.nodes[static_cast<std::size_t>(host - r.topology.nodes.begin())].os_latency], Freedom::Kind::generator_latency, g,
+                    "the hosts of generator " + std::to_string(g + 1), found);
+  }
+}
+
+void fix(scenario::OperatingSystem& os, const Freedom& freedom, Duration value) {
+  scenario::Latency fixed;
+  if (value == either_end)
+    fixed.table = {{freedom.least, 1}, {freedom.greatest, 1}};
+  else
+    fixed.fixed = value == always_least ? freedom.least : freedom.greatest;
+  (freedom.latency == Freedom::Latency::transmit ? os.transmit : freedom.latency == Freedom::Latency::receive ? os.receive : os.wake_up) = fixed;
 }
 
 }  // namespace
@@ -58,6 +126,8 @@ std::vector<Freedom> freedoms_of(const scenario::Resolved& resolved) {
   add_publishers(resolved.scenario, found);
   add_calls(resolved.scenario, found);
   add_talkers(resolved.scenario, found);
+  add_faults(resolved.scenario, found);
+  add_latencies(resolved, found);
   return found;
 }
 
@@ -76,6 +146,9 @@ Scenario scenario_of(const Scenario& scenario, std::span<const Freedom> freedoms
         made.programs[freedom.item].phases.emplace_back(participant_name(made.programs[freedom.item], freedom.participant), value);
         break;
       case Freedom::Kind::call: made.script[freedom.item].at += value; break;
+      case Freedom::Kind::fault: std::visit([&](auto& fault) { fault.at += value; }, made.faults[freedom.item]); break;
+      case Freedom::Kind::host_latency: fix(std::get<scenario::HostNode>(made.network.nodes[freedom.item].second).os, freedom, value); break;
+      case Freedom::Kind::generator_latency: fix(made.network.generate[freedom.item].os, freedom, value); break;
     }
   }
   return made;

@@ -6,7 +6,9 @@
 //   phase of a talker      within its period, unless the stream has an "offset" (periodic talkers and bursts)
 //   phase of a publisher   of each participant within the Program's cycle, unless the Program has an "offset", or "phases" for this participant
 //   instant of a call      later by less than a cycle, and still before the next entry of the script
-//   seed                   all that chance decides: latencies of operating systems, oscillators, losses, gaps between frames
+//   instant of a fault     of a link or node: later by less than the longest period, and still before the next fault
+//   latency of a host      of transmission, reception and wake-up, where chance decides: as it has it, always the least, always the greatest, or one of these
+//   seed                   all else that chance decides: oscillators, losses, jitter, gaps between frames
 #pragma once
 
 #include <cstdint>
@@ -18,15 +20,26 @@
 
 namespace takt::verify {
 
+/// What a latency may be instead of what chance has; 1 ps apart, as values of a freedom.
+inline constexpr sim::Duration by_chance = sim::Duration::from_ps(0);
+inline constexpr sim::Duration always_least = sim::Duration::from_ps(1);
+inline constexpr sim::Duration always_greatest = sim::Duration::from_ps(2);
+inline constexpr sim::Duration either_end = sim::Duration::from_ps(3);   ///< the least or the greatest, as chance has it
+
 /// Something that is free: a time from 0 up to, but without, `range`.
 struct Freedom {
-  enum class Kind : std::uint8_t { talker, publisher, call };
+  enum class Kind : std::uint8_t { talker, publisher, call, fault, host_latency, generator_latency };
+  enum class Latency : std::uint8_t { transmit, receive, wake_up };
   Kind kind{};
-  std::size_t item = 0;          ///< in Scenario::streams, programs or script
+  std::size_t item = 0;          ///< in Scenario::streams, programs, script, faults, or network's nodes or generate
   std::size_t participant = 0;   ///< publishers: 0 the master, then the slaves
   sim::Duration range;
   std::string name;              ///< "phase of camera"
+  Latency latency{};             ///< of latencies
+  sim::Duration least = {};
+  sim::Duration greatest = {};
   bool operator==(const Freedom&) const = default;
+  bool is_latency() const { return kind == Kind::host_latency || kind == Kind::generator_latency; }
 };
 
 /// All that is free, but for the seed.

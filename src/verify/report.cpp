@@ -55,6 +55,11 @@ std::string contradiction_text(const Contradiction& contradiction, const Witness
   return out;
 }
 
+std::string freedom_text(const Freedom& freedom) {
+  if (freedom.is_latency()) return fmt::format("  {} from {} to {}\n", freedom.name, figure(freedom.least), figure(freedom.greatest));
+  return fmt::format("  {} within {}\n", freedom.name, figure(freedom.range));
+}
+
 Node assumption_node(analysis::Assumption assumption, const analysis::AssumptionLedger& ledger) {
   const analysis::AssessedAssumption& each = ledger[assumption];
   Node node = Node::object();
@@ -77,7 +82,7 @@ std::string text_report(const std::string& scenario, const Verification& verific
     out += fmt::format("\nFree, hence searched for the worst ({}):\n", verification.freedoms.size());
     constexpr std::size_t most = 12;
     for (std::size_t i = 0; i < std::min(most, verification.freedoms.size()); ++i)
-      out += fmt::format("  {} within {}\n", verification.freedoms[i].name, figure(verification.freedoms[i].range));
+      out += freedom_text(verification.freedoms[i]);
     if (verification.freedoms.size() > most) out += fmt::format("  and {} more\n", verification.freedoms.size() - most);
   }
   out += conditions_text(verification);
@@ -96,7 +101,7 @@ std::string json_report(const std::string& scenario, const Verification& verific
   for (const Freedom& freedom : verification.freedoms) {
     Node node = Node::object();
     node.add("what", Node::of_string(freedom.name));
-    node.add("range_ps", Node::of_integer(freedom.range.ps()));
+    node.add("range_ps", Node::of_integer(freedom.is_latency() ? (freedom.greatest - freedom.least).ps() : freedom.range.ps()));
     open.items.push_back(std::move(node));
   }
   root.add("free", std::move(open));

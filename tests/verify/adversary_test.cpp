@@ -55,6 +55,30 @@ TEST(Adversary, LeavesAloneWhatThePlantPromises) {
   EXPECT_EQ(*found.findings[0].worst.measured, *found.findings[0].simulated + 1470 * 8_ns - 1_ns);
 }
 
+// A host's latencies are free within their supports, and so are the instants of cuts: each choice is a scenario that replays.
+TEST(Adversary, ChoosesLatenciesAndInstantsOfFaults) {
+  const auto scenario = resolved(R"({"name": "slow", "duration": "20ms",
+    "network": {"nodes": {"a": {"kind": "host", "os": {"transmit": {"uniform": {"from": "1us", "to": "9us"}}, "receive": "2us"}}, "b": {"kind": "host"}},
+      "links": [{"ends": ["a", "b"]}]},
+    "streams": [{"name": "frames", "from": "a", "to": "b", "payload": "100B", "every": "1ms", "offset": "0us"}],
+    "faults": [{"kind": "link-down", "link": ["a", "b"], "at": "5ms", "for": "2ms"}, {"kind": "crash", "node": "b", "at": "7500us", "for": "1ms"}],
+    "require": [{"stream": "frames", "latency": "1ms"}, {"stream": "frames", "dropped": 9}]})");
+  ASSERT_TRUE(scenario);
+  const std::vector<Freedom> freedoms = freedoms_of(*scenario);
+  ASSERT_EQ(freedoms.size(), 3u);
+  EXPECT_EQ(freedoms[0].name, "instant of fault 1");
+  EXPECT_EQ(freedoms[0].range, 500_us);   // until the crash
+  EXPECT_EQ(freedoms[1].name, "instant of fault 2");
+  EXPECT_EQ(freedoms[1].range, 1_ms);     // a period
+  EXPECT_EQ(freedoms[2].name, "transmit latency of a");
+  EXPECT_EQ(freedoms[2].least, 1_us);
+  EXPECT_EQ(freedoms[2].greatest, 9_us);
+  const Search found = search(*scenario, analysis::bound(*scenario), {});
+  // 9 us, 154 octets of 8 ns, the cable of 10 m.
+  EXPECT_EQ(*found.findings[0].worst.measured, 9_us + 154 * 8_ns + 50_ns);
+  EXPECT_EQ(probe(found.findings[0].worst.scenario, {}, {})->requirements[0].measured, found.findings[0].worst.measured);
+}
+
 // A halt waits for the master's next publishing at most, then for the network: nothing else is in the way.
 const char* const halted = R"({"name": "halted", "duration": "1s",
   "network": {"nodes": {"m": {"kind": "host"}, "s": {"kind": "host"}}, "links": [{"ends": ["m", "s"]}]},

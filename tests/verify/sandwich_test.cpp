@@ -76,6 +76,20 @@ TEST(Sandwich, AutomaticGatesAreProved) {
   EXPECT_EQ(streams, 2u);
 }
 
+// Operating systems, calls and phases meet at their worst: what the bounds give away is little.
+TEST(Sandwich, TheWorstRunOfRobotArmComesNearItsBounds) {
+  scenario::json::Diagnostics diagnostics;
+  const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/scenarios/robot-arm.json", {}, diagnostics);
+  ASSERT_TRUE(resolved) << diagnostics.to_text();
+  Options options;
+  options.search.seeds = 1;
+  for (const Line& line : verify(*resolved, options).lines) {
+    EXPECT_EQ(line.verdict, Verdict::pass) << line.requirement.text;
+    if (!line.bound) continue;
+    EXPECT_GE(*line.tightness(), line.requirement.kind == results::RequirementKind::reaction ? 0.9 : 0.85) << line.requirement.text;
+  }
+}
+
 Verification verified(const std::string& requirements) {
   scenario::json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(R"({"name": "two", "duration": "20ms",

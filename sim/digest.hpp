@@ -18,9 +18,9 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// Both halves of the product with an odd constant in one word: not a bijection, but cheaper than mix64.
-constexpr std::uint64_t fold64(std::uint64_t x) {
-  const uint128 product = static_cast<uint128>(x) * 0xD1B54A32D192ED03ULL;
+/// Both halves of a product in one word: each bit of either factor reaches every bit, for the price of one multiplication.
+constexpr std::uint64_t folded_product(std::uint64_t a, std::uint64_t b) {
+  const uint128 product = static_cast<uint128>(a) * b;
   return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
 }
 
@@ -65,7 +65,7 @@ class Digest {
   };
   static constexpr Key key_of(std::uint32_t kind, std::uint64_t who) { return {mix64(who + 0x9E3779B97F4A7C15ULL * (kind + 1))}; }
   void add(Key key, TrueTime when, std::uint64_t what) {
-    sum_ += mix64(fold64(key.hash ^ static_cast<std::uint64_t>(when.ps())) + what);
+    sum_ += folded_product(key.hash ^ static_cast<std::uint64_t>(when.ps()), what ^ 0xD1B54A32D192ED03ULL);
   }
   std::uint64_t value() const { return sum_; }
 

@@ -34,13 +34,14 @@ constexpr std::int64_t ceil_quotient(sim::Duration a, sim::Duration b) { return 
 /// base + floor(k * numerator * 10^12 / denominator), so that nothing accumulates.
 class CyclicIntervals {
  public:
-  static constexpr std::size_t entry_limit = 1024;
+  /// As many as an index of 16 bits tells apart, and as devices announce (SupportedListMax).
+  static constexpr std::size_t entry_limit = 65'536;
   /// Longest cycle, extension and total of intervals: about 13 days. Keeps all sums within 64 bits.
   static constexpr sim::Duration longest = sim::Duration::from_ps(std::int64_t{1} << 60);
 
   /// 1 to entry_limit intervals, none negative; cycle_time > 0. The scenario's checks have seen to that.
   CyclicIntervals(std::span<const sim::Duration> intervals, sim::Duration cycle_time) : cycle_time_(cycle_time) {
-    TAKT_CHECK(!intervals.empty() && intervals.size() <= entry_limit, "a control list has 1 to 1024 entries");
+    TAKT_CHECK(!intervals.empty() && intervals.size() <= entry_limit, "a control list has 1 to 65536 entries");
     TAKT_CHECK(cycle_time > sim::Duration() && cycle_time <= longest, "a cycle time is positive and at most 13 days");
     starts_.reserve(intervals.size());
     sim::Duration start;

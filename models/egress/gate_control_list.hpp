@@ -52,7 +52,7 @@ class GateControlList {
     bool open = false;
   };
 
-  /// The list has 1 to 1024 entries, and intervals and cycle time are in range (see CyclicIntervals): checked by the scenario.
+  /// The list has 1 to 65536 entries, and intervals and cycle time are in range (see CyclicIntervals): checked by the scenario.
   GateControlList(std::span<const GateControlEntry> entries, sim::Duration cycle_time);
 
   const CyclicIntervals& intervals() const { return intervals_; }

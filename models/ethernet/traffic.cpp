@@ -15,7 +15,7 @@ StreamIndex Traffic::add_stream(Stream stream) {
   return index;
 }
 
-FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::TrueTime now) {
+inline FrameIndex Traffic::make(StreamIndex index, Octets payload, sim::TrueTime now) {
   Stream& stream = streams_[index.value];
   const FrameIndex handle = frames_.allocate();
   Frame& frame = frames_[handle];
@@ -40,8 +40,8 @@ FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::TrueTime now
   return handle;
 }
 
-FrameIndex Traffic::produce(StreamIndex index, std::span<const std::byte> octets, sim::TrueTime now) {
-  const FrameIndex handle = produce(index, Octets{static_cast<std::uint32_t>(octets.size())}, now);
+inline FrameIndex Traffic::make(StreamIndex index, std::span<const std::byte> octets, sim::TrueTime now) {
+  const FrameIndex handle = make(index, Octets{static_cast<std::uint32_t>(octets.size())}, now);
   const PayloadIndex payload = payloads_.allocate();
   Payload& copy = payloads_[payload];
   TAKT_CHECK(octets.size() <= copy.octets.size(), "a payload fits into one frame");
@@ -52,9 +52,25 @@ FrameIndex Traffic::produce(StreamIndex index, std::span<const std::byte> octets
   return handle;
 }
 
+FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::TrueTime now) { return make(index, payload, now); }
+FrameIndex Traffic::produce(StreamIndex index, std::span<const std::byte> octets, sim::TrueTime now) { return make(index, octets, now); }
+
+FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::Simulation& simulation) {
+  const FrameIndex handle = make(index, payload, simulation.now());
+  count_production(frames_[handle], simulation);
+  return handle;
+}
+
+FrameIndex Traffic::produce(StreamIndex index, std::span<const std::byte> octets, sim::Simulation& simulation) {
+  const FrameIndex handle = make(index, octets, simulation.now());
+  count_production(frames_[handle], simulation);
+  return handle;
+}
+
 FrameIndex Traffic::separate(FrameIndex index) {
-  const FrameIndex made = frames_.allocate();
   Frame& original = frames_[index];
+  TAKT_CHECK(is_under_way(original), "a frame gets a record of its own while it is under way");
+  const FrameIndex made = frames_.allocate();
   frames_[made] = original;
   frames_[made].references = 1;
   if (!original.payload.is_none()) ++payloads_[original.payload].references;

@@ -85,21 +85,24 @@ class Traffic {
   Payload& payload(PayloadIndex index) { return payloads_[index]; }
   const Payload& payload(PayloadIndex index) const { return payloads_[index]; }
 
-  /// Makes a frame of the stream with a payload of that many octets, and counts it as sent. Who calls it tells count_production() when
-  /// the frame is as it shall be.
-  FrameIndex produce(StreamIndex stream, Octets payload, sim::TrueTime now);
+  /// Makes a frame of the stream with a payload of that many octets, at this instant, and counts it as sent.
+  FrameIndex produce(StreamIndex stream, Octets payload, sim::Simulation& simulation);
   /// The same with octets, which are copied.
+  FrameIndex produce(StreamIndex stream, std::span<const std::byte> payload, sim::Simulation& simulation);
+  /// The same, but for the digest: who makes the frame changes it first, and tells count_production() then.
+  FrameIndex produce(StreamIndex stream, Octets payload, sim::TrueTime now);
   FrameIndex produce(StreamIndex stream, std::span<const std::byte> payload, sim::TrueTime now);
 
   /// One more copy of the frame is under way.
   void copy(FrameIndex index) {
     Frame& frame = frames_[index];
+    TAKT_CHECK(is_under_way(frame), "a frame is copied while it is under way");
     ++frame.references;
     ++streams_[frame.stream.value].copies;
   }
 
   /// A record that may be changed, because no other copy of the frame shares it: the same one if that is so already, a new one
-  /// otherwise. The caller's copy goes on as the record that is returned. References to frames end here.
+  /// otherwise. The caller's copy goes on as the record that is returned.
   FrameIndex own(FrameIndex index) { return frames_[index].references == 1 ? index : separate(index); }
   /// One more copy of the frame, with a record of its own.
   FrameIndex duplicate(FrameIndex index) {
@@ -131,8 +134,11 @@ class Traffic {
   /// This copy of the frame ends here.
   void release(FrameIndex index) {
     Frame& frame = frames_[index];
-    if (--frame.references > 0) return;
-    if (!frame.payload.is_none() && --payloads_[frame.payload].references == 0) payloads_.free(frame.payload);
+    if (--frame.references != 0) {
+      TAKT_CHECK(frame.references <= most_references, "no copy of a frame ends twice");  // a count that was 0 has wrapped
+      return;
+    }
+    if (!frame.payload.is_none()) release(frame.payload);
     frames_.free(index);
   }
 
@@ -151,7 +157,20 @@ class Traffic {
   std::size_t live_frames() const { return frames_.live(); }
 
  private:
+  static constexpr std::uint32_t most_references = 0x7FFF'FFFF;
+  static bool is_under_way(const Frame& frame) { return frame.references - 1 < most_references; }
+  FrameIndex make(StreamIndex stream, Octets payload, sim::TrueTime now);
+  FrameIndex make(StreamIndex stream, std::span<const std::byte> payload, sim::TrueTime now);
   FrameIndex separate(FrameIndex index);
+  /// One frame less carries the payload.
+  void release(PayloadIndex index) {
+    Payload& payload = payloads_[index];
+    if (--payload.references == 0) {
+      payloads_.free(index);
+      return;
+    }
+    TAKT_CHECK(payload.references <= most_references, "a payload is given up once by each frame that carries it");
+  }
   /// What a record of the end of a frame says of it.
   static constexpr std::uint64_t record_of(const Frame& frame) { return sim::joined(frame.sequence, static_cast<std::uint64_t>(frame.produced.ps())); }
 

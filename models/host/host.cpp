@@ -48,10 +48,11 @@ void Host::handle(sim::Simulation& simulation, const sim::Event& event) {
 }
 
 inline void Host::take_in(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
-  if (traffic_->frame(arrival.frame).link_local && link_local_ != nullptr) [[unlikely]]
+  const Frame& frame = traffic_->frame(arrival.frame);
+  if (frame.link_local && link_local_ != nullptr) [[unlikely]]
     link_local_->receive(simulation, arrival.frame, arrival.port, simulation.now() - fixed_receive_);
   else if (kind == deliver_now || receives_at_once_)
-    deliver(simulation, arrival.frame);
+    deliver(simulation, arrival.frame, frame);
   else
     simulation.schedule(source_, receive_.pass(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(arrival.frame, arrival.port));
 }
@@ -91,8 +92,7 @@ void Host::prefetch(const sim::Event& event, Ahead ahead) const {
     traffic_->prefetch_latency(stream);
 }
 
-void Host::deliver(sim::Simulation& simulation, FrameIndex index) {
-  const Frame& frame = traffic_->frame(index);
+void Host::deliver(sim::Simulation& simulation, FrameIndex index, const Frame& frame) {
   const Listener* const listener = listener_of(frame.stream);
   if (listener == nullptr) {
     traffic_->drop(index, DropReason::no_filtering_entry, id(), simulation);

@@ -80,8 +80,7 @@ void Process::clock_changed() {
 }
 
 void Process::send(StreamIndex stream, std::span<const std::byte> payload) {
-  const FrameIndex frame = traffic_->produce(stream, payload, simulation_->now());
-  traffic_->count_production(traffic_->frame(frame), *simulation_);
+  const FrameIndex frame = traffic_->produce(stream, payload, *simulation_);
   if (sim::TraceSink* const trace = simulation_->trace()) [[unlikely]]
     trace->record({simulation_->now(), static_cast<std::uint32_t>(Occurrence::produced), id(), frame.value, stream.value});
   if (transmits_at_once_) {

@@ -111,13 +111,12 @@ void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
   }
   const auto* const trace_schedule = std::get_if<TraceSchedule>(&schedule_);
   const Octets payload = trace_schedule != nullptr ? trace_schedule->entries[count_].payload : payload_;
-  const FrameIndex frame = traffic_->produce(stream_, payload, simulation.now());
+  const FrameIndex frame = traffic_->produce(stream_, payload, simulation);
   if (launch_) {
     Frame& record = traffic_->frame(frame);
     record.marked = true;
     record.eligible = last_ + *launch_;
   }
-  traffic_->count_production(traffic_->frame(frame), simulation);
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::produced), source_.id(), frame.value, stream_.value});
   if (!transmits_at_once_)

@@ -25,7 +25,7 @@ struct StreamGateEntry {
 /// The entries of a stream gate with their cycle time. Immutable; gates share it.
 class StreamGateList {
  public:
-  /// The list has 1 to 1024 entries, and intervals and cycle time are in range (see CyclicIntervals): checked by the scenario.
+  /// The list has 1 to 65536 entries, and intervals and cycle time are in range (see CyclicIntervals): checked by the scenario.
   StreamGateList(std::span<const StreamGateEntry> entries, sim::Duration cycle_time);
 
   const CyclicIntervals& intervals() const { return intervals_; }

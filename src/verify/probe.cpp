@@ -38,10 +38,11 @@ std::vector<std::optional<Probe>> probe_all(std::span<const scenario::Scenario> 
       }
     }
   };
-  std::vector<std::thread> threads;
-  for (unsigned t = 1; t < std::min<std::size_t>(jobs, scenarios.size()); ++t) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
+  {
+    std::vector<std::jthread> threads;  // joined also where the machine gives no further one
+    for (unsigned t = 1; t < std::min<std::size_t>(jobs, scenarios.size()); ++t) threads.emplace_back(work);
+    work();
+  }
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
   return probes;

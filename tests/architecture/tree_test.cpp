@@ -1,6 +1,7 @@
 // What every file and folder of the tree looks like.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -58,6 +59,17 @@ TEST(Tree, EveryFileOfTheProductSaysWhatItIs) {
   for (const SourceFile& file : files_below({"sim", "models", "src"})) {
     const bool says_it = !file.is_header() || file.lines.front().starts_with("//");
     EXPECT_TRUE(says_it) << file.path;
+  }
+}
+
+// An exception that leaves a thread ends the process without a message: threads begin where it is caught and handed on.
+TEST(Tree, ThreadsBeginWhereExceptionsAreCaught) {
+  const std::vector<std::string> catching = {"src/node/applications/thread_group.hpp", "src/node/applications/thread_group.cpp", "src/verify/probe.cpp"};
+  for (const SourceFile& file : files_below({"sim", "models", "src"})) {
+    if (std::find(catching.begin(), catching.end(), file.path) != catching.end()) continue;
+    for (std::size_t i = 0; i < file.code.size(); ++i)
+      for (const char* const thread : {"std::jthread", "std::async", "pthread_create", "std::thread(", "std::thread ", "std::thread>"})
+        EXPECT_EQ(file.code[i].find(thread), std::string::npos) << file.path << ":" << i + 1 << ": " << thread << "; ThreadGroup catches what a thread throws";
   }
 }
 

@@ -226,6 +226,20 @@ TEST(GateControlList, AThousandEntriesAreFoundAtOnce) {
   }
 }
 
+// As many as 16 bits count: the last one is reached, names itself as what toggles the gate, and there is no further one.
+TEST(GateControlList, TheGreatestNumberOfEntries) {
+  std::vector<GateControlEntry> entries;
+  for (std::size_t i = 0; i < CyclicIntervals::entry_limit; ++i) entries.push_back({set, static_cast<GateStates>(i % 2 == 0 ? 0x01 : 0x02), 1_us});
+  const GateControlList list(entries, 65'536_us);
+  GateSchedule gates = running_from_0(list);
+  for (const std::int64_t us : {0, 1, 1'023, 1'024, 1'025, 65'534, 65'535, 65'536, 131'071}) EXPECT_EQ(gates.gate_states(at_ns(us * 1'000)), us % 2 == 0 ? 0x01 : 0x02) << us;
+  EXPECT_EQ(list.ahead(65'534, 0).toggled_by, 65'535u);
+  EXPECT_EQ(list.ahead(65'535, 0).toggled_by, 0u);
+  EXPECT_EQ(list.open_share(1), (OpenShare{32'768_us, 65'536_us}));
+  entries.push_back({set, 1, 1_us});
+  EXPECT_THROW(GateControlList(entries, 65'537_us), sim::InvariantBroken);
+}
+
 // ---- Against the state machines
 
 struct TickEntry {

@@ -1,4 +1,4 @@
-#include "models/ethernet/frame_pool.hpp"
+#include "models/ethernet/traffic.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,10 @@
 namespace takt::models {
 namespace {
 
-using Numbers = Pool<std::uint64_t, FrameIndex>;
+using Numbers = BasicPool<std::uint64_t, FrameIndex, ChunkedSlots<std::uint64_t>>;
+using LoneNumbers = BasicPool<std::uint64_t, FrameIndex, LoneSlots<std::uint64_t>>;
+using ChunkedFrames = BasicPool<Frame, FrameIndex, ChunkedSlots<Frame>>;
+using ChunkedPayloads = BasicPool<Payload, PayloadIndex, ChunkedSlots<Payload>>;
 
 TEST(Pool, HandlesAreDenseAndDistinct) {
   Numbers pool;
@@ -41,9 +44,9 @@ TEST(Pool, NothingIsFreedTwice) {
   Numbers numbers;
   numbers.free(numbers.allocate());
   EXPECT_THROW(numbers.free(FrameIndex{0}), sim::InvariantBroken);
-  FramePool frames;
-  frames.free(frames.allocate());
-  EXPECT_THROW(frames.free(FrameIndex{0}), sim::InvariantBroken);
+  LoneNumbers lone;
+  lone.free(lone.allocate());
+  EXPECT_THROW(lone.free(FrameIndex{0}), sim::InvariantBroken);
 }
 
 TEST(Pool, AddressesAreStableWhileItGrows) {
@@ -82,12 +85,57 @@ TEST(Pool, KeepsWhatWasPutIn) {
   keeps_what_was_put_in<Numbers>([](std::uint64_t& number) -> std::uint64_t& { return number; });
 }
 
-TEST(FramePool, KeepsWhatWasPutInWhileItMoves) {
-  keeps_what_was_put_in<FramePool>([](Frame& frame) -> std::uint64_t& { return frame.sequence; });
+TEST(FramePool, KeepsWhatWasPutInWhileItGrows) {
+  keeps_what_was_put_in<ChunkedFrames>([](Frame& frame) -> std::uint64_t& { return frame.sequence; });
+}
+
+TEST(LonePool, KeepsWhatWasPutIn) {
+  keeps_what_was_put_in<LoneNumbers>([](std::uint64_t& number) -> std::uint64_t& { return number; });
+}
+
+// It grows at each allocation that finds nothing freed, and what was there stays where it was.
+TEST(LonePool, AddressesAreStableWhileItGrows) {
+  LoneNumbers pool;
+  const FrameIndex first = pool.allocate();
+  std::uint64_t* const address = &pool[first];
+  for (std::uint32_t i = 1; i < 1'000; ++i) EXPECT_EQ(pool.allocate(), FrameIndex{i});
+  EXPECT_EQ(&pool[first], address);
+}
+
+TEST(LonePool, AHandleOfWhatIsGoneIsTold) {
+  LoneNumbers pool;
+  const FrameIndex handle = pool.allocate();
+  pool.free(handle);
+  EXPECT_THROW(pool[handle], sim::InvariantBroken);
+  EXPECT_THROW(pool[FrameIndex{1}], sim::InvariantBroken);
+  EXPECT_THROW(pool[FrameIndex{}], sim::InvariantBroken);
+}
+
+// Frames of a whole network: whoever holds a reference while others are produced still looks at the same frame.
+TEST(Traffic, FramesStayWhereTheyAre) {
+  Traffic traffic;
+  const StreamIndex stream = traffic.add_stream(Stream{});
+  const Frame& first = traffic.frame(traffic.produce(stream, Octets{8}, sim::TrueTime()));
+  for (int i = 0; i < 10'000; ++i) traffic.produce(stream, Octets{8}, sim::TrueTime());
+  EXPECT_EQ(&traffic.frame(FrameIndex{0}), &first);
+  EXPECT_EQ(first.sequence, 0u);
+}
+
+TEST(Traffic, NoCopyOfAFrameEndsTwice) {
+  Traffic traffic;
+  const StreamIndex stream = traffic.add_stream(Stream{});
+  const FrameIndex frame = traffic.produce(stream, Octets{8}, sim::TrueTime());
+  traffic.copy(frame);
+  traffic.release(frame);
+  traffic.release(frame);
+  EXPECT_EQ(traffic.live_frames(), 0u);
+  EXPECT_THROW(traffic.copy(frame), sim::InvariantBroken);
+  EXPECT_THROW(traffic.own(frame), sim::InvariantBroken);
+  EXPECT_THROW(traffic.release(frame), sim::InvariantBroken);
 }
 
 TEST(FramePool, TheLastFreedIsUsedFirst) {
-  FramePool pool;
+  ChunkedFrames pool;
   const FrameIndex a = pool.allocate();
   const FrameIndex b = pool.allocate();
   pool.free(a);
@@ -99,7 +147,7 @@ TEST(FramePool, TheLastFreedIsUsedFirst) {
 }
 
 TEST(Pool, PayloadsComeInSmallerChunks) {
-  PayloadPool pool;
+  ChunkedPayloads pool;
   std::set<std::uint32_t> handles;
   for (int i = 0; i < 33; ++i) handles.insert(pool.allocate().value);
   EXPECT_LT(*handles.rbegin(), 64u);  // two chunks of 32

@@ -252,6 +252,21 @@ TEST(Process, APayloadBeyondAFrameIsACheck) {
   EXPECT_THROW(pair.run->until(1_ms), sim::InvariantBroken);
 }
 
+// While it is told of one frame an application sends more than the pool of frames holds: the frame it was told of is whole afterwards.
+TEST(Process, AnswersWithMoreFramesThanThereWere) {
+  Pair pair;
+  Process& sender = pair.run->network->add_process(pair.peer, "sender", std::make_unique<Scripted>());
+  pair.scripted->on_receive = [&](HostServices& host) {
+    for (int i = 0; i < 1'000; ++i) host.send(pair.to_peer, std::vector<std::byte>(46));
+  };
+  pair.run->until(1_us);
+  sender.call([&](Application&, HostServices& host) { host.send(pair.to_host, std::vector<std::byte>(46)); });
+  pair.run->until(10_ms);
+  EXPECT_EQ(pair.run->stream(pair.to_host).delivered, 1u);
+  EXPECT_EQ(pair.run->stream(pair.to_peer).delivered, 1'000u);
+  EXPECT_EQ(pair.run->network->traffic().live_frames(), 0u);
+}
+
 // The latency is not added to never.
 TEST(Process, AnAlarmForNeverWithAWakeUpLatency) {
   OsLatency latency;

@@ -65,7 +65,7 @@ TEST(PeriodicSchedule, AtOffsetAndThenEveryPeriod) {
   const Outcome outcome = run(PeriodicSchedule{3_us, 10_us, 0_us}, 50_us);
   EXPECT_EQ(outcome.produced, (Times{3'000'000, 13'000'000, 23'000'000, 33'000'000, 43'000'000}));
   EXPECT_EQ(outcome.digest, expected_digest(outcome));
-  EXPECT_EQ(outcome.digest, 0xA187C60CC44E0DF8ULL);
+  EXPECT_EQ(outcome.digest, 0xC864CAC83DFCA306ULL);
 }
 
 TEST(PeriodicSchedule, WithoutJitterChanceHasNoPart) {
@@ -91,7 +91,7 @@ TEST(PeriodicSchedule, JitterStaysInItsBounds) {
   EXPECT_GT(greatest, 3'990'000);
   EXPECT_NEAR(sum / 1e4, 2e6, 4 * 4e6 / std::sqrt(12.0 * 1e4));
   EXPECT_EQ(outcome.digest, expected_digest(outcome));
-  EXPECT_EQ(outcome.digest, 0x2B7B0C650539D793ULL);
+  EXPECT_EQ(outcome.digest, 0x60DFB612908DC5F6ULL);
 }
 
 // With a jitter as long as the period frames may come close together but never change places.
@@ -108,7 +108,7 @@ TEST(ExponentialSchedule, PinnedTimes) {
   ASSERT_GE(outcome.produced.size(), 4u);
   EXPECT_EQ((Times{outcome.produced.begin(), outcome.produced.begin() + 4}), (Times{80'092'042, 111'343'713, 113'190'621, 152'387'061}));
   EXPECT_EQ(outcome.digest, expected_digest(outcome));
-  EXPECT_EQ(outcome.digest, 0xE45AFFDB5A3AF01CULL);
+  EXPECT_EQ(outcome.digest, 0x7225A455E706A43AULL);
 }
 
 // Gaps of mean 20 us whose deviation is their mean; the first frame comes one gap after the offset.
@@ -135,7 +135,7 @@ TEST(BurstSchedule, FramesAndSpacing) {
   EXPECT_EQ(outcome.produced, (Times{2'000'000, 12'000'000, 22'000'000, 102'000'000, 112'000'000, 122'000'000, 202'000'000,
                                      212'000'000, 222'000'000}));
   EXPECT_EQ(outcome.digest, expected_digest(outcome));
-  EXPECT_EQ(outcome.digest, 0x073DC8A90451DB0DULL);
+  EXPECT_EQ(outcome.digest, 0x47C324F41A42B21CULL);
 }
 
 TEST(BurstSchedule, AllAtOnce) {
@@ -152,7 +152,7 @@ TEST(TraceSchedule, TimesAndPayloads) {
   EXPECT_EQ(outcome.lengths, (std::vector<std::uint64_t>{118, 64, 1518}));
   EXPECT_EQ(outcome.delivered, 3u);
   EXPECT_EQ(outcome.digest, expected_digest(outcome));
-  EXPECT_EQ(outcome.digest, 0x76ABC8DDD2F2481CULL);
+  EXPECT_EQ(outcome.digest, 0xAE0CAF83035F5D53ULL);
 }
 
 TEST(TraceSchedule, EmptySendsNothing) { EXPECT_EQ(run(TraceSchedule{}, 1_ms).produced, Times{}); }

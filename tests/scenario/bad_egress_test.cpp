@@ -73,6 +73,33 @@ const BadCase cases[] = {
      R"(2:92: error at /streams/0/launch: wrong type: found the number 5, expected a duration such as the string "200us")"},
 };
 
+/// Transmission gates or stream gates of the switch with so many entries, each for that long.
+std::string with_entries(const char* before, const char* entry, std::size_t count, const char* after) {
+  std::string list;
+  for (std::size_t i = 0; i < count; ++i) list += (i > 0 ? ", " : "") + std::string(entry);
+  return before + list + after;
+}
+std::string with_gate_entries(std::size_t count, const char* interval) {
+  return with_egress(with_entries(R"({"gates": {"entries": [)", (R"({"open": [0, 1], "for": ")" + std::string(interval) + R"("})").c_str(), count, "]}}"));
+}
+std::string with_stream_gate_entries(std::size_t count, const char* interval) {
+  return with_switch(with_entries(R"("ingress": {"gates": [{"name": "g", "entries": [)", (R"({"open": true, "for": ")" + std::string(interval) + R"("})").c_str(), count, "]}]}"));
+}
+
+// Devices announce up to 65,536 entries. One more is the user's mistake and not takt's, and so is a list of weeks.
+TEST(LongControlLists, AreSupportedOrTold) {
+  for (const auto& with : {with_gate_entries, with_stream_gate_entries}) {
+    const Loaded longest = load(with(65'536, "1us"));
+    EXPECT_TRUE(longest.resolved) << longest.diagnostics.to_text();
+    for (const auto& [count, interval, what] : {std::tuple(std::size_t{65'537}, "1us", "entries: too many items: found 65537"), std::tuple(std::size_t{400}, "1h", "entries: a control list that lasts too long: found 400 entries"),
+                                                std::tuple(std::size_t{65'536}, "1h", "entries: a control list that lasts too long")}) {
+      const Loaded loaded = load(with(count, interval));
+      EXPECT_FALSE(loaded.resolved);
+      EXPECT_NE(loaded.diagnostics.to_text().find(what), std::string::npos) << loaded.diagnostics.to_text();
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(BadEgress, BadInput, testing::ValuesIn(cases), name_of_case);
 
 }  // namespace

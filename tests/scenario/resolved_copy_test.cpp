@@ -1,9 +1,15 @@
 // The resolved copy, which lies beside every result, means the same as its original: it loads, is written the same again, and
 // runs to the same digest.
+#include <type_traits>
+
 #include "support.hpp"
 
 namespace takt::scenario::test {
 namespace {
+
+// What is resolved points into itself: another object of its contents would point into the first one.
+static_assert(!std::is_copy_constructible_v<Resolved> && !std::is_copy_assignable_v<Resolved>);
+static_assert(!std::is_move_constructible_v<Resolved> && !std::is_move_assignable_v<Resolved>);
 
 void expect_same_again(const Resolved& resolved) {
   const std::string copy = json::encode(resolved.scenario);

@@ -1,10 +1,10 @@
 #include "node/applications/host.hpp"
 
 #include <algorithm>
-#include <thread>
 
 #include "node/applications/deadlines.hpp"
 #include "node/applications/tasks.hpp"
+#include "node/applications/thread_group.hpp"
 #include "node/real_node.hpp"
 #include "sim/check.hpp"
 #include "vocabulary/qos_of_thread.hpp"
@@ -52,7 +52,6 @@ struct ApplicationHost::Task {
   ActivityLog log;
   ThreadStatistics statistics;  ///< the thread's own until it has ended
   std::optional<WindowCheck> check;
-  std::thread thread;
 };
 
 /// An application or gateway with its scheduler.
@@ -62,7 +61,6 @@ struct ApplicationHost::Watched {
   NewestSamples newest;
   std::unique_ptr<SharedChannel> channel;  ///< of a gateway
   std::vector<std::unique_ptr<Task>> tasks;
-  std::thread thread;
 
   Task& add(std::unique_ptr<Work> work, Duration every, Duration offset, const char* role, const std::string& thread_name, const std::string& topic) {
     auto task = std::make_unique<Task>();
@@ -221,21 +219,19 @@ void ApplicationHost::run_scheduler(Watched& watched) {
 void ApplicationHost::run(bool (*stop_requested)(const void* context), const void* context) {
   const DeadlineClock clock(ClockName::monotonic);
   started_ = clock.now();
+  ThreadGroup threads(is_over_);
   for (const auto& watched : watched_) {
-    for (const auto& task : watched->tasks) task->thread = std::thread([this, &each = *task] { run_task(each); });
-    watched->thread = std::thread([this, &each = *watched] { run_scheduler(each); });
+    for (const auto& task : watched->tasks) threads.start([this, &each = *task] { run_task(each); });
+    threads.start([this, &each = *watched] { run_scheduler(each); });
   }
-  while (!stop_requested(context)) {
+  while (!is_over_ && !stop_requested(context)) {
     const std::int64_t now = clock.now();
     const std::int64_t end = loaded_.config.duration ? started_ + ns_of(*loaded_.config.duration) : now + longest_sleep_ns;
     if (now >= end) break;
     clock.wait_until(std::min(end, now + longest_sleep_ns));
   }
   is_over_ = true;
-  for (const auto& watched : watched_) {
-    for (const auto& task : watched->tasks) task->thread.join();
-    watched->thread.join();
-  }
+  threads.join();
   // Nobody speaks any more: what had come and no activation has taken is not lost.
   for (const auto& watched : watched_)
     for (const auto& task : watched->tasks)

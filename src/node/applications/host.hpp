@@ -47,7 +47,7 @@ class ApplicationHost {
   static std::unique_ptr<ApplicationHost> make(const LoadedApplications& loaded, std::string& problem, std::string& warnings);
   ~ApplicationHost();
 
-  /// Runs until the file's duration is over or `stop_requested` says so.
+  /// Runs until the file's duration is over or `stop_requested` says so. Throws what one of its threads has thrown, after all have ended.
   void run(bool (*stop_requested)(const void* context), const void* context);
   /// After `run`.
   std::vector<ApplicationStatistics> statistics() const;

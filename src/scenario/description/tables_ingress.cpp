@@ -1,4 +1,5 @@
 // The vocabulary of what comes in: identification, policing, shaping by ATS, CQF, and redundant streams. See description_tables.cpp.
+#include "models/egress/cyclic_schedule.hpp"
 #include "scenario/description/ingress.hpp"
 
 namespace takt::scenario {
@@ -110,7 +111,7 @@ const json::Object& describe(json::Type<StreamGateEntryList>) {
       optional<&StreamGateEntryList::cycle>("cycle", "AdminCycleTime; the sum of the entries if absent.", {.min = 1_ns, .max = longest_interval}),
       optional<&StreamGateEntryList::base_time>("base_time", "AdminBaseTime, when the first cycle begins; may lie in the past.", {.min = -(longest_interval), .max = longest_interval}),
       optional<&StreamGateEntryList::extension>("extension", "AdminCycleTimeExtension: how much the last cycle before a change may be longer.", {.max = longest_interval}),
-      optional<&StreamGateEntryList::entries>("entries", "The control list; without one the gate stays as it is.", {.max_items = 1024}),
+      optional<&StreamGateEntryList::entries>("entries", "The control list; without one the gate stays as it is.", {.max_items = models::CyclicIntervals::entry_limit}),
       optional<&StreamGateEntryList::block_invalid_rx>("block_invalid_rx", "A frame that comes while it is closed closes it for good (GateClosedDueToInvalidRx)."),
       optional<&StreamGateEntryList::block_octets_exceeded>("block_octets_exceeded", "A frame beyond the octets of an entry closes it for good (GateClosedDueToOctetsExceeded)."),
   };

@@ -1,4 +1,5 @@
 // The vocabulary of networks: nodes, ports, links, generators. See description_tables.cpp.
+#include "models/egress/cyclic_schedule.hpp"
 #include "scenario/description/description.hpp"
 
 namespace takt::scenario {
@@ -167,7 +168,7 @@ const json::Object& describe(json::Type<Gates>) {
       optional<&Gates::cycle>("cycle", "AdminCycleTime; the sum of the entries if absent.", {.min = 1_ns, .max = 3600_s}),
       optional<&Gates::base_time>("base_time", "AdminBaseTime, when the first cycle begins; may lie in the past.", {.min = -(3600_s), .max = 3600_s}),
       optional<&Gates::extension>("extension", "AdminCycleTimeExtension: how much the last cycle before a change may be longer.", {.max = 3600_s}),
-      required<&Gates::entries>("entries", "The gate control list.", {.min_items = 1, .max_items = 1024}),
+      required<&Gates::entries>("entries", "The gate control list.", {.min_items = 1, .max_items = models::CyclicIntervals::entry_limit}),
   };
   static constexpr json::Object table = json::object<Gates>("gates", "Transmission gates (IEEE 802.1Q 8.6.8.4, Qbv).", fields);
   return table;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/resolve/control_list.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -135,19 +136,19 @@ class EgressResolver {
 
 models::GateConfig gate_config_of(const Gates& gates, json::Diagnostics& diagnostics) {
   models::GateConfig config;
-  Duration sum;
+  const std::optional<Duration> sum = length_of_list(gates, diagnostics);
+  if (!sum) return config;
   for (const GateEntry& entry : gates.entries) {
     models::GateStates open = 0;
     for (const std::uint8_t q : entry.open) open = static_cast<models::GateStates>(open | 1u << (q & 7u));
     constexpr models::GateOperation operations[] = {models::GateOperation::set_gate_states, models::GateOperation::set_and_hold_mac,
                                                     models::GateOperation::set_and_release_mac};
     config.admin_control_list.push_back({operations[static_cast<std::size_t>(entry.mac)], open, entry.interval});
-    sum += entry.interval;
   }
-  config.admin_cycle_time = gates.cycle.value_or(sum);
-  if (config.admin_cycle_time < sum)
+  config.admin_cycle_time = gates.cycle.value_or(*sum);
+  if (config.admin_cycle_time < *sum)
     diagnostics.warning(gates.where.at("cycle"), "the end of the gate list is cut off",
-                        {"entries of " + json::to_text(sum) + " in a cycle of " + json::to_text(config.admin_cycle_time), "entries that fit into the cycle"});
+                        {"entries of " + json::to_text(*sum) + " in a cycle of " + json::to_text(config.admin_cycle_time), "entries that fit into the cycle"});
   config.admin_cycle_time_extension = gates.extension;
   config.admin_base_time = sim::LocalTime() + gates.base_time;
   return config;

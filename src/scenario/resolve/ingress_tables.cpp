@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scenario/json/suggest.hpp"
+#include "scenario/resolve/control_list.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -79,19 +80,19 @@ models::StreamGateConfig stream_gate_of(const StreamGateEntryList& gate, json::D
   config.name = gate.name;
   config.admin_gate_open = gate.open;
   config.admin_ipv = gate.ipv;
-  Duration sum;
+  const std::optional<Duration> sum = length_of_list(gate, diagnostics);
+  if (!sum) return config;
   for (const StreamGateStep& step : gate.entries) {
     if (step.octets && !step.open)
       diagnostics.error(step.where.at("octets"), "octets of a closed gate", {json::to_text(*step.octets) + " with \"open\": false", "octets of an open entry"});
     config.admin_control_list.push_back({step.open, step.ipv, step.interval, step.octets ? std::optional(step.octets->count) : std::nullopt});
-    sum += step.interval;
   }
   if (gate.entries.empty() && gate.cycle)
     diagnostics.error(gate.where.at("cycle"), "a cycle without entries", {"\"cycle\" alone", "\"entries\" too"});
-  config.admin_cycle_time = gate.cycle.value_or(sum);
-  if (!gate.entries.empty() && config.admin_cycle_time < sum)
+  config.admin_cycle_time = gate.cycle.value_or(*sum);
+  if (!gate.entries.empty() && config.admin_cycle_time < *sum)
     diagnostics.warning(gate.where.at("cycle"), "the end of the gate list is cut off",
-                        {"entries of " + json::to_text(sum) + " in a cycle of " + json::to_text(config.admin_cycle_time), "entries that fit into the cycle"});
+                        {"entries of " + json::to_text(*sum) + " in a cycle of " + json::to_text(config.admin_cycle_time), "entries that fit into the cycle"});
   config.admin_cycle_time_extension = gate.extension;
   config.admin_base_time = sim::LocalTime() + gate.base_time;
   config.closed_due_to_invalid_rx_enable = gate.block_invalid_rx;

@@ -175,7 +175,13 @@ struct ResolvedRedundancy {
   std::vector<models::StreamMember> members;   ///< by path
 };
 
+/// A scenario as it runs. Its parts point into one another (programs and redundancies into the scenario, streams by number into the plan), so it stays where
+/// it was made.
 struct Resolved {
+  Resolved() = default;
+  Resolved(const Resolved&) = delete;
+  Resolved& operator=(const Resolved&) = delete;
+
   Scenario scenario;
   Topology topology;
   models::NetworkPlan plan;

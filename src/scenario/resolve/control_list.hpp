@@ -1,0 +1,30 @@
+// What control lists of transmission gates and of stream gates have in common before the models may lay them out.
+#pragma once
+
+#include <optional>
+
+#include "models/egress/cyclic_schedule.hpp"
+#include "scenario/description/description.hpp"
+#include "scenario/json/diagnostics.hpp"
+#include "scenario/json/quantity.hpp"
+
+namespace takt::scenario {
+
+/// All intervals of a list together; nothing if no list can be made of them, which has been told: by the table that there are too many, here that they last too long.
+template <class Description>
+std::optional<Duration> length_of_list(const Description& list, json::Diagnostics& diagnostics) {
+  using models::CyclicIntervals;
+  if (list.entries.size() > CyclicIntervals::entry_limit) return std::nullopt;
+  Duration sum;
+  for (const auto& entry : list.entries) {
+    if (entry.interval > CyclicIntervals::longest - sum) {
+      diagnostics.error(list.where.at("entries"), "a control list that lasts too long",
+                        {std::to_string(list.entries.size()) + " entries of more than " + json::to_text(CyclicIntervals::longest) + " in all", "entries of at most that"});
+      return std::nullopt;
+    }
+    sum += entry.interval;
+  }
+  return sum;
+}
+
+}  // namespace takt::scenario

@@ -129,6 +129,12 @@ class Validation(unittest.TestCase):
         self.assertGreater(len(rows(page)), 550)
         self.assertLessEqual(rows(self.out / "validation.md"), rows(page), "takt paper validation --out DIR, then copy DIR/validation.md")
 
+    def test_the_whole_page_is_what_comes_out(self):
+        out = self.out.parent / "full"
+        self.assertEqual(paper("validation", "--quiet", "--out", out)[0], 0)
+        made = (out / "validation.md").read_text()
+        self.assertTrue(made == (SOURCE / "docs" / "validation.md").read_text(), "docs/validation.md is old: takt paper validation --out DIR, then copy DIR/validation.md")
+
     def test_pictures(self):
         for name in ("ratios", "conext22"):
             root = xml.etree.ElementTree.parse(self.out / f"{name}.svg").getroot()

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -55,6 +56,17 @@ std::map<std::string, double> places_of(const std::vector<const Judged*>& figure
   return places;
 }
 
+/// A curve that is broken where rows have no figure.
+void add_curve(LineChart& chart, const std::string& name, const std::string& colour, std::vector<Sample> samples) {
+  std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.x < b.x; });
+  std::optional<double> last;
+  for (const Sample& sample : samples) {
+    if (!last || sample.x > *last + 1) chart.series.push_back({last ? "" : name, {}, true, colour});
+    chart.series.back().samples.push_back(sample);
+    last = sample.x;
+  }
+}
+
 /// What is published in marks, what takt says a curve for each kind of figure.
 Figure rows_of(const Validation& made, std::size_t source) {
   std::vector<const Judged*> figures;
@@ -74,12 +86,11 @@ Figure rows_of(const Validation& made, std::size_t source) {
   std::set<std::pair<double, double>> published;         // several figures may be held against one
   for (const Judged* each : figures)
     if (each->published_value) published.insert({places.at(each->row), *each->published_value});
-  for (const std::string& kind : kinds) {
-    Series takt{"takt: " + kind, {}, true, ""};
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    std::vector<Sample> samples;
     for (const Judged* each : figures)
-      if (each->kind == kind && each->takt_value) takt.samples.push_back({places.at(each->row), *each->takt_value, {}, {}});
-    std::sort(takt.samples.begin(), takt.samples.end(), [](const Sample& a, const Sample& b) { return a.x < b.x; });
-    chart.series.push_back(std::move(takt));
+      if (each->kind == kinds[k] && each->takt_value) samples.push_back({places.at(each->row), *each->takt_value, {}, {}});
+    add_curve(chart, "takt: " + kinds[k], std::string(chart::palette(k)), std::move(samples));
   }
   Series marks{"published", {}, false, "#222"};
   for (const auto& [x, y] : published) marks.samples.push_back({x, y, {}, {}});

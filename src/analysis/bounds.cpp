@@ -98,7 +98,8 @@ class StreamBounds {
   void look_for_losses(const Hop& hop, StreamBound& bound) const {
     const GraphPort& port = graph_.ports[hop.port];
     const auto at = [&] { return r_.plan.nodes[port.node.value].name + ":" + std::to_string(port.number); };
-    if (!has_room(hop)) lose(bound, "a full queue, a filter or a recovery may drop frames at " + at());
+    if (!has_room(hop)) lose(bound, "a full queue may drop frames at " + at());
+    if (network_.hops[static_cast<std::size_t>(&hop - graph_.hops.data())].may_drop) lose(bound, "a stream filter may drop frames before " + at());
     if (outages_.takes_link(port.link)) lose(bound, "the link of " + at() + " goes down", true);
     for (const models::ImpairmentPlan& each : r_.plan.impairments)
       if (each.link == port.link && each.from_a_to_b == port.from_a && (each.impairment.loss || each.impairment.corruption)) lose(bound, "chance loses frames on the link of " + at(), true);
@@ -141,7 +142,7 @@ class StreamBounds {
     return made;
   }
 
-  /// Nothing on the way drops frames of the hop: queues hold the backlog, no gate or meter polices.
+  /// Queues hold the backlog, and take frames of that length.
   bool has_room(const Hop& hop) const {
     const models::PortConfig& config = *graph_.models[hop.port].config;
     for (models::TrafficClass q = hop.lowest_class; q <= hop.highest_class; ++q) {
@@ -150,14 +151,9 @@ class StreamBounds {
       const models::QueueLimit& limit = config.queue_limits[q];
       const Ps octets = bound.backlog / graph_.ports[hop.port].octet_time + 1;
       if (!is_bounded(bound.backlog) || bound.backlog_frames > limit.frames || octets > limit.octets) return false;
-      if (config.shaping.queue_max_sdu[q].count != 0) return false;
+      if (config.shaping.queue_max_sdu[q].count != 0 && hop.msdu > config.shaping.queue_max_sdu[q]) return false;
     }
-    const models::NodePlan& node = r_.plan.nodes[graph_.ports[hop.port].node.value];
-    return !node.ingress || hop.parents.empty() || !polices(r_.plan.ingress_configs[*node.ingress]);
-  }
-
-  static bool polices(const models::IngressConfig& ingress) {
-    return !ingress.stream_filters.empty() || !ingress.recoveries.empty();
+    return hop.unsupported.empty();
   }
 
   const scenario::Resolved& r_;

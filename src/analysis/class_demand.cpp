@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
 
 #include "models/ethernet/sizes.hpp"
 
@@ -82,6 +83,45 @@ std::int64_t ClassDemand::frames(Ps length) const {
     frames += count;
   }
   return frames;
+}
+
+Ps ClassDemand::work_in_each(Ps length) const {
+  Ps work = 0;
+  for (const Group& group : groups_)
+    for (const Flow& flow : group.flows) {
+      const ArrivalPattern& pattern = flow.arrivals->calmest();
+      work = sum(work, product(flow.work, length / pattern.period * pattern.frames));
+    }
+  return work;
+}
+
+Ps ClassDemand::settled_after() const {
+  Ps settled = 0;
+  for (const Group& group : groups_) {
+    if (group.link_octet == 0) continue;
+    double rate = 0, burst = 0;
+    for (const Flow& flow : group.flows) {
+      rate += static_cast<double>(flow.work) * flow.arrivals->calmest().rate();
+      burst += static_cast<double>(flow.work) * flow.arrivals->calmest().burst();
+    }
+    const double spare = static_cast<double>(octet_time_) / static_cast<double>(group.link_octet) - rate;
+    if (spare <= 0) return unbounded_ps;
+    settled = std::max(settled, rounded_up(std::max(0.0, (burst - static_cast<double>(group.at_once)) / spare)));
+  }
+  return settled;
+}
+
+std::optional<Ps> ClassDemand::common_period(Ps period, Ps most) const {
+  sim::int128 all = period;
+  for (const Group& group : groups_)
+    for (const Flow& flow : group.flows) {
+      if (flow.arrivals->patterns().size() != 1) return std::nullopt;
+      const Ps its = flow.arrivals->calmest().period;
+      if (!is_bounded(its)) return std::nullopt;   // it happens once, and until then nothing repeats
+      all = all / std::gcd(static_cast<Ps>(all), its) * its;
+      if (all > most) return std::nullopt;
+    }
+  return static_cast<Ps>(all);
 }
 
 std::vector<Ps> ClassDemand::bends(Ps end, std::size_t most) const {

@@ -1,6 +1,7 @@
 // What comes to one class of a port: work in any interval, from the arrival curves of its flows and the links by which they come.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "analysis/port_bound.hpp"
@@ -20,6 +21,12 @@ class ClassDemand {
   /// work(t) <= burst() + rate() * t; infinite where there is no such line.
   double rate() const { return rate_; }
   double burst() const { return burst_; }
+  /// What comes in each `length`, which is a multiple of all periods, from settled_after() on.
+  Ps work_in_each(Ps length) const;
+  /// Links limit nothing any more in intervals that are longer. Unbounded if they always may.
+  Ps settled_after() const;
+  /// The least common multiple of the periods of all flows and this one; nothing if that is longer than `most`, or if there is none.
+  std::optional<Ps> common_period(Ps period, Ps most) const;
   /// Work of the longest and of the shortest frame.
   Ps longest() const { return longest_; }
   Ps shortest() const { return shortest_; }

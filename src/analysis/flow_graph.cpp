@@ -11,6 +11,9 @@
 namespace takt::analysis {
 namespace {
 
+/// What fixed point rounds of a frequency.
+constexpr std::int64_t rounding_ppt = 1'000;
+
 std::int64_t magnitude(std::int64_t value) { return value < 0 ? -value : value; }
 
 /// The greatest deviation of an oscillator in a run of that duration, in parts in 10^12.
@@ -22,7 +25,18 @@ std::int64_t greatest_deviation(const models::OscillatorConfig& oscillator, sim:
   std::int64_t table = 0;
   for (const models::FrequencyPoint& point : oscillator.table) table = std::max(table, magnitude(point.frequency.parts_per_trillion));
   const double bound = std::min(ppt + static_cast<double>(table), static_cast<double>(magnitude(oscillator.bound.parts_per_trillion)));
-  return static_cast<std::int64_t>(bound) + 1'000;   // and what fixed point rounds
+  return static_cast<std::int64_t>(bound) + rounding_ppt;
+}
+
+/// A clock that goes at one frequency for ever is known by its sign too.
+void set_rate(ClockQuality& quality, const models::OscillatorConfig& oscillator, sim::Duration duration) {
+  quality.rate_ppt = greatest_deviation(oscillator, duration);
+  quality.slowest_ppt = -quality.rate_ppt;
+  quality.fastest_ppt = quality.rate_ppt;
+  const std::int64_t offset = oscillator.offset.parts_per_trillion;
+  if (!oscillator.is_constant() || !oscillator.table.empty() || magnitude(offset) > magnitude(oscillator.bound.parts_per_trillion)) return;
+  quality.slowest_ppt = offset - rounding_ppt;
+  quality.fastest_ppt = offset + rounding_ppt;
 }
 
 PortModel model_of(const scenario::Resolved& r, const GraphPort& port, const BoundOptions& options) {
@@ -96,10 +110,12 @@ ClockQuality clock_quality(const scenario::Resolved& r, models::NodeIndex node, 
     // Everybody follows the grandmaster, who may be anybody.
     for (const models::NodePlan& other : r.plan.nodes)
       if (other.clock) quality.rate_ppt = std::max(quality.rate_ppt, greatest_deviation(other.clock->oscillator, r.scenario.duration));
+    quality.slowest_ppt = -quality.rate_ppt;
+    quality.fastest_ppt = quality.rate_ppt;
     quality.error = clock_premise(r, options).error.ps();
     return quality;
   }
-  quality.rate_ppt = greatest_deviation(plan.clock->oscillator, r.scenario.duration);
+  set_rate(quality, plan.clock->oscillator, r.scenario.duration);
   quality.is_synchronised = false;
   return quality;
 }

@@ -27,13 +27,28 @@ struct GraphPort {
 /// How ATS holds a flow back before a hop.
 struct AtsHold {
   bool is_minded = true;             ///< the class is sent by eligibility times; if not, the flow only moves on the times of its group
-  bool is_shared = false;            ///< several streams take the tokens of the scheduler
+  bool is_shared = false;            ///< several flows, or several members of one, take the tokens of the scheduler
+  std::uint64_t scheduler = 0;       ///< hops with the same number have the same scheduler
   std::uint64_t group = 0;           ///< flows with the same number share a scheduler group, and wait for each other
   ArrivalPattern shaped;             ///< what leaves the scheduler
   std::int64_t bits = 0;             ///< of a frame, as the scheduler counts them
   std::int64_t burst_bits = 0;
   std::int64_t rate = 0;             ///< bit/s
   Ps longest_residence = unbounded_ps;
+};
+
+/// A token bucket that drops what it has no tokens for.
+struct TokenMeter {
+  std::int64_t burst_bits = 0;
+  std::int64_t rate = 0;             ///< bit/s
+};
+
+/// What polices a flow on its way to a port.
+struct Policing {
+  bool is_there = false;
+  bool always_may_drop = false;      ///< a gate that is closed at times, a maximum that frames exceed, a meter of several streams
+  std::optional<TokenMeter> meter;
+  std::uint64_t number = 0;          ///< hops with the same number have the same meter
 };
 
 /// A flow at one egress port.
@@ -50,6 +65,8 @@ struct Hop {
   bool headers_come_first = false;      ///< the node may see the frame before its last bit
   std::optional<AtsHold> ats;
   std::optional<ArrivalPattern> metered;   ///< what a flow meter lets pass
+  Policing policing;
+  sim::Octets msdu{0};                  ///< of a frame, with its R-TAG
   std::string unsupported;              ///< why the hop cannot be bounded
 };
 

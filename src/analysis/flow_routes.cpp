@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "analysis/outages.hpp"
 #include "models/egress/class_set.hpp"
@@ -40,6 +41,20 @@ class RouteMaker {
     }
     for (std::size_t i = 0; i < stream.paths.size(); ++i) {
       note_last(flow, redundancy != nullptr ? 0 : i, walk(flow, stream.paths[i], redundancy, i, false));
+    }
+  }
+
+  /// Flows of one stream, and members of a redundant one, may meet at one scheduler or meter; hops of one frame to several ports do not.
+  void note_shared_tokens() {
+    using Pass = std::pair<std::uint32_t, std::vector<std::uint32_t>>;
+    std::map<std::uint64_t, std::set<Pass>> of_scheduler, of_meter;
+    for (const Hop& hop : graph_.hops) {
+      if (hop.ats) of_scheduler[hop.ats->scheduler].insert({hop.flow, hop.parents});
+      if (hop.policing.meter) of_meter[hop.policing.number].insert({hop.flow, hop.parents});
+    }
+    for (Hop& hop : graph_.hops) {
+      if (hop.ats && of_scheduler[hop.ats->scheduler].size() > 1) hop.ats->is_shared = true;
+      if (hop.policing.meter && of_meter[hop.policing.number].size() > 1) hop.policing.always_may_drop = true;
     }
   }
 
@@ -91,6 +106,7 @@ class RouteMaker {
         made.flow = flow;
         made.port = port;
         made.frame = models::frame_length(plan.headers + stream.largest_payload, has_tag, r_tagged);
+        made.msdu = plan.headers + stream.largest_payload + (r_tagged ? models::r_tag : sim::Octets{0});
         made.is_copied_here = splits;
         const models::AddressIndex address = is_member && !splits ? redundancy->members[number].destination : plan.destination;
         const std::uint16_t in_port = at > 0 ? *r_.topology.port_towards(path[at], path[at - 1]) : std::uint16_t{0};
@@ -141,11 +157,32 @@ class RouteMaker {
       return (!f.stream_handle || (!handle.is_none() && *f.stream_handle == handle)) && (!f.priority || *f.priority == priority);
     });
     if (filter == ingress.stream_filters.end()) return;
+    hop.policing = policing_of(ingress, *filter, hop.msdu);
+    if (hop.policing.meter) hop.policing.number = (static_cast<std::uint64_t>(node) + 1) << 32 | filter->flow_meter.value;
     if (!filter->stream_gate.is_none()) set_gate(hop, config, ingress.stream_gates[filter->stream_gate.value]);
     if (!filter->flow_meter.is_none()) set_meter(hop, ingress.flow_meters[filter->flow_meter.value].meter);
     if (filter->ats_scheduler.is_none()) return;
     set_ats(hop, ingress, filter->ats_scheduler.value, node, in_port, priority);
     hop.ats->is_minded = hop.lowest_class == hop.highest_class && models::contains(config.shaping.timed, hop.highest_class);
+  }
+
+  static Policing policing_of(const models::IngressConfig& ingress, const models::StreamFilterConfig& filter, sim::Octets msdu) {
+    Policing made;
+    made.is_there = true;
+    made.always_may_drop = filter.maximum_sdu_size.count != 0 && msdu > filter.maximum_sdu_size;
+    if (!filter.stream_gate.is_none()) {
+      const models::StreamGateConfig& gate = ingress.stream_gates[filter.stream_gate.value];
+      const auto may_drop = [](const models::StreamGateEntry& entry) { return !entry.open || entry.interval_octet_max; };
+      const bool drops = gate.admin_control_list.empty() ? !gate.admin_gate_open : std::any_of(gate.admin_control_list.begin(), gate.admin_control_list.end(), may_drop);
+      made.always_may_drop = made.always_may_drop || drops;
+    }
+    if (filter.flow_meter.is_none()) return made;
+    const models::FlowMeterConfig& meter = ingress.flow_meters[filter.flow_meter.value].meter;
+    const auto users = std::count_if(ingress.stream_filters.begin(), ingress.stream_filters.end(), [&](const models::StreamFilterConfig& other) { return !other.flow_meter.is_none() && other.flow_meter == filter.flow_meter; });
+    // What keeps to the committed rate is green. A frame that an earlier meter has marked is not.
+    if (users > 1 || !filter.stream_handle || meter.color_mode == models::ColorMode::color_aware) made.always_may_drop = true;
+    made.meter = TokenMeter{std::int64_t{8} * meter.committed_burst_size.count, static_cast<std::int64_t>(meter.committed_information_rate.bits_per_second)};
+    return made;
   }
 
   static void set_gate(Hop& hop, const models::PortConfig& config, const models::StreamGateConfig& gate) {
@@ -186,6 +223,7 @@ class RouteMaker {
     const sim::Duration residence = is_named ? ingress.ats_groups[scheduler.group.value].maximum_residence_time : ingress.maximum_residence_time;
     if (residence != sim::Duration::max()) hold.longest_residence = residence.ps();
     hold.is_shared = shares_scheduler(node, number);
+    hold.scheduler = (static_cast<std::uint64_t>(node) + 1) << 32 | number;
     hop.ats = hold;
   }
 
@@ -210,6 +248,7 @@ class RouteMaker {
 void add_routes(const scenario::Resolved& resolved, FlowGraph& graph) {
   RouteMaker maker(resolved, graph);
   for (std::uint32_t flow = 0; flow < graph.flows.size(); ++flow) maker.make(flow);
+  maker.note_shared_tokens();
 }
 
 }  // namespace takt::analysis

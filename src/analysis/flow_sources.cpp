@@ -25,8 +25,8 @@ Overloaded(Cases...) -> Overloaded<Cases...>;
 ArrivalPattern at_any_time() { return {1, 1, 0, unbounded_ps}; }
 
 /// A length of a clock's time in true time, at least and at most.
-Ps shortest(Ps local, const ClockQuality& clock) { return scaled_down(local, one - clock.rate_ppt, one); }
-Ps longest(Ps local, const ClockQuality& clock) { return scaled_up(local, one + clock.rate_ppt, one); }
+Ps shortest(Ps local, const ClockQuality& clock) { return scaled_down(local, one, one + clock.fastest_ppt); }
+Ps longest(Ps local, const ClockQuality& clock) { return scaled_up(local, one, one + clock.slowest_ppt); }
 
 ArrivalPattern pattern_of(const models::TalkerPlan& talker, const ClockQuality& clock) {
   const auto periodic = [&](Ps period, Ps jitter) {
@@ -82,8 +82,8 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, b
     flow.best_source = os.transmit.least().ps();
   }
   pattern.jitter = sum(pattern.jitter, flow.worst_source - flow.best_source);
-  if (const auto* const periodic = std::get_if<models::PeriodicSchedule>(&talker.schedule); periodic != nullptr && has_phase && clock.is_synchronised)
-    flow.produced = ArrivalPhase{periodic->offset.ps() - clock.error, periodic->period.ps(), periodic->jitter.ps() + 2 * clock.error};
+  if (const auto* const periodic = std::get_if<models::PeriodicSchedule>(&talker.schedule); periodic != nullptr && has_phase && !talker.babbles)
+    flow.produced = ArrivalPhase{periodic->offset.ps() - clock.error, periodic->period.ps(), periodic->jitter.ps() + 2 * clock.error, clock.is_synchronised ? 0 : node.value + 1, clock.rate_ppt};
   flow.source = FrameArrivals(pattern);
   graph.flows.push_back(std::move(flow));
 }
@@ -127,7 +127,7 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
     const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
     const Ps wake_up = os.wake_up.greatest().ps() - os.wake_up.least().ps();
     if (frames == 1 && clock.is_synchronised && scenario::promises_phase(*program.description, r.plan.nodes[node.value].name))
-      graph.flows.back().produced = ArrivalPhase{program.phases[participant].ps() + os.wake_up.least().ps() - clock.error, program.description->cycle.ps(), wake_up + 2 * clock.error};
+      graph.flows.back().produced = ArrivalPhase{program.phases[participant].ps() + os.wake_up.least().ps() - clock.error, program.description->cycle.ps(), wake_up + 2 * clock.error, 0, clock.rate_ppt};
     if (graph.flows.back().produced) graph.flows.back().train = trains_before + participant;   // its state comes first, then its data
   };
   const bool on_change = program.description->publish == scenario::Publish::on_change;

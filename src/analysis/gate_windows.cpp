@@ -92,24 +92,36 @@ Ps PhasedSupply::time_from(Ps from, Ps need) const {
     }
 }
 
-PeriodicSupply::PeriodicSupply(const GateCycle& gates, TrafficClass q, Ps lost_at_start, Ps lost_at_end, std::int64_t rate_ppt) {
+PeriodicSupply::PeriodicSupply(const GateCycle& gates, TrafficClass q, Ps lost_at_start, Ps lost_at_end, std::int64_t slowest_ppt, std::int64_t fastest_ppt, Ps guard, const PackedWork& packed) {
   constexpr std::int64_t one = 1'000'000'000'000;
   Ps end_of_last = -1;
   Ps first_start = 0;
+  Ps more_of_last = 0;
+  Ps room_of_last = -1;
+  Ps packed_of_last = 0;
   for (const GateWindow& window : gates.windows(q)) {
     const Ps from = window.from + lost_at_start;
     const Ps until = window.until - lost_at_end;
     if (from > until) continue;
     if (windows_.empty())
       first_start = from;
-    windows_.push_back({windows_.empty() ? 0 : from - end_of_last, until - from});
+    const Ps length = scaled_down(until - from, one, one + fastest_ppt);
+    // What is left for frames that end in time, by the worst clock.
+    if (const Ps room = scaled_down(until + guard - from, one, one + fastest_ppt); packed && room != room_of_last) {
+      room_of_last = room;
+      packed_of_last = packed(room);
+    }
+    const Ps more = std::max<Ps>(0, packed_of_last - length);
+    windows_.push_back({windows_.empty() ? 0 : from - end_of_last, length, length + more, more_of_last});
     end_of_last = until;
+    more_of_last = more;
   }
   if (windows_.empty()) return;
   windows_.front().gap_before = std::max<Ps>(0, first_start + gates.cycle() - end_of_last);
+  windows_.front().lost_first = more_of_last;
   for (Window& window : windows_) {
-    window.gap_before = scaled_up(std::max<Ps>(0, window.gap_before), one + rate_ppt, one);
-    window.length = scaled_down(window.length, one - rate_ppt, one);
+    // Who has sent more in the window before has waited for so much less.
+    window.gap_before = std::max<Ps>(0, scaled_up(std::max<Ps>(0, window.gap_before), one, one + slowest_ppt) - window.lost_first);
     usable_ += window.length;
     cycle_ += window.gap_before + window.length;
   }
@@ -122,11 +134,11 @@ Ps PeriodicSupply::time_for(Ps need) const {
   Ps longest = 0;
   for (std::size_t first = 0; first < windows_.size(); ++first) {
     Ps rest = need - cycles * usable_;
-    Ps time = product(cycle_, cycles);
+    Ps time = sum(product(cycle_, cycles), windows_[first].lost_first);
     for (std::size_t i = first;; i = (i + 1) % windows_.size()) {
       time = sum(time, windows_[i].gap_before);
-      if (rest <= windows_[i].length) break;
-      rest -= windows_[i].length;
+      if (rest <= windows_[i].fits) break;
+      rest -= std::min(rest, windows_[i].length);   // what does not fit any more begins with the next window
       time = sum(time, windows_[i].length);
     }
     longest = std::max(longest, sum(time, rest));

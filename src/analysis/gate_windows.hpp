@@ -1,6 +1,7 @@
 // When the gate of a class lets frames start, as a service that repeats: windows and the gaps between them, at the worst phase.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -62,11 +63,15 @@ class PhasedSupply {
   std::vector<GateWindow> windows_;
 };
 
+/// What a class certainly sends in a window in which frames wait all the time, in which frames that together last so long end: at least that less the longest frame.
+using PackedWork = std::function<Ps(Ps room)>;
+
 /// Stretches of usable time that repeat.
 class PeriodicSupply {
  public:
-  /// Of each window what is left when `lost_at_start` and `lost_at_end` are taken off its ends; shrunk and stretched by the clock's worst rate.
-  PeriodicSupply(const GateCycle& gates, models::TrafficClass q, Ps lost_at_start, Ps lost_at_end, std::int64_t rate_ppt);
+  /// Of each window what is left when `lost_at_start` and `lost_at_end` are taken off its ends; shrunk and stretched by the worst rates of the clock (parts in 10^12). A busy period may begin when nothing fits any more
+  /// into a window, `guard` before its end; but from the windows that begin later it takes all that `packed` says.
+  PeriodicSupply(const GateCycle& gates, models::TrafficClass q, Ps lost_at_start, Ps lost_at_end, std::int64_t slowest_ppt, std::int64_t fastest_ppt, Ps guard = 0, const PackedWork& packed = {});
 
   /// The longest time, from any phase, in which `need` of usable time passes. Unbounded if there is none.
   Ps time_for(Ps need) const;
@@ -79,7 +84,9 @@ class PeriodicSupply {
  private:
   struct Window {
     Ps gap_before = 0;
+    Ps fits = 0;         // up to here the longest frame fits
     Ps length = 0;
+    Ps lost_first = 0;   // of the window before it, if a busy period begins in that
   };
   Ps cycle_ = 0;
   Ps usable_ = 0;

@@ -21,6 +21,7 @@ class FixedPoint {
   FixedPoint(const scenario::Resolved& resolved, const FlowGraph& graph)
       : r_(resolved), graph_(graph), arrivals_(graph.hops.size()), traffic_(graph.ports.size()), is_due_(graph.ports.size(), true), is_known_(graph.hops.size(), false) {
     result_.hops.resize(graph.hops.size());
+    line_of_.resize(graph.hops.size());
     result_.ports.resize(graph.ports.size());
     for (const Hop& hop : graph.hops)
       if (hop.ats) ats_groups_[hop.ats->group].push_back(static_cast<std::uint32_t>(&hop - graph.hops.data()));
@@ -36,6 +37,7 @@ class FixedPoint {
     // What still grows after many rounds is unbounded; with that known, the others settle.
     while (!settle()) give_up_what_grows();
     for (std::uint32_t p = 0; p < graph_.ports.size(); ++p) count_held_frames(p);
+    for (std::uint32_t h = 0; h < graph_.hops.size(); ++h) result_.hops[h].may_drop = policing_drops(h);
     result_.arrivals = std::move(arrivals_);
     return std::move(result_);
   }
@@ -56,8 +58,7 @@ class FixedPoint {
       flow.lowest_class = hop.lowest_class;
       flow.highest_class = hop.highest_class;
       flow.uses_cqf = hop.uses_cqf;
-      // Frames that a scheduler has held come when they are eligible, not as their link brought them.
-      if (hop.parents.size() == 1 && !hop.is_copied_here && !is_held(hop)) {
+      if (hop.parents.size() == 1 && !hop.is_copied_here) {
         const std::uint32_t from = graph_.hops[hop.parents.front()].port;
         const auto [known, is_new] = link_of.try_emplace(from, traffic.links.size());
         if (is_new) {
@@ -70,6 +71,7 @@ class FixedPoint {
         traffic.links[known->second].is_mixed = traffic.links[known->second].is_mixed || hop.headers_come_first;
         flow.link = known->second;
       }
+      line_of_[h] = flow.link;
       traffic.flows.push_back(std::move(flow));
     }
     for (const GptpMessages& messages : gptp_messages(r_, port.node)) {
@@ -96,7 +98,7 @@ class FixedPoint {
   /// To begin with, frames that are planned come when the last of them would if nobody waited, which is what gates are laid for. Where gates keep frames for others that would come
   /// at other times, what follows would never get away from it.
   void expect_no_wait(const Flow& flow) {
-    if (!flow.produced) return;
+    if (!flow.produced || flow.produced->clock != 0) return;
     const Ps last = sum(flow.produced->first + flow.produced->width, flow.worst_source);
     for (const std::uint32_t h : flow.hops) {
       const Hop& hop = graph_.hops[h];
@@ -166,6 +168,8 @@ class FixedPoint {
       const std::vector<std::uint32_t>& hops = graph_.ports[p].hops;
       for (std::size_t i = 0; i < hops.size(); ++i) {
         traffic_[p].flows[i].arrivals = arrivals_[hops[i]];
+        // Frames that a scheduler has held come when they are eligible, not as their link brought them.
+        traffic_[p].flows[i].link = is_held(graph_.hops[hops[i]]) && !result_.hops[hops[i]].is_never_held ? 0 : line_of_[hops[i]];
         traffic_[p].flows[i].phase = result_.hops[hops[i]].phase;
       }
       result_.ports[p] = bound_port(graph_.models[p], traffic_[p]);
@@ -227,15 +231,18 @@ class FixedPoint {
       arrivals = flow.source.delayed(hop.parents.empty() ? 0 : own_jitter);
       if (hop.parents.size() > 1 && !passes_once(flow, own_jitter)) arrivals = multiplied(arrivals, static_cast<std::int64_t>(hop.parents.size()));
     }
-    if (hop.metered) arrivals.add(*hop.metered);
-    if (is_held(hop)) arrivals.add(hop.ats->shaped);
+    const ClockQuality& clock = graph_.models[hop.port].clock;
+    if (hop.metered) arrivals.add(by_clock(*hop.metered, clock));
+    if (is_held(hop)) arrivals.add(by_clock(hop.ats->shaped, clock));
+    const bool is_never_held = is_held(hop) && holds_nobody(hop);
     if (!hop.parents.empty() && graph_.ports[graph_.hops[hop.parents.front()].port].may_double) arrivals = multiplied(arrivals, 2);
     const std::optional<ArrivalPhase> phase = phase_of(h, best, worst);
-    if (is_known_[h] && result.best == best && result.worst == worst && phase == result.phase && same(arrivals, arrivals_[h])) return;
+    if (is_known_[h] && result.best == best && result.worst == worst && phase == result.phase && is_never_held == result.is_never_held && same(arrivals, arrivals_[h])) return;
     is_known_[h] = true;
     result.best = best;
     result.worst = worst;
     result.phase = phase;
+    result.is_never_held = is_never_held;
     note_left(h);
     arrivals_[h] = std::move(arrivals);
     is_due_[hop.port] = true;   // and with it the hops behind
@@ -270,10 +277,12 @@ class FixedPoint {
     const Hop& hop = graph_.hops[h];
     const Flow& flow = graph_.flows[hop.flow];
     if (!flow.produced || !is_bounded(worst)) return std::nullopt;
-    for (const std::uint32_t each : flow.hops)
+    for (const std::uint32_t each : flow.hops) {
       if (graph_.ports[graph_.hops[each].port].may_double) return std::nullopt;
+      if (graph_.hops[each].parents.size() > 1 && !passes_once(flow, is_bounded(result_.hops[each].worst) ? result_.hops[each].worst - result_.hops[each].best : unbounded_ps)) return std::nullopt;
+    }
     // Clocks may drift a little on the way.
-    const std::int64_t rate_ppt = graph_.models[hop.port].clock.rate_ppt;
+    const std::int64_t rate_ppt = std::max(graph_.models[hop.port].clock.rate_ppt, flow.produced->rate_ppt);
     const Ps drift = scaled_up(worst, rate_ppt, one);
     Ps first = flow.produced->first + best - drift;
     Ps last = sum(flow.produced->first + flow.produced->width, worst, drift);
@@ -287,7 +296,7 @@ class FixedPoint {
       first = fit_together ? std::max(first, scheduled_first) : scheduled_first;
       last = fit_together ? std::min(last, scheduled_last) : scheduled_last;
     }
-    return is_bounded(last) ? std::optional(ArrivalPhase{first, flow.produced->period, last - first}) : std::nullopt;
+    return is_bounded(last) ? std::optional(ArrivalPhase{first, flow.produced->period, last - first, flow.produced->clock, flow.produced->rate_ppt}) : std::nullopt;
   }
 
   static bool same(const FrameArrivals& a, const FrameArrivals& b) {
@@ -314,31 +323,66 @@ class FixedPoint {
     return description.algorithm != scenario::Recovery::match || (flow.source.is_limited() && flow.source.count(spread) <= 1);
   }
 
+  /// What a bucket that fills by that clock lets through, in true time.
+  static ArrivalPattern by_clock(ArrivalPattern pattern, const ClockQuality& clock) {
+    if (is_bounded(pattern.period)) pattern.period = std::max<Ps>(1, scaled_down(pattern.period, one, one + clock.fastest_ppt));
+    pattern.jitter = sum(scaled_up(pattern.jitter, one, one + clock.slowest_ppt), 2 * clock.error);
+    return pattern;
+  }
+  /// The rate of a bucket that fills by that clock, at least.
+  static std::int64_t slowest_rate(const AtsHold& hold, const ClockQuality& clock) { return scaled_down(hold.rate, one + clock.slowest_ppt, one); }
+
   /// The delay at the port before, with what the scheduler of this hop holds the frame after it.
-  ///
-  /// Flows that kept to their buckets when they came to one FIFO queue, and go from it to the schedulers of one group, are held for no longer than the queue could
-  /// have delayed a frame anyway ("shaping for free", Le Boudec 2018). A flow alone in its group waits for its own tokens; others are held for as long as the residence
-  /// time lets them be.
   Ps delay_with_hold(const Hop& hop, std::uint32_t parent) const {
     const Ps delay = result_.hops[parent].delay;
     if (!is_held(hop)) return delay;
-    const bool is_alone = ats_groups_.at(hop.ats->group).size() == 1 && !hop.ats->is_shared;
-    const Ps hold = is_alone ? longest_hold(arrivals_at_scheduler(hop, parent), hop.ats->bits, hop.ats->burst_bits, hop.ats->rate) : unbounded_ps;
-    const Ps held = sum(delay, std::min(hop.ats->longest_residence, hold));
+    return std::min(sum(delay, hop.ats->longest_residence), delay_with_unlimited_hold(hop, parent));
+  }
+
+  /// The same if frames may be held for as long as it takes.
+  ///
+  /// A flow alone in its group that goes from a FIFO queue with delays up to D to its scheduler: if frame n waits for tokens, some frame m came to the queue at a(m), to the scheduler by a(m) + D, and the frames from
+  /// m on need their tokens since. So it is held no longer than D and the longest time for which a scheduler before the queue would have held it; but also no longer than as it comes out of the link. Flows of one queue that
+  /// share a group wait for each other: if all keep to their buckets before the queue, nobody is eligible later than D ("shaping for free", Le Boudec 2018); if not, each waits for what the others wait for, without end.
+  Ps delay_with_unlimited_hold(const Hop& hop, std::uint32_t parent) const {
     const ClockQuality& clock = graph_.models[hop.port].clock;
-    Ps longest = delay;
-    for (const std::uint32_t other : ats_groups_.at(hop.ats->group)) {
+    const Ps error = 2 * clock.error;
+    const std::vector<std::uint32_t>& group = ats_groups_.at(hop.ats->group);
+    const AtsHold& mine = *hop.ats;
+    if (holds_nobody(hop)) return result_.hops[parent].delay;
+    Ps least = unbounded_ps;
+    const bool is_alone = std::all_of(group.begin(), group.end(), [&](std::uint32_t other) { return graph_.hops[other].flow == hop.flow && graph_.hops[other].parents == hop.parents; });
+    if (is_alone && !mine.is_shared) least = sum(result_.hops[parent].delay, longest_hold(arrivals_at_scheduler(hop, parent), mine.bits, mine.burst_bits, slowest_rate(mine, clock)), error);
+    Ps longest = 0;
+    Ps hold = 0;
+    for (const std::uint32_t other : group) {
       const Hop& sibling = graph_.hops[other];
-      if (sibling.parents.size() != 1 || sibling.ats->is_shared || clock.rate_ppt != 0 || clock.error != 0) return held;
+      if (sibling.parents.size() != 1 || sibling.ats->is_shared) return least;
       const Hop& before = graph_.hops[sibling.parents.front()];
-      const Hop& mine = graph_.hops[parent];
+      const Hop& queue = graph_.hops[parent];
       const PortModel& port = graph_.models[before.port];
-      const bool one_queue = before.port == mine.port && before.highest_class == mine.highest_class && before.lowest_class == mine.lowest_class && before.lowest_class == before.highest_class;
-      if (!one_queue || models::contains(port.unordered, before.highest_class)) return held;
-      if (!is_shaped_alike(before, *sibling.ats) && !conforms(arrivals_[sibling.parents.front()], sibling.ats->bits, sibling.ats->burst_bits, sibling.ats->rate)) return held;
+      const bool one_queue = before.port == queue.port && before.highest_class == queue.highest_class && before.lowest_class == queue.lowest_class && before.lowest_class == before.highest_class;
+      if (!one_queue || models::contains(port.unordered, before.highest_class) || graph_.ports[before.port].may_double) return least;
       longest = std::max(longest, result_.hops[sibling.parents.front()].delay);
+      const AtsHold& its = *sibling.ats;
+      if (clock.rate_ppt == 0 && port.clock.rate_ppt == 0 && error == 0 && port.clock.error == 0 && is_shaped_alike(before, its)) continue;
+      hold = std::max(hold, longest_hold(arrivals_[sibling.parents.front()], its.bits, its.burst_bits, slowest_rate(its, clock)));
     }
-    return longest;
+    if (!is_alone && (hold != 0 || error != 0)) return least;
+    return std::min(least, sum(longest, hold, error));
+  }
+
+  /// All flows of the group keep to their buckets as they come to the schedulers: frames are eligible as they come.
+  bool holds_nobody(const Hop& hop) const {
+    const ClockQuality& clock = graph_.models[hop.port].clock;
+    if (clock.error != 0) return false;
+    const std::vector<std::uint32_t>& group = ats_groups_.at(hop.ats->group);
+    return std::all_of(group.begin(), group.end(), [&](std::uint32_t other) {
+      const Hop& sibling = graph_.hops[other];
+      const AtsHold& its = *sibling.ats;
+      return sibling.parents.size() == 1 && !its.is_shared && !graph_.ports[graph_.hops[sibling.parents.front()].port].may_double &&
+             longest_hold(arrivals_at_scheduler(sibling, sibling.parents.front()), its.bits, its.burst_bits, slowest_rate(its, clock)) == 0;
+    });
   }
 
   /// The hop before has shaped the flow to a bucket that is no greater.
@@ -347,10 +391,15 @@ class FixedPoint {
   }
 
   /// The arrival curve of a flow where it comes out of the link before this hop.
-  FrameArrivals arrivals_at_scheduler(const Hop& hop, std::uint32_t parent) const {
+  FrameArrivals arrivals_at_scheduler(const Hop& hop, std::uint32_t parent, bool metered = true) const {
     const HopResult& before = result_.hops[parent];
     FrameArrivals arrivals = arrivals_[parent].delayed(is_bounded(before.delay) ? before.delay - before.least_delay : unbounded_ps);
-    if (hop.metered) arrivals.add(*hop.metered);
+    if (hop.metered && metered) arrivals.add(by_clock(*hop.metered, graph_.models[hop.port].clock));
+    // The link brings one frame after the other.
+    const Hop& link = graph_.hops[parent];
+    const GraphPort& port = graph_.ports[link.port];
+    if (!port.may_double && !graph_.models[link.port].config->preemption && !hop.headers_come_first && link.parents.size() <= 1)
+      arrivals.add({port.octet_time * models::wire_length(link.frame).count, 1, 0, 0});
     return arrivals;
   }
 
@@ -384,6 +433,26 @@ class FixedPoint {
     }
   }
 
+  /// What the filter of the flow has in its way: a gate that may be closed, tokens that may lack, a scheduler that may hold it for too long.
+  bool policing_drops(std::uint32_t h) const {
+    const Hop& hop = graph_.hops[h];
+    if (hop.parents.empty()) return false;
+    if (hop.parents.size() > 1) return hop.policing.is_there;
+    if (hop.policing.always_may_drop) return true;
+    const std::uint32_t parent = hop.parents.front();
+    const ClockQuality& clock = graph_.models[hop.port].clock;
+    if (hop.policing.meter) {
+      const TokenMeter& meter = *hop.policing.meter;
+      FrameArrivals arrivals = arrivals_at_scheduler(hop, parent, false).delayed(2 * clock.error);
+      if (!conforms(arrivals, std::int64_t{8} * graph_.hops[parent].frame.count, meter.burst_bits, scaled_down(meter.rate, one + clock.slowest_ppt, one))) return true;
+    }
+    if (hop.ats && is_bounded(hop.ats->longest_residence)) {
+      const Ps longest = is_held(hop) ? delay_with_unlimited_hold(hop, parent) : unbounded_ps;
+      if (!is_bounded(longest) || longest - result_.hops[parent].least_delay > hop.ats->longest_residence - 2 * clock.error) return true;
+    }
+    return false;
+  }
+
   void give_up_what_grows() {
     for (std::uint32_t p = 0; p < graph_.ports.size(); ++p)
       if (is_due_[p])
@@ -394,6 +463,7 @@ class FixedPoint {
   const FlowGraph& graph_;
   std::vector<FrameArrivals> arrivals_;        // by hop
   std::vector<PortTraffic> traffic_;           // by port
+  std::vector<std::size_t> line_of_;           // by hop: the link by which it comes to the port, in the port's traffic
   std::vector<std::optional<Ps>> header_after_;   // by port: all of its frames are cut through, so long after they have come
   std::vector<bool> is_due_;                   // by port
   std::vector<bool> is_known_;                 // by hop

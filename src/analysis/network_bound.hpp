@@ -18,6 +18,8 @@ struct HopResult {
   Ps worst_left = 0;
   std::optional<ArrivalPhase> phase;   ///< when frames come to the port, if that is known
   std::optional<ArrivalPhase> leaves;  ///< when their last bits leave it, where a schedule of gates says it
+  bool is_never_held = false;     ///< an ATS scheduler is there, but all of its group keep to their buckets
+  bool may_drop = false;          ///< what polices the flow before this port may drop its frames
   std::string reason;             ///< why `worst` is unbounded, if this hop is where it begins
 };
 

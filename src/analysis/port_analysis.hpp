@@ -41,6 +41,7 @@ class PortAnalysis {
     for (const bool preemptable : {false, true})
       for (models::TrafficClass q = models::traffic_class_count; q-- > 0;)
         if (is_preemptable(q) == preemptable) bound_class(q);
+    for (models::TrafficClass q = models::traffic_class_count; q-- > 0;) refine_by_phases(q);
     return std::move(bound_);
   }
 
@@ -170,7 +171,9 @@ class PortAnalysis {
     for (const GateCycle& gates : gates_) {
       if (gates.is_always_open(q)) continue;
       const Ps hold = is_preemptable(q) ? hold_advance_ : 0;   // asked for so long before a window closes
-      all.emplace_back(gates, q, overhang(gates, q) + model_.clock.error, guard + model_.clock.error + hold, model_.clock.rate_ppt);
+      const bool is_whole = model_.counts_packets && !is_preemptable(q) && !holds_;
+      all.emplace_back(gates, q, overhang(gates, q) + model_.clock.error, guard + model_.clock.error + hold, model_.clock.slowest_ppt, model_.clock.fastest_ppt, guard,
+                       is_whole ? PackedWork([&](Ps room) { return packed(q, room); }) : PackedWork());
     }
     return all;
   }
@@ -190,6 +193,10 @@ class PortAnalysis {
     return gates;
   }
 
+  Ps packed(models::TrafficClass q, Ps room) const;
+  std::optional<Ps> repeats_after(models::TrafficClass q, const Service& service) const;
+  Ps wait_in_full_queue(models::TrafficClass q);
+  double greatest_credit(models::TrafficClass q, double idle_share, double before_rate, double before_burst) const;
   std::optional<Service> service_of(models::TrafficClass q, std::string& reason);
   bool make_shaped(models::TrafficClass q, Service& service, std::string& reason);
   void bound_class(models::TrafficClass q);
@@ -197,6 +204,8 @@ class PortAnalysis {
   std::optional<SequenceBound> sequence_of(models::TrafficClass q, std::string& reason) const;
   SequenceWindows windows_of(const GateCycle& gates, models::TrafficClass q) const;
   std::vector<Ps> waits_at_phases(models::TrafficClass q, const Service& service, Ps busy) const;
+  void refine_by_phases(models::TrafficClass q);
+  bool phases_count(models::TrafficClass q) const;
   void bound_cqf();
   void set_unbounded(models::TrafficClass q, std::string reason) { bound_.classes[q].reason = std::move(reason); }
 
@@ -212,6 +221,7 @@ class PortAnalysis {
   std::vector<GateCycle> gates_;
   PortBound bound_;
   std::array<Ps, models::traffic_class_count> class_delay_{};
+  std::array<Ps, models::traffic_class_count> busy_{};               // the longest busy period, without phases; 0: not known
   std::array<double, models::traffic_class_count> shaped_rate_{};    // of each shaped class: what it sends in t is at most burst + rate * t
   std::array<double, models::traffic_class_count> shaped_burst_{};
 };

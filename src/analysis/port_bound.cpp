@@ -1,5 +1,7 @@
 #include "analysis/port_bound.hpp"
 
+#include <numeric>
+
 #include "analysis/port_analysis.hpp"
 
 namespace takt::analysis {
@@ -13,6 +15,8 @@ namespace {
 constexpr std::size_t most_bends = 20'000;
 /// Stretches in which work grows slower than the port sends are looked at so many times.
 constexpr Ps looks_at_a_slope = 32;
+/// Instants at which the credit of a shaper is looked at.
+constexpr std::size_t most_peaks = 300;
 
 }  // namespace
 
@@ -39,7 +43,7 @@ bool PortAnalysis::make_shaped(TrafficClass q, Service& service, std::string& re
     const double loss = guard + static_cast<double>(overhang(gates, q) + 2 * model_.clock.error);
     lost_share = loss * static_cast<double>(gates.windows(q).size()) / cycle;
     lost = loss * static_cast<double>(gates.windows(q).size() + 1);
-    service.windows.emplace_back(gates, q, model_.clock.error, model_.clock.error, model_.clock.rate_ppt);
+    service.windows.emplace_back(gates, q, model_.clock.error, model_.clock.error, model_.clock.slowest_ppt, model_.clock.fastest_ppt);
   }
   const bool scales = config_.shaping.shapers[q]->of_whole_cycle;
   service.idle_share = scales ? admin / open_share : admin;
@@ -72,9 +76,91 @@ bool PortAnalysis::make_shaped(TrafficClass q, Service& service, std::string& re
   }
   const double wait = (before_burst + before_rate * closed / open_share) / (1 - taken);
   service.credit = service.idle_share * wait;
+  if (service.windows.empty()) service.credit = std::min(service.credit, greatest_credit(q, service.idle_share, before_rate, before_burst));
   shaped_rate_[q] = whole_share;
   shaped_burst_[q] = service.credit + static_cast<double>(demands_[q].longest()) + service.idle_share * closed;
   return true;
+}
+
+/// The greatest credit, interval by interval. Let the class wait with credit, and let the classes before it be busy since L. They have sent T(L) = min over s of (B + what comes to them in s) + L - s, no more than L;
+/// in the rest of L this class sends. So its credit is at most T(L) - (1 - i) L, and less by i * B if what began before them was a frame of its own, which costs credit.
+double PortAnalysis::greatest_credit(TrafficClass q, double idle_share, double before_rate, double before_burst) const {
+  double greatest = 0;
+  for (const bool begins_with_own : {false, true}) {
+    const Ps block = !model_.counts_packets ? 0 : begins_with_own ? demands_[q].longest() : blocking(q);
+    const double offset = begins_with_own ? idle_share * static_cast<double>(block) : 0;
+    Ps first = block;   // the end of the first busy period of the others
+    for (int step = 0;; ++step) {
+      const Ps next = sum(block, interference(q, first));
+      if (step == most_steps || next > longest_search_ps) return std::numeric_limits<double>::infinity();
+      if (next <= first) break;
+      first = next;
+    }
+    greatest = std::max(greatest, idle_share * static_cast<double>(first) - offset);
+    // Later peaks are lower than the line above all of them, which falls.
+    if (1 - idle_share - before_rate < 1e-6) return std::numeric_limits<double>::infinity();
+    const double last = (static_cast<double>(block) + before_burst - greatest - offset) / (1 - idle_share - before_rate);
+    if (!(last < static_cast<double>(longest_search_ps))) return std::numeric_limits<double>::infinity();
+    const Ps end = rounded_up(std::max(0.0, last));
+    std::vector<Ps> instants{first, std::max(first, end)};
+    for (TrafficClass h = 0; h < traffic_class_count; ++h) {
+      if (h == q || demands_[h].is_empty() || !goes_before(h, q)) continue;
+      const Ps later = is_work_conserving(h) ? 0 : class_delay_[h];
+      if (!is_bounded(sum(end, later))) return std::numeric_limits<double>::infinity();
+      const std::vector<Ps> bends = demands_[h].bends(sum(end, later), most_peaks);
+      if (bends.empty()) return std::numeric_limits<double>::infinity();
+      for (const Ps bend : bends)
+        if (bend - later > first && bend - later < end) instants.push_back(bend - later);
+    }
+    std::sort(instants.begin(), instants.end());
+    Ps sent = first;
+    for (std::size_t i = 0; i + 1 < instants.size(); ++i)
+      for (Ps from = instants[i], step = (instants[i + 1] - from) / looks_at_a_slope + 1; from < instants[i + 1]; from += step) {
+        const Ps until = std::min(from + step, instants[i + 1]);
+        // Up to just before `until` no more is there to be sent than this.
+        const Ps there = sum(block, interference(q, until - 1));
+        const Ps peak = std::min(until, from + std::max<Ps>(0, there - sent));
+        sent = std::min(sent + (peak - from), there);
+        greatest = std::max(greatest, static_cast<double>(sent) - (1 - idle_share) * static_cast<double>(peak) - offset);
+      }
+  }
+  return greatest + 1;   // a picosecond, for what floating point rounds
+}
+
+/// The least that frames of the class, and of those before it, fill of a window while some of them wait all the time: frame behind frame until one does not fit into what is left.
+Ps PortAnalysis::packed(TrafficClass q, Ps room) const {
+  constexpr std::size_t most_sums = 500;
+  std::vector<Ps> works;
+  Ps longest = 0;
+  for (const PortFlow& flow : traffic_.flows) {
+    const bool counts = is_in_class(flow, q) || std::any_of(demands_.begin(), demands_.end(), [&](const ClassDemand& demand) {
+      const auto h = static_cast<TrafficClass>(&demand - demands_.data());
+      return h != q && is_in_class(flow, h) && goes_before(h, q) && overlap(q, h);
+    });
+    if (!counts) continue;
+    works.push_back(octet_ * models::wire_length(flow.frame).count);
+    longest = std::max(longest, works.back());
+  }
+  std::sort(works.begin(), works.end());
+  works.erase(std::unique(works.begin(), works.end()), works.end());
+  const Ps enough = room - (longest - gap_) + 1;   // with so much of it gone the longest frame does not fit
+  if (works.empty() || enough <= 0) return std::max<Ps>(0, enough - 1);
+  if (works.size() == 1) return product(works.front(), (enough + works.front() - 1) / works.front());
+  std::vector<Ps> sums{0};   // ascending
+  Ps least = unbounded_ps;
+  for (std::size_t i = 0; i < sums.size() && sums[i] < enough; ++i) {
+    if (sums.size() > most_sums) return enough - 1;
+    for (const Ps work : works) {
+      const Ps next = sums[i] + work;
+      if (next >= enough) {
+        least = std::min(least, next);
+        break;
+      }
+      const auto at = std::lower_bound(sums.begin() + static_cast<std::ptrdiff_t>(i), sums.end(), next);
+      if (at == sums.end() || *at != next) sums.insert(at, next);
+    }
+  }
+  return least;
 }
 
 std::optional<PortAnalysis::Service> PortAnalysis::service_of(TrafficClass q, std::string& reason) {
@@ -100,10 +186,11 @@ void PortAnalysis::bound_class(TrafficClass q) {
   std::string missed;
   const std::optional<SequenceBound> sequence = sequence_of(q, missed);
   std::vector<Ps> delays;
+  const Ps by_room = wait_in_full_queue(q);
   // Frames that have their windows to themselves wait for nothing else: no other argument says more.
   if (!sequence || !sequence->is_exact) delays = delays_in_busy_period(q, bound.reason);
   if (delays.empty()) {
-    if (!sequence) {
+    if (!sequence && !is_bounded(by_room)) {
       if (!missed.empty()) bound.reason = missed;
       return;
     }
@@ -116,7 +203,7 @@ void PortAnalysis::bound_class(TrafficClass q) {
     if (!is_in_class(flow, q)) continue;
     const Ps last_bit = octet_ * models::wire_length(flow.frame).count - gap_;
     PortFlowBound& made = bound_.flows[f];
-    Ps delay = delays[f];
+    Ps delay = std::min(delays[f], sum(by_room, last_bit));
     if (sequence) {
       const SequencedTimes& times = sequence->flows[scheduled++];
       delay = std::min(delay, sum(stretched(times.wait), last_bit));
@@ -133,9 +220,73 @@ void PortAnalysis::bound_class(TrafficClass q) {
   // What is in the queue, or on the wire, has come within the longest delay and the gap behind the frame.
   bound.backlog = demands_[q].work(sum(class_delay_[q], gap_));
   bound.backlog_frames = demands_[q].frames(sum(class_delay_[q], gap_));
+  if (!is_bounded(bound.backlog)) bound.reason = "a stream without a least gap between its frames, of which its queue drops what it has no room for";
   if (!sequence) return;
   bound.backlog = std::min(bound.backlog, sequence->backlog);
   bound.backlog_frames = std::min(bound.backlog_frames, sequence->backlog_frames);
+}
+
+/// What a frame waits for that the queue has room for: the frames in it, one that is on the medium, and what goes before them. No busy period of the class is asked for, so this holds however much comes.
+Ps PortAnalysis::wait_in_full_queue(TrafficClass q) {
+  const models::QueueLimit& limit = config_.queue_limits[q];
+  constexpr models::QueueLimit any;
+  if ((limit.frames == any.frames && limit.octets == any.octets) || is_preemptable(q) || is_in_cqf(q) || contains(config_.shaping.timed, q) || !model_.counts_packets) return unbounded_ps;
+  const ClassDemand& demand = demands_[q];
+  const Ps around = octet_ * models::wire_length(sim::Octets{0}).count;   // preamble and gap
+  const Ps by_octets = limit.octets / std::max<Ps>(1, (demand.shortest() - around) / octet_);
+  const Ps frames = std::max<Ps>(1, std::min<Ps>(limit.frames, by_octets)) - 1;   // it has a place itself
+  const Ps full = std::min(product(demand.longest(), frames), sum(product(octet_, limit.octets), product(around, frames)));
+  std::string reason;
+  const std::optional<Service> service = service_of(q, reason);
+  if (!service) return unbounded_ps;
+  if (service->is_shaped) return service->windows.empty() ? rounded_up((static_cast<double>(sum(full, demand.longest())) + service->credit) / service->idle_share) : unbounded_ps;
+  // Where classes before it wait for nothing but each other, count from when they have begun to be busy, or from the arrival: what they send has come since. Otherwise they may have a backlog.
+  bool only_wait_for_others = service->windows.empty();
+  for (TrafficClass h = 0; h < traffic_class_count; ++h) only_wait_for_others = only_wait_for_others && (h == q || !goes_before(h, q) || demands_[h].is_empty() || is_work_conserving(h));
+  const Ps ahead = sum(full, std::max(service->blocked, demand.longest()));
+  Ps time = 0;
+  for (int step = 0; step < most_steps; ++step) {
+    Ps need = ahead;
+    for (TrafficClass h = 0; h < traffic_class_count; ++h)
+      if (h != q && !demands_[h].is_empty() && goes_before(h, q) && overlap(q, h)) need = sum(need, demands_[h].work(only_wait_for_others ? time : sum(time, class_delay_[h])));
+    const Ps next = through_gates(*service, need);
+    if (next > longest_search_ps) return unbounded_ps;
+    if (next <= time) return time;
+    time = next;
+  }
+  return unbounded_ps;
+}
+
+/// A class with all of the link, or of its windows, may never be done. But if in each L, a multiple of all periods, no more comes than is sent, a frame that comes L after another one waits for no longer: what has
+/// come before it is more by as much as is sent in L. So nobody who comes later than L, and after links have ceased to limit what comes, need be looked at.
+std::optional<Ps> PortAnalysis::repeats_after(TrafficClass q, const Service& service) const {
+  if (service.is_shaped || is_preemptable(q) || contains(config_.shaping.timed, q)) return std::nullopt;
+  std::optional<Ps> length = demands_[q].common_period(1, longest_search_ps);
+  std::vector<TrafficClass> classes{q};
+  for (TrafficClass h = 0; h < traffic_class_count; ++h) {
+    if (h == q || demands_[h].is_empty() || !goes_before(h, q) || !overlap(q, h)) continue;
+    if (is_shaped(h)) return std::nullopt;
+    classes.push_back(h);
+    if (length) length = demands_[h].common_period(*length, longest_search_ps);
+  }
+  for (const PeriodicSupply& windows : service.windows)
+    if (length) {
+      if (windows.cycle() <= 0) return std::nullopt;
+      const sim::int128 common = static_cast<sim::int128>(*length) / std::gcd(*length, windows.cycle()) * windows.cycle();
+      length = common <= longest_search_ps ? std::optional(static_cast<Ps>(common)) : std::nullopt;
+    }
+  if (!length) return std::nullopt;
+  Ps comes = 0;
+  Ps settled = 0;
+  for (const TrafficClass h : classes) {
+    comes = sum(comes, demands_[h].work_in_each(*length));
+    settled = std::max(settled, demands_[h].settled_after());
+  }
+  if (!is_bounded(sum(settled, *length))) return std::nullopt;
+  if (service.windows.empty() && comes > *length) return std::nullopt;
+  for (const PeriodicSupply& windows : service.windows)
+    if (comes > product(windows.usable(), *length / windows.cycle())) return std::nullopt;
+  return settled + *length;
 }
 
 /// By flow of the port; empty if there is none, with the reason.
@@ -149,7 +300,8 @@ std::vector<Ps> PortAnalysis::delays_in_busy_period(TrafficClass q, std::string&
   if (!service->is_shaped)
     for (TrafficClass h = 0; h < traffic_class_count; ++h)
       if (h != q && !demands_[h].is_empty() && goes_before(h, q) && overlap(q, h)) taken += is_shaped(h) ? std::min(shaped_rate_[h], demands_[h].rate()) : demands_[h].rate();
-  if (!(taken <= room)) {
+  const std::optional<Ps> repeats = repeats_after(q, *service);
+  if (!repeats && !(taken <= room)) {
     reason = !(taken < 1e300) ? "a stream without a least gap between its frames"
              : room > 0       ? "more comes than the class can send"
                               : "no window of its gate leaves room for its longest frame and what may run into the window";
@@ -165,10 +317,18 @@ std::vector<Ps> PortAnalysis::delays_in_busy_period(TrafficClass q, std::string&
     }
     if (next <= busy) break;
     busy = next;
+    if (repeats && busy > *repeats) break;
   }
+  const bool is_endless = repeats && busy > *repeats;   // frames that come later wait for no longer
+  if (is_endless) busy = *repeats;
+  else busy_[q] = busy;
   const ClassDemand& demand = demands_[q];
   const Ps look_ahead = contains(config_.shaping.timed, q) ? model_.late_by : 0;
   const std::vector<Ps> bends = demand.bends(sum(busy, look_ahead), most_bends);
+  if (is_endless && bends.empty()) {
+    reason = "the class is never done, and there is too much to look at";
+    return {};
+  }
   std::vector<Ps> works;   // of frames, each once
   for (const PortFlow& flow : traffic_.flows)
     if (flow.lowest_class <= q && q <= flow.highest_class) works.push_back(octet_ * models::wire_length(flow.frame).count);
@@ -202,7 +362,7 @@ std::vector<Ps> PortAnalysis::delays_in_busy_period(TrafficClass q, std::string&
       for (Ps at = from; at < until; at += step) look(at, std::min(at + step, until));
     }
   }
-  const std::vector<Ps> waits = waits_at_phases(q, *service, busy);
+  const std::vector<Ps> waits = is_endless ? std::vector<Ps>() : waits_at_phases(q, *service, busy);
   std::vector<Ps> delays(traffic_.flows.size(), unbounded_ps);
   for (std::size_t f = 0, scheduled = 0; f < traffic_.flows.size(); ++f) {
     const PortFlow& flow = traffic_.flows[f];

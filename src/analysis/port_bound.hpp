@@ -19,6 +19,8 @@ namespace takt::analysis {
 /// How far the clock of the port's node may be wrong.
 struct ClockQuality {
   std::int64_t rate_ppt = 0;   ///< its frequency is off by up to so many parts in 10^12
+  std::int64_t slowest_ppt = 0;   ///< and by at least and at most so many, signed: both within rate_ppt
+  std::int64_t fastest_ppt = 0;
   Ps error = 0;                ///< it shows true time within so much, if it is synchronised
   bool is_synchronised = true;
 };
@@ -34,6 +36,8 @@ struct ArrivalPhase {
   Ps first = 0;
   Ps period = 0;
   Ps width = 0;
+  std::uint32_t clock = 0;     ///< whose time that is: 0 that which all synchronised clocks follow, otherwise that of a clock of its own
+  std::int64_t rate_ppt = 0;   ///< how far that time may run from true time, in parts in 10^12
   bool operator==(const ArrivalPhase&) const = default;
 };
 

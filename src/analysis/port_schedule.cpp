@@ -1,4 +1,5 @@
-// Frames at known times of a gated class: what the schedule of the gates makes of them.
+// Frames at known times: what the schedule of the gates makes of them, and, where there are no gates, who can meet whom.
+#include "analysis/phased_bound.hpp"
 #include "analysis/port_analysis.hpp"
 #include "analysis/scheduled_bound.hpp"
 
@@ -11,6 +12,9 @@ using models::traffic_class_count;
 namespace {
 
 constexpr std::size_t most_jumps_of_others = 50;
+
+/// By the time that the gates follow.
+bool is_at_known_time(const PortFlow& flow) { return flow.phase && flow.phase->clock == 0; }
 
 }  // namespace
 
@@ -40,7 +44,7 @@ std::optional<SequenceBound> PortAnalysis::sequence_of(TrafficClass q, std::stri
   bool are_known = true;
   for (const PortFlow& flow : traffic_.flows) {
     if (!is_in_class(flow, q)) continue;
-    if (!flow.phase || flow.lowest_class != flow.highest_class) {
+    if (!is_at_known_time(flow) || flow.lowest_class != flow.highest_class) {
       are_known = false;
       continue;
     }
@@ -95,7 +99,7 @@ std::vector<Ps> PortAnalysis::waits_at_phases(TrafficClass q, const Service& ser
   for (const PortFlow& flow : traffic_.flows) {
     if (!is_in_class(flow, q)) continue;
     const Ps work = octet_ * models::wire_length(flow.frame).count;
-    if (flow.phase) {
+    if (is_at_known_time(flow)) {
       flows.push_back({flow.phase->first, flow.phase->period, flow.phase->width, work});
       continue;
     }
@@ -136,6 +140,53 @@ std::vector<Ps> PortAnalysis::waits_at_phases(TrafficClass q, const Service& ser
     for (std::size_t f = 0; f < flows.size(); ++f) longest[f] = std::max(longest[f], (*waits)[f]);
   }
   return longest;
+}
+
+/// A port that does nothing but send the highest class first, in which phases say who can meet whom.
+bool PortAnalysis::phases_count(TrafficClass q) const {
+  if (!gates_.empty() || config_.preemption || model_.cqf || !model_.counts_packets || model_.unordered != 0 || busy_[q] == 0 || !is_bounded(class_delay_[q])) return false;
+  for (TrafficClass above = q; above < traffic_class_count; ++above)
+    if (is_shaped(above) || contains(config_.shaping.timed, above)) return false;
+  return std::none_of(traffic_.links.begin(), traffic_.links.end(), [](const IncomingLink& link) { return link.is_mixed; }) &&
+         std::all_of(traffic_.flows.begin(), traffic_.flows.end(), [](const PortFlow& flow) { return flow.lowest_class == flow.highest_class; });
+}
+
+/// The lesser of the bound with phases and that without, flow by flow; each clock's phases are known by that clock alone.
+void PortAnalysis::refine_by_phases(TrafficClass q) {
+  if (demands_[q].is_empty() || !phases_count(q)) return;
+  std::vector<std::uint32_t> clocks;
+  for (const PortFlow& flow : traffic_.flows)
+    if (flow.phase && is_in_class(flow, q) && std::find(clocks.begin(), clocks.end(), flow.phase->clock) == clocks.end()) clocks.push_back(flow.phase->clock);
+  for (const std::uint32_t clock : clocks) {
+    PhasedTraffic known;
+    known.links = traffic_.links;
+    known.octet_time = octet_;
+    known.busy = busy_[q];
+    for (std::size_t f = 0; f < traffic_.flows.size(); ++f) {
+      const PortFlow& flow = traffic_.flows[f];
+      const TrafficClass its = flow.highest_class;
+      PhasedTraffic::Flow made;
+      if (flow.phase && flow.phase->clock == clock) {
+        made.phase = flow.phase;
+        known.rate_ppt = std::max(known.rate_ppt, flow.phase->rate_ppt);
+      }
+      made.arrivals = &flow.arrivals;
+      made.link = flow.link;
+      made.role = its == q ? PhasedTraffic::Role::own : its > q ? PhasedTraffic::Role::before : PhasedTraffic::Role::behind;
+      made.work = octet_ * models::wire_length(flow.frame).count;
+      made.stays = sum(bound_.flows[f].delay, gap_);
+      known.flows.push_back(made);
+    }
+    const std::optional<std::vector<Ps>> waits = waits_by_phases(known);
+    if (!waits) continue;
+    for (std::size_t f = 0; f < traffic_.flows.size(); ++f) bound_.flows[f].delay = std::min(bound_.flows[f].delay, sum((*waits)[f], known.flows[f].work - gap_));
+  }
+  Ps longest = 0;
+  for (std::size_t f = 0; f < traffic_.flows.size(); ++f)
+    if (is_in_class(traffic_.flows[f], q)) longest = std::max(longest, bound_.flows[f].delay);
+  if (longest >= class_delay_[q]) return;
+  bound_.classes[q].backlog = std::min(bound_.classes[q].backlog, demands_[q].work(sum(longest, gap_)));
+  bound_.classes[q].backlog_frames = std::min(bound_.classes[q].backlog_frames, demands_[q].frames(sum(longest, gap_)));
 }
 
 }  // namespace takt::analysis

@@ -7,7 +7,8 @@
 // - SFA: at each server the flow gets what the others leave (left_over_fifo, left_over_arbitrary); these curves are convolved into one.
 // - A flow arrives at a server as it left the last one: all flows that come by one link are bounded together. Where their paths have been the same, back to where
 //   they joined, they pass each server as one flow, against what the others there leave, so their bursts grow by rate * left-over latency at each.
-//   In SFA the flow of interest itself is nobody's cross traffic.
+//   In SFA the analysed flow itself is no cross traffic to those that have come along with it; where paths part and meet again it is, and with FIFO also where others come and go
+//   along its path in turns (docs/bounds.md has the proof).
 // See "Total flow analysis" and "Separated flow analysis" in Le Boudec, Thiran: Network Calculus (2001), and Schmitt, Zdarsky: The DISCO network
 // calculator (2006), whose order of steps these are.
 #pragma once

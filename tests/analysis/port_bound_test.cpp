@@ -101,9 +101,66 @@ TEST(PortBound, OverloadAndRandomGapsAreUnbounded) {
   EXPECT_FALSE(is_bounded(port.bound().flows[1].delay));
 }
 
+// Three frames of 123.04 us in windows of 370 us each ms, at any time. The gap before the window leaves 369.04 us, in which the third one, 246.08 us later, ends after 368.16 us. A frame comes when it does not fit any more,
+// 122.08 us before the end: it waits 1000 - (370 - 122.08) + 0.96 us, and for the two others. That the window is taken for as long as no frame is missed is the point: less the longest frame it holds two of three.
+TEST(PortBound, AWindowHoldsWholeFrames) {
+  Port port;
+  models::GateConfig gates;
+  gates.admin_control_list = {{models::GateOperation::set_gate_states, 0x80, sim::Duration::from_ps(370 * us)}, {models::GateOperation::set_gate_states, 0x7F, sim::Duration::from_ps(630 * us)}};
+  gates.admin_cycle_time = sim::Duration::from_ps(1000 * us);
+  port.config.shaping.gates = gates;
+  port.traffic.flows = {flow(1518, 7, 1000 * us), flow(1518, 7, 1000 * us), flow(1518, 7, 1000 * us)};
+  EXPECT_EQ(port.bound().flows[0].delay, 753'040 * ns + 2 * 123'040 * ns + 122'080 * ns);
+  // A fourth one does not fit.
+  port.traffic.flows = {flow(1518, 7, 1000 * us), flow(1518, 7, 1000 * us), flow(1518, 7, 1000 * us), flow(1518, 7, 1000 * us)};
+  EXPECT_FALSE(is_bounded(port.bound().flows[0].delay));
+}
+
+// What happens once never repeats: ten frames 100 us apart, of which each waits for those before it. The last one comes after 900 us, when nine have come, and starts after nine.
+TEST(PortBound, WhatHappensOnceIsLookedAtToItsEnd) {
+  Port port;
+  port.traffic.flows = {flow(1518, 7, 1000 * us)};
+  port.traffic.flows[0].arrivals = FrameArrivals({unbounded_ps, 10, 100 * us, 0});
+  EXPECT_EQ(port.bound().flows[0].delay, 9 * 123'040 * ns + 122'080 * ns - 900 * us);
+}
+
+// More comes than is sent, but the queue has room for four frames: three of them and one on the medium go before, and one of class 7.
+TEST(PortBound, AFullQueueLimitsTheDelay) {
+  Port port;
+  port.traffic.flows = {flow(1518, 3, 100 * us), flow(64, 7, 1000 * us)};
+  port.config.queue_limits[3].frames = 4;
+  EXPECT_EQ(port.bound().flows[0].delay, 4 * 123'040 * ns + 6'720 * ns + 122'080 * ns);
+  EXPECT_GT(port.bound().classes[3].backlog_frames, 4);   // some are dropped
+  // 3,200 octets are room for two frames, and one of them is the one that comes: 3,200 octets and the preamble and gap of one make 257.6 us, a frame 123.04 us, of which the lesser counts.
+  port.config.queue_limits[3] = {0xFFFF'FFFF, 3'200};
+  EXPECT_EQ(port.bound().flows[0].delay, 2 * 123'040 * ns + 6'720 * ns + 122'080 * ns);
+  // Whatever comes.
+  port.traffic.flows[0].arrivals = FrameArrivals();
+  EXPECT_EQ(port.bound().flows[0].delay, 2 * 123'040 * ns + 6'720 * ns + 122'080 * ns);
+  // Without room for more than what comes anyway, the limit changes nothing.
+  port.traffic.flows = {flow(1518, 3, 1000 * us), flow(64, 7, 1000 * us)};
+  EXPECT_EQ(port.bound().flows[0].delay, 6'720 * ns + 122'080 * ns);
+  EXPECT_EQ(port.bound().classes[3].backlog_frames, 1);
+}
+
+// A class with a fifth of the link waits for one frame of a lower class and one of a higher one, 246.08 us, and no longer: the next higher one comes 1 ms later. Whatever credit it has got from that serves frames
+// that come later; it does not make one wait.
+TEST(PortBound, ACreditBasedShaperWaitsWithCreditForSoLong) {
+  Port port;
+  port.config.shaping.shapers[6] = models::ShaperConfig{sim::DataRate{20'000'000}, true};
+  port.traffic.flows = {flow(64, 6, 1000 * us), flow(1518, 7, 1000 * us), flow(1518, 0, 1000 * us)};
+  const Ps exact = 2 * 123'040 * ns + 5'760 * ns;
+  EXPECT_GE(port.bound().flows[0].delay, exact);
+  EXPECT_LE(port.bound().flows[0].delay, exact + 20);
+  // Three frames at once, nothing else there: the third one starts when its two predecessors have been paid for, 2 * 6.72 / 0.2.
+  port.traffic.flows = {flow(64, 6, 10'000 * us), flow(64, 6, 10'000 * us), flow(64, 6, 10'000 * us)};
+  EXPECT_GE(port.bound().flows[0].delay, 67'200 * ns + 5'760 * ns);
+  EXPECT_LE(port.bound().flows[0].delay, 67'200 * ns + 5'760 * ns + 20);
+}
+
 TEST(GateWindows, TheWorstPhase) {
   const GateCycle gates(one_in_ten());
-  const PeriodicSupply supply(gates, 7, 0, 10 * us, 0);
+  const PeriodicSupply supply(gates, 7, 0, 10 * us, 0, 0);
   EXPECT_EQ(supply.time_for(0), 910 * us);
   EXPECT_EQ(supply.time_for(90 * us), 1000 * us);
   EXPECT_EQ(supply.time_for(91 * us), 1000 * us + 911 * us);
@@ -112,7 +169,7 @@ TEST(GateWindows, TheWorstPhase) {
   EXPECT_EQ(phased.time_from(90 * us, 0), 0);
   EXPECT_EQ(phased.time_from(91 * us, 0), 909 * us);
   EXPECT_EQ(phased.time_from(-1 * us, 91 * us), 1 * us + 1000 * us + 1 * us);
-  EXPECT_FALSE(is_bounded(PeriodicSupply(gates, 7, 0, 101 * us, 0).time_for(1)));
+  EXPECT_FALSE(is_bounded(PeriodicSupply(gates, 7, 0, 101 * us, 0, 0).time_for(1)));
   EXPECT_TRUE(gates.overlap(3, 0));
   EXPECT_FALSE(gates.overlap(7, 0));
 }

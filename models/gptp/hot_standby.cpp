@@ -25,13 +25,28 @@ void IsSynced::lost() {
   synced_ = false;
 }
 
-HotStandby::HotStandby(const HotStandbyConfig& config)
-    : config_(config), sides_{Side{IsSynced(config.is_synced)}, Side{IsSynced(config.is_synced)}} {}
+sim::Duration DomainClock::take(const SyncSample& sample) {
+  const sim::LocalTime shown = shown_at(sample.at);
+  const ServoAction action = target_.sample(sample, shown);
+  since_ = sample.at;
+  shown_ = shown + action.step;
+  rate_ = ClockRate::one_plus(action.adjustment);
+  return target_.offset();
+}
 
-void HotStandby::sample(HotStandbyRole of, sim::Duration offset, sim::LocalTime now) {
-  side(of).is_synced.sample(offset);
-  side(of).offset = offset;
+HotStandby::HotStandby(const HotStandbyConfig& config, const ClockTargetConfig& target)
+    : config_(config), sides_{Side{IsSynced(config.is_synced), DomainClock(target)}, Side{IsSynced(config.is_synced), DomainClock(target)}} {}
+
+void HotStandby::sample(HotStandbyRole of, const SyncSample& sample, sim::LocalTime shown, sim::LocalTime now) {
+  side(of).is_synced.sample(side(of).clock.take(sample));
+  compare(sample.at, shown);
   evaluate(now);
+}
+
+/// A domain whose grandmaster the node is has the time of its disciplined clock, which `shown` is at the local instant `at`.
+void HotStandby::compare(sim::LocalTime at, sim::LocalTime shown) {
+  const auto time_of = [&](const Side& each) { return each.is_grandmaster ? shown : each.clock.shown_at(at); };
+  difference_ = magnitude(time_of(sides_[0]) - time_of(sides_[1]));
 }
 
 void HotStandby::sync_lost(HotStandbyRole of, sim::LocalTime now) {
@@ -40,30 +55,34 @@ void HotStandby::sync_lost(HotStandbyRole of, sim::LocalTime now) {
 }
 
 void HotStandby::set_grandmaster(HotStandbyRole of, bool is_grandmaster, sim::LocalTime now) {
+  side(of).is_grandmaster = is_grandmaster;
   side(of).is_synced.set_grandmaster(is_grandmaster);
   evaluate(now);
 }
 
-bool HotStandby::may_be_redundant() const {
-  return is_synced(HotStandbyRole::primary) && is_synced(HotStandbyRole::secondary) &&
-         magnitude(sides_[0].offset - sides_[1].offset) <= config_.primary_secondary_offset_thresh;
+/// From init there is no way without both: it waits for them. Two that disagree are no standby for each other.
+bool HotStandby::may_go_up() const {
+  switch (state_) {
+    case HotStandbyState::init: return are_both_synced();
+    case HotStandbyState::not_redundant: return may_be_redundant();
+    case HotStandbyState::out_of_sync: return is_either_synced();
+    case HotStandbyState::redundant: break;
+  }
+  return false;
 }
 
-// Down at once, up only after the waiting time. From init there is no way but to redundant: it waits for both.
+// Down at once, up only after the waiting time.
 void HotStandby::evaluate(sim::LocalTime now) {
-  const bool primary = is_synced(HotStandbyRole::primary);
-  const bool secondary = is_synced(HotStandbyRole::secondary);
-  if (state_ == HotStandbyState::redundant && !(primary && secondary))
-    enter(primary || secondary ? HotStandbyState::not_redundant : HotStandbyState::out_of_sync);
-  if (state_ == HotStandbyState::not_redundant && !primary && !secondary) enter(HotStandbyState::out_of_sync);
-  if (primary != secondary && state_ != HotStandbyState::init) active_ = primary ? HotStandbyRole::primary : HotStandbyRole::secondary;
-  if (state_ == HotStandbyState::redundant) {
-    waiting_until_ = sim::LocalTime::never();
-    return;
-  }
+  if (state_ == HotStandbyState::redundant && !may_be_redundant())
+    enter(is_either_synced() ? HotStandbyState::not_redundant : HotStandbyState::out_of_sync);
+  if (state_ == HotStandbyState::not_redundant && !is_either_synced()) enter(HotStandbyState::out_of_sync);
+  const bool has_primary = is_synced(HotStandbyRole::primary);
+  if (state_ == HotStandbyState::init)  // the grandmaster of the secondary has its own time until it has that of the primary
+    active_ = side(HotStandbyRole::secondary).is_grandmaster && !has_primary ? HotStandbyRole::secondary : HotStandbyRole::primary;
+  else if (is_either_synced())
+    active_ = has_primary ? HotStandbyRole::primary : HotStandbyRole::secondary;
 
-  const bool up = may_be_redundant() || (state_ == HotStandbyState::out_of_sync && (primary || secondary));
-  if (!up) {
+  if (!may_go_up()) {
     waiting_until_ = sim::LocalTime::never();
     return;
   }

@@ -167,9 +167,9 @@ void PtpInstance::take_grandmaster(const PriorityVector& before, PortNumber rece
       next_sync_ = now;
     }
     outputs.push_back(CancelTimer{timer(0, TimerPurpose::sync_interval)});
-    if (selection_.receiver != 0 && !external()) arm_sync_receipt(selection_.receiver, config_.log_sync_interval, now, outputs);
   }
   const bool has_other_time = before.root.clock != selection_.grandmaster.root.clock;
+  if (selection_.receiver != 0 && !external()) expect_sync(before, receiver_before, now, outputs);
   if (has_other_time)
     // A Follow_Up may come behind the Announce of another grandmaster, and tell the time of the former one.
     for (Port& port : ports_) {
@@ -183,12 +183,23 @@ void PtpInstance::take_grandmaster(const PriorityVector& before, PortNumber rece
   if (started_ && selection_.receiver == 0 && receiver_before != 0) sync_interval_elapsed(0, now, outputs);
 }
 
+// Sync can be late where a grandmaster is present only (gmPresent in PortAnnounceInformation, 10.3.12): below a root that cannot be one, none comes.
+void PtpInstance::expect_sync(const PriorityVector& before, PortNumber receiver_before, sim::LocalTime now, Outputs& outputs) {
+  const bool was_expected = selection_.receiver == receiver_before && before.root.priority1 < 255;
+  if (grandmaster_present() && !was_expected) arm_sync_receipt(selection_.receiver, config_.log_sync_interval, now, outputs);
+  if (grandmaster_present() || !was_expected) return;
+  outputs.push_back(CancelTimer{timer(selection_.receiver, TimerPurpose::sync_receipt)});
+  if (sync_ && at(selection_.receiver).role == PortRole::time_receiver) outputs.push_back(SyncLost{index_});
+}
+
+// PortAnnounceTransmit (10.3.16): a time transmitter announces what it knows, a root that cannot be grandmaster as well. So those behind it hear
+// that the grandmaster is gone, and one of them can take over.
 void PtpInstance::send_announce(PortNumber number, sim::LocalTime now, Outputs& outputs) {
   Port& port = at(number);
   if (port.role != PortRole::time_transmitter) return;
   outputs.push_back(ArmTimer{timer(number, TimerPurpose::announce_interval), now + interval_of(config_.log_announce_interval)});
   const bool knows = is_grandmaster() || information(selection_.receiver).info_is == InfoIs::received;
-  if (!grandmaster_present() || !knows) return;
+  if (!knows) return;
   Announce announce;
   announce.header = header(number, port.next_announce++, config_.log_announce_interval);
   announce.current_utc_offset = config_.current_utc_offset;

@@ -52,6 +52,8 @@ class PtpInstance {
   const InstanceConfig& config() const { return config_; }
   PortRole role(PortNumber port) const { return at(port).role; }
   bool is_grandmaster() const { return selection_.receiver == 0; }
+  /// gmPresent (10.2.4.13): the root of the tree can be grandmaster; its priority1 is not 255.
+  bool grandmaster_present() const { return selection_.grandmaster.root.priority1 < 255; }
   const PriorityVector& grandmaster() const { return selection_.grandmaster; }
   PortNumber receiver_port() const { return selection_.receiver; }
   const std::vector<ClockIdentity>& path_trace() const { return path_trace_; }
@@ -84,7 +86,6 @@ class PtpInstance {
   PortInformation& information(PortNumber port) { return information_[port - 1u]; }
   ClockIdentity self() const { return config_.system.clock; }
   bool external() const { return config_.external_roles.has_value(); }
-  bool grandmaster_present() const { return selection_.grandmaster.root.priority1 < 255; }
   PortNumber ports() const { return static_cast<PortNumber>(ports_.size()); }
   TimerId timer(PortNumber port, TimerPurpose purpose) const { return {index_, port, purpose}; }
 
@@ -93,6 +94,7 @@ class PtpInstance {
   void select_external();
   void take_role(PortNumber port, PortRole role, Outputs& outputs);
   void take_grandmaster(const PriorityVector& before, PortNumber receiver_before, sim::LocalTime now, Outputs& outputs);
+  void expect_sync(const PriorityVector& before, PortNumber receiver_before, sim::LocalTime now, Outputs& outputs);
   bool update_told(PortNumber port);
   bool is_qualified(const Announce& announce) const;
   bool is_accepted(const PriorityVector& priority, PortNumber port) const;

@@ -31,7 +31,7 @@ Station::Station(sim::Simulation& simulation, Traffic& traffic, std::span<Egress
     : simulation_(&simulation), traffic_(&traffic), ports_(ports), clock_(&clock), timestamps_(timestamps), plan_(plan),
       config_(node_config(plan, node, ports.size())), node_(node), stream_(stream), source_(simulation.add(*this)),
       machine_(config_), target_(plan.target), timer_(source_.id(), sim::Phase::timer, timer_due) {
-  if (plan.standby) standby_.emplace(*plan.standby);
+  if (plan.standby) standby_.emplace(*plan.standby, plan.target);
   sent_by_port_.resize(ports.size());
   for (std::size_t port = 0; port < ports.size(); ++port) {
     const std::string name = std::string(path) + ":" + std::to_string(port);
@@ -117,7 +117,7 @@ void Station::carry_out() {
       if (lost->instance == active()) target_.sync_lost();
       if (standby_) standby_->sync_lost(static_cast<HotStandbyRole>(lost->instance), local());
     } else if (const auto* const change = std::get_if<GrandmasterChange>(&output)) {
-      if (standby_) standby_->set_grandmaster(static_cast<HotStandbyRole>(change->instance), machine_.instance(change->instance).is_grandmaster(), local());
+      if (standby_) standby_->set_grandmaster(static_cast<HotStandbyRole>(change->instance), gives_time(change->instance), local());
       give_time();
     }
   }
@@ -239,8 +239,7 @@ void Station::take_in(const Arrived& arrived) {
 void Station::discipline(const SyncSample& sample) {
   LocalClock& disciplined = clock_->disciplined();
   const sim::LocalTime shown = disciplined.local_at(clock_->free_running().true_at(sample.at));
-  const sim::Duration offset = sim::Duration::from_ps(shown.ps() - sample.grandmaster_time.ps());
-  if (standby_) standby_->sample(static_cast<HotStandbyRole>(sample.instance), offset, local());
+  if (standby_) standby_->sample(static_cast<HotStandbyRole>(sample.instance), sample, shown, local());
   if (sample.instance != active()) return;
   const ServoAction action = target_.sample(sample, shown);
   if (action.step != sim::Duration()) {
@@ -284,7 +283,7 @@ void Station::set_up(bool up) {
   if (!up) return;
   machine_ = Node(config_);
   target_ = ClockTarget(plan_.target);
-  if (plan_.standby) standby_.emplace(*plan_.standby);
+  if (plan_.standby) standby_.emplace(*plan_.standby, plan_.target);
   outputs_.clear();
   machine_.start(local(), outputs_);
   give_time();

@@ -50,7 +50,8 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   // For reports.
   NodeIndex node() const { return node_; }
   TargetState state() const { return active_is_grandmaster() ? TargetState::locked : target_.state(); }
-  bool active_is_grandmaster() const { return machine_.instance(active()).is_grandmaster(); }
+  /// The root of a tree that cannot be grandmaster gives time to nobody.
+  bool active_is_grandmaster() const { return gives_time(active()); }
   /// Whom the node takes its time from, itself if it is grandmaster.
   NodeIndex grandmaster() const;
   const Node& machine() const { return machine_; }
@@ -86,6 +87,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   };
   void take_in_all();
   void take_in(const Arrived& arrived);
+  bool gives_time(std::size_t instance) const { return machine_.instance(instance).is_grandmaster() && machine_.instance(instance).grandmaster_present(); }
   std::size_t active() const { return standby_ ? static_cast<std::size_t>(standby_->active()) : 0; }
   sim::LocalTime local() const { return clock_->free_running().local_at(simulation_->now()); }
   void carry_out();

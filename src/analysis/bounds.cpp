@@ -205,14 +205,27 @@ class RequirementBounds {
 
   RequirementBound reaction(const scenario::Requirement& requirement) const {
     RequirementBound worst;
+    bool is_known = false;
     worst.duration = Duration();
     for (const ReactionBound& bound : bounds_.reactions) {
       if (bound.kind != *requirement.reaction || bound.of_tree != requirement.tree || (requirement.program && r_.programs[bound.program].name != *requirement.program)) continue;
+      if (!is_meant(bound, requirement.cause)) continue;
+      is_known = true;
       worst.assumptions.add(bound.assumptions);
       if (!bound.bound && worst.reason.empty()) worst.reason = bound.reason;
       worst.duration = worst.duration && bound.bound ? std::optional(std::max(*worst.duration, *bound.bound)) : std::nullopt;
     }
+    if (!is_known) worst = {{}, {}, "nothing is known about such a reaction", {}};
     return worst;
+  }
+
+  /// Without a cause: a call, and whatever the scenario's faults can do.
+  bool is_meant(const ReactionBound& bound, const std::optional<handshake::Cause>& cause) const {
+    using handshake::Cause;
+    if (cause) return bound.cause == (*cause == Cause::nested || *cause == Cause::mismatch ? Cause::command : *cause);   // these spread as a call does
+    if (bound.cause == Cause::command) return true;
+    const std::vector<Cause> causes = causes_of_halts(r_, bound.program, bound.of_tree);
+    return std::find(causes.begin(), causes.end(), bound.cause) != causes.end();
   }
 
   static RequirementBound dropped(const StreamBound& stream) {

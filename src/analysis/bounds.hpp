@@ -66,17 +66,12 @@ struct ReactionPart {
 struct ReactionBound {
   std::size_t program = 0;                    ///< in resolved.programs
   scenario::Reaction kind = scenario::Reaction::start;
+  handshake::Cause cause = handshake::Cause::command;   ///< of a halt also crash, cut, silence (since the last word that came) and restart
   bool of_tree = false;                       ///< of the Program and all that are nested in it
-  std::optional<sim::Duration> bound;         ///< from the call to the moment at which all have reached the state
+  std::optional<sim::Duration> bound;         ///< from the instant of the cause to the moment at which all who live have reached the state
   std::vector<ReactionPart> parts;            ///< of the slowest chain; they sum up to the bound
   std::string reason;
   Assumptions assumptions;
-};
-
-/// A silent peer: from its last message to the moment at which all others are Halted.
-struct SilenceBound {
-  std::size_t program = 0;
-  std::optional<sim::Duration> bound;
 };
 
 struct RequirementBound {
@@ -90,8 +85,7 @@ struct Bounds {
   AssumptionLedger ledger;                    ///< what becomes of the assumptions; what rests on a violated one has no bound here
   std::vector<StreamBound> streams;           ///< by stream index
   std::vector<QueueBound> queues;             ///< of classes that carry something
-  std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset; of the outermost one of a tree then those of the tree
-  std::vector<SilenceBound> silences;         ///< of each program
+  std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset, then halts by cause; of the outermost one of a tree then those of the tree
   /// One for each limit of each requirement of the scenario, in order: a requirement on a stream may have several.
   struct Requirement {
     std::size_t requirement = 0;              ///< in scenario.require

@@ -51,13 +51,10 @@ std::optional<Duration> time_to_rest(const scenario::Resolved& r, const Bounds& 
   const std::size_t root = root_of(r, program);
   for (const ReactionBound& reaction : bounds.reactions) {
     if (root_of(r, reaction.program) != root) continue;
+    const bool is_unnoticed = reaction.cause != handshake::Cause::command && r.programs[reaction.program].description->variant == scenario::Variant::paper;
+    if (is_unnoticed) continue;   // a fault brings nothing about
     if (!reaction.bound || !bounds.ledger.refutation(reaction.assumptions).empty()) return std::nullopt;
     longest = std::max(longest, *reaction.bound);
-  }
-  for (const SilenceBound& silence : bounds.silences) {
-    if (root_of(r, silence.program) != root) continue;
-    if (!silence.bound) return std::nullopt;
-    longest = std::max(longest, *silence.bound);
   }
   return longest;
 }

@@ -5,15 +5,20 @@
 
 #include "analysis/flow_graph.hpp"
 #include "analysis/reaction_bound.hpp"
+#include "scenario/programs/program_faults.hpp"
 
 namespace takt::analysis {
 namespace {
 
+using handshake::Cause;
 using scenario::Reaction;
 using sim::Duration;
 
 constexpr std::array<Reaction, 5> all_reactions = {Reaction::start, Reaction::halt, Reaction::suspend, Reaction::resume, Reaction::reset};
+/// What halts a group without a call, and is told apart.
+constexpr std::array<Cause, 4> halting_causes = {Cause::crash, Cause::cut, Cause::silence, Cause::restart};
 constexpr const char* no_bound_with_roles = "who has a role is settled while the Program runs";
+constexpr const char* paper_notices_nothing = "the handshake paper notices neither silence nor a restart";
 
 Spread spread_of(Reaction kind) { return kind == Reaction::suspend ? Spread::after_barriers : Spread::at_once; }
 
@@ -21,7 +26,14 @@ Spread spread_of(Reaction kind) { return kind == Reaction::suspend ? Spread::aft
 struct ProgramGroup {
   ReactionGroup group;          // without those within
   Assumptions assumptions;
+  Assumptions of_faults;        // those of halts after a crash, a cut or a restart
   std::string reason;           // why a notification is unbounded
+  bool notices_faults = true;
+  Ps last_word = 0;             // of a peer, still under way when it falls silent
+  Ps time_out = 0;              // of whoever notices it last, from the last word it has heard
+  Ps first_word = 0;            // of a peer that is back, until it is heard
+
+  Ps until_noticed(Cause cause) const { return cause == Cause::restart ? first_word : cause == Cause::silence ? time_out : sum(last_word, time_out); }
 };
 
 class GroupMaker {
@@ -36,22 +48,22 @@ class GroupMaker {
       made_.group.names.push_back(r_.topology.nodes[program_.participants[p].value].name);
       made_.group.initialise.push_back(MaxPlus(sum(stretched(p, program_.description->initialisation.ps()), wake_up(p))));
       add_notifications(p);
+      made_.time_out = std::max(made_.time_out, sum(stretched(p, program_.receive_timeout.ps()), wake_up(p)));
     }
     for (const models::StreamIndex stream : program_.state_streams)
-      if (!bounds_.streams[stream.value].loses_nothing) made_.assumptions.add(Assumption::no_loss);
+      for (const auto& latency : bounds_.streams[stream.value].by_listener) made_.last_word = latency ? std::max(made_.last_word, latency->ps()) : unbounded_ps;
+    made_.notices_faults = program_.description->variant == scenario::Variant::robust;
     if (program_.description->publish == scenario::Publish::on_change) made_.assumptions.add(Assumption::program_publishes);
+    made_.of_faults = made_.assumptions;
+    for (const models::StreamIndex stream : program_.state_streams) {
+      const StreamBound& state = bounds_.streams[stream.value];
+      if (state.loses_nothing) continue;
+      made_.assumptions.add(Assumption::no_loss);
+      // Whom a crash or a cut keeps words from finds that out by its own time-out.
+      if (!state.loses_by_faults_only || !r_.plan.impairments.empty()) made_.of_faults.add(Assumption::no_loss);
+    }
     if (program_.description->variant == scenario::Variant::paper) made_.assumptions.add(Assumption::sampled_states);
     return std::move(made_);
-  }
-
-  /// From the last word of a peer that falls silent to the time-out of whoever notices it last.
-  Ps silence() const {
-    Ps time_out = 0;
-    for (std::size_t p = 0; p < program_.participants.size(); ++p) time_out = std::max(time_out, sum(stretched(p, program_.receive_timeout.ps()), wake_up(p)));
-    Ps last_word = 0;   // that is still under way when the peer falls silent
-    for (const models::StreamIndex stream : program_.state_streams)
-      for (const auto& latency : bounds_.streams[stream.value].by_listener) last_word = latency ? std::max(last_word, latency->ps()) : unbounded_ps;
-    return sum(last_word, time_out);
   }
 
  private:
@@ -73,6 +85,8 @@ class GroupMaker {
       if (to == program_.participants.size()) continue;
       const Ps latency = stream.by_listener[l] ? stream.by_listener[l]->ps() : unbounded_ps;
       made_.group.notify(to, from) = MaxPlus(sum(publish_wait(from), latency));
+      // A node that is back publishes at the next instant of its cycle, whether or not it publishes on change as well.
+      made_.first_word = std::max(made_.first_word, sum(stretched(from, program_.description->cycle.ps()), wake_up(from), latency));
       if (!stream.latency && made_.reason.empty()) made_.reason = "stream " + stream.name + " is unbounded: " + stream.reason;
       made_.assumptions.add(stream.assumptions);
     }
@@ -94,14 +108,12 @@ class ScenarioReactions {
   void make() {
     for (std::size_t p = 0; p < groups_.size(); ++p) {
       if (r_.programs[p].has_roles()) {
-        for (const Reaction kind : all_reactions) bounds_.reactions.push_back({p, kind, false, {}, {}, no_bound_with_roles, {}});
-        bounds_.silences.push_back({p, {}});
+        for (const Reaction kind : all_reactions) bounds_.reactions.push_back({p, kind, Cause::command, false, {}, {}, no_bound_with_roles, {}});
+        for (const Cause cause : halting_causes) bounds_.reactions.push_back({p, Reaction::halt, cause, false, {}, {}, no_bound_with_roles, {}});
         continue;
       }
       for (const Reaction kind : all_reactions) add(p, kind);
-      SilenceBound silence{p, {}};
-      if (const Ps all = sum(GroupMaker(r_, r_.programs[p], options_, bounds_).silence(), spread_bound(groups_[p].group).ps()); is_bounded(all)) silence.bound = Duration::from_ps(all);
-      bounds_.silences.push_back(silence);
+      for (const Cause cause : halting_causes) add_halt(p, cause, {p}, false);
       if (!r_.programs[p].outer && is_tree(p)) add_tree(p);
     }
   }
@@ -135,6 +147,42 @@ class ScenarioReactions {
     made.assumptions = groups_[p].assumptions;
     made.reason = groups_[p].reason;
     take(made, spread_bound(groups_[p].group), [&] { return spread_parts(groups_[p].group); });
+  }
+
+  /// Noticed by the last of those who can, and spread from there.
+  void add_halt(std::size_t p, Cause cause, const std::vector<std::size_t>& groups, bool of_tree) {
+    ReactionBound made;
+    made.program = p;
+    made.kind = Reaction::halt;
+    made.cause = cause;
+    made.of_tree = of_tree;
+    Ps noticed = 0;
+    bool notices = true;
+    for (const std::size_t g : groups) {
+      made.assumptions.add(cause == Cause::silence ? groups_[g].assumptions : groups_[g].of_faults);
+      if (made.reason.empty()) made.reason = groups_[g].reason;
+      noticed = std::max(noticed, groups_[g].until_noticed(cause));
+      notices = notices && groups_[g].notices_faults;
+    }
+    if (!notices) {
+      made.reason = paper_notices_nothing;
+      bounds_.reactions.push_back(std::move(made));
+      return;
+    }
+    const ReactionGroup whole = of_tree ? tree_of(p) : groups_[p].group;
+    take(made, MaxPlus(noticed) * spread_bound(whole), [&] {
+      std::vector<ReactionPart> parts{{cause == Cause::restart ? "the first word of who is back" : cause == Cause::silence ? "time-out" : "last word, then time-out", Duration::from_ps(noticed)}};
+      for (ReactionPart& part : spread_parts(whole)) parts.push_back(std::move(part));
+      return parts;
+    });
+  }
+
+  std::vector<std::size_t> groups_of_tree(std::size_t root) const {
+    std::vector<std::size_t> groups{root};
+    for (std::size_t i = 0; i < groups.size(); ++i)
+      for (std::size_t inner = 0; inner < groups_.size(); ++inner)
+        if (const auto& outer = r_.programs[inner].outer; outer && outer->program == groups[i]) groups.push_back(inner);
+    return groups;
   }
 
   /// A nested group starts after the outermost one, and runs when that has let it: the bound counts from the outer start.
@@ -174,6 +222,7 @@ class ScenarioReactions {
       rest_on_tree(root, made);
       take(made, spread_bound(whole, spread_of(kind)), [&] { return spread_parts(whole, spread_of(kind)); });
     }
+    for (const Cause cause : halting_causes) add_halt(root, cause, groups_of_tree(root), true);
   }
 
   void take(ReactionBound& made, MaxPlus whole, const auto& parts) {
@@ -194,6 +243,22 @@ class ScenarioReactions {
 };
 
 }  // namespace
+
+std::vector<Cause> causes_of_halts(const scenario::Resolved& resolved, std::size_t program, bool of_tree) {
+  std::vector<Cause> causes;
+  for (const scenario::ProgramFault& fault : scenario::faults_of(resolved, resolved.programs[program])) {
+    causes.push_back(fault.cause.value_or(Cause::silence));
+    if (fault.cause == Cause::crash && fault.until != sim::TrueTime::never()) causes.push_back(Cause::restart);
+  }
+  for (std::size_t inner = 0; of_tree && inner < resolved.programs.size(); ++inner)
+    if (const auto& outer = resolved.programs[inner].outer; outer && outer->program == program) {
+      const std::vector<Cause> more = causes_of_halts(resolved, inner, true);
+      causes.insert(causes.end(), more.begin(), more.end());
+    }
+  std::sort(causes.begin(), causes.end());
+  causes.erase(std::unique(causes.begin(), causes.end()), causes.end());
+  return causes;
+}
 
 void add_reactions(const scenario::Resolved& resolved, const BoundOptions& options, Bounds& bounds) { ScenarioReactions(resolved, options, bounds).make(); }
 

@@ -38,7 +38,7 @@ Node nodes_of(const Assumptions& assumptions) {
 }
 
 std::string requirement_text(const scenario::Requirement& requirement, const std::string& what) {
-  if (what == "reaction") return fmt::format("reaction {}{} within {}", scenario::spelling(*requirement.reaction), requirement.tree ? " of the tree" : "", text_of(requirement.within));
+  if (what == "reaction") return fmt::format("reaction {}{}{} within {}", scenario::spelling(*requirement.reaction), requirement.cause ? fmt::format(" because of a {}", scenario::spelling(*requirement.cause)) : "", requirement.tree ? " of the tree" : "", text_of(requirement.within));
   if (what == "latency") return fmt::format("stream {} latency at most {}", *requirement.stream, text_of(requirement.latency));
   if (what == "jitter") return fmt::format("stream {} jitter at most {}", *requirement.stream, text_of(requirement.jitter));
   if (what == "dropped") return fmt::format("stream {} drops at most {}", *requirement.stream, *requirement.dropped);
@@ -74,13 +74,12 @@ std::string streams_text(const Bounds& bounds, const scenario::Resolved& r, cons
 std::string reactions_text(const Bounds& bounds, const scenario::Resolved& r, const std::vector<Assumption>& all) {
   std::string text;
   for (const ReactionBound& reaction : bounds.reactions) {
-    if (text.empty()) text = "\nReactions: from the call until all have reached the state\n";
-    text += fmt::format("  {:<22} {:<9} {:>16}{}{}\n", r.programs[reaction.program].name + (reaction.of_tree ? " and within" : ""), scenario::spelling(reaction.kind), text_of(reaction.bound),
-                        numbers_of(reaction.assumptions, all), reaction.reason.empty() ? "" : "  " + reaction.reason);
+    if (text.empty()) text = "\nReactions: from the call, or from what else causes them, until all who live have reached the state\n";
+    const bool is_called = reaction.cause == handshake::Cause::command;
+    const std::string what = fmt::format("{}{}", scenario::spelling(reaction.kind), is_called ? "" : fmt::format(", {}", scenario::spelling(reaction.cause)));
+    text += fmt::format("  {:<22} {:<14} {:>16}{}{}\n", r.programs[reaction.program].name + (reaction.of_tree ? " and within" : ""), what, text_of(reaction.bound), numbers_of(reaction.assumptions, all), reaction.reason.empty() ? "" : "  " + reaction.reason);
     for (const ReactionPart& part : reaction.parts) text += fmt::format("    {:<28} {:>18}\n", part.what, text_of(part.duration));
   }
-  for (const SilenceBound& silence : bounds.silences)
-    text += fmt::format("  {:<22} {:<9} {:>16}  from the last message of a peer until all others are Halted\n", r.programs[silence.program].name, "silence", text_of(silence.bound));
   return text;
 }
 
@@ -141,6 +140,7 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
     Node node = Node::object();
     node.add("program", Node::of_string(resolved.programs[reaction.program].name));
     node.add("kind", Node::of_string(scenario::spelling(reaction.kind)));
+    node.add("cause", Node::of_string(scenario::spelling(reaction.cause)));
     node.add("tree", Node::of_bool(reaction.of_tree));
     node.add("bound_ps", picoseconds(reaction.bound));
     node.add("reason", Node::of_string(reaction.reason));
@@ -154,13 +154,6 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
     node.add("parts", std::move(parts));
     node.add("assumptions", nodes_of(reaction.assumptions));
     reactions.items.push_back(std::move(node));
-  }
-  Node& silences = root.add("silences", Node::array());
-  for (const SilenceBound& silence : bounds.silences) {
-    Node node = Node::object();
-    node.add("program", Node::of_string(resolved.programs[silence.program].name));
-    node.add("bound_ps", picoseconds(silence.bound));
-    silences.items.push_back(std::move(node));
   }
   Node& requirements = root.add("requirements", Node::array());
   for (const Bounds::Requirement& requirement : bounds.requirements) {

@@ -43,6 +43,7 @@ class Recording {
   };
   void select_ports(const std::string& text, scenario::json::Diagnostics& diagnostics);
   void write_states();
+  void write_faults(const std::string& program, const std::vector<scenario::ProgramFault>& faults);
 
   RecordingOptions options_;
   std::string folder_;

@@ -1,36 +1,101 @@
 #include "handshake/reaction.hpp"
 
+#include <algorithm>
+
 #include "sim/check.hpp"
 
 namespace takt::handshake {
+namespace {
 
-ReactionTracker::ReactionTracker(std::size_t participants) : state_(participants, PublishedState::Halted) {
+/// What an alarm tells of its cause by itself.
+constexpr Cause cause_of(Alarm alarm) {
+  constexpr std::array<Cause, 6> causes{Cause::command, Cause::silence, Cause::leave, Cause::restart, Cause::mismatch, Cause::nested};
+  return causes[static_cast<std::size_t>(alarm)];
+}
+static_assert(cause_of(Alarm::PeerSilent) == Cause::silence && cause_of(Alarm::PeerLeft) == Cause::leave && cause_of(Alarm::PeerRestarted) == Cause::restart &&
+              cause_of(Alarm::Mismatch) == Cause::mismatch && cause_of(Alarm::OtherGroup) == Cause::nested);
+
+}  // namespace
+
+ReactionTracker::ReactionTracker(std::size_t participants)
+    : state_(participants, PublishedState::Halted), is_there_(participants, true), left_halted_(participants), living_(participants) {
   count_[index_of(PublishedState::Halted)] = participants;
 }
 
-void ReactionTracker::on_step(std::size_t participant, const Outputs& outputs, const Word& after, sim::TrueTime at) {
-  if (outputs.raised) {
+void ReactionTracker::on_step(std::size_t participant, const Outputs& outputs, const Word& after, sim::TrueTime at, const Origin& origin) {
+  if (outputs.raised && !joins_fault(outputs, after.intent)) {
     Reaction reaction;
     reaction.kind = outputs.raised_kind;
     reaction.initiator = static_cast<std::uint16_t>(participant);
-    reaction.alarm = outputs.alarm;
-    reaction.began = at;
+    reaction.cause = origin.cause != Cause::command ? origin.cause : cause_of(outputs.alarm);
+    reaction.began = origin.since != sim::TrueTime::never() ? std::max(origin.since, left_halted_[participant]) : at;
+    if (origin.by_itself && fault_) {
+      reaction.cause = fault_->cause;
+      reaction.began = fault_->since;
+    }
+    if (reaction.kind == IntentKind::Halt && outputs.alarm != Alarm::None) fault_ = Origin{reaction.cause, reaction.began};
+    if (reaction.kind == IntentKind::Start && !origin.by_itself) fault_.reset();
     begin(reaction, after.intent);
   }
   for (const StateChange& change : outputs.changes()) move(participant, change.to, at);
   if (outputs.raised) complete_those_reached(at);  // an alarm may be raised where all are Halted already
 }
 
+/// The second who notices a fault begins no reaction of its own.
+bool ReactionTracker::joins_fault(const Outputs& outputs, const Intent& intent) {
+  if (outputs.alarm == Alarm::None || outputs.raised_kind != IntentKind::Halt) return false;
+  const auto fault = std::find_if(open_.begin(), open_.end(), [&](const Open& each) {
+    return reactions_[each.reaction].kind == IntentKind::Halt && reactions_[each.reaction].cause != Cause::command;
+  });
+  if (fault == open_.end()) return false;
+  const std::size_t position = fault->reaction;
+  fault->intent = std::max(fault->intent, intent);
+  fault->is_awaited = false;
+  supersede(position, intent);
+  return true;
+}
+
+void ReactionTracker::on_crash(std::size_t participant, sim::TrueTime at) {
+  if (!is_there_[participant]) return;
+  on_leave(participant, at);
+  if (is_reached(IntentKind::Halt)) return;
+  // A node that is in several groups of a tree crashes once.
+  const auto is_this = [&](const Open& each) { return reactions_[each.reaction].cause == Cause::crash && reactions_[each.reaction].began == at; };
+  if (std::any_of(open_.begin(), open_.end(), is_this)) return;
+  fault_ = Origin{Cause::crash, at};
+  open_.push_back({reactions_.size(), {}, true});
+  reactions_.push_back({IntentKind::Halt, static_cast<std::uint16_t>(participant), Cause::crash, ReactionOutcome::Pending, at});
+}
+
+void ReactionTracker::on_leave(std::size_t participant, sim::TrueTime at) {
+  if (!is_there_[participant]) return;
+  is_there_[participant] = false;
+  --count_[index_of(state_[participant])];
+  --living_;
+  complete_those_reached(at);
+}
+
 void ReactionTracker::on_restart(std::size_t participant, sim::TrueTime at) {
-  move(participant, PublishedState::Halted, at);
+  if (is_there_[participant]) return move(participant, PublishedState::Halted, at);
+  is_there_[participant] = true;
+  state_[participant] = PublishedState::Halted;
+  ++count_[index_of(PublishedState::Halted)];
+  ++living_;
 }
 
 void ReactionTracker::begin(const Reaction& reaction, const Intent& intent) {
   const std::size_t position = reactions_.size();
   reactions_.push_back(reaction);
+  open_.push_back({position, intent});
+  if (!supersede(position, intent)) return;
+  reactions_[position].outcome = ReactionOutcome::Superseded;
+  std::erase_if(open_, [&](const Open& each) { return each.reaction == position; });
+}
+
+bool ReactionTracker::supersede(std::size_t position, const Intent& intent) {
   bool superseded = false;
   std::erase_if(open_, [&](const Open& other) {
-    if (goal_of(reactions_[other.reaction].kind) == goal_of(reaction.kind)) return false;
+    if (other.is_awaited || goal_of(reactions_[other.reaction].kind) == goal_of(reactions_[position].kind)) return false;
     if (intent.number != 0 && other.intent.number != 0 && intent < other.intent) {
       superseded = true;
       return false;
@@ -38,25 +103,27 @@ void ReactionTracker::begin(const Reaction& reaction, const Intent& intent) {
     reactions_[other.reaction].outcome = ReactionOutcome::Superseded;
     return true;
   });
-  if (superseded) {
-    reactions_[position].outcome = ReactionOutcome::Superseded;
-  } else {
-    open_.push_back({position, intent});
-  }
+  return superseded;
 }
 
 void ReactionTracker::move(std::size_t participant, PublishedState to, sim::TrueTime at) {
-  TAKT_CHECK(participant < state_.size(), "only a participant moves");
+  TAKT_CHECK(participant < state_.size() && is_there_[participant], "only a living participant moves");
+  if (state_[participant] == PublishedState::Halted && to != PublishedState::Halted) left_halted_[participant] = at;
   --count_[index_of(state_[participant])];
   ++count_[index_of(to)];
   state_[participant] = to;
   complete_those_reached(at);
 }
 
+/// Where nobody lives, all have halted.
+bool ReactionTracker::is_reached(IntentKind kind) const {
+  return count_[index_of(goal_of(kind))] == living_ && (living_ > 0 || kind == IntentKind::Halt);
+}
+
 void ReactionTracker::complete_those_reached(sim::TrueTime at) {
   std::erase_if(open_, [&](const Open& each) {
     Reaction& reaction = reactions_[each.reaction];
-    if (count_[index_of(goal_of(reaction.kind))] != state_.size()) return false;
+    if (!is_reached(reaction.kind)) return false;
     reaction.outcome = ReactionOutcome::Completed;
     reaction.completed = at;
     return true;

@@ -31,6 +31,7 @@ class RoleObserver {
   /// Whether what this life hears and says is the role's.
   bool counts(std::size_t role, const Binding& self) const { return roles_[role].binding == self && !roles_[role].is_awaited; }
 
+  std::size_t roles() const { return roles_.size(); }
   PublishedState state(std::size_t role) const { return roles_[role].state; }
   const Binding& binding(std::size_t role) const { return roles_[role].binding; }
 

@@ -106,18 +106,10 @@ void TreeObserver::take_violations(std::size_t group) {
   for (; taken_[group] < all.size(); ++taken_[group]) violations_.push_back({group, all[taken_[group]], false});
 }
 
-void TreeReactions::on_step(std::size_t number, const Outputs& outputs, sim::TrueTime at) {
-  const bool begins = outputs.raised && outputs.alarm != Alarm::OtherGroup;
-  if (begins) {
-    Reaction reaction;
-    reaction.kind = outputs.raised_kind;
-    reaction.initiator = static_cast<std::uint16_t>(number);
-    reaction.alarm = outputs.alarm;
-    reaction.began = at;
-    tracker_.begin(reaction, Intent{});  // numbers of different groups cannot be compared
-  }
-  for (const StateChange& change : outputs.changes()) tracker_.move(number, change.to, at);
-  if (begins) tracker_.complete_those_reached(at);
+void TreeReactions::on_step(std::size_t number, const Outputs& outputs, sim::TrueTime at, const Origin& origin) {
+  Outputs seen = outputs;
+  if (outputs.alarm == Alarm::OtherGroup) seen.raised = false;
+  tracker_.on_step(number, seen, Word{}, at, origin);  // without an intent: numbers of different groups cannot be compared
 }
 
 }  // namespace takt::handshake

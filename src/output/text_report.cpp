@@ -52,6 +52,13 @@ std::string requirements_part(const RunResult& result) {
   return out;
 }
 
+/// A call or a fault: what follows counts from it.
+bool is_cause(const results::TimelineEntry& entry) { return !entry.call.empty() || !entry.fault.empty(); }
+
+std::string cause_line(const ProgramResult& program, const results::TimelineEntry& entry) {
+  return fmt::format("  {:>16}  {:>12}  {}\n", readable(entry.at.since_start()), "", entry.fault.empty() ? entry.call + " on " + program.participants[entry.participant] : entry.fault);
+}
+
 /// One row an instant, one column a participant; a cell shows the state that is entered.
 std::string columns_timeline(const ProgramResult& program) {
   std::vector<std::size_t> widths;
@@ -63,15 +70,15 @@ std::string columns_timeline(const ProgramResult& program) {
   std::size_t rows = 0;
   for (std::size_t i = 0; i < program.timeline.size() && rows < most_timeline_rows; ++rows) {
     const results::TimelineEntry& entry = program.timeline[i];
-    if (!entry.call.empty()) {
+    if (is_cause(entry)) {
       since = entry.at;
-      out += fmt::format("  {:>16}  {:>12}  {} on {}\n", readable(entry.at.since_start()), "", entry.call, program.participants[entry.participant]);
+      out += cause_line(program, entry);
       ++i;
       continue;
     }
     std::vector<std::string> cells(widths.size(), "|");
     std::vector<bool> taken(widths.size(), false);
-    while (i < program.timeline.size() && program.timeline[i].at == entry.at && program.timeline[i].call.empty() &&
+    while (i < program.timeline.size() && program.timeline[i].at == entry.at && !is_cause(program.timeline[i]) &&
            !taken[program.timeline[i].participant]) {
       cells[program.timeline[i].participant] = program.timeline[i].state;
       taken[program.timeline[i].participant] = true;
@@ -92,9 +99,9 @@ std::string list_timeline(const ProgramResult& program) {
   std::size_t rows = 0;
   for (const results::TimelineEntry& entry : program.timeline) {
     if (++rows > most_timeline_rows) break;
-    if (!entry.call.empty()) {
+    if (is_cause(entry)) {
       since = entry.at;
-      out += fmt::format("  {:>16}  {:>12}  {} on {}\n", readable(entry.at.since_start()), "", entry.call, program.participants[entry.participant]);
+      out += cause_line(program, entry);
     } else {
       out += fmt::format("  {:>16}  {:>12}  {:<20} {}\n", readable(entry.at.since_start()), "+" + readable(entry.at - since),
                          program.participants[entry.participant], entry.state);
@@ -138,8 +145,8 @@ std::string program_part(const ProgramResult& program) {
   if (program.timeline.empty()) return out + "  nothing was called\n";
   out += program.participants.size() <= most_columns ? columns_timeline(program) : list_timeline(program);
   if (program.timeline.size() > most_timeline_rows) out += fmt::format("  ... {} changes of state in all\n", program.changes);
-  if (!program.reactions.empty()) out += "\n  Reactions (from the call until all are there)\n" + reactions_part(program.reactions);
-  if (!program.tree_reactions.empty()) out += "\n  Reactions of the whole tree (until all in nested programs are there, too)\n" + reactions_part(program.tree_reactions);
+  if (!program.reactions.empty()) out += "\n  Reactions (from the cause until all living participants are there)\n" + reactions_part(program.reactions);
+  if (!program.tree_reactions.empty()) out += "\n  Reactions of the whole tree (until all who live in nested programs are there, too)\n" + reactions_part(program.tree_reactions);
   if (program.process_data_received > 0) out += fmt::format("  {} process data messages reached their applications\n", program.process_data_received);
   for (const results::RoundTripResult& trip : program.round_trips) {
     if (!trip.time) continue;

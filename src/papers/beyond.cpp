@@ -30,7 +30,7 @@ BeyondRow row_of(const Plant& plant, const scenario::Resolved& resolved, Reprodu
       cell.simulated = std::max(cell.simulated.value_or(sim::Duration()), *reaction.duration());
     }
     for (const analysis::ReactionBound& bound : bounds.reactions)
-      if (bound.program == 0 && bound.of_tree == is_tree && scenario::spelling(bound.kind) == reaction_names[k]) cell.bound = bound.bound;
+      if (bound.program == 0 && bound.cause == handshake::Cause::command && bound.of_tree == is_tree && scenario::spelling(bound.kind) == reaction_names[k]) cell.bound = bound.bound;
   }
   if (result.verdict != results::Verdict::pass) {
     Comparison broken;

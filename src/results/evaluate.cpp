@@ -21,18 +21,6 @@ using scenario::ResolvedProgram;
 
 std::string kind_name(handshake::IntentKind kind) { return std::string(handshake::name_of(kind)); }
 
-std::string cause_name(handshake::Alarm alarm) {
-  switch (alarm) {
-    case handshake::Alarm::None: return "command";
-    case handshake::Alarm::PeerSilent: return "silent peer";
-    case handshake::Alarm::PeerRestarted: return "restarted peer";
-    case handshake::Alarm::PeerLeft: return "peer left";
-    case handshake::Alarm::Mismatch: return "mismatch";
-    case handshake::Alarm::OtherGroup: return "nested group";
-  }
-  return "?";
-}
-
 LatencySummary summary_of(const sim::Histogram& histogram) {
   return {histogram.minimum(),         histogram.mean(),    histogram.percentile(50, 100),
           histogram.percentile(99, 100), histogram.maximum(), histogram.standard_deviation()};
@@ -74,7 +62,7 @@ ReactionResult result_of(const handshake::Reaction& reaction, std::string initia
   ReactionResult one;
   one.kind = kind_name(reaction.kind);
   one.initiator = std::move(initiator);
-  one.cause = cause_name(reaction.alarm);
+  one.cause = std::string(scenario::spelling(reaction.cause));
   one.began = reaction.began;
   if (reaction.outcome == handshake::ReactionOutcome::Completed) one.completed = reaction.completed;
   one.superseded = reaction.outcome == handshake::ReactionOutcome::Superseded;
@@ -100,6 +88,29 @@ void add_tree(const scenario::Run& run, std::size_t index, ProgramResult& result
   }
 }
 
+void add_timeline(const scenario::ProgramMonitor& monitor, TrueTime now, ProgramResult& result) {
+  for (const scenario::ProgramFault& fault : monitor.faults()) {
+    if (fault.at <= now) result.timeline.push_back({fault.at, 0, "", "", fault.text});
+    if (fault.until <= now && !fault.end_text.empty()) result.timeline.push_back({fault.until, 0, "", "", fault.end_text});
+  }
+  for (const scenario::CallRecord& call : monitor.calls()) {
+    std::string text = std::string(program::name_of(call.method));
+    if (call.status != program::StatusCode::Good) text += " refused: " + std::string(program::name_of(call.status));
+    result.timeline.push_back({call.time, call.participant, std::move(text), "", ""});
+  }
+  const auto is_death = [&](const scenario::StateRecord& record) {
+    return record.change.transition == 0 && std::any_of(monitor.lives().begin(), monitor.lives().end(), [&](const scenario::LifeRecord& life) {
+      return !life.is_back && life.time == record.time && life.participant == record.participant;
+    });
+  };
+  for (const scenario::StateRecord& record : monitor.history())
+    if (!is_death(record)) result.timeline.push_back({record.time, record.participant, "", std::string(handshake::name_of(record.change.to)), ""});
+  for (const scenario::LifeRecord& life : monitor.lives()) result.timeline.push_back({life.time, life.participant, "", life.is_back ? "Halted" : "dead", ""});
+  // What happens to the group stands before a call of the same instant, and both before the changes that they cause.
+  const auto rank = [](const TimelineEntry& entry) { return !entry.fault.empty() ? 0 : !entry.call.empty() ? 1 : 2; };
+  std::stable_sort(result.timeline.begin(), result.timeline.end(), [&](const TimelineEntry& a, const TimelineEntry& b) { return a.at != b.at ? a.at < b.at : rank(a) < rank(b); });
+}
+
 ProgramResult result_of(const scenario::Run& run, std::size_t index) {
   const ResolvedProgram& program = run.resolved().programs[index];
   const scenario::ProgramMonitor& monitor = run.monitor(index);
@@ -109,7 +120,7 @@ ProgramResult result_of(const scenario::Run& run, std::size_t index) {
   result.cycle = program.description->cycle;
   for (std::size_t p = 0; p < program.participant_names.size(); ++p) {
     result.participants.push_back(program.participant_names[p]);
-    result.states.emplace_back(handshake::name_of(run.state(index, p)));
+    result.states.emplace_back(monitor.is_dead(p) ? "dead" : handshake::name_of(run.state(index, p)));
   }
   for (const handshake::Reaction& reaction : monitor.reactions()) result.reactions.push_back(result_of(reaction, result.participants[reaction.initiator]));
   for (const scenario::ViolationRecord& violation : monitor.violations())
@@ -121,17 +132,7 @@ ProgramResult result_of(const scenario::Run& run, std::size_t index) {
       result.bindings.push_back({record.time, program.participant_names[record.role + std::size_t{1}],
                                  record.candidate ? run.resolved().topology.nodes[program.candidates[*record.candidate].node.value].name : ""});
   result.violations_allowed = program.description->violations == scenario::Violations::reported;
-  for (const scenario::StateRecord& record : monitor.history())
-    result.timeline.push_back({record.time, record.participant, "", std::string(handshake::name_of(record.change.to))});
-  for (const scenario::CallRecord& call : monitor.calls()) {
-    std::string text = std::string(program::name_of(call.method));
-    if (call.status != program::StatusCode::Good) text += " refused: " + std::string(program::name_of(call.status));
-    result.timeline.push_back({call.time, call.participant, std::move(text), ""});
-  }
-  // A call stands before the changes that it causes in the same instant.
-  std::stable_sort(result.timeline.begin(), result.timeline.end(), [](const TimelineEntry& a, const TimelineEntry& b) {
-    return a.at != b.at ? a.at < b.at : !a.call.empty() && b.call.empty();
-  });
+  add_timeline(monitor, run.simulation().now(), result);
   result.changes = monitor.changes();
   result.process_data_received = monitor.process_data_received();
   result.round_trips = round_trips_of(monitor, program);
@@ -185,14 +186,15 @@ class Judge {
     verdict.subject = requirement.program.value_or("");
     verdict.reaction = kind;
     verdict.of_tree = requirement.tree;
-    verdict.text = "reaction " + kind + (requirement.tree ? " of the tree" : "") + (requirement.program ? " of " + *requirement.program : "") + " within " + json_text(*requirement.within);
+    const std::string cause(requirement.cause ? scenario::spelling(*requirement.cause) : "");
+    verdict.text = "reaction " + kind + (requirement.cause ? " because of a " + cause : "") + (requirement.tree ? " of the tree" : "") + (requirement.program ? " of " + *requirement.program : "") + " within " + json_text(*requirement.within);
     verdict.limit = *requirement.within;
     std::size_t seen = 0;
     std::size_t incomplete = 0;
     for (const ProgramResult& program : result_.programs) {
       if (requirement.program && program.name != *requirement.program) continue;
       for (const ReactionResult& one : requirement.tree ? program.tree_reactions : program.reactions) {
-        if (one.kind != kind || one.superseded) continue;
+        if (one.kind != kind || one.superseded || (requirement.cause && one.cause != cause)) continue;
         ++seen;
         if (!one.completed)
           ++incomplete;

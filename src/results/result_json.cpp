@@ -147,8 +147,12 @@ Node programs_of(const RunResult& result) {
     for (const TimelineEntry& e : p.timeline) {
       Node entry = Node::object();
       entry.add("at_ps", picoseconds(e.at));
-      entry.add("participant", Node::of_string(p.participants[e.participant]));
-      entry.add(e.call.empty() ? "state" : "call", Node::of_string(e.call.empty() ? e.state : e.call));
+      if (e.fault.empty()) {
+        entry.add("participant", Node::of_string(p.participants[e.participant]));
+        entry.add(e.call.empty() ? "state" : "call", Node::of_string(e.call.empty() ? e.state : e.call));
+      } else {
+        entry.add("fault", Node::of_string(e.fault));
+      }
       timeline.items.push_back(std::move(entry));
     }
     node.add("timeline", std::move(timeline));

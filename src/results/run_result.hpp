@@ -60,8 +60,8 @@ struct StreamResult {
 struct ReactionResult {
   std::string kind;
   std::string initiator;                   ///< node; of a tree: program, '/', node
-  std::string cause;                       ///< "command", or why it began by itself
-  TrueTime began;
+  std::string cause;                       ///< "command", "crash" ...: the spelling of a handshake::Cause
+  TrueTime began;                          ///< the instant of the cause
   std::optional<TrueTime> completed;
   bool superseded = false;                 ///< something else was asked for before it was complete
   std::optional<Duration> duration() const { return completed ? std::optional(*completed - began) : std::nullopt; }
@@ -84,12 +84,13 @@ struct RoundTripResult {
   std::vector<HistogramBucket> histogram;
 };
 
-/// A row of the time line: a call, or a change of state.
+/// A row of the time line: a call, a change of state ("dead" while the node has failed), or a fault.
 struct TimelineEntry {
   TrueTime at;
   std::uint8_t participant = 0;
   std::string call;                        ///< method and status, or empty
   std::string state;                       ///< the new state, or empty
+  std::string fault;                       ///< what happens to the group's nodes and links, of no participant; or empty
 };
 
 /// A role of a program got a node, or lost it.

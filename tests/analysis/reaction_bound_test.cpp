@@ -121,6 +121,7 @@ TEST(ReactionBound, HoldsInTheSimulatorAtAllPhases) {
           const auto resolved = scenario::load_text(cell_text(variant, publish, subscription, digits), "cell.json", {}, diagnostics);
           ASSERT_TRUE(resolved) << diagnostics.to_text();
           bounds = bound(*resolved).reactions;
+          std::erase_if(bounds, [](const ReactionBound& each) { return each.cause != handshake::Cause::command; });
           scenario::Run run(*resolved);
           run.advance();
           for (const handshake::Reaction& reaction : run.monitor(0).reactions()) {
@@ -144,6 +145,48 @@ TEST(ReactionBound, HoldsInTheSimulatorAtAllPhases) {
       }
 }
 
+// Faults at all phases of the cycle: from the instant of the fault until all who live are Halted, nothing exceeds the bound of its cause.
+TEST(ReactionBound, HaltsHoldFromTheirCausesAtAllPhases) {
+  const std::pair<handshake::Cause, const char*> faults[] = {
+      {handshake::Cause::crash, R"("kind": "crash", "node": "a")"},
+      {handshake::Cause::crash, R"("kind": "crash", "node": "m")"},
+      {handshake::Cause::crash, R"("for": "1ms", "kind": "crash", "node": "b")"},
+      {handshake::Cause::cut, R"("kind": "link-down", "link": ["s1", "s2"])"},
+      {handshake::Cause::cut, R"("kind": "crash", "node": "s2")"},
+      {handshake::Cause::silence, R"("kind": "frame-errors", "loss": 1, "link": ["s1", "s2"])"},
+  };
+  std::map<handshake::Cause, double> tightest;
+  for (const std::string subscription : {"star", "all-to-all"})
+    for (const auto& [cause, fault] : faults)
+      for (int phase = 100; phase < 1000; phase += 97) {
+        scenario::json::Diagnostics diagnostics;
+        std::string text = cell_text("robust", "cyclic", subscription, "000");
+        text.insert(text.rfind('}'), R"(, "faults": [{"at": "12)" + std::to_string(phase) + R"(us", )" + fault + R"(}], "require": [{"reaction": "halt", "within": "1s"}])");
+        const auto resolved = scenario::load_text(text, "cell.json", {}, diagnostics);
+        ASSERT_TRUE(resolved) << diagnostics.to_text();
+        const Bounds bounds = bound(*resolved);
+        const auto of_cause = std::find_if(bounds.reactions.begin(), bounds.reactions.end(), [&](const ReactionBound& each) { return each.cause == cause; });
+        ASSERT_TRUE(of_cause != bounds.reactions.end() && of_cause->bound);
+        sim::Duration sum;
+        for (const ReactionPart& part : of_cause->parts) sum += part.duration;
+        EXPECT_EQ(sum, *of_cause->bound);
+        // Without a cause a requirement is for what the faults can bring about, too.
+        EXPECT_GE(bounds.requirements.at(0).bound.duration, of_cause->bound) << fault;
+        scenario::Run run(*resolved);
+        run.advance();
+        int seen = 0;
+        for (const handshake::Reaction& reaction : run.monitor(0).reactions()) {
+          if (reaction.cause != cause || reaction.kind != handshake::IntentKind::Halt) continue;
+          ++seen;
+          ASSERT_EQ(reaction.outcome, handshake::ReactionOutcome::Completed) << fault;
+          EXPECT_LE(reaction.completed - reaction.began, *of_cause->bound) << fault << " at " << phase;
+          tightest[cause] = std::max(tightest[cause], static_cast<double>((reaction.completed - reaction.began).ps()) / static_cast<double>(of_cause->bound->ps()));
+        }
+        EXPECT_EQ(seen, 1) << fault;
+      }
+  for (const auto& [cause, share] : tightest) EXPECT_GT(share, 0.8) << scenario::spelling(cause);
+}
+
 // Three levels, called at all phases of the cycles, and suspended as soon as all run: nothing exceeds the bounds of the groups or of the tree.
 TEST(ReactionBound, HoldsForNestedGroupsAtAllPhases) {
   std::map<std::tuple<std::size_t, scenario::Reaction, bool>, std::pair<sim::Duration, sim::Duration>> slowest;   // and the bound
@@ -161,6 +204,7 @@ TEST(ReactionBound, HoldsForNestedGroupsAtAllPhases) {
     run.advance();
     for (const ReactionBound& reaction : bounds.reactions) {
       ASSERT_TRUE(reaction.bound);
+      if (reaction.cause != handshake::Cause::command) continue;
       sim::Duration sum;
       for (const ReactionPart& part : reaction.parts) sum += part.duration;
       EXPECT_EQ(sum, *reaction.bound);

@@ -105,7 +105,79 @@ TEST(Reaction, FinishAndAlarmsAreReactionsToo) {
   ASSERT_EQ(reactions.size(), 3U);
   expect(reactions[1], IntentKind::Finish, 1, ReactionOutcome::Completed, 5, at(5));
   expect(reactions[2], IntentKind::Halt, 0, ReactionOutcome::Completed, 7, at(7));
-  EXPECT_EQ(reactions[2].alarm, Alarm::PeerSilent);
+  EXPECT_EQ(reactions[2].cause, Cause::silence);
+}
+
+// A crash at 5 us: the reaction begins there, whoever notices it, and is over when all who live have halted.
+TEST(Reaction, FromTheCrashToTheLastWhoLives) {
+  Group group = started(Variant::Robust, 3);
+  group.reactions.on_crash(3, at(5));
+  group.now = at(15);
+  group.step(0, Input::peer_silent(2));
+  group.now = at(16);
+  group.tell(0, 1);
+  group.step(2, Input::peer_silent(0));   // who notices it second begins nothing
+  const auto reactions = group.reactions.reactions();
+  ASSERT_EQ(reactions.size(), 2U);
+  expect(reactions[1], IntentKind::Halt, 3, ReactionOutcome::Completed, 5, at(16));
+  EXPECT_EQ(reactions[1].cause, Cause::crash);
+}
+
+TEST(Reaction, ACommandDoesNotSupersedeTheHaltThatACrashAsksFor) {
+  Group group = started(Variant::Robust, 2);
+  group.reactions.on_crash(2, at(5));
+  group.now = at(6);
+  group.call(0, Method::Suspend);
+  group.tell(0, 1);
+  group.now = at(15);
+  group.step(0, Input::peer_silent(1));
+  group.tell(0, 1);
+  const auto reactions = group.reactions.reactions();
+  ASSERT_EQ(reactions.size(), 3U);
+  expect(reactions[1], IntentKind::Halt, 2, ReactionOutcome::Completed, 5, at(15));
+  expect(reactions[2], IntentKind::Suspend, 0, ReactionOutcome::Completed, 6, at(6));
+}
+
+TEST(Reaction, ACrashInHaltedAsksForNothing) {
+  Group group(Variant::Robust, 2);
+  group.reactions.on_crash(1, at(5));
+  EXPECT_TRUE(group.reactions.reactions().empty());
+  // Started without it, the master finds it silent: from its own INIT, which is when the silence began to matter.
+  group.now = at(20);
+  group.call(0, Method::Start);
+  group.now = at(30);
+  Outputs outputs;
+  outputs.raised = true;
+  outputs.alarm = Alarm::PeerSilent;
+  group.reactions.on_step(0, outputs, Word{}, at(30), {Cause::crash, at(5)});
+  const auto reactions = group.reactions.reactions();
+  ASSERT_EQ(reactions.size(), 2U);
+  EXPECT_EQ(reactions[1].cause, Cause::crash);
+  EXPECT_EQ(reactions[1].began, at(20));
+}
+
+// A group that goes on by itself after a replacement has reacted when all run again.
+TEST(Reaction, AStartByItselfIsOfTheLastFault) {
+  ReactionTracker tracker(2);
+  const auto step = [&](std::size_t who, IntentKind kind, Alarm alarm, PublishedState from, PublishedState to, TrueTime when, const Origin& origin = {}) {
+    Outputs outputs;
+    outputs.raised = who == 0;
+    outputs.raised_kind = kind;
+    outputs.alarm = alarm;
+    outputs.add({1, from, to});
+    tracker.on_step(who, outputs, Word{}, when, origin);
+  };
+  step(0, IntentKind::Start, Alarm::None, PublishedState::Halted, PublishedState::Running, at(1));
+  step(1, IntentKind::Start, Alarm::None, PublishedState::Halted, PublishedState::Running, at(2));
+  tracker.on_crash(1, at(5));
+  step(0, IntentKind::Halt, Alarm::PeerSilent, PublishedState::Running, PublishedState::Halted, at(15));
+  tracker.on_restart(1, at(16));
+  step(0, IntentKind::Start, Alarm::None, PublishedState::Halted, PublishedState::Running, at(17), {Cause::command, TrueTime::never(), true});
+  step(1, IntentKind::Start, Alarm::None, PublishedState::Halted, PublishedState::Running, at(19));
+  ASSERT_EQ(tracker.reactions().size(), 3U);
+  expect(tracker.reactions()[1], IntentKind::Halt, 1, ReactionOutcome::Completed, 5, at(15));
+  expect(tracker.reactions()[2], IntentKind::Start, 0, ReactionOutcome::Completed, 5, at(19));
+  EXPECT_EQ(tracker.reactions()[2].cause, Cause::crash);
 }
 
 TEST(Reaction, WithoutTheLastFollowerItStaysPending) {

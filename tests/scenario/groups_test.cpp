@@ -47,7 +47,7 @@ TEST(NestedPrograms, StartTogetherAndTheTreeHasAReactionOfItsOwn) {
   EXPECT_EQ(result.programs[0].tree_reactions[0].initiator, "o/m");
   EXPECT_EQ(result.programs[0].tree_reactions[0].duration(), result.programs[0].reactions[0].duration()) << "the outer master is the last to run";
   EXPECT_TRUE(result.programs[1].tree_reactions.empty());
-  EXPECT_EQ(result.programs[1].reactions[0].cause, "nested group");
+  EXPECT_EQ(result.programs[1].reactions[0].cause, "nested");
   EXPECT_GT(result.programs[1].process_data_received, 1000u);
 }
 

@@ -84,7 +84,7 @@ struct GptpPortRole {
 /// What differs for one node.
 struct GptpNode {
   json::Source where;
-  std::uint8_t priority1 = 248;
+  std::optional<std::uint8_t> priority1;  ///< 248; with hot standby 255
   std::uint8_t priority2 = 248;
   std::uint8_t clock_class = 248;
   std::uint8_t clock_accuracy = 0xFE;

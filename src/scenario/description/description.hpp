@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "handshake/cause.hpp"
 #include "scenario/applications/description_applications.hpp"
 #include "scenario/description/clocks.hpp"
 #include "scenario/description/faults.hpp"
@@ -20,6 +21,11 @@
 #include "sim/units.hpp"
 #include "vocabulary/plug.hpp"
 #include "vocabulary/program.hpp"
+
+namespace takt::handshake {
+/// Here, since the words are those of scenario files.
+const scenario::json::Enumeration& describe(scenario::json::Type<Cause>);
+}  // namespace takt::handshake
 
 namespace takt::scenario {
 
@@ -316,6 +322,7 @@ struct Requirement {
   json::Source where;
   std::optional<Reaction> reaction;
   std::optional<std::string> program;
+  std::optional<handshake::Cause> cause = {};
   std::optional<Duration> within;
   bool tree = false;
   std::optional<std::string> stream;

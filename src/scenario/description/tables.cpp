@@ -194,7 +194,8 @@ const json::Object& describe(json::Type<Requirement>) {
   static constexpr json::Field fields[] = {
       optional<&Requirement::reaction>("reaction", "Every such reaction ends within the time given by within, and there is at least one."),
       optional<&Requirement::program>("program", "Only of this program."),
-      optional<&Requirement::within>("within", "Longest reaction.", {.max = longest}),
+      optional<&Requirement::cause>("cause", "Only what this has caused; whatever the cause if absent."),
+      optional<&Requirement::within>("within", "Longest reaction: from the instant of its cause until all living participants are there.", {.max = longest}),
       optional<&Requirement::tree>("tree", "The reaction of the program and all that are nested in it: until everybody in the tree is there."),
       optional<&Requirement::stream>("stream", "The stream that is meant."),
       optional<&Requirement::latency>("latency", "Longest time from production to delivery.", {.max = longest}),
@@ -253,3 +254,23 @@ const json::Object& describe(json::Type<Scenario>) {
 }
 
 }  // namespace takt::scenario
+
+namespace takt::handshake {
+
+const scenario::json::Enumeration& describe(scenario::json::Type<Cause>) {
+  using scenario::json::name;
+  static constexpr scenario::json::EnumName names[] = {
+      name(Cause::command, "command", "a method was called"),
+      name(Cause::crash, "crash", "the node of a participant failed"),
+      name(Cause::restart, "restart", "a node is back without its memory, before anybody found it silent"),
+      name(Cause::cut, "cut", "a link or a switch between participants failed"),
+      name(Cause::silence, "silence", "words of a peer stayed away, without a crash or a cut that explains it; from the last one that came"),
+      name(Cause::leave, "leave", "a node with a role left"),
+      name(Cause::mismatch, "mismatch", "a participant was told what it cannot follow"),
+      name(Cause::nested, "nested", "the group around this one, or within it, did the same"),
+  };
+  static constexpr scenario::json::Enumeration table = scenario::json::enumeration<Cause>("the cause of a reaction", names);
+  return table;
+}
+
+}  // namespace takt::handshake

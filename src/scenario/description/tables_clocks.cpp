@@ -117,7 +117,7 @@ const json::Object& describe(json::Type<GptpPortRole>) {
 
 const json::Object& describe(json::Type<GptpNode>) {
   static constexpr json::Field fields[] = {
-      optional<&GptpNode::priority1>("priority1", "The smaller the better; 255: never grandmaster."),
+      optional<&GptpNode::priority1>("priority1", "The smaller the better; 255: never grandmaster. Without it 248; in the two domains of a hot standby 255 (unless \"roles\" say who transmits): who may be grandmaster there is named."),
       optional<&GptpNode::priority2>("priority2", "Decides where priority1 and quality are equal."),
       optional<&GptpNode::clock_class>("clock_class", "clockClass; 6 is a primary reference."),
       optional<&GptpNode::clock_accuracy>("clock_accuracy", "clockAccuracy; 0x20 (32) is 25 ns, 0xFE (254) unknown."),
@@ -153,7 +153,7 @@ const json::Object& describe(json::Type<Gptp>) {
       optional<&Gptp::servo>("servo", "The servo of all nodes."),
       optional<&Gptp::nodes>("nodes", "What is particular to nodes (domain 0).", {.max_items = most_names}),
       optional<&Gptp::domains>("domains", "Further domains.", {.max_items = 4}),
-      optional<&Gptp::hot_standby>("hot_standby", "The first of \"domains\" is secondary to domain 0: nodes switch over when the primary is not synced."),
+      optional<&Gptp::hot_standby>("hot_standby", "The first of \"domains\" is secondary to domain 0 (IEEE 802.1ASdm): time comes from the primary while it is synced, otherwise from the secondary. Both have a grandmaster of their own, by \"roles\" or as the nodes that have a \"priority1\"."),
       optional<&Gptp::report_every>("report_every", "How often offsets are looked at for the report.", {.min = 1_us, .max = 3600_s}),
       optional<&Gptp::without>("without", "Nodes without gPTP.", {.max_items = most_names}),
   };

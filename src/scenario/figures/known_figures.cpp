@@ -53,7 +53,7 @@ const std::vector<KnownFigure>& known_figures() {
       {number, "/programs/<program>/violations/[]/at_ps"},
       {text, "/programs/<program>/violations/[]/{invariant,participant,text}"},
       {number, "/programs/<program>/timeline/[]/at_ps"},
-      {text, "/programs/<program>/timeline/[]/{participant,state,call}"},
+      {text, "/programs/<program>/timeline/[]/{participant,state,call,fault}"},
       {number, "/programs/<program>/{changes,process_data_received}"},
       {text, "/programs/<program>/round_trips/<>/request"},
       {number, "/programs/<program>/round_trips/<>/count"},

@@ -11,6 +11,7 @@ void PlugApplication::crash() {
 void PlugApplication::restart(models::HostServices& host) {
   crash();
   has_crashed_ = false;
+  came_back();
   start(host);
 }
 
@@ -24,7 +25,10 @@ void PlugApplication::publish(uadp::Octets network_message, const pubsub::Destin
     host_->send(*data, network_message);
 }
 
-void PlugMasterApplication::call(models::HostServices& host, program::Method method) { monitor_->on_call(0, method, endpoint_.call(at(host), method)); }
+void PlugMasterApplication::call(models::HostServices& host, program::Method method) {
+  monitor_->before_call();
+  monitor_->on_call(0, method, endpoint_.call(at(host), method));
+}
 
 void PlugMasterApplication::forget() {
   const handshake::PublishedState before = state();
@@ -39,6 +43,7 @@ std::optional<handshake::PublishedState> CandidateApplication::state_of(std::uin
 
 void CandidateApplication::call(models::HostServices& host, program::Method method) {
   const auto role = endpoint_.candidate().role();
+  if (role) monitor_->before_call();
   const program::StatusCode status = endpoint_.call(at(host), method);
   if (role) monitor_->on_call(*role + std::size_t{1}, method, status);
 }
@@ -47,7 +52,13 @@ void CandidateApplication::forget() {
   const auto role = endpoint_.candidate().role();
   const handshake::Binding before = endpoint_.self();
   endpoint_.forget(handshake::next_life(before.life));
-  if (role) roles_->on_dropped(*role, before);
+  if (role) roles_->on_dropped(*role, before, true);
+}
+
+void CandidateApplication::wake(models::HostServices& host, models::AlarmId alarm) {
+  const wire::ProgramEndpoint* const endpoint = endpoint_.endpoint();
+  if (const auto role = endpoint_.candidate().role(); role && endpoint != nullptr && endpoint->peer_of_alarm(alarm) == 0) monitor_->on_silence(*role + std::size_t{1}, 0, last_heard(0));
+  endpoint_.wake(at(host), alarm);
 }
 
 void CandidateApplication::stepped(const handshake::Outputs& outputs, const handshake::Word& after) {

@@ -34,16 +34,24 @@ class PlugApplication : public models::Application, protected wire::PlugHost {
     return *this;
   }
   virtual void forget() = 0;
+  virtual void came_back() = 0;
+  /// In true time; the beginning for one that was never heard.
+  sim::TrueTime last_heard(std::size_t peer) const { return peer < heard_.size() ? heard_[peer] : sim::TrueTime(); }
 
   ProgramMonitor* monitor_;
   PlugMonitor* roles_;
 
  private:
   sim::LocalTime now() const override { return host_->now(); }
+  void heard(std::size_t peer, const handshake::Word&) final {
+    if (peer >= heard_.size()) heard_.resize(peer + 1);
+    heard_[peer] = monitor_->now();
+  }
   void set_alarm(std::size_t alarm, sim::LocalTime time) override { host_->set_alarm(static_cast<models::AlarmId>(alarm), time); }
   void publish(uadp::Octets network_message, const pubsub::Destination& destination) override;
 
   Streams streams_;
+  std::vector<sim::TrueTime> heard_;   // by peer
   models::HostServices* host_ = nullptr;
   bool has_crashed_ = false;
 };
@@ -53,8 +61,8 @@ class PlugMasterApplication final : public PlugApplication {
   /// `state_of` says in which state the participant of a binding is already, if there is one: for the ghost.
   using StateOf = std::function<std::optional<handshake::PublishedState>(const handshake::Binding&)>;
 
-  PlugMasterApplication(wire::PlugSettings settings, bool restarts, Streams streams, ProgramMonitor& monitor, PlugMonitor& roles, StateOf state_of)
-      : PlugApplication(std::move(streams), monitor, roles), endpoint_(std::move(settings), restarts), state_of_(std::move(state_of)) {}
+  PlugMasterApplication(wire::PlugSettings settings, bool restarts, Streams streams, ProgramMonitor& monitor, PlugMonitor& roles, std::uint32_t node, StateOf state_of)
+      : PlugApplication(std::move(streams), monitor, roles), endpoint_(std::move(settings), restarts), node_(node), state_of_(std::move(state_of)) {}
 
   handshake::PublishedState state() const { return endpoint_.endpoint().participant().state(); }
   const handshake::Binder& binder() const { return endpoint_.binder(); }
@@ -63,10 +71,14 @@ class PlugMasterApplication final : public PlugApplication {
   models::AlarmId alarm_count() const override { return static_cast<models::AlarmId>(endpoint_.alarm_count()); }
   void start(models::HostServices& host) override { endpoint_.start(at(host)); }
   void receive(models::HostServices& host, models::StreamIndex, std::span<const std::byte> payload) override { endpoint_.receive(at(host), payload); }
-  void wake(models::HostServices& host, models::AlarmId alarm) override { endpoint_.wake(at(host), alarm); }
+  void wake(models::HostServices& host, models::AlarmId alarm) override {
+    if (const auto peer = endpoint_.endpoint().peer_of_alarm(alarm); peer && *peer < endpoint_.endpoint().participant().peer_count()) monitor_->on_silence(0, *peer + 1, last_heard(*peer));
+    endpoint_.wake(at(host), alarm);
+  }
 
  private:
   void forget() override;
+  void came_back() override { monitor_->on_back(0, node_); }
   void stepped(const handshake::Outputs& outputs, const handshake::Word& after) override { monitor_->on_step(0, outputs, after); }
   void process_data(const wire::ProcessDataMessage& message) override { monitor_->on_process_data(message.sender, 0, message.run); }
   void role_bound(std::size_t role, const handshake::Binding& binding) override { roles_->on_bound(role, binding, state_of_(binding)); }
@@ -74,6 +86,7 @@ class PlugMasterApplication final : public PlugApplication {
   void role_dropped(std::size_t, const handshake::Binding&) override {}
 
   wire::PlugMaster endpoint_;
+  std::uint32_t node_;
   StateOf state_of_;
   std::uint32_t incarnation_ = 1;
 };
@@ -93,15 +106,16 @@ class CandidateApplication final : public PlugApplication {
   models::AlarmId alarm_count() const override { return static_cast<models::AlarmId>(endpoint_.alarm_count()); }
   void start(models::HostServices& host) override { endpoint_.start(at(host)); }
   void receive(models::HostServices& host, models::StreamIndex, std::span<const std::byte> payload) override { endpoint_.receive(at(host), payload); }
-  void wake(models::HostServices& host, models::AlarmId alarm) override { endpoint_.wake(at(host), alarm); }
+  void wake(models::HostServices& host, models::AlarmId alarm) override;
 
  private:
   void forget() override;
+  void came_back() override {}  // as a candidate; it is there when it is bound
   void stepped(const handshake::Outputs& outputs, const handshake::Word& after) override;
   void process_data(const wire::ProcessDataMessage& message) override;
   void role_bound(std::size_t, const handshake::Binding&) override {}
   void role_taken(std::size_t, const handshake::Binding&) override {}
-  void role_dropped(std::size_t role, const handshake::Binding& self) override { roles_->on_dropped(role, self); }
+  void role_dropped(std::size_t role, const handshake::Binding& self) override { roles_->on_dropped(role, self, false); }
 
   wire::CandidateEndpoint endpoint_;
 };

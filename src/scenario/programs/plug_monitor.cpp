@@ -8,7 +8,8 @@ constexpr std::uint32_t role_bound = 104;  // kind of digest record; see program
 void PlugMonitor::on_bound(std::size_t role, const handshake::Binding& binding, std::optional<handshake::PublishedState> before) {
   const handshake::RoleObserver::Change change = observer_.on_bound(role, binding, before);
   if (!change.is_new) return;
-  if (change.gone) program_->on_crash(role + 1, *change.gone);
+  if (change.gone) program_->on_gone(role + 1, *change.gone);
+  if (binding.bound()) program_->on_back(role + 1, nodes_[binding.candidate]);
   simulation_->digest().add(role_bound, static_cast<std::uint64_t>(number_) << 32 | role, simulation_->now(),
                             static_cast<std::uint64_t>(binding.candidate) << 32 | binding.life);
   if (!change.is_another || history_.size() >= most_records) return;
@@ -19,12 +20,19 @@ void PlugMonitor::on_step(std::size_t role, const handshake::Binding& self, cons
   if (observer_.on_step(role, self, after.state)) program_->on_step(role + 1, outputs, after);
 }
 
-void PlugMonitor::on_dropped(std::size_t role, const handshake::Binding& self) {
-  if (const auto before = observer_.on_dropped(role, self)) program_->on_crash(role + 1, *before);
+void PlugMonitor::on_dropped(std::size_t role, const handshake::Binding& self, bool has_crashed) {
+  const auto before = observer_.on_dropped(role, self);
+  if (before) has_crashed ? program_->on_crash(role + 1, *before) : program_->on_gone(role + 1, *before);
 }
 
 void PlugMonitor::on_process_data(std::size_t role, const handshake::Binding& self, std::size_t from, std::uint32_t sent_in) {
   if (observer_.counts(role, self)) program_->on_process_data(from, role + 1, sent_in);
+}
+
+bool PlugMonitor::has_role(std::uint8_t candidate) const {
+  for (std::size_t role = 0; role < observer_.roles(); ++role)
+    if (binding(role).bound() && binding(role).candidate == candidate) return true;
+  return false;
 }
 
 }  // namespace takt::scenario

@@ -4,12 +4,14 @@
 
 namespace takt::scenario {
 
-ProgramApplication::ProgramApplication(Settings settings, ProgramMonitor& monitor)
+ProgramApplication::ProgramApplication(Settings settings, ProgramMonitor& monitor, std::uint32_t node)
     : state_stream_(settings.state_stream),
       data_streams_(std::move(settings.data_streams)),
       replies_(std::move(settings.replies)),
       monitor_(&monitor),
-      endpoint_(std::move(settings.endpoint)) {}
+      endpoint_(std::move(settings.endpoint)),
+      node_(node),
+      heard_(endpoint_.participant().peer_count()) {}
 
 void ProgramApplication::start(models::HostServices& host) {
   host_ = &host;
@@ -28,20 +30,24 @@ void ProgramApplication::crash() {
 void ProgramApplication::restart(models::HostServices& host) {
   crash();
   has_crashed_ = false;
+  monitor_->on_back(index(), node_);
   start(host);
 }
 
 void ProgramApplication::call(models::HostServices& host, program::Method method) {
   host_ = &host;
+  monitor_->before_call();
   monitor_->on_call(index(), method, endpoint_.call(*this, method));
 }
 
 void ProgramApplication::wake(models::HostServices& host, models::AlarmId alarm) {
   host_ = &host;
-  if (alarm == endpoint_.alarm_count())
+  if (alarm == endpoint_.alarm_count()) {
     end_work();
-  else
-    endpoint_.wake(*this, alarm);
+    return;
+  }
+  if (const auto peer = endpoint_.peer_of_alarm(alarm)) monitor_->on_silence(index(), endpoint_.participant().participant_of(*peer), heard_[*peer]);
+  endpoint_.wake(*this, alarm);
 }
 
 void ProgramApplication::receive(models::HostServices& host, models::StreamIndex, std::span<const std::byte> payload) {

@@ -21,7 +21,7 @@ class ProgramApplication final : public models::Application, private wire::Endpo
     std::optional<ReplyWorker> replies = {};        ///< if there are replies
   };
 
-  ProgramApplication(Settings settings, ProgramMonitor& monitor);
+  ProgramApplication(Settings settings, ProgramMonitor& monitor, std::uint32_t node);
 
   /// Joins two participants on one host; both outlive what is returned, which outlives their use.
   static std::unique_ptr<wire::Nesting> nest(ProgramApplication& outer, ProgramApplication& inner) {
@@ -50,6 +50,7 @@ class ProgramApplication final : public models::Application, private wire::Endpo
   void publish(uadp::Octets network_message, const pubsub::Destination& destination) override;
   void stepped(const handshake::Outputs& outputs, const handshake::Word& after) override;
   void process_data(const wire::ProcessDataMessage& message) override;
+  void heard(std::size_t peer, const handshake::Word&) override { heard_[peer] = monitor_->now(); }
   std::uint32_t run_of_paper() const override { return monitor_->sending_run(index()); }
 
   void begin_work(const std::optional<sim::Duration>& work);
@@ -62,6 +63,8 @@ class ProgramApplication final : public models::Application, private wire::Endpo
   std::optional<ReplyWorker> replies_;
   ProgramMonitor* monitor_;
   wire::ProgramEndpoint endpoint_;
+  std::uint32_t node_;
+  std::vector<sim::TrueTime> heard_;              ///< by peer
   models::HostServices* host_ = nullptr;
   bool has_crashed_ = false;
 };

@@ -17,14 +17,16 @@ std::uint64_t content_of(const handshake::Word& word) {
 }  // namespace
 
 ProgramMonitor::ProgramMonitor(sim::Simulation& simulation, std::uint32_t number, handshake::Variant variant, std::size_t participants)
-    : simulation_(&simulation), number_(number), observer_(variant, participants), tracker_(participants) {}
+    : simulation_(&simulation), number_(number), observer_(variant, participants), tracker_(participants), nodes_(participants), is_dead_(participants, false) {}
 
 void ProgramMonitor::on_step(std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after) {
   // Most steps change nothing: a word that says the same as the one before.
   if (outputs.change_count == 0 && !outputs.publish && !outputs.raised) return;
   observer_.on_step(participant, outputs, after);
-  if (tree_ != nullptr) tree_->on_step(group_, participant, outputs, after);
-  tracker_.on_step(participant, outputs, after, simulation_->now());
+  const handshake::Origin origin = outputs.raised ? origin_of(outputs) : handshake::Origin();
+  if (tree_ != nullptr) tree_->on_step(group_, participant, outputs, after, origin);
+  tracker_.on_step(participant, outputs, after, simulation_->now(), origin);
+  if (outputs.alarm == handshake::Alarm::PeerLeft) last_leave_ = sim::TrueTime::never();
   for (const handshake::StateChange& change : outputs.changes()) {
     ++changes_;
     if (history_.size() < most_records) history_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), change});
@@ -35,16 +37,56 @@ void ProgramMonitor::on_step(std::size_t participant, const handshake::Outputs& 
   note_violations();
 }
 
+handshake::Origin ProgramMonitor::origin_of(const handshake::Outputs& outputs) const {
+  using handshake::Cause;
+  switch (outputs.alarm) {
+    case handshake::Alarm::None: return {Cause::command, sim::TrueTime::never(), !is_called_ && outputs.raised_kind == handshake::IntentKind::Start};
+    case handshake::Alarm::PeerSilent: return silence_;
+    case handshake::Alarm::PeerRestarted: return {Cause::restart, last_back_};
+    case handshake::Alarm::PeerLeft: return {Cause::leave, last_leave_};
+    case handshake::Alarm::Mismatch: return {Cause::mismatch};
+    case handshake::Alarm::OtherGroup: return {Cause::nested};
+  }
+  return {};
+}
+
+void ProgramMonitor::on_silence(std::size_t participant, std::size_t peer, sim::TrueTime since) {
+  silence_ = explain_silence(faults_, nodes_[peer], nodes_[participant], since, simulation_->now());
+}
+
 void ProgramMonitor::on_call(std::size_t participant, program::Method method, program::StatusCode status) {
+  is_called_ = false;
   calls_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), method, status});
   simulation_->digest().add(method_called, static_cast<std::uint64_t>(number_) << 32 | participant, simulation_->now(),
                             static_cast<std::uint64_t>(method) << 32 | static_cast<std::uint32_t>(status));
 }
 
 void ProgramMonitor::on_crash(std::size_t participant, handshake::PublishedState before) {
-  observer_.on_restart(participant);
+  is_dead_[participant] = true;
+  lives_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), false});
   if (tree_ != nullptr) tree_->on_crash(group_, participant);
+  tracker_.on_crash(participant, simulation_->now());
+  note_gone(participant, before);
+}
+
+void ProgramMonitor::on_gone(std::size_t participant, handshake::PublishedState before) {
+  tracker_.on_leave(participant, simulation_->now());
+  note_gone(participant, before);
+}
+
+void ProgramMonitor::on_back(std::size_t participant, std::uint32_t node) {
+  nodes_[participant] = node;
+  if (is_dead_[participant]) {
+    last_back_ = simulation_->now();
+    lives_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), true});
+  }
+  is_dead_[participant] = false;
+  if (tree_ != nullptr) tree_->on_back(group_, participant);
   tracker_.on_restart(participant, simulation_->now());
+}
+
+void ProgramMonitor::note_gone(std::size_t participant, handshake::PublishedState before) {
+  observer_.on_restart(participant);
   simulation_->digest().add(crashed, static_cast<std::uint64_t>(number_) << 32 | participant, simulation_->now(), static_cast<std::uint64_t>(before));
   if (before == handshake::PublishedState::Halted) return;
   ++changes_;

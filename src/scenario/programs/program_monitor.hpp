@@ -8,17 +8,25 @@
 
 #include "handshake/invariants.hpp"
 #include "handshake/reaction.hpp"
+#include "scenario/programs/program_faults.hpp"
 #include "scenario/programs/round_trips.hpp"
 #include "scenario/programs/tree_monitor.hpp"
 #include "sim/simulation.hpp"
 
 namespace takt::scenario {
 
-/// One change of state, for the time line. A crash is one without a transition.
+/// One change of state, for the time line. A crash is one without a transition; a LifeRecord says that it is one.
 struct StateRecord {
   sim::TrueTime time;
   std::uint8_t participant = 0;
   handshake::StateChange change;
+};
+
+/// A participant has died with its node, or is back.
+struct LifeRecord {
+  sim::TrueTime time;
+  std::uint8_t participant = 0;
+  bool is_back = false;
 };
 
 /// A violated invariant and when it was seen.
@@ -43,10 +51,25 @@ class ProgramMonitor {
   /// Its program is group number `group` of a tree.
   void set_tree(TreeMonitor& tree, std::size_t group) { tree_ = &tree, group_ = group; }
 
+  /// The faults that touch the program, by time, and the nodes that its participants are on at the beginning.
+  void set_faults(std::vector<ProgramFault> faults) { faults_ = std::move(faults); }
+  void set_nodes(std::vector<std::uint32_t> nodes) { nodes_ = std::move(nodes); }
+
   void on_step(std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after);
+  /// A method is about to be called; on_call says what came of it.
+  void before_call() { is_called_ = true; }
   void on_call(std::size_t participant, program::Method method, program::StatusCode status);
-  /// A participant that was in this state is gone: it counts as Halted, and knows nothing when it comes back.
+  /// The node of a participant that was in this state has failed: it is dead, and knows nothing when it comes back.
   void on_crash(std::size_t participant, handshake::PublishedState before);
+  /// The participant is nobody any more, without a fault: its role has another node, or none.
+  void on_gone(std::size_t participant, handshake::PublishedState before);
+  /// The participant is there (again), on this node.
+  void on_back(std::size_t participant, std::uint32_t node);
+  /// The script has let a node leave that has a role.
+  void on_leave() { last_leave_ = simulation_->now(); }
+  /// The time-out of a peer, last heard at `since`, has expired at a participant: what its next step does is because of that.
+  void on_silence(std::size_t participant, std::size_t peer, sim::TrueTime since);
+  sim::TrueTime now() const { return simulation_->now(); }
   void on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in);
   std::uint32_t sending_run(std::size_t participant) const { return observer_.sending_run(participant); }
 
@@ -65,6 +88,9 @@ class ProgramMonitor {
   std::span<const handshake::Reaction> reactions() const { return tracker_.reactions(); }
   const std::vector<StateRecord>& history() const { return history_; }
   std::uint64_t changes() const { return changes_; }
+  const std::vector<LifeRecord>& lives() const { return lives_; }
+  bool is_dead(std::size_t participant) const { return is_dead_[participant]; }
+  const std::vector<ProgramFault>& faults() const { return faults_; }
   const std::vector<CallRecord>& calls() const { return calls_; }
   const std::vector<ViolationRecord>& violations() const { return violations_; }
   std::uint64_t process_data_received() const { return process_data_received_; }
@@ -72,6 +98,8 @@ class ProgramMonitor {
  private:
   static constexpr std::size_t most_records = 10'000;
   void note_violations();
+  void note_gone(std::size_t participant, handshake::PublishedState before);
+  handshake::Origin origin_of(const handshake::Outputs& outputs) const;
 
   sim::Simulation* simulation_;
   TreeMonitor* tree_ = nullptr;
@@ -79,6 +107,14 @@ class ProgramMonitor {
   std::uint32_t number_;
   handshake::GroupObserver observer_;
   handshake::ReactionTracker tracker_;
+  std::vector<ProgramFault> faults_;
+  std::vector<std::uint32_t> nodes_;      // by participant
+  std::vector<bool> is_dead_;
+  std::vector<LifeRecord> lives_;
+  handshake::Origin silence_;
+  sim::TrueTime last_back_ = sim::TrueTime::never();
+  sim::TrueTime last_leave_ = sim::TrueTime::never();
+  bool is_called_ = false;
   std::vector<StateRecord> history_;
   std::uint64_t changes_ = 0;
   std::vector<CallRecord> calls_;

@@ -21,8 +21,9 @@ class TreeMonitor {
   TreeMonitor(sim::Simulation& simulation, std::vector<std::uint32_t> programs, std::vector<handshake::TreeGroup> groups)
       : simulation_(&simulation), programs_(std::move(programs)), observer_(std::move(groups)), reactions_(observer_.participants()) {}
 
-  void on_step(std::size_t group, std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after);
+  void on_step(std::size_t group, std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after, const handshake::Origin& origin);
   void on_crash(std::size_t group, std::size_t participant);
+  void on_back(std::size_t group, std::size_t participant);
 
   const std::vector<std::uint32_t>& programs() const { return programs_; }
   std::span<const handshake::Reaction> reactions() const { return reactions_.reactions(); }

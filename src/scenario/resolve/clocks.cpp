@@ -114,6 +114,10 @@ class ClockResolver {
       check_nodes(domain.nodes, domain.where);
     }
     check_nodes(gptp.nodes, gptp.where);
+    if (gptp.hot_standby) {
+      check_grandmaster(gptp.nodes, gptp.where.place());
+      if (!gptp.domains.empty()) check_grandmaster(gptp.domains.front().nodes, gptp.domains.front().where.place());
+    }
     std::set<std::string> without(gptp.without.begin(), gptp.without.end());
     for (std::size_t i = 0; i < gptp.without.size(); ++i) node_named(gptp.without[i], gptp.where.at("without", i));
     check_classes();
@@ -143,6 +147,12 @@ class ClockResolver {
     }
   }
 
+  /// Nobody is elected grandmaster of a domain of a hot standby who is not named: that would be a third source of time.
+  void check_grandmaster(const json::NameMap<GptpNode>& nodes, const json::Place& place) {
+    const bool is_named = std::any_of(nodes.begin(), nodes.end(), [](const auto& node) { return node.second.roles || node.second.priority1.value_or(255) < 255; });
+    if (!is_named) diagnostics_.error(place, "a domain of a hot standby without a grandmaster", {"no node with \"priority1\" or \"roles\"", "a \"priority1\" below 255 at the node that is to be grandmaster, or the \"roles\" of the ports"});
+  }
+
   /// A message that is cut has no time stamp that means anything.
   void check_classes() {
     for (const models::PortConfig& config : r_.plan.port_configs)
@@ -153,7 +163,7 @@ class ClockResolver {
   models::gptp::StationPlan station_of(const Gptp& gptp, const std::vector<Instance>& instances, std::uint32_t n) {
     models::gptp::StationPlan plan;
     plan.instances.clear();
-    for (const Instance& instance : instances) plan.instances.push_back(config_of(gptp, instance, n));
+    for (std::size_t i = 0; i < instances.size(); ++i) plan.instances.push_back(config_of(gptp, instances[i], gptp.hot_standby && i < 2, n));
     plan.link.log_pdelay_req_interval = gptp.log_pdelay_interval;
     plan.link.neighbor_rate_ratio_window = gptp.rate_ratio_window;
     plan.link.compensate_drift = gptp.drift_window > 0;
@@ -170,7 +180,7 @@ class ClockResolver {
     return plan;
   }
 
-  models::gptp::InstanceConfig config_of(const Gptp& gptp, const Instance& instance, std::uint32_t n) {
+  models::gptp::InstanceConfig config_of(const Gptp& gptp, const Instance& instance, bool is_of_standby, std::uint32_t n) {
     models::gptp::InstanceConfig config;
     config.domain = instance.domain;
     config.log_sync_interval = gptp.log_sync_interval;
@@ -180,9 +190,11 @@ class ClockResolver {
     config.two_step = !gptp.one_step;
     config.sync_locked = gptp.sync_locked;
     config.rate_ratio_drift_window = gptp.drift_window;
+    constexpr std::uint8_t never_grandmaster = 255;
+    if (is_of_standby) config.system.priority1 = never_grandmaster;
     if (const auto found = instance.nodes.find(r_.plan.nodes[n].name); found != instance.nodes.end()) {
       const GptpNode& node = *found->second;
-      config.system.priority1 = node.priority1;
+      config.system.priority1 = node.priority1.value_or(is_of_standby && !node.roles ? never_grandmaster : std::uint8_t{248});
       config.system.priority2 = node.priority2;
       config.system.quality.clock_class = node.clock_class;
       config.system.quality.clock_accuracy = node.clock_accuracy;

@@ -47,6 +47,8 @@ class Requirements {
       refuse(requirement.node.has_value(), "node", "sync");
       refuse(requirement.after > Duration(), "after", "sync");
     }
+    refuse(!requirement.reaction && requirement.cause, "cause", "reaction");
+    check_cause(requirement);
     const bool of_application = requirement.application.has_value();
     refuse(!of_application && requirement.thread, "thread", "application");
     refuse(!of_application && requirement.success, "success", "application");
@@ -70,7 +72,18 @@ class Requirements {
     diagnostics_.error(requirement.where.at("stream"), "unknown stream", {json::quote(*requirement.stream), "the name of a stream", json::suggest(*requirement.stream, names)});
   }
 
+
  private:
+  /// A cause that cannot be: a limit that nothing can ever fail is no requirement.
+  void check_cause(const Requirement& requirement) {
+    using handshake::Cause;
+    if (!requirement.reaction || !requirement.cause || *requirement.cause == Cause::command || *requirement.reaction == Reaction::halt) return;
+    const bool may_go_on = *requirement.reaction == Reaction::start && std::ranges::any_of(r_.scenario.programs, [](const Program& program) { return program.on_replacement == OnReplacement::restart; });
+    if (!may_go_on && *requirement.cause != Cause::nested)
+      diagnostics_.error(requirement.where.at("cause"), "a reaction that has no such cause", {json::quote(spelling(*requirement.reaction)) + " because of a " + json::quote(spelling(*requirement.cause)),
+                         "\"halt\", or \"start\" of a program with \"on_replacement\": \"restart\""});
+  }
+
   /// A Program with a mistake has no streams: that is said where the mistake is, not again of each of its streams.
   bool is_of_broken_program(std::string_view stream) const {
     if (!diagnostics_.has_errors()) return false;

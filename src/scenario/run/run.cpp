@@ -60,7 +60,9 @@ class Run::Script final : public sim::Component {
     live.processes[process]->call([&](models::Application& application, models::HostServices& host) { static_cast<PlugApplication&>(application).call(host, method); });
   }
   void act(const ResolvedPlug& change) {
-    run_->programs_[change.program]->processes[change.candidate + std::size_t{1}]->call([&](models::Application& application, models::HostServices& host) {
+    const LiveProgram& live = *run_->programs_[change.program];
+    if (!change.joins && live.roles->has_role(change.candidate)) live.monitor->on_leave();
+    live.processes[change.candidate + std::size_t{1}]->call([&](models::Application& application, models::HostServices& host) {
       auto& candidate = static_cast<CandidateApplication&>(application);
       change.joins ? candidate.join(host) : candidate.leave(host);
     });
@@ -154,10 +156,14 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
     settings.state_stream = program.state_streams[p];
     for (const ResolvedProcessData& data : program.process_data) settings.data_streams.push_back(data.stream);
     if (!program.replies.empty()) add_replies(program, p, settings);
-    auto application = std::make_unique<ProgramApplication>(std::move(settings), *live->monitor);
+    auto application = std::make_unique<ProgramApplication>(std::move(settings), *live->monitor, program.participants[p].value);
     live->applications.push_back(application.get());
     live->processes.push_back(&network_.add_process(program.participants[p], program.name, std::move(application)));
   }
+  std::vector<std::uint32_t> nodes;
+  for (const models::NodeIndex node : program.participants) nodes.push_back(node.value);
+  live->monitor->set_nodes(std::move(nodes));
+  live->monitor->set_faults(faults_of(*resolved_, program));
   if (!program.replies.empty()) live->monitor->set_round_trips(program);
   connect_streams(program, *live);
   programs_.push_back(std::move(live));
@@ -170,14 +176,20 @@ void Run::add_program_with_roles(std::uint32_t number, const ResolvedProgram& pr
   const auto format = std::make_shared<const wire::PlugFormat>(vocabulary::plug_shape_of(shape_of(program), program.description->roles, std::move(names)));
   const auto program_format = std::make_shared<const wire::ProgramFormat>(format->shape().program);
   live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, handshake::Variant::Robust, program.participant_names.size());
-  live->roles = std::make_unique<PlugMonitor>(simulation_, number, *live->monitor, format->roles());
+  std::vector<std::uint32_t> nodes;
+  for (const ResolvedCandidate& each : program.candidates) nodes.push_back(each.node.value);
+  live->roles = std::make_unique<PlugMonitor>(simulation_, number, *live->monitor, format->roles(), std::move(nodes));
+  std::vector<std::uint32_t> at_first(program.participant_names.size());
+  at_first[0] = program.participants[0].value;
+  live->monitor->set_nodes(std::move(at_first));
+  live->monitor->set_faults(faults_of(*resolved_, program));
 
   wire::PlugSettings settings = wire::plug_settings(endpoint_settings(program, 0, program_format), format, program.announce_every);
   PlugApplication::Streams streams{program.state_streams[0], program.table_stream, {}};
   for (const ResolvedProcessData& data : program.process_data) streams.data.push_back(data.from == 0 ? std::optional(data.stream) : std::nullopt);
   LiveProgram* const raw = live.get();
   auto master = std::make_unique<PlugMasterApplication>(
-      settings, program.description->on_replacement == OnReplacement::restart, std::move(streams), *live->monitor, *live->roles,
+      settings, program.description->on_replacement == OnReplacement::restart, std::move(streams), *live->monitor, *live->roles, program.participants[0].value,
       [raw](const handshake::Binding& binding) { return binding.bound() ? raw->candidates[binding.candidate]->state_of(binding.life) : std::nullopt; });
   live->plug_master = master.get();
   models::Process& master_process = network_.add_process(program.participants[0], program.name, std::move(master));

@@ -36,9 +36,10 @@ class Harness {
   struct Station {
     explicit Station(const NodeSetUp& set_up_, const NodeConfig& config, std::uint64_t seed, const std::string& name)
         : set_up(set_up_), machine(config), oscillator(set_up_.oscillator, seed, name), target({.servo = set_up_.servo}), chance(seed, name, "timestamps") {
-      if (set_up.standby) standby.emplace(*set_up.standby);
+      if (set_up.standby) standby.emplace(*set_up.standby, target_config());
     }
     /// The instance that disciplines the clock.
+    ClockTargetConfig target_config() const { return {.servo = set_up.servo}; }
     std::size_t active() const { return standby ? static_cast<std::size_t>(standby->active()) : 0; }
     NodeSetUp set_up;
     Node machine;
@@ -195,6 +196,8 @@ class Harness {
       if (const auto* const sample = std::get_if<SyncSample>(&output)) discipline(i, *sample);
       if (const auto* const change = std::get_if<GrandmasterChange>(&output)) {
         if (change->instance == 0) s.grandmasters.push_back(change->grandmaster);
+        const PtpInstance& changed = s.machine.instance(change->instance);
+        if (s.standby) s.standby->set_grandmaster(static_cast<HotStandbyRole>(change->instance), changed.is_grandmaster() && changed.grandmaster_present(), local(i));
         disciplined_is_source(i);
       }
       if (const auto* const lost = std::get_if<SyncLost>(&output)) {
@@ -216,8 +219,7 @@ class Harness {
   void discipline(std::size_t i, const SyncSample& sample) {
     Station& s = station(i);
     const sim::LocalTime shown = s.disciplined.local_at(s.free.true_at(sample.at));
-    const sim::Duration offset = sim::Duration::from_ps(shown.ps() - sample.grandmaster_time.ps());
-    if (s.standby) s.standby->sample(static_cast<HotStandbyRole>(sample.instance), offset, local(i));
+    if (s.standby) s.standby->sample(static_cast<HotStandbyRole>(sample.instance), sample, shown, local(i));
     if (sample.instance != s.active()) return;
     s.last_sample = sample;
     ++s.samples;

@@ -32,8 +32,20 @@ TEST(IsSynced, NeedsEnoughInARowAndForgivesOne) {
 
 struct System {
   explicit System(const HotStandbyConfig& config = {}) : standby(config) {}
-  void feed(HotStandbyRole of, Duration offset = {}, int count = 4) {
-    for (int i = 0; i < count; ++i) standby.sample(of, offset, now += 125_ms);
+  /// Syncs of a grandmaster that is `behind` the node's oscillator. The node's clock is that oscillator.
+  void feed(HotStandbyRole of, Duration behind = {}, int count = 4) {
+    for (int i = 0; i < count; ++i) {
+      now += 125_ms;
+      const SyncSample sample{0, now, sim::PtpTime::from_ps(now.ps()) - behind, ClockRate::one()};
+      standby.sample(of, sample, now, now);
+    }
+  }
+  /// Both, in turn.
+  void feed_both(Duration primary_behind, Duration secondary_behind, int count) {
+    for (int i = 0; i < count; ++i) {
+      feed(primary, primary_behind, 1);
+      feed(secondary, secondary_behind, 1);
+    }
   }
   HotStandby standby;
   LocalTime now;
@@ -65,11 +77,32 @@ TEST(HotStandby, SwitchesOverAndBack) {
 
 TEST(HotStandby, DoesNotCallThemRedundantIfTheyDisagree) {
   System s({.is_synced = {.offset_max = 10_us}, .primary_secondary_offset_thresh = 1_us});
-  s.feed(primary, 0_us);
-  s.feed(secondary, 1'001_ns);
-  EXPECT_EQ(s.standby.state(), HotStandbyState::init);
-  s.feed(secondary, 1'000_ns, 1);
+  s.feed_both(0_us, 1'100_ns, 80);   // the servo of 802.1AS intervals has followed by then
+  EXPECT_EQ(s.standby.state(), HotStandbyState::not_redundant);
+  EXPECT_TRUE(s.standby.is_synced(secondary));
+  EXPECT_EQ(s.standby.active(), primary);
+  s.feed_both(0_us, 900_ns, 80);
   EXPECT_EQ(s.standby.state(), HotStandbyState::redundant);
+  s.feed_both(0_us, 1'100_ns, 80);
+  EXPECT_EQ(s.standby.state(), HotStandbyState::not_redundant) << "no longer";
+  EXPECT_EQ(s.standby.active(), primary);
+  s.standby.sync_lost(primary, s.now);
+  EXPECT_EQ(s.standby.active(), secondary) << "better than none";
+}
+
+// Time comes from the primary while it is synced, however far the secondary has gone meanwhile.
+TEST(HotStandby, ReturnsToAPrimaryThatIsFarFromTheSecondary) {
+  System s;
+  s.feed(primary);
+  s.feed(secondary);
+  s.standby.sync_lost(primary, s.now);
+  EXPECT_EQ(s.standby.active(), secondary);
+  s.feed(secondary, 1'500_ns, 80);
+  EXPECT_TRUE(s.standby.is_synced(secondary));
+  s.feed(primary, 0_us, 40);
+  EXPECT_TRUE(s.standby.is_synced(primary));
+  EXPECT_EQ(s.standby.active(), primary);
+  EXPECT_EQ(s.standby.state(), HotStandbyState::not_redundant);
 }
 
 TEST(HotStandby, OutOfSyncAndBack) {
@@ -103,6 +136,16 @@ TEST(HotStandby, AGrandmasterIsSyncedWithItself) {
   s.standby.set_grandmaster(primary, true, local(1_s));
   s.feed(secondary);
   EXPECT_EQ(s.standby.state(), HotStandbyState::redundant);
+}
+
+TEST(HotStandby, TheGrandmasterOfTheSecondaryHasItsOwnTimeUntilThePrimaryIsSynced) {
+  System s;
+  s.standby.set_grandmaster(secondary, true, local(1_s));
+  EXPECT_EQ(s.standby.active(), secondary);
+  s.feed(primary, 0_us, 3);
+  EXPECT_EQ(s.standby.active(), secondary);
+  s.feed(primary, 0_us, 1);
+  EXPECT_EQ(s.standby.active(), primary);
 }
 
 }  // namespace

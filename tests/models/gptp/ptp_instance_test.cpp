@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace takt::models::gptp {
 namespace {
 
@@ -144,6 +146,40 @@ TEST(PtpInstance, AnnounceReceiptTimeout) {
   bridge.outputs.clear();
   bridge.instance.timer_expired(1, TimerPurpose::announce_receipt, bridge.now += 3_s, bridge.outputs);
   EXPECT_TRUE(bridge.instance.is_grandmaster());
+}
+
+InstanceConfig never_grandmaster() {
+  InstanceConfig config;
+  config.system.priority1 = 255;
+  return config;
+}
+
+// PortAnnounceTransmit (10.3.16) does not ask whether there is a grandmaster: those behind the bridge must hear that theirs is gone.
+TEST(PtpInstance, ARootThatCannotBeGrandmasterAnnouncesItselfAndSendsNoSync) {
+  Bridge bridge(never_grandmaster());
+  bridge.hears(1, Bridge::announce(100, 9, 2, 30));
+  bridge.outputs.clear();
+  bridge.instance.timer_expired(1, TimerPurpose::announce_receipt, bridge.now += 3_s, bridge.outputs);
+  const auto announces = sent<Announce>(bridge.outputs);
+  ASSERT_EQ(announces.size(), 3u);
+  EXPECT_EQ(announces[0].second.grandmaster, clock(50));
+  EXPECT_EQ(announces[0].second.grandmaster_priority1, 255);
+  EXPECT_TRUE(sent<Sync>(bridge.outputs).empty());
+}
+
+// PortAnnounceInformation (10.3.12): Sync is late only while a grandmaster is present.
+TEST(PtpInstance, BelowARootThatCannotBeGrandmasterNoSyncIsExpected) {
+  Bridge bridge(never_grandmaster());
+  bridge.hears(1, Bridge::announce(255, 9, 2, 30));
+  EXPECT_EQ(bridge.instance.role(1), PortRole::time_receiver);
+  EXPECT_EQ(armed(bridge.outputs, 1, TimerPurpose::sync_receipt), std::nullopt);
+  bridge.hears(1, Bridge::announce(100, 8, 2, 30));
+  EXPECT_EQ(armed(bridge.outputs, 1, TimerPurpose::sync_receipt), bridge.now + 375_ms);
+  bridge.sync(1, 30);
+  bridge.hears(1, Bridge::announce(255, 9, 2, 30));  // its grandmaster is gone
+  EXPECT_EQ(all<SyncLost>(bridge.outputs).size(), 1u);
+  const auto cancelled = all<CancelTimer>(bridge.outputs);
+  EXPECT_TRUE(std::any_of(cancelled.begin(), cancelled.end(), [](const CancelTimer& each) { return each.timer.port == 1 && each.timer.purpose == TimerPurpose::sync_receipt; }));
 }
 
 TEST(PtpInstance, RelaysASyncAtOnce) {

@@ -14,7 +14,8 @@ void EgressPort::start_with_extras(sim::Simulation& simulation, FrameIndex frame
   MacMerge* const merge = extras_->merge.get();
   const bool preemptable = merge != nullptr && merge->is_preemptable(q);
   unsigned notes = extras_->conditional || record.marked || record.bad_fcs ? unsigned{conditional} : preemptable ? unsigned{withdrawable} : 0u;
-  if (!preemptable && (extras_->noticed_priorities >> record.priority & 1) != 0) {
+  // A header that is as long as the frame is a frame that is stored.
+  if (!preemptable && (extras_->noticed_priorities >> record.priority & 1) != 0 && header_notice(record).count < preamble_and_sfd.count + std::int64_t{record.length}) {
     arrival = now + octet_time() * header_notice(record).count + peer_delay();
     notes |= header_only | conditional;
   }

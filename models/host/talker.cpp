@@ -77,7 +77,23 @@ inline void Talker::schedule_next(sim::Simulation& simulation) {
   schedule_event(simulation);
 }
 
-void Talker::start(sim::Simulation& simulation) { schedule_next(simulation); }
+void Talker::start(sim::Simulation& simulation) {
+  // A clock that is ahead at the start shows times that never were: nothing was due then.
+  const sim::LocalTime begin = clock_->local_at(simulation.now());
+  const auto first = [begin](sim::Duration offset, sim::Duration period) {
+    const std::int64_t late = begin.ps() - offset.ps();
+    return late <= 0 || period <= sim::Duration() ? std::uint64_t{0} : static_cast<std::uint64_t>((late - 1) / period.ps() + 1);
+  };
+  std::visit(Overloaded{[&](const PeriodicSchedule& s) { count_ = first(s.offset, s.period); },
+                        [&](ExponentialSchedule& s) { s.offset = std::max(s.offset, begin - sim::LocalTime()); },
+                        [&](const BurstSchedule& s) { count_ = first(s.offset, s.period) * s.frames; },
+                        [&](const TraceSchedule& s) {
+                          while (count_ < s.entries.size() && s.entries[count_].time < begin) ++count_;
+                        }},
+             schedule_);
+  if (count_ > 0 && fixed_step_ > sim::Duration()) last_ = instant(std::get<PeriodicSchedule>(schedule_).offset, fixed_step_, static_cast<std::int64_t>(count_) - 1);
+  schedule_next(simulation);
+}
 
 void Talker::clock_changed(sim::Simulation& simulation) {
   if (is_over_) return;

@@ -21,7 +21,8 @@ ClassDemand::ClassDemand(const PortTraffic& traffic, models::ClassSet classes, P
     group.is_limited = group.is_limited && flow.arrivals.is_limited();
     group.at_once = std::max(group.at_once, work);
     longest_ = std::max(longest_, work);
-    shortest_ = shortest_ == 0 ? work : std::min(shortest_, work);
+    const Ps least = octet_time * models::wire_length(flow.shortest.value_or(flow.frame)).count;
+    shortest_ = shortest_ == 0 ? least : std::min(shortest_, least);
   }
   for (auto& [link, group] : by_link) {
     const IncomingLink& incoming = traffic.links[link];

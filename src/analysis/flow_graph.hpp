@@ -57,7 +57,8 @@ struct Hop {
   std::uint32_t port = 0;
   std::vector<std::uint32_t> parents;   ///< hops; none at the talker, several where copies are merged
   std::vector<std::uint32_t> children;
-  sim::Octets frame{0};
+  sim::Octets frame{0};                 ///< the longest one
+  sim::Octets shortest{0};              ///< of a trace another one
   models::TrafficClass lowest_class = 0;
   models::TrafficClass highest_class = 0;
   bool uses_cqf = false;                ///< the stream gate of cyclic queuing and forwarding gives it its class here

@@ -107,6 +107,7 @@ class RouteMaker {
         made.port = port;
         made.frame = models::frame_length(plan.headers + stream.largest_payload, has_tag, r_tagged);
         made.msdu = plan.headers + stream.largest_payload + (r_tagged ? models::r_tag : sim::Octets{0});
+        made.shortest = models::frame_length(plan.headers + smallest_payload(stream), has_tag, r_tagged);
         made.is_copied_here = splits;
         const models::AddressIndex address = is_member && !splits ? redundancy->members[number].destination : plan.destination;
         const std::uint16_t in_port = at > 0 ? *r_.topology.port_towards(path[at], path[at - 1]) : std::uint16_t{0};
@@ -126,6 +127,17 @@ class RouteMaker {
       parent = hop;
     }
     return parent;
+  }
+
+  /// The frames of a trace differ.
+  sim::Octets smallest_payload(const scenario::ResolvedStream& stream) const {
+    sim::Octets smallest = stream.largest_payload;
+    for (const models::TalkerPlan& talker : r_.plan.talkers) {
+      const auto* const trace = talker.stream == stream.index ? std::get_if<models::TraceSchedule>(&talker.schedule) : nullptr;
+      if (trace == nullptr) continue;
+      for (const models::TraceSchedule::Entry& entry : trace->entries) smallest = std::min(smallest, entry.payload);
+    }
+    return smallest;
   }
 
   bool cuts_through(std::uint32_t node, models::Priority priority) const {

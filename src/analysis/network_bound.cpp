@@ -55,6 +55,7 @@ class FixedPoint {
       flow.train = train_of(h);
       flow.rank = hop.flow;
       flow.frame = hop.frame;
+      flow.shortest = hop.shortest;
       flow.lowest_class = hop.lowest_class;
       flow.highest_class = hop.highest_class;
       flow.uses_cqf = hop.uses_cqf;

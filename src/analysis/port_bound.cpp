@@ -210,7 +210,7 @@ void PortAnalysis::bound_class(TrafficClass q) {
       made.leaves = ArrivalPhase{flow.phase->first + times.earliest + shrunk(last_bit), flow.phase->period, times.latest - times.earliest + stretched(last_bit) - shrunk(last_bit)};
     }
     made.delay = q != flow.highest_class ? std::max(made.delay, delay) : delay;   // or it was bounded in a higher class already
-    made.least_delay = model_.counts_packets ? last_bit : 0;
+    made.least_delay = model_.counts_packets ? octet_ * models::wire_length(flow.shortest.value_or(flow.frame)).count - gap_ : 0;
     class_delay_[q] = std::max(class_delay_[q], delay);
   }
   if (!is_bounded(class_delay_[q])) {
@@ -417,9 +417,8 @@ void PortAnalysis::bound_cqf() {
   for (std::size_t f = 0; f < traffic_.flows.size(); ++f) {
     const PortFlow& flow = traffic_.flows[f];
     if (!is_in_cqf(flow.highest_class)) continue;
-    const Ps last_bit = octet_ * models::wire_length(flow.frame).count - gap_;
     bound_.flows[f].delay = holds ? delay : unbounded_ps;
-    bound_.flows[f].least_delay = last_bit + (holds ? waits : 0);
+    bound_.flows[f].least_delay = octet_ * models::wire_length(flow.shortest.value_or(flow.frame)).count - gap_ + (holds ? waits : 0);
   }
 }
 

@@ -44,13 +44,14 @@ struct ArrivalPhase {
 struct PortFlow {
   FrameArrivals arrivals;
   std::optional<ArrivalPhase> phase = {};
-  sim::Octets frame{0};                      ///< DA to FCS
+  sim::Octets frame{0};                      ///< DA to FCS; the longest one
   models::TrafficClass lowest_class = 0;     ///< two where cyclic queuing and forwarding takes turns
   models::TrafficClass highest_class = 0;
   std::size_t link = 0;                      ///< index in PortTraffic::links
   bool uses_cqf = false;                     ///< the stream gate of cyclic queuing and forwarding has given it its class
   std::optional<std::uint32_t> train = {};   ///< frames of one train come by rank in each turn, whatever the clocks say
   std::uint32_t rank = 0;
+  std::optional<sim::Octets> shortest = {};  ///< frame, if they are as long as each other
 };
 
 /// A port's part in cyclic queuing and forwarding (see scenario/resolve/cqf.hpp).

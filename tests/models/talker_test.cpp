@@ -185,6 +185,34 @@ TEST(Talker, ANewcomerMovesNoOtherNumbers) {
   EXPECT_EQ(produced[0], produced[1]);
 }
 
+// A clock that is ahead when the run begins shows times that never were: nothing was due then. (It used to send all of it at once.)
+TEST(Talker, SendsNothingThatWasDueBeforeTheBeginning) {
+  const auto produced = [](const TalkerSchedule& schedule, Duration ahead) {
+    PlanBuilder builder;
+    const NodeIndex talker = builder.host("talker");
+    const NodeIndex listener = builder.host("listener");
+    builder.link(talker, listener, 100_Gbps);
+    builder.plan.nodes[talker.value].clock = NodeClockPlan{.oscillator = {}, .timestamps = {}, .initial_offset = ahead};
+    builder.talk(builder.stream(talker, {listener}), 100_B, schedule);
+    NetworkRun run(builder.plan);
+    TraceLog trace;
+    run.simulation.set_trace(&trace);
+    run.until(3500_us);
+    std::vector<std::int64_t> us;
+    for (const sim::TraceRecord& record : trace.of(Occurrence::produced)) us.push_back(record.time.ps() / 1'000'000);
+    return us;
+  };
+  using Times = std::vector<std::int64_t>;
+  EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, 0_us), (Times{100, 1100, 2100, 3100}));
+  EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, 1_s), (Times{100, 1100, 2100, 3100}));      // at 1.0001 s of its clock
+  EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, 5200_us), (Times{900, 1900, 2900}));        // at 6.1 ms
+  EXPECT_EQ(produced(PeriodicSchedule{0_us, 1_ms, 0_us}, 2_ms), (Times{0, 1000, 2000, 3000}));         // due at the beginning itself
+  EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, -1_ms), (Times{1100, 2100, 3100}));         // behind: it waits
+  EXPECT_EQ(produced(BurstSchedule{0_us, 2_ms, 2, 10_us}, 1_ms), (Times{1000, 1010, 3000, 3010}));     // at 2 and 4 ms
+  EXPECT_EQ(produced(TraceSchedule{{{local(100_us), 10_B}, {local(2_ms), 10_B}}}, 1_ms), (Times{1000}));
+  EXPECT_LT(produced(ExponentialSchedule{0_us, 500_us}, 1_s).size(), 30u);
+}
+
 TEST(Talker, AnotherSeedIsAnotherRun) {
   EXPECT_NE(run(ExponentialSchedule{0_us, 20_us}, 10_ms, 1).digest, run(ExponentialSchedule{0_us, 20_us}, 10_ms, 2).digest);
 }

@@ -117,6 +117,16 @@ TEST(Sandwich, VerdictsFollowFromTheLimit) {
     EXPECT_NE(json.find(key), std::string::npos) << key;
 }
 
+// "suspend within 2ms" fails where nobody suspends: refuted by that run, which contradicts no bound.
+TEST(Sandwich, WantOfAReactionIsNoContradiction) {
+  scenario::json::Diagnostics diagnostics;
+  const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/tests/findings/contradiction-without-a-reaction.json", {}, diagnostics);
+  ASSERT_TRUE(resolved) << diagnostics.to_text();
+  const Verification found = verify(*resolved, small());
+  EXPECT_FALSE(found.contradiction) << found.contradiction->text;
+  EXPECT_EQ(found.verdict(), Verdict::refuted);
+}
+
 TEST(Sandwich, UndecidedBetweenTheWorstRunAndTheBound) {
   const Verification loose = verified(R"({"stream": "urgent", "latency": "20us"})");
   const Duration between = *loose.lines[0].adversarial + (*loose.lines[0].bound - *loose.lines[0].adversarial) / 2;

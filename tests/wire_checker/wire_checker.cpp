@@ -190,7 +190,7 @@ void WireChecker::send(std::uint32_t index, const Recorded& recorded, std::uint3
   arrival.looked_at = arrival.complete;
   const auto q = models::TransmissionDetail::unpack(recorded.record.detail).traffic_class;
   if ((direction.noticed >> frame.priority & 1) != 0 && !direction.checker.is_preemptable(q))
-    arrival.looked_at = now + octet * (direction.header + (frame.tagged ? models::vlan_tag.count : 0) + (frame.r_tagged ? models::r_tag.count : 0)) + direction.delay;
+    arrival.looked_at = std::min(arrival.complete, now + octet * (direction.header + (frame.tagged ? models::vlan_tag.count : 0) + (frame.r_tagged ? models::r_tag.count : 0)) + direction.delay);
   nodes_[direction.to]->arrivals.push_back(arrival);
   wakes_.insert({arrival.looked_at, direction.to});
   wakes_.insert({arrival.complete, direction.to});

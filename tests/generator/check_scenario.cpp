@@ -1,0 +1,259 @@
+#include "tests/generator/check_scenario.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <set>
+
+#include "analysis/bounds.hpp"
+#include "analysis/report.hpp"
+#include "output/text_report.hpp"
+#include "results/evaluate.hpp"
+#include "results/result_json.hpp"
+#include "scenario/json/document.hpp"
+#include "scenario/json/quantity.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
+#include "tests/generator/schema_validation.hpp"
+#include "tests/wire_checker/checked_run.hpp"
+#include "verify/monitor.hpp"
+#include "verify/report.hpp"
+
+namespace takt::generator {
+namespace {
+
+namespace json = scenario::json;
+using scenario::json::to_text;
+
+std::string took(sim::Duration time) { return to_text(time); }
+
+/// Remembers every frame that a trace names.
+class Handles final : public sim::TraceSink {
+ public:
+  void record(const sim::TraceRecord& record) override {
+    if (record.kind == static_cast<std::uint32_t>(models::Occurrence::produced)) handles.insert(static_cast<std::uint32_t>(record.what));
+  }
+  std::set<std::uint32_t> handles;
+};
+
+class Checks {
+ public:
+  Checks(const scenario::Resolved& resolved, std::string file, const CheckOptions& options, Checked& checked) : r_(resolved), file_(std::move(file)), options_(options), checked_(checked) {}
+
+  void all(const std::string& text) {
+    check("run", [&] { plain_run(); });
+    if (!result_) return;
+    check("load", [&] { copy(text); });
+    check("digest", [&] { digests(); });
+    if (is_ideal()) check("wire", [&] { wire(); });
+    check("frames", [&] { frames(); });
+    if (r_.applications.empty()) {
+      check("bound", [&] { bounds(); });
+      if (options_.verify_events > 0) check("verify", [&] { verification(); });
+    }
+  }
+
+ private:
+  void check(const char* name, const std::function<void()>& what) {
+    checked_.done.emplace_back(name);
+    present_ = name;
+    try {
+      what();
+    } catch (const std::exception& broken) {
+      wrong(broken.what());
+    }
+  }
+  /// Of each check the first.
+  void wrong(std::string message) {
+    if (std::ranges::none_of(checked_.findings, [&](const Finding& each) { return each.check == present_; })) checked_.findings.push_back({present_, std::move(message)});
+  }
+  void expect(bool holds, const std::function<std::string()>& message) {
+    if (!holds) wrong(message());
+  }
+
+  bool is_ideal() const {
+    if (r_.scenario.clocks.gptp || r_.scenario.clocks.all || !r_.scenario.clocks.nodes.empty() || r_.scenario.clocks.model != scenario::ClockModel::ideal) return false;
+    // A bridge that cuts through frames that a link may double is not followed (tests/wire_checker/README.md).
+    const bool cuts = std::ranges::any_of(r_.plan.port_configs, [](const models::PortConfig& config) { return config.cut_through != 0; });
+    const bool doubles = std::ranges::any_of(r_.scenario.faults, [](const scenario::Fault& fault) {
+      const auto* const errors = std::get_if<scenario::FrameErrors>(&fault);
+      return errors != nullptr && errors->duplication.has_value();
+    });
+    return !(cuts && doubles);
+  }
+
+  void plain_run() {
+    scenario::Run run(r_);
+    run.advance();
+    checked_.events = run.simulation().event_count();
+    digest_ = run.simulation().digest().value();
+    result_ = std::make_unique<results::RunResult>(results::evaluate(run, false));
+    static_cast<void>(output::run_report(*result_));
+    static_cast<void>(output::check_report(r_));
+    json::Diagnostics diagnostics;
+    expect(json::parse(results::run_json(*result_), "result.json", diagnostics).has_value(), [&] { return "result.json: " + diagnostics.to_text(); });
+  }
+
+  void copy(const std::string& text) {
+    expect(refused_by_schema(text).empty(), [&] { return "the schema refuses what the loader takes: " + refused_by_schema(text); });
+    const std::string written = json::encode(r_.scenario);
+    expect(refused_by_schema(written).empty(), [&] { return "the schema refuses the resolved copy: " + refused_by_schema(written); });
+    json::Diagnostics diagnostics;
+    const auto again = scenario::load_text(written, file_, {}, diagnostics);
+    if (!again) return wrong("the resolved copy is refused: " + diagnostics.to_text());
+    expect(json::encode(again->scenario) == written, [] { return std::string("the copy of the resolved copy differs from it"); });
+    expect(digest_of(*again, 0) == digest_, [] { return std::string("the resolved copy has another digest"); });
+  }
+
+  static std::uint64_t digest_of(const scenario::Resolved& resolved, std::uint64_t shuffle) {
+    scenario::Run run(resolved, shuffle);
+    run.advance();
+    return run.simulation().digest().value();
+  }
+
+  void digests() {
+    for (const std::uint64_t key : {1ULL, 0xDEAD'BEEFULL})
+      expect(digest_of(r_, key) == digest_, [&] { return "the digest depends on the order of equal events (key " + std::to_string(key) + ")"; });
+    // In steps of some events it is the same run.
+    scenario::Run run(r_);
+    while (!run.advance(997)) continue;
+    expect(run.simulation().digest().value() == digest_, [] { return std::string("the digest of a run in steps differs"); });
+    expect(results::run_json(results::evaluate(run, false)) == results::run_json(*result_), [] { return std::string("the result of a run in steps differs"); });
+  }
+
+  void wire() {
+    wire_checker::CheckedRun run(r_);
+    const std::string found = run.to_the_end().all();
+    expect(found.empty(), [&] { return found; });
+    expect(run.run.simulation().digest().value() == digest_, [] { return std::string("the digest with a recorder differs"); });
+  }
+
+  void frames() {
+    scenario::Run run(r_);
+    Handles handles;
+    run.simulation().set_trace(&handles);
+    run.advance();
+    expect(run.simulation().digest().value() == digest_, [] { return std::string("the digest with a recorder differs"); });
+    const models::Traffic& traffic = run.network().traffic();
+    std::uint64_t in_flight = 0;
+    for (const models::Stream& stream : traffic.streams()) {
+      expect(stream.delivered + stream.dropped_in_all() <= stream.sent + stream.copies, [&] {
+        return "more frames of a stream came or were lost than there were: " + std::to_string(stream.sent) + " sent, " + std::to_string(stream.copies) + " copies, " +
+               std::to_string(stream.delivered) + " delivered, " + std::to_string(stream.dropped_in_all()) + " dropped";
+      });
+      in_flight += stream.in_flight();
+    }
+    expect(traffic.live_frames() <= in_flight, [&] { return std::to_string(traffic.live_frames()) + " frames live, " + std::to_string(in_flight) + " are on their way"; });
+    std::uint64_t references = 0;
+    for (const std::uint32_t handle : handles.handles) references += traffic.frame({handle}).references;
+    expect(references <= in_flight, [&] { return std::to_string(references) + " references of live frames, " + std::to_string(in_flight) + " frames on their way"; });
+    for (const results::StreamResult& stream : result_->streams)
+      expect(stream.sent + stream.copies == stream.delivered + stream.dropped_in_all() + stream.in_flight, [&] { return stream.name + ": its frames do not add up"; });
+  }
+
+  void bounds() {
+    analysis::Bounds bounds = analysis::bound(r_);
+    static_cast<void>(analysis::text_report(r_, bounds));
+    json::Diagnostics diagnostics;
+    expect(json::parse(analysis::json_report(r_, bounds), "bounds.json", diagnostics).has_value(), [&] { return "the report of bounds: " + diagnostics.to_text(); });
+    scenario::Run run(r_);
+    run.advance();
+    // What the run itself breaks is no premise of a bound.
+    for (const verify::Violation& violation : verify::violations_in(run, *result_)) bounds.ledger.violate(violation.assumption, violation.witness);
+    const auto stands = [&](const analysis::Assumptions& assumptions) { return bounds.ledger.objection(assumptions, {}).empty(); };
+    for (std::size_t s = 0; s < bounds.streams.size(); ++s) {
+      const analysis::StreamBound& bound = bounds.streams[s];
+      const results::StreamResult& stream = result_->streams[s];
+      expect(bound.latency || !bound.reason.empty(), [&] { return bound.name + " has neither a bound nor a reason"; });
+      if (!stands(bound.assumptions) || !stream.latency) continue;
+      expect(stream.latency->min >= bound.least, [&] { return bound.name + " took " + took(stream.latency->min) + ", the least is " + took(bound.least); });
+      if (bound.latency) expect(stream.latency->max <= *bound.latency, [&] { return bound.name + " took " + took(stream.latency->max) + ", the bound is " + took(*bound.latency); });
+      if (bound.loses_nothing && bound.latency) expect(stream.dropped_in_all() == 0, [&] { return bound.name + " loses nothing, but " + std::to_string(stream.dropped_in_all()) + " frames"; });
+    }
+    for (const analysis::ReactionBound& bound : bounds.reactions)
+      if (bound.bound && stands(bound.assumptions)) reactions(bound);
+  }
+
+  /// Those that nothing else came across.
+  void reactions(const analysis::ReactionBound& bound) {
+    const results::ProgramResult& program = result_->programs[bound.program];
+    const std::vector<results::ReactionResult>& all = bound.of_tree ? program.tree_reactions : program.reactions;
+    const auto kind = scenario::spelling(bound.kind);
+    for (const results::ReactionResult& reaction : all) {
+      if (reaction.kind != kind || reaction.superseded || !reaction.completed || reaction.cause != "command") continue;
+      bool is_alone = true;
+      for (const results::ProgramResult& other : result_->programs) {
+        for (const auto* const list : {&other.reactions, &other.tree_reactions})
+          for (const results::ReactionResult& each : *list)
+            if (&each != &reaction && each.began <= *reaction.completed && (!each.completed || *each.completed >= reaction.began || each.superseded) &&
+                !(each.kind == reaction.kind && each.began == reaction.began))
+              is_alone = false;
+      }
+      if (is_alone) expect(*reaction.duration() <= *bound.bound, [&] { return program.name + ": " + reaction.kind + " took " + took(*reaction.duration()) + ", the bound is " + took(*bound.bound); });
+    }
+  }
+
+  void verification() {
+    verify::Options options;
+    options.search.seeds = 2;
+    options.search.events = options_.verify_events;
+    options.proof.states = options_.most_states;
+    const verify::Verification found = verify::verify(r_, options);
+    static_cast<void>(verify::text_report(r_.scenario.name, found, std::vector<std::string>(found.lines.size())));
+    static_cast<void>(verify::json_report(r_.scenario.name, found, std::vector<std::string>(found.lines.size())));
+    expect(!found.contradiction, [&] { return "a contradiction: " + found.contradiction->text; });
+    expect(found.lines.size() == result_->requirements.size(), [] { return std::string("another number of requirements than in the run"); });
+    for (std::size_t i = 0; i < std::min(found.lines.size(), result_->requirements.size()); ++i) {
+      const verify::Line& line = found.lines[i];
+      const results::RequirementResult& run = result_->requirements[i];
+      expect(line.verdict != verify::Verdict::contradiction, [&] { return run.text + ": a contradiction"; });
+      if (run.verdict == results::Verdict::fail) expect(line.verdict == verify::Verdict::refuted, [&] { return run.text + ": a run fails it, verify says " + verify::name_of(line.verdict); });
+      if (run.measured && line.simulated) expect(*run.measured <= *line.simulated || run.kind == results::RequirementKind::sync, [&] { return run.text + ": a run measured " + took(*run.measured) + ", verify at most " + took(*line.simulated); });
+      if (line.verdict == verify::Verdict::refuted) replay(i, line);
+    }
+  }
+
+  void replay(std::size_t number, const verify::Line& line) {
+    json::Diagnostics diagnostics;
+    if (line.worst.name.empty()) return wrong(line.requirement.text + ": refuted without a run");
+    const auto again = scenario::load_text(json::encode(line.worst), file_, {}, diagnostics);
+    if (!again) return wrong(line.requirement.text + ": its worst run is refused: " + diagnostics.to_text());
+    scenario::Run run(*again);
+    run.advance();
+    const results::RunResult result = results::evaluate(run, false);
+    expect(number < result.requirements.size() && result.requirements[number].verdict == results::Verdict::fail, [&] { return line.requirement.text + ": refuted, but its worst run passes"; });
+  }
+
+  const scenario::Resolved& r_;
+  const std::string file_;
+  const CheckOptions& options_;
+  Checked& checked_;
+  std::string present_;
+  std::uint64_t digest_ = 0;
+  std::unique_ptr<results::RunResult> result_;
+};
+
+}  // namespace
+
+Checked check_scenario(const std::string& text, const std::string& file, const CheckOptions& options) {
+  Checked checked;
+  json::Diagnostics diagnostics;
+  std::unique_ptr<scenario::Resolved> resolved;
+  try {
+    resolved = scenario::load_text(text, file, {}, diagnostics);
+  } catch (const std::exception& broken) {
+    checked.findings.push_back({"load", broken.what()});
+    return checked;
+  }
+  if (!resolved) {
+    checked.refusal = diagnostics.to_text();
+    if (!diagnostics.has_errors()) checked.findings.push_back({"load", "refused without a reason"});
+    return checked;
+  }
+  checked.is_sound = true;
+  Checks(*resolved, file, options, checked).all(text);
+  return checked;
+}
+
+}  // namespace takt::generator

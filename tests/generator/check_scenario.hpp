@@ -1,0 +1,39 @@
+// What must hold of every sound scenario, whatever it combines.
+//
+//   load       what the loader takes, the schema takes; and a copy with all defaults is the same scenario: the same digest
+//   run        a run comes to its end without a broken invariant, and all its reports can be written
+//   digest     it is the same with a recorder and without, and whatever the order of equal events
+//   wire       the wire checker finds nothing (scenarios whose clocks are ideal)
+//   frames     what was sent or copied was delivered, dropped, or is on its way; nothing leaks
+//   bound      no run exceeds a bound
+//   verify     contradicts neither itself nor a run, and its worst runs can be replayed
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace takt::generator {
+
+struct Finding {
+  std::string check;
+  std::string message;
+};
+
+struct Checked {
+  bool is_sound = false;                  ///< false: the loader refuses it, and nothing else was checked
+  std::string refusal;
+  std::vector<Finding> findings;          ///< by the first failure of each check
+  std::uint64_t events = 0;               ///< of one run
+  std::vector<std::string> done;          ///< the checks that applied
+};
+
+struct CheckOptions {
+  std::uint64_t verify_events = 300'000;  ///< what the search of `verify` may cost; 0: it is left out
+  std::uint64_t most_states = 20'000;     ///< to explore for the invariants of Programs
+};
+
+/// `file` is the name that the text has: traces are looked for beside it.
+Checked check_scenario(const std::string& text, const std::string& file, const CheckOptions& options = {});
+
+}  // namespace takt::generator

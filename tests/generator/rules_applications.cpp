@@ -1,0 +1,209 @@
+// Topics, applications, gateways and persistence services.
+#include "tests/generator/maker.hpp"
+
+namespace takt::generator {
+namespace {
+
+using Made = std::optional<Node>;
+
+bool wants_applications(const Maker& m) { return m.wants(Feature::opc_ua) || m.wants(Feature::dds); }
+
+const Node& topic(const Maker& m, std::size_t number) { return m.root().find("topics")->items[number]; }
+std::string name_of(const Maker& m, std::size_t number) { return topic(m, number).find("name")->text; }
+bool is_dds(const Maker& m, std::size_t number) { return topic(m, number).find("protocol")->text == "dds"; }
+
+/// With gateways and both protocols the topics take turns.
+Made protocol(Maker& m, const Scope& s) {
+  if (!m.wants(Feature::dds)) return text("opc-ua");
+  if (!m.wants(Feature::opc_ua)) return text("dds");
+  return text(s.number % 2 == 0 ? "opc-ua" : "dds");
+}
+
+bool is_of_dds(const Scope& s) { return s.text("protocol") == "dds"; }
+
+Made fields(Maker& m, const Scope& s) {
+  // A gateway finds fields by their names; the same in all topics.
+  if (const auto kept = m.kept.find("fields"); kept != m.kept.end() && (m.wants(Feature::gateways) || m.draw.one_in(2))) return kept->second;
+  Node made = Node::object();
+  for (std::size_t i = 0; i < m.draw.between(1, 3) || i < 2; ++i) {
+    const std::string name = "f" + std::to_string(i);
+    made.add(name, m.short_or_object("data_field", &s, name));
+  }
+  m.kept["fields"] = made;
+  return made;
+}
+
+/// Each topic is published by one host and subscribed to by others.
+Made applications(Maker& m, const Scope& s) {
+  if (!wants_applications(m)) return std::nullopt;
+  Node made = Node::array();
+  for (std::size_t i = 0; i < m.topics + m.draw.between(0, 2); ++i) made.items.push_back(m.object("application", &s, {}, i));
+  return made;
+}
+
+/// Application n publishes topic n, from the n-th host.
+bool publishes(const Maker& m, const Scope& application) { return application.number < m.topics; }
+std::size_t host_of(const Maker& m, std::size_t number) { return number % m.world.hosts.size(); }
+
+/// The topic that it publishes, and some of those from other hosts.
+Made threads(Maker& m, const Scope& s) {
+  std::vector<std::size_t> others;
+  for (std::size_t t = 0; t < m.topics; ++t)
+    if (host_of(m, t) != host_of(m, s.number)) others.push_back(t);
+  m.draw.shuffle(others);
+  if (others.size() > 1) others.resize(m.draw.between(publishes(m, s) ? 0 : 1, 2));
+  m.kept["subscribed"] = Node::array();
+  for (const std::size_t t : others) m.kept["subscribed"].items.push_back(text(name_of(m, t)));
+  Node made = Node::array();
+  if (publishes(m, s)) made.items.push_back(m.object("thread", &s, name_of(m, s.number), 0));
+  for (const std::size_t t : others) made.items.push_back(m.object("thread", &s, name_of(m, t), made.items.size()));
+  return made;
+}
+
+bool is_publisher(const Maker& m, const Scope& thread) { return thread.number == 0 && publishes(m, *thread.around("application")); }
+Made published(Maker& m, const Scope& s) { return is_publisher(m, s) ? Made(text(s.name)) : std::nullopt; }
+Made subscribed(Maker& m, const Scope& s) { return is_publisher(m, s) ? std::nullopt : Made(text(s.name)); }
+
+/// A topic with the same fields that the application subscribes to.
+Made copied(Maker& m, const Scope& s) {
+  const std::string own = s.around("thread")->text("publish");
+  const auto fields_of = [&](const std::string& name) {
+    for (std::size_t i = 0; i < m.topics; ++i)
+      if (name_of(m, i) == name) return scenario::json::compact(*topic(m, i).find("fields"));
+    return std::string();
+  };
+  for (const Node& each : m.kept["subscribed"].items)
+    if (fields_of(each.text) == fields_of(own)) return each;
+  return std::nullopt;
+}
+
+bool uses_dds(const Maker& m, const Scope& s) {
+  for (const std::string_view key : {"publish", "subscribe"})
+    for (std::size_t i = 0; i < m.topics; ++i)
+      if (s.text(key) == name_of(m, i)) return is_dds(m, i);
+  return false;
+}
+bool has_keys(const Maker& m, const Scope& s) {
+  const Scope* const thread = s.around("thread");
+  for (std::size_t i = 0; i < m.topics; ++i)
+    if (thread->text("publish") == name_of(m, i)) return topic(m, i).find("keys") != nullptr;
+  return false;
+}
+
+Made any_host(Maker& m, const Scope&) { return text(m.draw.any(m.world.hosts)); }
+Made interval(Maker& m, const Scope&) { return m.word("500us 1ms 2ms 1500us"); }
+Made phase(Maker& m, const Scope&) { return m.word("0us 100us 250us 499us"); }
+
+Made topic_of(const Maker& m, std::size_t number) { return number < m.topics ? Made(text(name_of(m, number))) : std::nullopt; }
+
+}  // namespace
+
+std::span<const Rule> application_rules() {
+  static const Rule rules[] = {
+      {.key = "scenario.topics", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return wants_applications(m) ? Made(m.objects("topic", m.topics, s)) : std::nullopt; }},
+      {.key = "scenario.domains", .feature = Feature::dds, .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return m.objects("domain", 1, s); }},
+      {.key = "scenario.applications", .percent = 100, .make = applications},
+      {.key = "scenario.gateways", .feature = Feature::gateways, .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return m.objects("gateway", 1, s); }},
+      {.key = "scenario.persistence", .feature = Feature::persistence, .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return m.objects("persistence", 1, s); }},
+      {.key = "topic.name", .make = [](Maker&, const Scope& s) -> Made { return text("t" + std::to_string(s.number)); }},
+      {.key = "topic.protocol", .make = protocol},
+      {.key = "topic.fields", .make = fields},
+      {.key = "topic.pcp", .percent = 60, .words = "0 2 4 5"},
+      {.key = "topic.vlan", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return s.has("pcp") ? m.word("0 10") : Made(); }},
+      {.key = "topic.keys", .feature = Feature::dds, .percent = 30, .make = [](Maker&, const Scope& s) -> Made { return is_of_dds(s) ? Made(list({text("f0")})) : std::nullopt; }},
+      {.key = "topic.type", .feature = Feature::dds, .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return is_of_dds(s) ? Made(m.word("Plant::Order Sample")) : std::nullopt; }},
+      {.key = "topic.domain", .feature = Feature::dds, .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return is_of_dds(s) ? Made(number(m.draw.below(2))) : std::nullopt; }},
+      {.key = "topic.qos", .feature = Feature::dds, .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return is_of_dds(s) && (m.wants(Feature::persistence) || m.draw.one_in(2)) ? Made(m.object("qos", &s)) : std::nullopt; }},
+      {.key = "topic.publication", .feature = Feature::dds, .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return is_of_dds(s) ? Made(m.word("synchronous asynchronous")) : std::nullopt; }},
+      {.key = "topic.flow_control", .feature = Feature::dds, .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return s.text("publication") == "asynchronous" ? Made(m.object("flow_control", &s)) : std::nullopt; }},
+      {.key = "flow_control.octets", .words = "500 2000"},
+      {.key = "flow_control.every", .words = "100us 1ms"},
+      {.key = "qos.reliability", .percent = 60},
+      {.key = "qos.max_blocking_time", .percent = 15, .words = "0us 1ms 100ms"},
+      {.key = "qos.durability", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made {
+         if (m.wants(Feature::persistence) && s.around("thread") == nullptr) return m.word("transient persistent");
+         return m.draw.one_in(3) ? m.word("volatile transient-local") : Made();
+       }},
+      {.key = "qos.history", .percent = 30},
+      {.key = "qos.depth", .percent = 30, .make = [](Maker& m, const Scope& s) -> Made { return s.text("history") != "keep-all" ? Made(m.word("1 4")) : std::nullopt; }},
+      {.key = "qos.deadline", .percent = 15, .words = "2ms 5ms"},
+      {.key = "qos.latency_budget", .percent = 15, .words = "0us 100us"},
+      {.key = "qos.liveliness", .percent = 15},
+      {.key = "qos.lease_duration", .percent = 15, .words = "5ms 100ms"},
+      {.key = "qos.ownership", .percent = 15},
+      {.key = "qos.ownership_strength", .percent = 15, .make = [](Maker& m, const Scope& s) -> Made { return s.text("ownership") == "exclusive" ? Made(number(m.draw.below(5))) : std::nullopt; }},
+      {.key = "qos.lifespan", .percent = 15, .words = "1ms 10ms"},
+      {.key = "qos.time_based_filter", .percent = 15, .words = "0us 1ms"},
+      {.key = "qos.destination_order", .percent = 15},
+      {.key = "qos.resource_limits", .percent = 20},
+      {.key = "qos.durability_service", .percent = 30},
+      {.key = "qos.partition", .percent = 15, .make = [](Maker& m, const Scope&) -> Made { return m.draw.one_in(2) ? list({text("cell*")}) : list({text("cell1"), text("")}); }},
+      {.key = "resource_limits.max_samples", .percent = 50, .words = "8 100"},
+      {.key = "resource_limits.max_instances", .percent = 50, .words = "4 8"},
+      {.key = "resource_limits.max_samples_per_instance", .percent = 50, .words = "4 8"},
+      {.key = "durability_service.cleanup_delay", .words = "0us 1ms"},
+      {.key = "durability_service.history"},
+      {.key = "durability_service.depth", .words = "1 3"},
+      {.key = "durability_service.resource_limits"},
+      {.key = "domain.id", .make = [](Maker& m, const Scope&) -> Made {
+         for (std::size_t i = 0; i < m.topics; ++i)
+           if (is_dds(m, i)) return topic(m, i).find("domain") != nullptr ? *topic(m, i).find("domain") : number(0);
+         return number(0);
+       }},
+      {.key = "domain.discovery", .percent = 70},
+      {.key = "domain.server", .percent = 100, .make = [](Maker&, const Scope& s) -> Made { return s.text("discovery") == "server" ? Made(text("a0")) : std::nullopt; }},
+      {.key = "domain.announce_every", .percent = 60, .words = "1ms 2ms 10ms"},
+      {.key = "domain.lease_duration", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.has("announce_every") ? m.word("20ms 1s") : Made(); }},
+      {.key = "application.name", .make = [](Maker&, const Scope& s) -> Made { return text("a" + std::to_string(s.number)); }},
+      {.key = "application.on", .make = [](Maker& m, const Scope& s) -> Made { return text(m.world.hosts[host_of(m, s.number)]); }},
+      {.key = "application.threads", .make = threads},
+      {.key = "application.scheduler", .percent = 50},
+      {.key = "scheduler.window", .percent = 60, .words = "2ms 4ms 5ms"},
+      {.key = "scheduler.after", .percent = 40, .words = "0us 1ms 2ms"},
+      {.key = "scheduler.tests", .percent = 20, .words = "1 3"},
+      {.key = "scheduler.response", .percent = 20},
+      {.key = "scheduler.tolerance", .percent = 20, .words = "10us 1ms"},
+      {.key = "thread.name", .make = [](Maker&, const Scope& s) -> Made { return text("th" + std::to_string(s.number)); }},
+      {.key = "thread.publish", .percent = 60, .make = published},
+      {.key = "thread.subscribe", .percent = 60, .make = subscribed},
+      {.key = "thread.every", .make = interval},
+      {.key = "thread.offset", .percent = 60, .make = phase},
+      {.key = "thread.response", .percent = 50},
+      {.key = "thread.tests", .percent = 15, .words = "1 3"},
+      {.key = "thread.payload", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return s.has("publish") ? Made(m.short_or_object("payload", &s)) : std::nullopt; }},
+      {.key = "thread.buffer", .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return s.has("subscribe") ? Made(m.word("1 4")) : std::nullopt; }},
+      {.key = "thread.signal", .feature = Feature::signals, .percent = 80, .make = [](Maker& m, const Scope& s) -> Made { return s.has("subscribe") ? Made(m.short_or_object("signal", &s, s.around("application")->text("name") + "-" + s.text("name"))) : std::nullopt; }},
+      {.key = "thread.qos", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return uses_dds(m, s) ? Made(m.object("qos", &s)) : std::nullopt; }},
+      {.key = "payload.pattern", .percent = 60},
+      {.key = "payload.copy_of", .percent = 60, .make = copied},
+      {.key = "payload.instance", .percent = 30, .make = [](Maker& m, const Scope& s) -> Made { return has_keys(m, s) ? Made(number(m.draw.below(3))) : std::nullopt; }},
+      {.key = "payload.instances", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return has_keys(m, s) ? Made(number(m.draw.between(1, 3))) : std::nullopt; }},
+      {.key = "signal.name", .make = [](Maker&, const Scope& s) -> Made { return text("out-" + s.name); }},
+      {.key = "signal.pulse", .percent = 40, .words = "500us 1ms"},
+      {.key = "gateway.name", .make = [](Maker&, const Scope& s) -> Made { return text("g" + std::to_string(s.number)); }},
+      {.key = "gateway.on", .make = any_host},
+      {.key = "gateway.from", .make = [](Maker& m, const Scope&) -> Made { return topic_of(m, m.draw.below(2)); }},
+      {.key = "gateway.to", .make = [](Maker& m, const Scope& s) -> Made { return topic_of(m, s.text("from") == name_of(m, 0) ? 1 : 0); }},
+      {.key = "gateway.receive_every", .make = interval},
+      {.key = "gateway.receive_offset", .percent = 50, .make = phase},
+      {.key = "gateway.receive_response", .percent = 40},
+      {.key = "gateway.send_every", .make = interval},
+      {.key = "gateway.send_offset", .percent = 50, .make = phase},
+      {.key = "gateway.send_response", .percent = 40},
+      {.key = "gateway.buffer", .percent = 50, .words = "1 4"},
+      {.key = "gateway.overflow", .percent = 50},
+      {.key = "gateway.stale_after", .percent = 30, .words = "1ms 10ms"},
+      {.key = "gateway.scheduler", .percent = 30},
+      {.key = "persistence.name", .make = [](Maker&, const Scope& s) -> Made { return text("k" + std::to_string(s.number)); }},
+      {.key = "persistence.on", .make = [](Maker& m, const Scope&) -> Made { return text(m.world.hosts.back()); }},
+      {.key = "persistence.topics", .make = [](Maker& m, const Scope&) -> Made {
+         Node made = Node::array();
+         for (std::size_t i = 0; i < m.topics; ++i)
+           if (is_dds(m, i)) made.items.push_back(text(name_of(m, i)));
+         return made;
+       }},
+  };
+  return rules;
+}
+
+}  // namespace takt::generator

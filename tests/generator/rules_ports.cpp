@@ -1,0 +1,185 @@
+// What ports do: gates, shapers, preemption and the rest of "egress"; the gates of a whole network.
+#include <algorithm>
+
+#include "tests/generator/maker.hpp"
+
+namespace takt::generator {
+namespace {
+
+using Made = std::optional<Node>;
+
+Node numbers(const std::vector<int>& values) {
+  Node made = Node::array();
+  for (const int value : values) made.items.push_back(number(static_cast<std::uint64_t>(value)));
+  return made;
+}
+
+std::vector<int> taken(const Scope& s, std::string_view key) {
+  std::vector<int> values;
+  const Node* const there = s.made->find(key);
+  if (there == nullptr) return values;
+  for (const Node& each : there->items) {
+    const Node* const value = each.kind == scenario::json::Kind::object ? each.find("class") : &each;
+    values.push_back(std::stoi(value->text));
+  }
+  return values;
+}
+
+bool wants_egress(const Maker& m) {
+  for (const Feature each : {Feature::gates, Feature::hold, Feature::shapers, Feature::max_sdu, Feature::preemption, Feature::cut_through, Feature::untagged, Feature::ats})
+    if (m.wants(each)) return true;
+  return false;
+}
+
+/// One entry for all ports, and some for single neighbours.
+Made egress_of_switch(Maker& m, const Scope& s) {
+  if (!wants_egress(m)) return std::nullopt;
+  Node made = Node::array();
+  if (!m.draw.one_in(4)) made.items.push_back(m.object("egress", &s, s.name, 0));
+  const auto known = m.world.neighbours.find(s.name);
+  if (known != m.world.neighbours.end()) {
+    std::set<std::string> seen;
+    for (std::size_t n = 0; n < known->second.size(); ++n)
+      if ((made.items.empty() || m.draw.one_in(3)) && seen.insert(known->second[n]).second) made.items.push_back(m.object("egress", &s, s.name, n + 1));
+  }
+  std::erase_if(made.items, [](const Node& each) { return each.members.size() == (each.find("to") != nullptr ? 1u : 0u); });
+  if (made.items.empty()) return std::nullopt;
+  return made;
+}
+
+/// An entry says what its place in the list is: 0 is for all ports.
+Made egress_to(Maker& m, const Scope& s) {
+  if (s.number == 0) return std::nullopt;
+  return text(m.world.neighbours.at(s.name).at(s.number - 1));
+}
+
+bool has_cqf(const Scope& s) { return s.around("switch") != nullptr || s.around("generator") != nullptr; }
+
+Made entries_of_gates(Maker& m, const Scope& s) {
+  std::vector<Node> entries;
+  const std::size_t count = m.draw.below(4);
+  for (std::size_t i = 0; i < count; ++i) entries.push_back(m.object("gate_entry", &s, {}, i));
+  // One that is open to all, long enough for the longest frame.
+  entries.push_back(m.object("gate_entry", &s, {}, 100));
+  if (m.draw.one_in(2)) entries.push_back(m.object("gate_entry", &s, {}, count));
+  return list(std::move(entries));
+}
+
+Made shaped_classes(Maker& m, const Scope& s) {
+  Node made = Node::array();
+  const std::vector<int> some = m.classes(3);
+  for (const int q : some.empty() ? std::vector<int>{static_cast<int>(m.draw.below(8))} : some) made.items.push_back(m.object("shaper", &s, {}, static_cast<std::size_t>(q)));
+  return made;
+}
+
+Made own_number(Maker&, const Scope& s) { return number(s.number); }
+
+Made port_of_a_node(Maker& m, const Scope&) { return text(m.draw.any(!m.world.switches.empty() && !m.draw.one_in(6) ? m.world.switches : m.world.nodes())); }
+Made neighbour_of_node(Maker& m, const Scope& s) { return text(m.draw.any(m.world.neighbours.at(s.text("node")))); }
+
+}  // namespace
+
+std::span<const Rule> port_rules() {
+  static const Rule rules[] = {
+      {.key = "switch.egress", .percent = 90, .make = egress_of_switch},
+      {.key = "host.egress", .percent = 30, .make = [](Maker& m, const Scope& s) -> Made {
+         if (!wants_egress(m)) return std::nullopt;
+         Node made = m.object("egress", &s, s.name, 0);
+         if (made.members.empty()) return std::nullopt;
+         return list({std::move(made)});
+       }},
+      {.key = "generator.egress", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made {
+         if (!wants_egress(m)) return std::nullopt;
+         Node made = m.object("egress", &s, {}, 0);
+         if (made.members.empty()) return std::nullopt;
+         return list({std::move(made)});
+       }},
+      {.key = "egress.to", .percent = 100, .make = egress_to},
+      {.key = "egress.gates", .feature = Feature::gates, .percent = 75, .make = [](Maker& m, const Scope& s) -> Made {
+         if (m.wants(Feature::cqf) && has_cqf(s) && !m.draw.one_in(20)) return std::nullopt;   // CQF makes the gates of a switch
+         return m.object("gates", &s);
+       }},
+      {.key = "egress.shapers", .feature = Feature::shapers, .percent = 75, .make = shaped_classes},
+      {.key = "egress.max_sdu", .feature = Feature::max_sdu, .percent = 75, .make = [](Maker& m, const Scope& s) -> Made {
+         Node made = Node::array();
+         const std::size_t first = m.draw.below(8);
+         made.items.push_back(m.object("max_sdu", &s, {}, first));
+         if (m.draw.one_in(2)) made.items.push_back(m.object("max_sdu", &s, {}, (first + 1) % 8));
+         return made;
+       }},
+      {.key = "egress.ats", .feature = Feature::ats, .percent = 80, .make = [](Maker& m, const Scope& s) -> Made {
+         if (s.around("host") != nullptr) return std::nullopt;
+         const std::vector<int> some = m.classes(2, taken(s, "shapers"));
+         if (some.empty()) return std::nullopt;
+         return numbers(some);
+       }},
+      {.key = "egress.preemption", .feature = Feature::preemption, .percent = 80},
+      {.key = "egress.cut_through", .feature = Feature::cut_through, .percent = 80, .make = [](Maker& m, const Scope& s) -> Made {
+         if (s.around("host") != nullptr) return std::nullopt;
+         std::vector<int> others = taken(s, "ats");
+         if (const Node* const preemption = s.made->find("preemption"))
+           for (const Node& each : preemption->find("preemptable")->items) others.push_back(std::stoi(each.text));
+         const std::vector<int> some = m.classes(2, others);
+         if (some.empty()) return std::nullopt;
+         return numbers(some);
+       }},
+      {.key = "egress.untagged", .feature = Feature::untagged, .percent = 80, .make = [](Maker& m, const Scope& s) -> Made {
+         // Ports to hosts only.
+         const bool to_hosts = s.has("to") ? std::ranges::find(m.world.hosts, s.text("to")) != m.world.hosts.end() : m.world.switches.size() == 1;
+         if (!to_hosts || s.has("cut_through")) return std::nullopt;
+         return Node::of_bool(true);
+       }},
+      {.key = "gates.cycle", .percent = 15, .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() ? "3ms 5ms" : "500us 700us 1ms 1234567ps"); }},
+      {.key = "gates.base_time", .percent = 50, .words = "0ns -1ms 37us 500us -123456789ps"},
+      {.key = "gates.extension", .percent = 20, .words = "20us 100us 1ms"},
+      {.key = "gates.entries", .make = entries_of_gates},
+      {.key = "gate_entry.open", .make = [](Maker& m, const Scope& s) -> Made { return numbers(s.number == 100 ? std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7} : m.classes(2)); }},
+      {.key = "gate_entry.for", .make = [](Maker& m, const Scope& s) -> Made {
+         if (s.number == 100) return m.word(m.is_slow() ? "1300us" : "130us 125us 200us");
+         return m.word("5us 10us 20us 50us 12360ns 123360ns 1ns");
+       }},
+      {.key = "gate_entry.mac", .feature = Feature::hold, .percent = 60},
+      {.key = "shaper.class", .make = own_number},
+      {.key = "shaper.idle_slope", .make = [](Maker& m, const Scope&) -> Made {
+         // Over a whole cycle of which the gate is open for a part a slope is several times as steep.
+         bool gated = false;
+         for (const Feature each : {Feature::gates, Feature::hold, Feature::cqf, Feature::set_gates, Feature::automatic_gates, Feature::listed_gates}) gated |= m.wants(each);
+         return m.word(m.is_slow() ? "1Mbps 1500kbps 2Mbps" : gated ? "3Mbps 7Mbps 10Mbps 10666667bps" : "10Mbps 33Mbps 7Mbps 20Mbps 75Mbps");
+       }},
+      {.key = "max_sdu.class", .make = own_number},
+      {.key = "max_sdu.size", .words = "100B 500B 1000B 1500B"},
+      {.key = "preemption.preemptable", .make = [](Maker& m, const Scope&) -> Made {
+         const std::vector<int> some = m.classes(2, m.wants(Feature::gptp) ? std::vector<int>{7} : std::vector<int>{});   // gPTP has priority 7
+         return numbers(some.empty() ? std::vector<int>{0, 1} : some);
+       }},
+      {.key = "preemption.add_frag_size", .percent = 50, .words = "0 1 2 3"},
+      {.key = "preemption.hold_advance", .percent = 25, .words = "0ns 5us 30us"},
+      {.key = "preemption.release_advance", .percent = 25, .words = "1us 10us"},
+      {.key = "scenario.gates", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made {
+         if (!m.wants(Feature::automatic_gates) && !m.wants(Feature::listed_gates)) return m.draw.one_in(20) ? Made(text("none")) : std::nullopt;
+         return m.short_or_object("network_gates", &s);
+       }},
+      {.key = "network_gates.plan", .percent = 100, .make = [](Maker& m, const Scope&) -> Made { return text(m.wants(Feature::automatic_gates) ? "auto" : "listed"); }},
+      {.key = "network_gates.margin", .feature = Feature::automatic_gates, .percent = 40, .words = "0ns 100ns 1us"},
+      {.key = "network_gates.classes", .feature = Feature::automatic_gates, .percent = 100, .make = [](Maker& m, const Scope&) -> Made {
+         // Those of the programs, if there are programs.
+         return m.groups.empty() || m.draw.one_in(2) ? Made(numbers({6})) : std::nullopt;
+       }},
+      {.key = "network_gates.guard", .feature = Feature::automatic_gates, .percent = 40},
+      {.key = "network_gates.lists", .feature = Feature::listed_gates, .percent = 100, .make = [](Maker& m, const Scope& s) -> Made {
+         Node made = Node::array();
+         std::set<std::string> ports;
+         for (std::size_t i = 0; i < 3; ++i) {
+           Node each = m.object("set_gates", &s);
+           if (ports.insert(each.find("node")->text).second) made.items.push_back(std::move(each));
+         }
+         return made;
+       }},
+      {.key = "set_gates.node", .make = port_of_a_node},
+      {.key = "set_gates.to", .percent = 50, .make = neighbour_of_node},
+      {.key = "set_gates.gates"},
+  };
+  return rules;
+}
+
+}  // namespace takt::generator

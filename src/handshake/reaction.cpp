@@ -31,7 +31,7 @@ void ReactionTracker::begin(const Reaction& reaction, const Intent& intent) {
   bool superseded = false;
   std::erase_if(open_, [&](const Open& other) {
     if (goal_of(reactions_[other.reaction].kind) == goal_of(reaction.kind)) return false;
-    if (intent.number != 0 && other.intent.number != 0 && intent < other.intent) {
+    if (intent.number != 0 && other.intent.number != 0 && standing_of(intent, other.intent) == Standing::earlier) {
       superseded = true;
       return false;
     }

@@ -87,7 +87,7 @@ std::string not_in_trees(const explore::Question& question, const ExploreOptions
   refuse(question.subscription != handshake::Subscription::Star, "nested groups and joining slaves are explored in stars");
   refuse(question.network != explore::Network::registers, "nested groups and joining slaves are explored on registers");
   refuse(question.faults.contains(explore::Fault::duplicate) || question.faults.contains(explore::Fault::reorder),
-         "nested groups and joining slaves are explored with loss, crash, restart and timeout");
+         "nested groups and joining slaves are explored with loss, crash, restart, timeout and forge");
   refuse(question.nested() && question.slaves > explore::most_outer_slaves, "nested groups have at most " + std::to_string(explore::most_outer_slaves) + " outer slaves");
   refuse(!options.out.empty(), "findings with nested groups or joining slaves are drawn as charts, not written as scenarios (--out)");
   return wrong;
@@ -121,6 +121,10 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
     question.variant = variant_of(variant);
     if (options.nested) question.inner_slaves = static_cast<std::uint8_t>(options.inner_slaves.value_or(1));
     question.commands = options.calls.value_or(usual_calls(question.nested() ? question.slaves + question.inner_slaves : question.slaves));
+    if (question.variant == handshake::Variant::Paper && question.faults.contains(explore::Fault::forge)) {
+      std::fprintf(stderr, "takt: %s: forge is explored with robust; a word of paper is a state and nothing more, and whoever forges it is believed\n", name.c_str());
+      return false;
+    }
     if (const std::string wrong = not_in_trees(question, options); !wrong.empty()) {
       std::fprintf(stderr, "takt: %s: %s\n", name.c_str(), wrong.c_str());
       return false;
@@ -267,7 +271,7 @@ void add_explore_command(CLI::App& app, ExitStatus& status) {
   command.add_option("--beginnings", options->beginnings, "Where runs begin: all (wherever a group can rest) or switched-on")
       ->check(CLI::IsMember({"all", "switched-on"}))
       ->capture_default_str();
-  command.add_flag("--nested", options->nested, "The last slave is the master of an inner group, too (robust, star, registers; loss, crash, restart, timeout)");
+  command.add_flag("--nested", options->nested, "The last slave is the master of an inner group, too (robust, star, registers; loss, crash, restart, timeout, forge)");
   command.add_option("--inner-slaves", options->inner_slaves, "Slaves of the inner group (default 1)")
       ->check(CLI::Range(1U, static_cast<unsigned>(explore::most_inner_slaves)))
       ->type_name("N");
@@ -284,6 +288,7 @@ void add_explore_command(CLI::App& app, ExitStatus& status) {
       "  takt explore scenarios/robot-arm.json --faults restart,timeout --format json\n"
       "  takt explore --slaves 2 --faults loss,reorder --network channels=2\n"
       "  takt explore --slaves 1 --nested --faults crash --calls 2\n"
+      "  takt explore --slaves 1 --calls 1 --faults forge\n"
       "Ctrl-C ends the search and prints what was found until then.\n"
       "Exit status: 0 all hold, 1 violated, not reached or not decided, 2 bad input, 130 interrupted before a violation was found.");
   command.callback([options, &status] { status = run(*options); });

@@ -13,7 +13,7 @@ enum class ActionKind : std::uint8_t {
   receive,      ///< channel: the receiver samples the register, or takes the first message
   deliver_late, ///< the delayed copy arrives; `channels`: channel, and which of its messages
   initialised,  ///< participant: its initialisation ends
-  silence,      ///< participant, peer: the time-out of a peer that is down expires
+  silence,      ///< participant, peer: the time-out expires of a peer that is down, or whose words are taken for old ones
   // -- from here on the adversary
   call,         ///< participant, method
   finish,       ///< participant: the Program ends by itself
@@ -23,12 +23,13 @@ enum class ActionKind : std::uint8_t {
   crash,        ///< participant: it is down
   restart,      ///< participant: it comes up without memory
   timeout,      ///< participant, peer: the time-out of a living peer expires
+  forge,        ///< participant: a stranger speaks in its name; which of the words that it may say (forgery.hpp)
 };
 
 struct Action {
   ActionKind kind = ActionKind::send;
   std::uint8_t who = 0;    ///< participant, or channel (Wiring)
-  std::uint8_t what = 0;   ///< method (its index), peer, or position in a channel
+  std::uint16_t what = 0;  ///< method (its index), peer, position in a channel, or forged word
   constexpr auto operator<=>(const Action&) const = default;
 };
 

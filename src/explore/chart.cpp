@@ -85,6 +85,7 @@ std::string sentence(const Told& told, const Wiring& wiring) {
                                 : "fault: delayed between " + from + " and " + to + ": " + text_of(told.word);
     case ActionKind::crash: return "fault: " + who + " crashes";
     case ActionKind::restart: return "fault: " + who + " restarts without memory";
+    case ActionKind::forge: return "fault: a stranger speaks as " + who + ": " + text_of(told.word) + (told.is_overtaking ? ", far ahead" : "");
     case ActionKind::timeout: return "fault: " + who + " hears nothing of " + peer + " in time";
   }
   return {};

@@ -29,7 +29,7 @@ bool are_transitions(PublishedState from, std::span<const StateChange> changes) 
 }
 
 Members::Members(const Question& question, const Renamings& renamings) : question_(question), renamings_(&renamings) {
-  words_.append(Word{});  // no_word
+  words_.append(Letter{});  // no_word
   renamed_word_.assign(renamings.size(), no_word);
   word_orbit_.push_back(0);
   rank_.push_back(0);
@@ -93,7 +93,7 @@ Stepped Members::step_value(MemberId member, const Stimulus& stimulus) {
   Stepped stepped;
   stepped.member = intern(after);
   if (stimulus.kind == Input::Kind::Received)
-    stepped.data_counts = words_[stimulus.word].state == PublishedState::Running && !outputs.ignored && after.process_data_counts(stimulus.what);
+    stepped.data_counts = word(stimulus.word).state == PublishedState::Running && !outputs.ignored && after.process_data_counts(stimulus.what);
   stepped.effect = effect_of(before, after, stimulus, outputs);
   return stepped;
 }
@@ -101,7 +101,10 @@ Stepped Members::step_value(MemberId member, const Stimulus& stimulus) {
 Input Members::input_of(const Participant& value, const Stimulus& stimulus) const {
   switch (stimulus.kind) {
     case Input::Kind::Command: return Input::command(program::methods[stimulus.what].method);
-    case Input::Kind::Received: return Input::received(stimulus.what, words_[stimulus.word], stimulus.overtaken ? 0 : 1);
+    case Input::Kind::Received: {
+      const Letter& letter = words_[stimulus.word];
+      return Input::received(stimulus.what, letter.word, letter.ahead ? sequence_ahead : stimulus.overtaken ? overtaken_sequence : usual_sequence);
+    }
     case Input::Kind::Initialised: return Input::initialised(value.intent().run);
     case Input::Kind::Finished: return Input::finished();
     case Input::Kind::PeerSilent: return Input::peer_silent(stimulus.what);
@@ -139,8 +142,8 @@ std::uint16_t Members::effect_of(const Participant& before, const Participant& a
   if (stimulus.kind == Input::Kind::PeerSilent && before.state() != PublishedState::Halted) effect.properties.insert(Property::silence);
   if (stimulus.kind == Input::Kind::PeerSilent && after.state() != PublishedState::Halted) effect.properties.insert(Property::F1);
   const bool robust = question_.variant == Variant::Robust;
-  if (robust && stimulus.kind == Input::Kind::Received && !outputs.ignored && words_[stimulus.word].state == PublishedState::Running &&
-      after.process_data_counts(stimulus.what) && words_[stimulus.word].run != after.run())
+  if (robust && stimulus.kind == Input::Kind::Received && !outputs.ignored && word(stimulus.word).state == PublishedState::Running &&
+      after.process_data_counts(stimulus.what) && word(stimulus.word).run != after.run())
     effect.properties.insert(Property::S3);
   const std::uint32_t id = effects_.intern(effect);
   TAKT_CHECK(id <= 0xFFFF, "a step has few effects");
@@ -163,7 +166,7 @@ MemberId Members::intern(const Participant& value) {
 void Members::add_traits(MemberId member) {
   const Participant value = values_[member];
   Traits traits;
-  traits.word = intern_word(value.word());
+  traits.word = intern_word({value.word(), false});
   traits.state = value.state();
   traits.index = value.config().index;
   for (const program::MethodInfo& method : program::methods) {
@@ -173,7 +176,16 @@ void Members::add_traits(MemberId member) {
     if (program::is_good(tried.step(Input::command(method.method)).status))
       traits.calls = static_cast<std::uint8_t>(traits.calls | 1U << program::index_of(method.method));
   }
+  for (std::size_t peer = 0; peer < value.peer_count(); ++peer)
+    if (value.has_heard_beyond(peer, usual_sequence)) traits.deaf = static_cast<std::uint8_t>(traits.deaf | 1U << peer);
   traits_.push_back(traits);
+}
+
+const std::vector<WordId>& Members::forged(MemberId member) {
+  if (forged_.size() <= member) forged_.resize(values_.size());
+  if (forged_[member].empty())
+    for (const Letter& letter : forgeries(values_[member].word(), question_.slaves)) forged_[member].push_back(intern_word(letter));
+  return forged_[member];
 }
 
 /// images[r] is what the first of them is under renaming r.
@@ -186,17 +198,17 @@ void Members::add_images(const std::vector<MemberId>& images) {
   }
 }
 
-WordId Members::intern_word(const Word& word) {
-  const std::uint32_t id = words_.intern(word);
+WordId Members::intern_word(const Letter& letter) {
+  const std::uint32_t id = words_.intern(letter);
   if (id < word_orbit_.size()) return static_cast<WordId>(id);
   const std::size_t count = renamings_->size();
   std::vector<std::uint32_t> images;
-  for (std::size_t r = 0; r < count; ++r) images.push_back(words_.intern(explore::renamed(word, (*renamings_)[r])));
+  for (std::size_t r = 0; r < count; ++r) images.push_back(words_.intern({explore::renamed(letter.word, (*renamings_)[r]), letter.ahead}));
   TAKT_CHECK(words_.size() <= 0x10000, "an exploration has at most 65535 different words: allow fewer calls or faults");
   renamed_word_.resize(words_.size() * count, no_word);
   word_orbit_.resize(words_.size(), 0);
   for (std::size_t i = rank_.size(); i < words_.size(); ++i) {
-    const handshake::Intent& intent = words_[i].intent;
+    const handshake::Intent& intent = words_[i].word.intent;
     rank_.push_back(intent.origin == 0 ? 0 : std::uint64_t{intent.number} << 16 | handshake::index_of(intent.kind) << 8 | intent.origin);
   }
   const std::uint32_t orbit = *std::min_element(images.begin(), images.end());

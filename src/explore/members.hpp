@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "explore/forgery.hpp"
 #include "explore/ghost.hpp"
 #include "explore/hash_index.hpp"
 #include "explore/question.hpp"
@@ -37,6 +38,9 @@ struct Stepped {
 struct HashOfWord {
   std::size_t operator()(const handshake::Word& word) const;
 };
+struct HashOfLetter {
+  std::size_t operator()(const Letter& letter) const { return HashOfWord{}(letter.word) + (letter.ahead ? 1 : 0); }
+};
 struct HashOfEffect {
   std::size_t operator()(const Effect& effect) const;
 };
@@ -53,6 +57,7 @@ class Members {
     std::uint8_t index = 0;
     bool down = false;
     std::uint8_t calls = 0;               ///< methods that it accepts, by index
+    std::uint8_t deaf = 0;                ///< peers whose words it takes for old ones, bit i for peer i
     std::uint32_t orbit = 0;              ///< the same number for whoever differs in names only
   };
 
@@ -71,7 +76,7 @@ class Members {
     return found != Memo::absent ? unpack(found) : step_anew(member, stimulus);
   }
 
-  const handshake::Word& word(WordId word) const { return words_[word]; }
+  const handshake::Word& word(WordId word) const { return words_[word].word; }
   std::size_t word_count() const { return words_.size(); }
   std::uint32_t word_orbit(WordId word) const { return word_orbit_[word]; }
   /// Number, kind and (last octet) origin of its intent; 0 if the master is the origin. Of two that differ in the last octet
@@ -86,6 +91,9 @@ class Members {
   void each_step(Seen&& seen) const {
     steps_.each([&](std::uint64_t key, std::uint64_t value) { seen(static_cast<MemberId>(key >> 32), stimulus_of(key), unpack(value).member); });
   }
+
+  /// What a stranger may say as this one.
+  const std::vector<WordId>& forged(MemberId member);
 
   /// False once a step did something else to slaves with other names: then they are not equal.
   bool symmetric() const { return symmetric_; }
@@ -118,20 +126,21 @@ class Members {
   MemberId intern(const Participant& value);
   void add_traits(MemberId member);
   void add_images(const std::vector<MemberId>& images);
-  WordId intern_word(const handshake::Word& word);
+  WordId intern_word(const Letter& letter);
 
   Question question_;
   const Renamings* renamings_;
   Interner<Participant, HashOfValue> values_;
   std::vector<Traits> traits_;
   std::vector<MemberId> renamed_;       ///< by member and renaming
-  Interner<handshake::Word, HashOfWord> words_;
+  Interner<Letter, HashOfLetter> words_;
   std::vector<WordId> renamed_word_;
   std::vector<std::uint32_t> word_orbit_;
   std::vector<std::uint64_t> rank_;
   Interner<Effect, HashOfEffect> effects_;
   Memo steps_;
   std::vector<std::vector<MemberId>> down_;  ///< by incarnation and index
+  std::vector<std::vector<WordId>> forged_;  ///< by member; empty: not asked yet
   bool symmetric_ = true;
 };
 

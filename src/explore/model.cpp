@@ -18,6 +18,7 @@ Model::Model(const Question& question)
   const bool is_star = question.subscription == handshake::Subscription::Star;
   TAKT_CHECK(question.slaves >= 1 && question.slaves <= (is_star ? most_slaves : most_slaves_all_to_all), "a group to explore is small");
   TAKT_CHECK(question.commands <= most_commands && question.fault_budget <= most_faults, "budgets are small");
+  TAKT_CHECK(question.variant == Variant::Robust || !question.faults.contains(Fault::forge), "the words of paper say too little to forge much");
   TAKT_CHECK(question.capacity >= 1 && question.capacity <= most_capacity, "channels are short");
   for (std::size_t c = 0; c < wiring_.size(); ++c)
     for (std::size_t r = 0; r < renamings_.size(); ++r)
@@ -29,7 +30,7 @@ Model::Model(const Question& question)
 void Model::list_actions() {
   const auto participants = static_cast<std::uint8_t>(question_.slaves + 1);
   const auto add = [this](ActionKind kind, std::size_t who, std::size_t what) {
-    actions_.push_back({kind, static_cast<std::uint8_t>(who), static_cast<std::uint8_t>(what)});
+    actions_.push_back({kind, static_cast<std::uint8_t>(who), static_cast<std::uint16_t>(what)});
   };
   const std::size_t places = question_.network == Network::channels ? question_.capacity : 1;
   const auto each_channel = [&](ActionKind kind, std::size_t count) {
@@ -48,7 +49,7 @@ void Model::list_actions() {
   if (strays && question_.network == Network::channels) each_channel(ActionKind::deliver_late, places);
   if (strays && question_.network == Network::registers) add(ActionKind::deliver_late, 0, 0);
   each_participant(ActionKind::initialised);
-  if (question_.faults.contains(Fault::crash)) each_peer(ActionKind::silence);
+  if (question_.faults.contains(Fault::crash) || question_.faults.contains(Fault::forge)) each_peer(ActionKind::silence);
   network_count_ = actions_.size();
   for (std::uint8_t i = 0; i < participants; ++i)
     for (std::uint8_t m = 0; m < program::methods.size(); ++m) add(ActionKind::call, i, m);
@@ -62,9 +63,45 @@ void Model::list_actions() {
   if (question_.faults.contains(Fault::restart)) each_participant(ActionKind::restart);
   restart_end_ = actions_.size();
   if (question_.faults.contains(Fault::timeout)) each_peer(ActionKind::timeout);
+  if (question_.faults.contains(Fault::forge))
+    for (std::size_t i = 0; i < participants; ++i)
+      for (std::size_t word = 0; word < most_forgeries; ++word) add(ActionKind::forge, i, word);
 }
 
 bool Model::act(const State& state, Action action, Next& next) {
+  if (!change(state, action, next)) return false;
+  if (question_.faults.contains(Fault::forge)) judge_forgery(state, action, next);
+  return true;
+}
+
+/// Whoever has believed a stranger may break S1 to S5, until all are Halted and know it. From then on the group is as it was: it keeps
+/// them, and a Start succeeds.
+void Model::judge_forgery(const State& state, Action action, Next& next) {
+  if (action.kind == ActionKind::forge) next.state.set_misled(true);
+  if (next.state.misled()) {
+    for (const Property property : {Property::S1, Property::S2, Property::S3, Property::S4, Property::S5}) next.properties.erase(property);
+    if (halted_for_all(next.state)) next.state.set_misled(false);
+  }
+  if (is_network(action.kind)) return;
+  const bool is_start = action.kind == ActionKind::call && program::methods[action.what].method == Method::Start;
+  next.state.set_promised(is_start && halted_for_all(state));
+}
+
+/// Nothing of before is left that anybody could still hear or believe.
+bool Model::halted_for_all(const State& state) {
+  if (members_[state.member(0)].state != PublishedState::Halted || !at_rest(state)) return false;
+  for (std::size_t i = 0; i <= question_.slaves; ++i)
+    if (members_[state.member(i)].deaf != 0) return false;
+  Next heard;
+  for (std::size_t c = 0; c < wiring_.size(); ++c) {
+    const WordId word = members_[state.member(wiring_.sender(c))].word;
+    const MemberId receiver = state.member(wiring_.receiver(c));
+    if (members_.step(receiver, {Input::Kind::Received, wiring_.peer(c), word, false}).member != receiver) return false;
+  }
+  return true;
+}
+
+bool Model::change(const State& state, Action action, Next& next) {
   switch (action.kind) {
     case ActionKind::send:
     case ActionKind::receive:
@@ -85,6 +122,7 @@ bool Model::fault(const State& state, Action action, Next& next) {
   switch (action.kind) {
     case ActionKind::crash: possible = crash(state, action.who, next); break;
     case ActionKind::restart: possible = restart(state, action.who, next); break;
+    case ActionKind::forge: possible = forge(state, action.who, action.what, next); break;
     case ActionKind::timeout: possible = expire(state, action.who, action.what, false, next); break;
     default: possible = question_.network == Network::registers ? act_on_registers(state, action, next) : act_on_channels(state, action, next); break;
   }
@@ -125,6 +163,18 @@ void Model::end_round(const State& state, Next& next) {
   next.state.set_ghost(intern_ghost(ghost));
 }
 
+/// One packet, which all hear who hear that participant.
+bool Model::forge(const State& state, std::size_t as, std::size_t what, Next& next) {
+  const std::vector<WordId>& words = members_.forged(state.member(as));
+  if (what >= words.size()) return false;
+  const WordId word = words[what];
+  next = {state, {}};
+  bool possible = false;
+  for (std::size_t c = 0; c < wiring_.size(); ++c)
+    if (wiring_.sender(c) == as) possible = put_into_channel(state, c, word, next) || possible;
+  return possible;
+}
+
 bool Model::crash(const State& state, std::size_t participant, Next& next) {
   if (is_down(state, participant)) return false;
   next = {state, {}};
@@ -145,11 +195,12 @@ bool Model::restart(const State& state, std::size_t participant, Next& next) {
 
 bool Model::expire(const State& state, std::size_t participant, std::size_t peer, bool peer_is_down, Next& next) {
   const std::size_t other = peer_participant(participant, peer);
-  if (is_down(state, other) != peer_is_down || is_down(state, participant)) return false;
+  const bool is_deaf = peer_is_down && ((members_[state.member(participant)].deaf >> peer) & 1U) != 0;
+  if ((is_down(state, other) != peer_is_down && !is_deaf) || is_down(state, participant)) return false;
   next = {state, {}};
   bool changed = step(participant, {Input::Kind::PeerSilent, static_cast<std::uint8_t>(peer)}, next);
   // Silence means that nothing of the peer is under way any more.
-  if (peer_is_down) changed = forget_channel(wiring_.channel(other, participant), next) || changed;
+  if (is_down(state, other)) changed = forget_channel(wiring_.channel(other, participant), next) || changed;
   return changed || next.properties.bits != 0;
 }
 
@@ -224,6 +275,7 @@ bool Model::settled(const State& state) const {
     const handshake::Word& word = members_.word(members_[state.member(i)].word);
     if (word.state != first.state || !(word.intent == first.intent)) return false;
   }
+  if (state.promised() && first.state != PublishedState::Running) return false;
   if (question_.variant == Variant::Robust) return first.state == handshake::goal_of(first.intent.kind);
   return first.state != PublishedState::HaltedInit && ghosts_[state.ghost()].asked(first.state);
 }

@@ -82,6 +82,10 @@ class Model {
   void settle(Beginning& beginning);
   void take(Beginning& beginning, Action action);
 
+  bool change(const State& state, Action action, Next& next);
+  bool forge(const State& state, std::size_t as, std::size_t what, Next& next);
+  void judge_forgery(const State& state, Action action, Next& next);
+  bool halted_for_all(const State& state);
   bool initialised(const State& state, std::size_t participant, Next& next);
   bool call(const State& state, std::size_t participant, std::size_t method, Next& next);
   bool finish(const State& state, std::size_t participant, Next& next);
@@ -93,6 +97,7 @@ class Model {
   // network_registers.cpp and network_channels.cpp
   bool act_on_registers(const State& state, Action action, Next& next);
   bool act_on_channels(const State& state, Action action, Next& next);
+  bool put_into_channel(const State& state, std::size_t channel, WordId word, Next& next);
   bool publish_to_register(const State& state, std::size_t channel, Next& next) const;
   bool sample(const State& state, std::size_t channel, Next& next);
   bool sample_late(const State& state, Next& next);

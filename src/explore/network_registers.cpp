@@ -28,6 +28,21 @@ bool Model::publish_to_register(const State& state, std::size_t channel, Next& n
   return true;
 }
 
+/// It stands there like one that was published. False if there is no room.
+bool Model::put_into_channel(const State& state, std::size_t channel, WordId word, Next& next) {
+  if (question_.network == Network::channels) {
+    Content content = contents_[state.content(channel)];
+    if (content.size() >= question_.capacity) return false;
+    content.push(word);
+    next.state.set_content(channel, contents_.intern(content));
+    return true;
+  }
+  next.state.set_reg(channel, word);
+  next.state.set_outdated(channel, false);
+  if (state.late() == Late::same && state.late_channel() == channel) next.state.set_late(Late::newer_sent);
+  return true;
+}
+
 bool Model::sample(const State& state, std::size_t channel, Next& next) {
   const WordId word = state.reg(channel);
   const std::size_t receiver = wiring_.receiver(channel);

@@ -40,6 +40,7 @@ struct PropertySet {
   std::uint32_t bits = 0;
   constexpr bool contains(Property property) const { return ((bits >> index_of(property)) & 1U) != 0; }
   constexpr void insert(Property property) { bits |= 1U << index_of(property); }
+  constexpr void erase(Property property) { bits &= ~(1U << index_of(property)); }
   constexpr bool operator==(const PropertySet&) const = default;
 };
 

@@ -11,10 +11,10 @@
 namespace takt::explore {
 
 /// The classes of faults. Each fault costs one of the budget of a run.
-enum class Fault : std::uint8_t { loss, duplicate, reorder, crash, restart, timeout };
+enum class Fault : std::uint8_t { loss, duplicate, reorder, crash, restart, timeout, forge };
 
-inline constexpr std::size_t fault_count = 6;
-inline constexpr std::array<std::string_view, fault_count> fault_names{"loss", "duplicate", "reorder", "crash", "restart", "timeout"};
+inline constexpr std::size_t fault_count = 7;
+inline constexpr std::array<std::string_view, fault_count> fault_names{"loss", "duplicate", "reorder", "crash", "restart", "timeout", "forge"};
 constexpr std::string_view name_of(Fault fault) { return fault_names[static_cast<std::size_t>(fault)]; }
 
 struct FaultSet {

@@ -20,6 +20,8 @@ struct Sent {
   bool strays = false;  ///< `channels`: it is heard out of its turn
 };
 
+constexpr std::uint16_t far_ahead = 1000;
+
 class Player {
  public:
   explicit Player(const Question& question)
@@ -62,6 +64,7 @@ class Player {
       case ActionKind::silence: {
         step(action.who, Input::peer_silent(action.what));
         const std::size_t channel = wiring_.channel(peer_participant(action.who, action.what), action.who);
+        if (!down_[peer_participant(action.who, action.what)]) break;  // its words are taken for old ones
         register_[channel] = {};
         in_flight_[channel].clear();
         break;
@@ -84,6 +87,7 @@ class Player {
         publish(action.who, told);
         told.is_overtaking = true;
         break;
+      case ActionKind::forge: forge(action, told); break;
       case ActionKind::crash: down_[action.who] = true; break;
       case ActionKind::restart: {
         down_[action.who] = false;
@@ -123,6 +127,21 @@ class Player {
     register_[channel] = {members_[sender].word(), ++sequence_[sender], observer_.sending_run(sender), true, false};
     if (on_channels()) in_flight_[channel].push_back(register_[channel]);
     tell_channel(channel, register_[channel].word, told);
+  }
+  /// One packet to all who hear that participant. A number that it has used or will use, or one far ahead.
+  void forge(Action action, Told& told) {
+    const Participant now = down_[action.who] ? Participant(config(action.who, members_[action.who].config().incarnation)) : members_[action.who];
+    const Letter letter = forgeries(now.word(), question_.slaves)[action.what];
+    const auto sequence = static_cast<std::uint16_t>(sequence_[action.who] + (letter.ahead ? far_ahead : 0));
+    for (std::size_t c = 0; c < wiring_.size(); ++c) {
+      if (wiring_.sender(c) != action.who) continue;
+      const Sent sent{letter.word, sequence, 0, true, false};
+      if (on_channels() && in_flight_[c].size() < question_.capacity) in_flight_[c].push_back(sent);
+      register_[c] = sent;
+    }
+    told.word = letter.word;
+    told.has_word = true;
+    told.is_overtaking = letter.ahead;
   }
   void hold(std::size_t channel, Told& told) {
     if (on_channels()) {

@@ -5,7 +5,8 @@
 //                     `channels`: what is in flight (Contents), one in a word
 //   late              `registers` only: the delayed copy: its word, its channel, how far it was overtaken
 //   ghost             the ghost, as a number
-//   rest              calls left, faults left, and for each register whether its data is from before the receiver's round
+//   rest              calls left, faults left, for each register whether its data is from before the receiver's round, and what
+//                     follows from a forged word
 #pragma once
 
 #include <array>
@@ -92,7 +93,13 @@ class State {
   void set_outdated(std::size_t channel, bool value) {
     rest() = (rest() & ~(1U << (8 + channel))) | static_cast<std::uint32_t>(value) << (8 + channel);
   }
-  bool any_outdated() const { return rest() >> 8 != 0; }
+  bool any_outdated() const { return (rest() & ~(misled_bit | promised_bit)) >> 8 != 0; }
+  /// A stranger has spoken, and since then not all were Halted and had heard so of each other.
+  bool misled() const { return (rest() & misled_bit) != 0; }
+  void set_misled(bool value) { rest() = (rest() & ~misled_bit) | (value ? misled_bit : 0); }
+  /// Start was called when all were Halted and had heard so of each other; nothing else was called and no fault has come since.
+  bool promised() const { return (rest() & promised_bit) != 0; }
+  void set_promised(bool value) { rest() = (rest() & ~promised_bit) | (value ? promised_bit : 0); }
 
   std::uint64_t hash() const {
     std::uint64_t digest = 0x9E3779B97F4A7C15ULL;
@@ -107,6 +114,9 @@ class State {
   auto operator<=>(const State&) const = default;
 
  private:
+  static constexpr std::uint32_t promised_bit = 1U << 30;
+  static constexpr std::uint32_t misled_bit = 1U << 31;
+  static_assert(8 + late_data < 30);
   std::uint32_t& rest() { return words_[shape_.rest_at]; }
   std::uint32_t rest() const { return words_[shape_.rest_at]; }
 

@@ -113,6 +113,10 @@ class Drawing {
       case ActionKind::silence: return who + " notices that " + tree_.name(tree_.peer_of(action.who, action.what)) + " is silent";
       case ActionKind::call: return std::string(program::methods[action.what].name) + " is called at the " + who;
       case ActionKind::finish: return "the Program of " + who + " ends by itself";
+      case ActionKind::forge: {
+        const Letter letter = forgeries(model_.word(state, action.who), tree_.size(tree_.group_of(action.who)) - 1)[action.what];
+        return "fault: a stranger speaks as " + who + ": " + word(letter.word, action.who) + (letter.ahead ? ", far ahead" : "");
+      }
       case ActionKind::timeout: return "fault: " + who + " hears nothing of " + tree_.name(tree_.peer_of(action.who, action.what)) + " in time";
       default: return {};
     }

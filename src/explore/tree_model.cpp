@@ -46,7 +46,7 @@ TreeModel::TreeModel(const Question& question) : question_(question), tree_(ques
 
 void TreeModel::list_actions() {
   const auto add = [this](ActionKind kind, std::size_t who, std::size_t what) {
-    actions_.push_back({kind, static_cast<std::uint8_t>(who), static_cast<std::uint8_t>(what)});
+    actions_.push_back({kind, static_cast<std::uint8_t>(who), static_cast<std::uint16_t>(what)});
   };
   const auto each_channel = [&](ActionKind kind) {
     for (std::size_t c = 0; c < tree_.channels(); ++c) add(kind, c, 0);
@@ -57,7 +57,7 @@ void TreeModel::list_actions() {
   each_channel(ActionKind::send);
   each_channel(ActionKind::receive);
   for (std::size_t p = 0; p < tree_.participants(); ++p) add(ActionKind::initialised, p, 0);
-  if (question_.faults.contains(Fault::crash) || question_.joining) each_peer(ActionKind::silence);
+  if (question_.faults.contains(Fault::crash) || question_.faults.contains(Fault::forge) || question_.joining) each_peer(ActionKind::silence);
   network_count_ = actions_.size();
   for (std::size_t p = 0; p < tree_.participants(); ++p)
     for (std::size_t m = 0; m < program::methods.size(); ++m) add(ActionKind::call, p, m);
@@ -69,6 +69,10 @@ void TreeModel::list_actions() {
     if (question_.faults.contains(Fault::restart) || node == tree_.joining_node()) add(ActionKind::restart, node, 0);
   }
   if (question_.faults.contains(Fault::timeout)) each_peer(ActionKind::timeout);
+  forge_begin_ = actions_.size();
+  if (question_.faults.contains(Fault::forge))
+    for (std::size_t p = 0; p < tree_.participants(); ++p)
+      for (std::size_t word = 0; word < most_forgeries; ++word) add(ActionKind::forge, p, word);
 }
 
 State TreeModel::switched_on() {
@@ -122,6 +126,53 @@ void TreeModel::settle(Beginning& beginning) {
 }
 
 bool TreeModel::act(const State& state, Action action, Next& next) {
+  if (!change(state, action, next)) return false;
+  if (question_.faults.contains(Fault::forge)) judge_forgery(state, action, next);
+  return true;
+}
+
+/// As in a single group (Model::judge_forgery).
+void TreeModel::judge_forgery(const State& state, Action action, Next& next) {
+  if (action.kind == ActionKind::forge) next.state.set_misled(true);
+  if (next.state.misled()) {
+    for (const Property property : {Property::S1, Property::S2, Property::S3, Property::S4, Property::S5}) next.properties.erase(property);
+    if (halted_for_all(next.state)) next.state.set_misled(false);
+  }
+  if (is_network(action.kind)) return;
+  const bool is_start = action.kind == ActionKind::call && action.who == 0 && program::methods[action.what].method == Method::Start;
+  next.state.set_promised(is_start && halted_for_all(state));
+}
+
+bool TreeModel::halted_for_all(const State& state) {
+  if (anybody_down(state)) return false;
+  for (std::size_t p = 0; p < tree_.participants(); ++p)
+    if (state_of(state, p) != PublishedState::Halted) return false;
+  for (std::size_t c = 0; c < tree_.channels(); ++c) {
+    const TreeShape::Channel& ends = tree_.channel(c);
+    const WordId word = word_of(state, ends.sender);
+    if (state.content(c) != word || is_deaf(state, ends.receiver, ends.peer)) return false;
+    const NodeId node = state.member(tree_.node_of(ends.receiver));
+    if (nodes_.step(node, {tree_.side_of(ends.receiver), Input::Kind::Received, ends.peer, word}).node != node) return false;
+  }
+  return true;
+}
+
+bool TreeModel::is_deaf(const State& state, std::size_t participant, std::size_t peer) const {
+  return ((nodes_[state.member(tree_.node_of(participant))].deaf[at(tree_.side_of(participant))] >> peer) & 1U) != 0;
+}
+
+/// One packet, which all hear who hear that participant.
+bool TreeModel::forge(const State& state, Action action, Next& next) {
+  const std::vector<WordId>& words = nodes_.forged(state.member(tree_.node_of(action.who)), tree_.side_of(action.who));
+  if (action.what >= words.size()) return false;
+  const WordId word = words[action.what];
+  next = {state, {}};
+  for (std::size_t c = 0; c < tree_.channels(); ++c)
+    if (tree_.channel(c).sender == action.who) next.state.set_content(c, word);
+  return true;
+}
+
+bool TreeModel::change(const State& state, Action action, Next& next) {
   switch (action.kind) {
     case ActionKind::send: return publish(state, action.who, next);
     case ActionKind::receive: return sample(state, action.who, next);
@@ -161,7 +212,7 @@ bool TreeModel::call(const State& state, Action action, Next& next) {
   if (!accepted) return false;
   next = {state, {}};
   next.state.set_commands_left(state.commands_left() - 1);
-  step(action.who, {Side::Outer, is_call ? Input::Kind::Command : Input::Kind::Finished, action.what, no_word}, next);
+  step(action.who, {Side::Outer, is_call ? Input::Kind::Command : Input::Kind::Finished, static_cast<std::uint8_t>(action.what), no_word}, next);
   return true;
 }
 
@@ -184,6 +235,7 @@ bool TreeModel::fault(const State& state, Action action, Next& next) {
       if (possible) next.state.set_member(action.who, nodes_.down(action.who, nodes_[state.member(action.who)].incarnation));
       break;
     case ActionKind::restart: possible = (is_free || question_.faults.contains(Fault::restart)) && restart(state, action.who, next); break;
+    case ActionKind::forge: possible = forge(state, action, next); break;
     case ActionKind::timeout: possible = expire(state, action, false, next); break;
     default: break;
   }
@@ -203,11 +255,12 @@ bool TreeModel::restart(const State& state, std::size_t node, Next& next) {
 
 bool TreeModel::expire(const State& state, Action action, bool peer_is_down, Next& next) {
   const std::size_t other = tree_.peer_of(action.who, action.what);
-  if (is_down(state, other) != peer_is_down || is_down(state, action.who)) return false;
+  const bool deaf = peer_is_down && is_deaf(state, action.who, action.what);
+  if ((is_down(state, other) != peer_is_down && !deaf) || is_down(state, action.who)) return false;
   next = {state, {}};
-  bool changed = step(action.who, {Side::Outer, Input::Kind::PeerSilent, action.what, no_word}, next);
+  bool changed = step(action.who, {Side::Outer, Input::Kind::PeerSilent, static_cast<std::uint8_t>(action.what), no_word}, next);
   const std::size_t channel = tree_.channel_between(other, action.who);
-  if (peer_is_down && state.content(channel) != no_word) {  // silence means that nothing of the peer is under way any more
+  if (is_down(state, other) && state.content(channel) != no_word) {  // silence means that nothing of the peer is under way any more
     next.state.set_content(channel, no_word);
     changed = true;
   }
@@ -267,6 +320,7 @@ bool TreeModel::all_running(const State& state) const {
 bool TreeModel::settled(const State& state) const {
   const bool down = anybody_down(state);
   const PublishedState goal = down ? PublishedState::Halted : handshake::goal_of(word(state, 0).intent.kind);
+  if (!down && state.promised() && goal != PublishedState::Running) return false;
   for (std::size_t group = 0; group < tree_.groups(); ++group) {
     std::optional<handshake::Intent> intent;  // of the master
     for (std::size_t i = 0; i < tree_.size(group); ++i) {

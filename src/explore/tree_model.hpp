@@ -25,6 +25,8 @@ class TreeModel {
   /// Network actions first.
   std::span<const Action> actions() const { return actions_; }
   std::span<const Action> network_actions() const { return {actions_.data(), network_count_}; }
+  /// Those that a state may allow: there are many words to forge, and with no fault left none of them is possible.
+  std::span<const Action> actions(const State& state) const { return {actions_.data(), state.faults_left() == 0 ? forge_begin_ : actions_.size()}; }
 
   State switched_on();
   /// False if the action is not possible, or changes nothing.
@@ -52,6 +54,11 @@ class TreeModel {
   void take(Beginning& beginning, Action action);
   void settle(Beginning& beginning);
 
+  bool change(const State& state, Action action, Next& next);
+  bool forge(const State& state, Action action, Next& next);
+  void judge_forgery(const State& state, Action action, Next& next);
+  bool halted_for_all(const State& state);
+  bool is_deaf(const State& state, std::size_t participant, std::size_t peer) const;
   bool publish(const State& state, std::size_t channel, Next& next) const;
   bool sample(const State& state, std::size_t channel, Next& next);
   bool call(const State& state, Action action, Next& next);
@@ -71,6 +78,7 @@ class TreeModel {
   Memo watched_;                ///< (ghost, node, effects) -> (ghost, violated)
   std::vector<Action> actions_;
   std::size_t network_count_ = 0;
+  std::size_t forge_begin_ = 0;
   std::vector<Beginning> beginnings_;
 };
 

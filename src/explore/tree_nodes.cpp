@@ -55,7 +55,7 @@ bool is_nothing(const TreeEffect& effect) { return effect.effect == Effect{} && 
 }  // namespace
 
 TreeNodes::TreeNodes(const TreeShape& shape) : shape_(shape) {
-  words_.append(Word{});              // no_word
+  words_.append(Letter{});            // no_word
   effects_.intern(TreeEffects{});     // nothing
 }
 
@@ -96,7 +96,7 @@ TreeStepped TreeNodes::step_anew(NodeId id, const TreeStimulus& stimulus) {
         Input input;
         switch (stimulus.kind) {
           case Input::Kind::Command: input = Input::command(program::methods[stimulus.what].method); break;
-          case Input::Kind::Received: input = Input::received(stimulus.what, words_[stimulus.word], 1); break;
+          case Input::Kind::Received: input = Input::received(stimulus.what, words_[stimulus.word].word, words_[stimulus.word].ahead ? sequence_ahead : usual_sequence); break;
           case Input::Kind::Initialised: input = Input::initialised(stepping.intent().run); break;
           case Input::Kind::PeerSilent: input = Input::peer_silent(stimulus.what); break;
           default: input = Input::finished(); break;
@@ -144,8 +144,10 @@ NodeId TreeNodes::intern(const Node& node) {
       [&](const auto& value) {
         traits.incarnation = participant(value, Side::Outer).config().incarnation;
         for (const Side side : {Side::Outer, Side::Inner}) {
-          traits.word[at(side)] = intern_word(participant(value, side).word());
+          traits.word[at(side)] = intern_word({participant(value, side).word(), false});
           traits.state[at(side)] = participant(value, side).state();
+          for (std::size_t peer = 0; peer < participant(value, side).peer_count(); ++peer)
+            if (participant(value, side).has_heard_beyond(peer, usual_sequence)) traits.deaf[at(side)] = static_cast<std::uint8_t>(traits.deaf[at(side)] | 1U << peer);
           traits.calls[at(side)] = node.down ? std::uint8_t{0} : calls_of(node, side);
         }
       },
@@ -166,8 +168,17 @@ std::uint8_t TreeNodes::calls_of(const Node& node, Side side) const {
   return calls;
 }
 
-WordId TreeNodes::intern_word(const Word& word) {
-  const std::uint32_t id = words_.intern(word);
+const std::vector<WordId>& TreeNodes::forged(NodeId node, Side side) {
+  if (forged_.size() <= node) forged_.resize(nodes_.size());
+  std::vector<WordId>& words = forged_[node][at(side)];
+  if (!words.empty()) return words;
+  const auto said = std::visit([&](const auto& value) { return std::pair(participant(value, side).word(), participant(value, side).config().slaves); }, nodes_[node].value);
+  for (const Letter& letter : forgeries(said.first, said.second)) words.push_back(intern_word(letter));
+  return words;
+}
+
+WordId TreeNodes::intern_word(const Letter& letter) {
+  const std::uint32_t id = words_.intern(letter);
   TAKT_CHECK(id <= 0xFFFF, "an exploration has at most 65535 different words: allow fewer calls or faults");
   return static_cast<WordId>(id);
 }

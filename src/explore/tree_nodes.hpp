@@ -45,6 +45,7 @@ class TreeNodes {
     std::array<WordId, 2> word{};                           ///< what it publishes
     std::array<handshake::PublishedState, 2> state{handshake::PublishedState::Halted, handshake::PublishedState::Halted};
     std::array<std::uint8_t, 2> calls{};                    ///< methods that it accepts, by index
+    std::array<std::uint8_t, 2> deaf{};                     ///< peers whose words it takes for old ones
     std::uint32_t incarnation = 0;
     bool down = false;
   };
@@ -62,7 +63,9 @@ class TreeNodes {
     return found != Memo::absent ? TreeStepped{static_cast<NodeId>(found), static_cast<std::uint32_t>(found >> 32)} : step_anew(node, stimulus);
   }
   const TreeEffects& effects(std::uint32_t id) const { return effects_[id]; }
-  const handshake::Word& word(WordId word) const { return words_[word]; }
+  const handshake::Word& word(WordId word) const { return words_[word].word; }
+  /// What a stranger may say as that side of a node.
+  const std::vector<WordId>& forged(NodeId node, handshake::Side side);
   std::size_t word_count() const { return words_.size(); }
 
  private:
@@ -90,12 +93,13 @@ class TreeNodes {
   TreeStepped step_anew(NodeId node, const TreeStimulus& stimulus);
   NodeId intern(const Node& node);
   std::uint8_t calls_of(const Node& node, handshake::Side side) const;
-  WordId intern_word(const handshake::Word& word);
+  WordId intern_word(const Letter& letter);
 
   TreeShape shape_;
   Interner<Node, HashOfNode> nodes_;
   std::vector<Traits> traits_;
-  Interner<handshake::Word, HashOfWord> words_;
+  Interner<Letter, HashOfLetter> words_;
+  std::vector<std::array<std::vector<WordId>, 2>> forged_;  ///< by node and side; empty: not asked yet
   Interner<TreeEffects, HashOfEffects> effects_;
   Memo steps_;
 };

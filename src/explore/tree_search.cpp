@@ -60,7 +60,7 @@ class Search {
  private:
   void expand(Position position) {
     const State state = store_[position];
-    const std::span<const Action> actions = model_.actions();
+    const std::span<const Action> actions = model_.actions(state);
     const std::size_t network = model_.network_actions().size();
     bool quiescent = true;
     for (std::size_t a = 0; a < actions.size() && !ended_; ++a)
@@ -117,7 +117,7 @@ class Search {
     const State before = store_[from];
     const State after = store_[to];
     Next next;
-    for (const Action action : model_.actions())
+    for (const Action action : model_.actions(before))
       if (model_.act(before, action, next) && next.state == after) return action;
     sim::check_failed("action", "every state but the first ones follows from its parent", __FILE__, __LINE__);
   }

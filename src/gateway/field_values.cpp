@@ -1,5 +1,7 @@
 #include "gateway/field_values.hpp"
 
+#include <array>
+
 #include "sim/check.hpp"
 #include "uadp/variant.hpp"
 
@@ -36,7 +38,16 @@ FieldValues::FieldValues(std::vector<DataSetField> fields) : fields_(std::move(f
 
 Octets FieldValues::octets() const {
   joined_.clear();
-  for (const auto& value : values_) joined_.insert(joined_.end(), value.begin(), value.end());
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    if (!status(i).is_bad() || fields_[i].type.type == BuiltInType::StatusCode) {
+      joined_.insert(joined_.end(), values_[i].begin(), values_[i].end());
+      continue;
+    }
+    std::array<std::byte, 5> bad{};
+    uadp::Writer writer(bad);
+    uadp::put_variant(writer, status(i));
+    joined_.insert(joined_.end(), bad.begin(), bad.end());
+  }
   return joined_;
 }
 

@@ -15,7 +15,8 @@ class FieldValues final : public pubsub::AnyDataSet {
   explicit FieldValues(std::vector<DataSetField> fields);
 
   const std::vector<DataSetField>& fields() const { return fields_; }
-  /// All fields as Variants, one behind the other; valid until the next change.
+  /// All fields as Variants, one behind the other; valid until the next change. As on the wire, of a field that was received as Bad there is its
+  /// StatusCode in place of a value; one that is Uncertain gives its value, and `status` tells.
   Octets octets() const;
   /// Takes what `octets` gives; false, and nothing has changed, if it is not these fields.
   bool assign(Octets octets);

@@ -67,6 +67,7 @@ MappingError put_elements(const uadp::RawField& field, const IdlMember& member, 
 }
 
 MappingError put_member(const uadp::RawField& field, const IdlMember& member, const uadp::Variant& value, dds::CdrWriter& writer) {
+  if (value.type == BuiltInType::StatusCode && !value.is_array && field.type != BuiltInType::StatusCode) return MappingError::bad_status;
   if (value.type != field.type || value.is_array != field.is_array || !value.dimensions.empty()) return MappingError::malformed;
   if (field.type == BuiltInType::ByteString) {
     const auto octets = value.get<uadp::ByteStringView>();

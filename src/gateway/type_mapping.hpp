@@ -51,9 +51,10 @@ enum class MappingError : std::uint8_t {
   wrong_length,   ///< an array of another length, or a sequence or string beyond its bound
   text,           ///< a string with an octet 0, which would end it in CDR
   boolean,        ///< a CDR boolean that is neither 0 nor 1
+  bad_status,     ///< a field without a value, where a member needs one: CDR has no status
 };
-inline constexpr std::size_t mapping_error_count = 6;
-inline constexpr std::array<std::string_view, mapping_error_count> mapping_error_names{"none", "malformed", "encapsulation", "wrong length", "text", "boolean"};
+inline constexpr std::size_t mapping_error_count = 7;
+inline constexpr std::array<std::string_view, mapping_error_count> mapping_error_names{"none", "malformed", "encapsulation", "wrong length", "text", "boolean", "bad status"};
 constexpr std::string_view name_of(MappingError error) { return mapping_error_names[static_cast<std::size_t>(error)]; }
 
 class TypeMapping {

@@ -20,12 +20,13 @@ Binder::Binder(std::span<const SkillId> roles, std::size_t candidates, bool rest
   std::copy(roles.begin(), roles.end(), skills_.begin());
 }
 
-void Binder::announced(std::uint8_t candidate, const Announcement& announcement) {
+bool Binder::announced(std::uint8_t candidate, const Announcement& announcement) {
   TAKT_CHECK(candidate < candidate_count_, "an announcement is one of a candidate");
   // A late one of a former life says nothing; but after silence the clock that gave the life may have been set back.
-  if (candidates_[candidate].here && is_later_life(candidates_[candidate].last.life, announcement.life)) return;
+  if (candidates_[candidate].here && is_later_life(candidates_[candidate].last.life, announcement.life)) return false;
   candidates_[candidate].last = announcement;
   candidates_[candidate].here = true;
+  return true;
 }
 
 void Binder::silent(std::uint8_t candidate) { candidates_[candidate].here = false; }

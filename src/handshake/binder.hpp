@@ -25,6 +25,7 @@ SkillId skill_id(std::string_view name);
 
 /// Lives of a node have 24 bits and an order as of serial numbers. 0 is none.
 constexpr bool is_later_life(std::uint32_t life, std::uint32_t than) { return static_cast<std::int32_t>((life - than) << 8) > 0; }
+constexpr bool is_life(std::uint32_t life) { return life >= 1 && life <= 0xFF'FFFF; }
 constexpr std::uint32_t next_life(std::uint32_t life) { return life % 0xFFFFFFU + 1; }
 
 /// What a node says of itself. A life serves in one role once: whoever was let go begins another one.
@@ -70,7 +71,9 @@ class Binder {
   /// been replaced.
   Binder(std::span<const SkillId> roles, std::size_t candidates, bool restarts);
 
-  void announced(std::uint8_t candidate, const Announcement& announcement);
+  /// False for one that says nothing, because a later life is known. Only what says something keeps `silent` away: if nobody is heard of
+  /// the later life, it was made up, or the clock that had given it was set back.
+  bool announced(std::uint8_t candidate, const Announcement& announcement);
   /// Nothing was announced within the time-out.
   void silent(std::uint8_t candidate);
   /// The node that has this role has fallen silent as a participant.

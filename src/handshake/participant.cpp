@@ -69,6 +69,7 @@ Outputs Participant<MaxPeers>::take(const Input& input) {
   }
   outputs.publish = outputs.publish || state() != state_before || run_ != run_before;
   if (input.coupled && outputs.raised) outputs.alarm = Alarm::OtherGroup;
+  TAKT_CHECK(is_valid(word(), config_.variant, config_.slaves), "a participant is what its intent says");
   return outputs;
 }
 
@@ -203,6 +204,12 @@ auto Participant<MaxPeers>::renamed(std::span<const std::uint8_t> to) const -> P
     result.running_ |= (running_ >> peer & 1U) << other;
   }
   return result;
+}
+
+template <std::size_t MaxPeers>
+bool Participant<MaxPeers>::has_heard_beyond(std::size_t peer, std::uint16_t sequence) const {
+  const Peer& each = peers_[peer];
+  return each.sequence_known && static_cast<std::int16_t>(static_cast<std::uint16_t>(sequence - each.sequence)) < 0;
 }
 
 template <std::size_t MaxPeers>

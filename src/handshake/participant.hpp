@@ -17,7 +17,6 @@
 
 namespace takt::handshake {
 
-enum class Variant : std::uint8_t { Paper, Robust };
 enum class Role : std::uint8_t { Master, Slave };
 /// Who hears whom: the master all slaves and a slave the master, or everybody all others.
 enum class Subscription : std::uint8_t { Star, AllToAll };
@@ -87,6 +86,9 @@ class Participant {
   /// The last word heard of a peer said so; false if it was never heard.
   bool peer_heard_in(std::size_t peer, PublishedState state) const { return peers_[peer].heard && peers_[peer].state == state; }
 
+  /// A word of the peer's incarnation with this sequence number would be ignored, because a later number was heard.
+  bool has_heard_beyond(std::size_t peer, std::uint16_t sequence) const;
+
   bool operator==(const Participant&) const = default;
   /// Equal values have equal hashes; the same on every machine.
   std::uint64_t hash() const;
@@ -131,10 +133,12 @@ class Participant {
   bool robust_may_start() const;
   bool robust_may_suspend() const;
   Freshness note_word(Peer& peer, const Word& word, std::uint16_t sequence);
+  bool supersedes(const Intent& intent, std::size_t peer) const;
   void raise(IntentKind kind, std::uint32_t above, Outputs& outputs);
   void raise_alarm(Alarm alarm, std::uint32_t above, Outputs& outputs);
   void adopt(const Intent& intent, Outputs& outputs);
   bool counted_without_me(std::size_t peer, const Word& word) const;
+  bool ran_without_me(const Word& word) const;
   void robust_barrier(Outputs& outputs);
 
   // paper.cpp

@@ -96,7 +96,7 @@ bool ReactionTracker::supersede(std::size_t position, const Intent& intent) {
   bool superseded = false;
   std::erase_if(open_, [&](const Open& other) {
     if (other.is_awaited || goal_of(reactions_[other.reaction].kind) == goal_of(reactions_[position].kind)) return false;
-    if (intent.number != 0 && other.intent.number != 0 && intent < other.intent) {
+    if (intent.number != 0 && other.intent.number != 0 && standing_of(intent, other.intent) == Standing::earlier) {
       superseded = true;
       return false;
     }

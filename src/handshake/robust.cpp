@@ -1,7 +1,6 @@
 // The rules of the variant `robust`. Each rule is explained in README.md; here they stand in the order of a step.
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 
 #include "handshake/participant.hpp"
@@ -92,18 +91,24 @@ bool Participant<MaxPeers>::robust_may_suspend() const {
 template <std::size_t MaxPeers>
 void Participant<MaxPeers>::robust_received(const Input& input, Outputs& outputs) {
   const Word& word = input.word;
-  const Freshness freshness = is_valid(word) ? note_word(peers_[input.peer], word, input.sequence) : Freshness::Stale;
+  const bool is_sound = is_valid(word, Variant::Robust, config_.slaves);
+  const Freshness freshness = is_sound ? note_word(peers_[input.peer], word, input.sequence) : Freshness::Stale;
   if (freshness == Freshness::Stale) {
     outputs.ignored = true;
     return;
   }
   outputs.arm_timeout = PeerSet{1} << input.peer;
   sort_peer(input.peer);
+  const bool is_greater = supersedes(word.intent, input.peer);
+  const bool is_current = is_greater || word.intent == intent_;
+  const std::uint32_t above = is_greater ? word.intent.number : intent_.number;
   if (freshness == Freshness::Restarted && state() != halted) {
-    raise_alarm(Alarm::PeerRestarted, word.intent.number, outputs);
-  } else if (counted_without_me(input.peer, word)) {
-    raise_alarm(Alarm::Mismatch, word.intent.number, outputs);
-  } else if (word.intent > intent_) {
+    raise_alarm(Alarm::PeerRestarted, above, outputs);
+  } else if (is_current && counted_without_me(input.peer, word)) {
+    raise_alarm(Alarm::Mismatch, above, outputs);
+  } else if (is_current && ran_without_me(word)) {
+    raise_alarm(Alarm::Mismatch, above, outputs);
+  } else if (is_greater) {
     adopt(word.intent, outputs);
   }
   robust_barrier(outputs);
@@ -130,16 +135,27 @@ auto Participant<MaxPeers>::note_word(Peer& peer, const Word& word, std::uint16_
   return freshness;
 }
 
+/// Later ones do. Of two that are apart the master's holds, or neither side could ever follow the other.
+template <std::size_t MaxPeers>
+bool Participant<MaxPeers>::supersedes(const Intent& intent, std::size_t peer) const {
+  const Standing standing = standing_of(intent, intent_);
+  return standing == Standing::later || (standing == Standing::apart && !is_master() && peer == 0);
+}
+
 /// The master has taken me into the barrier of a run in which I have never been: I must have lost my memory since.
 template <std::size_t MaxPeers>
 bool Participant<MaxPeers>::counted_without_me(std::size_t peer, const Word& word) const {
-  return !is_master() && peer == 0 && word.intent.kind == IntentKind::Start && word.intent >= intent_ &&
-         word.run == word.intent.run && word.run != run_;
+  return !is_master() && peer == 0 && word.intent.kind == IntentKind::Start && word.run == word.intent.run && word.run != run_;
+}
+
+/// A slave runs in a run in which I have never been Ready: somebody has told it that I am.
+template <std::size_t MaxPeers>
+bool Participant<MaxPeers>::ran_without_me(const Word& word) const {
+  return is_master() && word.intent.kind == IntentKind::Start && word.state == running && word.run != run_;
 }
 
 template <std::size_t MaxPeers>
 void Participant<MaxPeers>::adopt(const Intent& intent, Outputs& outputs) {
-  TAKT_CHECK(intent > intent_, "intents only grow");
   const std::optional<PublishedState> target = reactions[index_of(intent.kind)][index_of(state())];
   const bool another_run = belongs_to_a_run(intent.kind) && intent.run != run_;
   // Only the master starts, so a start that it does not know is one of its former life.
@@ -156,12 +172,10 @@ void Participant<MaxPeers>::adopt(const Intent& intent, Outputs& outputs) {
   move_to(*target, outputs);
 }
 
-/// Makes an intent of this participant that is greater than its own and than `above`.
+/// Makes an intent of this participant that is greater than all of this number, which is its own intent's or supersedes it.
 template <std::size_t MaxPeers>
 void Participant<MaxPeers>::raise(IntentKind kind, std::uint32_t above, Outputs& outputs) {
-  // Saturates: only a hostile word carries such a number, and then halts still win by their kind.
-  const std::uint32_t greatest = std::max(intent_.number, above);
-  const std::uint32_t number = greatest == std::numeric_limits<std::uint32_t>::max() ? greatest : greatest + 1;
+  const std::uint32_t number = next_number(above);
   const std::uint32_t run = kind == IntentKind::Start ? run_of(config_.incarnation, number) : kind == IntentKind::Halt ? 0 : run_;
   const Intent made{number, kind, config_.index, run};
   outputs.publish = outputs.publish || made != intent_;

@@ -48,6 +48,9 @@ constexpr PublishedState published_state(const program::Machine& machine) {
                                 : static_cast<PublishedState>(program::number_of(machine.state()));
 }
 
+/// Two handshakes: that of the paper, and one that agrees on intents (participant.hpp).
+enum class Variant : std::uint8_t { Paper, Robust };
+
 struct Word {
   std::uint32_t incarnation = 0;                 ///< of the sender; another one after each restart, none used twice
   PublishedState state = PublishedState::Halted;
@@ -57,18 +60,33 @@ struct Word {
   constexpr bool operator==(const Word&) const = default;
 };
 
-/// False for values that no participant publishes. Such a word is ignored: it is hostile or damaged, not takt's error.
-constexpr bool is_valid(const Word& word) {
-  return published_state_from_number(static_cast<std::uint32_t>(word.state)).has_value() &&
-         index_of(word.intent.kind) < intent_kind_count;
-}
-
 /// The state that an intent names as the goal of the whole group.
 constexpr PublishedState goal_of(IntentKind kind) {
   constexpr std::array<PublishedState, intent_kind_count> goals{
       PublishedState::Running, PublishedState::Running, PublishedState::Suspended,
       PublishedState::Ready,   PublishedState::Ready,   PublishedState::Halted};
   return goals[index_of(kind)];
+}
+
+/// Whether a participant of a group with so many slaves can say this word: every field by itself, and what they say together. One that is
+/// not is hostile or damaged, not takt's error, and nothing of it is believed. `paper` says its state only. Whoever follows an
+/// intent does so at once, so the intent says in which states and runs its holder can be (README.md, "Words").
+constexpr bool is_valid(const Word& word, Variant variant, std::size_t slaves) {
+  if (!published_state_from_number(static_cast<std::uint32_t>(word.state))) return false;
+  if (variant == Variant::Paper) return true;
+  const Intent& intent = word.intent;
+  if (index_of(intent.kind) >= intent_kind_count || intent.origin > slaves) return false;
+  if (intent.number == 0) return intent == Intent{} && word.state == PublishedState::Halted && word.run == 0;
+  if (intent.kind == IntentKind::Halt) return intent.run == 0 && word.run == 0 && word.state == PublishedState::Halted;
+  if (!is_run(intent.run)) return false;
+  if (intent.kind != IntentKind::Start) return word.state == goal_of(intent.kind) && word.run == intent.run;
+  if (intent.origin != 0 || intent.run != run_of(intent.run >> 16, intent.number)) return false;
+  switch (word.state) {
+    case PublishedState::HaltedInit: return word.run == 0;
+    case PublishedState::Ready: return is_run(word.run);  // or that of the run before, while others are not there yet
+    case PublishedState::Running: return word.run == intent.run;
+    default: return false;
+  }
 }
 
 }  // namespace takt::handshake

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scenario/json/document.hpp"
+#include "sim/check.hpp"
 
 namespace takt::node {
 namespace {
@@ -26,6 +27,7 @@ json::Node of(const Distribution& distribution) {
 }
 
 const std::string& participant_name(const ProgramStatus& status, std::size_t participant) {
+  TAKT_CHECK(participant <= (status.program.roles.empty() ? status.program.slaves.size() : status.program.roles.size()), "an intent is one of the group's");
   if (participant == 0) return status.program.master;
   return status.program.roles.empty() ? status.program.slaves[participant - 1] : status.program.roles[participant - 1].name;
 }

@@ -6,6 +6,13 @@
 namespace takt::node {
 namespace {
 std::int64_t ns_between(sim::LocalTime from, sim::LocalTime to) { return (to - from).ps() / 1000; }
+
+/// Whoever knows `known` has followed this intent, or a later one.
+bool has_reached(const handshake::Intent& known, const handshake::Intent& intent) {
+  const handshake::Standing standing = handshake::standing_of(known, intent);
+  return standing == handshake::Standing::same || standing == handshake::Standing::later;
+}
+
 }  // namespace
 
 /// Values below `steps` have buckets of their own; above, each power of two is cut into `steps`.
@@ -42,11 +49,11 @@ std::int64_t Distribution::percentile(double percent) const {
 }
 
 void PeerWatch::published(const handshake::Word& word, sim::LocalTime now) {
-  const bool is_new = word.intent > intent_;
+  const bool is_new = word.intent != intent_;
   if (is_new) intent_ = word.intent;
   for (Marks& marks : marks_) {
     if (!marks.published) marks.published = now;
-    if (is_new && marks.known < intent_) marks.intended = now;
+    if (is_new && !has_reached(marks.known, intent_)) marks.intended = now;
   }
 }
 
@@ -59,7 +66,7 @@ void PeerWatch::heard(std::size_t peer, const handshake::Word& word, sim::LocalT
   marks.known = word.intent;
   if (marks.published) statistics.answer.add(ns_between(*marks.published, now));
   marks.published.reset();
-  if (!marks.intended || word.intent < intent_) return;
+  if (!marks.intended || !has_reached(word.intent, intent_)) return;
   statistics.round_trip.add(ns_between(*marks.intended, now));
   marks.intended.reset();
 }

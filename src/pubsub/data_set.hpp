@@ -1,9 +1,11 @@
 // DataSet<T>: data that a Program publishes or subscribes to, as the application sees it.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <tuple>
+#include <vector>
 
 #include "pubsub/field_type.hpp"
 
@@ -20,8 +22,25 @@ class AnyDataSet {
   /// True if `take` would take it.
   virtual bool can_take(std::size_t index, const uadp::Variant& value) const = 0;
   virtual bool take(std::size_t index, const uadp::Variant& value) = 0;
-  /// All fields of a message have been taken: tells the application.
+  /// All fields of a message that have a value have been taken, and `status` says how good each one is: tells the application.
   virtual void notify() = 0;
+
+  /// How good a field is that was received last: Good before anything has come. A field that is Uncertain has the value that came with it; one
+  /// that is Bad has no value, and keeps the one before.
+  uadp::Status status(std::size_t index) const { return index < statuses_.size() ? statuses_[index] : uadp::Status(); }
+  /// Of the DataSet as a whole, from the header of the last message; Good if it says nothing.
+  uadp::Status overall_status() const { return overall_; }
+  /// Some field has no value.
+  bool any_bad() const {
+    return std::any_of(statuses_.begin(), statuses_.end(), [](uadp::Status each) { return each.is_bad(); });
+  }
+  /// For readers. Allocates the first time that a field is not Good.
+  void set_status(std::size_t index, uadp::Status status) {
+    if (statuses_.empty() && status == uadp::Status()) return;
+    if (statuses_.empty()) statuses_.resize(field_count());
+    statuses_[index] = status;
+  }
+  void set_overall_status(uadp::Status status) { overall_ = status; }
 
   /// Counts what the application has set; publishing on change looks at it.
   std::uint64_t version() const { return version_; }
@@ -31,6 +50,8 @@ class AnyDataSet {
 
  private:
   std::uint64_t version_ = 0;
+  uadp::Status overall_;
+  std::vector<uadp::Status> statuses_;  ///< by field; empty: all have always been Good
 };
 
 /// The fixed layout of a DataSet as RawData; nothing if a field has no fixed length.
@@ -75,7 +96,7 @@ class DataSet final : public AnyDataSet {
     value_ = std::move(value);
     changed();
   }
-  /// Called after each message that was taken. One call-back; a later one replaces it.
+  /// Called after each message with fields that was taken; `status` says how good they are. One call-back; a later one replaces it.
   void on_received(std::function<void(const T&)> call_back) { call_back_ = std::move(call_back); }
 
   std::size_t field_count() const override { return fields; }

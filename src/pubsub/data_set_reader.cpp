@@ -56,6 +56,7 @@ std::optional<std::size_t> DataSetReader::length_of(const uadp::DataSetMessage& 
   if (!message.header.valid) return message.body_offset;
   if (message.header.type == DataSetMessageType::KeepAlive) return message.body_offset;
   if (message.header.encoding == FieldEncoding::RawData) {
+    if (message.body.empty()) return message.body_offset;
     if (!raw_layout_) return std::nullopt;
     return message.body_offset + raw_layout_->size();
   }
@@ -81,7 +82,8 @@ void DataSetReader::take_message(const uadp::DataSetMessage& message, sim::Local
     ++counts_.without_key;
     return;
   }
-  if (header.type != DataSetMessageType::KeepAlive && !fits(message)) {
+  const bool heartbeat = is_heartbeat(message);
+  if (header.type != DataSetMessageType::KeepAlive && !heartbeat && !fits(message)) {
     ++counts_.mismatched;
     return;
   }
@@ -93,9 +95,14 @@ void DataSetReader::take_message(const uadp::DataSetMessage& message, sim::Local
     ++counts_.keep_alives;
     return alive(now, false);
   }
+  if (heartbeat) {
+    ++counts_.keep_alives;
+    return alive(now, data_set_.field_count() == 0);
+  }
   ++counts_.taken;
   const bool taken = take_fields(message);
   TAKT_CHECK(taken, "fields that fit are taken");
+  if (data_set_.any_bad()) ++counts_.with_bad;
   has_key_ = has_key_ || header.type == DataSetMessageType::KeyFrame;
   alive(now, true);
   data_set_.notify();
@@ -108,8 +115,17 @@ bool DataSetReader::is_new(const uadp::DataSetMessageHeader& header) {
   return !window_.last() || uadp::compare_sequence(*header.sequence_number, *window_.last()) == uadp::Sequence::newer;
 }
 
-/// All fields are there and of the types of the DataSet; so a message is taken whole or not at all. A Null field, as some
-/// stacks pad delta frames with, is no value and is passed over.
+/// The header alone, without FieldCount (OPC 10000-14, 7.2.4.5.5), or no field: the publisher lives, and there is no value. It uses a number up.
+bool DataSetReader::is_heartbeat(const uadp::DataSetMessage& message) const {
+  if (message.header.type == DataSetMessageType::KeepAlive) return false;
+  if (message.header.encoding == FieldEncoding::RawData) return message.body.empty();
+  const uadp::FieldReader fields(message);
+  return fields.count() == 0 && !fields.failed();
+}
+
+/// All fields are there and of the types of the DataSet; so a message is taken whole or not at all. A field that
+/// is Bad has no value to be of a type, and is no reason to refuse the others. A Null field, as some stacks pad delta frames with, is
+/// no value and is passed over.
 bool DataSetReader::fits(const uadp::DataSetMessage& message) const {
   if (message.header.encoding == FieldEncoding::RawData) {
     if (!raw_layout_) return false;
@@ -121,29 +137,38 @@ bool DataSetReader::fits(const uadp::DataSetMessage& message) const {
   }
   uadp::FieldReader fields(message);
   const bool all = message.header.type != DataSetMessageType::DeltaFrame;
-  const bool heartbeat = fields.count() == 0;
-  if (all && !heartbeat && fields.count() != data_set_.field_count()) return false;
+  if (all && fields.count() != data_set_.field_count()) return false;
   while (const auto field = fields.next()) {
-    if (!field->value.value || field->value.value->is_null()) continue;
-    if (field->index >= data_set_.field_count() || !data_set_.can_take(field->index, *field->value.value)) return false;
+    if (field->value.value && field->value.value->is_null() && !field->value.status) continue;
+    if (field->index >= data_set_.field_count()) return false;
+    const auto state = uadp::state_of(field->value, data_set_.field(field->index).type);
+    if (!state || (state->value && !data_set_.can_take(field->index, *state->value))) return false;
   }
   return !fields.failed();
 }
 
 bool DataSetReader::take_fields(const uadp::DataSetMessage& message) {
-  if (message.header.encoding == FieldEncoding::RawData) return take_raw(message.body);
+  data_set_.set_overall_status(uadp::Status{std::uint32_t{message.header.status.value_or(0)} << 16});
+  if (message.header.encoding == FieldEncoding::RawData) return take_raw(message);
   uadp::FieldReader fields(message);
   bool taken = true;
   while (const auto field = fields.next()) {
-    if (!field->value.value || field->value.value->is_null()) continue;
-    taken = data_set_.take(field->index, *field->value.value) && taken;
+    if (field->value.value && field->value.value->is_null() && !field->value.status) continue;
+    const auto state = uadp::state_of(field->value, data_set_.field(field->index).type);
+    if (state->value) taken = data_set_.take(field->index, *state->value) && taken;
+    data_set_.set_status(field->index, state->status);
   }
   return taken;
 }
 
-bool DataSetReader::take_raw(uadp::Octets body) {
+/// RawData has no room for the status of a field: that of the message counts for all of them.
+bool DataSetReader::take_raw(const uadp::DataSetMessage& message) {
   bool taken = true;
-  for (std::size_t i = 0; i < raw_layout_->count(); ++i) taken = data_set_.take(i, *raw_layout_->at(body, i)) && taken;
+  const uadp::Status status = data_set_.overall_status();
+  for (std::size_t i = 0; i < raw_layout_->count(); ++i) {
+    if (!status.is_bad()) taken = data_set_.take(i, *raw_layout_->at(message.body, i)) && taken;
+    data_set_.set_status(i, status);
+  }
   return taken;
 }
 

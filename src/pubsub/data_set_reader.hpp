@@ -23,12 +23,13 @@ struct DataSetReaderSettings {
 /// What a reader did with DataSetMessages.
 struct ReaderCounts {
   std::uint64_t taken = 0;          ///< key frames, delta frames, events
-  std::uint64_t keep_alives = 0;
+  std::uint64_t keep_alives = 0;    ///< and heartbeats, which are key or delta frames without fields
   std::uint64_t not_newer = 0;      ///< the same again, overtaken, or with a number far away
   std::uint64_t not_valid = 0;      ///< the publisher says so
   std::uint64_t without_key = 0;    ///< delta frames before the first key frame
   std::uint64_t other_version = 0;
   std::uint64_t mismatched = 0;     ///< malformed, or of other types or numbers of fields than the DataSet
+  std::uint64_t with_bad = 0;       ///< of those taken: with fields that are Bad and so have no value
   bool operator==(const ReaderCounts&) const = default;
 };
 
@@ -64,7 +65,8 @@ class DataSetReader {
   void take_message(const uadp::DataSetMessage& message, sim::LocalTime now);
   bool is_new(const uadp::DataSetMessageHeader& header);
   bool take_fields(const uadp::DataSetMessage& message);
-  bool take_raw(uadp::Octets body);
+  bool take_raw(const uadp::DataSetMessage& message);
+  bool is_heartbeat(const uadp::DataSetMessage& message) const;
   bool fits(const uadp::DataSetMessage& message) const;
   void alive(sim::LocalTime now, bool starts);
   void tell(PubSubState before);

@@ -85,9 +85,14 @@ struct Guid {
   constexpr bool operator==(const Guid&) const = default;
 };
 
-/// A StatusCode as a value (OPC 10000-4, 7.39); 0 is Good.
+/// A StatusCode as a value (OPC 10000-4, 7.39); 0 is Good. Its two upper bits are the severity.
 struct Status {
   std::uint32_t code = 0;
+  constexpr bool is_good() const { return code >> 30 == 0; }
+  /// There is a value, but it is not as good as it should be.
+  constexpr bool is_uncertain() const { return code >> 30 == 1; }
+  /// There is no value. (The severity that is reserved is taken for Bad.)
+  constexpr bool is_bad() const { return code >> 30 >= 2; }
   constexpr bool operator==(const Status&) const = default;
 };
 

@@ -5,6 +5,8 @@
 namespace takt::uadp {
 namespace {
 
+constexpr std::uint32_t bad = 0x80000000;
+
 bool has(unsigned octet, unsigned flag) { return (octet & flag) != 0; }
 
 /// RawData has no place in delta frames and events (OPC 10000-14, 7.2.4.5.6 and 7.2.4.5.7); an event has Variants only.
@@ -67,6 +69,24 @@ std::optional<Field> FieldReader::next() {
   if (failed()) return std::nullopt;
   ++given_;
   return field;
+}
+
+std::optional<FieldState> state_of(const DataValue& field, BuiltInType type) {
+  FieldState state{field.value, Status{field.status.value_or(0)}};
+  const auto is_instead = [&](BuiltInType other) { return state.value && !state.value->is_array && state.value->type == other && type != other; };
+  if (is_instead(BuiltInType::DataValue)) {
+    Reader reader(state.value->octets);
+    const DataValue within = get_data_value(reader);
+    if (reader.failed()) return std::nullopt;
+    state.value = within.value;
+    if (within.status) state.status = Status{*within.status};
+  }
+  if (is_instead(BuiltInType::StatusCode)) {
+    state.status = state.value->get<Status>().value_or(Status{bad});
+    state.value.reset();
+  }
+  if (state.status.is_bad() || (state.value && state.value->is_null())) state.value.reset();
+  return state;
 }
 
 bool is_well_formed(const DataSetMessage& message) {

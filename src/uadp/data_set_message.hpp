@@ -60,6 +60,16 @@ class FieldReader {
   bool is_delta_;
 };
 
+/// What a field says: a value, how good it is, or both.
+struct FieldState {
+  std::optional<Variant> value;  ///< nothing: Bad, or left out (a delta frame's padding)
+  Status status;
+};
+
+/// Of a field that is to have this type (OPC 10000-14, 7.2.4.5.4): encoded as a Variant, a Bad field is a StatusCode in its place, and one that is
+/// Uncertain a DataValue with both; encoded as a DataValue it carries its status. Nothing if a DataValue within a Variant is malformed.
+std::optional<FieldState> state_of(const DataValue& field, BuiltInType type);
+
 /// True if the whole body can be read.
 bool is_well_formed(const DataSetMessage& message);
 

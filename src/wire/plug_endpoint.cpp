@@ -59,8 +59,8 @@ void PlugMaster::receive(PlugHost& host, uadp::Octets network_message) {
   if (const auto* const announcement = message ? std::get_if<AnnouncementMessage>(&*message) : nullptr) {
     Arrivals& arrivals = announcements_[announcement->candidate];
     if (!arrivals.take(announcement->sequence, announcement->announcement.life, host.now(), settings_.announce_timeout)) return;
-    binder_.announced(announcement->candidate, announcement->announcement);
-    host.set_alarm(table_alarm() + 1 + announcement->candidate, host.now() + settings_.announce_timeout);
+    if (binder_.announced(announcement->candidate, announcement->announcement))
+      host.set_alarm(table_alarm() + 1 + announcement->candidate, host.now() + settings_.announce_timeout);
   } else if (!message) {  // or a table, which is its own
     endpoint_.receive(host, network_message);
   }

@@ -86,6 +86,20 @@ auto PlugFormat::decode(uadp::Octets octets) const -> std::optional<std::variant
   return std::nullopt;
 }
 
+/// A master can say so: candidates that there are, each in one role at most, with lives that there are.
+bool PlugFormat::is_sound(const TableMessage& message) const {
+  std::uint64_t bound = 0;
+  for (std::size_t role = 0; role < roles(); ++role) {
+    const handshake::Binding& binding = message.bindings[role];
+    if (!binding.bound() && binding.life == 0) continue;
+    if (binding.candidate >= candidates() || !handshake::is_life(binding.life) || (bound >> binding.candidate & 1U) != 0) return false;
+    bound |= std::uint64_t{1} << binding.candidate;
+  }
+  for (std::size_t c = 0; c < candidates(); ++c)
+    if (message.used_lives[c] != 0 && !handshake::is_life(message.used_lives[c])) return false;
+  return true;
+}
+
 std::optional<AnnouncementMessage> PlugFormat::decode_announcement(uadp::Octets octets, std::uint8_t candidate) const {
   const uadp::PeriodicFixedLayout& layout = announcements_[candidate];
   if (!layout.matches(octets)) return std::nullopt;
@@ -94,9 +108,10 @@ std::optional<AnnouncementMessage> PlugFormat::decode_announcement(uadp::Octets 
   message.sequence = layout.sequence_number(octets, 0);
   uadp::Reader reader(octets.subspan(fields_at));
   message.announcement.life = reader.get<std::uint32_t>();
-  message.announcement.leaving = reader.get<std::uint8_t>() != 0;
+  const auto leaving = reader.get<std::uint8_t>();
+  message.announcement.leaving = leaving != 0;
   for (handshake::SkillId& skill : message.announcement.skills) skill = reader.get<std::uint32_t>();
-  if (message.announcement.life == 0) return std::nullopt;
+  if (!handshake::is_life(message.announcement.life) || leaving > 1) return std::nullopt;
   return message;
 }
 
@@ -110,9 +125,9 @@ std::optional<TableMessage> PlugFormat::decode_table(uadp::Octets octets) const 
   for (std::size_t role = 0; role < roles(); ++role) {
     message.bindings[role].candidate = reader.get<std::uint8_t>();
     message.bindings[role].life = reader.get<std::uint32_t>();
-    if (message.bindings[role].bound() && message.bindings[role].candidate >= candidates()) return std::nullopt;
   }
   for (std::size_t c = 0; c < candidates(); ++c) message.used_lives[c] = reader.get<std::uint32_t>();
+  if (!is_sound(message)) return std::nullopt;
   return message;
 }
 

@@ -58,6 +58,7 @@ class PlugFormat {
 
  private:
   std::optional<AnnouncementMessage> decode_announcement(uadp::Octets octets, std::uint8_t candidate) const;
+  bool is_sound(const TableMessage& message) const;
   std::optional<TableMessage> decode_table(uadp::Octets octets) const;
 
   PlugShape shape_;

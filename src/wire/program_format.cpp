@@ -15,6 +15,10 @@ using uadp::RawField;
 // In UADP-Periodic-Fixed with a UInt16 PublisherId (OPC 10000-14, A.2.1.2).
 constexpr std::size_t publisher_id_at = 2;
 constexpr std::size_t writer_group_at = 5;
+// Upper half of the DataSetMessage's StatusCode; all fields are RawData, so it is that of each of them.
+constexpr std::size_t status_at = 18;
+
+bool has_no_value(uadp::Octets message) { return uadp::Status{std::uint32_t{uadp::load_little_endian<std::uint16_t>(message.data() + status_at)} << 16}.is_bad(); }
 
 uadp::RawLayout state_fields(Variant variant) {
   std::vector<RawField> fields = {{BuiltInType::Int32}};
@@ -98,7 +102,7 @@ std::optional<ProgramMessage> ProgramFormat::decode(uadp::Octets octets) const {
 
 std::optional<ProgramMessage> ProgramFormat::decode_state(std::uint8_t sender, uadp::Octets octets) const {
   const uadp::PeriodicFixedLayout& layout = states_[sender];
-  if (!layout.matches(octets)) return std::nullopt;
+  if (!layout.matches(octets) || has_no_value(octets)) return std::nullopt;
   StateMessage message;
   message.sender = sender;
   message.sequence = layout.sequence_number(octets, 0);
@@ -113,14 +117,14 @@ std::optional<ProgramMessage> ProgramFormat::decode_state(std::uint8_t sender, u
   message.word.intent.run = reader.get<std::uint32_t>();
   message.word.intent.kind = static_cast<handshake::IntentKind>(reader.get<std::uint8_t>());
   message.word.intent.origin = reader.get<std::uint8_t>();
-  if (!handshake::is_valid(message.word)) return std::nullopt;
+  if (!handshake::is_valid(message.word, shape_.variant, shape_.participants.size() - 1)) return std::nullopt;
   return message;
 }
 
 /// The layout holds the PublisherId of the only participant that may send the data set.
 std::optional<ProgramMessage> ProgramFormat::decode_data(std::uint8_t data_set, uadp::Octets octets) const {
   const uadp::PeriodicFixedLayout& layout = data_[data_set];
-  if (!layout.matches(octets)) return std::nullopt;
+  if (!layout.matches(octets) || has_no_value(octets)) return std::nullopt;
   ProcessDataMessage message;
   message.sender = shape_.data_sets[data_set].from;
   message.data_set = data_set;

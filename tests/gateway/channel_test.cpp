@@ -103,6 +103,20 @@ TEST(Channel, RatesAreIndependent) {
   EXPECT_EQ(sent, 5);
 }
 
+// CDR has no status: a sample with a field that has no value stays outside, one whose field is Uncertain passes.
+TEST(Channel, ABadFieldKeepsASampleOutside) {
+  Channel channel(mapping(Direction::to_dds), {.capacity = 4});
+  FieldValues values(fields);
+  values.set_status(1, uadp::Status{0x40900000});
+  EXPECT_EQ(channel.receive(values.octets(), at(0)), MappingError::none);
+  values.set_status(1, uadp::Status{0x80310000});
+  EXPECT_EQ(channel.receive(values.octets(), at(1)), MappingError::bad_status);
+  values.set_status(1, uadp::Status{});
+  EXPECT_EQ(channel.receive(values.octets(), at(2)), MappingError::none);
+  EXPECT_EQ(channel.figures().mapping_errors[static_cast<std::size_t>(MappingError::bad_status)], 1u);
+  EXPECT_EQ(channel.figures().buffer.received, 2u);
+}
+
 TEST(Channel, WhatCannotBeMappedIsCountedAndDoesNotEnter) {
   Channel channel(mapping(Direction::to_opc_ua), {.capacity = 2});
   const std::byte nonsense[] = {std::byte{0}, std::byte{3}, std::byte{0}, std::byte{0}};

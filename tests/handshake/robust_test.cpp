@@ -3,7 +3,6 @@
 
 #include <array>
 #include <initializer_list>
-#include <limits>
 
 #include "group.hpp"
 
@@ -17,14 +16,42 @@ TEST(Intent, OrderIsNumberKindOrigin) {
   const auto intent = [](std::uint32_t number, IntentKind kind, std::uint8_t origin) {
     return Intent{number, kind, origin, 0};
   };
-  EXPECT_LT(intent(1, IntentKind::Halt, 9), intent(2, IntentKind::Start, 0));
-  EXPECT_LT(intent(2, IntentKind::Start, 9), intent(2, IntentKind::Resume, 0));
-  EXPECT_LT(intent(2, IntentKind::Resume, 9), intent(2, IntentKind::Suspend, 0));
-  EXPECT_LT(intent(2, IntentKind::Suspend, 9), intent(2, IntentKind::Finish, 0));
-  EXPECT_LT(intent(2, IntentKind::Finish, 9), intent(2, IntentKind::Reset, 0));
-  EXPECT_LT(intent(2, IntentKind::Reset, 9), intent(2, IntentKind::Halt, 0));
-  EXPECT_LT(intent(2, IntentKind::Halt, 0), intent(2, IntentKind::Halt, 1));
-  EXPECT_LT(Intent{}, intent(1, IntentKind::Start, 0));
+  const auto expect_later = [](const Intent& one, const Intent& other) {
+    EXPECT_EQ(standing_of(other, one), Standing::later);
+    EXPECT_EQ(standing_of(one, other), Standing::earlier);
+    EXPECT_EQ(standing_of(one, one), Standing::same);
+  };
+  expect_later(intent(1, IntentKind::Halt, 9), intent(2, IntentKind::Start, 0));
+  expect_later(intent(2, IntentKind::Start, 9), intent(2, IntentKind::Resume, 0));
+  expect_later(intent(2, IntentKind::Resume, 9), intent(2, IntentKind::Suspend, 0));
+  expect_later(intent(2, IntentKind::Suspend, 9), intent(2, IntentKind::Finish, 0));
+  expect_later(intent(2, IntentKind::Finish, 9), intent(2, IntentKind::Reset, 0));
+  expect_later(intent(2, IntentKind::Reset, 9), intent(2, IntentKind::Halt, 0));
+  expect_later(intent(2, IntentKind::Halt, 0), intent(2, IntentKind::Halt, 1));
+  expect_later(Intent{}, intent(1, IntentKind::Start, 0));
+}
+
+// The ends of the window, all around the circle: each of two finds the other one apart, or one finds the other later and is found earlier.
+TEST(Intent, NumbersGoRound) {
+  EXPECT_EQ(next_number(7), 8U);
+  EXPECT_EQ(next_number(0xFFFFFFFF), 1U) << "0 is none";
+  constexpr std::uint32_t quarter = 0x40000000;
+  for (const std::uint32_t from : {1U, 5U, quarter, 0x7FFFFFFFU, 0xC0000001U, 0xFFFFFFFFU}) {
+    const auto expect = [from](std::uint32_t ahead, Standing there, Standing back) {
+      if (from + ahead == 0) return;  // none
+      EXPECT_EQ(standing_of(from + ahead, from), there) << from << " + " << ahead;
+      EXPECT_EQ(standing_of(from, from + ahead), back) << from << " + " << ahead;
+    };
+    expect(0, Standing::same, Standing::same);
+    expect(1, Standing::later, Standing::earlier);
+    expect(quarter - 1, Standing::later, Standing::earlier);
+    expect(quarter, Standing::apart, Standing::apart);
+    expect(2 * quarter, Standing::apart, Standing::apart);
+    expect(3 * quarter, Standing::apart, Standing::apart);
+    expect(3 * quarter + 1, Standing::earlier, Standing::later);
+    EXPECT_EQ(standing_of(0, from), Standing::earlier) << "who knows nothing learns any number";
+    EXPECT_EQ(standing_of(from, 0), Standing::later);
+  }
 }
 
 TEST(Intent, RunsOfTwoIncarnationsDiffer) {
@@ -239,7 +266,9 @@ TEST(Robust, AnIntentOfAnotherRunIsAMismatch) {
   for (const IntentKind kind : {IntentKind::Resume, IntentKind::Suspend, IntentKind::Finish, IntentKind::Reset}) {
     Group group = started(Variant::Robust, 1);
     Word word = group[0].word();
-    word.intent = {word.intent.number + 1, kind, 0, word.run + 1};
+    word.state = goal_of(kind);
+    word.run = word.run + 1;
+    word.intent = {word.intent.number + 1, kind, 0, word.run};
     const Outputs outputs = group.step(1, Input::received(0, word, 1000));
     EXPECT_EQ(outputs.alarm, Alarm::Mismatch) << name_of(kind);
     EXPECT_EQ(group[1].state(), PublishedState::Halted);
@@ -291,16 +320,52 @@ TEST(Robust, HostileWordsDoNoHarm) {
   Word word = group[1].word();
   word.state = static_cast<PublishedState>(99);
   EXPECT_TRUE(group.step(0, Input::received(0, word, 30000)).ignored);
-  word = group[1].word();
-  word.intent.kind = static_cast<IntentKind>(6);
-  EXPECT_TRUE(group.step(0, Input::received(0, word, 30000)).ignored);
-  word.intent = {std::numeric_limits<std::uint32_t>::max(), IntentKind::Start, 200, 77};
-  const Outputs outputs = group.step(0, Input::received(0, word, 30000));
-  EXPECT_EQ(outputs.alarm, Alarm::Mismatch);
-  EXPECT_EQ(group[0].intent().number, std::numeric_limits<std::uint32_t>::max()) << "saturates";
-  EXPECT_EQ(group[0].intent().kind, IntentKind::Halt);
-  group.tell(0, 1);
-  EXPECT_TRUE(group.all_in(PublishedState::Halted));
+  const auto is_ignored = [&](const Intent& intent, PublishedState state, std::uint32_t run) {
+    Word forged = group[1].word();
+    forged.intent = intent;
+    forged.state = state;
+    forged.run = run;
+    return group.step(0, Input::received(0, forged, 30000)).ignored;
+  };
+  const Intent start = group[0].intent();
+  const std::uint32_t run = start.run;
+  const std::uint32_t number = start.number + 1;
+  EXPECT_TRUE(is_ignored({number, static_cast<IntentKind>(6), 0, run}, PublishedState::Halted, 0));
+  EXPECT_TRUE(is_ignored({number, IntentKind::Halt, 2, 0}, PublishedState::Halted, 0)) << "origin 2 of 0..1";
+  EXPECT_TRUE(is_ignored({number, IntentKind::Halt, 1, run}, PublishedState::Halted, 0)) << "a halt has no run";
+  EXPECT_TRUE(is_ignored({number, IntentKind::Halt, 1, 0}, PublishedState::Running, run)) << "who knows of a halt is Halted";
+  EXPECT_TRUE(is_ignored({0, IntentKind::Suspend, 1, run}, PublishedState::Suspended, run)) << "0 is no number";
+  EXPECT_TRUE(is_ignored({number, IntentKind::Start, 1, run_of(1, number)}, PublishedState::HaltedInit, 0)) << "a slave does not start";
+  EXPECT_TRUE(is_ignored({number, IntentKind::Start, 0, run}, PublishedState::HaltedInit, 0)) << "the run is not that of the number";
+  EXPECT_TRUE(is_ignored({number, IntentKind::Suspend, 1, run}, PublishedState::Running, run)) << "who knows of a suspend is Suspended";
+  EXPECT_TRUE(is_ignored({number, IntentKind::Suspend, 1, run}, PublishedState::Suspended, run + 1)) << "suspended in another run";
+  EXPECT_TRUE(is_ignored({number, IntentKind::Suspend, 1, 0x10000}, PublishedState::Suspended, 0x10000)) << "no run";
+  EXPECT_TRUE(group.all_in(PublishedState::Running));
+  EXPECT_FALSE(is_ignored({number, IntentKind::Suspend, 1, run}, PublishedState::Suspended, run));
+}
+
+// The greatest number, far ahead and far away: what a stranger says may halt the group, but it starts again.
+TEST(Robust, NoNumberIsTheLast) {
+  for (const std::uint32_t number : {0xFFFFFFFFU, 0xFFFFFFFEU, 0x40000001U, 0x40000002U, 0x80000000U, 0xC0000001U, 0xC0000002U}) {
+    for (const std::size_t victim : {0, 1, 2}) {
+      for (const bool is_running : {false, true}) {
+        Group group = is_running ? started(Variant::Robust, 2) : Group(Variant::Robust, 2);
+        if (!is_running) group.call(0, Method::Start), group.call(0, Method::Halt), group.rounds(4);
+        Message forged = group.message(victim == 0 ? 1 : 0, victim);
+        forged.word.state = PublishedState::Halted;
+        forged.word.run = 0;
+        forged.word.intent = {number, IntentKind::Halt, 1, 0};
+        group.deliver(forged);
+        group.rounds(8);
+        for (std::size_t i = 1; i < 3; ++i) EXPECT_EQ(group[i].intent(), group[0].intent()) << group.describe();
+        if (group[0].state() != PublishedState::Running) {
+          EXPECT_EQ(group.call(0, Method::Start).status, StatusCode::Good);
+        }
+        group.rounds(8);
+        EXPECT_TRUE(group.all_in(PublishedState::Running)) << number << ": " << group.describe();
+      }
+    }
+  }
 }
 
 TEST(Robust, ProgramErrorsAreChecked) {

@@ -141,7 +141,7 @@ TEST(NestedConfig, TheOctetsAreThoseOfTheSimulator) {
   for (std::size_t i = 0; i < formats.size(); ++i) {
     const wire::ProgramFormat there(scenario::shape_of(resolved->programs[numbers[i]]));
     for (std::uint8_t sender = 0; sender < 3; ++sender) {
-      const wire::StateMessage message{sender, 77, {5, handshake::PublishedState::Running, {3, handshake::IntentKind::Start, 0, 9}, 9}};
+      const wire::StateMessage message{sender, 77, {5, handshake::PublishedState::Running, {3, handshake::IntentKind::Start, 0, handshake::run_of(5, 3)}, handshake::run_of(5, 3)}};
       const uadp::Octets first = there.encode(message, buffer_there);
       const uadp::Octets second = formats[i]->encode(message, buffer);
       EXPECT_TRUE(std::equal(first.begin(), first.end(), second.begin(), second.end())) << i;

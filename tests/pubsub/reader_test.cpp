@@ -153,6 +153,117 @@ TEST(Readers, APausedReaderIsDeaf) {
   EXPECT_EQ(fixture.reader.enable(), StatusCode::BadInvalidState);
 }
 
+// OPC 10000-14, 7.2.4.5.5: the header of a key frame alone. It is a sign of life and nothing else.
+TEST(Readers, AHeartbeatIsNoSample) {
+  ReaderFixture fixture(10_ms);
+  const DataSetMessageHeader header = ReaderFixture::header(DataSetMessageType::KeyFrame, 0);
+  fixture.send(header, {}, {}, at(1_ms));
+  EXPECT_EQ(fixture.notified, 0);
+  EXPECT_EQ(fixture.reader.counts(), (ReaderCounts{.keep_alives = 1}));
+  EXPECT_EQ(fixture.reader.state(), PubSubState::PreOperational) << "no key frame with values has come";
+  fixture.send(ReaderFixture::header(DataSetMessageType::DeltaFrame, 1), 9, {}, at(2_ms));
+  EXPECT_EQ(fixture.value(), 0) << "nor is it one for delta frames";
+  fixture.key(1, 5, at(3_ms));
+  fixture.send(ReaderFixture::header(DataSetMessageType::KeyFrame, 2), {}, {}, at(8_ms));
+  EXPECT_EQ(fixture.reader.next_time(), at(18_ms));
+  EXPECT_EQ(fixture.value(), 5);
+  fixture.key(2, 6, at(9_ms));
+  EXPECT_EQ(fixture.value(), 5) << "it has used its number up";
+  EXPECT_EQ(fixture.notified, 1);
+}
+
+TEST(Readers, AMessageOfElevenOctetsIsNoSample) {
+  RecordingStack stack;
+  Communication slave(stack, stack);
+  DataSet<double> data;
+  int notified = 0;
+  data.on_received([&](double) { ++notified; });
+  Subscriber subscriber(PublisherId::uint16(2234));
+  subscriber.add_data_set("data", data);
+  slave.add_subscriber(subscriber);
+  slave.enable(LocalTime());
+  std::vector<std::byte> octets;
+  for (const unsigned octet : {0xF1, 0x01, 0xBA, 0x08, 0x01, 0x01, 0x00, 0x01, 0x01, 0x00, 0x01}) octets.push_back(static_cast<std::byte>(octet));
+  slave.received(octets, LocalTime());
+  EXPECT_EQ(notified, 0);
+  EXPECT_EQ(subscriber.reader("data")->counts(), (ReaderCounts{.keep_alives = 1}));
+}
+
+constexpr std::uint32_t bad_no_communication = 0x80310000;
+constexpr std::uint32_t uncertain_last_usable_value = 0x40900000;
+
+// OPC 10000-14, 7.2.4.5.4: encoded as a Variant, a field that is Bad is a StatusCode instead of a value.
+TEST(Readers, ABadFieldHasNoValueAndTheOthersHave) {
+  ReaderFixture fixture;
+  fixture.key(0, 1);
+  uadp::Writer writer(fixture.buffer);
+  uadp::DataSetMessageEncoder encoder(writer);
+  encoder.begin(ReaderFixture::header(DataSetMessageType::KeyFrame, 1));
+  encoder.field(uadp::Status{bad_no_communication});
+  encoder.field(2.5);
+  encoder.end();
+  fixture.reader.take(writer.finished(), LocalTime());
+  EXPECT_EQ(fixture.data.get(), (Two{1, 2.5}));
+  EXPECT_EQ(fixture.data.status(0), uadp::Status{bad_no_communication});
+  EXPECT_EQ(fixture.data.status(1), uadp::Status{});
+  EXPECT_TRUE(fixture.data.any_bad());
+  EXPECT_EQ(fixture.notified, 2);
+  EXPECT_EQ(fixture.reader.counts(), (ReaderCounts{.taken = 2, .with_bad = 1}));
+  fixture.key(2, 3);
+  EXPECT_FALSE(fixture.data.any_bad()) << "a value again";
+}
+
+/// A DataSetMessage in octets.
+void take_octets(DataSetReader& reader, std::initializer_list<unsigned> octets) {
+  std::vector<std::byte> message;
+  for (const unsigned octet : octets) message.push_back(static_cast<std::byte>(octet));
+  reader.take(message, LocalTime());
+}
+
+// The same clause: a field that is Uncertain is a DataValue with value and StatusCode; as a DataValue (7.2.4.5.5) each field carries its own.
+TEST(Readers, AnUncertainFieldHasItsValueAndItsStatus) {
+  ReaderFixture fixture;
+  // 01: valid, Variants. Two fields: a Variant of type 23 (mask 3: Int32 7, 0x40900000), a Double 1.0.
+  take_octets(fixture.reader, {0x01, 2, 0, 23, 0x03, 6, 7, 0, 0, 0, 0, 0, 0x90, 0x40, 11, 0, 0, 0, 0, 0, 0, 0xF0, 0x3F});
+  EXPECT_EQ(fixture.data.get(), (Two{7, 1.0}));
+  EXPECT_EQ(fixture.data.status(0), uadp::Status{uncertain_last_usable_value});
+  EXPECT_TRUE(fixture.data.status(0).is_uncertain());
+  EXPECT_FALSE(fixture.data.any_bad());
+  // 05: valid, DataValues: Int32 8 and Bad; a Double 2.0 and Good.
+  take_octets(fixture.reader, {0x05, 2, 0, 0x03, 6, 8, 0, 0, 0, 0, 0, 0x31, 0x80, 0x01, 11, 0, 0, 0, 0, 0, 0, 0, 0x40});
+  EXPECT_EQ(fixture.data.get(), (Two{7, 2.0})) << "what comes with Bad is no value";
+  EXPECT_EQ(fixture.data.status(0), uadp::Status{bad_no_communication});
+  // Bad, and no value at all.
+  take_octets(fixture.reader, {0x05, 2, 0, 0x02, 0, 0, 0x31, 0x80, 0x01, 11, 0, 0, 0, 0, 0, 0, 0x08, 0x40});
+  EXPECT_EQ(fixture.data.get(), (Two{7, 3.0}));
+  EXPECT_EQ(fixture.notified, 3);
+  EXPECT_EQ(fixture.reader.counts(), (ReaderCounts{.taken = 3, .with_bad = 2}));
+}
+
+// RawData: one StatusCode, in the header, for all fields. 17: valid, RawData, status.
+TEST(Readers, RawDataIsAsGoodAsItsMessage) {
+  ReaderFixture fixture;
+  const auto raw = [&](unsigned low, unsigned high, unsigned value) { take_octets(fixture.reader, {0x13, low, high, value, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xF0, 0x3F}); };
+  raw(0, 0, 1);
+  EXPECT_EQ(fixture.data.get(), (Two{1, 1.0}));
+  raw(0x90, 0x40, 2);
+  EXPECT_EQ(fixture.data.get(), (Two{2, 1.0}));
+  EXPECT_TRUE(fixture.data.status(1).is_uncertain());
+  raw(0x31, 0x80, 3);
+  EXPECT_EQ(fixture.data.get(), (Two{2, 1.0}));
+  EXPECT_TRUE(fixture.data.status(0).is_bad() && fixture.data.status(1).is_bad());
+  EXPECT_EQ(fixture.data.overall_status(), uadp::Status{bad_no_communication});
+}
+
+// A StatusCode where a StatusCode is to be is a value.
+TEST(Readers, AStatusMayBeTheValue) {
+  DataSet<uadp::Status> data;
+  DataSetReader reader("data", data, {1});
+  take_octets(reader, {0x01, 1, 0, 19, 0, 0, 0x31, 0x80});
+  EXPECT_EQ(data.get(), uadp::Status{bad_no_communication});
+  EXPECT_FALSE(data.any_bad());
+}
+
 /// Feeds a recorded capture (tests/golden/uadp) and gives the values after each frame.
 template <class T>
 std::vector<T> heard_of(const std::string& capture) {

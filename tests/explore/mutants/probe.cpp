@@ -17,6 +17,7 @@ struct Case {
   Network network = Network::registers;
   handshake::Subscription subscription = handshake::Subscription::Star;
   std::uint8_t inner_slaves = 0;
+  bool forges = false;   ///< the only fault is a forged word
 };
 
 /// From short to long; together a few seconds for a handshake that is right.
@@ -28,7 +29,8 @@ const std::vector<Case>& cases() {
                                      {2, 1, 0, Network::registers, handshake::Subscription::AllToAll},
                                      {1, 1, 1, Network::channels},
                                      {1, 2, 0, Network::registers, handshake::Subscription::Star, 1},
-                                     {1, 1, 1, Network::registers, handshake::Subscription::Star, 1}};
+                                     {1, 1, 1, Network::registers, handshake::Subscription::Star, 1},
+                                     {1, 1, 1, Network::registers, handshake::Subscription::Star, 0, true}};
   return all;
 }
 
@@ -42,8 +44,10 @@ Question question_of(const Case& each) {
   question.inner_slaves = each.inner_slaves;
   question.states = 20'000'000;
   if (each.faults == 0) return question;
+  if (each.forges) question.faults.insert(Fault::forge);
   for (std::size_t f = 0; f < fault_count; ++f) {
     const auto fault = static_cast<Fault>(f);
+    if (each.forges || fault == Fault::forge) continue;
     if (!question.is_tree() || (fault != Fault::duplicate && fault != Fault::reorder)) question.faults.insert(fault);
   }
   return question;

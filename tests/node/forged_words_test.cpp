@@ -1,0 +1,105 @@
+// One packet of a stranger: nodes survive it, can be asked what they think of it, and the group can be started afterwards.
+#include <gtest/gtest.h>
+
+#include "support/word_bench.hpp"
+
+namespace takt::node {
+namespace {
+
+using handshake::PublishedState;
+using namespace sim::literals;
+
+/// The fields of a Halted word, from the state to the origin.
+std::string halted(const std::string& incarnation, const std::string& number, const std::string& kind_and_origin) {
+  return "0b000000" + incarnation + "00000000" + number + "00000000" + kind_and_origin;
+}
+
+/// However little is known of the other end: a Start succeeds as soon as everybody has been heard again.
+void expect_that_it_starts(test::WordBench& bench) {
+  bench.run(30_ms);
+  if (!bench.all_in(PublishedState::Running)) {
+    EXPECT_TRUE(bench.all_in(PublishedState::Halted)) << bench.ask();
+    EXPECT_EQ(bench.call(0, program::Method::Start), program::StatusCode::Good) << bench.ask();
+    bench.run(40_ms);
+  }
+  EXPECT_TRUE(bench.all_in(PublishedState::Running)) << bench.ask();
+}
+
+// b10102000f010052c7ac22010079001b790000000b000000638496ba0000000002000000000000000503: origin 3 of a group of 0 to 1, seen to kill both nodes as
+// soon as they were asked for their status. Version, sequence numbers and incarnation are those of the test's group.
+TEST(ForgedWords, AnOriginOutsideTheGroup) {
+  for (const bool is_running : {false, true}) {
+    test::WordBench bench("two");
+    bench.run(10_ms);
+    if (is_running) bench.call(0, program::Method::Start);
+    bench.run(20_ms);
+    const auto foreign = bench.member(0).endpoint()->counts().foreign;
+    bench.say(bench.state_of(1, 1, halted("e9030000", "02000000", "0503")));
+    EXPECT_EQ(bench.member(0).endpoint()->counts().foreign, foreign + 1);
+    EXPECT_EQ(bench.all_in(PublishedState::Running), is_running) << "nothing of it is believed";
+    bench.run(5_ms);
+    EXPECT_NE(bench.ask().find("plc"), std::string::npos);
+    expect_that_it_starts(bench);
+  }
+}
+
+// b10102000f010052c7ac2201007d001b7d0000000b0000007d8496ba00000000ffffffff000000000501: a halt that no later intent could follow.
+TEST(ForgedWords, AHaltWithTheLastNumber) {
+  for (const std::string number : {"ffffffff", "feffffff", "ffffff3f", "00000040", "ffffff7f", "00000080", "010000c0"}) {
+    for (const bool is_running : {false, true}) {
+      for (const std::size_t as : {0, 1}) {
+        SCOPED_TRACE(number + (is_running ? " in a run, as " : " when switched on, as ") + std::to_string(as));
+        test::WordBench bench("two");
+        bench.run(10_ms);
+        if (is_running) bench.call(0, program::Method::Start);
+        bench.run(20_ms);
+        bench.say(bench.state_of(as, 1, halted(as == 0 ? "e8030000" : "e9030000", number, "0501")));
+        bench.ask();
+        expect_that_it_starts(bench);
+      }
+    }
+  }
+}
+
+// A sequence number far ahead makes the true words look old, an incarnation that of a restarted node: for one time-out at most.
+TEST(ForgedWords, ANumberOfAMessageFarAhead) {
+  for (const std::string kind : {"robust", "all-to-all", "nested"}) {
+    for (const std::string incarnation : {"e8030000", "e9030000", "78563412"}) {
+      for (const int ahead : {1000, 16000, 20000, 40000}) {
+        for (const std::size_t as : {0, 1}) {
+          SCOPED_TRACE(kind + " " + incarnation + " " + std::to_string(ahead));
+          test::WordBench bench(kind);
+          bench.run(10_ms);
+          bench.call(0, program::Method::Start);
+          bench.run(30_ms);
+          ASSERT_TRUE(bench.all_in(PublishedState::Running)) << bench.ask();
+          bench.say(bench.state_of(as, static_cast<std::uint16_t>(ahead), halted(incarnation, "07000000", "0501")));
+          expect_that_it_starts(bench);
+        }
+      }
+    }
+  }
+}
+
+// A life far ahead makes the true announcements look late.
+TEST(ForgedWords, ALifeFarAhead) {
+  for (const std::string life : {"00008000", "ffff7f00", "f0ffff00", "00000001", "00000000"}) {
+    test::WordBench bench("roles");
+    bench.run(30_ms);
+    bench.call(0, program::Method::Start);
+    bench.run(30_ms);
+    ASSERT_TRUE(bench.all_in(PublishedState::Running)) << bench.ask();
+    for (std::vector<std::byte> message : bench.heard()) {
+      if (uadp::load_little_endian<std::uint16_t>(message.data() + 5) != wire::announcement_writer_group) continue;
+      message = test::WordBench::forged(std::move(message), 1);
+      for (std::size_t i = 0; i < 4; ++i) message.at(wire::fields_at + i) = static_cast<std::byte>(std::stoi(life.substr(2 * i, 2), nullptr, 16));
+      bench.say(message);
+    }
+    bench.ask();
+    bench.run(100_ms);
+    expect_that_it_starts(bench);
+  }
+}
+
+}  // namespace
+}  // namespace takt::node

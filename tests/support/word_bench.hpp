@@ -1,0 +1,224 @@
+// The nodes of a group on a network without sockets and clocks, and a stranger in it: what it hears it may say again with other contents.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <memory>
+#include <queue>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "node/config.hpp"
+#include "node/group_member.hpp"
+#include "node/node_status.hpp"
+#include "node/statistics.hpp"
+#include "node/transition_log.hpp"
+#include "uadp/octets.hpp"
+#include "wire/nesting.hpp"
+
+namespace takt::test {
+
+/// What the nodes of a group are configured with.
+struct WordBenchGroup {
+  std::string programs;                                     ///< as in a node's file, one or several
+  std::vector<std::pair<std::string, std::string>> nodes;  ///< names, and more members of their files
+};
+
+inline const WordBenchGroup& word_bench_group(const std::string& kind) {
+  static const std::string data = R"(, "process_data": [{"name": "targets", "from": "plc", "fields": {"x": "Double"}}, {"name": "actual", "from": "left", "fields": {"y": "Int16"}}])";
+  static const std::string one = R"({"name": "cell", "master": "plc", "slaves": ["left", "right"], "cycle": "1ms", "initialisation": "2ms")" + data;
+  static const std::vector<std::pair<std::string, std::string>> three = {{"plc", ""}, {"left", ""}, {"right", ""}};
+  static const std::map<std::string, WordBenchGroup> groups = {
+      {"robust", {one + "}", three}},
+      {"paper", {one + R"(, "variant": "paper"})", three}},
+      {"all-to-all", {one + R"(, "subscription": "all-to-all", "publish": "on-change"})", three}},
+      {"two", {R"({"name": "cell", "master": "plc", "slaves": ["left"], "cycle": "1ms"})", {{"plc", ""}, {"left", ""}}}},
+      {"nested",
+       {one + R"(}, {"name": "axes", "within": "cell", "master": "right", "slaves": ["x", "y"], "cycle": "1ms"})",
+        {{"plc", ""}, {"left", ""}, {"right", ""}, {"x", ""}, {"y", ""}}}},
+      {"roles",
+       {R"({"name": "cell", "master": "plc", "cycle": "1ms", "announce_every": "5ms", "candidates": ["a", "b", "c"], "roles": [{"name": "left", "skill": "welding"}, {"name": "hand", "skill": "gripping"}]})",
+        {{"plc", ""}, {"a", R"(, "offers": ["welding"])"}, {"b", R"(, "offers": ["welding"])"}, {"c", R"(, "offers": ["gripping"])"}}}}};
+  return groups.at(kind);
+}
+
+class WordBench {
+ public:
+  explicit WordBench(const std::string& kind) {
+    static std::map<std::string, std::vector<std::shared_ptr<node::LoadedConfig>>> loaded;  // files are read once
+    auto& configs = loaded[kind];
+    const WordBenchGroup& group = word_bench_group(kind);
+    for (std::size_t i = configs.size(); i < group.nodes.size(); ++i) configs.push_back(load(group, i));
+    for (const auto& each : configs) nodes_.push_back(std::make_unique<Node>(*this, *each, nodes_.size()));
+    for (const auto& node : nodes_)
+      for (const auto& seat : node->seats) seat->member.start(*seat);
+  }
+
+  std::size_t size() const { return nodes_.size(); }
+  /// The programs in which a node is.
+  std::size_t seats(std::size_t node) const { return nodes_[node]->seats.size(); }
+  node::GroupMember& member(std::size_t node, std::size_t seat = 0) { return nodes_[node]->seats[seat]->member; }
+  program::StatusCode call(std::size_t node, program::Method method, std::size_t seat = 0) { return member(node, seat).call(*nodes_[node]->seats[seat], method); }
+  void finished(std::size_t node, std::size_t seat = 0) { member(node, seat).finished(*nodes_[node]->seats[seat]); }
+  void plug(std::size_t node, node::Plug what) {
+    wire::CandidateEndpoint* const candidate = member(node).candidate();
+    if (candidate != nullptr) what == node::Plug::join ? candidate->join(*nodes_[node]->seats[0]) : candidate->leave(*nodes_[node]->seats[0]);
+  }
+
+  void run(sim::Duration duration) {
+    const sim::LocalTime end = now_ + duration;
+    while (!events_.empty() && events_.top().time <= end) {
+      const Event event = events_.top();
+      events_.pop();
+      now_ = event.time;
+      event.what();
+    }
+    now_ = end;
+  }
+
+  /// What was said last in each stream, in the order of PublisherId and WriterGroupId.
+  std::vector<std::vector<std::byte>> heard() const {
+    std::vector<std::vector<std::byte>> all;
+    for (const auto& [stream, octets] : streams_) all.push_back(octets);
+    return all;
+  }
+  /// The last message of a state, with this sequence number and these fields. Octets as text: "0b00".
+  std::vector<std::byte> state_of(std::size_t participant, std::uint16_t ahead, const std::string& fields, std::size_t program = 0) const {
+    const auto& format = *nodes_[0]->loaded.programs[program].endpoint.format;
+    const auto found = streams_.find({static_cast<std::uint16_t>(format.shape().first_publisher_id + participant), wire::state_writer_group});
+    if (found == streams_.end()) throw std::runtime_error("nothing was said yet");
+    std::vector<std::byte> octets = forged(found->second, ahead);
+    for (std::size_t i = 0; 2 * i < fields.size(); ++i) octets.at(wire::fields_at + i) = static_cast<std::byte>(std::stoi(fields.substr(2 * i, 2), nullptr, 16));
+    return octets;
+  }
+  /// The same message with later sequence numbers.
+  static std::vector<std::byte> forged(std::vector<std::byte> message, std::uint16_t ahead) {
+    for (const std::size_t at : {std::size_t{13}, std::size_t{16}}) {
+      std::uint16_t number = 0;
+      std::memcpy(&number, message.data() + at, 2);
+      number = static_cast<std::uint16_t>(number + ahead);
+      std::memcpy(message.data() + at, &number, 2);
+    }
+    return message;
+  }
+  /// All nodes hear it now.
+  void say(const std::vector<std::byte>& octets) {
+    for (const auto& node : nodes_)
+      for (const auto& seat : node->seats) {
+        const std::vector<std::byte> exact(octets);  // of its own: sanitizers see what is read behind it
+        seat->member.receive(*seat, exact);
+      }
+  }
+
+  /// What `takt ctl status` prints of each node, as JSON and as text, and the last line of its log.
+  std::string ask() {
+    std::string all;
+    for (const auto& each : nodes_) {
+      node::NodeStatus status{each->loaded.config.node, {}, 0, now_, now_.since_start().ps() / 1000};
+      for (const auto& seat : each->seats) status.programs.push_back({seat->of.program, seat->member, seat->cycles, seat->peers});
+      const std::string json = node::to_json(status);
+      all += json + "\n" + node::status_text(json);
+      node::TransitionLog(sink_.get()).ended(status);
+    }
+    return all;
+  }
+  bool all_in(handshake::PublishedState state) const {
+    for (const auto& node : nodes_)
+      for (const auto& seat : node->seats)
+        if (!(seat->member.candidate() != nullptr && seat->member.endpoint() == nullptr) && seat->member.state() != state) return false;
+    return true;
+  }
+
+ private:
+  struct Event {
+    sim::LocalTime time;
+    std::uint64_t number = 0;
+    std::function<void()> what;
+    bool operator<(const Event& other) const { return std::pair(time, number) > std::pair(other.time, other.number); }
+  };
+  struct Seat final : wire::PlugHost {
+    Seat(WordBench& of_bench, const node::LoadedConfig& loaded, const node::LoadedProgram& program, std::size_t node)
+        : bench(of_bench), of(program), number(node), member(loaded.config, program, settings(program, node)), peers(member.peer_count()), log(of_bench.sink_.get()),
+          alarms(member.alarm_count()) {}
+    static wire::EndpointSettings settings(const node::LoadedProgram& program, std::size_t node) {
+      wire::EndpointSettings settings = program.endpoint;
+      settings.handshake.incarnation = static_cast<std::uint32_t>(1000 + node);
+      return settings;
+    }
+    std::int64_t ns() const { return bench.now_.since_start().ps() / 1000; }
+    sim::LocalTime now() const override { return bench.now_; }
+    void set_alarm(std::size_t alarm, sim::LocalTime time) override {
+      const std::uint64_t setting = ++alarms[alarm];
+      bench.at(time, [this, alarm, setting] {
+        if (alarms[alarm] == setting) member.wake(*this, alarm);
+      });
+    }
+    void publish(uadp::Octets octets, const pubsub::Destination& destination) override {
+      const std::vector<std::byte> copy(octets.begin(), octets.end());
+      bench.streams_[{uadp::load_little_endian<std::uint16_t>(octets.data() + 2), destination.writer_group_id}] = copy;
+      for (const auto& other : bench.nodes_)
+        if (other->number != number)
+          for (const auto& seat : other->seats)
+            if (seat->of.program.name == of.program.name)
+              bench.at(bench.now_ + sim::Duration::from_ps(20'000'000), [to = seat.get(), copy] { to->member.receive(*to, copy); });
+      if (destination.writer_group_id == wire::state_writer_group) peers.published(member.endpoint()->participant().word(), bench.now_);
+    }
+    void stepped(const handshake::Outputs& outputs, const handshake::Word& after) override { log.stepped(ns(), outputs, after); }
+    void heard(std::size_t peer, const handshake::Word& word) override { peers.heard(peer, word, bench.now_); }
+    void process_data(const wire::ProcessDataMessage&) override {}
+    void role_bound(std::size_t role, const handshake::Binding&) override { peers.forget(role); }
+    void role_taken(std::size_t, const handshake::Binding&) override {}
+    void role_dropped(std::size_t, const handshake::Binding&) override { peers.forget(0); }
+
+    WordBench& bench;
+    const node::LoadedProgram& of;
+    std::size_t number;
+    node::GroupMember member;
+    node::CycleStatistics cycles;
+    node::PeerWatch peers;
+    node::TransitionLog log;
+    std::vector<std::uint64_t> alarms;  ///< which setting of each is the valid one
+  };
+  struct Node {
+    Node(WordBench& bench, const node::LoadedConfig& of, std::size_t place) : loaded(of), number(place) {
+      for (const node::LoadedProgram& program : of.programs) seats.push_back(std::make_unique<Seat>(bench, of, program, place));
+      for (std::size_t i = 0; i < seats.size(); ++i)
+        if (const auto outer = of.programs[i].outer) nesting = std::make_unique<wire::Nesting>(seats[*outer]->member.plain(), *seats[*outer], seats[i]->member.plain(), *seats[i]);
+    }
+    const node::LoadedConfig& loaded;
+    std::size_t number;
+    std::vector<std::unique_ptr<Seat>> seats;
+    std::unique_ptr<wire::Nesting> nesting;
+  };
+
+  static std::shared_ptr<node::LoadedConfig> load(const WordBenchGroup& group, std::size_t node) {
+    const std::filesystem::path path = std::filesystem::temp_directory_path() / ("takt-word-bench-" + std::to_string(::getpid()) + ".json");
+    std::ofstream(path) << R"({"node": ")" << group.nodes[node].first << R"(", "transport": {"kind": "ethernet", "interface": "eth0"}, "programs": [)" << group.programs << "]"
+                        << group.nodes[node].second << "}";
+    node::json::Diagnostics diagnostics;
+    std::shared_ptr<node::LoadedConfig> loaded = node::load_config(path.string(), diagnostics);
+    std::filesystem::remove(path);
+    if (!loaded) throw std::runtime_error(diagnostics.to_text());
+    return loaded;
+  }
+  void at(sim::LocalTime time, std::function<void()> what) { events_.push({time, count_++, std::move(what)}); }
+
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Close> sink_{std::fopen("/dev/null", "w")};
+  sim::LocalTime now_;
+  std::uint64_t count_ = 0;
+  std::priority_queue<Event> events_;
+  std::map<std::pair<std::uint16_t, std::uint16_t>, std::vector<std::byte>> streams_;
+  std::vector<std::unique_ptr<Node>> nodes_;
+};
+
+}  // namespace takt::test

@@ -12,6 +12,7 @@
 #include "scenario/applications/resolve_dds.hpp"
 #include "scenario/applications/resolved_dds.hpp"
 #include "scenario/json/suggest.hpp"
+#include "scenario/resolve/known_names.hpp"
 #include "scenario/resolve/os_profiles.hpp"
 #include "vocabulary/keys.hpp"
 #include "vocabulary/qos_of_thread.hpp"
@@ -51,7 +52,7 @@ class ApplicationResolver {
     for (const Persistence& service : r_.scenario.persistence) add(service);
     for (ResolvedApplication& application : r_.applications) check_threads(application);
     check_hosts();
-    if (diagnostics_.errors() != errors_before || !is_complete()) return;  // numbers below stand for what was found
+    if (diagnostics_.errors() != errors_before || is_refused() || !is_complete()) return;  // numbers below stand for what was found
     for (std::uint32_t t = 0; t < r_.topics.size(); ++t) connect(t);
     resolve_dds(r_, builder_, diagnostics_);
     for (ResolvedApplication& application : r_.applications) set_windows(application);
@@ -65,6 +66,12 @@ class ApplicationResolver {
     });
   }
 
+  /// Whether a part of topics or applications could not be read: who meets whom is not known then.
+  bool is_refused() const {
+    constexpr std::string_view lists[] = {"topics", "domains", "applications", "gateways", "persistence"};
+    return std::any_of(std::begin(lists), std::end(lists), [&](std::string_view list) { return diagnostics_.is_refused(r_.scenario.where.at(list)); });
+  }
+
   void add(const Topic& topic) {
     if (std::any_of(r_.topics.begin(), r_.topics.end(), [&](const ResolvedTopic& other) { return other.description->name == topic.name; }))
       diagnostics_.error(topic.where.at("name"), "duplicate name", {json::quote(topic.name) + " a second time", "a name of its own for each topic"});
@@ -72,7 +79,9 @@ class ApplicationResolver {
       diagnostics_.error(topic.where.at("name"), "not a name for a topic", {json::quote(topic.name), "no '/', which stands in the names of its streams"});
     if (!topic.pcp && topic.vlan != 0)
       diagnostics_.error(topic.where.at("vlan"), "a VLAN without a priority", {"\"vlan\" alone", "\"pcp\" too, since the tag carries both"});
-    if (topic.protocol == Protocol::opc_ua) {
+    if (diagnostics_.is_refused(topic.where.at("protocol"))) {
+      diagnostics_.consequence();
+    } else if (topic.protocol == Protocol::opc_ua) {
       for (const auto& [present, key] : {std::pair(!topic.keys.empty(), "keys"), std::pair(topic.type.has_value(), "type"), std::pair(topic.domain.has_value(), "domain"), std::pair(topic.qos.has_value(), "qos"),
                                          std::pair(topic.publication.has_value(), "publication"), std::pair(topic.flow_control.has_value(), "flow_control")})
         if (present) refuse_of_dds(topic.where.at(key), key);
@@ -86,7 +95,7 @@ class ApplicationResolver {
     if (publishers_ == most_publishers + 1)
       diagnostics_.error(topic.where.place(), "too many topics and participants of programs", {std::to_string(publishers_), "at most " + std::to_string(most_publishers)});
     const std::size_t errors_before = diagnostics_.errors();
-    vocabulary::check_keys(topic.where, topic.keys, topic.fields, diagnostics_);
+    if (!diagnostics_.is_refused(topic.where.at("fields"))) vocabulary::check_keys(topic.where, topic.keys, topic.fields, diagnostics_);
     const bool has_sound_keys = !topic.keys.empty() && topic.protocol == Protocol::dds && diagnostics_.errors() == errors_before;
     made.layout = SampleLayout(topic.fields, has_sound_keys ? topic.keys : std::vector<std::string>());
     std::vector<std::string> problems;
@@ -106,18 +115,21 @@ class ApplicationResolver {
       if (!seen.insert(domain.id).second) diagnostics_.error(domain.where.at("id"), "a domain twice", {std::to_string(domain.id), "each domain once"});
       if (std::none_of(r_.scenario.topics.begin(), r_.scenario.topics.end(),
                        [&](const Topic& topic) { return topic.protocol == Protocol::dds && topic.domain.value_or(0) == domain.id; }))
-        diagnostics_.error(domain.where.at("id"), "a domain without topics", {std::to_string(domain.id), "the domain of a topic with \"protocol\": \"dds\""});
+        diagnostics_.error_unless(topics_are_refused(), domain.where.at("id"), "a domain without topics", {std::to_string(domain.id), "the domain of a topic with \"protocol\": \"dds\""});
       if ((domain.discovery == Discovery::server) != domain.server.has_value())
         diagnostics_.error(domain.where.at(domain.server ? "server" : "discovery"), domain.server ? "a server without discovery by one" : "discovery by a server without one",
                            {domain.server ? json::quote(*domain.server) : "no \"server\"", domain.server ? "\"discovery\": \"server\"" : "\"server\", the name of an application"});
     }
   }
 
+  /// Nothing follows from topics of which a part could not be read.
+  bool topics_are_refused() const { return diagnostics_.is_refused(r_.scenario.where.at("topics")); }
+
   std::uint32_t topic_of(const std::string& name, const json::Place& place) {
     for (std::uint32_t t = 0; t < r_.topics.size(); ++t)
       if (r_.topics[t].description->name == name) return t;
     // An empty name was refused by the table.
-    if (!name.empty()) diagnostics_.error(place, "unknown topic", {json::quote(name), "the name of a topic", json::suggest(name, names_of(r_.scenario.topics))});
+    if (!name.empty()) diagnostics_.error_unless(!are_all_named(r_.scenario.topics, r_.scenario.where.at("topics"), diagnostics_), place, "unknown topic", {json::quote(name), "the name of a topic", json::suggest(name, names_of(r_.scenario.topics))});
     return unknown_topic;
   }
 
@@ -141,7 +153,7 @@ class ApplicationResolver {
     return r_.plan.os_latencies[r_.plan.nodes[application.node.value].os_latency].wake_up;
   }
 
-  void check_offset(Duration offset, Duration every, const json::Place& place) {
+  void check_offset(Duration offset, Duration every, const json::Place& place) {  // an interval that was refused counts as an hour
     if (offset >= every && offset > Duration())
       diagnostics_.error(place, "an offset beyond the interval", {json::to_text(offset), "less than " + json::to_text(every)});
   }
@@ -168,7 +180,7 @@ class ApplicationResolver {
       refuse(one.publishes && thread.buffer, "buffer", "subscribe");
       refuse(one.publishes && thread.signal, "signal", "subscribe");
       refuse(!one.publishes && thread.payload, "payload", "publish");
-      if (thread.qos && one.topic < r_.topics.size() && r_.topics[one.topic].description->protocol == Protocol::opc_ua) refuse_of_dds(thread.where.at("qos"), "qos");
+      if (thread.qos && one.topic < r_.topics.size() && !diagnostics_.is_refused(r_.topics[one.topic].description->where.at("protocol")) && r_.topics[one.topic].description->protocol == Protocol::opc_ua) refuse_of_dds(thread.where.at("qos"), "qos");
       if (one.topic < r_.topics.size()) one.qos = vocabulary::merged(r_.topics[one.topic].description->qos, thread.qos);
       one.own_qos = thread.qos ? &*thread.qos : nullptr;
       if (one.publishes) one.pattern = thread.payload ? thread.payload->pattern : Pattern::counter;
@@ -203,7 +215,8 @@ class ApplicationResolver {
       made.threads[thread].pattern.reset();
     }
     if (!made.threads[thread].copies) {
-      diagnostics_.error(payload.where.at("copy_of"), "a copy of what is not there",
+      const bool is_unclear = std::any_of(application.threads.begin(), application.threads.end(), [&](const Thread& each) { return !each.where.is_known() || diagnostics_.is_refused(each.where.at("subscribe")); });
+      diagnostics_.error_unless(is_unclear && diagnostics_.has_errors(), payload.where.at("copy_of"), "a copy of what is not there",
                          {json::quote(*payload.copy_of), "a topic that a thread of " + json::quote(application.name) + " subscribes to", json::suggest(*payload.copy_of, subscribed)});
       return;
     }
@@ -211,7 +224,7 @@ class ApplicationResolver {
     const auto& from = r_.topics[made.threads[*made.threads[thread].copies].topic].layout.fields();
     const auto& to = r_.topics[made.threads[thread].topic].layout.fields();
     if (!std::equal(from.begin(), from.end(), to.begin(), to.end(), [](const auto& a, const auto& b) { return a.same_type(b); }))
-      diagnostics_.error(payload.where.at("copy_of"), "a copy of other fields", {"fields of other types or numbers", "the same types in the same order as in " + json::quote(r_.topics[made.threads[thread].topic].description->name)});
+      diagnostics_.error_unless(topics_are_refused(), payload.where.at("copy_of"), "a copy of other fields", {"fields of other types or numbers", "the same types in the same order as in " + json::quote(r_.topics[made.threads[thread].topic].description->name)});
   }
 
   void add(const Gateway& gateway) {
@@ -221,7 +234,7 @@ class ApplicationResolver {
     const std::uint32_t to = topic_of(gateway.to, gateway.where.at("to"));
     const bool both_known = from != unknown_topic && to != unknown_topic;
     if (both_known && r_.topics[from].description->protocol == r_.topics[to].description->protocol)
-      diagnostics_.error(gateway.where.at("to"), "a gateway within one protocol",
+      diagnostics_.error_unless(topics_are_refused(), gateway.where.at("to"), "a gateway within one protocol",
                          {"both topics are of " + std::string(spelling(r_.topics[from].description->protocol)), "a topic of OPC UA and one of DDS; a thread with \"copy_of\" copies within one"});
     else if (both_known)
       check_mapping(gateway, r_.topics[from], r_.topics[to]);
@@ -253,12 +266,13 @@ class ApplicationResolver {
       const std::uint32_t topic = topic_of(service.topics[t], place);
       if (topic == unknown_topic) continue;
       if (r_.topics[topic].description->protocol != Protocol::dds) {
+        if (diagnostics_.is_refused(r_.topics[topic].description->where.at("protocol"))) continue;
         refuse_of_dds(place, "persistence");
         continue;
       }
       ResolvedService::Kept kept{topic, std::nullopt, 0, vocabulary::merged(r_.topics[topic].description->qos, std::nullopt), place};
       if (kept.qos.durability.value_or(Durability::volatile_) < Durability::transient)
-        diagnostics_.error(place, "a topic that is not kept", {json::quote(service.topics[t]), "a topic whose \"qos\" has \"durability\": \"transient\" or \"persistent\""});
+        diagnostics_.error_unless(topics_are_refused(), place, "a topic that is not kept", {json::quote(service.topics[t]), "a topic whose \"qos\" has \"durability\": \"transient\" or \"persistent\""});
       made.service->topics.push_back(std::move(kept));
     }
     r_.applications.push_back(std::move(made));
@@ -267,6 +281,7 @@ class ApplicationResolver {
   void check_mapping(const Gateway& gateway, const ResolvedTopic& from, const ResolvedTopic& to) {
     std::vector<std::string> problems;
     if (mapping_between(from, to, problems)) return;
+    if (topics_are_refused()) return diagnostics_.consequence();
     for (const std::string& problem : problems)
       diagnostics_.error(gateway.where.at("to"), "fields that do not map", {problem, "in both topics fields of the same names and types; what is more in \"from\" is left out"});
   }
@@ -277,7 +292,7 @@ class ApplicationResolver {
     for (const ResolvedThread& thread : application.threads) {
       if (thread.name.find('/') != std::string::npos)
         diagnostics_.error(thread.where.at("name"), "not a name for a thread", {json::quote(thread.name), "no '/'"});
-      if (!names.insert(thread.name).second)
+      if (!thread.name.empty() && !names.insert(thread.name).second)
         diagnostics_.error(thread.where.at("name"), "duplicate name", {json::quote(thread.name) + " a second time", "a name of its own for each thread of an application"});
       const std::string_view role = thread.publishes ? "publish" : "subscribe";
       if (thread.topic != unknown_topic && !topics.insert({thread.topic, thread.publishes}).second)
@@ -396,7 +411,7 @@ void check_application_requirement(const Resolved& resolved, const Requirement& 
   if (requirement.signal) {
     if (!requirement.irregular) diagnostics.error(requirement.where.place(), "missing key", {"\"signal\" without a limit", "\"irregular\""});
     if (std::none_of(resolved.signals.begin(), resolved.signals.end(), [&](const ResolvedSignal& signal) { return signal.name == *requirement.signal; }))
-      diagnostics.error(requirement.where.at("signal"), "unknown signal", {json::quote(*requirement.signal), "the name of a signal", json::suggest(*requirement.signal, names_of(resolved.signals))});
+      diagnostics.error_unless(diagnostics.is_refused(resolved.scenario.where.at("applications")), requirement.where.at("signal"), "unknown signal", {json::quote(*requirement.signal), "the name of a signal", json::suggest(*requirement.signal, names_of(resolved.signals))});
   }
   if (!requirement.application) return;
   if (!requirement.success && !requirement.buffered)
@@ -404,19 +419,22 @@ void check_application_requirement(const Resolved& resolved, const Requirement& 
   const auto application =
       std::find_if(resolved.applications.begin(), resolved.applications.end(), [&](const ResolvedApplication& each) { return each.name == *requirement.application; });
   if (application == resolved.applications.end()) {
-    diagnostics.error(requirement.where.at("application"), "unknown application",
+    const Scenario& scenario = resolved.scenario;
+    const bool is_unclear = !are_all_named(scenario.applications, scenario.where.at("applications"), diagnostics) || !are_all_named(scenario.gateways, scenario.where.at("gateways"), diagnostics) ||
+                            !are_all_named(scenario.persistence, scenario.where.at("persistence"), diagnostics);
+    diagnostics.error_unless(is_unclear, requirement.where.at("application"), "unknown application",
                       {json::quote(*requirement.application), "the name of an application or gateway", json::suggest(*requirement.application, names_of(resolved.applications))});
     return;
   }
   const auto concerned = [&](const ResolvedThread& thread) { return !requirement.buffered || !thread.publishes || (requirement.success && !requirement.thread); };
   if (!requirement.thread) {
     if (requirement.buffered && std::all_of(application->threads.begin(), application->threads.end(), [](const ResolvedThread& thread) { return thread.publishes; }))
-      diagnostics.error(requirement.where.at("buffered"), "nothing is buffered", {"no thread of " + json::quote(application->name) + " subscribes", "an application that subscribes"});
+      diagnostics.error_unless(diagnostics.is_refused(application->where.at("threads")), requirement.where.at("buffered"), "nothing is buffered", {"no thread of " + json::quote(application->name) + " subscribes", "an application that subscribes"});
     return;
   }
   const auto thread = std::find_if(application->threads.begin(), application->threads.end(), [&](const ResolvedThread& each) { return each.name == *requirement.thread; });
   if (thread == application->threads.end())
-    diagnostics.error(requirement.where.at("thread"), "unknown thread",
+    diagnostics.error_unless(diagnostics.is_refused(application->where.at("threads")), requirement.where.at("thread"), "unknown thread",
                       {json::quote(*requirement.thread), "a thread of " + json::quote(application->name), json::suggest(*requirement.thread, names_of(application->threads))});
   else if (!concerned(*thread))
     diagnostics.error(requirement.where.at("buffered"), "nothing is buffered", {json::quote(thread->name) + " publishes", "a thread that subscribes"});

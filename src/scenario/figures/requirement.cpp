@@ -5,6 +5,7 @@
 #include "models/ethernet/frame.hpp"
 #include "scenario/figures/known_figures.hpp"
 #include "scenario/json/suggest.hpp"
+#include "scenario/resolve/known_names.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -74,6 +75,22 @@ std::optional<FigureRequirement> read_figure_requirement(const Requirement& requ
   return FigureRequirement{*figure, *limit, name_of(requirement)};
 }
 
+namespace {
+
+/// Whether the name may be that of something that was refused.
+bool may_be_refused(const UnknownName& unknown, const Resolved& resolved, const json::Diagnostics& diagnostics) {
+  if (!diagnostics.has_errors()) return false;
+  const Scenario& scenario = resolved.scenario;
+  const auto is_refused = [&](std::string_view list) { return diagnostics.is_refused(scenario.where.at(list)); };
+  if (unknown.kind == "stream") return StreamNames(resolved, diagnostics).may_be(unknown.name);
+  if (unknown.kind == "node") return !resolved.topology.has_all_nodes;
+  if (unknown.kind == "program")
+    return may_be_unread_program(scenario, diagnostics) || std::any_of(scenario.programs.begin(), scenario.programs.end(), [&](const Program& program) { return program.name == unknown.name; });
+  return (unknown.kind == "application" || unknown.kind == "signal") && (is_refused("applications") || is_refused("gateways") || is_refused("persistence"));
+}
+
+}  // namespace
+
 bool check_figure(const Resolved& resolved, const Requirement& requirement, json::Diagnostics& diagnostics) {
   const auto refuse = [&](bool is_there, std::string_view key, const char* expected) {
     if (is_there) diagnostics.error(requirement.where.at(key), "does not belong to this requirement", {json::quote(key), expected});
@@ -99,7 +116,7 @@ bool check_figure(const Resolved& resolved, const Requirement& requirement, json
     refuse(is_there, key, expected);
   if (!asked) return false;
   if (const auto unknown = unknown_name(asked->figure, resolved))
-    diagnostics.error(requirement.where.at("figure"), "unknown " + unknown->kind, {json::quote(unknown->name), "the name of a " + unknown->kind, unknown->suggestion});
+    diagnostics.error_unless(may_be_refused(*unknown, resolved, diagnostics), requirement.where.at("figure"), "unknown " + unknown->kind, {json::quote(unknown->name), "the name of a " + unknown->kind, unknown->suggestion});
   return false;
 }
 

@@ -7,6 +7,7 @@
 #include "models/ethernet/sizes.hpp"
 #include "scenario/description/promises.hpp"
 #include "scenario/resolve/gates.hpp"
+#include "scenario/resolve/stream_at_port.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -175,7 +176,9 @@ class Extraction {
     if (config.preemption && models::contains(config.preemption->preemptable, q)) problem = "a preemptable class at " + port;
     if (!problem.empty()) return refuse(stream, problem), false;
     const models::StreamPlan& plan = plan_of(stream);
-    const Octets frame = models::frame_length(plan.headers + stream.largest_payload, plan.priority.has_value() && !config.untagged);
+    // Hosts send frames as they were made; ports of switches may take the tag off.
+    const bool tagged = plan.priority.has_value() && !(config.untagged && previous);
+    const Octets frame = models::frame_length(plan.headers + stream.largest_payload, tagged);
     const Duration octet = at.link->rate.octet_time();
     ScheduledHop hop;
     hop.port = port_index(from, to, at, octet);
@@ -200,19 +203,14 @@ class Extraction {
 
   /// Nobody else is in a scheduled class at a port that has windows.
   void check_others() {
-    for (const ResolvedStream& stream : r_.streams) {
-      if (scheduled_.contains(stream.index.value) || (class_at_talker(stream) && classes_.contains(*class_at_talker(stream)))) continue;
-      for (const Path& path : stream.paths) {
-        std::optional<std::size_t> met;
-        for (std::size_t i = 0; i + 1 < path.size() && !met; ++i) {
-          const End at = end_towards(path[i], path[i + 1]);
-          const auto port = ports_.find(key_of(at));
-          if (port != ports_.end() && models::contains(scheduled_classes_[port->second], class_of(stream, config_of(*at.end)))) met = port->second;
-        }
-        if (!met) continue;
-        diagnostics_.error(stream.where.place(), "a stream in a scheduled class", {json::quote(plan_of(stream).name) + " at " + json::quote(problem_.ports[*met].name) + " between scheduled frames", "another class there"});
-        break;
-      }
+    std::set<std::uint32_t> told;
+    for (const StreamAtPort& at : streams_at_ports(r_)) {
+      const ResolvedStream& stream = r_.streams[at.stream.value];
+      if (scheduled_.contains(at.stream.value) || (class_at_talker(stream) && classes_.contains(*class_at_talker(stream)))) continue;
+      const auto port = ports_.find({at.node, at.port});
+      if (port == ports_.end() || (scheduled_classes_[port->second] & at.classes) == 0 || !told.insert(at.stream.value).second) continue;
+      diagnostics_.error(stream.where.place(), "a stream in a scheduled class",
+                         {json::quote(plan_of(stream).name) + " at " + json::quote(problem_.ports[port->second].name) + " between scheduled frames", "another class there"});
     }
     if (!r_.scenario.clocks.gptp) return;
     for (const auto& [key, port] : ports_)

@@ -87,7 +87,10 @@ void check_group(const Group& group, const Node& node, Reader& reader) {
                                   : group.rule == Group::Rule::at_most_one ? "at most one"
                                                                            : "at least one";
   const std::string expected = fmt::format("{} of {}", number, list_text(group.names));
-  if (too_few) return reader.error(node, "a field is missing", {"", expected, ""});
+  if (too_few) {
+    for (const std::string_view name : group.names) reader.diagnostics().note_refused(reader.source(node).at(name).pointer);
+    return reader.error(node, "a field is missing", {"", expected, ""});
+  }
   reader.error(*node.find(present[1]), "fields that exclude each other",
                {fmt::format("\"{}\" beside \"{}\"", present[1], present[0]), expected, ""});
 }
@@ -96,6 +99,11 @@ void decode_shorthand(const Object& table, const Node& node, void* value, Reader
   const Field* field = find_field(table, table.shorthand);
   TAKT_CHECK(field != nullptr, "the shorthand of a table is one of its fields");
   field->codec->decode(node, field->member(value), field->bounds, reader);
+}
+
+void report_missing(std::string_view name, const Node& node, Reader& reader) {
+  reader.diagnostics().note_refused(reader.source(node).at(name).pointer);
+  reader.error(node, fmt::format("the field \"{}\" is missing", name));
 }
 
 /// The members of an object by a table; the member tag_key, if any, has been read already.
@@ -115,7 +123,7 @@ void decode_members(const Object& table, const Node& node, std::string_view tag_
   }
   for (const Field& field : table.fields)
     if (field.is_required && !is_present[static_cast<std::size_t>(&field - table.fields.data())])
-      reader.error(node, fmt::format("the field \"{}\" is missing", field.name));
+      report_missing(field.name, node, reader);
   for (const Group& group : table.groups) check_group(group, node, reader);
 }
 

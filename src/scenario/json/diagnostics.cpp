@@ -56,14 +56,45 @@ Node to_json(const Diagnostic& diagnostic) {
   return json;
 }
 
+namespace {
+constexpr std::size_t most_pointers = 10'000;  // nobody reads what comes of the mistakes behind
+}
+
 void Diagnostics::error(Place place, std::string message, Details details) {
+  if (!place.pointer.empty() && unreadable_.contains(place.pointer)) return consequence();
   ++errors_;
+  note_refused(place.pointer);
   keep(Severity::error, std::move(place), std::move(message), std::move(details));
+}
+
+void Diagnostics::unreadable(Place place, std::string message, Details details) {
+  ++errors_;
+  note_refused(place.pointer);
+  if (unreadable_.size() < most_pointers) unreadable_.insert(place.pointer);
+  keep(Severity::error, std::move(place), std::move(message), std::move(details));
+}
+
+void Diagnostics::error_unless(bool is_consequence, Place place, std::string message, Details details) {
+  if (is_consequence) return consequence();
+  error(std::move(place), std::move(message), std::move(details));
 }
 
 void Diagnostics::warning(Place place, std::string message, Details details) {
   ++warnings_;
   keep(Severity::warning, std::move(place), std::move(message), std::move(details));
+}
+
+bool Diagnostics::is_refused(const Place& place) const {
+  const auto found = refused_.lower_bound(place.pointer);
+  if (found == refused_.end()) return false;
+  if (*found == place.pointer) return true;
+  // What is below begins with the pointer and a slash; other names that begin alike may stand between.
+  const auto below = refused_.lower_bound(place.pointer + "/");
+  return below != refused_.end() && below->starts_with(place.pointer + "/");
+}
+
+void Diagnostics::note_refused(std::string pointer) {
+  if (refused_.size() < most_pointers) refused_.insert(std::move(pointer));
 }
 
 void Diagnostics::keep(Severity severity, Place place, std::string message, Details details) {

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,12 +50,25 @@ class Diagnostics {
  public:
   explicit Diagnostics(std::size_t limit = 100) : limit_(limit) {}
 
+  /// A mistake. A value that could not be read is wrong already: what else is said of it is a consequence.
   void error(Place place, std::string message, Details details = {});
+  /// A value that cannot be read, or lacks something.
+  void unreadable(Place place, std::string message, Details details = {});
+  /// An error, or a consequence if it rests on something that has been told already.
+  void error_unless(bool is_consequence, Place place, std::string message, Details details = {});
+  /// Something is wrong only because of what has been told already. It counts, so that nobody takes the rest for sound, but is not told.
+  void consequence() { ++consequences_; }
   void warning(Place place, std::string message, Details details = {});
 
-  bool has_errors() const { return errors_ != 0; }
-  std::size_t errors() const { return errors_; }
+  bool has_errors() const { return errors() != 0; }
+  /// Mistakes and their consequences.
+  std::size_t errors() const { return errors_ + consequences_; }
   std::size_t warnings() const { return warnings_; }
+  /// Whether something is wrong with the value there or with a part of it. What is read from such a value is a stand-in: who compares it
+  /// with others would tell a consequence as if it were a mistake.
+  bool is_refused(const Place& place) const;
+  /// Counts the value of that pointer as refused, though the error stands elsewhere: a field that is missing.
+  void note_refused(std::string pointer);
   /// No further diagnostic will be kept: details need not be worked out.
   bool full() const { return kept_.size() >= limit_; }
 
@@ -73,7 +88,10 @@ class Diagnostics {
   std::size_t limit_;
   std::size_t errors_ = 0;
   std::size_t warnings_ = 0;
+  std::size_t consequences_ = 0;
   std::vector<Diagnostic> kept_;
+  std::set<std::string, std::less<>> refused_;     // pointers
+  std::set<std::string, std::less<>> unreadable_;  // the same
 };
 
 }  // namespace takt::scenario::json

@@ -5,11 +5,11 @@
 namespace takt::scenario::json {
 
 void Reader::error(const Node& node, std::string message, Details details) {
-  diagnostics_.error(place_of(*document_.tree(), node), std::move(message), std::move(details));
+  diagnostics_.unreadable(place_of(*document_.tree(), node), std::move(message), std::move(details));
 }
 
 void Reader::error_at_key(const Member& member, std::string message, Details details) {
-  diagnostics_.error(place_of(*document_.tree(), member.key_position, pointer_of(member.value)), std::move(message),
+  diagnostics_.unreadable(place_of(*document_.tree(), member.key_position, pointer_of(member.value)), std::move(message),
                      std::move(details));
 }
 

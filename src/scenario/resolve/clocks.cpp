@@ -54,7 +54,7 @@ class ClockResolver {
 
   std::optional<std::uint32_t> node_named(const std::string& name, const json::Place& place) {
     const auto node = r_.topology.find(name);
-    if (!node) diagnostics_.error(place, "unknown node", {json::quote(name), "the name of a node", suggest_node(r_.topology, name, diagnostics_)});
+    if (!node) report_unknown_node(r_.topology, name, place, "the name of a node", diagnostics_);
     return node;
   }
 
@@ -105,10 +105,11 @@ class ClockResolver {
   void plan_gptp(const Gptp& gptp) {
     if (gptp.drift_window % 2 != 0)
       diagnostics_.error(gptp.where.at("drift_window"), "an odd window", {std::to_string(gptp.drift_window), "an even number, two halves"});
-    if (gptp.hot_standby && gptp.domains.empty())
+    if (gptp.hot_standby && gptp.domains.empty() && !diagnostics_.is_refused(gptp.where.at("domains")))
       diagnostics_.error(gptp.where.at("hot_standby"), "a standby without a domain", {"no \"domains\"", "a second domain"});
     std::set<std::uint8_t> numbers{0};
     for (const GptpDomain& domain : gptp.domains) {
+      if (!domain.where.is_known() && diagnostics_.has_errors()) continue;
       if (!numbers.insert(domain.domain).second)
         diagnostics_.error(domain.where.at("domain"), "a domain twice", {std::to_string(domain.domain), "a number of its own (0 is there already)"});
       check_nodes(domain.nodes, domain.where);
@@ -141,7 +142,7 @@ class ClockResolver {
         const auto to = r_.topology.find(role.to);
         receivers += role.role == GptpRole::time_receiver;
         if (!to || !r_.topology.port_towards(*index, *to))
-          diagnostics_.error(role.where.at("to"), "not a neighbour", {json::quote(role.to), "a node that a link joins to " + json::quote(name)});
+          report_no_neighbour(r_.topology, role.to, name, role.where.at("to"), diagnostics_);
       }
       if (receivers > 1) diagnostics_.error(node.where.at("roles"), "several time receivers", {std::to_string(receivers) + " ports", "at most one"});
     }

@@ -2,22 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/resolve/stream_at_port.hpp"
 
 namespace takt::scenario {
 namespace {
 
 using Key = std::pair<std::uint32_t, std::uint16_t>;  // node, port
-
-const ResolvedRedundancy* redundancy_of(const Resolved& r, const ResolvedStream& stream) {
-  for (const ResolvedRedundancy& redundancy : r.redundancies)
-    if (redundancy.stream == stream.index) return &redundancy;
-  return nullptr;
-}
 
 std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
@@ -30,22 +25,16 @@ void resolve_demand(Resolved& r, json::Diagnostics& diagnostics) {
     ports[{link.a.node.value, link.a.port}] = {link.a.node, link.a.port, link.b.node, rate, {}};
     ports[{link.b.node.value, link.b.port}] = {link.b.node, link.b.port, link.a.node, rate, {}};
   }
-  for (const ResolvedStream& stream : r.streams) {
-    const models::StreamPlan& plan = r.plan.streams[stream.index.value];
-    const ResolvedRedundancy* const redundancy = redundancy_of(r, stream);
-    std::set<Key> used;  // a multicast takes each link once
-    for (const Path& path : stream.paths) {
-      bool is_member = false;  // of a redundant stream: each takes the link for itself, with an R-TAG
-      for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-        const std::uint16_t port = *r.topology.port_towards(path[i], path[i + 1]);
-        if (redundancy != nullptr) is_member = path[i] == redundancy->split || (is_member && path[i] != redundancy->merge);
-        if (!is_member && !used.insert({path[i], port}).second) continue;
-        const models::PortConfig& config = r.plan.port_configs[r.plan.nodes[path[i]].port_config];
-        const models::TrafficClass q = config.traffic_class_of_priority[plan.priority.value_or(0)];
-        ports[{path[i], port}].class_bits_per_second[q] +=
-            stream.demand.wire_bits_per_second + (is_member ? 8.0 * models::r_tag.count * stream.demand.frames_per_second : 0);
-      }
-    }
+  for (const StreamAtPort& at : streams_at_ports(r)) {
+    const ResolvedStream& stream = r.streams[at.stream.value];
+    const models::StreamPlan& plan = r.plan.streams[at.stream.value];
+    const Octets made = models::frame_length(plan.headers + stream.largest_payload, plan.priority.has_value());
+    const double longer = 8.0 * (static_cast<double>(at.frame.count) - static_cast<double>(made.count));  // R-TAG on, C-tag off
+    const double bits = stream.demand.wire_bits_per_second + longer * stream.demand.frames_per_second;
+    // A stream gate that spreads a stream over classes, as cyclic queuing does, gives each its turn.
+    const int classes = std::popcount(at.classes);
+    for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
+      if (models::contains(at.classes, q)) ports[{at.node, at.port}].class_bits_per_second[q] += bits / classes;
   }
   for (auto& [key, port] : ports) {
     const double share = port.share();
@@ -54,7 +43,9 @@ void resolve_demand(Resolved& r, json::Diagnostics& diagnostics) {
     const std::string to = r.plan.nodes[port.peer.value].name;
     const json::Details details{percent(share) + " from " + json::quote(from) + " to " + json::quote(to), "at most 100 % (or \"allow_overload\": true)"};
     if (share > 1.0 + 1e-9 && !r.scenario.allow_overload)
-      diagnostics.error(r.scenario.network.where.place(), "an overloaded link", details);
+      diagnostics.error_unless(!r.topology.has_all_links || diagnostics.is_refused(r.scenario.network.where.at("links")) || diagnostics.is_refused(r.scenario.network.where.at("generate")) ||
+                                   diagnostics.is_refused(r.scenario.where.at("allow_overload")),
+                               r.scenario.network.where.place(), "an overloaded link", details);
     else if (share > 1.0 + 1e-9)
       diagnostics.warning(r.scenario.network.where.place(), "an overloaded link", {details.found});
     else if (share > 0.9)

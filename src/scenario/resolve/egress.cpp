@@ -36,7 +36,7 @@ class EgressResolver {
       if (!egress.to) continue;
       const auto node = r_.topology.find(to);
       if (!node || !r_.topology.port_towards(n, *node))
-        diagnostics_.error(egress.where.at("to"), "not a neighbour", {json::quote(to), "a node that a link joins to " + json::quote(r_.topology.nodes[n].name), node ? "" : suggest_node(r_.topology, to, diagnostics_)});
+        report_no_neighbour(r_.topology, to, r_.topology.nodes[n].name, egress.where.at("to"), diagnostics_);
     }
   }
 
@@ -68,6 +68,11 @@ class EgressResolver {
 
   static models::PreemptionConfig preemption_of(const Preemption& preemption) {
     return {set_of(preemption.preemptable), models::AddFragSize(static_cast<std::uint8_t>(preemption.add_frag_size & 3u)), preemption.hold_advance, preemption.release_advance};
+  }
+
+  /// Whether a gate list or a shaper could not be read, so that they are not compared.
+  bool is_refused(const std::optional<Gates>& gates, const Shaper& shaper) const {
+    return (gates && diagnostics_.is_refused(gates->where.place())) || diagnostics_.is_refused(shaper.where.place()) || (!shaper.where.is_known() && diagnostics_.has_errors());
   }
 
   /// What cannot be, with the reason.
@@ -102,11 +107,11 @@ class EgressResolver {
       return std::any_of(egress.gates->entries.begin(), egress.gates->entries.end(), [&](const GateEntry& entry) { return entry.mac == operation; });
     };
     if (config.preemption && egress.gates && asks_for(MacOperation::hold) && !asks_for(MacOperation::release))
-      refuse("gates", "preemptable frames that are never released", "an entry that holds and none that releases", "an entry with \"mac\": \"release\"");
+      if (!diagnostics_.is_refused(egress.gates->where.place())) refuse("gates", "preemptable frames that are never released", "an entry that holds and none that releases", "an entry with \"mac\": \"release\"");
     for (std::size_t i = 0; i < egress.shapers.size(); ++i) {
       const models::TrafficClass q = egress.shapers[i].traffic_class & 7u;
       if (list.open_share(q).open == Duration())
-        diagnostics_.error(egress.shapers[i].where.at("class"), "a shaper behind a gate that never opens", {"class " + std::to_string(q), "a gate list that opens the class"});
+        diagnostics_.error_unless(is_refused(egress.gates, egress.shapers[i]), egress.shapers[i].where.at("class"), "a shaper behind a gate that never opens", {"class " + std::to_string(q), "a gate list that opens the class"});
     }
   }
 
@@ -118,7 +123,7 @@ class EgressResolver {
       if (!shaped.insert(shaper.traffic_class).second)
         diagnostics_.error(shaper.where.at("class"), "a class shaped twice", {"class " + std::to_string(shaper.traffic_class) + " a second time", "one shaper for a class"});
       if (shaper.idle_slope > rate)
-        diagnostics_.error(shaper.where.at("idle_slope"), "a shaper faster than its link", {json::to_text(shaper.idle_slope), "at most " + json::to_text(rate)});
+        diagnostics_.error_unless(diagnostics_.is_refused(r_.scenario.network.where.at("links")), shaper.where.at("idle_slope"), "a shaper faster than its link", {json::to_text(shaper.idle_slope), "at most " + json::to_text(rate)});
       else
         config.shapers[shaper.traffic_class] = models::ShaperConfig{shaper.idle_slope, shaper.of == SlopeOf::cycle};
     }
@@ -194,7 +199,9 @@ void check_slopes(const Resolved& r, json::Diagnostics& diagnostics) {
         for (const Shaper& shaper : egress.shapers) {
           const models::TrafficClass q = shaper.traffic_class & 7u;
           if (!config.shapers[q] || slope_is_possible(*config.shapers[q], q, *config.gates, link.rate) || !reported.insert({&shaper, link.rate.bits_per_second}).second) continue;
-          diagnostics.error(shaper.where.at("idle_slope"), "a shaper faster than its link while its gate is open",
+          const bool is_refused = (egress.gates && diagnostics.is_refused(egress.gates->where.place())) || diagnostics.is_refused(shaper.where.place()) ||
+                                  (!shaper.where.is_known() && diagnostics.has_errors()) || diagnostics.is_refused(r.scenario.network.where.at("links"));
+          diagnostics.error_unless(is_refused, shaper.where.at("idle_slope"), "a shaper faster than its link while its gate is open",
                             {json::to_text(shaper.idle_slope) + " of the whole cycle in the part of it for which the gate of class " + std::to_string(q) + " is open",
                              "at most " + json::to_text(link.rate) + " then"});
         }
@@ -210,35 +217,6 @@ void check_cut_through(const Resolved& r, json::Diagnostics& diagnostics) {
       if (!egress.cut_through.empty())
         diagnostics.error(egress.where.at("cut_through"), "cut-through where a redundant stream is merged",
                           {json::quote(merge.name) + ", where a damaged frame would take the place of its good copy", "a switch that merges nothing"});
-  }
-}
-
-void check_windows(const Resolved& r, json::Diagnostics& diagnostics) {
-  for (const models::LinkPlan& link : r.plan.links) {
-    for (const models::LinkPlan::End* end : {&link.a, &link.b}) {
-      if (!end->port_config || !r.plan.port_configs[*end->port_config].shaping.gates) continue;
-      const models::PortConfig& config = r.plan.port_configs[*end->port_config];
-      const models::GateConfig& gates = *config.shaping.gates;
-      if (gates.admin_cycle_time <= Duration() || gates.admin_control_list.empty()) continue;  // reported already
-      const models::GateControlList list(gates.admin_control_list, gates.admin_cycle_time);
-      for (const ResolvedStream& stream : r.streams) {
-        const bool crosses = std::any_of(stream.paths.begin(), stream.paths.end(), [&](const Path& path) {
-          const auto at = std::find(path.begin(), path.end(), end->node.value);
-          return at != path.end() && at + 1 != path.end() && r.topology.port_towards(*at, *(at + 1)) == end->port;
-        });
-        if (!crosses) continue;
-        const models::StreamPlan& plan = r.plan.streams[stream.index.value];
-        const models::TrafficClass q = config.traffic_class_of_priority[plan.priority.value_or(0)];
-        const bool numbered = std::any_of(r.redundancies.begin(), r.redundancies.end(), [&](const ResolvedRedundancy& other) { return other.stream == stream.index; });
-        const Octets frame = models::frame_length(plan.headers + stream.largest_payload, plan.priority.has_value() || numbered, numbered);
-        const Duration needed = link.rate.octet_time() * (models::preamble_and_sfd + frame).count;
-        if (list.longest_window(q) >= needed) continue;
-        diagnostics.error(stream.where.place(), "a frame that no gate window lets pass",
-                          {json::to_text(needed) + " for a frame of class " + std::to_string(q) + " at " + json::quote(r.topology.nodes[end->node.value].name) + ", whose longest window is " +
-                               json::to_text(list.longest_window(q)),
-                           "a window that holds the longest frame"});
-      }
-    }
   }
 }
 

@@ -23,8 +23,4 @@ void check_slopes(const Resolved& resolved, json::Diagnostics& diagnostics);
 /// Cut-through and sequence recovery do not go together at one switch. To be called when the streams are there.
 void check_cut_through(const Resolved& resolved, json::Diagnostics& diagnostics);
 
-/// Frames that can never be sent, because no window of their class is long enough, are errors. To be called when the streams
-/// are there.
-void check_windows(const Resolved& resolved, json::Diagnostics& diagnostics);
-
 }  // namespace takt::scenario

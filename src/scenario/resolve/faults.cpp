@@ -9,6 +9,7 @@
 
 #include "models/ethernet/sizes.hpp"
 #include "scenario/json/suggest.hpp"
+#include "scenario/resolve/known_names.hpp"
 #include "scenario/topology/rerouting.hpp"
 
 namespace takt::scenario {
@@ -23,7 +24,7 @@ class FaultResolver {
   void run() {
     for (const Fault& fault : r_.scenario.faults) std::visit([this](const auto& each) { add(each); }, fault);
     if (!r_.scenario.rerouting) return;
-    if (r_.scenario.faults.empty())
+    if (r_.scenario.faults.empty() && !diagnostics_.is_refused(r_.scenario.where.at("faults")))
       diagnostics_.warning(r_.scenario.rerouting->where.place(), "nothing to reroute for", {"no \"faults\"", "a fault that takes a link down"});
     std::stable_sort(outages_.begin(), outages_.end(), [](const Outage& a, const Outage& b) { return a.at < b.at; });
     if (!diagnostics_.has_errors()) plan_rerouting(r_, outages_, r_.scenario.rerouting->delay);
@@ -42,6 +43,12 @@ class FaultResolver {
     return (sim::TrueTime() + fault.at).plus_saturated(*fault.lasts);
   }
 
+  /// What was refused of them is not compared.
+  template <class F>
+  bool has_times(const F& fault) const {
+    return !diagnostics_.is_refused(fault.where.at("at")) && !diagnostics_.is_refused(fault.where.at("lasts"));
+  }
+
   struct End {
     std::uint32_t node = 0;
     std::optional<std::uint16_t> port;
@@ -51,7 +58,7 @@ class FaultResolver {
     const std::string_view name = std::string_view(text).substr(0, colon);
     const auto node = r_.topology.find(name);
     if (!node) {
-      diagnostics_.error(place, "unknown node", {json::quote(name), "the name of a node", suggest_node(r_.topology, name, diagnostics_)});
+      report_unknown_node(r_.topology, name, place, "the name of a node", diagnostics_);
       return std::nullopt;
     }
     End end{*node, std::nullopt};
@@ -81,13 +88,13 @@ class FaultResolver {
       const models::LinkPlan& link = r_.plan.links[l];
       if ((is(link.a, *a) && is(link.b, *b)) || (is(link.a, *b) && is(link.b, *a))) return l;
     }
-    diagnostics_.error(where.at("link"), "no link", {"none between " + json::quote(ends[0]) + " and " + json::quote(ends[1]), "two nodes that a link joins"});
+    diagnostics_.error_unless(!r_.topology.has_all_links, where.at("link"), "no link", {"none between " + json::quote(ends[0]) + " and " + json::quote(ends[1]), "two nodes that a link joins"});
     return std::nullopt;
   }
 
   std::optional<std::uint32_t> node_named(const std::string& name, const json::Place& place) {
     const auto node = r_.topology.find(name);
-    if (!node) diagnostics_.error(place, "unknown node", {json::quote(name), "the name of a node", suggest_node(r_.topology, name, diagnostics_)});
+    if (!node) report_unknown_node(r_.topology, name, place, "the name of a node", diagnostics_);
     return node;
   }
 
@@ -115,7 +122,7 @@ class FaultResolver {
     if (fault.bit_error_rate) impairment.corruption = models::Corruption::per_bit(probability(*fault.bit_error_rate));
     if (fault.duplication) impairment.duplication = models::Duplication{probability(*fault.duplication)};
     if (!impairment.loss && !impairment.corruption && !impairment.duplication)
-      diagnostics_.error(fault.where.place(), "nothing goes wrong", {"no probability", "\"loss\", \"burst_loss\", \"corruption\", \"bit_error_rate\" or \"duplication\""});
+      diagnostics_.error_unless(diagnostics_.is_refused(fault.where.place()), fault.where.place(), "nothing goes wrong", {"no probability", "\"loss\", \"burst_loss\", \"corruption\", \"bit_error_rate\" or \"duplication\""});
     impairment.from = begin_of(fault);
     impairment.until = end_of(fault).value_or(sim::TrueTime::never());
     if (!link) return;
@@ -161,7 +168,8 @@ class FaultResolver {
     if (found == r_.streams.end() || found->of_program) {
       std::vector<std::string_view> names;
       for (const Stream& stream : r_.scenario.streams) names.push_back(stream.name);
-      diagnostics_.error(fault.where.at("stream"), "unknown stream", {json::quote(fault.stream), "the name of an entry of \"streams\"", json::suggest(fault.stream, names)});
+      const bool is_refused = StreamNames(r_, diagnostics_).may_be(fault.stream) && (found == r_.streams.end());
+      diagnostics_.error_unless(is_refused, fault.where.at("stream"), "unknown stream", {json::quote(fault.stream), "the name of an entry of \"streams\"", json::suggest(fault.stream, names)});
       return;
     }
     const models::StreamPlan& plan = r_.plan.streams[found->index.value];
@@ -176,10 +184,10 @@ class FaultResolver {
     if (const auto end = end_of(fault)) talker.until = sim::LocalTime() + end->since_start();
     talker.babbles = true;
     const sim::TrueTime over = end_of(fault).value_or(sim::TrueTime::never());
-    for (const Babbling& other : babbling_)
+    for (const Babbling& other : has_times(fault) ? babbling_ : std::vector<Babbling>{})
       if (other.stream == fault.stream && begin < other.end && other.begin < over)
         diagnostics_.error(fault.where.place(), "a talker that babbles twice at a time", {json::quote(fault.stream) + ", which babbles from " + json::to_text(other.begin.since_start()) + " on already", "times that do not overlap"});
-    babbling_.push_back({fault.stream, begin, over});
+    if (has_times(fault)) babbling_.push_back({fault.stream, begin, over});
     talker.name = plan.name + "/babble";
     r_.plan.talkers.push_back(std::move(talker));
   }
@@ -200,8 +208,7 @@ class FaultResolver {
       r_.script.push_back({begin, ResolvedStuckGate{index, neighbour.port, fault.traffic_class, fault.state == GateFault::open}});
       if (const auto end = end_of(fault)) r_.script.push_back({*end, ResolvedStuckGate{index, neighbour.port, fault.traffic_class, std::nullopt}});
     }
-    if (!found)
-      diagnostics_.error(fault.where.at(fault.to ? "to" : "node"), "not a neighbour", {json::quote(fault.to.value_or(fault.node)), "a node that a link joins to " + json::quote(fault.node)});
+    if (!found) report_no_neighbour(r_.topology, fault.to.value_or(fault.node), fault.node, fault.where.at(fault.to ? "to" : "node"), diagnostics_);
   }
 
   void add(const ClockFault& fault) {
@@ -209,7 +216,7 @@ class FaultResolver {
     const sim::TrueTime begin = begin_of(fault);
     if (!node) return;
     if (!r_.plan.nodes[*node].clock) {
-      diagnostics_.error(fault.where.at("node"), "a clock fault without a clock", {json::quote(fault.node) + ", which knows true time", "a node with a clock of its own, see \"clocks\""});
+      diagnostics_.error_unless(diagnostics_.is_refused(r_.scenario.where.at("clocks")), fault.where.at("node"), "a clock fault without a clock", {json::quote(fault.node) + ", which knows true time", "a node with a clock of its own, see \"clocks\""});
       return;
     }
     r_.script.push_back({begin, ResolvedClockFault{models::NodeIndex{*node}, fault.step, fault.offset}});
@@ -218,6 +225,7 @@ class FaultResolver {
   /// A gate is stuck in one way at a time.
   void refuse_overlap(const StuckGate& fault, const std::tuple<std::uint32_t, std::uint16_t, std::uint8_t>& gate, sim::TrueTime begin) {
     const sim::TrueTime end = end_of(fault).value_or(sim::TrueTime::never());
+    if (!has_times(fault)) return;
     for (const Stuck& other : stuck_)
       if (other.gate == gate && begin < other.end && other.begin < end)
         diagnostics_.error(fault.where.place(), "a gate stuck twice at a time",

@@ -24,6 +24,7 @@ class GateResolver {
  private:
   bool check_keys() {
     const std::size_t errors_before = diagnostics_.errors();
+    if (diagnostics_.is_refused(gates_.where.at("plan"))) return false;  // nobody knows what belongs to it
     // By value: the resolved copy writes what is empty, too.
     const auto refuse = [&](bool is_there, const char* key, GatePlanning plan) {
       if (is_there && gates_.plan != plan)
@@ -102,7 +103,7 @@ class GateResolver {
     // Lists that were laid out have no place of their own.
     const json::Source& where = set.where;
     if (!node) {
-      diagnostics_.error(where.at("node"), "unknown node", {json::quote(set.node), "the name of a node", suggest_node(r_.topology, set.node, diagnostics_)});
+      report_unknown_node(r_.topology, set.node, where.at("node"), "the name of a node", diagnostics_);
       return;
     }
     const models::GateConfig gates = gate_config_of(set.gates, diagnostics_);
@@ -120,8 +121,7 @@ class GateResolver {
         end->port_config = static_cast<std::uint32_t>(same - known.begin());
         if (same == known.end()) known.push_back(std::move(config));
       }
-    if (!found)
-      diagnostics_.error(where.at(set.to ? "to" : "node"), "not a neighbour", {json::quote(set.to.value_or(set.node)), "a node that a link joins to " + json::quote(set.node)});
+    if (!found) report_no_neighbour(r_.topology, set.to.value_or(set.node), set.node, where.at(set.to ? "to" : "node"), diagnostics_);
     if (twice) diagnostics_.error(gates_.where.at("lists", index), "a port configured twice", {"gates of " + json::quote(set.node) + " that are there already", "one list for a port"});
   }
 

@@ -5,10 +5,10 @@
 #include <set>
 #include <utility>
 
-#include "models/ethernet/sizes.hpp"
 #include "scenario/json/suggest.hpp"
 #include "scenario/resolve/cqf.hpp"
 #include "scenario/resolve/ingress_tables.hpp"
+#include "scenario/resolve/known_names.hpp"
 #include "scenario/resolve/redundancy.hpp"
 
 namespace takt::scenario {
@@ -73,7 +73,7 @@ class NodeIngress {
     check_names(description_->ats_groups);
     for (const IdentifiedStream& stream : description_->streams) add_stream(stream);
     for (const StreamGateEntryList& gate : description_->gates) config_.stream_gates.push_back(stream_gate_of(gate, diagnostics_));
-    for (const Meter& meter : description_->meters) config_.flow_meters.push_back(meter_of(meter, fastest_, diagnostics_));
+    for (const Meter& meter : description_->meters) config_.flow_meters.push_back(meter_of(r_, meter, fastest_, diagnostics_));
     for (const AtsGroupEntry& group : description_->ats_groups)
       config_.ats_groups.push_back({group.name, group.max_residence_time.value_or(description_->max_residence_time.value_or(Duration::max()))});
     config_.maximum_residence_time = description_->max_residence_time.value_or(Duration::max());
@@ -81,8 +81,6 @@ class NodeIngress {
     if (description_->cqf) add_cqf_gate(*description_->cqf);
     for (const StreamFilterEntry& filter : description_->filters) add_filter(filter);
     if (description_->cqf) add_cqf_filters(*description_->cqf);
-    for (const std::uint32_t stream : crossing_.streams) check_stream(stream);
-    check_schedulers();
   }
 
   template <class Entry>
@@ -94,14 +92,14 @@ class NodeIngress {
   }
 
   /// The index of what is called so; none if nothing is (reported).
-  template <class Index, class Entry>
-  Index find(const std::vector<Entry>& entries, const std::string& name, const json::Place& place, std::string_view what, std::string_view table) {
+  template <class Index, class Entry, class Written>
+  Index find(const std::vector<Entry>& made, const std::vector<Written>& entries, const std::string& name, const json::Place& place, std::string_view what, std::string_view table) {
     std::vector<std::string_view> names;
-    for (std::uint32_t i = 0; i < entries.size(); ++i) {
-      if (entries[i].name == name) return Index{i};
-      names.push_back(entries[i].name);
+    for (std::uint32_t i = 0; i < made.size(); ++i) {
+      if (made[i].name == name) return Index{i};
+      names.push_back(made[i].name);
     }
-    diagnostics_.error(place, "unknown " + std::string(what), {json::quote(name), "a name under \"" + std::string(table) + "\" of this ingress", json::suggest(name, names)});
+    diagnostics_.error_unless(!are_all_named(entries, description_->where.at(table), diagnostics_), place, "unknown " + std::string(what), {json::quote(name), "a name under \"" + std::string(table) + "\" of this ingress", json::suggest(name, names)});
     return {};
   }
 
@@ -117,9 +115,9 @@ class NodeIngress {
 
   void add_scheduler(const AtsEntry& entry) {
     models::AtsSchedulerConfig scheduler{entry.name, entry.rate, entry.burst, entry.length == LengthOf::wire, {}};
-    if (entry.group) scheduler.group = find<models::AtsGroupIndex>(config_.ats_groups, *entry.group, entry.where.at("group"), "group of ATS schedulers", "ats_groups");
+    if (entry.group) scheduler.group = find<models::AtsGroupIndex>(config_.ats_groups, description_->ats_groups, *entry.group, entry.where.at("group"), "group of ATS schedulers", "ats_groups");
     if (entry.rate > fastest_)
-      diagnostics_.error(entry.where.at("rate"), "a scheduler faster than every link", {json::to_text(entry.rate), "at most " + json::to_text(fastest_) + ", the fastest link of the switch"});
+      diagnostics_.error_unless(!r_.topology.has_all_links, entry.where.at("rate"), "a scheduler faster than every link", {json::to_text(entry.rate), "at most " + json::to_text(fastest_) + ", the fastest link of the switch"});
     config_.ats_schedulers.push_back(std::move(scheduler));
   }
 
@@ -131,16 +129,15 @@ class NodeIngress {
     if (filter.block_oversize && !filter.max_sdu)
       diagnostics_.error(filter.where.at("block_oversize"), "no frame is too long", {"\"block_oversize\" without \"max_sdu\"", "\"max_sdu\" too"});
     config.stream_blocked_due_to_oversize_frame_enable = filter.block_oversize;
-    if (filter.gate) config.stream_gate = find<models::StreamGateIndex>(config_.stream_gates, *filter.gate, filter.where.at("gate"), "stream gate", "gates");
-    if (filter.meter) config.flow_meter = find<models::FlowMeterIndex>(config_.flow_meters, *filter.meter, filter.where.at("meter"), "flow meter", "meters");
-    if (filter.ats) config.ats_scheduler = find<models::AtsSchedulerIndex>(config_.ats_schedulers, *filter.ats, filter.where.at("ats"), "ATS scheduler", "ats");
+    if (filter.gate) config.stream_gate = find<models::StreamGateIndex>(config_.stream_gates, description_->gates, *filter.gate, filter.where.at("gate"), "stream gate", "gates");
+    if (filter.meter) config.flow_meter = find<models::FlowMeterIndex>(config_.flow_meters, description_->meters, *filter.meter, filter.where.at("meter"), "flow meter", "meters");
+    if (filter.ats) config.ats_scheduler = find<models::AtsSchedulerIndex>(config_.ats_schedulers, description_->ats, *filter.ats, filter.where.at("ats"), "ATS scheduler", "ats");
     const auto shadows = [&](const models::StreamFilterConfig& other) {
       return (!other.stream_handle || other.stream_handle == config.stream_handle) && (!other.priority || other.priority == config.priority);
     };
-    if (std::any_of(config_.stream_filters.begin(), config_.stream_filters.end(), shadows))
+    if (!diagnostics_.has_errors() && std::any_of(config_.stream_filters.begin(), config_.stream_filters.end(), shadows))
       diagnostics_.warning(filter.where.place(), "a filter that no frame reaches", {"an earlier filter for the same frames", "the more special filter first"});
     config_.stream_filters.push_back(config);
-    filters_.push_back(&filter);
   }
 
   std::optional<models::StreamHandle> handle_of_name(const std::string& name, const json::Place& place) {
@@ -149,14 +146,16 @@ class NodeIngress {
     if (!stream.is_none()) {
       // The switches of a generator share one description; what only some of them need is no mistake.
       const bool is_generated = place.pointer.starts_with("/network/generate/");
-      if (!is_generated && !std::binary_search(crossing_.streams.begin(), crossing_.streams.end(), stream.value))
+      if (!diagnostics_.has_errors() && !is_generated && !std::binary_search(crossing_.streams.begin(), crossing_.streams.end(), stream.value))
         diagnostics_.warning(place, "a filter that no frame reaches", {json::quote(name) + ", which does not cross " + name_of_node(), "a stream that does"});
       return handle_of(stream.value);
     }
     std::vector<std::string_view> names;
     for (const auto& [known, handle] : named_) names.push_back(known);
     for (const models::StreamPlan& plan : r_.plan.streams) names.push_back(plan.name);
-    diagnostics_.error(place, "unknown stream", {json::quote(name), "a name under \"streams\" of this ingress or of the scenario", json::suggest(name, names)});
+    const StreamNames known(r_, diagnostics_);
+    const bool is_refused = known.may_be(name) || !are_all_named(description_->streams, description_->where.at("streams"), diagnostics_);
+    diagnostics_.error_unless(is_refused, place, "unknown stream", {json::quote(name), "a name under \"streams\" of this ingress or of the scenario", json::suggest(name, names)});
     return models::StreamHandle{};
   }
 
@@ -166,7 +165,8 @@ class NodeIngress {
       diagnostics_.error(cqf.where.at("buffers"), "not a class for each buffer", {std::to_string(*cqf.buffers) + " buffers in " + std::to_string(cqf.classes.size()) + " classes", "as many classes as buffers"});
     if (cqf.offset && *cqf.offset > Duration() && cqf.classes.size() == 2)
       diagnostics_.error(cqf.where.at("offset"), "receiving into the buffer that is sent from", {json::to_text(*cqf.offset) + " with two buffers", "three buffers, or \"dead_time\""});
-    cqf_fits_ = cqf.classes.size() >= 2 && cqf.cycle > Duration();  // else refused by the table
+    cqf_fits_ = cqf.classes.size() >= 2 && cqf.cycle > Duration() && !diagnostics_.is_refused(cqf.where.place());  // else refused by the table
+    if (!cqf_fits_) return diagnostics_.consequence();
     if (times_.dead_time >= cqf.cycle) {
       diagnostics_.error(cqf.where.at("dead_time"), "no time to send", {"a dead time of " + json::to_text(times_.dead_time) + " in a cycle of " + json::to_text(cqf.cycle), "a shorter one"});
       cqf_fits_ = false;
@@ -207,69 +207,7 @@ class NodeIngress {
       filter.priority = priority;
       filter.stream_gate = models::StreamGateIndex{static_cast<std::uint32_t>(config_.stream_gates.size() - 1)};
       config_.stream_filters.push_back(filter);
-      filters_.push_back(nullptr);
     }
-  }
-
-  /// The filter that the frames of a stream meet at this switch, or none.
-  std::optional<std::size_t> filter_of(std::uint32_t stream) const {
-    const auto handle = handles_.find(stream);
-    const models::Priority priority = r_.plan.streams[stream].priority.value_or(0);
-    for (std::size_t i = 0; i < config_.stream_filters.size(); ++i) {
-      const models::StreamFilterConfig& filter = config_.stream_filters[i];
-      if (filter.priority && *filter.priority != priority) continue;
-      if (!filter.stream_handle || (handle != handles_.end() && *filter.stream_handle == handle->second)) return i;
-    }
-    return std::nullopt;
-  }
-
-  /// A stream none of whose longest frames can pass is a mistake.
-  void check_stream(std::uint32_t stream) {
-    const auto number = filter_of(stream);
-    if (!number) return;
-    const models::StreamFilterConfig& filter = config_.stream_filters[*number];
-    const models::StreamPlan& plan = r_.plan.streams[stream];
-    const Octets frame = models::frame_length(plan.headers + r_.streams[stream].largest_payload, plan.priority.has_value());
-    const std::string its_frame = "frames of " + json::quote(plan.name) + " of up to ";
-    if (!filter.flow_meter.is_none()) {
-      const models::FlowMeterConfig& meter = config_.flow_meters[filter.flow_meter.value].meter;
-      const Octets most = meter.drop_on_yellow ? meter.committed_burst_size : std::max(meter.committed_burst_size, meter.excess_burst_size);
-      if (frame > most)
-        diagnostics_.error(description_->meters[filter.flow_meter.value].where.at("cbs"), "a burst smaller than a frame",
-                           {json::to_text(most) + " for " + its_frame + json::to_text(frame), "at least the longest frame"});
-    }
-    if (!filter.ats_scheduler.is_none()) {
-      const models::AtsSchedulerConfig& scheduler = config_.ats_schedulers[filter.ats_scheduler.value];
-      const Octets counted = scheduler.media_overhead ? models::wire_length(frame) : frame;
-      if (counted > scheduler.committed_burst_size)
-        diagnostics_.error(description_->ats[filter.ats_scheduler.value].where.at("burst"), "a burst smaller than a frame",
-                           {json::to_text(scheduler.committed_burst_size) + " for " + its_frame + json::to_text(counted) + (scheduler.media_overhead ? " with preamble and gap" : ""),
-                            "at least the longest frame"});
-      const StreamDemand& demand = r_.streams[stream].demand;
-      asked_of_[filter.ats_scheduler.value] += demand.wire_bits_per_second - (scheduler.media_overhead ? 0 : 160 * demand.frames_per_second);
-    }
-    if (cqf_fits_ && filter.stream_gate.value + std::size_t{1} == config_.stream_gates.size()) check_cqf(*description_->cqf, frame, plan.name);
-  }
-
-  void check_schedulers() {
-    for (const auto& [scheduler, asked] : asked_of_) {
-      const auto rate = static_cast<double>(config_.ats_schedulers[scheduler].committed_information_rate.bits_per_second);
-      if (asked > rate * (1 + 1e-9))
-        diagnostics_.warning(description_->ats[scheduler].where.at("rate"), "a scheduler slower than its streams",
-                             {json::to_text(config_.ats_schedulers[scheduler].committed_information_rate) + " for " + json::to_text(DataRate{static_cast<std::uint64_t>(asked)}),
-                              "a rate that carries them"});
-    }
-  }
-
-  void check_cqf(const Cqf& cqf, Octets frame, const std::string& stream) {
-    DataRate slowest = fastest_;
-    for (const models::LinkPlan& link : r_.plan.links)
-      if (link.a.node.value == node_ || link.b.node.value == node_) slowest = std::min(slowest, link.rate);
-    const Duration needed = slowest.octet_time() * (models::preamble_and_sfd + frame).count;
-    if (needed > cqf.cycle - times_.dead_time)
-      diagnostics_.error(cqf.where.at("cycle"), "a cycle shorter than a frame",
-                         {json::to_text(cqf.cycle) + " with a dead time of " + json::to_text(times_.dead_time) + " for frames of " + json::quote(stream) + " that last " + json::to_text(needed),
-                          "a cycle that holds the longest frame"});
   }
 
   Resolved& r_;
@@ -281,8 +219,6 @@ class NodeIngress {
   DataRate fastest_;
   std::map<std::uint32_t, models::StreamHandle> handles_;       // of streams of the plan
   std::map<std::string, models::StreamHandle, std::less<>> named_;
-  std::vector<const StreamFilterEntry*> filters_;               // null: of CQF
-  std::map<std::uint32_t, double> asked_of_;                    // of each scheduler
   CqfTimes times_;
   bool cqf_fits_ = false;
 };

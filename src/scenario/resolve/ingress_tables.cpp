@@ -5,6 +5,7 @@
 
 #include "scenario/json/suggest.hpp"
 #include "scenario/resolve/control_list.hpp"
+#include "scenario/resolve/known_names.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -36,8 +37,8 @@ std::optional<models::MacAddress> mac_address(std::string_view text) {
 std::optional<models::AddressIndex> address_of_host(const Resolved& r, const std::string& name, const json::Place& place, json::Diagnostics& diagnostics) {
   const auto node = r.topology.find(name);
   if (node && r.topology.nodes[*node].is_host()) return models::AddressIndex{*node};
-  diagnostics.error(place, node ? "not a host" : "unknown node",
-                    {json::quote(name), "the name of a host", node ? "" : suggest_node(r.topology, name, diagnostics)});
+  if (!node) report_unknown_node(r.topology, name, place, "the name of a host", diagnostics);
+  else diagnostics.error_unless(r.topology.nodes[*node].is_of_unknown_kind, place, "not a host", {json::quote(name), "the name of a host"});
   return std::nullopt;
 }
 
@@ -46,7 +47,7 @@ std::optional<models::AddressIndex> address_of_stream(const Resolved& r, const N
   if (!stream.is_none()) return r.plan.streams[stream.value].destination;
   std::vector<std::string_view> names;
   for (const models::StreamPlan& plan : r.plan.streams) names.push_back(plan.name);
-  diagnostics.error(identity.where.at("stream"), "unknown stream", {json::quote(*identity.stream), "the name of a stream", json::suggest(*identity.stream, names)});
+  diagnostics.error_unless(StreamNames(r, diagnostics).may_be(*identity.stream), identity.where.at("stream"), "unknown stream", {json::quote(*identity.stream), "the name of a stream", json::suggest(*identity.stream, names)});
   return std::nullopt;
 }
 
@@ -102,10 +103,10 @@ models::StreamGateConfig stream_gate_of(const StreamGateEntryList& gate, json::D
   return config;
 }
 
-models::NamedFlowMeterConfig meter_of(const Meter& meter, DataRate fastest, json::Diagnostics& diagnostics) {
+models::NamedFlowMeterConfig meter_of(const Resolved& r, const Meter& meter, DataRate fastest, json::Diagnostics& diagnostics) {
   for (const auto& [rate, key] : {std::pair(meter.cir, "cir"), std::pair(meter.eir, "eir")})
     if (rate > fastest)
-      diagnostics.error(meter.where.at(key), "a meter faster than every link", {json::to_text(rate), "at most " + json::to_text(fastest) + ", the fastest link of the switch"});
+      diagnostics.error_unless(!r.topology.has_all_links, meter.where.at(key), "a meter faster than every link", {json::to_text(rate), "at most " + json::to_text(fastest) + ", the fastest link of the switch"});
   models::FlowMeterConfig config;
   config.committed_information_rate = meter.cir;
   config.committed_burst_size = meter.cbs;

@@ -12,7 +12,7 @@ namespace takt::scenario {
 models::StreamGateConfig stream_gate_of(const StreamGateEntryList& gate, json::Diagnostics& diagnostics);
 
 /// The meter; one that is faster than `fastest`, the fastest link of the switch, never meters anything: an error.
-models::NamedFlowMeterConfig meter_of(const Meter& meter, DataRate fastest, json::Diagnostics& diagnostics);
+models::NamedFlowMeterConfig meter_of(const Resolved& resolved, const Meter& meter, DataRate fastest, json::Diagnostics& diagnostics);
 
 /// The identification function of an explicit entry; nothing if it names what is not there (reported).
 std::optional<models::StreamIdentityEntry> identity_of(const Resolved& resolved, const IdentifiedStream& stream, json::Diagnostics& diagnostics);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "scenario/json/suggest.hpp"
+#include "scenario/resolve/known_names.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -31,7 +32,7 @@ class Nester {
     if (outer == nullptr) {
       std::vector<std::string_view> names;
       for (const Program& each : r_.scenario.programs) names.push_back(each.name);
-      diagnostics_.error(place, "unknown program", {json::quote(*program.within), "the name of a program", json::suggest(*program.within, names)});
+      diagnostics_.error_unless(may_be_unread_program(r_.scenario, diagnostics_), place, "unknown program", {json::quote(*program.within), "the name of a program", json::suggest(*program.within, names)});
       return;
     }
     if (is_in_a_cycle(program)) {
@@ -40,7 +41,7 @@ class Nester {
     }
     const std::vector<std::string_view> slaves(outer->slaves.begin(), outer->slaves.end());
     if (std::find(slaves.begin(), slaves.end(), program.master) == slaves.end())
-      diagnostics_.error(program.where.at("master"), "the master of a nested program is no slave of the outer one",
+      diagnostics_.error_unless(diagnostics_.is_refused(outer->where.at("slaves")), program.where.at("master"), "the master of a nested program is no slave of the outer one",
                          {json::quote(program.master), "a slave of " + json::quote(outer->name), json::suggest(program.master, slaves)});
     const auto [taken, is_new] = taken_.emplace(std::pair(outer->name, program.master), program.name);
     if (!is_new)
@@ -87,8 +88,10 @@ class Nester {
       for (const Program& program : r_.scenario.programs)
         if (program.within) roots_.insert(root_of(program).name);
     const bool has_tree = requirement.program ? roots_.contains(*requirement.program) : !roots_.empty();
+    const bool is_unclear = (requirement.program && diagnostics_.is_refused(requirement.where.at("program"))) || (requirement.program && find(*requirement.program) == nullptr) || may_be_unread_program(r_.scenario, diagnostics_) ||
+                            std::any_of(r_.scenario.programs.begin(), r_.scenario.programs.end(), [&](const Program& program) { return diagnostics_.is_refused(program.where.at("within")); });
     if (!has_tree)
-      diagnostics_.error(requirement.where.at("tree"), "a tree without nested programs",
+      diagnostics_.error_unless(is_unclear, requirement.where.at("tree"), "a tree without nested programs",
                          {requirement.program ? "nothing is nested in " + json::quote(*requirement.program) + " or it is nested itself" : "no nested programs", "the outermost program of a tree"});
   }
 

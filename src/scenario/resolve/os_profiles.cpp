@@ -106,6 +106,10 @@ Distribution body_of(const Latency& latency, json::Diagnostics& diagnostics) {
 }  // namespace
 
 sim::Distribution distribution_of(const Latency& latency, json::Diagnostics& diagnostics) {
+  if (diagnostics.is_refused(latency.where.place())) {  // its parts do not belong together
+    diagnostics.consequence();
+    return Distribution::constant({});
+  }
   Distribution body = body_of(latency, diagnostics);
   if (!latency.tail) return body;
   const LatencyTail& tail = *latency.tail;

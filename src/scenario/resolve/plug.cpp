@@ -6,6 +6,7 @@
 
 #include "models/ethernet/sizes.hpp"
 #include "scenario/json/suggest.hpp"
+#include "scenario/resolve/known_names.hpp"
 #include "scenario/programs/program_shape.hpp"
 #include "uadp/builtin_type.hpp"
 #include "vocabulary/protocol.hpp"
@@ -43,7 +44,9 @@ class RoleResolver {
  private:
   void check() {
     program_.announce_every = description_.announce_every.value_or(description_.cycle * wire::cycles_of_announcement);
-    if (program_.announce_every < description_.cycle)
+    const bool has_cycle = description_.cycle > Duration() && !diagnostics_.is_refused(description_.where.at("cycle"));
+    if (!has_cycle) diagnostics_.consequence();
+    if (has_cycle && program_.announce_every < description_.cycle)
       diagnostics_.error(description_.where.at("announce_every"), "announcements within one cycle",
                          {json::to_text(program_.announce_every), "at least the cycle of " + json::to_text(description_.cycle)});
     if (description_.variant == Variant::paper)
@@ -60,6 +63,23 @@ class RoleResolver {
       if (!is_new && known->second != role.skill)
         diagnostics_.error(role.where.at("skill"), "two skills that look the same on the network", {json::quote(role.skill) + " and " + json::quote(known->second), "another name for one"});
       program_.participant_names.push_back(role.name);
+    }
+    check_process_data();
+  }
+
+  void check_process_data() {
+    std::set<std::string_view> names{"state", "bindings", "announce"};
+    for (const ProcessData& data : description_.process_data) {
+      if (!data.where.is_known() && diagnostics_.has_errors()) {
+        diagnostics_.consequence();
+        continue;
+      }
+      if (!data.name.empty() && !names.insert(data.name).second) diagnostics_.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set (\"state\", \"bindings\" and \"announce\" are taken)"});
+      if (std::find(program_.participant_names.begin(), program_.participant_names.end(), data.from) != program_.participant_names.end()) continue;
+      const std::vector<std::string_view> known(program_.participant_names.begin(), program_.participant_names.end());
+      const bool is_unclear = !are_all_named(description_.roles, description_.where.at("roles"), diagnostics_) || (diagnostics_.is_refused(description_.where.at("master")) && r_.topology.find(data.from));
+      diagnostics_.error_unless(is_unclear, data.where.at("from"), "not a participant of the program",
+                                {json::quote(data.from), "the master or a role of " + json::quote(program_.name), json::suggest(data.from, known)});
     }
   }
 
@@ -89,20 +109,28 @@ class RoleResolver {
       program_.candidates.push_back(std::move(candidate));
     }
     for (const Role& role : description_.roles)
-      if (!offered.contains(role.skill)) refuse_skill(role, offered);
+      if (!offered.contains(role.skill) && (role.where.is_known() || !diagnostics_.has_errors())) refuse_skill(role, offered);
     if (program_.candidates.size() > handshake::most_candidates)
       diagnostics_.error(description_.where.at("roles"), "too many candidates", {std::to_string(program_.candidates.size()), "at most 64; \"candidates\" names some"});
     note_absent();
   }
 
+  /// Whether skills could not be read, so that nobody knows who can have which role.
+  bool offers_are_unclear() const {
+    if (!r_.topology.has_all_nodes) return true;
+    return std::any_of(r_.topology.nodes.begin(), r_.topology.nodes.end(), [&](const TopologyNode& node) { return node.is_of_unknown_kind || diagnostics_.is_refused(node.where.at("offers")); });
+  }
+  bool roles_are_unclear() const { return diagnostics_.is_refused(description_.where.at("roles")); }
+
   void refuse_idle(const std::string& name) {
     const auto found = std::find(description_.candidates.begin(), description_.candidates.end(), name);
-    diagnostics_.error(description_.where.at("candidates", static_cast<std::size_t>(found - description_.candidates.begin())), "a candidate for no role",
+    const bool is_unclear = offers_are_unclear() || !are_all_named(description_.roles, description_.where.at("roles"), diagnostics_) || roles_are_unclear();
+    diagnostics_.error_unless(is_unclear, description_.where.at("candidates", static_cast<std::size_t>(found - description_.candidates.begin())), "a candidate for no role",
                        {json::quote(name) + ", which offers no skill that a role needs", "a host with such a skill in \"offers\""});
   }
   void refuse_skill(const Role& role, const std::set<std::string_view>& offered) {
     const std::vector<std::string_view> names(offered.begin(), offered.end());
-    diagnostics_.error(role.where.at("skill"), "a skill that nobody offers", {json::quote(role.skill), "a skill in the \"offers\" of a host", json::suggest(role.skill, names)});
+    diagnostics_.error_unless(offers_are_unclear(), role.where.at("skill"), "a skill that nobody offers", {json::quote(role.skill), "a skill in the \"offers\" of a host", json::suggest(role.skill, names)});
   }
 
   void note_absent() {
@@ -111,7 +139,7 @@ class RoleResolver {
     for (std::size_t i = 0; i < description_.absent.size(); ++i) {
       const auto found = std::find(names.begin(), names.end(), description_.absent[i]);
       if (found == names.end())
-        diagnostics_.error(description_.where.at("absent", i), "not a candidate of the program",
+        diagnostics_.error_unless(offers_are_unclear() || roles_are_unclear() || diagnostics_.is_refused(description_.where.at("candidates")), description_.where.at("absent", i), "not a candidate of the program",
                            {json::quote(description_.absent[i]), "a host that offers a skill it needs", json::suggest(description_.absent[i], names)});
       else
         program_.candidates[static_cast<std::size_t>(found - names.begin())].is_absent = true;
@@ -136,17 +164,7 @@ class RoleResolver {
   void add(const ProcessData& data) {
     ResolvedProcessData made;
     made.name = data.name;
-    for (const std::string_view taken : {"state", "bindings", "announce"})
-      if (data.name == taken) diagnostics_.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "another name, since this one is taken"});
-    for (const ResolvedProcessData& other : program_.process_data)
-      if (other.name == data.name) diagnostics_.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set"});
     const auto from = std::find(program_.participant_names.begin(), program_.participant_names.end(), data.from);
-    if (from == program_.participant_names.end()) {
-      const std::vector<std::string_view> names(program_.participant_names.begin(), program_.participant_names.end());
-      diagnostics_.error(data.where.at("from"), "not a participant of the program",
-                         {json::quote(data.from), "the master or a role of " + json::quote(program_.name), json::suggest(data.from, names)});
-      return;
-    }
     made.from = static_cast<std::uint8_t>(from - program_.participant_names.begin());
     for (const auto& [name, field] : data.fields) made.field_octets += static_cast<std::uint32_t>(uadp::fixed_octets(vocabulary::built_in_type_of(field.type))) * field.count;
     const Octets octets{wire::process_data_octets(made.field_octets)};
@@ -242,7 +260,12 @@ void resolve_plug_action(Resolved& resolved, const ScriptEntry& entry, json::Dia
       return;
     }
   }
-  diagnostics.error(entry.where.at(entry.join ? "join" : "leave"), "not a candidate of a program", {json::quote(name), "a host that offers a skill a role needs", json::suggest(name, names)});
+  // A program that was refused has no candidates.
+  const bool programs_are_refused = resolved.programs.size() != resolved.scenario.programs.size() || may_be_unread_program(resolved.scenario, diagnostics);
+  const auto node = resolved.topology.find(name);
+  const bool may_be_candidate = node ? programs_are_refused || resolved.topology.nodes[*node].is_of_unknown_kind || diagnostics.is_refused(resolved.topology.nodes[*node].where.at("offers"))
+                                     : !resolved.topology.has_all_nodes;
+  diagnostics.error_unless(may_be_candidate, entry.where.at(entry.join ? "join" : "leave"), "not a candidate of a program", {json::quote(name), "a host that offers a skill a role needs", json::suggest(name, names)});
 }
 
 }  // namespace takt::scenario

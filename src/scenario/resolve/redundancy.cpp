@@ -47,7 +47,7 @@ class MemberLayer {
     if (count < 2) return {};  // refused by the table
     DisjointPaths disjoint = disjoint_paths(r_.topology, from_, to_, count);
     if (disjoint.paths.empty()) {
-      diagnostics_.error(redundancy_.where.place(), "not enough disjoint paths", {reason(disjoint), std::to_string(count) + " paths that share no link between switches"});
+      diagnostics_.error_unless(!r_.topology.has_all_links, redundancy_.where.place(), "not enough disjoint paths", {reason(disjoint), std::to_string(count) + " paths that share no link between switches"});
       return {};
     }
     if (!disjoint.shared_switches.empty()) {
@@ -75,7 +75,15 @@ class MemberLayer {
     const std::size_t errors_before = diagnostics_.errors();
     for (std::size_t i = 0; i < redundancy_.paths->size(); ++i) {
       const json::Place here = redundancy_.where.at("paths", i);
-      const auto place_of_node = [&](std::size_t) { return here; };
+      if (diagnostics_.is_refused(here)) {  // a name in it is none
+        diagnostics_.consequence();
+        continue;
+      }
+      const auto place_of_node = [&](std::size_t node) {
+        json::Place place = here;
+        place.pointer += json::pointer_step(node);
+        return place;
+      };
       auto path = named_path(r_.topology, (*redundancy_.paths)[i], from_, to_, here, place_of_node, diagnostics_);
       if (!path) continue;
       if (std::find(paths.begin(), paths.end(), *path) != paths.end())
@@ -101,7 +109,7 @@ class MemberLayer {
   std::optional<std::size_t> position(const std::string& wanted, std::string_view key, std::size_t last, std::string_view outer, NodeAt&& node_at) {
     const auto node = r_.topology.find(wanted);
     if (!node) {
-      diagnostics_.error(place(key), "unknown node", {json::quote(wanted), "the name of a node", suggest_node(r_.topology, wanted, diagnostics_)});
+      report_unknown_node(r_.topology, wanted, place(key), "the name of a node", diagnostics_);
       return std::nullopt;
     }
     for (std::size_t i = 0; i <= last; ++i)

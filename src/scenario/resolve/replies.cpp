@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "scenario/json/suggest.hpp"
+#include "scenario/resolve/known_names.hpp"
 #include "scenario/resolve/os_profiles.hpp"
 
 namespace takt::scenario {
@@ -12,20 +14,19 @@ namespace {
 
 class Replies {
  public:
-  Replies(ResolvedProgram& program, json::Diagnostics& diagnostics) : program_(program), diagnostics_(diagnostics) {}
+  Replies(const Program& program, json::Diagnostics& diagnostics) : program_(program), diagnostics_(diagnostics) {}
 
-  void run() {
-    for (const Reply& reply : program_.description->replies) add(reply);
-    std::set<std::uint8_t> answers;
-    for (std::size_t i = 0; i < program_.replies.size(); ++i) {
-      const Reply& reply = program_.description->replies[i];
-      if (!answers.insert(program_.replies[i].with).second)
+  /// The numbers of the data sets; a stand-in for what is refused, since nothing runs after an error.
+  std::vector<ResolvedReply> run() {
+    for (const Reply& reply : program_.replies) add(reply);
+    std::set<std::string_view> answers;
+    for (const Reply& reply : program_.replies)
+      if (!reply.with.empty() && !answers.insert(reply.with).second)
         diagnostics_.error(reply.where.at("with"), "a reply to two things", {json::quote(reply.with), "each reply for one data set"});
-    }
-    for (std::size_t i = 0; i < program_.replies.size(); ++i)
-      if (answers.contains(program_.replies[i].to))
-        diagnostics_.error(program_.description->replies[i].where.at("to"), "a reply to a reply",
-                           {json::quote(program_.description->replies[i].to) + " is a reply itself", "process data that is published every cycle"});
+    for (const Reply& reply : program_.replies)
+      if (!reply.to.empty() && answers.contains(reply.to))
+        diagnostics_.error(reply.where.at("to"), "a reply to a reply", {json::quote(reply.to) + " is a reply itself", "process data that is published every cycle"});
+    return std::move(made_);
   }
 
  private:
@@ -35,28 +36,31 @@ class Replies {
       if (program_.process_data[d].name == name) return static_cast<std::uint8_t>(d);
       names.push_back(program_.process_data[d].name);
     }
-    diagnostics_.error(place, "unknown process data", {json::quote(name), "process data of " + json::quote(program_.name), json::suggest(name, names)});
+    diagnostics_.error_unless(!are_all_named(program_.process_data, program_.where.at("process_data"), diagnostics_), place, "unknown process data",
+                              {json::quote(name), "process data of " + json::quote(program_.name), json::suggest(name, names)});
     return std::nullopt;
   }
 
   void add(const Reply& reply) {
+    if (!reply.where.is_known() && diagnostics_.has_errors()) return;
     const auto to = data_set(reply.to, reply.where.at("to"));
     const auto with = data_set(reply.with, reply.where.at("with"));
-    // A stand-in keeps replies and descriptions side by side; nothing runs after an error.
-    const ResolvedReply made{to.value_or(0), with.value_or(0)};
-    program_.replies.push_back(made);
+    made_.push_back({to.value_or(0), with.value_or(0)});
     if (!to || !with) return;
-    const std::uint8_t asker = program_.process_data[made.to].from;
-    const std::uint8_t replier = program_.process_data[made.with].from;
-    if (asker == replier)
+    const ProcessData& asked = program_.process_data[*to];
+    const ProcessData& answer = program_.process_data[*with];
+    if (diagnostics_.is_refused(asked.where.at("from")) || diagnostics_.is_refused(answer.where.at("from"))) return;
+    if (asked.from == answer.from)
       diagnostics_.error(reply.where.at("with"), "a reply to oneself", {json::quote(reply.with) + " comes from where " + json::quote(reply.to) + " comes from",
                                                                         "process data of another participant"});
-    else if (asker != 0 && replier != 0 && program_.description->subscription == Subscription::star)
+    else if (asked.from != program_.master && answer.from != program_.master && program_.subscription == Subscription::star && !diagnostics_.is_refused(program_.where.at("master")) &&
+             !diagnostics_.is_refused(program_.where.at("subscription")))
       diagnostics_.error(reply.where.at("with"), "a reply to somebody who is not heard", {"two slaves in a star", "the master on one side, or \"subscription\": \"all-to-all\""});
   }
 
-  ResolvedProgram& program_;
+  const Program& program_;
   json::Diagnostics& diagnostics_;
+  std::vector<ResolvedReply> made_;
 };
 
 ResolvedProcessing processing_of(const HostNode& host, json::Diagnostics& diagnostics) {
@@ -73,11 +77,12 @@ void check_processing(const Topology& topology, json::Diagnostics& diagnostics) 
     if (const auto* const host = std::get_if<HostNode>(&node.description)) processing_of(*host, diagnostics);
 }
 
-void resolve_replies(const Topology& topology, ResolvedProgram& program, json::Diagnostics& diagnostics) {
+void check_replies(const Program& program, json::Diagnostics& diagnostics) { Replies(program, diagnostics).run(); }
+
+void resolve_replies(const Topology& topology, ResolvedProgram& program) {
   if (program.description->replies.empty()) return;
-  if (program.process_data.size() != program.description->process_data.size()) return;  // one was refused: numbers would not fit
-  Replies(program, diagnostics).run();
-  json::Diagnostics reported;   // by check_processing
+  json::Diagnostics reported;   // by check_replies and check_processing
+  program.replies = Replies(*program.description, reported).run();
   for (const models::NodeIndex node : program.participants)
     program.processing.push_back(processing_of(std::get<HostNode>(topology.nodes[node.value].description), reported));
 }

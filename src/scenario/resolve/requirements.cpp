@@ -1,13 +1,13 @@
 #include "scenario/resolve/requirements.hpp"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "scenario/applications/resolve_applications.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "scenario/json/suggest.hpp"
+#include "scenario/resolve/known_names.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -16,9 +16,7 @@ using sim::Duration;
 
 class Requirements {
  public:
-  Requirements(const Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics) {
-    for (const models::StreamPlan& stream : r_.plan.streams) stream_names_.insert(stream.name);
-  }
+  Requirements(const Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics), streams_(resolved, diagnostics) {}
 
   void check(const Requirement& requirement) {
     if (requirement.program) find_program(r_.scenario, *requirement.program, requirement.where.at("program"), diagnostics_);
@@ -28,16 +26,16 @@ class Requirements {
     };
     if (requirement.reaction) {
       if (!requirement.within) diagnostics_.error(requirement.where.place(), "missing key", {"\"reaction\" without a limit", "\"within\""});
-      if (r_.scenario.programs.empty()) diagnostics_.error(requirement.where.at("reaction"), "a reaction without a program", {"no programs", "\"programs\""});
+      if (r_.scenario.programs.empty()) diagnostics_.error_unless(may_be_unread_program(r_.scenario, diagnostics_), requirement.where.at("reaction"), "a reaction without a program", {"no programs", "\"programs\""});
       refuse(requirement.latency.has_value(), "latency", "stream");
       refuse(requirement.jitter.has_value(), "jitter", "stream");
       refuse(requirement.dropped.has_value(), "dropped", "stream");
       refuse(requirement.delivered.has_value(), "delivered", "stream");
     }
     if (requirement.sync) {
-      if (!r_.scenario.clocks.gptp) diagnostics_.error(requirement.where.at("sync"), "synchronisation without gPTP", {"no \"gptp\" in \"clocks\"", "\"gptp\""});
+      if (!r_.scenario.clocks.gptp) diagnostics_.error_unless(diagnostics_.is_refused(r_.scenario.where.at("clocks")), requirement.where.at("sync"), "synchronisation without gPTP", {"no \"gptp\" in \"clocks\"", "\"gptp\""});
       if (requirement.node && !r_.topology.find(*requirement.node))
-        diagnostics_.error(requirement.where.at("node"), "unknown node", {json::quote(*requirement.node), "the name of a node", suggest_node(r_.topology, *requirement.node, diagnostics_)});
+        report_unknown_node(r_.topology, *requirement.node, requirement.where.at("node"), "the name of a node", diagnostics_);
       refuse(requirement.latency.has_value(), "latency", "stream");
       refuse(requirement.jitter.has_value(), "jitter", "stream");
       refuse(requirement.dropped.has_value(), "dropped", "stream");
@@ -67,9 +65,8 @@ class Requirements {
     refuse(requirement.program.has_value(), "program", "reaction");
     if (!requirement.latency && !requirement.jitter && !requirement.dropped && !requirement.delivered)
       diagnostics_.error(requirement.where.place(), "missing key", {"\"stream\" without a limit", "\"latency\", \"jitter\", \"dropped\" or \"delivered\""});
-    if (stream_names_.contains(*requirement.stream) || is_of_broken_program(*requirement.stream)) return;
-    const std::vector<std::string_view> names(stream_names_.begin(), stream_names_.end());
-    diagnostics_.error(requirement.where.at("stream"), "unknown stream", {json::quote(*requirement.stream), "the name of a stream", json::suggest(*requirement.stream, names)});
+    if (!streams_.may_be(*requirement.stream))
+      diagnostics_.error(requirement.where.at("stream"), "unknown stream", {json::quote(*requirement.stream), "the name of a stream", json::suggest(*requirement.stream, streams_.all())});
   }
 
 
@@ -84,18 +81,9 @@ class Requirements {
                          "\"halt\", or \"start\" of a program with \"on_replacement\": \"restart\""});
   }
 
-  /// A Program with a mistake has no streams: that is said where the mistake is, not again of each of its streams.
-  bool is_of_broken_program(std::string_view stream) const {
-    if (!diagnostics_.has_errors()) return false;
-    return std::ranges::any_of(r_.scenario.programs, [&](const Program& program) {
-      const std::string prefix = program.name + "/";
-      return stream.starts_with(prefix) && std::ranges::none_of(stream_names_, [&](std::string_view name) { return name.starts_with(prefix); });
-    });
-  }
-
   const Resolved& r_;
   json::Diagnostics& diagnostics_;
-  std::set<std::string_view> stream_names_;
+  StreamNames streams_;
 };
 
 }  // namespace
@@ -106,13 +94,14 @@ const Program* find_program(const Scenario& scenario, const std::string& name, c
     if (program.name == name) return &program;
     names.push_back(program.name);
   }
-  diagnostics.error(place, "unknown program", {json::quote(name), "the name of a program", json::suggest(name, names)});
+  diagnostics.error_unless(may_be_unread_program(scenario, diagnostics), place, "unknown program", {json::quote(name), "the name of a program", json::suggest(name, names)});
   return nullptr;
 }
 
 void resolve_requirements(const Resolved& resolved, json::Diagnostics& diagnostics) {
   Requirements requirements(resolved, diagnostics);
-  for (const Requirement& requirement : resolved.scenario.require) requirements.check(requirement);
+  for (const Requirement& requirement : resolved.scenario.require)
+    if (requirement.where.is_known() || !diagnostics.has_errors()) requirements.check(requirement);
 }
 
 }  // namespace takt::scenario

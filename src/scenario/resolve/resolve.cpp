@@ -6,6 +6,7 @@
 
 #include "models/ethernet/sizes.hpp"
 #include "scenario/applications/resolve_applications.hpp"
+#include "scenario/idle/idle.hpp"
 #include "scenario/json/override.hpp"
 #include "scenario/json/suggest.hpp"
 #include "scenario/programs/program_shape.hpp"
@@ -15,13 +16,16 @@
 #include "scenario/resolve/faults.hpp"
 #include "scenario/resolve/gates.hpp"
 #include "scenario/resolve/ingress.hpp"
+#include "scenario/resolve/known_names.hpp"
 #include "scenario/resolve/nesting.hpp"
 #include "scenario/resolve/os_profiles.hpp"
 #include "scenario/resolve/plug.hpp"
+#include "scenario/resolve/policing.hpp"
 #include "scenario/resolve/replies.hpp"
 #include "scenario/resolve/requirements.hpp"
 #include "scenario/resolve/stream_builder.hpp"
 #include "scenario/resolve/trace_file.hpp"
+#include "scenario/resolve/windows.hpp"
 #include "vocabulary/protocol.hpp"
 #include "wire/program_format.hpp"
 
@@ -43,27 +47,38 @@ class Resolver {
     StreamBuilder builder(r_, diagnostics_);
     builder_ = &builder;
     check_names();
-    for (const Stream& stream : r_.scenario.streams) add_stream(stream);
+    for (const Stream& stream : r_.scenario.streams)
+      if (is_read(stream)) add_stream(stream);
     check_processing(r_.topology, diagnostics_);
-    for (const Program& program : r_.scenario.programs) add_program(program);
+    for (const Program& program : r_.scenario.programs)
+      if (is_read(program)) add_program(program);
     resolve_applications(r_, builder, publishers_, diagnostics_);
     resolve_nesting(r_, diagnostics_);
     check_candidates(r_, diagnostics_);
-    resolve_demand(r_, diagnostics_);
     resolve_ingress(r_, diagnostics_);
+    resolve_demand(r_, diagnostics_);
+    check_policing(r_, diagnostics_);
     resolve_gates(r_, diagnostics_);
     check_cut_through(r_, diagnostics_);
     check_slopes(r_, diagnostics_);
-    check_windows(r_, diagnostics_);
     add_launch_classes(r_);
-    for (const ScriptEntry& entry : r_.scenario.script) add_action(entry);
+    for (const ScriptEntry& entry : r_.scenario.script)
+      if (is_read(entry)) add_action(entry);
     resolve_faults(r_, diagnostics_);
+    check_windows(r_, diagnostics_);
     std::stable_sort(r_.script.begin(), r_.script.end(), [](const ResolvedAction& a, const ResolvedAction& b) { return a.at < b.at; });
     resolve_requirements(r_, diagnostics_);
+    if (!diagnostics_.has_errors()) tell_idle(r_, diagnostics_);
     builder_ = nullptr;
   }
 
  private:
+  /// Of an entry that is no object nothing is known.
+  template <class Entry>
+  bool is_read(const Entry& entry) const {
+    return entry.where.is_known() || !diagnostics_.has_errors();
+  }
+
   void plan_nodes() {
     r_.plan.port_configs.clear();
     r_.plan.os_latencies.clear();
@@ -92,7 +107,7 @@ class Resolver {
     }
     const NetworkSection& network = r_.scenario.network;
     if (network.nodes.empty() && network.generate.empty())
-      diagnostics_.error(network.where.place(), "a network without nodes", {"no nodes", "\"nodes\" or \"generate\""});
+      diagnostics_.error_unless(!r_.topology.has_all_nodes, network.where.place(), "a network without nodes", {"no nodes", "\"nodes\" or \"generate\""});
   }
 
   std::uint32_t port_config_index(TrafficClasses classes, const Queues& queues) {
@@ -117,6 +132,7 @@ class Resolver {
   void check_names() {
     std::set<std::string, std::less<>> names;
     const auto check = [&](const std::string& name, const json::Source& where) {
+      if (name.empty() && diagnostics_.has_errors()) return;  // refused by the table
       if (name.find('/') != std::string::npos)
         diagnostics_.error(where.at("name"), "not a name for a stream, program or application", {json::quote(name), "no '/', which stands in the names of streams"});
       if (!names.insert(name).second)
@@ -157,7 +173,7 @@ class Resolver {
 
   models::TalkerSchedule schedule_of(const Stream& stream) {
     if (stream.every) {
-      if (stream.jitter > *stream.every)
+      if (stream.jitter > *stream.every && !diagnostics_.is_refused(stream.where.at("every")))
         diagnostics_.error(stream.where.at("jitter"), "jitter above the period", {json::to_text(stream.jitter), "at most " + json::to_text(*stream.every)});
       return models::PeriodicSchedule{stream.offset.value_or(Duration()), *stream.every, stream.jitter};
     }
@@ -211,14 +227,17 @@ class Resolver {
     resolved.description = &program;
     resolved.receive_timeout = program.receive_timeout.value_or(program.cycle * 10);
     const std::size_t errors_before = diagnostics_.errors();
-    if (program.cycle == Duration()) return;  // refused by the table
-    if (resolved.receive_timeout <= program.cycle)
+    // Names are checked without a cycle, too; nothing is compared with it, and there are no streams.
+    const bool has_cycle = program.cycle > Duration() && !diagnostics_.is_refused(program.where.at("cycle"));
+    if (!has_cycle) diagnostics_.consequence();
+    if (has_cycle && resolved.receive_timeout <= program.cycle)
       diagnostics_.error(program.where.at("receive_timeout"), "a time-out within one cycle",
                          {json::to_text(resolved.receive_timeout), "more than the cycle of " + json::to_text(program.cycle)});
     const auto check_phase = [&](Duration phase, const json::Place& place) {
-      if (phase >= program.cycle && phase > Duration())
+      if (has_cycle && phase >= program.cycle && phase > Duration())
         diagnostics_.error(place, "an offset beyond the cycle", {json::to_text(phase), "less than " + json::to_text(program.cycle)});
     };
+    if (program.roles.empty() && diagnostics_.is_refused(program.where.at("roles"))) return;  // who is in it is not known
     if (program.offset) check_phase(*program.offset, program.where.at("offset"));
     if (!program.roles.empty()) {
       if (!program.replies.empty())
@@ -243,6 +262,8 @@ class Resolver {
       check_phase(phase, program.where.at("phases"));
       if (participant && *participant < resolved.phases.size()) resolved.phases[*participant] = phase;
     }
+    check_process_data(program);
+    check_replies(program, diagnostics_);
     if (publishers_ + resolved.participants.size() > most_publishers)
       diagnostics_.error(program.where.place(), "too many participants of all programs together",
                          {std::to_string(publishers_ + resolved.participants.size()) + " with this program", "at most " + std::to_string(most_publishers)});
@@ -257,20 +278,39 @@ class Resolver {
       resolved.state_streams.push_back(*stream);
     }
     for (const ProcessData& data : program.process_data) add_process_data(program, data, resolved);
-    resolve_replies(r_.topology, resolved, diagnostics_);
+    resolve_replies(r_.topology, resolved);
     r_.programs.push_back(std::move(resolved));
+  }
+
+  static std::uint32_t field_octets_of(const ProcessData& data) {
+    std::uint32_t octets = 0;
+    for (const auto& [name, field] : data.fields) octets += static_cast<std::uint32_t>(uadp::fixed_octets(built_in_type_of(field.type))) * field.count;
+    return octets;
+  }
+
+  /// What is wrong with data sets, whatever else is wrong with their program.
+  void check_process_data(const Program& program) {
+    std::set<std::string_view> names{"state"};
+    for (const ProcessData& data : program.process_data) {
+      if (!is_read(data)) {
+        diagnostics_.consequence();
+        continue;
+      }
+      participant_of(program, data.from, data.where.at("from"));
+      if (!data.name.empty() && !names.insert(data.name).second)
+        diagnostics_.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set (\"state\" is taken)"});
+      const Octets msdu{wire::process_data_octets(field_octets_of(data))};
+      if (msdu > models::maximum_msdu)
+        diagnostics_.error(data.where.at("fields"), "more than one frame", {std::to_string(msdu.count) + " octets after the EtherType", "at most 1500 with all headers"});
+    }
   }
 
   void add_process_data(const Program& program, const ProcessData& data, ResolvedProgram& resolved) {
     ResolvedProcessData made;
     made.name = data.name;
     const auto participant = participant_of(program, data.from, data.where.at("from"));
-    if (std::any_of(resolved.process_data.begin(), resolved.process_data.end(), [&](const auto& other) { return other.name == data.name; }) ||
-        data.name == "state")
-      diagnostics_.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set (\"state\" is taken)"});
-    if (!participant) return;
-    made.from = *participant;
-    for (const auto& [name, field] : data.fields) made.field_octets += static_cast<std::uint32_t>(uadp::fixed_octets(built_in_type_of(field.type))) * field.count;
+    made.from = *participant;   // check_process_data has found it
+    made.field_octets = field_octets_of(data);
     for (const auto& [name, field] : data.fields) made.values += field.count;
     const auto stream = add_program_stream(program, resolved, *participant, data.name,
                                            Octets{wire::process_data_octets(made.field_octets)}, data.where);
@@ -304,6 +344,12 @@ class Resolver {
     return index;
   }
 
+  /// Whether the name may be that of a participant that was refused: a node, or a role that could not be read.
+  bool may_be_participant(const Program& program, std::string_view name) const {
+    if (!are_all_named(program.roles, program.where.at("roles"), diagnostics_)) return true;
+    return (diagnostics_.is_refused(program.where.at("master")) || diagnostics_.is_refused(program.where.at("slaves"))) && r_.topology.find(name).has_value();
+  }
+
   std::optional<std::uint8_t> participant_of(const Program& program, const std::string& name, const json::Place& place) {
     if (name == program.master) return std::uint8_t{0};
     const auto found = std::find(program.slaves.begin(), program.slaves.end(), name);
@@ -313,7 +359,7 @@ class Resolver {
     std::vector<std::string_view> names{program.master};
     names.insert(names.end(), program.slaves.begin(), program.slaves.end());
     for (const Role& role : program.roles) names.push_back(role.name);
-    diagnostics_.error(place, "not a participant of the program", {json::quote(name), "the master or a slave of " + json::quote(program.name), json::suggest(name, names)});
+    diagnostics_.error_unless(may_be_participant(program, name), place, "not a participant of the program", {json::quote(name), "the master or a slave of " + json::quote(program.name), json::suggest(name, names)});
     return std::nullopt;
   }
 
@@ -325,14 +371,14 @@ class Resolver {
     if (entry.call || (!entry.set_gates && !entry.join && !entry.leave)) return;
     for (const auto& [present, name] : {std::pair(entry.program.has_value(), "program"), std::pair(entry.on.has_value(), "on")})
       if (present) diagnostics_.error(entry.where.at(name), "does not belong to this action", {json::quote(name), "\"call\" with it"});
-    if (entry.set_gates) add_gates(entry);
+    if (entry.set_gates && is_read(*entry.set_gates)) add_gates(entry);
   }
 
   void add_gates(const ScriptEntry& entry) {
     const SetGates& set = *entry.set_gates;
     const auto node = r_.topology.find(set.node);
     if (!node) {
-      diagnostics_.error(set.where.at("node"), "unknown node", {json::quote(set.node), "the name of a node", suggest_node(r_.topology, set.node, diagnostics_)});
+      report_unknown_node(r_.topology, set.node, set.where.at("node"), "the name of a node", diagnostics_);
       return;
     }
     const models::GateConfig gates = gate_config_of(set.gates, diagnostics_);
@@ -343,8 +389,7 @@ class Resolver {
       check_slopes_of(set, *node, neighbour.port, gates);
       r_.script.push_back({sim::TrueTime() + entry.at, ResolvedGates{models::NodeIndex{*node}, neighbour.port, gates}});
     }
-    if (!found)
-      diagnostics_.error(set.where.at(set.to ? "to" : "node"), "not a neighbour", {json::quote(set.to.value_or(set.node)), "a node that a link joins to " + json::quote(set.node)});
+    if (!found) report_no_neighbour(r_.topology, set.to.value_or(set.node), set.node, set.where.at(set.to ? "to" : "node"), diagnostics_);
   }
 
   /// New gates must leave the shapers of the port a slope that its link can give.
@@ -372,6 +417,7 @@ class Resolver {
     const auto participant = entry.on ? participant_of(*program, *entry.on, entry.where.at("on")) : std::optional<std::uint8_t>(0);
     if (!participant) return;
     // In the paper's handshake all participants may be started from outside; `robust` begins a run at the master.
+    if (diagnostics_.is_refused(entry.where.at("call"))) return;
     if (*entry.call == Method::start && *participant != 0 && program->variant == Variant::robust) {
       diagnostics_.error(entry.where.at("on"), "Start at a slave", {json::quote(*entry.on), "the master, " + json::quote(program->master)});
       return;

@@ -12,11 +12,11 @@ namespace takt::scenario {
 std::optional<std::uint32_t> StreamBuilder::host(const std::string& name, const json::Place& place) {
   const auto node = r_.topology.find(name);
   if (!node) {
-    diagnostics_.error(place, "unknown node", {json::quote(name), "the name of a host", suggest_node(r_.topology, name, diagnostics_)});
+    report_unknown_node(r_.topology, name, place, "the name of a host", diagnostics_);
     return std::nullopt;
   }
   if (!r_.topology.nodes[*node].is_host()) {
-    diagnostics_.error(place, "not a host", {"the switch " + json::quote(name), "the name of a host"});
+    diagnostics_.error_unless(r_.topology.nodes[*node].is_of_unknown_kind, place, "not a host", {"the switch " + json::quote(name), "the name of a host"});
     return std::nullopt;
   }
   return node;
@@ -25,7 +25,10 @@ std::optional<std::uint32_t> StreamBuilder::host(const std::string& name, const 
 std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
   const std::size_t errors_before = diagnostics_.errors();
   check_size(wanted);
-  if (!wanted.from || wanted.to.empty()) return std::nullopt;
+  if (!wanted.from || wanted.to.empty()) {
+    check_names_of_paths(wanted);
+    return std::nullopt;
+  }
   std::set<std::uint32_t> receivers;
   for (const auto& [to, place] : wanted.to) {
     if (to == *wanted.from)
@@ -69,6 +72,20 @@ std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
   return index;
 }
 
+/// Where ends are missing, paths cannot be laid, but what they name is there or not.
+void StreamBuilder::check_names_of_paths(const NewStream& wanted) {
+  const auto check = [&](const std::vector<std::string>& names, const json::Place& place) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      json::Place here = place;
+      here.pointer += json::pointer_step(i);
+      if (!r_.topology.find(names[i])) report_unknown_node(r_.topology, names[i], std::move(here), "the name of a node", diagnostics_);
+    }
+  };
+  if (wanted.path != nullptr) check(*wanted.path, wanted.where.at("path"));
+  if (wanted.redundancy == nullptr || !wanted.redundancy->paths) return;
+  for (std::size_t i = 0; i < wanted.redundancy->paths->size(); ++i) check((*wanted.redundancy->paths)[i], wanted.redundancy->where.at("paths", i));
+}
+
 bool StreamBuilder::check_size(const NewStream& wanted) {
   const Octets msdu = wanted.headers + wanted.payload;
   if (msdu <= models::maximum_msdu) return true;
@@ -88,7 +105,7 @@ std::vector<Path> StreamBuilder::paths_of(const NewStream& wanted) {
     if (path)
       paths.push_back(std::move(*path));
     else
-      diagnostics_.error(place, "no path", {json::quote(r_.topology.nodes[to].name) + " cannot be reached from " + json::quote(r_.topology.nodes[*wanted.from].name),
+      diagnostics_.error_unless(!r_.topology.has_all_links, place, "no path", {json::quote(r_.topology.nodes[to].name) + " cannot be reached from " + json::quote(r_.topology.nodes[*wanted.from].name),
                                             "links that join them over switches"});
   }
   return paths;

@@ -45,6 +45,7 @@ class StreamBuilder {
 
  private:
   bool check_size(const NewStream& wanted);
+  void check_names_of_paths(const NewStream& wanted);
   std::vector<Path> paths_of(const NewStream& wanted);
   std::optional<Path> explicit_path(const NewStream& wanted);
   std::optional<MemberPaths> member_paths(const NewStream& wanted);

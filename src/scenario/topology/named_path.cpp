@@ -11,20 +11,23 @@ std::optional<Path> named_path(const Topology& topology, std::span<const std::st
   Path path;
   const std::size_t errors_before = diagnostics.errors();
   std::set<std::uint32_t> seen;
+  bool follows_a_gap = false;   // the node before is none, so no link is missed
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string& name = names[i];
     const json::Place place = place_of(i);
     const auto node = topology.find(name);
     if (!node) {
-      diagnostics.error(place, "unknown node", {json::quote(name), "the name of a node", suggest_node(topology, name, diagnostics)});
+      report_unknown_node(topology, name, place, "the name of a node", diagnostics);
+      follows_a_gap = true;
       continue;
     }
     if (!seen.insert(*node).second) diagnostics.error(place, "a node twice in one path", {json::quote(name), "each node once"});
     const bool inner = i > 0 && i + 1 < names.size();
     if (inner && topology.nodes[*node].is_host())
-      diagnostics.error(place, "a host inside a path", {json::quote(name), "a switch, since hosts do not forward"});
-    if (!path.empty() && !topology.port_towards(path.back(), *node))
-      diagnostics.error(place, "no link", {"none between " + json::quote(topology.nodes[path.back()].name) + " and " + json::quote(name), "neighbours along the path"});
+      diagnostics.error_unless(topology.nodes[*node].is_of_unknown_kind, place, "a host inside a path", {json::quote(name), "a switch, since hosts do not forward"});
+    if (!path.empty() && !follows_a_gap && !topology.port_towards(path.back(), *node))
+      diagnostics.error_unless(!topology.has_all_links, place, "no link", {"none between " + json::quote(topology.nodes[path.back()].name) + " and " + json::quote(name), "neighbours along the path"});
+    follows_a_gap = false;
     path.push_back(*node);
   }
   if (diagnostics.errors() != errors_before) return std::nullopt;

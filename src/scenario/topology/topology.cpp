@@ -19,12 +19,15 @@ class Builder {
   Builder(const NetworkSection& network, json::Diagnostics& diagnostics) : network_(network), diagnostics_(diagnostics) {}
 
   Topology build() {
+    note_refused();
     for (const Generator& generator : network_.generate) add_generated(generator);
     for (const auto& [name, node] : network_.nodes) add_written(name, node);
     // Ports that are named take their numbers first, so that the others find the free ones.
     std::vector<ParsedLink> parsed;
-    for (const Link& link : network_.links)
+    for (const Link& link : network_.links) {
       if (auto ends = parse_link(link)) parsed.push_back(*ends);
+      else topology_.has_all_links = false;
+    }
     for (ParsedLink& link : parsed)
       for (End* end : {&link.a, &link.b})
         if (end->port) claim_named(*end, *link.link);
@@ -45,6 +48,13 @@ class Builder {
     End a;
     End b;
   };
+  /// Lists that are none, so that nothing in them is known.
+  void note_refused() {
+    const auto is_none = [&](std::string_view key, bool is_empty) { return is_empty && diagnostics_.is_refused(network_.where.at(key)); };
+    if (is_none("nodes", network_.nodes.empty()) || is_none("generate", network_.generate.empty())) topology_.has_all_nodes = topology_.has_all_links = false;
+    if (is_none("links", network_.links.empty())) topology_.has_all_links = false;
+  }
+
   struct GeneratedLink {
     std::uint32_t a = 0;
     std::uint32_t b = 0;
@@ -64,7 +74,21 @@ class Builder {
     return next;
   }
 
+  /// Whether it is known what nodes a generator makes.
+  bool has_shape(const Generator& generator) const {
+    constexpr std::string_view keys[] = {"topology", "switches", "depth", "fanout", "rows", "columns", "hosts_per_switch", "switch_prefix", "host_prefix", "teeth", "degree", "seed"};
+    const bool is_read = generator.where.is_known() || !diagnostics_.has_errors();
+    return is_read && std::none_of(std::begin(keys), std::end(keys), [&](std::string_view key) { return diagnostics_.is_refused(generator.where.at(key)); });
+  }
+
   void add_generated(const Generator& generator) {
+    const std::size_t errors_before = diagnostics_.errors();
+    if (has_shape(generator)) make_generated(generator);
+    else diagnostics_.consequence();
+    if (diagnostics_.errors() != errors_before) topology_.has_all_nodes = topology_.has_all_links = false;
+  }
+
+  void make_generated(const Generator& generator) {
     const Generated made = generate(generator, most_nodes - std::min<std::uint64_t>(most_nodes, topology_.nodes.size()), diagnostics_);
     std::vector<std::optional<std::uint32_t>> indices;
     indices.reserve(made.nodes.size());
@@ -99,9 +123,13 @@ class Builder {
     const json::Source where = std::visit([](const auto& n) { return n.where; }, node);
     if (name.empty() || name.find_first_of(":/") != std::string::npos) {
       diagnostics_.error(where.place(), "not a name for a node", {json::quote(name), "at least one character, no ':' and no '/'"});
+      topology_.has_all_nodes = topology_.has_all_links = false;
       return;
     }
-    add(name, node, where, where.place());
+    const auto added = add(name, node, where, where.place());
+    if (!added || where.is_known() || !diagnostics_.has_errors()) return;
+    topology_.nodes[*added].is_of_unknown_kind = true;
+    topology_.has_all_links = false;   // nobody knows whether it forwards
   }
 
   std::optional<ParsedLink> parse_link(const Link& link) {
@@ -124,8 +152,7 @@ class Builder {
     const std::string_view name = std::string_view(text).substr(0, colon);
     const auto node = topology_.find(name);
     if (!node) {
-      diagnostics_.error(link.where.at("ends", which), "unknown node",
-                         {json::quote(name), "a name under /network/nodes or of a generated node", suggest_node(topology_, name, diagnostics_)});
+      report_unknown_node(topology_, name, link.where.at("ends", which), "a name under /network/nodes or of a generated node", diagnostics_);
       return std::nullopt;
     }
     End end{*node, std::nullopt, which};
@@ -144,7 +171,7 @@ class Builder {
   }
 
   void claim_named(const End& end, const Link& link) {
-    if (topology_.nodes[end.node].is_host() && *end.port != 0) {
+    if (topology_.nodes[end.node].is_host() && !topology_.nodes[end.node].is_of_unknown_kind && *end.port != 0) {
       diagnostics_.error(link.where.at("ends", end.which), "a host has one port", {"port " + std::to_string(*end.port), "port 0"});
       return;
     }
@@ -190,11 +217,11 @@ class Builder {
       const std::size_t count = topology_.neighbours[n].size();
       if (count > most_ports)
         diagnostics_.error(node.where.place(), "too many links at one node", {std::to_string(count), "at most " + std::to_string(most_ports)});
-      if (!node.is_host()) continue;
+      if (!node.is_host() || node.is_of_unknown_kind) continue;
       if (count > 1)
         diagnostics_.error(node.where.place(), "two links on one port",
                            {std::to_string(count) + " links at host " + json::quote(node.name), "one link, since a host has one port"});
-      else if (count == 0)
+      else if (count == 0 && topology_.has_all_links)
         diagnostics_.warning(node.where.place(), "a host without a link", {json::quote(node.name)});
     }
   }
@@ -223,6 +250,16 @@ std::optional<std::uint16_t> Topology::port_towards(std::uint32_t from, std::uin
 
 Topology build_topology(const NetworkSection& network, json::Diagnostics& diagnostics) {
   return Builder(network, diagnostics).build();
+}
+
+void report_unknown_node(const Topology& topology, std::string_view name, json::Place place, std::string expected, json::Diagnostics& diagnostics) {
+  diagnostics.error_unless(!topology.has_all_nodes, std::move(place), "unknown node", {json::quote(name), std::move(expected), suggest_node(topology, name, diagnostics)});
+}
+
+void report_no_neighbour(const Topology& topology, std::string_view neighbour, std::string_view node, json::Place place, json::Diagnostics& diagnostics) {
+  const bool is_known = topology.find(neighbour).has_value();
+  diagnostics.error_unless(!topology.has_all_links || (!is_known && !topology.has_all_nodes), std::move(place), "not a neighbour",
+                           {json::quote(neighbour), "a node that a link joins to " + json::quote(node), is_known ? "" : suggest_node(topology, neighbour, diagnostics)});
 }
 
 std::string suggest_node(const Topology& topology, std::string_view name, const json::Diagnostics& diagnostics) {

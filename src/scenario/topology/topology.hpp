@@ -18,6 +18,7 @@ struct TopologyNode {
   Node description;     ///< HostNode or SwitchNode
   json::Source where;
   bool is_host() const { return std::holds_alternative<HostNode>(description); }
+  bool is_of_unknown_kind = false;   ///< its "kind" was refused
 };
 
 /// One end of a link as seen from a node.
@@ -32,6 +33,9 @@ struct Topology {
   std::vector<models::LinkPlan> links;
   std::vector<std::vector<Neighbour>> neighbours;      ///< of each node, in the order of the links
   std::map<std::string, std::uint32_t, std::less<>> index;
+  /// False if nodes or links were refused: that a name or a way is missing may be a consequence then, which is not told.
+  bool has_all_nodes = true;
+  bool has_all_links = true;
 
   std::optional<std::uint32_t> find(std::string_view name) const;
   /// The port of `from` that leads to its neighbour `to`; the first if there are several links.
@@ -40,6 +44,12 @@ struct Topology {
 
 /// Builds the topology; mistakes go to `diagnostics`. What could be built is returned even then.
 Topology build_topology(const NetworkSection& network, json::Diagnostics& diagnostics);
+
+/// Reports a name that no node has; `expected` is a phrase such as "the name of a host".
+void report_unknown_node(const Topology& topology, std::string_view name, json::Place place, std::string expected, json::Diagnostics& diagnostics);
+
+/// Reports that no link joins the node to its neighbour.
+void report_no_neighbour(const Topology& topology, std::string_view neighbour, std::string_view node, json::Place place, json::Diagnostics& diagnostics);
 
 /// The known node name nearest to `name`, or ""; not worked out for a diagnostic that would not be kept.
 std::string suggest_node(const Topology& topology, std::string_view name, const json::Diagnostics& diagnostics);

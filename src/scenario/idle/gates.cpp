@@ -1,0 +1,102 @@
+// Gate lists that close for nobody, begin after the end, hold what is not preemptable; limits of queues that nobody uses.
+#include <algorithm>
+
+#include "scenario/idle/usage.hpp"
+
+namespace takt::scenario {
+namespace {
+
+using Ports = std::vector<const PortUse*>;
+
+/// A gate list as it is written, and the ports that it is for.
+class GatesTeller {
+ public:
+  GatesTeller(const Usage& usage, json::Diagnostics& diagnostics) : usage_(usage), diagnostics_(diagnostics) {}
+
+  /// `begins` is when the list is set.
+  void run(const Gates& gates, const Ports& ports, Duration begins) {
+    if (ports.empty()) return;
+    if (usage_.is_after_the_end(std::max(begins, gates.base_time)))
+      return warn_once(diagnostics_, gates.where.at("base_time"), "gates that begin after the end of the simulation",
+                       {json::to_text(std::max(begins, gates.base_time)), "less than " + json::to_text(usage_.resolved().scenario.duration)});
+    const bool is_changed = std::any_of(ports.begin(), ports.end(), [](const PortUse* port) { return port->gates.size() > 1; });
+    if (gates.extension > Duration() && !is_changed)
+      warn_once(diagnostics_, gates.where.at("extension"), "an extension that nothing needs", {"no other list for " + usage_.name(ports), "a \"set_gates\" of the script"});
+    const bool is_cut = std::any_of(ports.begin(), ports.end(), [](const PortUse* port) { return port->config->preemption.has_value(); });
+    for (const GateEntry& entry : gates.entries)
+      if (entry.mac != MacOperation::none && !is_cut) {
+        warn_once(diagnostics_, entry.where.at("mac"), "preemptable frames held that there are not", {"no preemption at " + usage_.name(ports), "\"preemption\" beside \"gates\""});
+        break;
+      }
+    closing(gates, ports);
+  }
+
+ private:
+  void closing(const Gates& gates, const Ports& ports) {
+    models::ClassSet closed = 0;
+    for (const GateEntry& entry : gates.entries) {
+      models::ClassSet open = 0;
+      for (const std::uint8_t q : entry.open) open = models::with(open, q);
+      closed = static_cast<models::ClassSet>(closed | ~open);
+    }
+    models::ClassSet used = 0;
+    for (const PortUse* port : ports) used = static_cast<models::ClassSet>(used | port->classes);
+    const bool holds = std::any_of(gates.entries.begin(), gates.entries.end(), [](const GateEntry& entry) { return entry.mac != MacOperation::none; });
+    if ((closed & used) != 0 || holds) return;
+    warn_once(diagnostics_, gates.where.place(), "gates that close for no frame",
+              {used == 0 ? "no stream leaves through " + usage_.name(ports) : "class " + text_of_classes(used) + " in use at " + usage_.name(ports) + ", open at all times", "entries that close a class in use"});
+  }
+
+  const Usage& usage_;
+  json::Diagnostics& diagnostics_;
+};
+
+Ports ports_of(const Usage& usage, const SetGates& set) {
+  Ports ports;
+  const Topology& topology = usage.resolved().topology;
+  for (const auto& [key, port] : usage.ports())
+    if (topology.nodes[port.node].name == set.node && (!set.to || topology.nodes[port.peer].name == *set.to)) ports.push_back(&port);
+  return ports;
+}
+
+}  // namespace
+
+void tell_idle_gates(const Usage& usage, json::Diagnostics& diagnostics) {
+  GatesTeller teller(usage, diagnostics);
+  for (const EgressUse& use : usage.egress())
+    if (use.egress->gates) teller.run(*use.egress->gates, use.ports, {});
+  const Scenario& scenario = usage.resolved().scenario;
+  for (const ScriptEntry& entry : scenario.script)
+    if (entry.set_gates) teller.run(entry.set_gates->gates, ports_of(usage, *entry.set_gates), entry.at);
+  // Lists that were laid out have no place of their own.
+  if (scenario.gates && !usage.resolved().gates)
+    for (const SetGates& set : scenario.gates->lists) teller.run(set.gates, ports_of(usage, set), {});
+}
+
+void tell_idle_queues(const Usage& usage, json::Diagnostics& diagnostics) {
+  const Resolved& r = usage.resolved();
+  std::map<std::string, std::pair<const Queues::PerClass*, Ports>> limits;   // by place: generated nodes share theirs
+  for (std::uint32_t n = 0; n < r.topology.nodes.size(); ++n) {
+    const Queues& queues = std::visit([](const auto& node) -> const Queues& { return node.queues; }, r.topology.nodes[n].description);
+    for (const Queues::PerClass& one : queues.classes) {
+      auto& [limit, ports] = limits[one.where.place().pointer];
+      limit = &one;
+      for (const auto& [key, port] : usage.ports())
+        if (port.node == n) ports.push_back(&port);
+    }
+  }
+  for (const auto& [pointer, limit] : limits) {
+    const auto& [one, ports] = limit;
+    const models::TrafficClass q = one->traffic_class;
+    if (std::any_of(ports.begin(), ports.end(), [q = q](const PortUse* port) { return port->uses(q); })) continue;
+    warn_once(diagnostics, one->where.at("class"), "a limit of a queue that no stream uses", {"class " + std::to_string(q) + " at " + usage.name(ports) + ": " + usage.why_unused(q, ports), usage.classes_in_use(ports)});
+  }
+  for (const TopologyNode& node : r.topology.nodes) {
+    const auto* const bridge = std::get_if<SwitchNode>(&node.description);
+    if (bridge == nullptr || !bridge->where.has("cut_through_header")) continue;
+    if (std::all_of(bridge->egress.begin(), bridge->egress.end(), [](const Egress& egress) { return egress.cut_through.empty(); }))
+      warn_once(diagnostics, bridge->where.at("cut_through_header"), "a header where nothing is cut through", {"no \"cut_through\" in \"egress\" of " + json::quote(node.name), "classes that are cut through"});
+  }
+}
+
+}  // namespace takt::scenario

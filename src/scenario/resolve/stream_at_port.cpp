@@ -1,0 +1,114 @@
+#include "scenario/resolve/stream_at_port.hpp"
+
+#include <set>
+#include <tuple>
+
+#include "models/ethernet/sizes.hpp"
+
+namespace takt::scenario {
+namespace {
+
+class Walker {
+ public:
+  explicit Walker(const Resolved& resolved) : r_(resolved), ingress_(resolved) {
+    for (const models::LinkPlan& link : r_.plan.links)
+      for (const models::LinkPlan::End* end : {&link.a, &link.b}) ends_[{end->node.value, end->port}] = end;
+    for (const ResolvedRedundancy& redundancy : r_.redundancies) redundancies_[redundancy.stream.value] = &redundancy;
+  }
+
+  std::vector<StreamAtPort> run() {
+    for (const ResolvedStream& stream : r_.streams) {
+      const auto redundant = redundancies_.find(stream.index.value);
+      seen_.clear();
+      for (std::size_t i = 0; i < stream.paths.size(); ++i) walk(stream, stream.paths[i], redundant == redundancies_.end() ? nullptr : redundant->second, i);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void walk(const ResolvedStream& stream, const Path& path, const ResolvedRedundancy* redundancy, std::size_t number) {
+    const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
+    const Octets msdu = plan.headers + stream.largest_payload;
+    const bool keeps = redundancy != nullptr && redundancy->description->keep_tag;
+    bool is_member = false;
+    bool r_tagged = false;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const std::uint16_t port = *r_.topology.port_towards(path[i], path[i + 1]);
+      StreamAtPort made{stream.index, {}, path[i], port, path[i + 1]};
+      models::Frame frame;
+      frame.stream = stream.index;
+      frame.source = models::AddressIndex{plan.talker.value};
+      frame.destination = is_member ? redundancy->members[number].destination : plan.destination;
+      frame.vlan = is_member ? redundancy->members[number].vlan : plan.vlan;
+      frame.priority = plan.priority.value_or(0);
+      frame.tagged = plan.priority.has_value();
+      made.filter = ingress_.filter(path[i], frame);
+      if (redundancy != nullptr && is_member && path[i] == redundancy->merge) {
+        is_member = false;
+        r_tagged = keeps;
+      }
+      made.policed_frame = models::frame_length(msdu, frame.tagged, r_tagged);
+      made.policed_msdu = msdu + (r_tagged ? models::r_tag : Octets{0});
+      if (redundancy != nullptr && path[i] == redundancy->split) is_member = r_tagged = true;
+      if (is_member) made.member = number;
+      if (!seen_.insert({made.member ? number + 1 : 0, path[i], port}).second) continue;
+      const models::PortConfig& config = port_config_of(r_, *ends_.at({path[i], port}));
+      // Hosts send frames as they were made.
+      const bool tagged = frame.tagged && !(config.untagged && i > 0);
+      made.frame = models::frame_length(msdu, tagged, r_tagged);
+      made.msdu = msdu + (r_tagged ? models::r_tag : Octets{0});
+      made.classes = ingress_.classes(path[i], config, made.filter, frame.priority);
+      found_.push_back(made);
+    }
+  }
+
+  const Resolved& r_;
+  IngressClasses ingress_;
+  std::map<std::pair<std::uint32_t, std::uint16_t>, const models::LinkPlan::End*> ends_;
+  std::map<std::uint32_t, const ResolvedRedundancy*> redundancies_;
+  std::set<std::tuple<std::size_t, std::uint32_t, std::uint16_t>> seen_;   // of one stream: member, node, port
+  std::vector<StreamAtPort> found_;
+};
+
+}  // namespace
+
+std::vector<StreamAtPort> streams_at_ports(const Resolved& resolved) { return Walker(resolved).run(); }
+
+const models::PortConfig& port_config_of(const Resolved& r, const models::LinkPlan::End& end) {
+  return r.plan.port_configs[end.port_config.value_or(r.plan.nodes[end.node.value].port_config)];
+}
+
+models::ClassSet IngressClasses::classes(std::uint32_t node, const models::PortConfig& port, std::optional<std::uint32_t> filter, models::Priority priority) const {
+  const models::TrafficClass own = port.traffic_class_of_priority[priority];
+  const models::ClassSet only_own = models::with(0, own);
+  if (!filter) return only_own;
+  const models::IngressConfig& ingress = r_.plan.ingress_configs[*r_.plan.nodes[node].ingress];
+  const models::StreamGateIndex number = ingress.stream_filters[*filter].stream_gate;
+  if (number.is_none()) return only_own;
+  const models::StreamGateConfig& gate = ingress.stream_gates[number.value];
+  const auto class_of = [&](const std::optional<models::Priority>& ipv) { return ipv ? port.traffic_class_of_priority[*ipv] : own; };
+  models::ClassSet classes = 0;
+  // Before its list begins a gate is as it was made.
+  const bool begins_later = gate.admin_control_list.empty() || gate.admin_base_time > sim::LocalTime();
+  if (begins_later && gate.admin_gate_open) classes = models::with(classes, class_of(gate.admin_ipv));
+  for (const models::StreamGateEntry& entry : gate.admin_control_list)
+    if (entry.open) classes = models::with(classes, class_of(entry.ipv));
+  return classes;
+}
+
+std::optional<std::uint32_t> IngressClasses::filter(std::uint32_t node, const models::Frame& frame) {
+  if (!r_.plan.nodes[node].ingress) return std::nullopt;
+  const models::IngressConfig& ingress = r_.plan.ingress_configs[*r_.plan.nodes[node].ingress];
+  if (ingress.stream_filters.empty()) return std::nullopt;
+  auto table = tables_.find(node);
+  if (table == tables_.end()) table = tables_.emplace(node, models::StreamTable(ingress.stream_identity_table, static_cast<std::uint32_t>(r_.plan.nodes.size()))).first;
+  const models::StreamHandle handle = table->second.identify(frame).stream;
+  for (std::uint32_t i = 0; i < ingress.stream_filters.size(); ++i) {
+    const models::StreamFilterConfig& filter = ingress.stream_filters[i];
+    const bool is_of_nothing = filter.stream_handle && filter.stream_handle->is_none();  // its name was refused
+    if (!is_of_nothing && models::StreamFilter(filter).matches(handle, frame.priority)) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace takt::scenario

@@ -4,7 +4,6 @@
 #include <map>
 #include <set>
 
-#include "models/ethernet/sizes.hpp"
 #include "scenario/resolve/control_list.hpp"
 
 namespace takt::scenario {

@@ -69,7 +69,6 @@ class Requirements {
       diagnostics_.error(requirement.where.at("stream"), "unknown stream", {json::quote(*requirement.stream), "the name of a stream", json::suggest(*requirement.stream, streams_.all())});
   }
 
-
  private:
   /// A cause that cannot be: a limit that nothing can ever fail is no requirement.
   void check_cause(const Requirement& requirement) {

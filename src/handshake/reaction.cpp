@@ -49,7 +49,7 @@ bool ReactionTracker::joins_fault(const Outputs& outputs, const Intent& intent) 
   });
   if (fault == open_.end()) return false;
   const std::size_t position = fault->reaction;
-  fault->intent = std::max(fault->intent, intent);
+  if (standing_of(intent, fault->intent) == Standing::later) fault->intent = intent;
   fault->is_awaited = false;
   supersede(position, intent);
   return true;

@@ -33,7 +33,7 @@ class Scenario(unittest.TestCase):
     def test_page(self):
         status, out, err = bound(SCENARIOS / "robot-arm.json")
         self.assertEqual((status, err), (0, ""))
-        for words in ("camera", "sw1:0 to generator", "bits", "Reactions", "start", "[1] os-latency", "reaction start within 12ms"):
+        for words in ("camera", "sw1:0 to generator", "bits", "Reactions", "start", "[1] nothing-else", "[2] os-latency", "reaction start within 12ms"):
             self.assertIn(words, out)
 
     def test_json(self):

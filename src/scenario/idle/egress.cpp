@@ -145,8 +145,8 @@ class EgressTeller {
     for_streams(q, [&](const PortUse& port, const StreamAtPort& at) {
       has_stream = true;
       for (const Path& path : usage_.resolved().streams[at.stream.value].paths)
-        for (std::size_t i = 1; i + 1 < path.size(); ++i)
-          if (path[i] == at.node && path[i + 1] == at.peer) may = may || rate_of(path[i - 1], path[i]) == port.link->rate;
+        for (std::size_t hop = 1; hop + 1 < path.size(); ++hop)
+          if (path[hop] == at.node && path[hop + 1] == at.peer) may = may || rate_of(path[hop - 1], path[hop]) == port.link->rate;
     });
     if (!has_stream && egress_.cut_through.size() > 1) return;   // one of many that are listed
     if (!has_stream) warn(place, "cut-through of a class that no stream has", {"class " + std::to_string(q) + " at " + usage_.name(ports_) + ": gPTP alone, which is not forwarded", usage_.classes_in_use(ports_)});

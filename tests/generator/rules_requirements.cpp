@@ -64,6 +64,10 @@ std::span<const Rule> requirement_rules() {
   static const Rule rules[] = {
       {.key = "scenario.require", .percent = 90, .make = [](Maker& m, const Scope& s) -> Made { return m.objects("requirement", m.draw.between(1, 4), s); }},
       {.key = "requirement.reaction", .percent = 80, .make = [](Maker& m, const Scope&) -> Made { return m.root().find("programs") != nullptr ? m.word("start start halt suspend resume reset") : Made(); }},
+      {.key = "requirement.cause", .percent = 40, .make = [](Maker& m, const Scope& s) -> Made {
+         if (!s.has("reaction")) return std::nullopt;
+         return m.word(s.text("reaction") == "halt" ? "command crash restart cut silence leave mismatch nested" : "command nested");
+       }},
       {.key = "requirement.stream", .percent = 70, .make = stream},
       {.key = "requirement.sync", .percent = 60, .make = [](Maker& m, const Scope&) -> Made { return m.wants(Feature::gptp) ? m.word("100ns 1us 100us 1s") : Made(); }},
       {.key = "requirement.application", .percent = 60, .make = application},

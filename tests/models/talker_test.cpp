@@ -202,7 +202,6 @@ TEST(Talker, SendsNothingThatWasDueBeforeTheBeginning) {
     for (const sim::TraceRecord& record : trace.of(Occurrence::produced)) us.push_back(record.time.ps() / 1'000'000);
     return us;
   };
-  using Times = std::vector<std::int64_t>;
   EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, 0_us), (Times{100, 1100, 2100, 3100}));
   EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, 1_s), (Times{100, 1100, 2100, 3100}));      // at 1.0001 s of its clock
   EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, 5200_us), (Times{900, 1900, 2900}));        // at 6.1 ms

@@ -63,8 +63,7 @@ const BadCase cases[] = {
      R"(2:31: error at /network/nodes/sw/ingress/ats/0/rate: a scheduler faster than every link: found 2Gbps, expected at most 1Gbps, the fastest link of the switch
 2:65: error at /network/nodes/sw/ingress/ats/0/group: unknown group of ATS schedulers: found "g", expected a name under "ats_groups" of this ingress)"},
     {"CqfThatDoesNotFit", with_ingress(R"("cqf": {"cycle": "1us", "classes": [3, 2]})"),
-     R"(2:18: error at /network/nodes/sw/ingress/cqf/cycle: a cycle shorter than a frame: found 1us with a dead time of 51ns for frames of "control" that last 1.264us, expected a cycle that holds the longest frame
-3:71: error at /streams/0: a frame that no gate window lets pass: found 1.264us for a frame of class 3 at "sw", whose longest window is 949ns, expected a window that holds the longest frame)"},
+     R"(2:18: error at /network/nodes/sw/ingress/cqf/cycle: a cycle shorter than a frame: found 1us with a dead time of 51ns for frames of "control" that last 1.264us, expected a cycle that holds the longest frame)"},
     {"CqfWithoutTimeToSend", with_ingress(R"("cqf": {"cycle": "10us", "classes": [3, 2], "dead_time": "10us"})"),
      R"(2:58: error at /network/nodes/sw/ingress/cqf/dead_time: no time to send: found a dead time of 10us in a cycle of 10us, expected a shorter one)"},
     {"CqfThatReceivesIntoWhatItSends", with_ingress(R"("cqf": {"cycle": "10us", "classes": [3, 2], "offset": "1us"})"),
@@ -93,9 +92,9 @@ const BadCase cases[] = {
      R"(3:37: error at /streams/0/redundancy/paths: fields that exclude each other: found "paths" beside "count", expected at most one of "count" or "paths")"},
     {"PathsThatAreNone", with_redundancy(R"({"paths": [["h1", "sw1", "sw2"], ["h1", "sw1", "h3", "sw2", "h2"]]})"),
      R"(3:26: error at /streams/0/redundancy/paths/0: a path between other nodes: found "h1" to "sw2", expected "h1" to "h2"
-3:48: error at /streams/0/redundancy/paths/1: a host inside a path: found "h3", expected a switch, since hosts do not forward
-3:48: error at /streams/0/redundancy/paths/1: no link: found none between "sw1" and "h3", expected neighbours along the path
-3:48: error at /streams/0/redundancy/paths/1: no link: found none between "h3" and "sw2", expected neighbours along the path)"},
+3:48: error at /streams/0/redundancy/paths/1/2: a host inside a path: found "h3", expected a switch, since hosts do not forward
+3:48: error at /streams/0/redundancy/paths/1/2: no link: found none between "sw1" and "h3", expected neighbours along the path
+3:48: error at /streams/0/redundancy/paths/1/3: no link: found none between "h3" and "sw2", expected neighbours along the path)"},
     {"APathTwice", with_redundancy(R"({"paths": [["h1", "sw1", "sw2", "h2"], ["h1", "sw1", "sw2", "h2"]]})"),
      R"(3:54: error at /streams/0/redundancy/paths/1: a path twice: found the path of another member, expected paths that differ)"},
     {"SplitWhereThePathsHaveParted", with_redundancy(R"({"split": "sw3", "merge": "sw9"})"),

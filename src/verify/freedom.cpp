@@ -81,12 +81,15 @@ void add_faults(const Scenario& scenario, std::vector<Freedom>& found) {
   }
 }
 
+/// What has no ceiling worth the name is left to chance: no bound is claimed there, and a frame for ever under way shows nothing.
+constexpr Duration longest_latency = Duration::from_ps(10'000'000'000'000);
+
 constexpr std::pair<Freedom::Latency, const char*> latencies[] = {{Freedom::Latency::transmit, "transmit latency"}, {Freedom::Latency::receive, "receive latency"}, {Freedom::Latency::wake_up, "wake-up latency"}};
 
 void add_latencies(const models::OsLatency& os, Freedom::Kind kind, std::size_t item, const std::string& whose, std::vector<Freedom>& found) {
   for (const auto& [latency, name] : latencies) {
     const sim::Distribution& distribution = latency == Freedom::Latency::transmit ? os.transmit : latency == Freedom::Latency::receive ? os.receive : os.wake_up;
-    if (distribution.least() == distribution.greatest()) continue;
+    if (distribution.least() == distribution.greatest() || distribution.greatest() > longest_latency) continue;
     found.push_back({kind, item, 0, either_end + Duration::from_ps(1), std::string(name) + " of " + whose, latency, distribution.least(), distribution.greatest()});
   }
 }

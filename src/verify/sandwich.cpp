@@ -58,8 +58,8 @@ void settle(analysis::AssumptionLedger& ledger, const std::vector<Violation>& vi
 /// A proof that stands, of a requirement that a run has failed.
 std::optional<Contradiction> contradiction_of(const Line& line, const Finding& finding, const Proof& proof, const analysis::AssumptionLedger& ledger) {
   if (line.verdict != Verdict::refuted || !proof.holds || !ledger.objection(proof.assumptions, proof.from).empty()) return std::nullopt;
-  // A bound says how long a reaction takes, not that there is one: a requirement that fails for want of it is refuted, and that is all.
-  if (line.requirement.kind == results::RequirementKind::reaction && !finding.worst.measured) return std::nullopt;
+  // A bound says how long a reaction or a frame takes, not that there is one: a requirement that fails for want of it is refuted, and that is all.
+  if (line.requirement.limit && !finding.worst.measured) return std::nullopt;
   return Contradiction{line.requirement.text + ": a run fails what is proved", finding.worst.scenario};
 }
 

@@ -73,7 +73,10 @@ std::span<const Rule> clock_rules() {
       {.key = "gptp.average_link_delay", .percent = 20, .words = "1 4"},
       {.key = "gptp.drift_window", .percent = 20, .words = "0 4 8"},
       {.key = "gptp.link_delay_threshold", .percent = 15, .words = "800ns 5us 20us"},
-      {.key = "gptp.nodes", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return by_node(m, s, "gptp_node", 3); }},
+      {.key = "gptp.nodes", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made {
+         if (!m.wants(Feature::hot_standby) && m.draw.one_in(3)) return std::nullopt;
+         return by_node(m, s, "gptp_node", 3);
+       }},
       {.key = "gptp.domains", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made {
          if (!m.wants(Feature::hot_standby) && !m.draw.one_in(5)) return std::nullopt;
          return m.objects("gptp_domain", m.draw.one_in(4) ? 2 : 1, s);
@@ -84,7 +87,11 @@ std::span<const Rule> clock_rules() {
       {.key = "servo.first_step_threshold", .percent = 30, .words = "0s 1us 20us"},
       {.key = "servo.step_threshold", .percent = 30, .words = "0s 1us 1ms"},
       {.key = "servo.max_frequency", .percent = 20, .words = "100ppm 1000ppm"},
-      {.key = "gptp_node.priority1", .percent = 60, .words = "100 128 200 248 255"},
+      // A domain of a hot standby has somebody who may be its grandmaster.
+      {.key = "gptp_node.priority1", .percent = 100, .make = [](Maker& m, const Scope&) -> Made {
+         if (m.wants(Feature::hot_standby)) return Node::of_literal(m.draw.word("100 128 200 248"));
+         return m.draw.one_in(2) ? Made(Node::of_literal(m.draw.word("100 128 200 248 255"))) : std::nullopt;
+       }},
       {.key = "gptp_node.priority2", .percent = 20, .words = "1 248"},
       {.key = "gptp_node.clock_class", .percent = 15, .words = "6 248"},
       {.key = "gptp_node.clock_accuracy", .percent = 15, .words = "32 254"},
@@ -92,7 +99,10 @@ std::span<const Rule> clock_rules() {
       {.key = "gptp_role.to", .make = [](Maker&, const Scope& s) -> Made { return text(s.name); }},
       {.key = "gptp_role.role", .make = [](Maker& m, const Scope& s) -> Made { return s.number == 0 ? m.word("time-receiver time-transmitter") : m.word("time-transmitter passive disabled"); }},
       {.key = "gptp_domain.domain", .make = [](Maker&, const Scope& s) -> Made { return number(s.number == 0 ? 1 : 20); }},
-      {.key = "gptp_domain.nodes", .percent = 70, .make = [](Maker& m, const Scope& s) -> Made { return by_node(m, s, "gptp_node", 2); }},
+      {.key = "gptp_domain.nodes", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made {
+         if (!m.wants(Feature::hot_standby) && m.draw.one_in(3)) return std::nullopt;
+         return by_node(m, s, "gptp_node", 2);
+       }},
   };
   return rules;
 }

@@ -36,7 +36,7 @@ TEST(Windows, AreThoseOfTheClassThatAStreamGateGives) {
 }
 
 TEST(Windows, OfOneOfSeveralClassesAreTold) {
-  const std::string text = gated(with_ipv(R"("entries": [{"ipv": 4, "for": "1ms"}, {"ipv": 5, "for": "1ms"}])"), window("20us", 4), R"("offset": "0s")");
+  const std::string text = gated(with_ipv(R"("entries": [{"open": true, "ipv": 4, "for": "1ms"}, {"open": true, "ipv": 5, "for": "1ms"}])"), window("20us", 4), R"("offset": "0s")");
   EXPECT_TRUE(is_sound(text)) << told(text);
   EXPECT_NE(told(text).find("warning at /streams/0: frames that no gate window lets pass, when their stream gate puts them into that class"), std::string::npos);
 }

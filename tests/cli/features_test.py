@@ -197,7 +197,9 @@ class Redundancy(FeaturesTest):
 class Check(FeaturesTest):
     def page(self, name):
         status, out, err = takt("check", SCENARIOS / f"{name}.json")
-        self.assertEqual((status, err), (0, ""))
+        self.assertEqual(status, 0)
+        if name != "tsn/policing":   # which shows a meter slower than its streams, and says so
+            self.assertEqual(err, "")
         return out
 
     def test_ports(self):

@@ -169,10 +169,11 @@ std::vector<Measured> measure(const Entries& entries, const MeasureOptions& opti
       if (options.progress) options.progress(done, jobs.size());
     }
   };
-  std::vector<std::thread> threads;
-  for (unsigned t = 1; t < options.jobs; ++t) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
+  {
+    std::vector<std::jthread> threads;
+    for (unsigned t = 1; t < options.jobs; ++t) threads.emplace_back(work);
+    work();
+  }
   if (failure) std::rethrow_exception(failure);
   for (const Job& job : jobs)
     for (const json::Diagnostic& diagnostic : job.diagnostics.kept())

@@ -116,8 +116,8 @@ class ClockResolver {
     }
     check_nodes(gptp.nodes, gptp.where);
     if (gptp.hot_standby) {
-      check_grandmaster(gptp.nodes, gptp.where.place());
-      if (!gptp.domains.empty()) check_grandmaster(gptp.domains.front().nodes, gptp.domains.front().where.place());
+      check_grandmaster(gptp.nodes, gptp.where);
+      if (!gptp.domains.empty()) check_grandmaster(gptp.domains.front().nodes, gptp.domains.front().where);
     }
     std::set<std::string> without(gptp.without.begin(), gptp.without.end());
     for (std::size_t i = 0; i < gptp.without.size(); ++i) node_named(gptp.without[i], gptp.where.at("without", i));
@@ -149,9 +149,9 @@ class ClockResolver {
   }
 
   /// Nobody is elected grandmaster of a domain of a hot standby who is not named: that would be a third source of time.
-  void check_grandmaster(const json::NameMap<GptpNode>& nodes, const json::Place& place) {
+  void check_grandmaster(const json::NameMap<GptpNode>& nodes, const json::Source& where) {
     const bool is_named = std::any_of(nodes.begin(), nodes.end(), [](const auto& node) { return node.second.roles || node.second.priority1.value_or(255) < 255; });
-    if (!is_named) diagnostics_.error(place, "a domain of a hot standby without a grandmaster", {"no node with \"priority1\" or \"roles\"", "a \"priority1\" below 255 at the node that is to be grandmaster, or the \"roles\" of the ports"});
+    if (!is_named) diagnostics_.error_unless(diagnostics_.is_refused(where.at("nodes")), where.place(), "a domain of a hot standby without a grandmaster", {"no node with \"priority1\" or \"roles\"", "a \"priority1\" below 255 at the node that is to be grandmaster, or the \"roles\" of the ports"});
   }
 
   /// A message that is cut has no time stamp that means anything.

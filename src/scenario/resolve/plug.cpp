@@ -77,7 +77,7 @@ class RoleResolver {
       if (!data.name.empty() && !names.insert(data.name).second) diagnostics_.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set (\"state\", \"bindings\" and \"announce\" are taken)"});
       if (std::find(program_.participant_names.begin(), program_.participant_names.end(), data.from) != program_.participant_names.end()) continue;
       const std::vector<std::string_view> known(program_.participant_names.begin(), program_.participant_names.end());
-      const bool is_unclear = !are_all_named(description_.roles, description_.where.at("roles"), diagnostics_) || (diagnostics_.is_refused(description_.where.at("master")) && r_.topology.find(data.from));
+      const bool is_unclear = !are_all_named(description_.roles, description_.where.at("roles"), diagnostics_) || diagnostics_.is_refused(description_.where.at("master"));
       diagnostics_.error_unless(is_unclear, data.where.at("from"), "not a participant of the program",
                                 {json::quote(data.from), "the master or a role of " + json::quote(program_.name), json::suggest(data.from, known)});
     }

@@ -11,7 +11,8 @@ endif()
 # What the optimiser believes to see differs from one release of GCC to the next, and is wrong at times: it is told, and stops nobody.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(takt_options INTERFACE $<$<CONFIG:Release>:-Wno-error=maybe-uninitialized -Wno-error=array-bounds -Wno-error=stringop-overflow
-                                                -Wno-error=stringop-overread -Wno-error=free-nonheap-object>)
+                                                -Wno-error=stringop-overread -Wno-error=free-nonheap-object>
+                                                $<$<AND:$<CONFIG:Release>,$<VERSION_GREATER_EQUAL:${CMAKE_CXX_COMPILER_VERSION},12>>:-Wno-error=dangling-pointer -Wno-error=use-after-free>)
 endif()
 if(TAKT_SANITIZE)
   target_compile_options(takt_options INTERFACE -fsanitize=${TAKT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

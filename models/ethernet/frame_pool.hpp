@@ -68,6 +68,12 @@ class FramePool {
     free_[free_count_++] = handle;
   }
   std::size_t live() const { return frames_.size() - free_count_; }
+  /// Calls visit(frame) for each that is under way, in no particular order. For the end of a run: it looks at the whole pool.
+  template <class Visit>
+  void for_each_live(Visit&& visit) const {
+    for (const Frame& frame : frames_)
+      if (frame.references > 0) visit(frame);
+  }
 
  private:
   [[gnu::noinline]] void grow() {

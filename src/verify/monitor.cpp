@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/assessment.hpp"
+#include "scenario/figures/requirement_rules.hpp"
 #include "scenario/json/quantity.hpp"
 
 namespace takt::verify {
@@ -62,7 +63,7 @@ std::string contradiction_of_streams(const analysis::Bounds& bounds, const resul
 std::string contradiction_of_requirements(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const results::RunResult& result) {
   for (const analysis::Bounds::Requirement& each : bounds.requirements) {
     const scenario::Requirement& requirement = resolved.scenario.require[each.requirement];
-    if (each.what != "reaction" || !each.bound.duration || !bounds.ledger.objection(each.bound.assumptions, requirement.after).empty()) continue;
+    if (each.what != "reaction" || !each.bound.duration || !bounds.ledger.objection(each.bound.assumptions, scenario::counts_from(resolved.scenario, requirement)).empty()) continue;
     for (const results::RequirementResult& seen : result.requirements)
       if (seen.requirement == each.requirement && seen.measured && *seen.measured > *each.bound.duration) return exceeded(seen.text, *seen.measured, *each.bound.duration);
   }

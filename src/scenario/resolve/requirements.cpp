@@ -7,6 +7,7 @@
 
 #include "scenario/applications/resolve_applications.hpp"
 #include "scenario/figures/requirement.hpp"
+#include "scenario/json/quantity.hpp"
 #include "scenario/json/suggest.hpp"
 
 namespace takt::scenario {
@@ -26,6 +27,13 @@ class Requirements {
     const auto refuse = [&](bool is_there, std::string_view key, std::string_view subject) {
       if (is_there) diagnostics_.error(requirement.where.at(key), "does not belong to this requirement", {json::quote(key), "a requirement with \"" + std::string(subject) + "\""});
     };
+    for (const auto& [limit, key] : {std::pair(&requirement.latency, "latency"), std::pair(&requirement.jitter, "jitter")})
+      if (*limit && (*limit)->within && !(*limit)->equal)
+        diagnostics_.error((*limit)->where.at("within"), "does not belong to this limit", {"\"within\" without \"equal\"", "\"within\" beside \"equal\""});
+    if (requirement.within && !requirement.within->time && !requirement.figure)
+      diagnostics_.error(requirement.where.at("within"), "a time without a unit", {"a number", "a duration such as \"7ms\""});
+    if (requirement.after && *requirement.after > r_.scenario.duration)
+      diagnostics_.warning(requirement.where.at("after"), "nothing begins so late", {json::to_text(*requirement.after), "at most the duration, " + json::to_text(r_.scenario.duration)});
     if (requirement.reaction) {
       if (!requirement.within) diagnostics_.error(requirement.where.place(), "missing key", {"\"reaction\" without a limit", "\"within\""});
       if (r_.scenario.programs.empty()) diagnostics_.error(requirement.where.at("reaction"), "a reaction without a program", {"no programs", "\"programs\""});
@@ -45,7 +53,6 @@ class Requirements {
       refuse(requirement.within.has_value(), "within", "reaction");
     } else {
       refuse(requirement.node.has_value(), "node", "sync");
-      refuse(requirement.after > Duration(), "after", "sync");
     }
     const bool of_application = requirement.application.has_value();
     refuse(!of_application && requirement.thread, "thread", "application");
@@ -99,6 +106,8 @@ const Program* find_program(const Scenario& scenario, const std::string& name, c
 
 void resolve_requirements(const Resolved& resolved, json::Diagnostics& diagnostics) {
   Requirements requirements(resolved, diagnostics);
+  if (resolved.scenario.warm_up > resolved.scenario.duration)
+    diagnostics.warning(resolved.scenario.where.at("warm_up"), "nothing begins so late", {json::to_text(resolved.scenario.warm_up), "at most the duration, " + json::to_text(resolved.scenario.duration)});
   for (const Requirement& requirement : resolved.scenario.require) requirements.check(requirement);
 }
 

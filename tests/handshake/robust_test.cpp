@@ -233,6 +233,19 @@ TEST(Robust, ARestartedMasterDoesNotAdoptItsOldStart) {
   EXPECT_TRUE(group.all_in(PublishedState::Halted)) << group.describe();
 }
 
+// Nor while its slaves are still on their way: who has been restarted starts when it is called, and not before.
+TEST(Robust, ARestartedMasterDoesNotAdoptAStartThatItsSlavesHaveNotFinished) {
+  Group group(Variant::Robust, 2);
+  group.call(0, Method::Start);
+  group.round();
+  ASSERT_EQ(group[1].state(), PublishedState::HaltedInit);
+  group.restart(0);
+  const Outputs outputs = group.tell(1, 0);
+  EXPECT_EQ(outputs.alarm, Alarm::Mismatch);
+  EXPECT_EQ(group[0].state(), PublishedState::Halted);
+  EXPECT_EQ(group[0].intent().kind, IntentKind::Halt);
+}
+
 // Words of the run before must not carry a restarted master, which gives the same number again, through the barrier.
 TEST(Robust, StaleWordsDoNotCountInTheRunOfANewIncarnation) {
   Group group(Variant::Robust, 1);

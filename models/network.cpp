@@ -311,6 +311,19 @@ void Network::listen(NodeIndex host, StreamIndex stream, Process* process) {
   hosts_[host.value]->listen(stream, process);
 }
 
+void Network::keep_account(StreamIndex stream, sim::TrueTime from) {
+  traffic_.book().keep_account(stream, from);
+  if (stream.value >= plan_.streams.size()) return;  // that of gPTP, which no host delivers
+  for (const NodeIndex listener : plan_.streams[stream.value].listeners) hosts_[listener.value]->keep_book();
+}
+
+void Network::keep_arrivals(StreamIndex stream) {
+  for (const NodeIndex listener : plan_.streams[stream.value].listeners) {
+    traffic_.book().keep_arrivals(stream, listener);
+    hosts_[listener.value]->keep_book();
+  }
+}
+
 void Network::start() {
   for (const auto& clock : clocks_)
     if (clock) clock->start(*simulation_);

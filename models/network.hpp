@@ -30,6 +30,11 @@ class Network final : private LinkLocalSender {
   /// The process, if any, that gets the octets of the stream at that listener. Listeners of the plan get none by default.
   void listen(NodeIndex host, StreamIndex stream, Process* process);
 
+  /// Enters the stream in Traffic::book(): an account of its frames that are produced at `from` or later. Before start().
+  void keep_account(StreamIndex stream, sim::TrueTime from);
+  /// The same: which of its frames have reached each of its listeners, as they may come several times.
+  void keep_arrivals(StreamIndex stream);
+
   /// Schedules the first events of talkers and starts the processes. Call once, at time zero.
   void start();
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "models/ethernet/frame.hpp"
@@ -72,6 +73,14 @@ class BasicPool {
     free_[free_count_++] = handle;
   }
   std::size_t live() const { return free_.size() - free_count_; }
+  /// Calls visit(what) for each that is under way, in no particular order. For the end of a run: it looks at the whole pool.
+  template <class Visit>
+  void for_each_live(Visit&& visit) const {
+    std::vector<bool> is_free(slots_.count(), false);
+    for (std::size_t i = 0; i < free_count_; ++i) is_free[free_[i].value] = true;
+    for (std::uint32_t slot = 0; slot < slots_.count(); ++slot)
+      if (!is_free[slot]) visit(std::as_const(slots_[slot]));
+  }
 
  private:
   [[gnu::noinline]] void grow() {

@@ -88,6 +88,7 @@ void Traffic::set_tags(FrameIndex index, bool tagged, bool r_tagged) {
 void Traffic::drop(FrameIndex index, DropReason reason, sim::ComponentId where, sim::Simulation& simulation) {
   const Frame& frame = frames_[index];
   ++streams_[frame.stream.value].dropped[static_cast<std::size_t>(reason)];
+  if (!book_.is_empty()) [[unlikely]] book_.drop(frame, reason);
   simulation.digest().add(static_cast<std::uint32_t>(Occurrence::drop),
                           static_cast<std::uint64_t>(frame.stream.value) << 32 | where.index, simulation.now(),
                           record_of(frame) ^ sim::mix64(static_cast<std::uint64_t>(reason) + 1));

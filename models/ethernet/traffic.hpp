@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "models/ethernet/delivery_book.hpp"
 #include "models/ethernet/frame_pool.hpp"
 #include "sim/histogram.hpp"
 #include "sim/simulation.hpp"
@@ -154,6 +155,15 @@ class Traffic {
   /// The same for what only that leads to.
   void prefetch_latency(StreamIndex index) const { streams_[index.value].latency.prefetch(); }
 
+  /// What is kept of deliveries of some streams, besides their accounts.
+  DeliveryBook& book() { return book_; }
+  const DeliveryBook& book() const { return book_; }
+  /// See FramePool::for_each_live.
+  template <class Visit>
+  void for_each_live(Visit&& visit) const {
+    frames_.for_each_live(visit);
+  }
+
   std::size_t live_frames() const { return frames_.live(); }
 
  private:
@@ -177,6 +187,7 @@ class Traffic {
   std::vector<Stream> streams_;
   FramePool frames_;
   PayloadPool payloads_;
+  DeliveryBook book_;
 };
 
 }  // namespace takt::models

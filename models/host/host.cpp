@@ -66,7 +66,14 @@ void Host::receive_noted(sim::Simulation& simulation, sim::EventKind kind, Arriv
     traffic_->drop(arrival.frame, DropReason::node_down, id(), simulation);
     return;
   }
+  if (keeps_book_ && (kind == deliver_now || receives_at_once_)) note_delivery(simulation, arrival.frame);
   take_in(simulation, kind, arrival);
+}
+
+/// What deliver() will do is entered in the book.
+void Host::note_delivery(sim::Simulation& simulation, FrameIndex index) {
+  const Frame& frame = traffic_->frame(index);
+  if (listener_of(frame.stream) != nullptr) traffic_->book().deliver(frame, node_, simulation.now());
 }
 
 /// A frame in a condition of its own, or a host that does more than deliver: what goes on, if anything.

@@ -27,6 +27,11 @@ class Host final : public sim::Component {
     redundancy_.add(stream, config);
     looks_closer_ = true;
   }
+  /// Deliveries here are entered in Traffic::book() as well.
+  void keep_book() {
+    keeps_book_ = true;
+    looks_closer_ = true;
+  }
   /// Takes the link-local frames.
   void set_link_local_receiver(LinkLocalReceiver* receiver) { link_local_ = receiver; }
   ListenerRedundancy& redundancy() { return redundancy_; }
@@ -49,6 +54,7 @@ class Host final : public sim::Component {
   std::optional<FrameIndex> look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
   void take_in(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
   [[gnu::noinline]] void receive_noted(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
+  void note_delivery(sim::Simulation& simulation, FrameIndex frame);
   void deliver(sim::Simulation& simulation, FrameIndex index, const Frame& frame);
   const Listener* listener_of(StreamIndex stream) const;
 
@@ -59,6 +65,7 @@ class Host final : public sim::Component {
   bool receives_at_once_;            // a fixed latency lies in the events' times already
   bool looks_closer_ = false;
   bool up_ = true;
+  bool keeps_book_ = false;
   LatencyLine receive_;
   std::span<EgressPort> ports_;
   const LocalClock* clock_;

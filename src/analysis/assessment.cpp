@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/outages.hpp"
+#include "scenario/figures/requirement_rules.hpp"
 #include "scenario/json/quantity.hpp"
 
 namespace takt::analysis {
@@ -105,7 +106,8 @@ ClockPremise clock_premise(const scenario::Resolved& resolved, const BoundOption
   for (std::size_t i = 0; i < require.size(); ++i) {
     if (!require[i].sync || require[i].node) continue;
     // The weakest one is a consequence of each of the others, from whenever that holds.
-    premise.after = premise.requirement ? std::min(premise.after, require[i].after) : require[i].after;
+    const Duration from = scenario::counts_from(resolved.scenario, require[i]);
+    premise.after = premise.requirement ? std::min(premise.after, from) : from;
     if (!premise.requirement || *require[i].sync > premise.error) {
       premise.error = *require[i].sync;
       premise.requirement = i;

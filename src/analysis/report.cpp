@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scenario/figures/requirement_rules.hpp"
 #include "scenario/json/node.hpp"
 #include "scenario/json/quantity.hpp"
 
@@ -38,9 +39,9 @@ Node nodes_of(const Assumptions& assumptions) {
 }
 
 std::string requirement_text(const scenario::Requirement& requirement, const std::string& what) {
-  if (what == "reaction") return fmt::format("reaction {}{}{} within {}", scenario::spelling(*requirement.reaction), requirement.cause ? fmt::format(" because of a {}", scenario::spelling(*requirement.cause)) : "", requirement.tree ? " of the tree" : "", text_of(requirement.within));
-  if (what == "latency") return fmt::format("stream {} latency at most {}", *requirement.stream, text_of(requirement.latency));
-  if (what == "jitter") return fmt::format("stream {} jitter at most {}", *requirement.stream, text_of(requirement.jitter));
+  if (what == "reaction") return fmt::format("reaction {}{}{} within {}", scenario::spelling(*requirement.reaction), requirement.cause ? fmt::format(" because of a {}", scenario::spelling(*requirement.cause)) : "", requirement.tree ? " of the tree" : "", text_of(requirement.within->time));
+  if (what == "latency") return fmt::format("stream {} latency {}", *requirement.stream, scenario::text_of(*requirement.latency));
+  if (what == "jitter") return fmt::format("stream {} jitter {}", *requirement.stream, scenario::text_of(*requirement.jitter));
   if (what == "dropped") return fmt::format("stream {} drops at most {}", *requirement.stream, *requirement.dropped);
   if (what == "delivered") return fmt::format("stream {} delivers at least {}", *requirement.stream, *requirement.delivered);
   return fmt::format("synchronised within {}", text_of(requirement.sync));
@@ -92,7 +93,7 @@ std::string text_report(const scenario::Resolved& resolved, const Bounds& bounds
   if (!bounds.requirements.empty()) text += "\nRequirements and what they can be at most\n";
   for (const Bounds::Requirement& requirement : bounds.requirements)
     text += fmt::format("  {:<48} {}\n", requirement_text(resolved.scenario.require[requirement.requirement], requirement.what),
-                        requirement_answer(requirement.bound, bounds.ledger, resolved.scenario.require[requirement.requirement].after));
+                        requirement_answer(requirement.bound, bounds.ledger, scenario::counts_from(resolved.scenario, resolved.scenario.require[requirement.requirement])));
   if (!all.empty()) text += "\nThese bounds rest on\n";
   for (std::size_t i = 0; i < all.size(); ++i) text += fmt::format("  [{}] {}: {} ({})\n", i + 1, name_of(all[i]), bounds.ledger[all[i]].text, standing_text(bounds.ledger[all[i]]));
   return text;
@@ -162,7 +163,7 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
     node.add("bound_ps", picoseconds(requirement.bound.duration));
     node.add("bound_count", requirement.bound.count ? Node::of_integer(static_cast<sim::int128>(*requirement.bound.count)) : Node());
     node.add("reason", Node::of_string(requirement.bound.reason));
-    const std::string objection = bounds.ledger.objection(requirement.bound.assumptions, resolved.scenario.require[requirement.requirement].after);
+    const std::string objection = bounds.ledger.objection(requirement.bound.assumptions, scenario::counts_from(resolved.scenario, resolved.scenario.require[requirement.requirement]));
     node.add("objection", objection.empty() ? Node() : Node::of_string(objection));
     node.add("assumptions", nodes_of(requirement.bound.assumptions));
     requirements.items.push_back(std::move(node));

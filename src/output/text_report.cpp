@@ -44,7 +44,8 @@ std::string requirements_part(const RunResult& result) {
     if (r.measured && r.limit && !r.figure) {
       const std::int64_t limit = r.limit->ps();
       figures = fmt::format("{} of {}", readable(*r.measured), readable(*r.limit));
-      if (limit > 0) figures += fmt::format(" ({:.0f} %)", 100.0 * static_cast<double>(r.measured->ps()) / static_cast<double>(limit));
+      if (r.least_limit) figures = fmt::format("{} to {} of {} to {}", r.least_measured ? readable(*r.least_measured) : "?", readable(*r.measured), readable(*r.least_limit), readable(*r.limit));
+      else if (limit > 0) figures += fmt::format(" ({:.0f} %)", 100.0 * static_cast<double>(r.measured->ps()) / static_cast<double>(limit));
       if (!r.remark.empty()) figures += ", ";
     }
     out += fmt::format("  {}  {:<46} {}\n", mark(r.verdict), r.text, figures + r.remark);
@@ -176,14 +177,18 @@ std::string streams_part(const RunResult& result) {
   std::string out = heading(streams.size() > most_streams ? fmt::format("The {} slowest of {} streams", most_streams, streams.size()) : std::string("Streams, slowest first"));
   std::size_t width = 6;
   for (std::size_t i = 0; i < std::min(streams.size(), most_streams); ++i) width = std::max(width, std::min<std::size_t>(40, streams[i]->name.size()));
-  out += fmt::format("  {:<{}} {:>10} {:>10} {:>8} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "stream", width, "sent", "delivered", "dropped", "min", "mean", "p99", "max", "stddev");
+  out += fmt::format("  {:<{}} {:>10} {:>10} {:>8} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "stream", width, "sent", "delivered", "lost", "min", "mean", "p99", "max", "stddev");
   for (std::size_t i = 0; i < std::min(streams.size(), most_streams); ++i) {
     const StreamResult& s = *streams[i];
-    out += fmt::format("  {:<{}} {:>10} {:>10} {:>8}", s.name, width, s.sent, s.delivered, s.dropped_in_all());
+    out += fmt::format("  {:<{}} {:>10} {:>10} {:>8}", s.name, width, s.sent, s.delivered, s.lost);
     if (s.latency)
       out += fmt::format(" {:>12} {:>12} {:>12} {:>12} {:>12}", readable(s.latency->min), readable(s.latency->mean), readable(s.latency->p99),
                          readable(s.latency->max), readable(s.latency->stddev));
+    if (s.has_copies && !s.dropped.empty()) out += "  copies";
     for (const auto& [reason, count] : s.dropped) out += fmt::format("  {}: {}", reason, count);
+    // What is still to come has been longer under way than all that came.
+    if (s.oldest_in_flight && (!s.latency || *s.oldest_in_flight > s.latency->max))
+      out += fmt::format("  under way at the end: {}, the oldest for {}", s.in_flight, readable(*s.oldest_in_flight));
     out += "\n";
   }
   return out;
@@ -395,13 +400,14 @@ std::string readable(Duration duration) {
 std::string run_line(const RunResult& result) {
   std::size_t failed = 0;
   for (const results::RequirementResult& r : result.requirements) failed += r.verdict == Verdict::fail ? 1 : 0;
-  std::string verdict = results::name_of(result.verdict);
+  std::string verdict = result.nothing_required ? std::string(results::nothing_was_required) : results::name_of(result.verdict);
   if (failed > 0) verdict += fmt::format(" ({} of {} requirements)", failed, result.requirements.size());
   return fmt::format("{}: {}, digest {:016x}{}\n", result.scenario, verdict, result.digest, result.partial ? ", partial" : "");
 }
 
 std::string run_report(const RunResult& result) {
   std::string out = fmt::format("{}, seed {}: {} simulated, {} events\n", result.scenario, result.seed, readable(result.simulated), result.events);
+  if (result.from > Duration()) out += fmt::format("Figures are of what began at {} or later\n", readable(result.from));
   if (result.partial) out += fmt::format("PARTIAL: interrupted after {} of {}\n", readable(result.simulated), readable(result.wanted));
   for (const ProgramResult& program : result.programs) out += program_part(program);
   out += applications_part(result);

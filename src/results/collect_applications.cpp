@@ -52,7 +52,7 @@ BufferResult result_of(const gateway::ChannelFigures& f) {
 
 }  // namespace
 
-std::vector<ApplicationResult> applications_of(const scenario::Run& run) {
+std::vector<ApplicationResult> applications_of(const scenario::Run& run, sim::Duration from) {
   const scenario::Resolved& resolved = run.resolved();
   std::vector<ApplicationResult> results;
   for (std::size_t a = 0; a < resolved.applications.size(); ++a) {
@@ -63,7 +63,7 @@ std::vector<ApplicationResult> applications_of(const scenario::Run& run) {
     result.is_gateway = application.gateway.has_value();
     result.is_service = application.service.has_value();
     for (std::size_t t = 0; t < application.threads.size(); ++t)
-      result.threads.push_back(result_of(application.threads[t], resolved.topics[application.threads[t].topic].description->name, run.thread(a, t)));
+      result.threads.push_back(result_of(application.threads[t], resolved.topics[application.threads[t].topic].description->name, run.thread(a, t, from)));
     const scenario::TopicApplication& live = run.application(a);
     for (const auto& node : live.nodes()) {
       result.participants.push_back(result_of(*node));
@@ -74,17 +74,18 @@ std::vector<ApplicationResult> applications_of(const scenario::Run& run) {
   return results;
 }
 
-std::vector<SignalResult> signals_of(const scenario::Run& run) {
+std::vector<SignalResult> signals_of(const scenario::Run& run, sim::Duration from) {
   std::vector<SignalResult> results;
   for (std::size_t s = 0; s < run.resolved().signals.size(); ++s) {
     const scenario::DigitalOutput& output = run.signal(s);
     SignalResult& result = results.emplace_back();
     result.name = run.resolved().signals[s].name;
     result.nominal = output.pulse();
-    result.pulses = summary_of(output.pulses());
-    result.periods = summary_of(output.periods());
-    result.irregular_pulses = output.irregular_pulses();
-    result.irregular_periods = output.irregular_periods();
+    const scenario::DigitalOutput::Figures& figures = output.figures(from);
+    result.pulses = summary_of(figures.pulses);
+    result.periods = summary_of(figures.periods);
+    result.irregular_pulses = figures.irregular_pulses;
+    result.irregular_periods = figures.irregular_periods;
     for (const scenario::DigitalOutput::Edge& edge : output.edges()) result.edges.emplace_back(edge.at, edge.high);
   }
   return results;

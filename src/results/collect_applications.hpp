@@ -9,7 +9,7 @@
 namespace takt::results {
 
 /// In the order of the scenario, gateways behind applications.
-std::vector<ApplicationResult> applications_of(const scenario::Run& run);
-std::vector<SignalResult> signals_of(const scenario::Run& run);
+std::vector<ApplicationResult> applications_of(const scenario::Run& run, sim::Duration from);
+std::vector<SignalResult> signals_of(const scenario::Run& run, sim::Duration from);
 
 }  // namespace takt::results

@@ -12,7 +12,7 @@ const char* name_of(models::gptp::TargetState state) {
 
 }  // namespace
 
-std::vector<ClockResult> clocks_of(const scenario::Run& run) {
+std::vector<ClockResult> clocks_of(const scenario::Run& run, sim::Duration from) {
   std::vector<ClockResult> results;
   if (run.clocks() == nullptr) return results;
   const models::Network& network = run.network();
@@ -24,13 +24,14 @@ std::vector<ClockResult> clocks_of(const scenario::Run& run) {
     result.grandmaster = name(station.grandmaster());
     result.state = !station.is_up() ? "down" : station.active_is_grandmaster() ? "grandmaster" : name_of(station.target().state());
     if (figures.locked) result.time_to_lock = figures.locked->since_start();
-    result.samples = figures.samples;
-    if (figures.samples > 0) {
-      result.least = figures.least;
-      result.greatest = figures.greatest;
-      const auto count = static_cast<double>(figures.samples);
-      result.mean = sim::Duration::from_ps(std::llround(static_cast<double>(figures.sum) / count));
-      result.rms = sim::Duration::from_ps(std::llround(std::sqrt(static_cast<double>(figures.sum_of_squares) / count)));
+    const scenario::ClockFigures::Offsets& offsets = figures.offsets.from(from);
+    result.samples = offsets.samples;
+    if (offsets.samples > 0) {
+      result.least = offsets.least;
+      result.greatest = offsets.greatest;
+      const auto count = static_cast<double>(offsets.samples);
+      result.mean = sim::Duration::from_ps(std::llround(static_cast<double>(offsets.sum) / count));
+      result.rms = sim::Duration::from_ps(std::llround(std::sqrt(static_cast<double>(offsets.sum_of_squares) / count)));
     }
     const auto rate = [&](models::NodeIndex node) { return static_cast<long double>(network.clock(node).rate().multiple()); };
     result.frequency_error_ppt = std::llround((rate(figures.node) / rate(station.grandmaster()) - 1.0L) * 1e12L);

@@ -9,6 +9,6 @@
 namespace takt::results {
 
 /// One for each node with gPTP; empty without it.
-std::vector<ClockResult> clocks_of(const scenario::Run& run);
+std::vector<ClockResult> clocks_of(const scenario::Run& run, sim::Duration from);
 
 }  // namespace takt::results

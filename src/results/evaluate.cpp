@@ -9,9 +9,13 @@
 #include "results/collect_applications.hpp"
 #include "results/collect_clocks.hpp"
 #include "results/collect_ingress.hpp"
+#include "results/collect_streams.hpp"
+#include "results/judge_streams.hpp"
 #include "results/result_json.hpp"
 #include "results/version.hpp"
 #include "scenario/figures/requirement.hpp"
+#include "scenario/figures/requirement_rules.hpp"
+#include "scenario/run/accounts.hpp"
 #include "scenario/topology/graph_figures.hpp"
 
 namespace takt::results {
@@ -21,41 +25,19 @@ using scenario::ResolvedProgram;
 
 std::string kind_name(handshake::IntentKind kind) { return std::string(handshake::name_of(kind)); }
 
-LatencySummary summary_of(const sim::Histogram& histogram) {
-  return {histogram.minimum(),         histogram.mean(),    histogram.percentile(50, 100),
-          histogram.percentile(99, 100), histogram.maximum(), histogram.standard_deviation()};
-}
-
-std::vector<RoundTripResult> round_trips_of(const scenario::ProgramMonitor& monitor, const ResolvedProgram& program) {
+std::vector<RoundTripResult> round_trips_of(const scenario::ProgramMonitor& monitor, const ResolvedProgram& program, Duration from) {
   std::vector<RoundTripResult> all;
   if (!monitor.round_trips()) return all;
   for (std::size_t i = 0; i < program.replies.size(); ++i) {
-    const sim::Histogram& histogram = monitor.round_trips()->histogram(i);
+    const scenario::RoundTrips::Times& times = monitor.round_trips()->times(i, from);
+    const sim::Histogram& histogram = times.round_trips;
     RoundTripResult one{program.process_data[program.replies[i].to].name, program.process_data[program.replies[i].with].name, histogram.count(), {}, {}, {}};
     if (!histogram.empty()) one.time = summary_of(histogram);
-    if (const sim::Histogram& one_way = monitor.round_trips()->one_way(i); !one_way.empty()) one.one_way = summary_of(one_way);
-    histogram.for_each_bucket([&](Duration from, Duration to, std::uint64_t n) { one.histogram.push_back({from, to, n}); });
+    if (!times.one_way.empty()) one.one_way = summary_of(times.one_way);
+    histogram.for_each_bucket([&](Duration low, Duration high, std::uint64_t n) { one.histogram.push_back({low, high, n}); });
     all.push_back(std::move(one));
   }
   return all;
-}
-
-StreamResult result_of(const models::Stream& stream, bool of_program) {
-  StreamResult result;
-  result.name = stream.name;
-  result.of_program = of_program;
-  result.listeners = stream.listeners;
-  result.sent = stream.sent;
-  result.copies = stream.copies;
-  result.delivered = stream.delivered;
-  result.in_flight = stream.in_flight();
-  for (std::size_t reason = 0; reason < stream.dropped.size(); ++reason)
-    if (stream.dropped[reason] > 0) result.dropped.emplace_back(models::name_of(static_cast<models::DropReason>(reason)), stream.dropped[reason]);
-  if (!stream.latency.empty()) {
-    result.latency = summary_of(stream.latency);
-    stream.latency.for_each_bucket([&](Duration from, Duration to, std::uint64_t n) { result.histogram.push_back({from, to, n}); });
-  }
-  return result;
 }
 
 ReactionResult result_of(const handshake::Reaction& reaction, std::string initiator) {
@@ -70,7 +52,7 @@ ReactionResult result_of(const handshake::Reaction& reaction, std::string initia
 }
 
 /// What the tree says whose outermost program this is.
-void add_tree(const scenario::Run& run, std::size_t index, ProgramResult& result) {
+void add_tree(const scenario::Run& run, std::size_t index, TrueTime from, ProgramResult& result) {
   const auto name = [&](std::uint32_t program, std::uint8_t participant) {
     const ResolvedProgram& of = run.resolved().programs[program];
     return of.name + "/" + of.participant_names[participant];
@@ -78,6 +60,7 @@ void add_tree(const scenario::Run& run, std::size_t index, ProgramResult& result
   for (const auto& tree : run.trees()) {
     if (tree->programs().front() != index) continue;
     for (const handshake::Reaction& reaction : tree->reactions()) {
+      if (reaction.began < from) continue;
       const auto [program, participant] = tree->initiator_of(reaction);
       result.tree_reactions.push_back(result_of(reaction, name(program, participant)));
     }
@@ -111,7 +94,8 @@ void add_timeline(const scenario::ProgramMonitor& monitor, TrueTime now, Program
   std::stable_sort(result.timeline.begin(), result.timeline.end(), [&](const TimelineEntry& a, const TimelineEntry& b) { return a.at != b.at ? a.at < b.at : rank(a) < rank(b); });
 }
 
-ProgramResult result_of(const scenario::Run& run, std::size_t index) {
+/// The reactions that began at `from` or later; invariants have no warm-up.
+ProgramResult result_of(const scenario::Run& run, std::size_t index, TrueTime from) {
   const ResolvedProgram& program = run.resolved().programs[index];
   const scenario::ProgramMonitor& monitor = run.monitor(index);
   ProgramResult result;
@@ -122,20 +106,22 @@ ProgramResult result_of(const scenario::Run& run, std::size_t index) {
     result.participants.push_back(program.participant_names[p]);
     result.states.emplace_back(monitor.is_dead(p) ? "dead" : handshake::name_of(run.state(index, p)));
   }
-  for (const handshake::Reaction& reaction : monitor.reactions()) result.reactions.push_back(result_of(reaction, result.participants[reaction.initiator]));
+  for (const handshake::Reaction& reaction : monitor.reactions())
+    if (reaction.began >= from) result.reactions.push_back(result_of(reaction, result.participants[reaction.initiator]));
   for (const scenario::ViolationRecord& violation : monitor.violations())
     result.violations.push_back({violation.time, std::string(handshake::name_of(violation.violation.invariant)),
                                  result.participants[violation.violation.participant], std::string(handshake::text_of(violation.violation.finding))});
-  add_tree(run, index, result);
+  add_tree(run, index, from, result);
   if (const scenario::PlugMonitor* const roles = run.roles(index))
     for (const scenario::BindingRecord& record : roles->history())
       result.bindings.push_back({record.time, program.participant_names[record.role + std::size_t{1}],
                                  record.candidate ? run.resolved().topology.nodes[program.candidates[*record.candidate].node.value].name : ""});
   result.violations_allowed = program.description->violations == scenario::Violations::reported;
   add_timeline(monitor, run.simulation().now(), result);
-  result.changes = monitor.changes();
-  result.process_data_received = monitor.process_data_received();
-  result.round_trips = round_trips_of(monitor, program);
+  const scenario::ProgramMonitor::Counts& counts = monitor.counts(from.since_start());
+  result.changes = counts.changes;
+  result.process_data_received = counts.process_data_received;
+  result.round_trips = round_trips_of(monitor, program, from.since_start());
   return result;
 }
 
@@ -143,17 +129,6 @@ std::uint64_t overruns_of(const models::EgressPort& port) {
   std::uint64_t sum = 0;
   for (models::TrafficClass q = 0; port.shaping() != nullptr && q < models::traffic_class_count; ++q) sum += port.shaping()->transmission_overrun(q);
   return sum;
-}
-
-/// By reason, in the order of DropReason.
-std::vector<std::pair<std::string, std::uint64_t>> drops_of(const std::vector<models::Stream>& streams) {
-  std::vector<std::pair<std::string, std::uint64_t>> drops;
-  for (std::size_t reason = 0; reason < static_cast<std::size_t>(models::DropReason::count); ++reason) {
-    std::uint64_t sum = 0;
-    for (const models::Stream& stream : streams) sum += stream.dropped[reason];
-    if (sum > 0) drops.emplace_back(models::name_of(static_cast<models::DropReason>(reason)), sum);
-  }
-  return drops;
 }
 
 std::vector<PortResult> ports_of(const scenario::Run& run, Duration simulated) {
@@ -174,10 +149,19 @@ std::vector<PortResult> ports_of(const scenario::Run& run, Duration simulated) {
   return results;
 }
 
-/// Judges requirements against the result so far.
+/// What a run shows from an instant on, in the ways in which requirements ask for it.
+struct Figures {
+  RunResult result;                                        // without verdicts
+  scenario::json::Node node = {};                          // as result.json has it, if a requirement asks for a figure
+  std::map<std::string_view, const StreamResult*> streams = {};  // by name, if a requirement is on a stream
+};
+
+/// Judges requirements, each by what began when it says.
 class Judge {
  public:
   explicit Judge(RunResult& result) : result_(result) {}
+  /// What the next requirements are judged by.
+  void look_at(const Figures& figures) { figures_ = &figures; }
 
   void reaction(const scenario::Requirement& requirement) {
     RequirementResult verdict;
@@ -191,7 +175,7 @@ class Judge {
     verdict.limit = *requirement.within;
     std::size_t seen = 0;
     std::size_t incomplete = 0;
-    for (const ProgramResult& program : result_.programs) {
+    for (const ProgramResult& program : figures_->result.programs) {
       if (requirement.program && program.name != *requirement.program) continue;
       for (const ReactionResult& one : requirement.tree ? program.tree_reactions : program.reactions) {
         if (one.kind != kind || one.superseded || (requirement.cause && one.cause != cause)) continue;
@@ -217,32 +201,16 @@ class Judge {
     add(std::move(verdict));
   }
 
-  void stream(const scenario::Requirement& requirement) {
-    if (by_name_.empty())
-      for (const StreamResult& each : result_.streams) by_name_.emplace(each.name, &each);
-    const StreamResult& stream = *by_name_.at(*requirement.stream);
-    if (requirement.latency) duration_of(stream, RequirementKind::latency, "latency", *requirement.latency, stream.latency ? std::optional(stream.latency->max) : std::nullopt);
-    if (requirement.jitter)
-      duration_of(stream, RequirementKind::jitter, "jitter", *requirement.jitter, stream.latency ? std::optional(stream.latency->max - stream.latency->min) : std::nullopt);
-    if (requirement.dropped) {
-      // Copies that sequence recovery takes out are what redundancy is for.
-      std::uint64_t dropped = stream.dropped_in_all();
-      for (const auto& [reason, count] : stream.dropped)
-        if (reason == models::name_of(models::DropReason::duplicate)) dropped -= count;
-      count_of(stream, RequirementKind::dropped, *requirement.dropped, fmt::format("stream {} drops at most {}", stream.name, *requirement.dropped),
-               dropped <= *requirement.dropped ? held() : Verdict::fail, fmt::format("{} dropped", dropped));
-    }
-    if (requirement.delivered)
-      count_of(stream, RequirementKind::delivered, *requirement.delivered, fmt::format("stream {} delivers at least {}", stream.name, *requirement.delivered),
-               stream.delivered >= *requirement.delivered ? Verdict::pass : missing(), fmt::format("{} delivered", stream.delivered));
+  void stream(const scenario::Scenario& scenario, const scenario::Requirement& requirement) {
+    for (RequirementResult& verdict : judge_stream(scenario, requirement, *figures_->streams.at(*requirement.stream), result_.partial)) add(std::move(verdict));
   }
 
-  void sync(const scenario::Requirement& requirement, const scenario::ClockMonitor::Limit& seen) {
+  void sync(const scenario::Requirement& requirement, Duration from, const scenario::ClockMonitor::Limit& seen) {
     RequirementResult verdict;
     verdict.kind = RequirementKind::sync;
     verdict.subject = requirement.node.value_or("");
     verdict.text = fmt::format("clock{} within {} of the grandmaster after {}", requirement.node ? " of " + *requirement.node : "s", json_text(*requirement.sync),
-                               json_text(requirement.after));
+                               json_text(from));
     verdict.limit = *requirement.sync;
     if (seen.samples == 0) {
       verdict.remark = "not looked at";
@@ -256,7 +224,7 @@ class Judge {
   }
 
   void application(const scenario::Requirement& requirement) {
-    const auto found = std::find_if(result_.applications.begin(), result_.applications.end(), [&](const ApplicationResult& each) { return each.name == *requirement.application; });
+    const auto found = std::find_if(figures_->result.applications.begin(), figures_->result.applications.end(), [&](const ApplicationResult& each) { return each.name == *requirement.application; });
     for (const ThreadResult& thread : found->threads) {
       if (requirement.thread && thread.name != *requirement.thread) continue;
       const std::string name = found->name + "/" + thread.name;
@@ -266,7 +234,7 @@ class Judge {
   }
 
   void signal(const scenario::Requirement& requirement) {
-    const auto found = std::find_if(result_.signals.begin(), result_.signals.end(), [&](const SignalResult& each) { return each.name == *requirement.signal; });
+    const auto found = std::find_if(figures_->result.signals.begin(), figures_->result.signals.end(), [&](const SignalResult& each) { return each.name == *requirement.signal; });
     RequirementResult verdict;
     verdict.kind = RequirementKind::irregular;
     verdict.subject = found->name;
@@ -277,23 +245,24 @@ class Judge {
     add(std::move(verdict));
   }
 
-  /// `result` is what the run leaves behind, as result.json has it. Of a run that was interrupted nothing can be said: a mean may fall again.
-  void figure(const scenario::Requirement& requirement, const scenario::json::Node& result) {
+  /// Of a run that was interrupted nothing can be said: a mean may fall again.
+  void figure(const scenario::Requirement& requirement) {
     scenario::json::Diagnostics diagnostics;
     const auto asked = scenario::read_figure_requirement(requirement, diagnostics);
     TAKT_CHECK(asked, "a requirement that was resolved has a figure");
-    const auto found = scenario::value_of(asked->figure, result);
-    const char* const bound = asked->limit.is_upper ? "at most" : "at least";
+    const auto found = scenario::value_of(asked->figure, figures_->node);
+    const char* const bound = scenario::text_of(asked->limit.relation);
     RequirementResult verdict;
     verdict.kind = RequirementKind::figure;
-    verdict.figure = FigureResult{asked->name, asked->figure.unit, found, asked->limit.value, asked->limit.is_upper};
+    verdict.figure = FigureResult{asked->name, asked->figure.unit, found, asked->limit.value, asked->limit.is_upper(), {}};
+    if (asked->limit.relation == scenario::Relation::equal) verdict.figure->within = asked->limit.within;
     verdict.text = fmt::format("figure {} {} {}", asked->name, bound, asked->limit.text);
     const std::optional<Duration> time = found && asked->figure.is_time ? std::optional(duration_of(*found, asked->figure)) : std::nullopt;
     verdict.remark = (!found                            ? std::string("the run has no such figure")
                       : time && !requirement.unit       ? "found " + json_text(*time)
                                                         : "found " + scenario::text_of(*found, asked->figure.unit)) +
                      fmt::format(", asked {} {}", bound, asked->limit.text);
-    if (asked->figure.is_time && asked->limit.is_upper) {
+    if (asked->figure.is_time && asked->limit.is_upper()) {
       verdict.measured = time;
       verdict.limit = duration_of(asked->limit.value, asked->figure);
     }
@@ -320,34 +289,6 @@ class Judge {
   Verdict held() const { return result_.partial ? Verdict::undecided : Verdict::pass; }
   Verdict missing() const { return result_.partial ? Verdict::undecided : Verdict::fail; }
 
-  void duration_of(const StreamResult& stream, RequirementKind kind, const char* what, Duration limit, std::optional<Duration> measured) {
-    RequirementResult verdict;
-    verdict.kind = kind;
-    verdict.subject = stream.name;
-    verdict.text = fmt::format("stream {} {} at most {}", stream.name, what, json_text(limit));
-    verdict.limit = limit;
-    verdict.measured = measured;
-    if (!measured) {
-      verdict.remark = "nothing delivered";
-      verdict.verdict = missing();
-    } else {
-      verdict.remark = fmt::format("{} frames", stream.delivered);
-      verdict.verdict = *measured <= limit ? held() : Verdict::fail;
-    }
-    add(std::move(verdict));
-  }
-
-  void count_of(const StreamResult& stream, RequirementKind kind, std::uint64_t limit, std::string text, Verdict found, std::string remark) {
-    RequirementResult verdict;
-    verdict.kind = kind;
-    verdict.subject = stream.name;
-    verdict.count_limit = limit;
-    verdict.text = std::move(text);
-    verdict.verdict = found;
-    verdict.remark = std::move(remark);
-    add(std::move(verdict));
-  }
-
   void percent_of(RequirementKind kind, const std::string& thread, const char* what, double limit, const CriterionResult& criterion) {
     RequirementResult verdict;
     verdict.kind = kind;
@@ -367,7 +308,7 @@ class Judge {
   }
 
   RunResult& result_;
-  std::map<std::string_view, const StreamResult*> by_name_;
+  const Figures* figures_ = nullptr;
 };
 
 }  // namespace
@@ -383,19 +324,12 @@ const char* name_of(Verdict verdict) {
 
 namespace {
 
-/// The result as JSON, without requirements and verdict; null if no requirement looks at it.
-scenario::json::Node figures_of(const scenario::Run& run, const RunResult& result) {
-  const auto& require = run.resolved().scenario.require;
-  if (std::none_of(require.begin(), require.end(), [](const scenario::Requirement& r) { return r.figure.has_value(); })) return {};
-  scenario::json::Node node = run_node(result);
-  const auto is_of_graph = [](const scenario::Requirement& r) { return r.figure && (r.figure->starts_with("topology") || r.figure->starts_with("/topology")); };
-  if (std::any_of(require.begin(), require.end(), is_of_graph)) node.add("topology", scenario::topology_node(run.resolved()));
-  return node;
+bool asks_for_graph(const scenario::Requirement& requirement) {
+  return requirement.figure && (requirement.figure->starts_with("topology") || requirement.figure->starts_with("/topology"));
 }
 
-}  // namespace
-
-RunResult evaluate(const scenario::Run& run, bool partial) {
+/// The figures of what began at `from` or later.
+RunResult collect(const scenario::Run& run, Duration from, bool partial) {
   const scenario::Scenario& scenario = run.resolved().scenario;
   RunResult result;
   result.version = version;
@@ -404,41 +338,71 @@ RunResult evaluate(const scenario::Run& run, bool partial) {
   result.simulated = run.simulation().now().since_start();
   result.wanted = scenario.duration;
   result.partial = partial;
+  result.from = from;
   result.digest = run.simulation().digest().value();
   result.events = run.simulation().event_count();
   result.verdict = partial ? Verdict::undecided : Verdict::pass;
-  // Behind the streams of the scenario may stand that of gPTP.
-  for (std::size_t s = 0; s < run.resolved().streams.size(); ++s)
-    result.streams.push_back(result_of(run.network().traffic().streams()[s], run.resolved().streams[s].of_program));
-  for (std::size_t p = 0; p < run.resolved().programs.size(); ++p) result.programs.push_back(result_of(run, p));
-  result.applications = applications_of(run);
-  result.signals = signals_of(run);
+  result.streams = streams_of(run, from);
+  for (std::size_t p = 0; p < run.resolved().programs.size(); ++p) result.programs.push_back(result_of(run, p, TrueTime() + from));
+  result.applications = applications_of(run, from);
+  result.signals = signals_of(run, from);
   result.ports = ports_of(run, result.simulated);
-  result.dropped = drops_of(run.network().traffic().streams());
-  result.clocks = clocks_of(run);
+  result.dropped = drops_of(run, from);
+  result.clocks = clocks_of(run, from);
   result.ingress = ingress_of(run);
   result.redundancy = redundancy_of(run);
+  return result;
+}
 
-  const scenario::json::Node figures = figures_of(run, result);
+/// The figures of every instant from which a requirement counts.
+std::map<Duration, Figures> all_figures(const scenario::Run& run, bool partial) {
+  const scenario::Scenario& scenario = run.resolved().scenario;
+  std::map<Duration, Figures> all;
+  for (const Duration from : run.instants()) all.emplace(from, Figures{collect(run, from, partial)});
+  for (const scenario::Requirement& requirement : scenario.require) {
+    Figures& figures = all.at(scenario::counts_from(scenario, requirement));
+    if (requirement.stream && figures.streams.empty())
+      for (const StreamResult& each : figures.result.streams) figures.streams.emplace(each.name, &each);
+    if (!requirement.figure) continue;
+    if (figures.node.kind == scenario::json::Kind::null) figures.node = run_node(figures.result);
+    if (asks_for_graph(requirement) && figures.node.find("topology") == nullptr) figures.node.add("topology", scenario::topology_node(run.resolved()));
+  }
+  return all;
+}
+
+}  // namespace
+
+RunResult evaluate(const scenario::Run& run, bool partial) {
+  const scenario::Scenario& scenario = run.resolved().scenario;
+  const std::map<Duration, Figures> figures = all_figures(run, partial);
+  RunResult result = figures.at(scenario.warm_up).result;
   Judge judge(result);
   std::size_t next_limit = 0;  // of the clock monitor, in the order of the requirements
   for (const scenario::Requirement& requirement : scenario.require) {
     const std::size_t first = result.requirements.size();
+    const Duration from = scenario::counts_from(scenario, requirement);
+    judge.look_at(figures.at(from));
     if (requirement.reaction)
       judge.reaction(requirement);
     else if (requirement.sync)
-      judge.sync(requirement, run.clocks()->limits()[next_limit++]);
+      judge.sync(requirement, from, run.clocks()->limits()[next_limit++]);
     else if (requirement.application)
       judge.application(requirement);
     else if (requirement.signal)
       judge.signal(requirement);
     else if (requirement.figure)
-      judge.figure(requirement, figures);
+      judge.figure(requirement);
     else
-      judge.stream(requirement);
-    for (std::size_t i = first; i < result.requirements.size(); ++i) result.requirements[i].requirement = static_cast<std::size_t>(&requirement - scenario.require.data());
+      judge.stream(scenario, requirement);
+    for (std::size_t i = first; i < result.requirements.size(); ++i) {
+      RequirementResult& made = result.requirements[i];
+      made.requirement = static_cast<std::size_t>(&requirement - scenario.require.data());
+      made.from = from;
+      if (from > Duration() && !requirement.sync) made.text += " after " + scenario::json::to_text(from);
+    }
   }
   for (const ProgramResult& program : result.programs) judge.invariants(program);
+  result.nothing_required = result.requirements.empty() && !partial;
   return result;
 }
 

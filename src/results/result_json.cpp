@@ -35,11 +35,17 @@ Node requirements_of(const RunResult& result) {
     node.add("verdict", Node::of_string(name_of(r.verdict)));
     node.add("measured_ps", optional_picoseconds(r.measured));
     node.add("limit_ps", optional_picoseconds(r.limit));
+    if (r.least_limit) {
+      node.add("least_measured_ps", optional_picoseconds(r.least_measured));
+      node.add("least_limit_ps", optional_picoseconds(r.least_limit));
+    }
+    if (r.from > Duration()) node.add("from_ps", picoseconds(r.from));
     node.add("remark", Node::of_string(r.remark));
     if (r.figure) {
       node.add("figure", Node::of_string(r.figure->name));
       node.add("found", r.figure->found ? Node::of_double(*r.figure->found) : Node());
-      node.add(r.figure->is_upper ? "at_most" : "at_least", Node::of_double(r.figure->asked));
+      node.add(r.figure->within ? "equal" : r.figure->is_upper ? "at_most" : "at_least", Node::of_double(r.figure->asked));
+      if (r.figure->within) node.add("within", Node::of_double(*r.figure->within));
       node.add("unit", Node::of_string(r.figure->unit));
     }
     array.items.push_back(std::move(node));
@@ -84,9 +90,11 @@ Node streams_of(const RunResult& result) {
     Node node = Node::object();
     node.add("sent", integer(s.sent));
     node.add("delivered", integer(s.delivered));
+    node.add("lost", integer(s.lost));
     node.add("dropped", dropped_of(s.dropped));
     node.add("copies", integer(s.copies));
     node.add("in_flight", integer(s.in_flight));
+    node.add("oldest_in_flight_ps", picoseconds(s.oldest_in_flight.value_or(Duration())));
     node.add("listeners", integer(s.listeners));
     node.add("latency_ps", s.latency ? summary_node(*s.latency) : Node());
     all.add(s.name, std::move(node));
@@ -350,7 +358,8 @@ scenario::json::Node run_node(const RunResult& result) {
   root.add("partial", Node::of_bool(result.partial));
   root.add("digest", Node::of_string(fmt::format("{:016x}", result.digest)));
   root.add("events", integer(result.events));
-  root.add("verdict", Node::of_string(name_of(result.verdict)));
+  if (result.from > Duration()) root.add("from_ps", picoseconds(result.from));
+  root.add("verdict", Node::of_string(result.nothing_required ? nothing_was_required : name_of(result.verdict)));
   root.add("requirements", requirements_of(result));
   root.add("streams", streams_of(result));
   root.add("programs", programs_of(result));

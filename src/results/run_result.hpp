@@ -23,6 +23,7 @@ enum class Verdict : std::uint8_t {
   undecided,  ///< the run was interrupted before it could fail
 };
 const char* name_of(Verdict verdict);
+inline constexpr const char* nothing_was_required = "nothing was required";
 
 struct LatencySummary {
   Duration min;
@@ -46,8 +47,11 @@ struct StreamResult {
   std::uint64_t sent = 0;
   std::uint64_t copies = 0;                ///< made by bridges for several listeners
   std::uint64_t delivered = 0;
-  std::uint64_t in_flight = 0;
-  std::vector<std::pair<std::string, std::uint64_t>> dropped;  ///< by reason, only those that occurred
+  std::uint64_t in_flight = 0;             ///< copies under way at the end
+  std::optional<Duration> oldest_in_flight;  ///< how long the oldest frame that some listener still waits for has been under way; none if none is
+  std::uint64_t lost = 0;                  ///< frames that no copy brings to a listener any more; copies that were dropped, where each is the only one
+  bool has_copies = false;                 ///< its frames may come several times: lost counts frames, dropped copies
+  std::vector<std::pair<std::string, std::uint64_t>> dropped;  ///< copies by reason, only those that occurred
   std::optional<LatencySummary> latency;   ///< none if nothing was delivered
   std::vector<HistogramBucket> histogram;
   std::uint64_t dropped_in_all() const {
@@ -127,6 +131,7 @@ struct FigureResult {
   std::optional<double> found;             ///< none if the run has no such figure
   double asked = 0;
   bool is_upper = true;
+  std::optional<double> within = {};       ///< it must equal what was asked, so far
 };
 
 struct RequirementResult {
@@ -140,6 +145,9 @@ struct RequirementResult {
   Verdict verdict = Verdict::pass;
   std::optional<Duration> measured;
   std::optional<Duration> limit;
+  std::optional<Duration> least_measured = {};  ///< of one that asks for a value, not for the greatest
+  std::optional<Duration> least_limit = {};
+  Duration from = {};                      ///< what began then or later counts
   std::string remark;                      ///< what was counted, or why it failed without a figure
   std::optional<FigureResult> figure = {}; ///< of one that asks for a figure
 };
@@ -168,6 +176,8 @@ struct RunResult {
   std::uint64_t digest = 0;
   std::uint64_t events = 0;
   Verdict verdict = Verdict::pass;
+  bool nothing_required = false;           ///< neither by the scenario nor by Programs; the verdict is pass then, and says so
+  Duration from = {};                      ///< the figures are of what began then or later
   std::vector<RequirementResult> requirements;
   std::vector<StreamResult> streams;
   std::vector<ProgramResult> programs;

@@ -29,9 +29,9 @@ void read_measures(sqlite3* database, Content& content) {
   while (measures.step()) content.measures.push_back({measures.text(0), measures.text(1), true, {}, false});
   Statement limits(database, "SELECT measure, is_upper, value, text FROM limits ORDER BY id");
   while (limits.step()) {
-    PlannedLimit limit{{limits.integer(1) != 0, limits.real(2).value_or(0), limits.text(3)}, static_cast<std::size_t>(limits.integer(0))};
+    PlannedLimit limit{{limits.integer(1) != 0 ? scenario::Relation::at_most : scenario::Relation::at_least, limits.real(2).value_or(0), limits.text(3)}, static_cast<std::size_t>(limits.integer(0))};
     if (limit.measure >= content.measures.size()) continue;
-    if (!limit.is_upper) content.measures[limit.measure].lower_is_better = false;
+    if (!limit.is_upper()) content.measures[limit.measure].lower_is_better = false;
     content.measures[limit.measure].is_limited = true;
     content.limits.push_back(std::move(limit));
   }

@@ -35,7 +35,7 @@ std::optional<PlannedLimit> plan_limit(const Limit& limit, const std::vector<Pla
     return std::nullopt;
   }
   if (!bound) return std::nullopt;   // reported by the table
-  auto read = scenario::read_limit(*found, is_upper, bound->node, limit.where.at(is_upper ? "at_most" : "at_least"), diagnostics);
+  auto read = scenario::read_limit(*found, is_upper ? scenario::Relation::at_most : scenario::Relation::at_least, bound->node, limit.where.at(is_upper ? "at_most" : "at_least"), diagnostics);
   if (!read) return std::nullopt;
   PlannedLimit planned{*read, static_cast<std::size_t>(found - measures.begin())};
   planned.text = found->name + (is_upper ? " <= " : " >= ") + read->text;

@@ -91,7 +91,7 @@ Outcome run_scenario(const Plan& plan, const scenario::Scenario& scenario) {
   json::Node node = results::run_node(result);
   if (asks_for_topology(plan)) node.add("topology", topology_node(*resolved));
   Outcome outcome;
-  outcome.verdict = results::name_of(result.verdict);
+  outcome.verdict = result.nothing_required ? results::nothing_was_required : results::name_of(result.verdict);
   outcome.digest = result.digest;
   outcome.events = result.events;
   for (const PlannedMeasure& measure : plan.measures) outcome.values.push_back(value_of(measure, node));

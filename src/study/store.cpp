@@ -91,7 +91,7 @@ void put_measures(sqlite3* database, const Plan& plan, std::string& problem) {
   for (std::size_t i = 0; i < plan.limits.size(); ++i) {
     insert_limit.bind(0, static_cast<std::int64_t>(i));
     insert_limit.bind(1, static_cast<std::int64_t>(plan.limits[i].measure));
-    insert_limit.bind(2, std::int64_t{plan.limits[i].is_upper});
+    insert_limit.bind(2, std::int64_t{plan.limits[i].is_upper()});
     insert_limit.bind(3, plan.limits[i].value);
     insert_limit.bind(4, std::string_view(plan.limits[i].text));
     run(database, insert_limit, problem);

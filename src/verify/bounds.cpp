@@ -7,6 +7,8 @@
 
 #include "analysis/program_assessment.hpp"
 #include "explore/search.hpp"
+#include "scenario/figures/requirement_rules.hpp"
+#include "scenario/json/quantity.hpp"
 
 namespace takt::verify {
 namespace {
@@ -28,12 +30,6 @@ std::optional<std::string_view> bounded_as(RequirementKind kind) {
   }
 }
 
-/// A stream that loses frames fails a latency requirement, unless another one says how many it may lose.
-bool requires_losses_separately(const scenario::Scenario& scenario, const std::string& stream) {
-  return std::any_of(scenario.require.begin(), scenario.require.end(),
-                     [&](const scenario::Requirement& r) { return r.stream && *r.stream == stream && (r.dropped || r.delivered); });
-}
-
 class Prover {
  public:
   Prover(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const ProofOptions& options) : resolved_(resolved), options_(options), bounds_(bounds) {}
@@ -48,7 +44,7 @@ class Prover {
       proof.reason = "nothing is known about it";
       return proof;
     }
-    proof.from = resolved_.scenario.require[bound->requirement].after;
+    proof.from = scenario::counts_from(resolved_.scenario, resolved_.scenario.require[bound->requirement]);
     proof.time = bound->bound.duration;
     proof.reason = bound->bound.reason;
     proof.assumptions = bound->bound.assumptions;
@@ -70,11 +66,18 @@ class Prover {
     if (!proof.time || !requirement.limit) return;
     if (*proof.time > *requirement.limit) return;
     const bool is_of_stream = requirement.kind == RequirementKind::latency || requirement.kind == RequirementKind::jitter;
-    if (is_of_stream && !requires_losses_separately(resolved_.scenario, requirement.subject))
+    if (is_of_stream && !scenario::requires_losses_separately(resolved_.scenario, requirement.subject, proof.from))
       if (const analysis::StreamBound* const stream = stream_named(requirement.subject); stream == nullptr || !stream->loses_nothing) {
         proof.reason = "frames may be lost, and no requirement \"dropped\" says how many" + (stream == nullptr ? std::string() : ": " + stream->loss_reason);
         return;
       }
+    if (requirement.least_limit && *requirement.least_limit > Duration()) {
+      const analysis::StreamBound* const stream = stream_named(requirement.subject);
+      if (requirement.kind != RequirementKind::latency || stream == nullptr || stream->least < *requirement.least_limit) {
+        proof.reason = "nothing shows that it is never less than " + scenario::json::to_text(*requirement.least_limit);
+        return;
+      }
+    }
     proof.holds = true;
   }
 
@@ -95,7 +98,9 @@ class Prover {
       proof.reason = !bound->reason.empty() ? bound->reason : bound->loss_reason;
     } else {
       const Duration last = resolved_.scenario.duration - *bound->latency - stream->jitter - stream->offset.value_or(Duration()) - proof.from;
-      const std::uint64_t frames = last < Duration() ? 0 : static_cast<std::uint64_t>(last.ps() / stream->every->ps() + 1) * resolved_.plan.streams[bound->index.value].listeners.size();
+      // One more than whole periods if the first frame comes with the first instant.
+      const std::int64_t begun = proof.from == Duration() ? 1 : 0;
+      const std::uint64_t frames = last < Duration() ? 0 : static_cast<std::uint64_t>(last.ps() / stream->every->ps() + begun) * resolved_.plan.streams[bound->index.value].listeners.size();
       proof.holds = frames >= requirement.count_limit.value_or(0);
       proof.reason = proof.holds ? "" : "only " + std::to_string(frames) + " frames must have come at the end";
       proof.assumptions = bound->assumptions;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/assessment.hpp"
+#include "scenario/figures/requirement_rules.hpp"
 #include "scenario/json/quantity.hpp"
 
 namespace takt::verify {
@@ -24,11 +25,20 @@ void look_at_clocks(const scenario::Resolved& resolved, const results::RunResult
       found.push_back({Assumption::clock_error, (each.measured ? to_text(*each.measured) : "no sample") + with_seed(result)});
 }
 
-void look_at_words(const scenario::Resolved& resolved, const results::RunResult& result, std::vector<Violation>& found) {
-  for (const scenario::ResolvedProgram& program : resolved.programs)
-    for (const models::StreamIndex stream : program.state_streams)
-      if (const results::StreamResult& state = result.streams[stream.value]; state.dropped_in_all() > 0)
-        found.push_back({Assumption::no_loss, std::to_string(state.dropped_in_all()) + " of " + state.name + " were lost" + with_seed(result)});
+/// In the whole run: invariants have no warm-up. What was lost before it is counted by copies.
+std::uint64_t words_lost(const scenario::Run& run, models::StreamIndex stream, const results::StreamResult& state) {
+  if (run.resolved().scenario.warm_up == sim::Duration()) return state.lost;
+  const models::Stream& all = run.network().traffic().stream(stream);
+  return all.dropped_in_all() - all.dropped[static_cast<std::size_t>(models::DropReason::duplicate)];
+}
+
+void look_at_words(const scenario::Run& run, const results::RunResult& result, std::vector<Violation>& found) {
+  for (const scenario::ResolvedProgram& program : run.resolved().programs)
+    for (const models::StreamIndex stream : program.state_streams) {
+      const results::StreamResult& state = result.streams[stream.value];
+      if (const std::uint64_t lost = words_lost(run, stream, state); lost > 0)
+        found.push_back({Assumption::no_loss, std::to_string(lost) + " of " + state.name + " were lost" + with_seed(result)});
+    }
 }
 
 void look_at_changes(const scenario::Run& run, const results::RunResult& result, std::vector<Violation>& found) {
@@ -48,13 +58,13 @@ void look_at_changes(const scenario::Run& run, const results::RunResult& result,
 
 std::string exceeded(const std::string& what, sim::Duration seen, sim::Duration bound) { return what + ": a run took " + to_text(seen) + ", the bound is " + to_text(bound); }
 
-std::string contradiction_of_streams(const analysis::Bounds& bounds, const results::RunResult& result) {
+std::string contradiction_of_streams(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const results::RunResult& result) {
   for (const analysis::StreamBound& bound : bounds.streams) {
-    if (bound.index.value >= result.streams.size() || !bounds.ledger.objection(bound.assumptions, {}).empty()) continue;
+    if (bound.index.value >= result.streams.size() || !bounds.ledger.objection(bound.assumptions, resolved.scenario.warm_up).empty()) continue;
     const results::StreamResult& stream = result.streams[bound.index.value];
     if (bound.latency && stream.latency && stream.latency->max > *bound.latency) return exceeded("latency of " + bound.name, stream.latency->max, *bound.latency);
     if (bound.latency && stream.latency && stream.latency->min < bound.least) return exceeded("fastest frame of " + bound.name, stream.latency->min, bound.least);
-    if (bound.loses_nothing && stream.dropped_in_all() > 0) return bound.name + ": a run lost " + std::to_string(stream.dropped_in_all()) + " frames, though nothing can be lost";
+    if (bound.loses_nothing && stream.lost > 0) return bound.name + ": a run lost " + std::to_string(stream.lost) + " frames, though nothing can be lost";
   }
   return {};
 }
@@ -62,7 +72,7 @@ std::string contradiction_of_streams(const analysis::Bounds& bounds, const resul
 std::string contradiction_of_requirements(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const results::RunResult& result) {
   for (const analysis::Bounds::Requirement& each : bounds.requirements) {
     const scenario::Requirement& requirement = resolved.scenario.require[each.requirement];
-    if (each.what != "reaction" || !each.bound.duration || !bounds.ledger.objection(each.bound.assumptions, requirement.after).empty()) continue;
+    if (each.what != "reaction" || !each.bound.duration || !bounds.ledger.objection(each.bound.assumptions, scenario::counts_from(resolved.scenario, requirement)).empty()) continue;
     for (const results::RequirementResult& seen : result.requirements)
       if (seen.requirement == each.requirement && seen.measured && *seen.measured > *each.bound.duration) return exceeded(seen.text, *seen.measured, *each.bound.duration);
   }
@@ -74,13 +84,13 @@ std::string contradiction_of_requirements(const scenario::Resolved& resolved, co
 std::vector<Violation> violations_in(const scenario::Run& run, const results::RunResult& result) {
   std::vector<Violation> found;
   look_at_clocks(run.resolved(), result, found);
-  look_at_words(run.resolved(), result, found);
+  look_at_words(run, result, found);
   look_at_changes(run, result, found);
   return found;
 }
 
 std::string contradiction_in(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const results::RunResult& result) {
-  std::string found = contradiction_of_streams(bounds, result);
+  std::string found = contradiction_of_streams(resolved, bounds, result);
   return found.empty() ? contradiction_of_requirements(resolved, bounds, result) : found;
 }
 

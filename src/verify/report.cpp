@@ -38,6 +38,11 @@ std::string line_text(const Line& line, const std::string& file) {
   return out;
 }
 
+/// Where nothing is required, nothing is proved.
+std::string verdict_text(const Verification& verification) {
+  return verification.lines.empty() && !verification.partial && !verification.contradiction ? results::nothing_was_required : name_of(verification.verdict());
+}
+
 /// What only the plant can keep, of all that is proved.
 std::string conditions_text(const Verification& verification) {
   analysis::Assumptions needed;
@@ -87,14 +92,13 @@ std::string text_report(const std::string& scenario, const Verification& verific
   }
   out += conditions_text(verification);
   if (verification.contradiction) out += contradiction_text(*verification.contradiction, witnesses);
-  const bool is_vacuous = verification.lines.empty() && !verification.contradiction;
-  return out + fmt::format("\n{}: {}\n", scenario, is_vacuous ? "nothing was required" : name_of(verification.verdict()));
+  return out + fmt::format("\n{}: {}\n", scenario, verdict_text(verification));
 }
 
 std::string json_report(const std::string& scenario, const Verification& verification, const std::vector<std::string>& files, const Witnesses& witnesses) {
   Node root = Node::object();
   root.add("scenario", Node::of_string(scenario));
-  root.add("verdict", Node::of_string(name_of(verification.verdict())));
+  root.add("verdict", Node::of_string(verdict_text(verification)));
   root.add("runs", number(verification.runs));
   root.add("partial", Node::of_bool(verification.partial));
   Node open = Node::array();

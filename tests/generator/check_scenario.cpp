@@ -161,7 +161,7 @@ class Checks {
     run.advance();
     // What the run itself breaks is no premise of a bound.
     for (const verify::Violation& violation : verify::violations_in(run, *result_)) bounds.ledger.violate(violation.assumption, violation.witness);
-    const auto stands = [&](const analysis::Assumptions& assumptions) { return bounds.ledger.objection(assumptions, {}).empty(); };
+    const auto stands = [&](const analysis::Assumptions& assumptions) { return bounds.ledger.objection(assumptions, r_.scenario.warm_up).empty(); };
     for (std::size_t s = 0; s < bounds.streams.size(); ++s) {
       const analysis::StreamBound& bound = bounds.streams[s];
       const results::StreamResult& stream = result_->streams[s];
@@ -169,7 +169,7 @@ class Checks {
       if (!stands(bound.assumptions) || !stream.latency) continue;
       expect(stream.latency->min >= bound.least, [&] { return bound.name + " took " + took(stream.latency->min) + ", the least is " + took(bound.least); });
       if (bound.latency) expect(stream.latency->max <= *bound.latency, [&] { return bound.name + " took " + took(stream.latency->max) + ", the bound is " + took(*bound.latency); });
-      if (bound.loses_nothing && bound.latency) expect(stream.dropped_in_all() == 0, [&] { return bound.name + " loses nothing, but " + std::to_string(stream.dropped_in_all()) + " frames"; });
+      if (bound.loses_nothing && bound.latency) expect(stream.lost == 0, [&] { return bound.name + " loses nothing, but " + std::to_string(stream.lost) + " frames"; });
     }
     for (const analysis::ReactionBound& bound : bounds.reactions)
       if (bound.bound && stands(bound.assumptions)) reactions(bound);

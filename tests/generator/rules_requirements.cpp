@@ -76,7 +76,13 @@ std::span<const Rule> requirement_rules() {
       {.key = "requirement.program", .percent = 60, .make = of_program},
       {.key = "requirement.within", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return s.has("reaction") ? m.word("500us 2ms 5ms 1s") : Made(); }},
       {.key = "requirement.tree", .feature = Feature::nesting, .percent = 40, .make = [](Maker&, const Scope& s) -> Made { return s.text("program") == "p0" ? Made(Node::of_bool(true)) : std::nullopt; }},
-      {.key = "requirement.latency", .percent = 70, .make = [](Maker& m, const Scope& s) -> Made { return s.has("stream") ? m.word("20us 100us 500us 2ms 1s") : Made(); }},
+      {.key = "requirement.latency", .percent = 70, .make = [](Maker& m, const Scope& s) -> Made {
+         if (!s.has("stream")) return std::nullopt;
+         return m.draw.one_in(4) ? Made(m.object("duration_limit", &s)) : m.word("20us 100us 500us 2ms 1s");
+       }},
+      {.key = "duration_limit.at_most", .percent = 100, .make = [](Maker& m, const Scope&) -> Made { return m.word("20us 500us 1s"); }},
+      {.key = "duration_limit.equal", .percent = 100, .make = [](Maker& m, const Scope&) -> Made { return m.word("20us 100us"); }},
+      {.key = "duration_limit.within", .percent = 80, .make = [](Maker& m, const Scope& s) -> Made { return s.has("equal") ? m.word("0ns 10us 1s") : Made(); }},
       {.key = "requirement.jitter", .percent = 30, .make = [](Maker& m, const Scope& s) -> Made { return s.has("stream") ? m.word("0us 20us 200us 5ms") : Made(); }},
       {.key = "requirement.dropped", .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return s.has("stream") ? Made(number(m.draw.one_in(2) ? 0 : 5)) : std::nullopt; }},
       {.key = "requirement.delivered", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made {
@@ -100,6 +106,7 @@ std::span<const Rule> requirement_rules() {
       {.key = "requirement.unit", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return is_time(s) ? m.word("ns us ms") : Made(); }},
       {.key = "requirement.at_most", .percent = 100, .make = limit_of_figure},
       {.key = "requirement.at_least", .percent = 100, .make = limit_of_figure},
+      {.key = "requirement.equal", .percent = 100, .make = limit_of_figure},
   };
   return rules;
 }

@@ -215,6 +215,7 @@ std::span<const Rule> network_rules() {
       {.key = "scenario.name", .words = "generated"},
       {.key = "scenario.description", .percent = 5, .words = "drawn"},
       {.key = "scenario.seed", .percent = 80, .make = [](Maker& m, const Scope&) -> std::optional<Node> { return number(m.draw.below(1000)); }},
+      {.key = "scenario.warm_up", .percent = 15, .make = [](Maker& m, const Scope&) -> std::optional<Node> { return text(std::to_string(m.duration_us / 4) + "us"); }},
       {.key = "scenario.duration", .make = [](Maker& m, const Scope&) -> std::optional<Node> { return text(std::to_string(m.duration_us) + "us"); }},
       {.key = "scenario.network"},
       {.key = "scenario.allow_overload", .feature = Feature::overload, .percent = 100, .words = "true"},

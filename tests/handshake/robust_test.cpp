@@ -237,7 +237,7 @@ TEST(Robust, ARestartedMasterDoesNotAdoptItsOldStart) {
 TEST(Robust, ARestartedMasterDoesNotAdoptAStartThatItsSlavesHaveNotFinished) {
   Group group(Variant::Robust, 2);
   group.call(0, Method::Start);
-  group.round();
+  group.tell_all(0);
   ASSERT_EQ(group[1].state(), PublishedState::HaltedInit);
   group.restart(0);
   const Outputs outputs = group.tell(1, 0);

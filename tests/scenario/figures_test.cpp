@@ -86,7 +86,7 @@ TEST(Figures, MistakesAreToldBeforeTheRun) {
     EXPECT_NE(told.find(words), std::string::npos) << requirement << "\n" << told;
   };
   says(R"({"figure": "/streams/camera/latncy_ps/max", "at_most": "1us"})",
-       R"(unknown figure: found "latncy_ps" in /streams/camera, expected one of sent, delivered, copies, in_flight, listeners, dropped, latency_ps (did you mean "latency_ps"?))");
+       R"(unknown figure: found "latncy_ps" in /streams/camera, expected one of sent, delivered, lost, copies, in_flight, oldest_in_flight_ps, listeners, dropped, latency_ps (did you mean "latency_ps"?))");
   says(R"({"figure": "/streams/camera/latency_ps", "at_most": "1us"})", R"(not a single figure: found "/streams/camera/latency_ps", expected one step more: min, mean, p50)");
   says(R"({"figure": "/events/now", "at_most": 1})", "/events, which has no members");
   says(R"({"figure": "/streams/t/sent", "at_most": 1})", R"(unknown stream: found "t", expected the name of a stream)");
@@ -100,7 +100,7 @@ TEST(Figures, MistakesAreToldBeforeTheRun) {
   says(R"({"figure": "latency.max", "at_most": 5})", R"(a time without a unit: found the number 5, expected a duration such as "7ms", or "unit" beside it)");
   says(R"({"figure": "dropped", "at_most": "5us"})", "not a limit of this figure");
   says(R"({"figure": "dropped", "unit": "us", "at_most": 5})", "a unit of time for what is no time");
-  says(R"({"figure": "dropped"})", R"(found "figure" without a limit, expected "at_most" or "at_least")");
+  says(R"({"figure": "dropped"})", R"(found "figure" without a limit, expected "at_most", "at_least" or "equal")");
   says(R"({"figure": "dropped", "at_most": 1, "at_least": 0})", "at_least");
   says(R"({"figure": "dropped", "at_most": 1, "latency": "1us"})", R"(does not belong to this requirement: found "latency")");
   says(R"({"stream": "camera", "dropped": 1, "at_most": 1})", R"(found "at_most", expected a requirement with "figure")");

@@ -12,7 +12,7 @@ namespace {
 
 ThreadFigures figures_of(const scenario::Run& run, std::size_t application, std::size_t thread) {
   const scenario::ResolvedApplication& resolved = run.resolved().applications[application];
-  const scenario::ThreadFigures seen = run.thread(application, thread);
+  const scenario::ThreadFigures seen = run.thread(application, thread, sim::Duration());
   ThreadFigures made;
   made.application = resolved.name;
   made.thread = resolved.threads[thread].name;

@@ -52,7 +52,7 @@ class Worker {
     if (job_.way == Way::search) {
       scenario::Requirement required;
       required.stream = job_.stream;
-      required.latency = sim::Duration::from_ps(3'600'000'000'000'000);
+      required.latency.emplace().at_most = sim::Duration::from_ps(3'600'000'000'000'000);
       scenario.require = {required};
     }
     const auto resolved = scenario::resolve(std::move(scenario), job_.diagnostics);

@@ -7,8 +7,13 @@ namespace takt::scenario {
 using sim::Duration;
 using sim::LocalTime;
 
-Activations::Activations(Duration every, Duration offset, const sim::Distribution& response, std::uint64_t seed, std::string_view path)
-    : every_(every), offset_(offset), response_(&response), chance_(seed, path, "response") {}
+Activations::Activations(Duration every, Duration offset, const sim::Distribution& response, std::uint64_t seed, std::string_view path,
+                         std::span<const Duration> instants)
+    : every_(every), offset_(offset), response_(&response), chance_(seed, path, "response"), counts_(instants) {
+  counts_.for_each([](Counts& counts, LocalTime first) {
+    if (first >= LocalTime()) counts.from = first;
+  });
+}
 
 /// The number of the last activation that is due by then.
 std::int64_t Activations::latest_at(LocalTime now) const {
@@ -25,9 +30,7 @@ void Activations::begin(LocalTime now) {
 }
 
 void Activations::end(LocalTime now) {
-  decided_before_ = decided(now);
-  done_before_ += done_;
-  done_ = 0;
+  counts_.for_each([&](Counts& counts, LocalTime) { counts.decided_before = decided(now, counts); });
   first_ = planned_ = last_done_ = 0;
   next_ = LocalTime::never();
 }
@@ -48,16 +51,20 @@ std::optional<Duration> Activations::act() {
     response = drawn_;
     last_done_ = planned_++;
     ++done_;
+    counts_.add(due(last_done_), [](Counts& counts) { ++counts.done; });
   }
   plan();
   return response;
 }
 
-std::uint64_t Activations::decided(LocalTime now) const {
-  if (next_ == LocalTime::never()) return decided_before_;
+std::uint64_t Activations::decided(LocalTime now, Duration from) const { return decided(now, counts_.from(from)); }
+
+std::uint64_t Activations::decided(LocalTime now, const Counts& counts) const {
+  if (next_ == LocalTime::never()) return counts.decided_before;
   // The latest one that is due is open until it is done; what is done stays so where the clock was set back.
   const std::int64_t open = std::max(latest_at(now), last_done_ + 1);
-  return decided_before_ + static_cast<std::uint64_t>(std::max(open - first_, std::int64_t{0}));
+  const std::int64_t first = counts.from ? std::max(first_, latest_at(*counts.from - Duration::from_ps(1)) + 1) : first_;
+  return counts.decided_before + static_cast<std::uint64_t>(std::max(open - first, std::int64_t{0}));
 }
 
 }  // namespace takt::scenario

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
+#include "scenario/figures/accounts.hpp"
 #include "sim/distribution.hpp"
 #include "sim/random.hpp"
 #include "sim/time.hpp"
@@ -15,8 +17,10 @@ namespace takt::scenario {
 /// activation is missed: the call does not take place, and the thread takes up the next one, which draws anew.
 class Activations {
  public:
-  /// `path` names the thread in the random streams, e.g. "robot/control/publish". The distribution outlives it.
-  Activations(sim::Duration every, sim::Duration offset, const sim::Distribution& response, std::uint64_t seed, std::string_view path);
+  /// `path` names the thread in the random streams, e.g. "robot/control/publish". The distribution outlives it. Counts are kept from each of the instants on,
+  /// of the activations that are due then or later.
+  Activations(sim::Duration every, sim::Duration offset, const sim::Distribution& response, std::uint64_t seed, std::string_view path,
+              std::span<const sim::Duration> instants);
 
   /// The thread begins, or its clock has jumped: the first activation is that which is due next.
   void begin(sim::LocalTime now);
@@ -30,9 +34,14 @@ class Activations {
   /// The clock is far beyond the time that was planned: it was set.
   bool has_jumped(sim::LocalTime now) const { return now - next_ >= every_; }
 
-  std::uint64_t done() const { return done_before_ + done_; }
+  /// In all.
+  std::uint64_t done() const { return done_; }
+  /// When the activation was due whose call took place last.
+  sim::LocalTime last_due() const { return due(last_done_); }
+  /// Of those due at the instant or later.
+  std::uint64_t done(sim::Duration from) const { return counts_.from(from).done; }
   /// Activations of which it is known by then whether they were done; the others were missed.
-  std::uint64_t decided(sim::LocalTime now) const;
+  std::uint64_t decided(sim::LocalTime now, sim::Duration from) const;
 
  private:
   static constexpr int most_draws = 64;   // in one go, so that a response that is always too long does not hang
@@ -50,9 +59,14 @@ class Activations {
   sim::Duration drawn_;
   bool is_call_ = false;                  // else: nothing but a look
   sim::LocalTime next_ = sim::LocalTime::never();
-  std::uint64_t done_ = 0;                // since the last begin
-  std::uint64_t done_before_ = 0;
-  std::uint64_t decided_before_ = 0;
+  std::uint64_t done_ = 0;
+  struct Counts {
+    std::optional<sim::LocalTime> from;   // none: all
+    std::uint64_t done = 0;
+    std::uint64_t decided_before = 0;     // the last begin
+  };
+  std::uint64_t decided(sim::LocalTime now, const Counts& counts) const;
+  Accounts<Counts, sim::LocalTime> counts_;
 };
 
 }  // namespace takt::scenario

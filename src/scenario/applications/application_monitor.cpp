@@ -11,8 +11,8 @@ constexpr std::uint32_t signal_set = 142;
 constexpr std::uint32_t application_crashed = 143;
 }  // namespace
 
-ApplicationMonitor::ApplicationMonitor(sim::Simulation& simulation, const std::vector<ResolvedSignal>& signals) : simulation_(&simulation) {
-  for (const ResolvedSignal& signal : signals) signals_.emplace_back(signal.pulse);
+ApplicationMonitor::ApplicationMonitor(sim::Simulation& simulation, const std::vector<ResolvedSignal>& signals, std::span<const sim::Duration> instants) : simulation_(&simulation) {
+  for (const ResolvedSignal& signal : signals) signals_.emplace_back(signal.pulse, instants);
 }
 
 void ApplicationMonitor::on_call(std::uint32_t application, std::uint32_t thread, std::uint64_t number) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scenario/applications/digital_output.hpp"
@@ -12,8 +13,8 @@ namespace takt::scenario {
 
 class ApplicationMonitor {
  public:
-  /// Both outlive it.
-  ApplicationMonitor(sim::Simulation& simulation, const std::vector<ResolvedSignal>& signals);
+  /// Simulation and signals outlive it. Figures are kept from each of the instants on.
+  ApplicationMonitor(sim::Simulation& simulation, const std::vector<ResolvedSignal>& signals, std::span<const sim::Duration> instants);
 
   /// A call of a thread took place.
   void on_call(std::uint32_t application, std::uint32_t thread, std::uint64_t number);

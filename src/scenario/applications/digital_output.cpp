@@ -12,14 +12,17 @@ bool DigitalOutput::set(bool high, sim::TrueTime now) {
   high_ = high;
   if (edges_.size() < most_edges) edges_.push_back({now, high});
   if (high) {
-    if (rise_) {
-      periods_.add(now - *rise_);
-      irregular_periods_ += is_off(now - *rise_, pulse_ * 2) ? 1 : 0;
-    }
+    if (rise_)
+      figures_.add(*rise_, [&](Figures& figures) {
+        figures.periods.add(now - *rise_);
+        figures.irregular_periods += is_off(now - *rise_, pulse_ * 2) ? 1 : 0;
+      });
     rise_ = now;
   } else {
-    pulses_.add(now - *rise_);
-    irregular_pulses_ += is_off(now - *rise_, pulse_) ? 1 : 0;
+    figures_.add(*rise_, [&](Figures& figures) {
+      figures.pulses.add(now - *rise_);
+      figures.irregular_pulses += is_off(now - *rise_, pulse_) ? 1 : 0;
+    });
   }
   return true;
 }

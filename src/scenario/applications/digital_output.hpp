@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "scenario/figures/accounts.hpp"
 #include "sim/time.hpp"
 
 namespace takt::scenario {
@@ -47,21 +49,23 @@ class DigitalOutput {
     bool high = false;
   };
 
-  /// A pulse is nominally so long, a period twice that.
-  explicit DigitalOutput(sim::Duration pulse) : pulse_(pulse) {}
+  /// Of pulses and periods that began with a rise at an instant or later.
+  struct Figures {
+    DurationFigures pulses;               ///< lengths of whole pulses, from rise to fall
+    DurationFigures periods;              ///< from rise to rise
+    std::uint64_t irregular_pulses = 0;   ///< of them, those that are more than 10 % off
+    std::uint64_t irregular_periods = 0;
+  };
+
+  /// A pulse is nominally so long, a period twice that. Figures are kept from each of the instants on.
+  DigitalOutput(sim::Duration pulse, std::span<const sim::Duration> instants) : pulse_(pulse), figures_(instants) {}
 
   /// It is low at the beginning. True if the level has changed.
   bool set(bool high, sim::TrueTime now);
 
   bool is_high() const { return high_; }
   sim::Duration pulse() const { return pulse_; }
-  /// Lengths of whole pulses, from rise to fall.
-  const DurationFigures& pulses() const { return pulses_; }
-  /// From rise to rise.
-  const DurationFigures& periods() const { return periods_; }
-  /// Of them, those that are more than 10 % off.
-  std::uint64_t irregular_pulses() const { return irregular_pulses_; }
-  std::uint64_t irregular_periods() const { return irregular_periods_; }
+  const Figures& figures(sim::Duration from) const { return figures_.from(from); }
   /// The first ones.
   const std::vector<Edge>& edges() const { return edges_; }
   static constexpr std::size_t most_edges = 10'000;
@@ -72,10 +76,7 @@ class DigitalOutput {
   sim::Duration pulse_;
   bool high_ = false;
   std::optional<sim::TrueTime> rise_;
-  DurationFigures pulses_;
-  DurationFigures periods_;
-  std::uint64_t irregular_pulses_ = 0;
-  std::uint64_t irregular_periods_ = 0;
+  Accounts<Figures> figures_;
   std::vector<Edge> edges_;
 };
 

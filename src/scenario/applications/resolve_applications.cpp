@@ -9,6 +9,7 @@
 #include "scenario/applications/dds_qos.hpp"
 #include "scenario/applications/gateway_bridge.hpp"
 #include "scenario/applications/opc_ua_port.hpp"
+#include "scenario/applications/expected_values.hpp"
 #include "scenario/applications/resolve_dds.hpp"
 #include "scenario/applications/resolved_dds.hpp"
 #include "scenario/json/suggest.hpp"
@@ -388,10 +389,8 @@ class ApplicationResolver {
       thread.window = multiple(application.scheduler->window, thread.every);
       thread.value_window = thread.window;
       if (thread.publishes) continue;
-      for (const ResolvedInput& input : thread.inputs)
-        thread.value_window = std::max(thread.value_window, multiple(application.scheduler->window, r_.applications[input.application].threads[input.thread].every));
-      for (const ResolvedInput& input : thread.inputs)
-        thread.values_expected += static_cast<std::uint64_t>(thread.value_window / r_.applications[input.application].threads[input.thread].every);
+      for (const ResolvedInput& input : thread.inputs) thread.value_window = std::max(thread.value_window, multiple(application.scheduler->window, slowest_interval(r_, input)));
+      for (const ResolvedInput& input : thread.inputs) thread.values_expected += takt::scenario::values_expected(r_, input, thread.value_window);
     }
   }
 

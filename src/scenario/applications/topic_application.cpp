@@ -13,27 +13,34 @@ namespace {
 
 constexpr models::AlarmId threads_alarm = 0;   // those of participants follow
 
-WindowCounter::Settings window_of(const ResolvedThread& thread, const ResolvedApplication& application, sim::Duration length, std::uint64_t expected) {
-  return {length, thread.offset, expected, sim::LocalTime() + application.scheduler->after, thread.tests, application.scheduler->tolerance};
+WindowCounter::Settings window_of(const ResolvedThread& thread, const ResolvedApplication& application, sim::Duration length, std::uint64_t expected, sim::Duration from) {
+  return {length, thread.offset, expected, sim::LocalTime() + std::max(application.scheduler->after, from), thread.tests, application.scheduler->tolerance};
 }
 
 }  // namespace
 
-TopicApplication::Live::Live(const ResolvedThread& thread, const ResolvedApplication& application, const SampleLayout& topic_layout, const std::string& path,
-                             std::uint64_t seed)
+TopicApplication::Live::Live(const ResolvedThread& thread, const Settings& of, const SampleLayout& topic_layout)
     : settings(&thread),
       layout(&topic_layout),
-      activations(thread.every, thread.offset, thread.response, seed, path + "/" + thread.name),
-      calls(window_of(thread, application, thread.window, static_cast<std::uint64_t>(thread.window / thread.every)), application.scheduler_response, seed, path),
-      sample(topic_layout.zeros()) {
-  if (!thread.publishes) values.emplace(window_of(thread, application, thread.value_window, thread.values_expected), application.scheduler_response, seed, path);
+      activations(thread.every, thread.offset, thread.response, of.seed, of.path + "/" + thread.name, of.instants),
+      sample(topic_layout.zeros()),
+      seen(of.instants) {
+  const ResolvedApplication& application = *of.application;
+  for (const sim::Duration from : of.instants) {
+    windows.push_back({from,
+                       WindowCounter(window_of(thread, application, thread.window, static_cast<std::uint64_t>(thread.window / thread.every), from),
+                                     application.scheduler_response, of.seed, of.path),
+                       {}});
+    if (!thread.publishes)
+      windows.back().values.emplace(window_of(thread, application, thread.value_window, thread.values_expected, from), application.scheduler_response, of.seed, of.path);
+  }
 }
 
 TopicApplication::TopicApplication(Settings settings, ApplicationMonitor& monitor) : number_(settings.number), monitor_(&monitor), nodes_(std::move(settings.nodes)), bridge_(std::move(settings.bridge)) {
   const ResolvedApplication& application = *settings.application;
   for (std::size_t t = 0; t < application.threads.size(); ++t) {
     const ResolvedThread& thread = application.threads[t];
-    Live& live = threads_.emplace_back(thread, application, (*settings.topics)[thread.topic].layout, settings.path, settings.seed);
+    Live& live = threads_.emplace_back(thread, settings, (*settings.topics)[thread.topic].layout);
     live.writer = std::move(settings.writers[t]);
     live.reader = std::move(settings.readers[t]);
     TAKT_CHECK((live.writer != nullptr) == thread.publishes && (live.reader != nullptr) != thread.publishes, "a thread publishes or subscribes");
@@ -60,8 +67,7 @@ void TopicApplication::start(models::HostServices& host) {
     live.has_sample = false;
     live.publications = 0;
     live.activations.begin(now);
-    live.calls.begin(now);
-    if (live.values) live.values->begin(now);
+    live.tell_windows([&](WindowCounter& windows) { windows.begin(now); });
   }
   plan(host);
   // Participants announce themselves when the run has begun, not while it is made: recorders come in between.
@@ -74,10 +80,10 @@ void TopicApplication::crash() {
   const sim::LocalTime now = host_->now();
   for (Live& live : threads_) {
     live.activations.end(now);
-    live.calls.close_until(now);
-    live.calls.end();
-    if (live.values) live.values->close_until(now);
-    if (live.values) live.values->end();
+    live.tell_windows([&](WindowCounter& windows) {
+      windows.close_until(now);
+      windows.end();
+    });
     if (live.writer) live.writer->crash();
     if (live.reader) live.reader->crash();
   }
@@ -107,7 +113,7 @@ void TopicApplication::settle(models::HostServices& host) {
   if (nodes_.empty()) return;
   for (std::size_t n = 0; n < nodes_.size(); ++n) nodes_[n]->settle(host);
   for (Live& live : threads_)
-    if (const auto outcome = live.writer ? live.writer->go_on(host) : std::nullopt) count(live.seen, *outcome);
+    if (const auto outcome = live.writer ? live.writer->go_on(host) : std::nullopt) count(live, host.now(), *outcome);
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     nodes_[n]->settle(host);
     host.set_alarm(static_cast<models::AlarmId>(threads_alarm + 1 + n), nodes_[n]->next_wake());
@@ -126,10 +132,10 @@ void TopicApplication::wake(models::HostServices& host, models::AlarmId alarm) {
     if (live.activations.next() > now) continue;
     if (live.activations.has_jumped(now)) {
       live.activations.begin(now);
-      live.calls.end();
-      live.calls.begin(now);
-      if (live.values) live.values->end();
-      if (live.values) live.values->begin(now);
+      live.tell_windows([&](WindowCounter& windows) {
+        windows.end();
+        windows.begin(now);
+      });
       if (live.activations.next() > now) continue;
     }
     if (const auto response = live.activations.act()) call(host, t, now, *response);
@@ -146,16 +152,17 @@ void TopicApplication::plan(models::HostServices& host) {
 
 void TopicApplication::call(models::HostServices& host, std::uint32_t thread, sim::LocalTime now, sim::Duration response) {
   Live& live = threads_[thread];
-  live.seen.response.add(response);
-  live.calls.add(now);
+  const sim::LocalTime due = live.activations.last_due();
+  live.seen.add(due, [&](Live::Seen& seen) { seen.figures.response.add(response); });
+  for (Live::Windows& each : live.windows) each.calls.add(now);
   monitor_->on_call(number_, thread, live.activations.done());
   if (live.writer)
-    publish(host, live, now);
+    publish(host, live, now, due);
   else
-    take(host, thread, now);
+    take(host, thread, now, due);
 }
 
-void TopicApplication::publish(models::HostServices& host, Live& live, sim::LocalTime now) {
+void TopicApplication::publish(models::HostServices& host, Live& live, sim::LocalTime now, sim::LocalTime due) {
   if (bridge_) {
     const auto sample = bridge_->pull(now);
     if (!sample) return;
@@ -169,20 +176,27 @@ void TopicApplication::publish(models::HostServices& host, Live& live, sim::Loca
     live.layout->set_keys(live.sample, vocabulary::instance_of(live.settings->payload, live.publications));
     live.layout->set_first(live.sample, live.settings->pattern == Pattern::alternate ? live.publications % 2 : live.publications);
   }
-  count(live.seen, live.writer->write(host, live.sample));
+  count(live, due, live.writer->write(host, live.sample));
 }
 
-void TopicApplication::count(ThreadFigures& seen, WriteOutcome outcome) {
-  switch (outcome) {
-    case WriteOutcome::published: ++seen.published; break;
-    case WriteOutcome::refused: ++seen.refused; break;
-    case WriteOutcome::timed_out: ++seen.timed_out; break;
-    case WriteOutcome::waits: break;
-  }
+void TopicApplication::count(Live& live, sim::LocalTime began, WriteOutcome outcome) {
+  live.seen.add(began, [&](Live::Seen& seen) {
+    switch (outcome) {
+      case WriteOutcome::published: ++seen.figures.published; break;
+      case WriteOutcome::refused: ++seen.figures.refused; break;
+      case WriteOutcome::timed_out: ++seen.figures.timed_out; break;
+      case WriteOutcome::waits: break;
+    }
+  });
 }
 
-void TopicApplication::take(models::HostServices& host, std::uint32_t thread, sim::LocalTime now) {
+void TopicApplication::take(models::HostServices& host, std::uint32_t thread, sim::LocalTime now, sim::LocalTime due) {
   Live& live = threads_[thread];
+  live.seen.add(due, [&](Live::Seen& seen) {
+    if (seen.lost_before) return;
+    seen.lost_before = live.reader->lost();
+    seen.displaced_before = live.reader->displaced();
+  });
   std::uint64_t count = 0;
   while (const auto sample = live.reader->next(host)) {
     ++count;
@@ -192,29 +206,36 @@ void TopicApplication::take(models::HostServices& host, std::uint32_t thread, si
   }
   if (count == 0) return;
   const std::uint64_t kept = std::min<std::uint64_t>(count, live.settings->buffer);
-  live.seen.arrived += count;
-  live.seen.buffered += kept;
-  live.seen.overwritten += count - kept;
-  live.values->add(now, kept);
+  live.seen.add(due, [&](Live::Seen& seen) {
+    seen.figures.arrived += count;
+    seen.figures.buffered += kept;
+    seen.figures.overwritten += count - kept;
+  });
+  for (Live::Windows& each : live.windows) each.values->add(now, kept);
   monitor_->on_values(number_, thread, count);
   if (live.settings->signal) monitor_->set_signal(*live.settings->signal, !live.layout->first_is_zero(live.sample));
 }
 
-ThreadFigures TopicApplication::figures(std::size_t thread, sim::LocalTime now) const {
+ThreadFigures TopicApplication::figures(std::size_t thread, sim::LocalTime now, sim::Duration from) const {
   const Live& live = threads_[thread];
-  ThreadFigures figures = live.seen;
-  figures.activations = live.activations.decided(now);
-  figures.done = live.activations.done();
-  figures.lost = live.reader ? live.reader->lost() : 0;
-  figures.overwritten += live.reader ? live.reader->displaced() : 0;
-  WindowCounter calls = live.calls;
-  if (!live.activations.has_jumped(now)) calls.close_until(now);
-  figures.calls = calls.figures();
-  if (live.values) {
-    WindowCounter values = *live.values;
-    if (!live.activations.has_jumped(now)) values.close_until(now);
-    figures.values = values.figures();
+  const Live::Seen& seen = live.seen.from(from);
+  ThreadFigures figures = seen.figures;
+  figures.activations = live.activations.decided(now, from);
+  figures.done = live.activations.done(from);
+  if (live.reader) {
+    // Without a call since then nothing is known of it.
+    const bool is_all = from == sim::Duration();
+    if (is_all || seen.lost_before) figures.lost = live.reader->lost() - (is_all ? 0 : *seen.lost_before);
+    if (is_all || seen.lost_before) figures.overwritten += live.reader->displaced() - (is_all ? 0 : seen.displaced_before);
   }
+  const auto windows = std::find_if(live.windows.begin(), live.windows.end(), [&](const Live::Windows& each) { return each.from == from; });
+  TAKT_CHECK(windows != live.windows.end(), "figures are asked of instants from which windows are counted");
+  const auto at_the_end = [&](WindowCounter counter) {
+    if (!live.activations.has_jumped(now)) counter.close_until(now);
+    return counter.figures();
+  };
+  figures.calls = at_the_end(windows->calls);
+  if (windows->values) figures.values = at_the_end(*windows->values);
   return figures;
 }
 

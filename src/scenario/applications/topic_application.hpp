@@ -45,6 +45,7 @@ class TopicApplication final : public models::Application {
     std::unique_ptr<GatewayBridge> bridge;             ///< of a gateway
     std::string path;                     ///< in the random streams: host, '/', application
     std::uint64_t seed = 0;
+    std::vector<sim::Duration> instants = {sim::Duration()};  ///< from which figures are kept, by the clock of the host
   };
   TopicApplication(Settings settings, ApplicationMonitor& monitor);
   ~TopicApplication() override;
@@ -57,8 +58,8 @@ class TopicApplication final : public models::Application {
   /// The host has crashed: the application is gone, with its memory. It comes back with `restart`.
   void crash();
 
-  /// What was seen until then, on the clock of the host.
-  ThreadFigures figures(std::size_t thread, sim::LocalTime now) const;
+  /// What was seen until then, on the clock of the host, of the activations that were due at `from` or later.
+  ThreadFigures figures(std::size_t thread, sim::LocalTime now, sim::Duration from) const;
   /// Its participants of DDS.
   const std::vector<std::unique_ptr<DdsNode>>& nodes() const { return nodes_; }
   /// Null but in a gateway.
@@ -66,27 +67,45 @@ class TopicApplication final : public models::Application {
 
  private:
   struct Live {
-    Live(const ResolvedThread& thread, const ResolvedApplication& application, const SampleLayout& topic_layout, const std::string& path, std::uint64_t seed);
+    Live(const ResolvedThread& thread, const Settings& of, const SampleLayout& topic_layout);
+    /// The windows of all accounts are told the same.
+    template <class Tell>
+    void tell_windows(Tell&& tell) {
+      for (Windows& each : windows) {
+        tell(each.calls);
+        if (each.values) tell(*each.values);
+      }
+    }
 
     const ResolvedThread* settings;
     const SampleLayout* layout;
     Activations activations;
-    WindowCounter calls;
-    std::optional<WindowCounter> values;
+    struct Windows {
+      sim::Duration from;
+      WindowCounter calls;
+      std::optional<WindowCounter> values;
+    };
+    std::vector<Windows> windows;         // by instant
     std::unique_ptr<TopicWriter> writer;
     std::unique_ptr<TopicReader> reader;
     Sample sample;                        // the last that was taken, or room for the next to publish
     bool has_sample = false;
     std::uint64_t publications = 0;       // since the start
-    ThreadFigures seen;
+    /// What was seen, and what the protocol had lost when that began.
+    struct Seen {
+      ThreadFigures figures;
+      std::optional<std::uint64_t> lost_before = {};
+      std::uint64_t displaced_before = 0;
+    };
+    Accounts<Seen, sim::LocalTime> seen;
   };
 
   void call(models::HostServices& host, std::uint32_t thread, sim::LocalTime now, sim::Duration response);
-  void publish(models::HostServices& host, Live& live, sim::LocalTime now);
-  static void count(ThreadFigures& seen, WriteOutcome outcome);
+  void publish(models::HostServices& host, Live& live, sim::LocalTime now, sim::LocalTime due);
+  static void count(Live& live, sim::LocalTime began, WriteOutcome outcome);
   /// What participants want to send is sent, and they are woken when they want to be.
   void settle(models::HostServices& host);
-  void take(models::HostServices& host, std::uint32_t thread, sim::LocalTime now);
+  void take(models::HostServices& host, std::uint32_t thread, sim::LocalTime now, sim::LocalTime due);
   void plan(models::HostServices& host);
 
   std::uint32_t number_;

@@ -318,16 +318,39 @@ struct ScriptEntry {
 
 enum class Reaction : std::uint8_t { start, halt, suspend, resume, reset };
 
+/// What a time may be: at most so long, or equal to a value within a tolerance.
+struct DurationLimit {
+  json::Source where;
+  std::optional<Duration> at_most;
+  std::optional<Duration> equal;
+  std::optional<Duration> within;        ///< of "equal"; absent: exactly
+  /// The longest that it may be.
+  Duration greatest() const { return equal ? *equal + within.value_or(Duration()) : at_most.value_or(Duration()); }
+  /// The shortest, if that is limited.
+  std::optional<Duration> least() const { return equal ? std::optional(*equal - within.value_or(Duration())) : std::nullopt; }
+  bool operator==(const DurationLimit&) const = default;
+};
+
+/// How far something may be from what it should be: a time or, of a figure that is none, a number.
+struct Tolerance {
+  json::Source where;
+  std::optional<Duration> time;
+  double number = 0;                     ///< if it is no time
+  bool operator==(const Tolerance&) const = default;
+  /// Of what is a time for certain.
+  operator Duration() const { return time.value_or(Duration()); }  // NOLINT: reactions end within a time
+};
+
 struct Requirement {
   json::Source where;
   std::optional<Reaction> reaction;
   std::optional<std::string> program;
   std::optional<handshake::Cause> cause = {};
-  std::optional<Duration> within;
+  std::optional<Tolerance> within;
   bool tree = false;
   std::optional<std::string> stream;
-  std::optional<Duration> latency;
-  std::optional<Duration> jitter;
+  std::optional<DurationLimit> latency;
+  std::optional<DurationLimit> jitter;
   std::optional<std::uint64_t> dropped;
   std::optional<std::uint64_t> delivered;
   std::optional<Duration> sync;
@@ -344,7 +367,8 @@ struct Requirement {
   std::optional<std::string> unit = {};
   std::optional<json::Any> at_most = {};   ///< a number in the unit, or a duration
   std::optional<json::Any> at_least = {};
-  Duration after;
+  std::optional<json::Any> equal = {};     ///< within `within`
+  std::optional<Duration> after = {};      ///< instead of the scenario's warm_up
   bool operator==(const Requirement&) const = default;
 };
 
@@ -369,6 +393,7 @@ struct Scenario {
   std::optional<std::string> description;
   std::uint64_t seed = 1;
   Duration duration;
+  Duration warm_up = {};
   NetworkSection network;
   Clocks clocks;
   std::vector<Program> programs;
@@ -419,6 +444,8 @@ const json::Object& describe(json::Type<Program>);
 const json::Object& describe(json::Type<SetGates>);
 const json::Object& describe(json::Type<ScriptEntry>);
 const json::Enumeration& describe(json::Type<Reaction>);
+const json::Object& describe(json::Type<DurationLimit>);
+const json::Custom& describe(json::Type<Tolerance>);
 const json::Object& describe(json::Type<Requirement>);
 const json::Enumeration& describe(json::Type<GatePlanning>);
 const json::Enumeration& describe(json::Type<GateGuard>);

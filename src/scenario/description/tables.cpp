@@ -178,54 +178,6 @@ const json::Object& describe(json::Type<ScriptEntry>) {
   return table;
 }
 
-const json::Enumeration& describe(json::Type<Reaction>) {
-  static constexpr json::EnumName names[] = {
-      name(Reaction::start, "start", "until all are Running"),
-      name(Reaction::halt, "halt", "until all are Halted"),
-      name(Reaction::suspend, "suspend", "until all are Suspended"),
-      name(Reaction::resume, "resume", "until all are Running again"),
-      name(Reaction::reset, "reset", "until all are Ready"),
-  };
-  static constexpr json::Enumeration table = json::enumeration<Reaction>("a reaction", names);
-  return table;
-}
-
-const json::Object& describe(json::Type<Requirement>) {
-  static constexpr json::Field fields[] = {
-      optional<&Requirement::reaction>("reaction", "Every such reaction ends within the time given by within, and there is at least one."),
-      optional<&Requirement::program>("program", "Only of this program."),
-      optional<&Requirement::cause>("cause", "Only what this has caused; whatever the cause if absent."),
-      optional<&Requirement::within>("within", "Longest reaction: from the instant of its cause until all living participants are there.", {.max = longest}),
-      optional<&Requirement::tree>("tree", "The reaction of the program and all that are nested in it: until everybody in the tree is there."),
-      optional<&Requirement::stream>("stream", "The stream that is meant."),
-      optional<&Requirement::latency>("latency", "Longest time from production to delivery.", {.max = longest}),
-      optional<&Requirement::jitter>("jitter", "Largest difference between two latencies.", {.max = longest}),
-      optional<&Requirement::dropped>("dropped", "Most frames that may be dropped."),
-      optional<&Requirement::delivered>("delivered", "Fewest frames that must be delivered."),
-      optional<&Requirement::sync>("sync", "Greatest difference between a node's clock and that of its grandmaster, either way.", {.max = longest}),
-      optional<&Requirement::node>("node", "Only of this node; of all if absent."),
-      optional<&Requirement::application>("application", "The application or gateway that is meant."),
-      optional<&Requirement::thread>("thread", "One of its threads; each of them that the limit concerns if absent."),
-      optional<&Requirement::success>("success", "Least share of the expected calls that took place (criterion 1), in percent.", {.min = 0, .max = 100}),
-      optional<&Requirement::buffered>("buffered", "Least share of the expected values that a subscribing thread buffered (criterion 2), in percent.", {.min = 0, .max = 100}),
-      optional<&Requirement::signal>("signal", "The digital output that is meant."),
-      optional<&Requirement::irregular>("irregular", "Greatest share of pulses whose length is more than 10 % off, in percent.", {.min = 0, .max = 100}),
-      optional<&Requirement::figure>("figure", "Any figure of result.json: a JSON pointer, * for every member, or a short form such as reaction.start.max.",
-                                     {.min_length = 2, .max_length = 1000}),
-      optional<&Requirement::only>("only", "Members that the object with the figure must have, such as {\"kind\": \"start\"}."),
-      optional<&Requirement::take>("take", "What is taken if the pointer leads to several values; max if absent."),
-      optional<&Requirement::unit>("unit", "In which a number of at_most or at_least is: ps, ns, us, ms or s for times, % for shares, otherwise a label.", {.max_length = 20}),
-      optional<&Requirement::at_most>("at_most", "The greatest that the figure may be: a number, or a duration such as 7ms."),
-      optional<&Requirement::at_least>("at_least", "The least that it may be."),
-      optional<&Requirement::after>("after", "From this instant on.", {.max = longest}),
-  };
-  static constexpr std::string_view subjects[] = {"reaction", "stream", "sync", "application", "signal", "figure"};
-  static constexpr std::string_view bounds[] = {"at_most", "at_least"};
-  static constexpr json::Group groups[] = {json::exactly_one_of(subjects), json::at_most_one_of(bounds)};
-  static constexpr json::Object table = json::object<Requirement>("requirement", "What the run must show.", fields, {.groups = groups});
-  return table;
-}
-
 const json::Object& describe(json::Type<Scenario>) {
   static constexpr json::Field fields[] = {
       optional<&Scenario::schema>("$schema", "The JSON Schema, for editors."),
@@ -233,6 +185,7 @@ const json::Object& describe(json::Type<Scenario>) {
       optional<&Scenario::description>("description", "What it shows."),
       optional<&Scenario::seed>("seed", "The seed of all chance."),
       required<&Scenario::duration>("duration", "How long is simulated.", {.min = 1_ns, .max = longest}),
+      optional<&Scenario::warm_up>("warm_up", "Requirements and figures count what begins at this instant or later; of a requirement with its own after, from that.", {.max = longest}),
       required<&Scenario::network>("network", "Nodes and links."),
       optional<&Scenario::clocks>("clocks", "The clocks of the nodes."),
       optional<&Scenario::programs>("programs", "Distributed OPC UA Programs.", {.max_items = 10'000}),

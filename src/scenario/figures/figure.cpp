@@ -25,7 +25,7 @@ struct ShortForm {
   Take take;
 };
 constexpr ShortForm short_forms[] = {
-    {"dropped", "/dropped/*", Take::sum},           {"delivered", "/streams/*/delivered", Take::sum},
+    {"dropped", "/dropped/*", Take::sum},           {"lost", "/streams/*/lost", Take::sum},         {"delivered", "/streams/*/delivered", Take::sum},
     {"violations", "/programs/*/violations/*/at_ps", Take::count}, {"events", "/events", Take::max},
     {"verdict", "/verdict", Take::max},             {"utilisation", "/ports/*/utilisation", Take::max},
     {"queue", "/ports/*/queue_peak", Take::max},    {"sync", "/clocks/*/offset/abs_max_ps", Take::max},
@@ -92,7 +92,7 @@ void collect(const json::Node& node, const Figure& figure, std::size_t step, Fou
   if (step == figure.steps.size()) {
     if (node.kind == json::Kind::number) found.values.push_back(json::double_of(node));
     else if (node.kind == json::Kind::boolean) found.values.push_back(node.boolean ? 1 : 0);
-    else if (node.kind == json::Kind::string) found.values.push_back(node.text == "pass" ? 1 : 0);
+    else if (node.kind == json::Kind::string) found.values.push_back(node.text == "pass" || node.text == "nothing was required" ? 1 : 0);
     else found.is_incomplete = true;
     return;
   }
@@ -231,15 +231,40 @@ std::optional<double> value_of(const Figure& figure, const json::Node& result) {
   return value / figure.divisor;
 }
 
-std::optional<FigureLimit> read_limit(const Figure& figure, bool is_upper, const json::Node& bound, const json::Place& place, json::Diagnostics& diagnostics) {
+const char* text_of(Relation relation) {
+  constexpr const char* texts[] = {"at most", "at least", "equal to"};
+  return texts[static_cast<std::size_t>(relation)];
+}
+
+std::optional<FigureLimit> read_limit(const Figure& figure, Relation relation, const json::Node& bound, const json::Place& place, json::Diagnostics& diagnostics) {
   if (bound.kind == json::Kind::number) {
     const double value = json::double_of(bound);
-    if (std::isfinite(value)) return FigureLimit{is_upper, value, text_of(value, figure.unit)};
+    if (std::isfinite(value)) return FigureLimit{relation, value, text_of(value, figure.unit), 0, value, value};
   }
   if (bound.kind == json::Kind::string && figure.is_time)
-    if (const auto duration = json::parse_duration(bound.text)) return FigureLimit{is_upper, static_cast<double>((*duration).ps()) / figure.divisor, bound.text};
+    if (const auto duration = json::parse_duration(bound.text)) {
+      const double value = static_cast<double>((*duration).ps()) / figure.divisor;
+      return FigureLimit{relation, value, bound.text, 0, value, value};
+    }
   diagnostics.error(place, "not a limit of this figure", {json::excerpt(bound), figure.is_time ? "a duration such as \"7ms\", or a number in " + figure.unit : std::string("a number")});
   return std::nullopt;
+}
+
+bool read_tolerance(const Figure& figure, const Tolerance& within, FigureLimit& limit, const json::Place& place, json::Diagnostics& diagnostics) {
+  if (within.time && !figure.is_time) {
+    diagnostics.error(place, "a time as the tolerance of what is no time", {json::to_text(*within.time), "a number"});
+    return false;
+  }
+  limit.within = within.time ? static_cast<double>(within.time->ps()) / figure.divisor : within.number;
+  limit.text += " within " + (within.time ? json::to_text(*within.time) : text_of(within.number, figure.unit));
+  limit.least = limit.value - limit.within;
+  limit.greatest = limit.value + limit.within;
+  if (!figure.is_time) return true;
+  // Whole picoseconds, as the result has them: 0.1 us and 0.2 us are 0.3 us.
+  const auto whole = [&](double ends) { return std::round(ends * figure.divisor) / figure.divisor; };
+  limit.least = whole(limit.least);
+  limit.greatest = whole(limit.greatest);
+  return true;
 }
 
 std::string text_of(double value, const std::string& unit) { return fmt::format("{:.6g}{}{}", value == 0 ? 0.0 : value, unit.empty() ? "" : " ", unit); }

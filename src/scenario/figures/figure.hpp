@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenario/description/figures.hpp"
+#include "scenario/description/description.hpp"
 #include "scenario/json/any.hpp"
 #include "scenario/json/diagnostics.hpp"
 #include "scenario/json/document.hpp"
@@ -43,7 +43,7 @@ struct FigureText {
 /// run's result.json (known_figures.hpp). A short form stands for a pointer:
 ///   reaction.KIND.TAKE   durations of reactions that nothing superseded; TAKE is max, min, mean, sum or count
 ///   latency.STREAM.FIGURE and latency.FIGURE (of all streams); FIGURE is max, p99, p50, mean, min or stddev
-///   dropped  delivered  violations  events  verdict (1: pass)  utilisation  queue  sync
+///   dropped  lost  delivered  violations  events  verdict (1: pass)  utilisation  queue  sync
 ///   topology.FIGURE      switches, links, diameter, bridges, disjoint_paths (topology/graph_figures.hpp)
 /// The unit of a time is us if none is said; that of a share may be %; all else is a label.
 std::optional<Figure> read_figure(const FigureText& text, json::Diagnostics& diagnostics);
@@ -52,17 +52,32 @@ std::optional<Figure> read_figure(const FigureText& text, json::Diagnostics& dia
 /// none, or if one of several is null (a reaction that was never complete has no greatest duration); sums and counts of nothing are 0.
 std::optional<double> value_of(const Figure& figure, const json::Node& result);
 
-/// The greatest or least that a figure may be, in its unit.
+/// How a figure stands to its limit.
+enum class Relation : std::uint8_t { at_most, at_least, equal };
+/// "at most", "at least", "equal to"
+const char* text_of(Relation relation);
+
+/// What a figure may be, in its unit.
 struct FigureLimit {
-  bool is_upper = true;
+  Relation relation = Relation::at_most;
   double value = 0;
-  std::string text;                                              ///< "7ms", "12 frames"
+  std::string text;                                              ///< "7ms", "12 frames", "11.62us within 1ns"
+  double within = 0;                                             ///< how far it may be from what it must equal
+  double least = 0;                                              ///< the ends of that
+  double greatest = 0;
+  bool is_upper() const { return relation == Relation::at_most; }
   /// A figure that is missing does not keep a limit.
-  bool holds(const std::optional<double>& figure) const { return figure && (is_upper ? *figure <= value : *figure >= value); }
+  bool holds(const std::optional<double>& figure) const {
+    if (!figure) return false;
+    if (relation == Relation::equal) return *figure >= least && *figure <= greatest;
+    return is_upper() ? *figure <= value : *figure >= value;
+  }
 };
 
 /// A number in the figure's unit or, of times, a duration. Nothing after a diagnostic at `place`.
-std::optional<FigureLimit> read_limit(const Figure& figure, bool is_upper, const json::Node& bound, const json::Place& place, json::Diagnostics& diagnostics);
+std::optional<FigureLimit> read_limit(const Figure& figure, Relation relation, const json::Node& bound, const json::Place& place, json::Diagnostics& diagnostics);
+/// How far the figure may be from the limit, which it must equal. False after a diagnostic at `place`.
+bool read_tolerance(const Figure& figure, const Tolerance& within, FigureLimit& limit, const json::Place& place, json::Diagnostics& diagnostics);
 
 /// "8.125 ms", "12 frames", "0.5"
 std::string text_of(double value, const std::string& unit);

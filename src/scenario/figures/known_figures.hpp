@@ -20,6 +20,7 @@ enum class FigureKind : std::uint8_t {
 struct KnownFigure {
   FigureKind kind;
   std::string_view pattern;
+  bool is_of_whole_run = false;   ///< counts from the start: no account of it is kept from a later instant on
 };
 
 /// Every value that is no object and no array.

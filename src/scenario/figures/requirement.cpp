@@ -4,6 +4,8 @@
 
 #include "models/ethernet/frame.hpp"
 #include "scenario/figures/known_figures.hpp"
+#include "scenario/figures/requirement_rules.hpp"
+#include "scenario/json/quantity.hpp"
 #include "scenario/json/suggest.hpp"
 #include "scenario/resolve/known_names.hpp"
 
@@ -59,19 +61,28 @@ std::optional<FigureRequirement> read_figure_requirement(const Requirement& requ
   const auto figure =
       read_figure({requirement.where, "figure", *requirement.figure, requirement.only, requirement.take, requirement.unit.value_or(""), false}, diagnostics);
   const bool is_upper = requirement.at_most.has_value();
-  const std::optional<json::Any>& bound = is_upper ? requirement.at_most : requirement.at_least;
+  const std::optional<json::Any>& bound = is_upper ? requirement.at_most : requirement.equal ? requirement.equal : requirement.at_least;
   if (!bound) {
-    diagnostics.error(requirement.where.place(), "missing key", {"\"figure\" without a limit", "\"at_most\" or \"at_least\""});
+    diagnostics.error(requirement.where.place(), "missing key", {"\"figure\" without a limit", "\"at_most\", \"at_least\" or \"equal\""});
     return std::nullopt;
   }
+  if (requirement.within && !requirement.equal)
+    diagnostics.error(requirement.where.at("within"), "does not belong to this requirement", {"\"within\" without \"equal\"", "\"within\" beside \"equal\""});
   if (!figure) return std::nullopt;
-  const json::Place place = requirement.where.at(is_upper ? "at_most" : "at_least");
+  const json::Place place = requirement.where.at(is_upper ? "at_most" : requirement.equal ? "equal" : "at_least");
   if (figure->is_time && !requirement.unit && bound->node.kind == json::Kind::number) {
     diagnostics.error(place, "a time without a unit", {json::excerpt(bound->node), "a duration such as \"7ms\", or \"unit\" beside it"});
     return std::nullopt;
   }
-  const auto limit = read_limit(*figure, is_upper, bound->node, place, diagnostics);
+  auto limit = read_limit(*figure, is_upper ? Relation::at_most : requirement.equal ? Relation::equal : Relation::at_least, bound->node, place, diagnostics);
   if (!limit) return std::nullopt;
+  if (requirement.within && requirement.equal) {
+    if (figure->is_time && !requirement.unit && !requirement.within->time) {
+      diagnostics.error(requirement.where.at("within"), "a time without a unit", {"a number", "a duration such as \"7ms\", or \"unit\" beside it"});
+      return std::nullopt;
+    }
+    if (!read_tolerance(*figure, *requirement.within, *limit, requirement.where.at("within"), diagnostics)) return std::nullopt;
+  }
   return FigureRequirement{*figure, *limit, name_of(requirement)};
 }
 
@@ -102,19 +113,24 @@ bool check_figure(const Resolved& resolved, const Requirement& requirement, json
     refuse(requirement.unit.has_value(), "unit", other);
     refuse(requirement.at_most.has_value(), "at_most", other);
     refuse(requirement.at_least.has_value(), "at_least", other);
+    refuse(requirement.equal.has_value(), "equal", other);
     return true;
   }
   const auto asked = read_figure_requirement(requirement, diagnostics);
-  const char* const expected = "\"only\", \"take\", \"unit\", \"at_most\" or \"at_least\" beside \"figure\"";
-  for (const auto& [is_there, key] : {std::pair(requirement.program.has_value(), "program"), std::pair(requirement.within.has_value(), "within"),
+  const char* const expected = "\"only\", \"take\", \"unit\", \"at_most\", \"at_least\" or \"equal\" beside \"figure\"";
+  for (const auto& [is_there, key] : {std::pair(requirement.program.has_value(), "program"),
                                       std::pair(requirement.tree, "tree"), std::pair(requirement.latency.has_value(), "latency"),
                                       std::pair(requirement.jitter.has_value(), "jitter"), std::pair(requirement.dropped.has_value(), "dropped"),
                                       std::pair(requirement.delivered.has_value(), "delivered"), std::pair(requirement.node.has_value(), "node"),
                                       std::pair(requirement.thread.has_value(), "thread"), std::pair(requirement.success.has_value(), "success"),
-                                      std::pair(requirement.buffered.has_value(), "buffered"), std::pair(requirement.irregular.has_value(), "irregular"),
-                                      std::pair(requirement.after > Duration(), "after")})
+                                      std::pair(requirement.buffered.has_value(), "buffered"), std::pair(requirement.irregular.has_value(), "irregular")})
     refuse(is_there, key, expected);
   if (!asked) return false;
+  const Duration from = counts_from(resolved.scenario, requirement);
+  const Lookup lookup = look_up(asked->figure.steps);
+  if (from > Duration() && std::any_of(lookup.figures.begin(), lookup.figures.end(), [](const KnownFigure* figure) { return figure->is_of_whole_run; }))
+    diagnostics.error(requirement.where.at("figure"), "counts from the start of the run only",
+                      {json::quote(*requirement.figure) + " from " + json::to_text(from) + " on" + (requirement.after ? "" : ", the scenario's \"warm_up\""), "\"after\": \"0s\" in this requirement"});
   if (const auto unknown = unknown_name(asked->figure, resolved))
     diagnostics.error_unless(may_be_refused(*unknown, resolved, diagnostics), requirement.where.at("figure"), "unknown " + unknown->kind, {json::quote(unknown->name), "the name of a " + unknown->kind, unknown->suggestion});
   return false;

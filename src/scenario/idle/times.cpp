@@ -102,8 +102,10 @@ void tell_idle_requirements(const Usage& usage, json::Diagnostics& diagnostics) 
   if (!is_of_run(scenario)) return;
   tell_twins(scenario.require, [](const Requirement& requirement) { return requirement.where; }, "a requirement twice", diagnostics);
   for (const Requirement& requirement : scenario.require)
-    if (requirement.after > Duration() && usage.is_after_the_end(requirement.after))
-      warn_once(diagnostics, requirement.where.at("after"), "a requirement that begins after the end of the simulation", {json::to_text(requirement.after), "less than " + json::to_text(scenario.duration)});
+    if (requirement.after && *requirement.after > Duration() && usage.is_after_the_end(*requirement.after))
+      warn_once(diagnostics, requirement.where.at("after"), "a requirement that begins after the end of the simulation", {json::to_text(*requirement.after), "less than " + json::to_text(scenario.duration)});
+  if (scenario.warm_up > Duration() && usage.is_after_the_end(scenario.warm_up))
+    warn_once(diagnostics, scenario.where.at("warm_up"), "a warm-up that lasts beyond the end of the simulation", {json::to_text(scenario.warm_up), "less than " + json::to_text(scenario.duration)});
 }
 
 }  // namespace takt::scenario

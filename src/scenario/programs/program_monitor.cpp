@@ -1,5 +1,7 @@
 #include "scenario/programs/program_monitor.hpp"
 
+#include <utility>
+
 namespace takt::scenario {
 namespace {
 // Kinds of digest records, apart from those of the network (models::Occurrence).
@@ -16,8 +18,8 @@ std::uint64_t content_of(const handshake::Word& word) {
 }
 }  // namespace
 
-ProgramMonitor::ProgramMonitor(sim::Simulation& simulation, std::uint32_t number, handshake::Variant variant, std::size_t participants)
-    : simulation_(&simulation), number_(number), observer_(variant, participants), tracker_(participants), nodes_(participants), is_dead_(participants, false) {}
+ProgramMonitor::ProgramMonitor(sim::Simulation& simulation, std::uint32_t number, handshake::Variant variant, std::size_t participants, std::vector<sim::Duration> instants)
+    : simulation_(&simulation), number_(number), observer_(variant, participants), tracker_(participants), nodes_(participants), is_dead_(participants, false), instants_(std::move(instants)), counts_(instants_) {}
 
 void ProgramMonitor::on_step(std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after) {
   // Most steps change nothing: a word that says the same as the one before.
@@ -29,6 +31,7 @@ void ProgramMonitor::on_step(std::size_t participant, const handshake::Outputs& 
   if (outputs.alarm == handshake::Alarm::PeerLeft) last_leave_ = sim::TrueTime::never();
   for (const handshake::StateChange& change : outputs.changes()) {
     ++changes_;
+    counts_.add(simulation_->now(), [](Counts& counts) { ++counts.changes; });
     if (history_.size() < most_records) history_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), change});
     simulation_->digest().add(state_changed, static_cast<std::uint64_t>(number_) << 32 | participant, simulation_->now(),
                               static_cast<std::uint64_t>(change.transition) << 16 | static_cast<std::uint64_t>(change.from) << 8 | static_cast<std::uint64_t>(change.to));
@@ -90,12 +93,14 @@ void ProgramMonitor::note_gone(std::size_t participant, handshake::PublishedStat
   simulation_->digest().add(crashed, static_cast<std::uint64_t>(number_) << 32 | participant, simulation_->now(), static_cast<std::uint64_t>(before));
   if (before == handshake::PublishedState::Halted) return;
   ++changes_;
+  counts_.add(simulation_->now(), [](Counts& counts) { ++counts.changes; });
   if (history_.size() < most_records)
     history_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), {0, before, handshake::PublishedState::Halted}});
 }
 
 void ProgramMonitor::on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in) {
   ++process_data_received_;
+  counts_.add(simulation_->now(), [](Counts& counts) { ++counts.process_data_received; });
   observer_.on_process_data(from, to, sent_in);
   simulation_->digest().add(data_received, static_cast<std::uint64_t>(number_) << 32 | from << 8 | to, simulation_->now(), sent_in);
   note_violations();

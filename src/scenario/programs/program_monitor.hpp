@@ -45,8 +45,14 @@ struct CallRecord {
 
 class ProgramMonitor {
  public:
-  /// `number` tells programs apart in the digest. At most `most_records` changes of state are kept for the time line.
-  ProgramMonitor(sim::Simulation& simulation, std::uint32_t number, handshake::Variant variant, std::size_t participants);
+  /// What is counted from an instant on.
+  struct Counts {
+    std::uint64_t changes = 0;                  ///< of state
+    std::uint64_t process_data_received = 0;
+  };
+
+  /// `number` tells programs apart in the digest. Counts and round trips are kept from each of the instants on. At most `most_records` changes of state are kept for the time line.
+  ProgramMonitor(sim::Simulation& simulation, std::uint32_t number, handshake::Variant variant, std::size_t participants, std::vector<sim::Duration> instants);
 
   /// Its program is group number `group` of a tree.
   void set_tree(TreeMonitor& tree, std::size_t group) { tree_ = &tree, group_ = group; }
@@ -74,7 +80,7 @@ class ProgramMonitor {
   std::uint32_t sending_run(std::size_t participant) const { return observer_.sending_run(participant); }
 
   /// The round trips of replies are measured.
-  void set_round_trips(const ResolvedProgram& program) { round_trips_.emplace(program); }
+  void set_round_trips(const ResolvedProgram& program) { round_trips_.emplace(program, instants_); }
   void on_published(std::size_t data_set, std::uint16_t sequence) {
     if (round_trips_) round_trips_->on_published(static_cast<std::uint8_t>(data_set), sequence, simulation_->now());
   }
@@ -87,13 +93,15 @@ class ProgramMonitor {
 
   std::span<const handshake::Reaction> reactions() const { return tracker_.reactions(); }
   const std::vector<StateRecord>& history() const { return history_; }
+  const Counts& counts(sim::Duration from) const { return counts_.from(from); }
+  /// In the whole run.
   std::uint64_t changes() const { return changes_; }
+  std::uint64_t process_data_received() const { return process_data_received_; }
   const std::vector<LifeRecord>& lives() const { return lives_; }
   bool is_dead(std::size_t participant) const { return is_dead_[participant]; }
   const std::vector<ProgramFault>& faults() const { return faults_; }
   const std::vector<CallRecord>& calls() const { return calls_; }
   const std::vector<ViolationRecord>& violations() const { return violations_; }
-  std::uint64_t process_data_received() const { return process_data_received_; }
 
  private:
   static constexpr std::size_t most_records = 10'000;
@@ -116,10 +124,12 @@ class ProgramMonitor {
   sim::TrueTime last_leave_ = sim::TrueTime::never();
   bool is_called_ = false;
   std::vector<StateRecord> history_;
+  std::vector<sim::Duration> instants_;
+  Accounts<Counts> counts_;
   std::uint64_t changes_ = 0;
+  std::uint64_t process_data_received_ = 0;
   std::vector<CallRecord> calls_;
   std::vector<ViolationRecord> violations_;
-  std::uint64_t process_data_received_ = 0;
   std::optional<RoundTrips> round_trips_;
 };
 

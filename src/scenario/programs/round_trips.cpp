@@ -2,9 +2,9 @@
 
 namespace takt::scenario {
 
-RoundTrips::RoundTrips(const ResolvedProgram& program) {
+RoundTrips::RoundTrips(const ResolvedProgram& program, std::span<const sim::Duration> instants) {
   for (const ResolvedReply& reply : program.replies) {
-    One one;
+    One one(instants);
     one.request = reply.to;
     one.with = reply.with;
     one.asker = program.process_data[reply.to].from;
@@ -23,7 +23,7 @@ void RoundTrips::on_replied(std::size_t reply, std::uint16_t sequence, std::uint
   One& one = replies_[reply];
   const Sent& sent = one.requests[request % memory];
   if (sent.sequence != request || sent.time == sim::TrueTime::never()) return;
-  one.one_way.add(now - sent.time);
+  one.times.add(sent.time, [&](Times& times) { times.one_way.add(now - sent.time); });
   one.answered[sequence % memory] = {sent.time, sequence};
 }
 
@@ -32,7 +32,7 @@ void RoundTrips::on_received(std::uint8_t data_set, std::uint16_t sequence, std:
     if (one.with != data_set || one.asker != to) continue;
     Sent& sent = one.answered[sequence % memory];
     if (sent.sequence != sequence || sent.time == sim::TrueTime::never()) continue;
-    one.round_trips.add(now - sent.time);
+    one.times.add(sent.time, [&](Times& times) { times.round_trips.add(now - sent.time); });
     sent.time = sim::TrueTime::never();
   }
 }

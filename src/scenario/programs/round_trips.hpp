@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "scenario/figures/accounts.hpp"
 #include "scenario/resolve/resolved.hpp"
 #include "sim/histogram.hpp"
 
@@ -11,7 +13,8 @@ namespace takt::scenario {
 
 class RoundTrips {
  public:
-  explicit RoundTrips(const ResolvedProgram& program);
+  /// Figures are kept from each of the instants on: of requests that were published then or later.
+  RoundTrips(const ResolvedProgram& program, std::span<const sim::Duration> instants);
 
   /// A message of process data is handed to the operating system.
   void on_published(std::uint8_t data_set, std::uint16_t sequence, sim::TrueTime now);
@@ -21,10 +24,11 @@ class RoundTrips {
   void on_received(std::uint8_t data_set, std::uint16_t sequence, std::size_t to, sim::TrueTime now);
 
   std::size_t count() const { return replies_.size(); }
-  /// From publishing to receiving the reply.
-  const sim::Histogram& histogram(std::size_t reply) const { return replies_[reply].round_trips; }
-  /// From publishing to the end of the work at it, when the reply is published.
-  const sim::Histogram& one_way(std::size_t reply) const { return replies_[reply].one_way; }
+  struct Times {
+    sim::Histogram round_trips;   ///< from publishing to receiving the reply
+    sim::Histogram one_way;       ///< from publishing to the end of the work at it, when the reply is published
+  };
+  const Times& times(std::size_t reply, sim::Duration from) const { return replies_[reply].times.from(from); }
 
  private:
   // Messages are remembered for this many of their kind; nobody waits longer for an answer.
@@ -34,13 +38,13 @@ class RoundTrips {
     std::uint16_t sequence = 0;
   };
   struct One {
+    explicit One(std::span<const sim::Duration> instants) : times(instants) {}
     std::uint8_t request = 0;
     std::uint8_t with = 0;
     std::size_t asker = 0;
     std::vector<Sent> requests;   // as they were published
     std::vector<Sent> answered;   // by number of the reply: when its request was published
-    sim::Histogram round_trips;
-    sim::Histogram one_way;
+    Accounts<Times> times;
   };
   std::vector<One> replies_;
 };

@@ -12,8 +12,6 @@
 namespace takt::scenario {
 namespace {
 
-using sim::Duration;
-
 class Requirements {
  public:
   Requirements(const Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics), streams_(resolved, diagnostics) {}
@@ -24,6 +22,11 @@ class Requirements {
     const auto refuse = [&](bool is_there, std::string_view key, std::string_view subject) {
       if (is_there) diagnostics_.error(requirement.where.at(key), "does not belong to this requirement", {json::quote(key), "a requirement with \"" + std::string(subject) + "\""});
     };
+    for (const auto& [limit, key] : {std::pair(&requirement.latency, "latency"), std::pair(&requirement.jitter, "jitter")})
+      if (*limit && (*limit)->within && !(*limit)->equal)
+        diagnostics_.error((*limit)->where.at("within"), "does not belong to this limit", {"\"within\" without \"equal\"", "\"within\" beside \"equal\""});
+    if (requirement.within && !requirement.within->time && !requirement.figure)
+      diagnostics_.error(requirement.where.at("within"), "a time without a unit", {"a number", "a duration such as \"7ms\""});
     if (requirement.reaction) {
       if (!requirement.within) diagnostics_.error(requirement.where.place(), "missing key", {"\"reaction\" without a limit", "\"within\""});
       if (r_.scenario.programs.empty()) diagnostics_.error_unless(may_be_unread_program(r_.scenario, diagnostics_), requirement.where.at("reaction"), "a reaction without a program", {"no programs", "\"programs\""});
@@ -43,7 +46,6 @@ class Requirements {
       refuse(requirement.within.has_value(), "within", "reaction");
     } else {
       refuse(requirement.node.has_value(), "node", "sync");
-      refuse(requirement.after > Duration(), "after", "sync");
     }
     refuse(!requirement.reaction && requirement.cause, "cause", "reaction");
     check_cause(requirement);

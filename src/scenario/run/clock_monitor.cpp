@@ -8,10 +8,11 @@ namespace {
 constexpr sim::Duration near_enough = sim::Duration::from_ps(1'000'000);  // a servo calls itself locked while it still closes in
 }
 
-ClockMonitor::ClockMonitor(sim::Simulation& simulation, const models::Network& network, sim::Duration every, std::vector<Limit> limits)
+ClockMonitor::ClockMonitor(sim::Simulation& simulation, const models::Network& network, sim::Duration every, std::vector<Limit> limits,
+                           std::span<const sim::Duration> instants)
     : simulation_(&simulation), network_(&network), every_(every), limits_(std::move(limits)), source_(simulation.add(*this)) {
   for (std::uint32_t n = 0; n < network.plan().nodes.size(); ++n)
-    if (network.station(models::NodeIndex{n}) != nullptr) figures_.push_back({models::NodeIndex{n}, {}, 0, {}, {}, 0, 0});
+    if (network.station(models::NodeIndex{n}) != nullptr) figures_.push_back({models::NodeIndex{n}, {}, Accounts<ClockFigures::Offsets>(instants)});
 }
 
 void ClockMonitor::handle(sim::Simulation& simulation, const sim::Event&) {
@@ -35,11 +36,15 @@ void ClockMonitor::look_at(const models::gptp::Station& station, ClockFigures& f
     if (station.target().state() != models::gptp::TargetState::locked || distance > near_enough) return;
     figures.locked = now;
   }
-  figures.least = figures.samples == 0 ? offset : std::min(figures.least, offset);
-  figures.greatest = figures.samples == 0 ? offset : std::max(figures.greatest, offset);
-  ++figures.samples;
-  figures.sum += offset.ps();
-  figures.sum_of_squares += static_cast<sim::int128>(offset.ps()) * offset.ps();
+  figures.offsets.add(now, [&](ClockFigures::Offsets& offsets) { offsets.add(offset); });
+}
+
+void ClockFigures::Offsets::add(sim::Duration offset) {
+  least = samples == 0 ? offset : std::min(least, offset);
+  greatest = samples == 0 ? offset : std::max(greatest, offset);
+  ++samples;
+  sum += offset.ps();
+  sum_of_squares += static_cast<sim::int128>(offset.ps()) * offset.ps();
 }
 
 }  // namespace takt::scenario

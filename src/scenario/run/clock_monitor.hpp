@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "models/network.hpp"
+#include "scenario/figures/accounts.hpp"
 #include "sim/simulation.hpp"
 
 namespace takt::scenario {
@@ -14,11 +16,16 @@ namespace takt::scenario {
 struct ClockFigures {
   models::NodeIndex node;
   std::optional<sim::TrueTime> locked;      ///< first time that its servo was locked and within 1 us; never for who was always grandmaster
-  std::uint64_t samples = 0;                ///< since then
-  sim::Duration least;
-  sim::Duration greatest;
-  sim::int128 sum = 0;                      ///< ps
-  sim::int128 sum_of_squares = 0;           ///< ps^2
+  /// Of the looks since then.
+  struct Offsets {
+    std::uint64_t samples = 0;
+    sim::Duration least;
+    sim::Duration greatest;
+    sim::int128 sum = 0;                    ///< ps
+    sim::int128 sum_of_squares = 0;         ///< ps^2
+    void add(sim::Duration offset);
+  };
+  Accounts<Offsets> offsets;
 };
 
 /// Takes the series of offsets, one call for each look and node.
@@ -39,7 +46,8 @@ class ClockMonitor final : public sim::Component {
     std::uint64_t samples = 0;
   };
 
-  ClockMonitor(sim::Simulation& simulation, const models::Network& network, sim::Duration every, std::vector<Limit> limits);
+  /// Figures are kept from each of the instants on.
+  ClockMonitor(sim::Simulation& simulation, const models::Network& network, sim::Duration every, std::vector<Limit> limits, std::span<const sim::Duration> instants);
 
   void start() { simulation_->schedule(source_, simulation_->now() + every_, sim::Phase::control, source_.id(), 0, 0); }
   void handle(sim::Simulation& simulation, const sim::Event& event) override;

@@ -8,8 +8,10 @@
 #include "scenario/applications/dds_port.hpp"
 #include "scenario/applications/gateway_bridge.hpp"
 #include "scenario/applications/opc_ua_port.hpp"
+#include "scenario/figures/requirement_rules.hpp"
 #include "scenario/programs/program_shape.hpp"
 #include "scenario/resolve/nesting.hpp"
+#include "scenario/run/accounts.hpp"
 #include "scenario/run/action_content.hpp"
 #include "vocabulary/protocol.hpp"
 
@@ -87,14 +89,15 @@ class Run::Script final : public sim::Component {
 };
 
 Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle)
-    : resolved_(&resolved), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan) {
+    : resolved_(&resolved), instants_(account_instants(resolved.scenario)), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan) {
   simulation_.set_tie_shuffle(tie_shuffle);
   for (std::uint32_t i = 0; i < resolved.programs.size(); ++i) add_program(i, resolved.programs[i]);
   nest_programs();
-  application_monitor_ = std::make_unique<ApplicationMonitor>(simulation_, resolved.signals);
+  application_monitor_ = std::make_unique<ApplicationMonitor>(simulation_, resolved.signals, instants_);
   for (std::uint32_t i = 0; i < resolved.applications.size(); ++i) add_application(i, resolved.applications[i]);
   script_ = std::make_unique<Script>(*this, simulation_);
   watch_clocks();
+  keep_accounts(resolved, network_);
   network_.start();
 }
 
@@ -104,11 +107,11 @@ void Run::watch_clocks() {
   for (const Requirement& requirement : resolved_->scenario.require) {
     if (!requirement.sync) continue;
     ClockMonitor::Limit limit;
-    limit.after = sim::TrueTime() + requirement.after;
+    limit.after = sim::TrueTime() + counts_from(resolved_->scenario, requirement);
     if (requirement.node) limit.node = models::NodeIndex{*resolved_->topology.find(*requirement.node)};
     limits.push_back(limit);
   }
-  clock_monitor_ = std::make_unique<ClockMonitor>(simulation_, network_, resolved_->scenario.clocks.gptp->report_every, std::move(limits));
+  clock_monitor_ = std::make_unique<ClockMonitor>(simulation_, network_, resolved_->scenario.clocks.gptp->report_every, std::move(limits), instants_);
   clock_monitor_->start();
 }
 
@@ -149,7 +152,7 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
   }
   auto live = std::make_unique<LiveProgram>();
   const auto format = std::make_shared<const wire::ProgramFormat>(shape_of(program));
-  live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, format->shape().variant, program.participants.size());
+  live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, format->shape().variant, program.participants.size(), instants_);
   for (std::size_t p = 0; p < program.participants.size(); ++p) {
     ProgramApplication::Settings settings;
     settings.endpoint = endpoint_settings(program, p, format);
@@ -175,7 +178,7 @@ void Run::add_program_with_roles(std::uint32_t number, const ResolvedProgram& pr
   for (const ResolvedCandidate& each : program.candidates) names.push_back(resolved_->topology.nodes[each.node.value].name);
   const auto format = std::make_shared<const wire::PlugFormat>(vocabulary::plug_shape_of(shape_of(program), program.description->roles, std::move(names)));
   const auto program_format = std::make_shared<const wire::ProgramFormat>(format->shape().program);
-  live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, handshake::Variant::Robust, program.participant_names.size());
+  live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, handshake::Variant::Robust, program.participant_names.size(), instants_);
   std::vector<std::uint32_t> nodes;
   for (const ResolvedCandidate& each : program.candidates) nodes.push_back(each.node.value);
   live->roles = std::make_unique<PlugMonitor>(simulation_, number, *live->monitor, format->roles(), std::move(nodes));
@@ -259,6 +262,7 @@ void Run::add_application(std::uint32_t number, const ResolvedApplication& appli
   settings.topics = &resolved_->topics;
   settings.path = resolved_->topology.nodes[application.node.value].name + "/" + application.name;
   settings.seed = resolved_->scenario.seed;
+  settings.instants = instants_;
   add_ports(number, application, settings);
   if (application.gateway)
     settings.bridge = std::make_unique<GatewayBridge>(*application.gateway, resolved_->topics[application.threads[0].topic], resolved_->topics[application.threads[1].topic]);
@@ -272,9 +276,9 @@ void Run::add_application(std::uint32_t number, const ResolvedApplication& appli
     for (const ResolvedParticipant::Heard& heard : node->settings().hears) network_.listen(application.node, heard.stream, &process);
 }
 
-ThreadFigures Run::thread(std::size_t application, std::size_t thread) const {
+ThreadFigures Run::thread(std::size_t application, std::size_t thread, sim::Duration from) const {
   const sim::LocalTime now = network_.clock(resolved_->applications[application].node).local_at(simulation_.now());
-  return applications_[application]->figures(thread, now);
+  return applications_[application]->figures(thread, now, from);
 }
 
 void Run::nest_programs() {

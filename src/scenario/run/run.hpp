@@ -24,6 +24,8 @@ class Run {
   Run& operator=(const Run&) = delete;
 
   const Resolved& resolved() const { return *resolved_; }
+  /// From which figures are kept: see account_instants().
+  const std::vector<Duration>& instants() const { return instants_; }
   sim::Simulation& simulation() { return simulation_; }
   const sim::Simulation& simulation() const { return simulation_; }
   const models::Network& network() const { return network_; }
@@ -40,7 +42,7 @@ class Run {
     return participant == 0 ? live.plug_master->state() : live.roles->state(participant - 1);
   }
   /// What a thread of an application has done so far.
-  ThreadFigures thread(std::size_t application, std::size_t thread) const;
+  ThreadFigures thread(std::size_t application, std::size_t thread, sim::Duration from) const;
   const TopicApplication& application(std::size_t number) const { return *applications_[number]; }
   const DigitalOutput& signal(std::size_t number) const { return application_monitor_->signal(number); }
   /// Null for a program without roles.
@@ -75,6 +77,7 @@ class Run {
   void connect_streams(const ResolvedProgram& program, const LiveProgram& live);
 
   const Resolved* resolved_;
+  std::vector<Duration> instants_;   // from which accounts are kept
   sim::Simulation simulation_;
   models::Network network_;
   std::vector<std::unique_ptr<LiveProgram>> programs_;

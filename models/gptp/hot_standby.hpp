@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "models/gptp/clock_target.hpp"
@@ -54,6 +55,7 @@ class DomainClock {
 
 enum class HotStandbyState : std::uint8_t { init, redundant, not_redundant, out_of_sync };
 enum class HotStandbyRole : std::uint8_t { primary, secondary };
+inline constexpr std::size_t standby_role_count = 2;
 
 struct HotStandbyConfig {
   IsSyncedConfig is_synced = {};
@@ -97,7 +99,7 @@ class HotStandby {
   void enter(HotStandbyState state);
 
   HotStandbyConfig config_;
-  std::array<Side, 2> sides_;
+  std::array<Side, standby_role_count> sides_;
   sim::Duration difference_;  // between the times of the domains, without sign
   HotStandbyState state_ = HotStandbyState::init;
   HotStandbyRole active_ = HotStandbyRole::primary;

@@ -115,9 +115,9 @@ void Station::carry_out() {
       discipline(*sample);
     } else if (const auto* const lost = std::get_if<SyncLost>(&output)) {
       if (lost->instance == active()) target_.sync_lost();
-      if (standby_) standby_->sync_lost(static_cast<HotStandbyRole>(lost->instance), local());
+      if (has_standby_role(lost->instance)) standby_->sync_lost(static_cast<HotStandbyRole>(lost->instance), local());
     } else if (const auto* const change = std::get_if<GrandmasterChange>(&output)) {
-      if (standby_) standby_->set_grandmaster(static_cast<HotStandbyRole>(change->instance), gives_time(change->instance), local());
+      if (has_standby_role(change->instance)) standby_->set_grandmaster(static_cast<HotStandbyRole>(change->instance), gives_time(change->instance), local());
       give_time();
     }
   }
@@ -239,7 +239,7 @@ void Station::take_in(const Arrived& arrived) {
 void Station::discipline(const SyncSample& sample) {
   LocalClock& disciplined = clock_->disciplined();
   const sim::LocalTime shown = disciplined.local_at(clock_->free_running().true_at(sample.at));
-  if (standby_) standby_->sample(static_cast<HotStandbyRole>(sample.instance), sample, shown, local());
+  if (has_standby_role(sample.instance)) standby_->sample(static_cast<HotStandbyRole>(sample.instance), sample, shown, local());
   if (sample.instance != active()) return;
   const ServoAction action = target_.sample(sample, shown);
   if (action.step != sim::Duration()) {

@@ -89,6 +89,8 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   void take_in(const Arrived& arrived);
   bool gives_time(std::size_t instance) const { return machine_.instance(instance).is_grandmaster() && machine_.instance(instance).grandmaster_present(); }
   std::size_t active() const { return standby_ ? static_cast<std::size_t>(standby_->active()) : 0; }
+  /// Further domains have no part in the hot standby.
+  bool has_standby_role(std::size_t instance) const { return standby_ && instance < standby_role_count; }
   sim::LocalTime local() const { return clock_->free_running().local_at(simulation_->now()); }
   void carry_out();
   void send(const SendMessage& message);

@@ -14,6 +14,10 @@ Node numbers(const std::vector<int>& values) {
   return made;
 }
 
+bool to_hosts(Maker& m, const Scope& s) {
+  return s.has("to") ? std::ranges::find(m.world.hosts, s.text("to")) != m.world.hosts.end() : m.world.switches.size() == 1;
+}
+
 std::vector<int> taken(const Scope& s, std::string_view key) {
   std::vector<int> values;
   const Node* const there = s.made->find(key);
@@ -116,6 +120,8 @@ std::span<const Rule> port_rules() {
       {.key = "egress.preemption", .feature = Feature::preemption, .percent = 80},
       {.key = "egress.cut_through", .feature = Feature::cut_through, .percent = 80, .make = [](Maker& m, const Scope& s) -> Made {
          if (s.around("host") != nullptr) return std::nullopt;
+         // A port that strips tags does not cut through: one that may does not take what the other feature needs.
+         if (m.wants(Feature::untagged) && to_hosts(m, s) && m.draw.one_in(2)) return std::nullopt;
          std::vector<int> others = taken(s, "ats");
          if (const Node* const preemption = s.made->find("preemption"))
            for (const Node& each : preemption->find("preemptable")->items) others.push_back(std::stoi(each.text));
@@ -125,8 +131,7 @@ std::span<const Rule> port_rules() {
        }},
       {.key = "egress.untagged", .feature = Feature::untagged, .percent = 80, .make = [](Maker& m, const Scope& s) -> Made {
          // Ports to hosts only.
-         const bool to_hosts = s.has("to") ? std::ranges::find(m.world.hosts, s.text("to")) != m.world.hosts.end() : m.world.switches.size() == 1;
-         if (!to_hosts || s.has("cut_through")) return std::nullopt;
+         if (!to_hosts(m, s) || s.has("cut_through")) return std::nullopt;
          return Node::of_bool(true);
        }},
       {.key = "gates.cycle", .percent = 15, .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() ? "3ms 5ms" : "500us 700us 1ms 1234567ps"); }},

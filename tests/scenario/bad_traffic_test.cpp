@@ -118,7 +118,7 @@ const BadCase programs_cases[] = {
     {"StreamWithoutLimit", with_requirement(R"({"stream": "p/state/a"})"),
      R"(2:1: error at /require/0: missing key: found "stream" without a limit, expected "latency", "jitter", "dropped" or "delivered")"},
     {"FigureWithoutLimit", with_requirement(R"({"figure": "dropped"})"),
-     R"(2:1: error at /require/0: missing key: found "figure" without a limit, expected "at_most" or "at_least")"},
+     R"(2:1: error at /require/0: missing key: found "figure" without a limit, expected "at_most", "at_least" or "equal")"},
     {"UnknownFigure", with_requirement(R"({"figure": "/events/0", "at_most": 1})"),
      R"(2:12: error at /require/0/figure: unknown figure: found "/events/0", expected /events, which has no members)"},
     {"UnknownStream", with_requirement(R"({"stream": "p/state/c", "latency": "1ms"})"),

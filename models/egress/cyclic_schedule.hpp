@@ -22,6 +22,10 @@ namespace takt::models {
 /// Floor and ceiling of a / b for b > 0 and any a.
 constexpr std::int64_t floor_quotient(sim::Duration a, sim::Duration b) { return a / b - (a % b < sim::Duration() ? 1 : 0); }
 constexpr std::int64_t ceil_quotient(sim::Duration a, sim::Duration b) { return a / b + (a % b > sim::Duration() ? 1 : 0); }
+/// The first start of a cycle that is no earlier than `now`: the base time itself, or that of the cycle that begins next (ConfigChangeTime, 8.6.9.1.1).
+constexpr sim::LocalTime first_cycle_from(sim::LocalTime now, sim::LocalTime base_time, sim::Duration cycle) {
+  return base_time < now ? base_time + cycle * ceil_quotient(now - base_time, cycle) : base_time;
+}
 
 /// When the entries of a list begin, counted from the start of its cycle.
 ///
@@ -133,11 +137,7 @@ class CyclicSchedule {
                "a cycle time extension is not negative and at most 13 days");
     const bool running = spans_[0].list != nullptr;
     const sim::Duration cycle = admin.admin_control_list->intervals().cycle_time();
-    ConfigChange change{admin.admin_base_time, false};
-    if (admin.admin_base_time < now) {
-      change.config_change_time = admin.admin_base_time + cycle * ceil_quotient(now - admin.admin_base_time, cycle);
-      change.error_counted = running;
-    }
+    const ConfigChange change{first_cycle_from(now, admin.admin_base_time, cycle), running && admin.admin_base_time < now};
     if (change.error_counted) ++config_change_error_;
     if (running) {
       lay_out_last_cycles(now, change.config_change_time);

@@ -12,6 +12,12 @@ namespace {
 using scenario::json::to_text;
 using sim::Duration;
 
+/// A list whose base time is over begins with the next cycle; until then all gates are as they were.
+template <class Config>
+Duration begins(const Config& gates, Duration from = {}) {
+  return models::first_cycle_from(sim::LocalTime() + from, gates.admin_base_time, gates.admin_cycle_time).since_start();
+}
+
 class Assessor {
  public:
   Assessor(const scenario::Resolved& r, const FlowGraph& graph, const BoundOptions& options) : r_(r), graph_(graph), options_(options) {}
@@ -47,7 +53,7 @@ class Assessor {
     for (const scenario::ResolvedAction& action : r_.script) {
       const auto* const gates = std::get_if<scenario::ResolvedGates>(&action.what);
       if (gates == nullptr || !happens(action)) continue;
-      changed = std::max({changed, action.at.since_start(), gates->gates.admin_base_time.since_start()});
+      changed = std::max(changed, begins(gates->gates, action.at.since_start()));
     }
     ledger_.state(Assumption::gates_do_not_change, "no gate list is exchanged", changed);
     ledger_.discharge(Assumption::gates_do_not_change, "the script");
@@ -119,10 +125,10 @@ ClockPremise clock_premise(const scenario::Resolved& resolved, const BoundOption
 Duration first_instant_of_all_gates(const scenario::Resolved& resolved) {
   Duration begin;
   for (const models::PortConfig& config : resolved.plan.port_configs)
-    if (config.shaping.gates) begin = std::max(begin, config.shaping.gates->admin_base_time.since_start());
+    if (config.shaping.gates) begin = std::max(begin, begins(*config.shaping.gates));
   for (const models::IngressConfig& ingress : resolved.plan.ingress_configs)
     for (const models::StreamGateConfig& gate : ingress.stream_gates)
-      if (!gate.admin_control_list.empty()) begin = std::max(begin, gate.admin_base_time.since_start());
+      if (!gate.admin_control_list.empty()) begin = std::max(begin, begins(gate));
   return begin;
 }
 

@@ -68,9 +68,8 @@ void note_unordered_classes(const scenario::Resolved& r, FlowGraph& graph) {
     const bool is_host = r.plan.nodes[graph.ports[p].node.value].kind == models::NodeKind::host;
     for (const std::uint32_t h : graph.ports[p].hops) {
       const Hop& hop = graph.hops[h];
-      const models::StreamIndex stream = graph.flows[hop.flow].stream;
-      const auto launches = [&](const models::TalkerPlan& talker) { return talker.stream == stream && talker.launch && !talker.babbles; };
-      const bool has_times = is_host ? std::any_of(r.plan.talkers.begin(), r.plan.talkers.end(), launches) : hop.ats && hop.ats->is_minded;
+      // By flow, not by stream: what a talker sends that babbles has no launch times.
+      const bool has_times = is_host ? graph.flows[hop.flow].launches : hop.ats && hop.ats->is_minded;
       for (models::TrafficClass q = hop.lowest_class; q <= hop.highest_class; ++q)
         if (models::contains(timed, q) && !has_times) graph.models[p].unordered = models::with(graph.models[p].unordered, q);
     }

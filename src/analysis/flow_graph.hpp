@@ -80,6 +80,7 @@ struct Flow {
   Ps best_source = 0;
   std::optional<std::uint32_t> train = {};   ///< flows with the same number are handed to the port one behind the other, in the order of the graph's flows
   bool may_miss_launch = false;         ///< the operating system may hand a frame over after its launch time
+  bool launches = false;                ///< its frames have launch times
   std::vector<std::uint32_t> hops;      ///< parents before children
   /// The last hop to each listener, as in the plan; several where the listener takes out copies itself.
   std::vector<std::vector<std::uint32_t>> last;

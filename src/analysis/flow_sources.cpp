@@ -74,6 +74,7 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, b
   flow.stream = talker.stream;
   ArrivalPattern pattern = pattern_of(talker, clock);
   if (talker.launch) {
+    flow.launches = true;
     flow.worst_source = longest(talker.launch->ps(), clock) + 2 * clock.error;
     flow.best_source = std::max<Ps>(0, shortest(talker.launch->ps(), clock) - 2 * clock.error);
     flow.may_miss_launch = os.transmit.greatest().ps() > flow.best_source;

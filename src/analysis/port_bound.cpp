@@ -403,7 +403,10 @@ void PortAnalysis::bound_cqf() {
   const Ps delay = cqf.cycle * cqf.buffers - cqf.offset - cqf.dead_time - cqf.forwarding_delay + 2 * model_.clock.error;
   const Ps waits = std::max<Ps>(0, cqf.cycle * (cqf.buffers - 2) - cqf.offset - cqf.forwarding_delay - 2 * model_.clock.error);
   if (config_.preemption) reason = "cyclic queuing and forwarding with preemption";
-  const bool holds = fits && all_use_it && model_.clock.is_synchronised && !config_.preemption;
+  bool is_held_back = false;  // by more than its cycle
+  for (TrafficClass q = 0; q < traffic_class_count; ++q) is_held_back = is_held_back || (is_in_cqf(q) && (is_shaped(q) || contains(config_.shaping.timed, q)));
+  if (is_held_back) reason = "cyclic queuing and forwarding in classes with a shaper";
+  const bool holds = fits && all_use_it && model_.clock.is_synchronised && !config_.preemption && !is_held_back;
   for (TrafficClass q = 0; q < traffic_class_count; ++q) {
     if (!is_in_cqf(q)) continue;
     if (!holds) {

@@ -58,11 +58,8 @@ class PlugApplication : public models::Application, protected wire::PlugHost {
 
 class PlugMasterApplication final : public PlugApplication {
  public:
-  /// `state_of` says in which state the participant of a binding is already, if there is one: for the ghost.
-  using StateOf = std::function<std::optional<handshake::PublishedState>(const handshake::Binding&)>;
-
-  PlugMasterApplication(wire::PlugSettings settings, bool restarts, Streams streams, ProgramMonitor& monitor, PlugMonitor& roles, std::uint32_t node, StateOf state_of)
-      : PlugApplication(std::move(streams), monitor, roles), endpoint_(std::move(settings), restarts), node_(node), state_of_(std::move(state_of)) {}
+  PlugMasterApplication(wire::PlugSettings settings, bool restarts, Streams streams, ProgramMonitor& monitor, PlugMonitor& roles, std::uint32_t node)
+      : PlugApplication(std::move(streams), monitor, roles), endpoint_(std::move(settings), restarts), node_(node) {}
 
   handshake::PublishedState state() const { return endpoint_.endpoint().participant().state(); }
   const handshake::Binder& binder() const { return endpoint_.binder(); }
@@ -81,13 +78,12 @@ class PlugMasterApplication final : public PlugApplication {
   void came_back() override { monitor_->on_back(0, node_); }
   void stepped(const handshake::Outputs& outputs, const handshake::Word& after) override { monitor_->on_step(0, outputs, after); }
   void process_data(const wire::ProcessDataMessage& message) override { monitor_->on_process_data(message.sender, 0, message.run); }
-  void role_bound(std::size_t role, const handshake::Binding& binding) override { roles_->on_bound(role, binding, state_of_(binding)); }
+  void role_bound(std::size_t role, const handshake::Binding& binding) override { roles_->on_bound(role, binding); }
   void role_taken(std::size_t, const handshake::Binding&) override {}
   void role_dropped(std::size_t, const handshake::Binding&) override {}
 
   wire::PlugMaster endpoint_;
   std::uint32_t node_;
-  StateOf state_of_;
   std::uint32_t incarnation_ = 1;
 };
 

@@ -5,8 +5,17 @@ namespace {
 constexpr std::uint32_t role_bound = 104;  // kind of digest record; see program_monitor.cpp
 }
 
-void PlugMonitor::on_bound(std::size_t role, const handshake::Binding& binding, std::optional<handshake::PublishedState> before) {
-  const handshake::RoleObserver::Change change = observer_.on_bound(role, binding, before);
+void PlugMonitor::on_bound(std::size_t role, const handshake::Binding& binding) {
+  if (bound_now_.empty()) simulation_->settle_later(*this);
+  bound_now_.emplace_back(role, binding);
+}
+
+void PlugMonitor::settle(sim::Simulation&) {
+  for (const auto& [role, binding] : std::exchange(bound_now_, {})) bind(role, binding);
+}
+
+void PlugMonitor::bind(std::size_t role, const handshake::Binding& binding) {
+  const handshake::RoleObserver::Change change = observer_.on_bound(role, binding, state_of_(binding));
   if (!change.is_new) return;
   if (change.gone) program_->on_gone(role + 1, *change.gone);
   if (binding.bound()) program_->on_back(role + 1, nodes_[binding.candidate]);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "handshake/role_observer.hpp"
@@ -17,15 +19,18 @@ struct BindingRecord {
   std::optional<std::uint8_t> candidate;  ///< none: nobody
 };
 
-/// A handshake::RoleObserver before a ProgramMonitor.
-class PlugMonitor {
+/// A handshake::RoleObserver before a ProgramMonitor. What an instant does to bindings counts from its end on, whatever else happens in it: a node
+/// that falls silent for the master when the master falls silent for it still takes its last step in its role.
+class PlugMonitor final : public sim::Component {
  public:
-  /// `nodes`: of the candidates.
-  PlugMonitor(sim::Simulation& simulation, std::uint32_t number, ProgramMonitor& program, std::size_t roles, std::vector<std::uint32_t> nodes)
-      : simulation_(&simulation), number_(number), program_(&program), observer_(roles), nodes_(std::move(nodes)) {}
+  /// The state in which the participant of a binding's life is, if there is one.
+  using StateOf = std::function<std::optional<handshake::PublishedState>(const handshake::Binding&)>;
 
-  /// `before`: the state in which the participant of that life is already, if there is one.
-  void on_bound(std::size_t role, const handshake::Binding& binding, std::optional<handshake::PublishedState> before);
+  /// `nodes`: of the candidates.
+  PlugMonitor(sim::Simulation& simulation, std::uint32_t number, ProgramMonitor& program, std::size_t roles, std::vector<std::uint32_t> nodes, StateOf state_of)
+      : simulation_(&simulation), number_(number), program_(&program), observer_(roles), nodes_(std::move(nodes)), state_of_(std::move(state_of)) {}
+
+  void on_bound(std::size_t role, const handshake::Binding& binding);
   /// The participant on a candidate has taken a step in its role.
   void on_step(std::size_t role, const handshake::Binding& self, const handshake::Outputs& outputs, const handshake::Word& after);
   /// The participant is gone: it was let go, or its node has crashed.
@@ -37,14 +42,21 @@ class PlugMonitor {
   bool has_role(std::uint8_t candidate) const;
   const std::vector<BindingRecord>& history() const { return history_; }
 
+  void handle(sim::Simulation&, const sim::Event&) override {}
+  void settle(sim::Simulation& simulation) override;
+
  private:
   static constexpr std::size_t most_records = 10'000;
+
+  void bind(std::size_t role, const handshake::Binding& binding);
 
   sim::Simulation* simulation_;
   std::uint32_t number_;
   ProgramMonitor* program_;
   handshake::RoleObserver observer_;
   std::vector<std::uint32_t> nodes_;   // of the candidates
+  StateOf state_of_;
+  std::vector<std::pair<std::size_t, handshake::Binding>> bound_now_;   // roles, and what they got in this instant
   std::vector<BindingRecord> history_;
 };
 

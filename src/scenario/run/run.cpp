@@ -181,7 +181,9 @@ void Run::add_program_with_roles(std::uint32_t number, const ResolvedProgram& pr
   live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, handshake::Variant::Robust, program.participant_names.size(), instants_);
   std::vector<std::uint32_t> nodes;
   for (const ResolvedCandidate& each : program.candidates) nodes.push_back(each.node.value);
-  live->roles = std::make_unique<PlugMonitor>(simulation_, number, *live->monitor, format->roles(), std::move(nodes));
+  LiveProgram* const raw = live.get();
+  const auto state_of = [raw](const handshake::Binding& binding) { return binding.bound() ? raw->candidates[binding.candidate]->state_of(binding.life) : std::nullopt; };
+  live->roles = std::make_unique<PlugMonitor>(simulation_, number, *live->monitor, format->roles(), std::move(nodes), state_of);
   std::vector<std::uint32_t> at_first(program.participant_names.size());
   at_first[0] = program.participants[0].value;
   live->monitor->set_nodes(std::move(at_first));
@@ -190,10 +192,8 @@ void Run::add_program_with_roles(std::uint32_t number, const ResolvedProgram& pr
   wire::PlugSettings settings = wire::plug_settings(endpoint_settings(program, 0, program_format), format, program.announce_every);
   PlugApplication::Streams streams{program.state_streams[0], program.table_stream, {}};
   for (const ResolvedProcessData& data : program.process_data) streams.data.push_back(data.from == 0 ? std::optional(data.stream) : std::nullopt);
-  LiveProgram* const raw = live.get();
   auto master = std::make_unique<PlugMasterApplication>(
-      settings, program.description->on_replacement == OnReplacement::restart, std::move(streams), *live->monitor, *live->roles, program.participants[0].value,
-      [raw](const handshake::Binding& binding) { return binding.bound() ? raw->candidates[binding.candidate]->state_of(binding.life) : std::nullopt; });
+      settings, program.description->on_replacement == OnReplacement::restart, std::move(streams), *live->monitor, *live->roles, program.participants[0].value);
   live->plug_master = master.get();
   models::Process& master_process = network_.add_process(program.participants[0], program.name, std::move(master));
   live->processes.push_back(&master_process);

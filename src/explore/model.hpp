@@ -1,21 +1,16 @@
-// The group on its abstract network: which actions there are, and what each makes of a state. README.md says the rules.
+// What a search needs of whatever it searches: how runs begin, which actions there are, and what each makes of a state.
 #pragma once
 
-#include <cstddef>
+#include <concepts>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "explore/action.hpp"
-#include "explore/contents.hpp"
-#include "explore/ghost.hpp"
-#include "explore/members.hpp"
 #include "explore/property.hpp"
 #include "explore/question.hpp"
-#include "explore/renaming.hpp"
 #include "explore/state.hpp"
-#include "explore/wiring.hpp"
 
 namespace takt::explore {
 
@@ -32,114 +27,40 @@ struct Next {
   PropertySet properties;  ///< violated or reached by it
 };
 
-class Model {
- public:
-  explicit Model(const Question& question);
-  Model(const Model&) = delete;
-  Model& operator=(const Model&) = delete;
+/// Which states may lie on cycles of network steps.
+enum class Recurrence : std::uint8_t { none, some, all };
 
-  const Question& question() const { return question_; }
-  const std::vector<Beginning>& beginnings() const { return beginnings_; }
-  const Wiring& wiring() const { return wiring_; }
-  const Shape& shape() const { return shape_; }
+template <class M>
+concept Model = std::constructible_from<M, const Question&> && requires(M& model, const M& known, const State& state, Action action, Next& next) {
+  { known.question() } -> std::same_as<const Question&>;
+  { known.shape() } -> std::same_as<const Shape&>;
+  { known.beginnings() } -> std::same_as<const std::vector<Beginning>&>;
   /// Network actions first, calls then, faults last.
-  std::span<const Action> actions() const { return actions_; }
-  std::span<const Action> network_actions() const { return {actions_.data(), network_count_}; }
+  { known.actions() } -> std::same_as<std::span<const Action>>;
+  { known.network_actions() } -> std::same_as<std::span<const Action>>;
   /// Of the adversary, those that a state may allow: nothing that was left out is possible in it.
-  std::span<const Action> calls(const State& state) const {
-    return {actions_.data() + network_count_, state.commands_left() == 0 ? 0 : fault_begin_ - network_count_};
-  }
-  std::span<const Action> faults(const State& state) const {
-    const std::size_t begin = state.faults_left() == 0 ? restart_begin_ : fault_begin_;  // whoever is down may come up for nothing
-    const std::size_t end = state.faults_left() == 0 ? restart_end_ : actions_.size();
-    return {actions_.data() + begin, end - begin};
-  }
-
+  { known.calls(state) } -> std::same_as<std::span<const Action>>;
+  { known.faults(state) } -> std::same_as<std::span<const Action>>;
   /// False if the action is not possible, or changes nothing.
-  bool act(const State& state, Action action, Next& next);
-  /// The same for all states that differ in the names of slaves only.
-  State canonical(const State& state);
+  { model.act(state, action, next) } -> std::same_as<bool>;
 
-  /// The goal of L1 (somebody down: of F1) holds here.
-  bool settled(const State& state) const;
-  bool anybody_down(const State& state) const;
-  bool all_running(const State& state) const;
-  /// Slaves have turned out not to be equal; only without symmetry are the results right.
-  bool symmetric() const { return members_.symmetric(); }
+  /// Whether states may stand for others with other names; canonical(state) is the one that stands for all of them.
+  { known.with_symmetry() } -> std::same_as<bool>;
+  { model.canonical(state) } -> std::convertible_to<State>;
+  /// False: names have turned out to matter; only without symmetry are the results right.
+  { known.symmetric() } -> std::same_as<bool>;
 
-  Members& members() { return members_; }
-  const Members& members() const { return members_; }
-  std::size_t ghost_count() const { return ghosts_.size(); }
+  /// The goal of L1 (somebody down: of F1) holds.
+  { known.settled(state) } -> std::same_as<bool>;
+  { known.anybody_down(state) } -> std::same_as<bool>;
+  { known.all_running(state) } -> std::same_as<bool>;
+  /// To be asked when all states are known; then, where some recur, of each of them.
+  { model.recurrence() } -> std::same_as<Recurrence>;
+  { known.recurs(state) } -> std::same_as<bool>;
 
- private:
-  struct HashOfGhost {
-    std::size_t operator()(const Ghost& ghost) const { return ghost.hash(); }
-  };
-
-  void list_actions();
-  void make_beginnings();
-  State switched_on();
-  void settle(Beginning& beginning);
-  void take(Beginning& beginning, Action action);
-
-  bool change(const State& state, Action action, Next& next);
-  bool forge(const State& state, std::size_t as, std::size_t what, Next& next);
-  void judge_forgery(const State& state, Action action, Next& next);
-  bool halted_for_all(const State& state);
-  bool initialised(const State& state, std::size_t participant, Next& next);
-  bool call(const State& state, std::size_t participant, std::size_t method, Next& next);
-  bool finish(const State& state, std::size_t participant, Next& next);
-  bool fault(const State& state, Action action, Next& next);
-  bool crash(const State& state, std::size_t participant, Next& next);
-  bool restart(const State& state, std::size_t participant, Next& next);
-  bool expire(const State& state, std::size_t participant, std::size_t peer, bool peer_is_down, Next& next);
-
-  // network_registers.cpp and network_channels.cpp
-  bool act_on_registers(const State& state, Action action, Next& next);
-  bool act_on_channels(const State& state, Action action, Next& next);
-  bool put_into_channel(const State& state, std::size_t channel, WordId word, Next& next);
-  bool publish_to_register(const State& state, std::size_t channel, Next& next) const;
-  bool sample(const State& state, std::size_t channel, Next& next);
-  bool sample_late(const State& state, Next& next);
-  bool empty_register(const State& state, std::size_t channel, Next& next) const;
-  bool keep_copy(const State& state, std::size_t channel, bool overtaken, Next& next) const;
-  bool publish_to_channel(const State& state, std::size_t channel, Next& next);
-  bool hear(const State& state, std::size_t channel, std::size_t position, Next& next);
-  bool change_content(const State& state, Action action, Next& next);
-  bool forget_channel(std::size_t channel, Next& next) const;
-  void outdate(std::size_t participant, Next& next);
-  bool says_what_its_sender_says(const State& state, std::size_t channel) const;
-
-  bool step(std::size_t participant, const Stimulus& stimulus, Next& next, bool& data_counts);
-  bool step(std::size_t participant, const Stimulus& stimulus, Next& next) {
-    bool data_counts = false;
-    return step(participant, stimulus, next, data_counts);
-  }
-  void end_round(const State& state, Next& next);
-  void watch(std::size_t participant, std::uint16_t effect, Next& next);
-  std::uint32_t intern_ghost(const Ghost& ghost);
-  bool at_rest(const State& state) const;
-  bool is_down(const State& state, std::size_t participant) const { return members_[state.member(participant)].down; }
-  std::uint64_t sort_key(const State& state, std::size_t slave) const;
-  State renamed(const State& state, std::size_t renaming) const;
-  bool names_matter(const State& state) const;
-
-  Question question_;
-  Wiring wiring_;
-  Shape shape_;
-  Renamings renamings_;
-  Members members_;
-  Contents contents_;
-  Interner<Ghost, HashOfGhost> ghosts_;
-  std::vector<std::uint32_t> renamed_ghost_;  ///< by ghost and renaming
-  Memo watched_;                               ///< (ghost, participant, effect) -> (ghost, violated)
-  std::vector<Action> actions_;
-  std::vector<std::uint8_t> renamed_channel_;  ///< by channel and renaming
-  std::size_t network_count_ = 0;
-  std::size_t fault_begin_ = 0;
-  std::size_t restart_begin_ = 0;
-  std::size_t restart_end_ = 0;
-  std::vector<Beginning> beginnings_;
+  /// Different values of participants, different words.
+  { known.value_count() } -> std::convertible_to<std::uint64_t>;
+  { known.word_count() } -> std::convertible_to<std::uint64_t>;
 };
 
 }  // namespace takt::explore

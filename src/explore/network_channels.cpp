@@ -1,11 +1,11 @@
 // The network of bounded channels: each holds the messages in flight, oldest first (Contents).
-#include "explore/model.hpp"
+#include "explore/group_model.hpp"
 
 namespace takt::explore {
 
 using handshake::Input;
 
-bool Model::act_on_channels(const State& state, Action action, Next& next) {
+bool GroupModel::act_on_channels(const State& state, Action action, Next& next) {
   const std::size_t channel = action.who;
   switch (action.kind) {
     case ActionKind::send: return publish_to_channel(state, channel, next);
@@ -22,7 +22,7 @@ bool Model::act_on_channels(const State& state, Action action, Next& next) {
 }
 
 /// Who publishes the same again while that is still in flight changes nothing; what finds the channel full is lost.
-bool Model::publish_to_channel(const State& state, std::size_t channel, Next& next) {
+bool GroupModel::publish_to_channel(const State& state, std::size_t channel, Next& next) {
   const Members::Traits& sender = members_[state.member(wiring_.sender(channel))];
   const Content& before = contents_[state.content(channel)];
   if (sender.down || before.size() >= question_.capacity) return false;
@@ -36,7 +36,7 @@ bool Model::publish_to_channel(const State& state, std::size_t channel, Next& ne
 }
 
 /// Whoever is down hears nothing: what arrives there is gone.
-bool Model::hear(const State& state, std::size_t channel, std::size_t position, Next& next) {
+bool GroupModel::hear(const State& state, std::size_t channel, std::size_t position, Next& next) {
   const std::size_t receiver = wiring_.receiver(channel);
   Content content = contents_[state.content(channel)];
   const Message message = content.take(position);
@@ -49,7 +49,7 @@ bool Model::hear(const State& state, std::size_t channel, std::size_t position, 
   return true;
 }
 
-bool Model::change_content(const State& state, Action action, Next& next) {
+bool GroupModel::change_content(const State& state, Action action, Next& next) {
   Content content = contents_[state.content(action.who)];
   const bool has_room = content.size() < question_.capacity;
   const std::optional<std::size_t> first = content.next();

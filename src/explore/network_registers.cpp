@@ -1,12 +1,12 @@
 // The network of registers: each channel holds the last published word, and one delayed copy may be under way.
-#include "explore/model.hpp"
+#include "explore/group_model.hpp"
 
 namespace takt::explore {
 
 using handshake::Input;
 using handshake::PublishedState;
 
-bool Model::act_on_registers(const State& state, Action action, Next& next) {
+bool GroupModel::act_on_registers(const State& state, Action action, Next& next) {
   switch (action.kind) {
     case ActionKind::send: return publish_to_register(state, action.who, next);
     case ActionKind::receive: return sample(state, action.who, next);
@@ -18,7 +18,7 @@ bool Model::act_on_registers(const State& state, Action action, Next& next) {
   }
 }
 
-bool Model::publish_to_register(const State& state, std::size_t channel, Next& next) const {
+bool GroupModel::publish_to_register(const State& state, std::size_t channel, Next& next) const {
   const Members::Traits& sender = members_[state.member(wiring_.sender(channel))];
   if ((sender.word == state.reg(channel) && !state.outdated(channel)) || sender.down) return false;
   next = {state, {}};
@@ -29,7 +29,7 @@ bool Model::publish_to_register(const State& state, std::size_t channel, Next& n
 }
 
 /// It stands there like one that was published. False if there is no room.
-bool Model::put_into_channel(const State& state, std::size_t channel, WordId word, Next& next) {
+bool GroupModel::put_into_channel(const State& state, std::size_t channel, WordId word, Next& next) {
   if (question_.network == Network::channels) {
     Content content = contents_[state.content(channel)];
     if (content.size() >= question_.capacity) return false;
@@ -43,7 +43,7 @@ bool Model::put_into_channel(const State& state, std::size_t channel, WordId wor
   return true;
 }
 
-bool Model::sample(const State& state, std::size_t channel, Next& next) {
+bool GroupModel::sample(const State& state, std::size_t channel, Next& next) {
   const WordId word = state.reg(channel);
   const std::size_t receiver = wiring_.receiver(channel);
   if (word == no_word || is_down(state, receiver)) return false;
@@ -60,7 +60,7 @@ bool Model::sample(const State& state, std::size_t channel, Next& next) {
   return stepped.member != before || overtakes || next.properties.bits != 0;
 }
 
-bool Model::sample_late(const State& state, Next& next) {
+bool GroupModel::sample_late(const State& state, Next& next) {
   if (state.late() == Late::none) return false;
   next = {state, {}};
   const std::size_t channel = state.late_channel();
@@ -75,7 +75,7 @@ bool Model::sample_late(const State& state, Next& next) {
   return true;
 }
 
-bool Model::empty_register(const State& state, std::size_t channel, Next& next) const {
+bool GroupModel::empty_register(const State& state, std::size_t channel, Next& next) const {
   if (state.reg(channel) == no_word) return false;
   next = {state, {}};
   next.state.set_reg(channel, no_word);
@@ -84,7 +84,7 @@ bool Model::empty_register(const State& state, std::size_t channel, Next& next) 
 }
 
 /// A copy of what stands in the register stays behind; if it is to be overtaken, the next word is published at once.
-bool Model::keep_copy(const State& state, std::size_t channel, bool overtaken, Next& next) const {
+bool GroupModel::keep_copy(const State& state, std::size_t channel, bool overtaken, Next& next) const {
   if (state.late() != Late::none || state.reg(channel) == no_word) return false;
   State kept = state;
   kept.set_late(Late::same, channel, state.reg(channel));
@@ -94,7 +94,7 @@ bool Model::keep_copy(const State& state, std::size_t channel, bool overtaken, N
 }
 
 /// Nothing of it is under way any more. The delayed copy may still come.
-bool Model::forget_channel(std::size_t channel, Next& next) const {
+bool GroupModel::forget_channel(std::size_t channel, Next& next) const {
   if (question_.network == Network::channels) {
     if (next.state.content(channel) == Contents::empty) return false;
     next.state.set_content(channel, Contents::empty);
@@ -107,7 +107,7 @@ bool Model::forget_channel(std::size_t channel, Next& next) const {
 }
 
 /// `paper`: a round of this participant begins, and all data that is under way to it is from before.
-void Model::outdate(std::size_t participant, Next& next) {
+void GroupModel::outdate(std::size_t participant, Next& next) {
   for (std::size_t c = 0; c < wiring_.size(); ++c) {
     if (wiring_.receiver(c) != participant) continue;
     if (question_.network == Network::channels) {
@@ -121,7 +121,7 @@ void Model::outdate(std::size_t participant, Next& next) {
   if (next.state.late() != Late::none && wiring_.receiver(next.state.late_channel()) == participant) next.state.set_outdated(State::late_data, true);
 }
 
-bool Model::says_what_its_sender_says(const State& state, std::size_t channel) const {
+bool GroupModel::says_what_its_sender_says(const State& state, std::size_t channel) const {
   const WordId said = members_[state.member(wiring_.sender(channel))].word;
   if (question_.network == Network::registers) return state.reg(channel) == said;
   const Content& content = contents_[state.content(channel)];

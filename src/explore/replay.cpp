@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "explore/members.hpp"
+#include "explore/wiring.hpp"
 #include "sim/check.hpp"
 
 namespace takt::explore {
@@ -34,7 +36,11 @@ class Player {
     Told told;
     told.action = action;
     const std::size_t before = observer_.violations().size();
-    act(action, told);
+    try {
+      act(action, told);
+    } catch (const sim::InvariantBroken& broken) {
+      told.broken = broken.what();
+    }
     for (std::size_t i = 0; i < members_.size(); ++i) told.states.push_back(members_[i].state());
     told.down = down_;
     told.violations.assign(observer_.violations().begin() + static_cast<std::ptrdiff_t>(before), observer_.violations().end());
@@ -194,7 +200,10 @@ Story replay(const Question& question, const Beginning& beginning, const Trace& 
   story.cycle = trace.cycle;
   Player player(question);
   for (const Action action : beginning.actions) story.opening_steps.push_back(player.play(action));
-  for (const Action action : trace.actions) story.steps.push_back(player.play(action));
+  for (const Action action : trace.actions) {
+    story.steps.push_back(player.play(action));
+    if (!story.steps.back().broken.empty()) break;
+  }
   return story;
 }
 

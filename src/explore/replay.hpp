@@ -24,6 +24,7 @@ struct Told {
   bool has_word = false;
   bool is_overtaking = false;     ///< the word overtakes another one at once
   std::vector<handshake::Violation> violations;  ///< found in this step
+  std::string broken;             ///< the CHECK that it breaks; then nothing follows
 };
 
 struct Story {

@@ -3,8 +3,6 @@
 #include <cstdio>
 
 #include "explore/chart.hpp"
-#include "explore/replay.hpp"
-#include "explore/tree_chart.hpp"
 
 namespace takt::explore {
 namespace {
@@ -42,7 +40,7 @@ std::string verdict_line(const Answer& answer, std::size_t p) {
 std::string counter_example(const Question& question, const Answer& answer, Property property, const Trace& trace) {
   const Beginning& beginning = answer.beginnings[trace.beginning];
   std::string text = "\n" + std::string(name_of(property)) + " is violated: " + std::string(property_texts[index_of(property)]) + "\n\n" +
-                     (question.is_tree() ? tree_chart(question, beginning, trace) : chart(question, replay(question, beginning, trace)));
+                     chart(question, beginning, trace);
   if (property == Property::L1 || property == Property::F1) text += trace.cycle == 0 ? "      and nothing changes any more\n" : "      and so for ever\n";
   return text;
 }

@@ -27,7 +27,7 @@ using Watcher = std::function<bool(const Progress&)>;
 
 /// A run, concrete: slaves keep their names.
 struct Trace {
-  std::size_t beginning = 0;          ///< of Model::beginnings()
+  std::size_t beginning = 0;          ///< of the model's beginnings
   std::vector<Action> actions;        ///< after it
   std::size_t cycle = 0;              ///< the last so many of them repeat for ever; 0: nothing more can happen (L1, F1)
 };
@@ -55,8 +55,12 @@ struct Answer {
   bool any_violated() const;
 };
 
-/// Explores. Symmetry is given up by itself where slaves turn out not to be equal, or where cycles of network steps
-/// have to be judged by names.
+/// Searches all states of one Model (engine.hpp). Symmetry is given up by itself where slaves turn out not to be equal, or where
+/// cycles of network steps have to be judged by names.
+template <class M>
+Answer search(const Question& question, const Watcher& watcher);
+
+/// The search of the model that the question is of.
 Answer explore(const Question& question, const Watcher& watcher);
 
 }  // namespace takt::explore

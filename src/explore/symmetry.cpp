@@ -1,12 +1,12 @@
 // Slaves that play the same part are one state: of all states that differ in names only, the least one stands for them.
 #include <algorithm>
 
-#include "explore/model.hpp"
+#include "explore/group_model.hpp"
 
 namespace takt::explore {
 
 /// What tells a slave from others without its name.
-std::uint64_t Model::sort_key(const State& state, std::size_t slave) const {
+std::uint64_t GroupModel::sort_key(const State& state, std::size_t slave) const {
   const std::size_t up = slave - 1;
   const std::size_t down = up + question_.slaves;
   const std::uint64_t member = std::uint64_t{members_[state.member(slave)].orbit} << 32;
@@ -15,7 +15,7 @@ std::uint64_t Model::sort_key(const State& state, std::size_t slave) const {
 }
 
 /// Two intents that differ in their origin only: which of them is greater depends on names.
-bool Model::names_matter(const State& state) const {
+bool GroupModel::names_matter(const State& state) const {
   std::array<std::uint64_t, most_participants + most_capacity * most_channels + 1> seen{};
   std::size_t count = 0;
   const auto clashes = [&](WordId word) {
@@ -40,7 +40,7 @@ bool Model::names_matter(const State& state) const {
   return state.late() != Late::none && clashes(state.late_word());
 }
 
-State Model::canonical(const State& state) {
+State GroupModel::canonical(const State& state) {
   if (renamings_.size() == 1) return state;
   std::array<std::uint64_t, most_slaves + 1> key{};
   bool rises = true;
@@ -62,7 +62,7 @@ State Model::canonical(const State& state) {
   return least;
 }
 
-State Model::renamed(const State& state, std::size_t renaming) const {
+State GroupModel::renamed(const State& state, std::size_t renaming) const {
   const Renaming& names = renamings_[renaming];
   const std::size_t slaves = question_.slaves;
   State result = state;

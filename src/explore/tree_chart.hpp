@@ -1,12 +1,11 @@
-// A run of a tree as a message-sequence chart in text, in the manner of chart.hpp.
+// A run of a tree as a chart.
 #pragma once
 
-#include <string>
-
-#include "explore/search.hpp"
+#include "explore/chart.hpp"
 
 namespace takt::explore {
 
-std::string tree_chart(const Question& question, const Beginning& beginning, const Trace& trace);
+/// Goes through the run once more with the tree's model.
+Chart chart_of_tree(const Question& question, const Beginning& beginning, const Trace& trace);
 
 }  // namespace takt::explore

@@ -1,8 +1,8 @@
 #include "explore/tree_model.hpp"
 
 #include <optional>
-#include <utility>
 
+#include "explore/beginnings.hpp"
 #include "sim/check.hpp"
 
 namespace takt::explore {
@@ -27,12 +27,6 @@ Shape shape_of(const TreeShape& tree) {
   TAKT_CHECK(shape.words <= State::most_words, "a tree to explore is small");
   return shape;
 }
-
-struct Rest {
-  const char* name;
-  PublishedState state;
-  std::vector<Method> calls;
-};
 
 }  // namespace
 
@@ -63,6 +57,7 @@ void TreeModel::list_actions() {
     for (std::size_t m = 0; m < program::methods.size(); ++m) add(ActionKind::call, p, m);
   if (question_.finishes)
     for (std::size_t p = 0; p < tree_.participants(); ++p) add(ActionKind::finish, p, 0);
+  fault_begin_ = actions_.size();
   if (question_.faults.contains(Fault::loss)) each_channel(ActionKind::lose);
   for (std::size_t node = 0; node < tree_.nodes(); ++node) {
     if (question_.faults.contains(Fault::crash)) add(ActionKind::crash, node, 0);
@@ -85,43 +80,16 @@ State TreeModel::switched_on() {
 
 /// One that joins is down when all others are switched on; in the other rests it has joined.
 void TreeModel::make_beginnings() {
-  const std::vector<Rest> rests{{"switched on", PublishedState::Halted, {}},
-                                {"Running", PublishedState::Running, {Method::Start}},
-                                {"Suspended", PublishedState::Suspended, {Method::Start, Method::Suspend}},
-                                {"Ready after a reset", PublishedState::Ready, {Method::Start, Method::Suspend, Method::Reset}}};
-  for (const Rest& rest : std::span(rests).first(question_.beginnings == Beginnings::all ? rests.size() : 1)) {
-    Beginning beginning{rest.name, {}, switched_on()};
-    beginning.state.set_commands_left(most_commands);
-    if (question_.joining && rest.calls.empty()) beginning.name += ", but for the one that joins";
-    if (question_.joining && !rest.calls.empty()) take(beginning, {ActionKind::restart, static_cast<std::uint8_t>(tree_.joining_node()), 0});
+  for (const Rest& rest : rests()) {
+    const bool joins = question_.joining && !rest.calls.empty();
+    Opening opening(*this, switched_on(), rest.name + std::string(question_.joining && !joins ? ", but for the one that joins" : ""));
+    if (joins) opening.take({ActionKind::restart, static_cast<std::uint8_t>(tree_.joining_node()), 0});
     for (const Method method : rest.calls) {
-      take(beginning, {ActionKind::call, 0, static_cast<std::uint8_t>(program::index_of(method))});
-      settle(beginning);
+      opening.call(method);
+      opening.settle(tree_.participants(), tree_.channels(), 12);
     }
-    bool reached = true;
-    for (std::size_t p = 0; p < tree_.participants(); ++p) reached = reached && state_of(beginning.state, p) == rest.state;
-    if (!reached) continue;  // a handshake that does not get there fails elsewhere
-    beginning.state.set_commands_left(question_.commands);
-    beginning.state.set_faults_left(question_.fault_budget);
-    beginnings_.push_back(std::move(beginning));
-  }
-}
-
-void TreeModel::take(Beginning& beginning, Action action) {
-  Next next;
-  if (!act(beginning.state, action, next)) return;
-  beginning.state = next.state;
-  beginning.actions.push_back(action);
-}
-
-/// Everybody initialises, publishes and hears in turn.
-void TreeModel::settle(Beginning& beginning) {
-  for (int round = 0; round < 12; ++round) {
-    for (std::uint8_t p = 0; p < tree_.participants(); ++p) take(beginning, {ActionKind::initialised, p, 0});
-    for (std::uint8_t c = 0; c < tree_.channels(); ++c) {
-      take(beginning, {ActionKind::send, c, 0});
-      take(beginning, {ActionKind::receive, c, 0});
-    }
+    opening.keep(tree_.participants(), rest.state, beginnings_);
+    if (question_.beginnings == Beginnings::switched_on) break;
   }
 }
 
@@ -131,7 +99,7 @@ bool TreeModel::act(const State& state, Action action, Next& next) {
   return true;
 }
 
-/// As in a single group (Model::judge_forgery).
+/// As in a single group (GroupModel::judge_forgery).
 void TreeModel::judge_forgery(const State& state, Action action, Next& next) {
   if (action.kind == ActionKind::forge) next.state.set_misled(true);
   if (next.state.misled()) {

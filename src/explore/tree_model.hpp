@@ -1,5 +1,5 @@
 // A group nested in another one, or a group with a slave that joins, on sampled registers: which actions there are, and what each makes of
-// a state. The counterpart of model.hpp, whose State it fills: nodes instead of participants, a word in each channel, a TreeGhost.
+// a state. The counterpart of group_model.hpp, whose State it fills: nodes instead of participants, a word in each channel, a TreeGhost.
 //
 // Actions name participants as TreeShape numbers them; crash and restart take the whole node, which `who` then numbers.
 #pragma once
@@ -22,15 +22,22 @@ class TreeModel {
   const TreeShape& tree() const { return tree_; }
   const Shape& shape() const { return shape_; }
   const std::vector<Beginning>& beginnings() const { return beginnings_; }
-  /// Network actions first.
   std::span<const Action> actions() const { return actions_; }
   std::span<const Action> network_actions() const { return {actions_.data(), network_count_}; }
-  /// Those that a state may allow: there are many words to forge, and with no fault left none of them is possible.
-  std::span<const Action> actions(const State& state) const { return {actions_.data(), state.faults_left() == 0 ? forge_begin_ : actions_.size()}; }
+  std::span<const Action> calls(const State& state) const { return {actions_.data() + network_count_, state.commands_left() == 0 ? 0 : fault_begin_ - network_count_}; }
+  /// There are many words to forge, and with no fault left none of them is possible.
+  std::span<const Action> faults(const State& state) const {
+    return {actions_.data() + fault_begin_, (state.faults_left() == 0 ? forge_begin_ : actions_.size()) - fault_begin_};
+  }
 
   State switched_on();
-  /// False if the action is not possible, or changes nothing.
   bool act(const State& state, Action action, Next& next);
+  /// Slaves are told apart, and nothing is known of who can go round.
+  bool with_symmetry() const { return false; }
+  bool symmetric() const { return true; }
+  const State& canonical(const State& state) const { return state; }
+  Recurrence recurrence() const { return Recurrence::all; }
+  bool recurs(const State&) const { return true; }
 
   /// The goal of L1: in each group the same intent and the state that it names, the same in both. Somebody is down: the goal of F1, all others Halted.
   bool settled(const State& state) const;
@@ -42,7 +49,8 @@ class TreeModel {
   const handshake::Word& word_in(const State& state, std::size_t channel) const { return nodes_.word(static_cast<WordId>(state.content(channel))); }
   handshake::PublishedState state_of(const State& state, std::size_t participant) const;
   bool is_down(const State& state, std::size_t participant) const { return nodes_[state.member(tree_.node_of(participant))].down; }
-  const TreeNodes& nodes() const { return nodes_; }
+  std::size_t value_count() const { return nodes_.size(); }
+  std::size_t word_count() const { return nodes_.word_count() - 1; }
 
  private:
   struct HashOfGhost {
@@ -51,8 +59,6 @@ class TreeModel {
 
   void list_actions();
   void make_beginnings();
-  void take(Beginning& beginning, Action action);
-  void settle(Beginning& beginning);
 
   bool change(const State& state, Action action, Next& next);
   bool forge(const State& state, Action action, Next& next);
@@ -78,6 +84,7 @@ class TreeModel {
   Memo watched_;                ///< (ghost, node, effects) -> (ghost, violated)
   std::vector<Action> actions_;
   std::size_t network_count_ = 0;
+  std::size_t fault_begin_ = 0;
   std::size_t forge_begin_ = 0;
   std::vector<Beginning> beginnings_;
 };

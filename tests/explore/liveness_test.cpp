@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "explore/group_model.hpp"
 #include "explore/recurrence.hpp"
 #include "explore/search.hpp"
 
@@ -52,7 +53,7 @@ class Whole {
     }
     return std::find(in.begin(), in.end(), true) != in.end();
   }
-  Model& model() { return model_; }
+  GroupModel& model() { return model_; }
 
  private:
   /// Whoever has a successor that reaches it, reaches it.
@@ -70,7 +71,7 @@ class Whole {
   struct HashOfState {
     std::size_t operator()(const State& state) const { return state.hash(); }
   };
-  Model model_;
+  GroupModel model_;
   Interner<State, HashOfState> states_;
   std::vector<std::uint32_t> to_;
 };
@@ -87,7 +88,7 @@ Question small(Variant variant, std::uint8_t slaves, std::uint32_t commands, std
 
 void compare(const Question& question) {
   Whole whole(question);
-  Model& model = whole.model();
+  GroupModel& model = whole.model();
   const bool unsettled = whole.fair_run_visits([&](const State& state) { return !model.settled(state) && !model.anybody_down(state); });
   const bool unhalted = whole.fair_run_visits([&](const State& state) { return !model.settled(state) && model.anybody_down(state); });
   Question asked = question;

@@ -5,9 +5,9 @@
 #include <random>
 
 #include "../handshake/tree.hpp"
+#include "explore/chart.hpp"
 #include "explore/report.hpp"
 #include "explore/search.hpp"
-#include "explore/tree_chart.hpp"
 #include "explore/tree_model.hpp"
 
 namespace takt::explore {
@@ -218,7 +218,7 @@ TEST(Tree, AChartNamesBothGroups) {
   const Answer answer = ask(question);
   ASSERT_EQ(answer[Property::all_running], Verdict::reached);
   const Trace& trace = *answer.traces[index_of(Property::all_running)];
-  const std::string text = tree_chart(question, answer.beginnings[trace.beginning], trace);
+  const std::string text = chart(question, answer.beginnings[trace.beginning], trace);
   for (const char* part : {"master         slave 1        inner master   inner slave 1\n", "inner slave 1 comes up", "Start is called at the master",
                            "inner master hears inner slave 1: Ready", "      Running        Running        Running        Running\n"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;

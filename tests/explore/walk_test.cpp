@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "explore/group_model.hpp"
 #include "explore/replay.hpp"
 #include "explore/search.hpp"
 
@@ -35,7 +36,7 @@ struct Walk {
 constexpr Fault true_faults[] = {Fault::loss, Fault::duplicate, Fault::reorder, Fault::crash, Fault::restart, Fault::timeout};
 
 /// `forgery`: of so many steps about one is a forged word.
-Walk walk(Model& model, std::uint64_t seed, std::size_t length, std::size_t forgery = 0) {
+Walk walk(GroupModel& model, std::uint64_t seed, std::size_t length, std::size_t forgery = 0) {
   Dice dice(seed);
   const auto forged = static_cast<std::size_t>(std::find_if(model.actions().begin(), model.actions().end(), [](const Action& each) { return each.kind == ActionKind::forge; }) -
                                                model.actions().begin());
@@ -69,7 +70,7 @@ void compare(Variant variant, std::uint8_t slaves, std::uint64_t walks, Question
   question.fault_budget = 4;
   for (const Fault fault : true_faults) question.faults.insert(fault);
   if (forgery != 0) question.faults.insert(Fault::forge);
-  Model model(question);
+  GroupModel model(question);
   std::size_t violations = 0;
   for (std::uint64_t seed = 0; seed < walks; ++seed) {
     const Walk taken = walk(model, seed, 60, forgery);
@@ -138,7 +139,7 @@ TEST(Symmetry, StepsCommuteWithNames) {
     question.subscription = kind / 2 == 1 ? handshake::Subscription::AllToAll : handshake::Subscription::Star;
     question.network = kind / 2 == 2 ? Network::channels : Network::registers;
     SCOPED_TRACE(kind);
-    Model model(question);
+    GroupModel model(question);
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       const Walk taken = walk(model, seed, 60);
       for (const State& state : taken.states) {

@@ -1,8 +1,10 @@
-#include "explore/model.hpp"
+#include "explore/group_model.hpp"
 
 #include <algorithm>
 #include <utility>
 
+#include "explore/beginnings.hpp"
+#include "explore/recurrence.hpp"
 #include "sim/check.hpp"
 
 namespace takt::explore {
@@ -12,7 +14,7 @@ using handshake::PublishedState;
 using handshake::Variant;
 using program::Method;
 
-Model::Model(const Question& question)
+GroupModel::GroupModel(const Question& question)
     : question_(question), wiring_(question), shape_(question, wiring_.size()), renamings_(question.slaves, question.symmetry), members_(question_, renamings_),
       contents_(members_, renamings_) {
   const bool is_star = question.subscription == handshake::Subscription::Star;
@@ -27,7 +29,7 @@ Model::Model(const Question& question)
   make_beginnings();
 }
 
-void Model::list_actions() {
+void GroupModel::list_actions() {
   const auto participants = static_cast<std::uint8_t>(question_.slaves + 1);
   const auto add = [this](ActionKind kind, std::size_t who, std::size_t what) {
     actions_.push_back({kind, static_cast<std::uint8_t>(who), static_cast<std::uint16_t>(what)});
@@ -68,7 +70,27 @@ void Model::list_actions() {
       for (std::size_t word = 0; word < most_forgeries; ++word) add(ActionKind::forge, i, word);
 }
 
-bool Model::act(const State& state, Action action, Next& next) {
+void GroupModel::make_beginnings() {
+  const std::size_t participants = question_.slaves + 1U;
+  for (const Rest& rest : rests()) {
+    Opening opening(*this, switched_on(), rest.name);
+    for (const Method method : rest.calls) {
+      opening.call(method);
+      opening.settle(participants, wiring_.size(), 6);
+    }
+    opening.keep(participants, rest.state, beginnings_);
+    if (question_.beginnings == Beginnings::switched_on) break;
+  }
+}
+
+State GroupModel::switched_on() {
+  State state(shape_);
+  for (std::size_t i = 0; i <= question_.slaves; ++i) state.set_member(i, members_.fresh(i, 1));
+  state.set_ghost(intern_ghost(Ghost(question_.variant, question_.slaves + 1U)));
+  return state;
+}
+
+bool GroupModel::act(const State& state, Action action, Next& next) {
   if (!change(state, action, next)) return false;
   if (question_.faults.contains(Fault::forge)) judge_forgery(state, action, next);
   return true;
@@ -76,7 +98,7 @@ bool Model::act(const State& state, Action action, Next& next) {
 
 /// Whoever has believed a stranger may break S1 to S5, until all are Halted and know it. From then on the group is as it was: it keeps
 /// them, and a Start succeeds.
-void Model::judge_forgery(const State& state, Action action, Next& next) {
+void GroupModel::judge_forgery(const State& state, Action action, Next& next) {
   if (action.kind == ActionKind::forge) next.state.set_misled(true);
   if (next.state.misled()) {
     for (const Property property : {Property::S1, Property::S2, Property::S3, Property::S4, Property::S5}) next.properties.erase(property);
@@ -88,7 +110,7 @@ void Model::judge_forgery(const State& state, Action action, Next& next) {
 }
 
 /// Nothing of before is left that anybody could still hear or believe.
-bool Model::halted_for_all(const State& state) {
+bool GroupModel::halted_for_all(const State& state) {
   if (members_[state.member(0)].state != PublishedState::Halted || !at_rest(state)) return false;
   for (std::size_t i = 0; i <= question_.slaves; ++i)
     if (members_[state.member(i)].deaf != 0) return false;
@@ -101,7 +123,7 @@ bool Model::halted_for_all(const State& state) {
   return true;
 }
 
-bool Model::change(const State& state, Action action, Next& next) {
+bool GroupModel::change(const State& state, Action action, Next& next) {
   switch (action.kind) {
     case ActionKind::send:
     case ActionKind::receive:
@@ -115,7 +137,7 @@ bool Model::change(const State& state, Action action, Next& next) {
 }
 
 /// A participant that is down may always come up again; everything else costs a fault.
-bool Model::fault(const State& state, Action action, Next& next) {
+bool GroupModel::fault(const State& state, Action action, Next& next) {
   const bool is_free = action.kind == ActionKind::restart && is_down(state, action.who);
   if (!is_free && state.faults_left() == 0) return false;
   bool possible = false;
@@ -130,13 +152,13 @@ bool Model::fault(const State& state, Action action, Next& next) {
   return possible;
 }
 
-bool Model::initialised(const State& state, std::size_t participant, Next& next) {
+bool GroupModel::initialised(const State& state, std::size_t participant, Next& next) {
   if (members_[state.member(participant)].state != PublishedState::HaltedInit || is_down(state, participant)) return false;
   next = {state, {}};
   return step(participant, {Input::Kind::Initialised}, next);
 }
 
-bool Model::call(const State& state, std::size_t participant, std::size_t method, Next& next) {
+bool GroupModel::call(const State& state, std::size_t participant, std::size_t method, Next& next) {
   if (state.commands_left() == 0 || ((members_[state.member(participant)].calls >> method) & 1U) == 0) return false;
   next = {state, {}};
   end_round(state, next);
@@ -145,7 +167,7 @@ bool Model::call(const State& state, std::size_t participant, std::size_t method
   return true;
 }
 
-bool Model::finish(const State& state, std::size_t participant, Next& next) {
+bool GroupModel::finish(const State& state, std::size_t participant, Next& next) {
   const Members::Traits& member = members_[state.member(participant)];
   if (state.commands_left() == 0 || member.down || member.state != PublishedState::Running) return false;
   next = {state, {}};
@@ -156,7 +178,7 @@ bool Model::finish(const State& state, std::size_t participant, Next& next) {
 }
 
 /// `paper`: what was asked before the group came to rest does not count any more.
-void Model::end_round(const State& state, Next& next) {
+void GroupModel::end_round(const State& state, Next& next) {
   if (question_.variant != Variant::Paper || !at_rest(state)) return;
   Ghost ghost = ghosts_[state.ghost()];
   ghost.at_rest();
@@ -164,7 +186,7 @@ void Model::end_round(const State& state, Next& next) {
 }
 
 /// One packet, which all hear who hear that participant.
-bool Model::forge(const State& state, std::size_t as, std::size_t what, Next& next) {
+bool GroupModel::forge(const State& state, std::size_t as, std::size_t what, Next& next) {
   const std::vector<WordId>& words = members_.forged(state.member(as));
   if (what >= words.size()) return false;
   const WordId word = words[what];
@@ -175,14 +197,14 @@ bool Model::forge(const State& state, std::size_t as, std::size_t what, Next& ne
   return possible;
 }
 
-bool Model::crash(const State& state, std::size_t participant, Next& next) {
+bool GroupModel::crash(const State& state, std::size_t participant, Next& next) {
   if (is_down(state, participant)) return false;
   next = {state, {}};
   next.state.set_member(participant, members_.down(participant, members_.incarnation(state.member(participant))));
   return true;
 }
 
-bool Model::restart(const State& state, std::size_t participant, Next& next) {
+bool GroupModel::restart(const State& state, std::size_t participant, Next& next) {
   const std::uint32_t incarnation = members_.incarnation(state.member(participant));
   next = {state, {}};
   // `paper` does not publish incarnations, so its lives need not be told apart.
@@ -193,7 +215,7 @@ bool Model::restart(const State& state, std::size_t participant, Next& next) {
   return true;
 }
 
-bool Model::expire(const State& state, std::size_t participant, std::size_t peer, bool peer_is_down, Next& next) {
+bool GroupModel::expire(const State& state, std::size_t participant, std::size_t peer, bool peer_is_down, Next& next) {
   const std::size_t other = peer_participant(participant, peer);
   const bool is_deaf = peer_is_down && ((members_[state.member(participant)].deaf >> peer) & 1U) != 0;
   if ((is_down(state, other) != peer_is_down && !is_deaf) || is_down(state, participant)) return false;
@@ -204,7 +226,7 @@ bool Model::expire(const State& state, std::size_t participant, std::size_t peer
   return changed || next.properties.bits != 0;
 }
 
-bool Model::step(std::size_t participant, const Stimulus& stimulus, Next& next, bool& data_counts) {
+bool GroupModel::step(std::size_t participant, const Stimulus& stimulus, Next& next, bool& data_counts) {
   const MemberId before = next.state.member(participant);
   const Stepped stepped = members_.step(before, stimulus);
   data_counts = stepped.data_counts;
@@ -214,7 +236,7 @@ bool Model::step(std::size_t participant, const Stimulus& stimulus, Next& next, 
 }
 
 /// Shows a step to the ghost.
-void Model::watch(std::size_t participant, std::uint16_t effect, Next& next) {
+void GroupModel::watch(std::size_t participant, std::uint16_t effect, Next& next) {
   const Effect& seen = members_.effect(effect);
   const std::uint64_t key = std::uint64_t{next.state.ghost()} << 20 | std::uint64_t{participant} << 16 | effect;
   std::uint64_t found = watched_.find(key);
@@ -229,7 +251,7 @@ void Model::watch(std::size_t participant, std::uint16_t effect, Next& next) {
   if (question_.variant == Variant::Paper && seen.begins_round()) outdate(participant, next);
 }
 
-std::uint32_t Model::intern_ghost(const Ghost& ghost) {
+std::uint32_t GroupModel::intern_ghost(const Ghost& ghost) {
   const std::uint32_t id = ghosts_.intern(ghost);
   const std::size_t count = renamings_.size();
   if ((id + 1U) * count <= renamed_ghost_.size()) return id;
@@ -241,20 +263,20 @@ std::uint32_t Model::intern_ghost(const Ghost& ghost) {
   return id;
 }
 
-bool Model::anybody_down(const State& state) const {
+bool GroupModel::anybody_down(const State& state) const {
   for (std::size_t i = 0; i <= question_.slaves; ++i)
     if (is_down(state, i)) return true;
   return false;
 }
 
-bool Model::all_running(const State& state) const {
+bool GroupModel::all_running(const State& state) const {
   for (std::size_t i = 0; i <= question_.slaves; ++i)
     if (members_[state.member(i)].state != PublishedState::Running || is_down(state, i)) return false;
   return true;
 }
 
 /// Nothing is under way: all are in one state, and every register says so.
-bool Model::at_rest(const State& state) const {
+bool GroupModel::at_rest(const State& state) const {
   const PublishedState first = members_[state.member(0)].state;
   if (first == PublishedState::HaltedInit || state.late() != Late::none) return false;
   for (std::size_t i = 0; i <= question_.slaves; ++i)
@@ -264,7 +286,7 @@ bool Model::at_rest(const State& state) const {
   return true;
 }
 
-bool Model::settled(const State& state) const {
+bool GroupModel::settled(const State& state) const {
   if (anybody_down(state)) {
     for (std::size_t i = 0; i <= question_.slaves; ++i)
       if (!is_down(state, i) && members_[state.member(i)].state != PublishedState::Halted) return false;
@@ -278,6 +300,18 @@ bool Model::settled(const State& state) const {
   if (state.promised() && first.state != PublishedState::Running) return false;
   if (question_.variant == Variant::Robust) return first.state == handshake::goal_of(first.intent.kind);
   return first.state != PublishedState::HaltedInit && ghosts_[state.ghost()].asked(first.state);
+}
+
+Recurrence GroupModel::recurrence() {
+  if (question_.network == Network::channels) return Recurrence::all;
+  goes_round_ = members_that_go_round(members_, question_.slaves);
+  return std::find(goes_round_.begin(), goes_round_.end(), true) == goes_round_.end() ? Recurrence::none : Recurrence::some;
+}
+
+bool GroupModel::recurs(const State& state) const {
+  for (std::size_t i = 0; i <= question_.slaves; ++i)
+    if (goes_round_[state.member(i)]) return true;
+  return false;
 }
 
 }  // namespace takt::explore

@@ -1,0 +1,138 @@
+// The group on its abstract network: which actions there are, and what each makes of a state. README.md says the rules.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "explore/action.hpp"
+#include "explore/contents.hpp"
+#include "explore/ghost.hpp"
+#include "explore/members.hpp"
+#include "explore/model.hpp"
+#include "explore/property.hpp"
+#include "explore/question.hpp"
+#include "explore/renaming.hpp"
+#include "explore/state.hpp"
+#include "explore/wiring.hpp"
+
+namespace takt::explore {
+
+class GroupModel {
+ public:
+  explicit GroupModel(const Question& question);
+  GroupModel(const GroupModel&) = delete;
+  GroupModel& operator=(const GroupModel&) = delete;
+
+  const Question& question() const { return question_; }
+  const std::vector<Beginning>& beginnings() const { return beginnings_; }
+  const Wiring& wiring() const { return wiring_; }
+  const Shape& shape() const { return shape_; }
+  /// Network actions first, calls then, faults last.
+  std::span<const Action> actions() const { return actions_; }
+  std::span<const Action> network_actions() const { return {actions_.data(), network_count_}; }
+  /// Of the adversary, those that a state may allow: nothing that was left out is possible in it.
+  std::span<const Action> calls(const State& state) const {
+    return {actions_.data() + network_count_, state.commands_left() == 0 ? 0 : fault_begin_ - network_count_};
+  }
+  std::span<const Action> faults(const State& state) const {
+    const std::size_t begin = state.faults_left() == 0 ? restart_begin_ : fault_begin_;  // whoever is down may come up for nothing
+    const std::size_t end = state.faults_left() == 0 ? restart_end_ : actions_.size();
+    return {actions_.data() + begin, end - begin};
+  }
+
+  /// False if the action is not possible, or changes nothing.
+  bool act(const State& state, Action action, Next& next);
+  /// The same for all states that differ in the names of slaves only.
+  State canonical(const State& state);
+
+  /// The goal of L1 (somebody down: of F1) holds here.
+  bool settled(const State& state) const;
+  bool anybody_down(const State& state) const;
+  bool all_running(const State& state) const;
+  bool with_symmetry() const { return question_.symmetry && question_.slaves > 1; }
+  bool symmetric() const { return members_.symmetric(); }
+  /// On registers states with somebody who can go round (recurrence.hpp).
+  Recurrence recurrence();
+  bool recurs(const State& state) const;
+
+  handshake::PublishedState state_of(const State& state, std::size_t participant) const { return members_[state.member(participant)].state; }
+  Members& members() { return members_; }
+  const Members& members() const { return members_; }
+  std::size_t value_count() const { return members_.size(); }
+  std::size_t word_count() const { return members_.word_count() - 1; }
+  std::size_t ghost_count() const { return ghosts_.size(); }
+
+ private:
+  struct HashOfGhost {
+    std::size_t operator()(const Ghost& ghost) const { return ghost.hash(); }
+  };
+
+  void list_actions();
+  void make_beginnings();
+  State switched_on();
+
+  bool change(const State& state, Action action, Next& next);
+  bool forge(const State& state, std::size_t as, std::size_t what, Next& next);
+  void judge_forgery(const State& state, Action action, Next& next);
+  bool halted_for_all(const State& state);
+  bool initialised(const State& state, std::size_t participant, Next& next);
+  bool call(const State& state, std::size_t participant, std::size_t method, Next& next);
+  bool finish(const State& state, std::size_t participant, Next& next);
+  bool fault(const State& state, Action action, Next& next);
+  bool crash(const State& state, std::size_t participant, Next& next);
+  bool restart(const State& state, std::size_t participant, Next& next);
+  bool expire(const State& state, std::size_t participant, std::size_t peer, bool peer_is_down, Next& next);
+
+  // network_registers.cpp and network_channels.cpp
+  bool act_on_registers(const State& state, Action action, Next& next);
+  bool act_on_channels(const State& state, Action action, Next& next);
+  bool put_into_channel(const State& state, std::size_t channel, WordId word, Next& next);
+  bool publish_to_register(const State& state, std::size_t channel, Next& next) const;
+  bool sample(const State& state, std::size_t channel, Next& next);
+  bool sample_late(const State& state, Next& next);
+  bool empty_register(const State& state, std::size_t channel, Next& next) const;
+  bool keep_copy(const State& state, std::size_t channel, bool overtaken, Next& next) const;
+  bool publish_to_channel(const State& state, std::size_t channel, Next& next);
+  bool hear(const State& state, std::size_t channel, std::size_t position, Next& next);
+  bool change_content(const State& state, Action action, Next& next);
+  bool forget_channel(std::size_t channel, Next& next) const;
+  void outdate(std::size_t participant, Next& next);
+  bool says_what_its_sender_says(const State& state, std::size_t channel) const;
+
+  bool step(std::size_t participant, const Stimulus& stimulus, Next& next, bool& data_counts);
+  bool step(std::size_t participant, const Stimulus& stimulus, Next& next) {
+    bool data_counts = false;
+    return step(participant, stimulus, next, data_counts);
+  }
+  void end_round(const State& state, Next& next);
+  void watch(std::size_t participant, std::uint16_t effect, Next& next);
+  std::uint32_t intern_ghost(const Ghost& ghost);
+  bool at_rest(const State& state) const;
+  bool is_down(const State& state, std::size_t participant) const { return members_[state.member(participant)].down; }
+  std::uint64_t sort_key(const State& state, std::size_t slave) const;
+  State renamed(const State& state, std::size_t renaming) const;
+  bool names_matter(const State& state) const;
+
+  Question question_;
+  Wiring wiring_;
+  Shape shape_;
+  Renamings renamings_;
+  Members members_;
+  Contents contents_;
+  Interner<Ghost, HashOfGhost> ghosts_;
+  std::vector<std::uint32_t> renamed_ghost_;  ///< by ghost and renaming
+  std::vector<bool> goes_round_;               ///< by member
+  Memo watched_;                               ///< (ghost, participant, effect) -> (ghost, violated)
+  std::vector<Action> actions_;
+  std::vector<std::uint8_t> renamed_channel_;  ///< by channel and renaming
+  std::size_t network_count_ = 0;
+  std::size_t fault_begin_ = 0;
+  std::size_t restart_begin_ = 0;
+  std::size_t restart_end_ = 0;
+  std::vector<Beginning> beginnings_;
+};
+
+}  // namespace takt::explore

@@ -28,8 +28,7 @@ Ghost::Ghost(handshake::Variant variant, std::size_t participants)
     : paper_(variant == handshake::Variant::Paper ? 1 : 0), participants_(static_cast<std::uint8_t>(participants)) {
   TAKT_CHECK(participants >= 2 && participants <= most_slaves + 1, "a group to explore is small");
   if (!is_paper()) return;
-  count_ = participants_;
-  for (std::uint32_t i = 0; i < participants; ++i) facts_[i].run = i;
+  for (std::uint32_t i = 0; i < participants; ++i) facts_.of(i);
   asked_ = static_cast<std::uint8_t>(1U << handshake::index_of(PublishedState::Halted));
 }
 
@@ -62,21 +61,21 @@ void Ghost::begin_round(std::size_t participant) {
 
 void Ghost::became_ready(std::size_t participant, std::uint32_t run) {
   if (is_paper()) {
-    for (std::size_t i = 0; i < count_; ++i) facts_[i].ready = with(facts_[i].ready, participant);
+    for (Facts& facts : facts_) facts.ready = with(facts.ready, participant);
   } else {
-    Facts& facts = facts_of(run);
+    Facts& facts = facts_.of(run);
     facts.ready = with(facts.ready, participant);
   }
 }
 
 PropertySet Ghost::became_running(std::size_t participant, std::uint32_t run) {
   if (is_paper()) {
-    for (std::size_t i = 0; i < count_; ++i) facts_[i].running = with(facts_[i].running, participant);
+    for (Facts& facts : facts_) facts.running = with(facts.running, participant);
   } else {
-    Facts& facts = facts_of(run);
+    Facts& facts = facts_.of(run);
     facts.running = with(facts.running, participant);
   }
-  const Facts& facts = facts_of(is_paper() ? static_cast<std::uint32_t>(participant) : run);
+  const Facts& facts = facts_.of(is_paper() ? static_cast<std::uint32_t>(participant) : run);
   PropertySet violated;
   if (facts.ready != everybody()) violated.insert(Property::S1);
   if (participant == 0 && facts.running != everybody()) violated.insert(Property::S2);
@@ -84,22 +83,11 @@ PropertySet Ghost::became_running(std::size_t participant, std::uint32_t run) {
   return violated;
 }
 
-auto Ghost::facts_of(std::uint32_t run) -> Facts& {
-  std::size_t at = 0;
-  while (at < count_ && facts_[at].run < run) ++at;
-  if (at < count_ && facts_[at].run == run) return facts_[at];
-  TAKT_CHECK(!is_paper() && count_ < most_runs, "the runs of an exploration are few: a start costs a call");
-  for (std::size_t i = count_; i > at; --i) facts_[i] = facts_[i - 1];
-  ++count_;
-  facts_[at] = Facts{run, 0, 0};
-  return facts_[at];
-}
-
 Ghost Ghost::renamed(const Renaming& renaming) const {
   Ghost result = *this;
   result.passed_init_ = renamed_set(passed_init_, renaming);
   result.ready_now_ = renamed_set(ready_now_, renaming);
-  for (std::size_t i = 0; i < count_; ++i) {
+  for (std::size_t i = 0; i < facts_.size(); ++i) {
     Facts& facts = result.facts_[is_paper() ? renaming.to[i] : i];
     facts = facts_[i];
     if (is_paper()) facts.run = renaming.to[i];
@@ -110,10 +98,9 @@ Ghost Ghost::renamed(const Renaming& renaming) const {
 }
 
 std::uint64_t Ghost::hash() const {
-  std::uint64_t digest = static_cast<std::uint64_t>(count_) | std::uint64_t{passed_init_} << 8 | std::uint64_t{ready_now_} << 16 |
+  std::uint64_t digest = static_cast<std::uint64_t>(facts_.size()) | std::uint64_t{passed_init_} << 8 | std::uint64_t{ready_now_} << 16 |
                          std::uint64_t{asked_} << 24;
-  for (std::size_t i = 0; i < count_; ++i)
-    digest = mixed(digest) ^ (facts_[i].run | std::uint64_t{facts_[i].ready} << 32 | std::uint64_t{facts_[i].running} << 40);
+  for (const Facts& each : facts_) digest = mixed(digest) ^ (each.run | std::uint64_t{each.ready} << 32 | std::uint64_t{each.running} << 40);
   return mixed(digest);
 }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "explore/by_run.hpp"
 #include "explore/property.hpp"
 #include "explore/renaming.hpp"
 #include "handshake/io.hpp"
@@ -32,8 +33,6 @@ struct Effect {
 
 class Ghost {
  public:
-  static constexpr std::size_t most_runs = 10;
-
   /// All Halted. In `paper` there are facts for each participant, in `robust` for each run.
   Ghost(handshake::Variant variant, std::size_t participants);
 
@@ -58,18 +57,16 @@ class Ghost {
   };
   bool is_paper() const { return paper_ != 0; }
   std::uint8_t everybody() const { return static_cast<std::uint8_t>((1U << participants_) - 1U); }
-  Facts& facts_of(std::uint32_t run);
   void became_ready(std::size_t participant, std::uint32_t run);
   PropertySet became_running(std::size_t participant, std::uint32_t run);
   void begin_round(std::size_t participant);
 
   std::uint8_t paper_ = 0;
   std::uint8_t participants_ = 0;
-  std::uint8_t count_ = 0;
   std::uint8_t passed_init_ = 0;
   std::uint8_t ready_now_ = 0;   ///< `paper` only
   std::uint8_t asked_ = 0;       ///< `paper` only
-  std::array<Facts, most_runs> facts_{};  ///< by rising run
+  ByRun<Facts> facts_;
 };
 
 }  // namespace takt::explore

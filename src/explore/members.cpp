@@ -88,7 +88,7 @@ void Members::compare_under_other_names(MemberId member, const Stimulus& stimulu
 Stepped Members::step_value(MemberId member, const Stimulus& stimulus) {
   const Participant before = values_[member];
   Participant after = before;
-  const Outputs outputs = after.step(input_of(before, stimulus));
+  const Outputs outputs = after.step(input_of(stimulus.kind, stimulus.what, words_[stimulus.word], stimulus.overtaken, before.intent().run));
   after.forget_last_transition();
   Stepped stepped;
   stepped.member = intern(after);
@@ -98,19 +98,16 @@ Stepped Members::step_value(MemberId member, const Stimulus& stimulus) {
   return stepped;
 }
 
-Input Members::input_of(const Participant& value, const Stimulus& stimulus) const {
-  switch (stimulus.kind) {
-    case Input::Kind::Command: return Input::command(program::methods[stimulus.what].method);
-    case Input::Kind::Received: {
-      const Letter& letter = words_[stimulus.word];
-      return Input::received(stimulus.what, letter.word, letter.ahead ? sequence_ahead : stimulus.overtaken ? overtaken_sequence : usual_sequence);
-    }
-    case Input::Kind::Initialised: return Input::initialised(value.intent().run);
+Input input_of(Input::Kind kind, std::size_t what, const Letter& letter, bool overtaken, std::uint32_t run) {
+  switch (kind) {
+    case Input::Kind::Command: return Input::command(program::methods[what].method);
+    case Input::Kind::Received: return Input::received(what, letter.word, letter.ahead ? sequence_ahead : overtaken ? overtaken_sequence : usual_sequence);
+    case Input::Kind::Initialised: return Input::initialised(run);
     case Input::Kind::Finished: return Input::finished();
-    case Input::Kind::PeerSilent: return Input::peer_silent(stimulus.what);
+    case Input::Kind::PeerSilent: return Input::peer_silent(what);
     case Input::Kind::Released:
     case Input::Kind::PeerReplaced:
-    case Input::Kind::PeerLeft: break;  // of nested groups and of changing members, which are not explored
+    case Input::Kind::PeerLeft: break;  // of the node itself, and of changing members
   }
   return Input::finished();
 }
@@ -127,18 +124,23 @@ Stimulus Members::renamed_stimulus(const Stimulus& stimulus, std::size_t partici
   return result;
 }
 
-std::uint16_t Members::effect_of(const Participant& before, const Participant& after, const Stimulus& stimulus, const Outputs& outputs) {
+Effect effect_of(const Word& before, const Word& after, const Outputs& outputs) {
   Effect effect;
   effect.change_count = outputs.change_count;
   for (std::size_t i = 0; i < outputs.change_count; ++i) {
     effect.change[i] = outputs.change[i];
     if (outputs.change[i].transition != 0) effect.properties.insert(transition_property(outputs.change[i].transition));
   }
-  effect.joins = before.state() == PublishedState::Ready && after.state() == PublishedState::Ready && before.run() != after.run();
-  if (effect.change_count != 0 || effect.joins) effect.run = after.run();
+  effect.joins = before.state == PublishedState::Ready && after.state == PublishedState::Ready && before.run != after.run;
+  if (effect.change_count != 0 || effect.joins) effect.run = after.run;
+  if (!are_transitions(before.state, outputs.changes())) effect.properties.insert(Property::S5);
+  return effect;
+}
+
+std::uint16_t Members::effect_of(const Participant& before, const Participant& after, const Stimulus& stimulus, const Outputs& outputs) {
+  Effect effect = explore::effect_of(before.word(), after.word(), outputs);
   effect.raised = outputs.raised && question_.variant == Variant::Paper;  // `robust` says it in the words
   if (effect.raised) effect.kind = outputs.raised_kind;
-  if (!are_transitions(before.state(), outputs.changes())) effect.properties.insert(Property::S5);
   if (stimulus.kind == Input::Kind::PeerSilent && before.state() != PublishedState::Halted) effect.properties.insert(Property::silence);
   if (stimulus.kind == Input::Kind::PeerSilent && after.state() != PublishedState::Halted) effect.properties.insert(Property::F1);
   const bool robust = question_.variant == Variant::Robust;

@@ -48,6 +48,11 @@ struct HashOfEffect {
 /// S5 as the observer judges it: the changes of a step follow each other and stand in the table.
 bool are_transitions(handshake::PublishedState from, std::span<const handshake::StateChange> changes);
 
+/// What a step means, but for what depends on the input. `before` and `after` are the participant's words.
+Effect effect_of(const handshake::Word& before, const handshake::Word& after, const handshake::Outputs& outputs);
+/// `run`: of the intent that it follows.
+handshake::Input input_of(handshake::Input::Kind kind, std::size_t what, const Letter& letter, bool overtaken, std::uint32_t run);
+
 class Members {
  public:
   /// What the search asks most about a member.
@@ -117,7 +122,6 @@ class Members {
   }
 
   handshake::Config config(std::size_t index, std::uint32_t incarnation) const;
-  handshake::Input input_of(const Participant& value, const Stimulus& stimulus) const;
   Stimulus renamed_stimulus(const Stimulus& stimulus, std::size_t participant, std::size_t renaming) const;
   Stepped step_anew(MemberId member, const Stimulus& stimulus);
   Stepped step_value(MemberId member, const Stimulus& stimulus);

@@ -29,7 +29,7 @@ PropertySet TreeGhost::on_effect(const TreeShape& shape, std::size_t participant
   const std::size_t group = shape.group_of(participant);
   PropertySet violated = groups_[group].on_effect(shape.index_of(participant), effect.effect);
   if (shape.groups() == 1) return violated;
-  if (effect.inner_run != 0) link(effect.inner_run, effect.outer_run);
+  if (effect.inner_run != 0) links_.of(effect.inner_run).outer = effect.outer_run;
   const auto is_ready_now = [&](const StateChange& change) { return change.to == PublishedState::Ready; };
   bool was_ready = effect.effect.joins;
   for (std::size_t i = 0; i < effect.effect.change_count; ++i) was_ready = was_ready || is_ready_now(effect.effect.change[i]);
@@ -45,7 +45,7 @@ void TreeGhost::on_restart(const TreeShape& shape, std::size_t participant) { gr
 bool TreeGhost::became_ready(const TreeShape& shape, std::size_t participant, std::uint32_t run) {
   const std::uint32_t of_tree = tree_run(shape.group_of(participant), run);
   if (of_tree == 0) return true;  // in a run of its group alone; there Running is forbidden
-  Facts& facts = facts_of(of_tree);
+  Facts& facts = facts_.of(of_tree);
   facts.ready = static_cast<std::uint16_t>(facts.ready | bit(participant));
   const bool is_node = shape.group_of(participant) == 0 && shape.is_nested(shape.node_of(participant));
   return !is_node || contains_all(facts.ready, members_of(shape, 1, 1));
@@ -59,7 +59,7 @@ PropertySet TreeGhost::became_running(const TreeShape& shape, std::size_t partic
     violated.insert(Property::S1);
     return violated;
   }
-  Facts& facts = facts_of(of_tree);
+  Facts& facts = facts_.of(of_tree);
   facts.running = static_cast<std::uint16_t>(facts.running | bit(participant));
   // A node is Ready as the slave of the outer group; the inner master shows INIT while it waits for the outer barrier.
   const auto nodes = static_cast<std::uint16_t>(members_of(shape, 0, 0) | members_of(shape, 1, 1));
@@ -72,41 +72,18 @@ PropertySet TreeGhost::became_running(const TreeShape& shape, std::size_t partic
   return violated;
 }
 
-void TreeGhost::link(std::uint32_t inner, std::uint32_t outer) {
-  std::size_t at = 0;
-  while (at < link_count_ && links_[at].inner < inner) ++at;
-  if (at == link_count_ || links_[at].inner != inner) {
-    TAKT_CHECK(link_count_ < most_runs, "the runs of an exploration are few: a start costs a call");
-    for (std::size_t i = link_count_; i > at; --i) links_[i] = links_[i - 1];
-    ++link_count_;
-  }
-  links_[at] = {inner, outer};
-}
-
 /// 0 if it was started for none.
 std::uint32_t TreeGhost::tree_run(std::size_t group, std::uint32_t run) const {
   if (group == 0) return run;
-  for (std::size_t i = 0; i < link_count_; ++i)
-    if (links_[i].inner == run) return links_[i].outer;
+  for (const Link& each : links_)
+    if (each.run == run) return each.outer;
   return 0;
-}
-
-auto TreeGhost::facts_of(std::uint32_t run) -> Facts& {
-  std::size_t at = 0;
-  while (at < facts_count_ && facts_[at].run < run) ++at;
-  if (at < facts_count_ && facts_[at].run == run) return facts_[at];
-  TAKT_CHECK(facts_count_ < most_runs, "the runs of an exploration are few: a start costs a call");
-  for (std::size_t i = facts_count_; i > at; --i) facts_[i] = facts_[i - 1];
-  ++facts_count_;
-  facts_[at] = Facts{run, 0, 0};
-  return facts_[at];
 }
 
 std::uint64_t TreeGhost::hash() const {
   std::uint64_t digest = groups_[0].hash() * 31 + groups_[1].hash();
-  for (std::size_t i = 0; i < link_count_; ++i) digest = mixed(digest ^ (std::uint64_t{links_[i].inner} << 32 | links_[i].outer));
-  for (std::size_t i = 0; i < facts_count_; ++i)
-    digest = mixed(mixed(digest ^ facts_[i].run) ^ (std::uint64_t{facts_[i].ready} | std::uint64_t{facts_[i].running} << 16));
+  for (const Link& each : links_) digest = mixed(digest ^ (std::uint64_t{each.run} << 32 | each.outer));
+  for (const Facts& each : facts_) digest = mixed(mixed(digest ^ each.run) ^ (std::uint64_t{each.ready} | std::uint64_t{each.running} << 16));
   return mixed(digest);
 }
 

@@ -33,7 +33,6 @@ class TreeGhost {
   std::uint64_t hash() const;
 
  private:
-  static constexpr std::size_t most_runs = Ghost::most_runs;
   /// Which participants were Ready and Running in a run of the outer group.
   struct Facts {
     std::uint32_t run = 0;
@@ -41,22 +40,19 @@ class TreeGhost {
     std::uint16_t running = 0;
     bool operator==(const Facts&) const = default;
   };
+  /// For which run of the outer group a run of the inner one was started.
   struct Link {
-    std::uint32_t inner = 0;
+    std::uint32_t run = 0;
     std::uint32_t outer = 0;
     bool operator==(const Link&) const = default;
   };
-  void link(std::uint32_t inner, std::uint32_t outer);
   std::uint32_t tree_run(std::size_t group, std::uint32_t run) const;
-  Facts& facts_of(std::uint32_t run);
   bool became_ready(const TreeShape& shape, std::size_t participant, std::uint32_t run);
   PropertySet became_running(const TreeShape& shape, std::size_t participant, std::uint32_t run);
 
   std::array<Ghost, 2> groups_;
-  std::uint8_t link_count_ = 0;
-  std::uint8_t facts_count_ = 0;
-  std::array<Link, most_runs> links_{};   ///< by rising inner run
-  std::array<Facts, most_runs> facts_{};  ///< by rising run
+  ByRun<Link> links_;
+  ByRun<Facts> facts_;
 };
 
 }  // namespace takt::explore

@@ -37,19 +37,6 @@ NestedOutputs take(Nested& value, Side side, const Input& input) {
   return value.step(side, input);
 }
 
-Effect effect_of(const Word& before, const Word& after, const handshake::Outputs& outputs) {
-  Effect effect;
-  effect.change_count = outputs.change_count;
-  for (std::size_t i = 0; i < outputs.change_count; ++i) {
-    effect.change[i] = outputs.change[i];
-    if (outputs.change[i].transition != 0) effect.properties.insert(transition_property(outputs.change[i].transition));
-  }
-  effect.joins = before.state == PublishedState::Ready && after.state == PublishedState::Ready && before.run != after.run;
-  if (effect.change_count != 0 || effect.joins) effect.run = after.run;
-  if (!are_transitions(before.state, outputs.changes())) effect.properties.insert(Property::S5);
-  return effect;
-}
-
 bool is_nothing(const TreeEffect& effect) { return effect.effect == Effect{} && effect.inner_run == 0; }
 
 }  // namespace
@@ -93,14 +80,7 @@ TreeStepped TreeNodes::step_anew(NodeId id, const TreeStimulus& stimulus) {
         for (const Side side : {Side::Outer, Side::Inner}) before[at(side)] = participant(value, side).word();
         const std::array<Word, 2> first = before;
         const auto& stepping = participant(value, stimulus.side);
-        Input input;
-        switch (stimulus.kind) {
-          case Input::Kind::Command: input = Input::command(program::methods[stimulus.what].method); break;
-          case Input::Kind::Received: input = Input::received(stimulus.what, words_[stimulus.word].word, words_[stimulus.word].ahead ? sequence_ahead : usual_sequence); break;
-          case Input::Kind::Initialised: input = Input::initialised(stepping.intent().run); break;
-          case Input::Kind::PeerSilent: input = Input::peer_silent(stimulus.what); break;
-          default: input = Input::finished(); break;
-        }
+        const Input input = input_of(stimulus.kind, stimulus.what, words_[stimulus.word], false, stepping.intent().run);
         const NestedOutputs outputs = take(value, stimulus.side, input);
         for (const NestedOutputs::One& one : outputs.all()) {
           TreeEffect effect;

@@ -1,6 +1,7 @@
 #include "analysis/bounds.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "analysis/assessment.hpp"
 #include "analysis/network_bound.hpp"
@@ -30,6 +31,31 @@ std::vector<QueueBound> queue_bounds(const FlowGraph& graph, const NetworkResult
       queues.back().frames = static_cast<std::uint64_t>(bound.backlog_frames);
     }
   return queues;
+}
+
+std::optional<Duration> later_of(const std::optional<Duration>& a, const std::optional<Duration>& b) { return a && b ? std::optional(std::max(*a, *b)) : std::nullopt; }
+
+std::vector<PassageBound> passages_of(const FlowGraph& graph, const NetworkResult& network) {
+  std::vector<PassageBound> all;
+  for (const Flow& flow : graph.flows)
+    for (const std::uint32_t h : flow.hops) {
+      const Hop& hop = graph.hops[h];
+      const GraphPort& port = graph.ports[hop.port];
+      const HopResult& result = network.hops[h];
+      all.push_back({flow.stream, port.node, port.number, hop.highest_class, duration_of(result.worst), duration_of(result.worst_left), hop.ats.has_value()});
+    }
+  const auto place = [](const PassageBound& passage) { return std::tuple(passage.stream, passage.node, passage.port); };
+  std::stable_sort(all.begin(), all.end(), [&](const PassageBound& a, const PassageBound& b) { return place(a) < place(b); });
+  std::vector<PassageBound> slowest;
+  for (const PassageBound& passage : all) {
+    if (slowest.empty() || place(slowest.back()) != place(passage)) {
+      slowest.push_back(passage);
+      continue;
+    }
+    slowest.back().comes = later_of(slowest.back().comes, passage.comes);
+    slowest.back().left = later_of(slowest.back().left, passage.left);
+  }
+  return slowest;
 }
 
 class StreamBounds {
@@ -74,11 +100,11 @@ class StreamBounds {
         const SeparatedFlowBound separated = separated_.bound(last);
         const Ps second = sum(separated.latency, receive.greatest().ps());
         if (bound.separated_flow_reason.empty()) bound.separated_flow_reason = separated.reason;
-        bound.separated_flow = later(bound.separated_flow, duration_of(second));
-        bound.by_listener[l] = later(bound.by_listener[l], duration_of(std::min(latency, second)));
-        bound.latency = later(bound.latency, duration_of(std::min(latency, second)));
+        bound.separated_flow = later_of(bound.separated_flow, duration_of(second));
+        bound.by_listener[l] = later_of(bound.by_listener[l], duration_of(std::min(latency, second)));
+        bound.latency = later_of(bound.latency, duration_of(std::min(latency, second)));
         const bool is_worst = bound.hops.empty() || (bound.total_flow && (!is_bounded(latency) || Duration::from_ps(latency) > *bound.total_flow));
-        bound.total_flow = later(bound.total_flow, duration_of(latency));
+        bound.total_flow = later_of(bound.total_flow, duration_of(latency));
         if (!is_worst) continue;
         bound.listener = plan.listeners[l];
         take_hops(last, bound);
@@ -104,8 +130,6 @@ class StreamBounds {
     for (const models::ImpairmentPlan& each : r_.plan.impairments)
       if (each.link == port.link && each.from_a_to_b == port.from_a && (each.impairment.loss || each.impairment.corruption)) lose(bound, "chance loses frames on the link of " + at(), true);
   }
-
-  static std::optional<Duration> later(const std::optional<Duration>& a, const std::optional<Duration>& b) { return a && b ? std::optional(std::max(*a, *b)) : std::nullopt; }
 
   /// The hops of the slowest way to this one.
   void take_hops(std::uint32_t last, StreamBound& bound) {
@@ -251,6 +275,7 @@ Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
   bounds.rounds = network.rounds;
   bounds.streams = StreamBounds(resolved, graph, network).make();
   bounds.queues = queue_bounds(graph, network);
+  bounds.passages = passages_of(graph, network);
   for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) {
     StreamBound& stream = bounds.streams[redundancy.stream.value];
     stream.loses_nothing = stream.loses_by_faults_only = false;   // copies are

@@ -48,6 +48,23 @@ struct StreamBound {
   Assumptions assumptions;
 };
 
+/// A stream at one egress port of any of its ways, counted from production. Where several ways lead there (copies, rerouting), of the slowest.
+struct PassageBound {
+  models::StreamIndex stream;
+  models::NodeIndex node;
+  std::uint16_t port = 0;
+  models::TrafficClass traffic_class = 0;
+  std::optional<sim::Duration> comes;         ///< to the port, at the latest
+  std::optional<sim::Duration> left;          ///< the last bit is on the wire, at the latest
+  bool is_held = false;                       ///< by an ATS scheduler before it
+};
+
+/// What a participant of a Program adds to a notification, at most.
+struct ParticipantBound {
+  std::optional<sim::Duration> publish_wait;  ///< from a change of its word to the next publication
+  std::optional<sim::Duration> initialise;    ///< in INIT
+};
+
 /// One queue of an egress port, and what may be in it or on the wire.
 struct QueueBound {
   models::NodeIndex node;
@@ -85,6 +102,8 @@ struct Bounds {
   AssumptionLedger ledger;                    ///< what becomes of the assumptions; what rests on a violated one has no bound here
   std::vector<StreamBound> streams;           ///< by stream index
   std::vector<QueueBound> queues;             ///< of classes that carry something
+  std::vector<PassageBound> passages;         ///< by stream, node and port, in this order
+  std::vector<std::vector<ParticipantBound>> participants;   ///< by program; none with roles
   std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset, then halts by cause; of the outermost one of a tree then those of the tree
   /// One for each limit of each requirement of the scenario, in order: a requirement on a stream may have several.
   struct Requirement {

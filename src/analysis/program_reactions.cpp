@@ -22,6 +22,8 @@ constexpr const char* paper_notices_nothing = "the handshake paper notices neith
 
 Spread spread_of(Reaction kind) { return kind == Reaction::suspend ? Spread::after_barriers : Spread::at_once; }
 
+std::optional<Duration> duration_of(Ps ps) { return is_bounded(ps) ? std::optional(Duration::from_ps(ps)) : std::nullopt; }
+
 /// One Program, and what its notifications rest on.
 struct ProgramGroup {
   ReactionGroup group;          // without those within
@@ -32,6 +34,7 @@ struct ProgramGroup {
   Ps last_word = 0;             // of a peer, still under way when it falls silent
   Ps time_out = 0;              // of whoever notices it last, from the last word it has heard
   Ps first_word = 0;            // of a peer that is back, until it is heard
+  std::vector<ParticipantBound> participants;
 
   Ps until_noticed(Cause cause) const { return cause == Cause::restart ? first_word : cause == Cause::silence ? time_out : sum(last_word, time_out); }
 };
@@ -47,6 +50,7 @@ class GroupMaker {
     for (std::size_t p = 0; p < n; ++p) {
       made_.group.names.push_back(r_.topology.nodes[program_.participants[p].value].name);
       made_.group.initialise.push_back(MaxPlus(sum(stretched(p, program_.description->initialisation.ps()), wake_up(p))));
+      made_.participants.push_back({duration_of(publish_wait(p)), duration_of(made_.group.initialise.back().ps())});
       add_notifications(p);
       made_.time_out = std::max(made_.time_out, sum(stretched(p, program_.receive_timeout.ps()), wake_up(p)));
     }
@@ -102,7 +106,10 @@ class GroupMaker {
 class ScenarioReactions {
  public:
   ScenarioReactions(const scenario::Resolved& r, const BoundOptions& options, Bounds& bounds) : r_(r), options_(options), bounds_(bounds) {
-    for (const scenario::ResolvedProgram& program : r.programs) groups_.push_back(program.has_roles() ? ProgramGroup{} : GroupMaker(r, program, options, bounds).make());
+    for (const scenario::ResolvedProgram& program : r.programs) {
+      groups_.push_back(program.has_roles() ? ProgramGroup{} : GroupMaker(r, program, options, bounds).make());
+      bounds.participants.push_back(groups_.back().participants);
+    }
   }
 
   void make() {

@@ -167,6 +167,8 @@ class Searcher {
       return;
     }
     const Choice start = as_it_is();
+    // What is likely to be bad comes first, whatever the rest may cost.
+    try_all({meeting(requirement, start)}, line);
     if (try_combinations(line, requirement, start)) return;
     climb(line, requirement, start);
     climb(line, requirement, meeting(requirement, start));

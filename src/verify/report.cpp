@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "scenario/json/node.hpp"
 #include "scenario/json/quantity.hpp"
@@ -26,6 +27,30 @@ std::string figure(const std::optional<Duration>& time) {
 Node picoseconds(const std::optional<Duration>& time) { return time ? Node::of_integer(time->ps()) : Node(); }
 Node number(std::uint64_t value) { return Node::of_integer(static_cast<std::int64_t>(value)); }
 
+/// "the bound gives away 12.4 us of 30 us: 12 us at sw0:1 (blocking and other frames), 0.4 us at ...": the largest parts, what is alike in one.
+std::string slack_text(const Line& line) {
+  if (line.slack.empty()) return {};
+  std::vector<std::pair<std::string, Duration>> places;
+  for (const SlackPart& part : line.slack) {
+    const std::string place = part.where + " (" + part.what + ")";
+    const auto known = std::find_if(places.begin(), places.end(), [&](const auto& each) { return each.first == place; });
+    if (known == places.end())
+      places.emplace_back(place, part.given_away());
+    else
+      known->second += part.given_away();
+  }
+  std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  const Duration all = *line.bound - *line.adversarial;
+  std::string out = fmt::format("             the bound gives away {} of {}:", figure(all), figure(line.bound));
+  constexpr std::size_t most = 4;
+  Duration told;
+  for (std::size_t i = 0; i < std::min(most, places.size()) && places[i].second > Duration() && told < all; ++i) {
+    out += fmt::format("{} {} at {}", i == 0 ? "" : ",", figure(places[i].second), places[i].first);
+    told += places[i].second;
+  }
+  return out + "\n";
+}
+
 /// Eight columns would not fit, so each requirement has several lines.
 std::string line_text(const Line& line, const std::string& file) {
   std::string out = fmt::format("  {:<9}  {}\n", name_of(line.verdict), line.requirement.text);
@@ -34,6 +59,7 @@ std::string line_text(const Line& line, const std::string& file) {
                        figure(line.requirement.limit), line.tightness() ? fmt::format("; tightness {:.0f} %", 100 * *line.tightness()) : "");
   if (!line.reason.empty() && line.verdict != Verdict::pass) out += fmt::format("             {}\n", line.reason);
   if (!line.remark.empty() && line.verdict == Verdict::pass) out += fmt::format("             {}\n", line.remark);
+  out += slack_text(line);
   if (!file.empty()) out += fmt::format("             replay: takt run {}\n", file);
   return out;
 }
@@ -125,6 +151,15 @@ std::string json_report(const std::string& scenario, const Verification& verific
     node.add("exhaustive", Node::of_bool(line.exhaustive));
     node.add("reason", line.reason.empty() ? Node() : Node::of_string(line.reason));
     node.add("remark", line.remark.empty() ? Node() : Node::of_string(line.remark));
+    Node& slack = node.add("gives_away", Node::array());
+    for (const SlackPart& part : line.slack) {
+      Node made = Node::object();
+      made.add("where", Node::of_string(part.where));
+      made.add("what", Node::of_string(part.what));
+      made.add("bound_ps", Node::of_integer(part.bound.ps()));
+      made.add("run_ps", Node::of_integer(part.run.ps()));
+      slack.items.push_back(std::move(made));
+    }
     Node assumptions = Node::array();
     for (const analysis::Assumption assumption : line.assumptions.list()) assumptions.items.push_back(Node::of_string(analysis::name_of(assumption)));
     needed.add(line.assumptions);

@@ -63,6 +63,14 @@ std::optional<Contradiction> contradiction_of(const Line& line, const Finding& f
   return Contradiction{line.requirement.text + ": a run fails what is proved", finding.worst.scenario};
 }
 
+/// What is not tight is looked at again, once nothing speaks against the bounds.
+void add_slack(Verification& result, const analysis::Bounds& bounds, const std::function<bool()>& interrupted) {
+  if (result.contradiction) return;
+  for (Line& line : result.lines)
+    if (const std::optional<double> tightness = line.tightness(); tightness && !is_tight(line.requirement.kind, *tightness))
+      line.slack = slack_of({line.requirement, *line.adversarial, *line.bound, line.worst}, bounds, interrupted);
+}
+
 }  // namespace
 
 Verification verify(const scenario::Resolved& resolved, const Options& options) {
@@ -82,6 +90,7 @@ Verification verify(const scenario::Resolved& resolved, const Options& options) 
     result.lines.push_back(line_of(found.findings[i], proofs[i], result.ledger));
     if (!result.contradiction) result.contradiction = contradiction_of(result.lines.back(), found.findings[i], proofs[i], result.ledger);
   }
+  add_slack(result, bounds, options.search.interrupted);
   return result;
 }
 

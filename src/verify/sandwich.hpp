@@ -7,6 +7,7 @@
 
 #include "verify/adversary.hpp"
 #include "verify/bounds.hpp"
+#include "verify/slack.hpp"
 
 namespace takt::verify {
 
@@ -30,6 +31,7 @@ struct Line {
   scenario::Scenario worst;                 ///< replays the adversarial maximum
   std::uint64_t runs = 0;
   bool exhaustive = false;
+  std::vector<SlackPart> slack;             ///< where the bound gives away what the worst run does not take, unless it is tight
   /// adversarial / bound: at 1 the bound cannot be improved. Nothing without either.
   std::optional<double> tightness() const;
 };

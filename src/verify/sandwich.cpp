@@ -1,6 +1,7 @@
 #include "verify/sandwich.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace takt::verify {
 
@@ -73,23 +74,28 @@ void add_slack(Verification& result, const analysis::Bounds& bounds, const std::
 
 }  // namespace
 
-Verification verify(const scenario::Resolved& resolved, const Options& options) {
+Verification conclude(Search found, const std::vector<Proof>& proofs, const analysis::AssumptionLedger& ledger) {
   Verification result;
-  const analysis::Bounds bounds = analysis::bound(resolved);
-  Search found = search(resolved, bounds, options.search);
   result.freedoms = std::move(found.freedoms);
   result.runs = found.runs;
   result.partial = found.partial;
   result.contradiction = std::move(found.contradiction);
-  result.ledger = bounds.ledger;
+  result.ledger = ledger;
   settle(result.ledger, found.violations);
-  std::vector<results::RequirementResult> requirements;
-  for (const Finding& finding : found.findings) requirements.push_back(finding.requirement);
-  const std::vector<Proof> proofs = prove(resolved, bounds, requirements, options.proof);
   for (std::size_t i = 0; i < found.findings.size(); ++i) {
     result.lines.push_back(line_of(found.findings[i], proofs[i], result.ledger));
     if (!result.contradiction) result.contradiction = contradiction_of(result.lines.back(), found.findings[i], proofs[i], result.ledger);
   }
+  return result;
+}
+
+Verification verify(const scenario::Resolved& resolved, const Options& options) {
+  const analysis::Bounds bounds = analysis::bound(resolved);
+  Search found = search(resolved, bounds, options.search);
+  std::vector<results::RequirementResult> requirements;
+  for (const Finding& finding : found.findings) requirements.push_back(finding.requirement);
+  const std::vector<Proof> proofs = prove(resolved, bounds, requirements, options.proof);
+  Verification result = conclude(std::move(found), proofs, bounds.ledger);
   add_slack(result, bounds, options.search.interrupted);
   return result;
 }

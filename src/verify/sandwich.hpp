@@ -51,6 +51,9 @@ struct Options {
   ProofOptions proof;
 };
 
+/// What follows from runs and proofs, one proof for each finding; `ledger` is that of the bounds, before any run.
+Verification conclude(Search found, const std::vector<Proof>& proofs, const analysis::AssumptionLedger& ledger);
+
 Verification verify(const scenario::Resolved& resolved, const Options& options);
 
 }  // namespace takt::verify

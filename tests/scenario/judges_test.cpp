@@ -61,6 +61,20 @@ TEST(Latency, AYoungFrameUnderWayIsNoFailure) {
   EXPECT_EQ(*stream(result, "s").oldest_in_flight, 0_s);
 }
 
+// From 5.5 ms on the gate is closed: the frame of 6 ms has been under way for 4 ms at the end. All others have taken 2.564 us, so it spreads them by the difference.
+TEST(Latency, AFrameUnderWaySpreadsTheOthers) {
+  const RunResult result = judged(frames(R"({"stream": "s", "latency": "1ms"}, {"stream": "s", "jitter": "1ms"}, {"stream": "s", "jitter": "3998us"})",
+                                         R"(, "faults": [{"kind": "stuck-gate", "node": "sw", "to": "b", "class": 1, "state": "closed", "at": "5500us"}])"),
+                                  {R"(network.nodes.sw.egress=[{"gates": {"entries": [{"open": [0, 1, 2, 3, 4, 5, 6, 7], "for": "1ms"}]}}])"});
+  const RequirementResult& latency = result.requirements.at(0);
+  EXPECT_EQ(latency.verdict, Verdict::fail);
+  EXPECT_EQ(latency.measured, 4_ms);
+  EXPECT_EQ(latency.remark, "6 frames came; one has been under way for 4ms at the end");
+  EXPECT_EQ(result.requirements.at(1).verdict, Verdict::fail);
+  EXPECT_EQ(result.requirements.at(1).measured, 4_ms - 2'564_ns);
+  EXPECT_EQ(result.requirements.at(2).verdict, Verdict::pass);
+}
+
 TEST(Latency, ALostFrameNeverArrives) {
   // The link is down from 4.5 to 6.5 ms: the frames of 5 and 6 ms are lost.
   const std::string fault = R"(, "faults": [{"kind": "link-down", "link": ["sw", "b"], "at": "4500us", "for": "2ms"}])";

@@ -65,3 +65,15 @@ function(takt_test_support name)
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   endif()
 endfunction()
+
+# takt_mutants(NAME TABLE [LABELS label] OPTION...): the mutants of a table are killed by what it says. They are compiled and linked by the commands of this build.
+function(takt_mutants name table)
+  cmake_parse_arguments(ARG "" "LABELS" "" ${ARGN})
+  if(NOT TAKT_TESTS OR TAKT_SANITIZE OR NOT CMAKE_BUILD_TYPE STREQUAL "Release" OR NOT CMAKE_GENERATOR STREQUAL "Ninja")
+    return()
+  endif()
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/mutation/mutants.py --build ${PROJECT_BINARY_DIR} --ninja ${CMAKE_MAKE_PROGRAM}
+                                --table ${CMAKE_CURRENT_SOURCE_DIR}/${table} ${ARG_UNPARSED_ARGUMENTS})
+  set_tests_properties(${name} PROPERTIES TIMEOUT 3600 LABELS "${ARG_LABELS}")
+endfunction()

@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+"""Breaks the sources in one place at a time and expects that a test, or a probe, notices.
+
+usage: mutants.py --build FOLDER --table FILE.json [--below src/FOLDER] [--programs NAME...] [--sample N] [--only NAME] [--jobs N] [--print]
+
+Each edit of a row of the table replaces a piece of text that occurs exactly once in its file, which is named from src/ (or from --below) on. Only the
+changed file is compiled (of a header, all of its folder that include it), as the build compiles it but with -O1; the object goes before the
+library that holds the right one. A row with a "program" is linked with that test and shown to the tests that "killed_by" names, as a
+--gtest_filter: one of them must fail. All others are shown to --programs, one after the other, until one kills them: a probe prints
+"killed NAME" as its last line, of a GoogleTest program it is the first test that fails; that must be "killed_by".
+
+A mutant that survives shows a hole in the tests. Exit status 0: all were killed by what the table says. The build must be one of Ninja, and up to date.
+"""
+import argparse
+import concurrent.futures
+import json
+import os
+import pathlib
+import shlex
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SECONDS = 300   # for any one command
+
+
+def run(command, folder):
+    try:
+        done = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True, timeout=SECONDS, check=False)
+        return done.returncode, done.stdout, done.stderr
+    except subprocess.TimeoutExpired as late:
+        return None, late.stdout.decode() if isinstance(late.stdout, bytes) else late.stdout or "", ""
+
+
+class Build:
+    """How the build makes its objects and programs."""
+
+    def __init__(self, folder, ninja):
+        self.folder = folder.resolve()
+        self.ninja = ninja
+        self.objects = {}
+        for target in self.asked("targets", "all").splitlines():
+            output = target.split(":")[0]
+            if output.endswith(".cpp.o") and "/CMakeFiles/" in output and output.startswith("src/"):
+                before, after = output.split("/CMakeFiles/")
+                self.objects[f"{before}/{after.split('/', 1)[1][:-2]}"] = output
+
+    def asked(self, tool, *arguments):
+        status, out, err = run([self.ninja, "-C", self.folder, "-t", tool, *arguments], self.folder)
+        if status != 0:
+            sys.exit(f"mutants: {err.strip() or out.strip()}")
+        return "\n".join(line for line in out.splitlines() if not line.startswith("ninja: Entering"))
+
+    def command(self, output):
+        words = shlex.split(self.asked("commands", "-s", output).splitlines()[-1])
+        words = [word for word in words if word not in (":", "&&")]
+        return words[1:] if pathlib.Path(words[0]).name == "ccache" else words
+
+    def compiled(self, unit, source, before, made):
+        """`unit`: as the build names it; `source`: what is compiled instead, with the headers of the folder `before` first."""
+        words = []
+        given = iter(self.command(self.objects[unit]))
+        for word in given:
+            if word in ("-o", "-c", "-MT", "-MF"):
+                next(given)
+            elif word != "-MD":
+                words.append(word)
+        status, _, err = run([words[0], "-I", before, *words[1:], "-O1", "-w", "-o", made, "-c", source], self.folder)
+        return "" if status == 0 else err[:2000] or "no end"
+
+    def linked(self, program, objects, made):
+        words = self.command(program)
+        at = words.index("-o")
+        status, _, err = run([*words[:at], *objects, "-o", made, *words[at + 2:]], self.folder)
+        return "" if status == 0 else err[:2000] or "no end"
+
+
+def mutated(below, mutant):
+    """The changed files, by name from the sources' root on."""
+    texts = {}
+    for edit in mutant["edits"]:
+        name = f"{below}/{edit['file']}"
+        text = texts.get(name) or (ROOT / name).read_text(encoding="utf-8")
+        if text.count(edit["from"]) != 1:
+            sys.exit(f"mutants: \"{mutant['name']}\": the text to replace occurs {text.count(edit['from'])} times in {name}: {edit['from']!r}")
+        texts[name] = text.replace(edit["from"], edit["to"])
+    return texts
+
+
+def compiled(build, changed, folder):
+    """The objects, and why there are none."""
+    for name, text in changed.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text, encoding="utf-8")
+    units = {name for name in changed if name.endswith(".cpp")}
+    for name in changed:
+        if name.endswith(".hpp"):
+            include = f'"{pathlib.PurePath(name).relative_to("src")}"'
+            units |= {str(each.relative_to(ROOT)) for each in (ROOT / name).parent.glob("*.cpp") if include in each.read_text(encoding="utf-8")}
+    made = []
+    for unit in sorted(units):
+        made.append(folder / f"{len(made)}.o")
+        mistake = build.compiled(unit, folder / unit if unit in changed else ROOT / unit, folder / "src", made[-1])
+        if mistake:
+            return [], mistake
+    return made, ""
+
+
+def verdict_of(status, out, mutant):
+    """What killed it, None if nothing did, and the question or the like, for people."""
+    lines = out.splitlines() or [""]
+    failed = [line.split("]")[1].split("(")[0].split(",")[0].strip() for line in lines if "  FAILED  ]" in line]
+    if status is None:
+        return "no end", lines[-1]
+    if status != 0:
+        return (failed[0] if failed else "CHECK"), lines[-1]
+    if lines[-1].startswith("killed "):
+        return lines[-1].split()[1] if mutant.get("chart", "") in out else "another chart", lines[-2]
+    if "tests ran" in out and "[==========] 0 tests" in out:
+        return "no such test", mutant["killed_by"]
+    return None, "survived"
+
+
+def killer_of(build, options, mutant, folder):
+    objects, mistake = compiled(build, mutated(options.below, mutant), folder)
+    if mistake:
+        return "does not compile", mistake
+    named = mutant.get("program")
+    for program in [named] if named else options.programs:
+        made = folder / program
+        mistake = build.linked(program, objects, made)
+        if mistake:
+            return "does not link", mistake
+        is_test = not program.endswith("_probe")
+        arguments = ["--gtest_fail_fast", "--gtest_brief=1"] if is_test else []
+        if named:
+            arguments = ["--gtest_fail_fast", f"--gtest_filter={mutant['killed_by']}"]
+        status, out, _ = run([made, *arguments], folder)
+        killer, where = verdict_of(status, out, mutant)
+        if killer:
+            return killer, program if is_test else where
+    return None, "survived"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--build", type=pathlib.Path, required=True)
+    parser.add_argument("--ninja", default="ninja")
+    parser.add_argument("--table", type=pathlib.Path, required=True)
+    parser.add_argument("--below", default="src", help="the folder from which files are named")
+    parser.add_argument("--programs", nargs="*", default=[], help="what rows without a program are shown to")
+    parser.add_argument("--sample", type=int, default=0, help="so many of the table, spread over it, the same each time")
+    parser.add_argument("--only", help="those with this in their name, or killed by it")
+    parser.add_argument("--jobs", type=int, default=min(4, os.cpu_count() or 1))
+    parser.add_argument("--print", action="store_true", help="the table of who kills what, as Markdown")
+    options = parser.parse_args()
+    mutants = json.loads(options.table.read_text(encoding="utf-8"))
+    for mutant in mutants:
+        mutated(options.below, mutant)   # a table that does not fit the sources is told at once, also of a sample
+    if options.only:
+        mutants = [each for each in mutants if options.only in each["name"] or options.only == each["killed_by"]]
+    if 0 < options.sample < len(mutants):
+        mutants = [mutants[i * len(mutants) // options.sample] for i in range(options.sample)]
+    build = Build(options.build, options.ninja)
+
+    def judged(mutant):
+        with tempfile.TemporaryDirectory(prefix="takt-mutant-") as folder:
+            return mutant, *killer_of(build, options, mutant, pathlib.Path(folder))
+
+    wrong = 0
+    with concurrent.futures.ThreadPoolExecutor(max_workers=options.jobs) as pool:
+        for mutant, killer, where in pool.map(judged, mutants):
+            # A filter may name several tests, and a broken CHECK ends a program before it can say which one it was.
+            as_said = killer not in (None, "does not compile", "does not link", "no such test", "no end") if "program" in mutant else killer == mutant["killed_by"]
+            wrong += not as_said
+            if options.print:
+                print(f"| {mutant['name']} | {killer} | {where} |", flush=True)
+            elif not as_said:
+                print(f"\"{mutant['name']}\": expected to be killed by {mutant['killed_by']}, found {killer} ({where})", flush=True)
+    print(f"{len(mutants)} mutants, {len(mutants) - wrong} killed as expected")
+    return 0 if wrong == 0 and mutants else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

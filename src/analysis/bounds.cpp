@@ -1,14 +1,19 @@
 #include "analysis/bounds.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "analysis/assessment.hpp"
+#include "analysis/figure_bound.hpp"
 #include "analysis/network_bound.hpp"
 #include "analysis/outages.hpp"
 #include "analysis/program_assessment.hpp"
 #include "analysis/program_reactions.hpp"
 #include "analysis/separated_flow.hpp"
+#include "scenario/figures/requirement.hpp"
+#include "scenario/figures/requirement_rules.hpp"
+#include "sim/check.hpp"
 
 namespace takt::analysis {
 namespace {
@@ -208,6 +213,10 @@ class RequirementBounds {
     for (std::size_t i = 0; i < r_.scenario.require.size(); ++i) {
       const scenario::Requirement& requirement = r_.scenario.require[i];
       if (requirement.reaction) add(i, "reaction", reaction(requirement));
+      if (requirement.success) add(i, "success", {{}, {}, "takt has no bound for how many activations of a thread are done in time", {}});
+      if (requirement.buffered) add(i, "buffered", {{}, {}, "takt has no bound for how many values a thread finds buffered", {}});
+      if (requirement.irregular) add(i, "irregular", {{}, {}, "takt has no bound for how regular the pulses of a signal are", {}});
+      if (requirement.figure) add(i, "figure", figure(requirement));
       if (requirement.sync) add(i, "sync", {{}, {}, "synchronisation is simulated, not bounded; gates and publishing rest on it", {}});
       if (!requirement.stream) continue;
       const StreamBound* const stream = stream_named(*requirement.stream);
@@ -227,6 +236,16 @@ class RequirementBounds {
     return found == bounds_.streams.end() ? nullptr : &*found;
   }
 
+  RequirementBound figure(const scenario::Requirement& requirement) const {
+    scenario::json::Diagnostics diagnostics;
+    const auto asked = scenario::read_figure_requirement(requirement, diagnostics);
+    TAKT_CHECK(asked, "a requirement that was resolved has a figure");
+    RequirementBound bound = bound_of_figure(r_, bounds_, asked->figure, scenario::counts_from(r_.scenario, requirement), [this](const scenario::Requirement& each) { return reaction(each); });
+    bound.duration.reset();
+    if (asked->figure.is_time && asked->limit.is_upper() && bound.figure->greatest) bound.duration = Duration::from_ps(std::llround(*bound.figure->greatest * asked->figure.divisor));
+    return bound;
+  }
+
   RequirementBound reaction(const scenario::Requirement& requirement) const {
     RequirementBound worst;
     bool is_known = false;
@@ -239,7 +258,7 @@ class RequirementBounds {
       if (!bound.bound && worst.reason.empty()) worst.reason = bound.reason;
       worst.duration = worst.duration && bound.bound ? std::optional(std::max(*worst.duration, *bound.bound)) : std::nullopt;
     }
-    if (!is_known) worst = {{}, {}, "nothing is known about such a reaction", {}};
+    if (!is_known) worst = {{}, {}, "takt has no bound for reactions with this cause", {}};
     return worst;
   }
 

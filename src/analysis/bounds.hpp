@@ -91,11 +91,18 @@ struct ReactionBound {
   Assumptions assumptions;
 };
 
+/// What a figure can be, in its unit; an end that is not there is not known.
+struct FigureRange {
+  std::optional<double> least;
+  std::optional<double> greatest;
+};
+
 struct RequirementBound {
   std::optional<sim::Duration> duration;      ///< latency, jitter, reaction or synchronisation
   std::optional<std::uint64_t> count;         ///< dropped frames
   std::string reason;                         ///< why there is none
   Assumptions assumptions;
+  std::optional<FigureRange> figure = {};     ///< of one on a figure; the reason is that of an end which it has not
 };
 
 struct Bounds {
@@ -108,7 +115,7 @@ struct Bounds {
   /// One for each limit of each requirement of the scenario, in order: a requirement on a stream may have several.
   struct Requirement {
     std::size_t requirement = 0;              ///< in scenario.require
-    std::string what;                         ///< "reaction", "latency", "jitter", "dropped", "delivered", "sync"
+    std::string what;                         ///< "reaction", "latency", "jitter", "dropped", "delivered", "sync", "success", "buffered", "irregular", "figure"
     RequirementBound bound;
   };
   std::vector<Requirement> requirements;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scenario/figures/requirement.hpp"
 #include "scenario/figures/requirement_rules.hpp"
 #include "scenario/json/node.hpp"
 #include "scenario/json/quantity.hpp"
@@ -38,18 +39,36 @@ Node nodes_of(const Assumptions& assumptions) {
   return array;
 }
 
+std::string figure_text(const scenario::Requirement& requirement) {
+  scenario::json::Diagnostics diagnostics;
+  const auto asked = scenario::read_figure_requirement(requirement, diagnostics);
+  return asked ? fmt::format("figure {} {} {}", asked->name, scenario::text_of(asked->limit.relation), asked->limit.text) : "figure " + *requirement.figure;
+}
+
 std::string requirement_text(const scenario::Requirement& requirement, const std::string& what) {
   if (what == "reaction") return fmt::format("reaction {}{}{} within {}", scenario::spelling(*requirement.reaction), requirement.cause ? fmt::format(" because of a {}", scenario::spelling(*requirement.cause)) : "", requirement.tree ? " of the tree" : "", text_of(requirement.within->time));
   if (what == "latency") return fmt::format("stream {} latency {}", *requirement.stream, scenario::text_of(*requirement.latency));
   if (what == "jitter") return fmt::format("stream {} jitter {}", *requirement.stream, scenario::text_of(*requirement.jitter));
   if (what == "dropped") return fmt::format("stream {} drops at most {}", *requirement.stream, *requirement.dropped);
   if (what == "delivered") return fmt::format("stream {} delivers at least {}", *requirement.stream, *requirement.delivered);
+  if (what == "success") return fmt::format("application {} done in at least {:g} %", *requirement.application, *requirement.success);
+  if (what == "buffered") return fmt::format("application {} values buffered, at least {:g} %", *requirement.application, *requirement.buffered);
+  if (what == "irregular") return fmt::format("signal {}: at most {:g} % of its pulses irregular", *requirement.signal, *requirement.irregular);
+  if (what == "figure") return figure_text(requirement);
   return fmt::format("synchronised within {}", text_of(requirement.sync));
 }
 
+/// "0 to 2.5", "at least 3"; in the figure's unit.
+std::string range_text(const FigureRange& range) {
+  if (range.least && range.greatest) return fmt::format("{:.6g} to {:.6g}", *range.least, *range.greatest);
+  return range.least ? fmt::format("at least {:.6g}", *range.least) : fmt::format("at most {:.6g}", *range.greatest);
+}
+
 std::string requirement_answer(const RequirementBound& bound, const AssumptionLedger& ledger, Duration from) {
-  if (!bound.duration && !bound.count) return "no bound: " + bound.reason;
+  const bool is_range = bound.figure && (bound.figure->least || bound.figure->greatest);
+  if (!bound.duration && !bound.count && !is_range) return "no bound: " + bound.reason;
   const std::string objection = ledger.objection(bound.assumptions, from);
+  if (is_range && !bound.duration) return range_text(*bound.figure) + (bound.reason.empty() ? "" : "; " + bound.reason) + (objection.empty() ? "" : ", but " + objection);
   return (bound.duration ? text_of(bound.duration) : std::to_string(*bound.count)) + (objection.empty() ? "" : ", but " + objection);
 }
 
@@ -162,6 +181,11 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
     node.add("text", Node::of_string(requirement_text(resolved.scenario.require[requirement.requirement], requirement.what)));
     node.add("bound_ps", picoseconds(requirement.bound.duration));
     node.add("bound_count", requirement.bound.count ? Node::of_integer(static_cast<sim::int128>(*requirement.bound.count)) : Node());
+    if (const auto& range = requirement.bound.figure) {
+      Node& ends = node.add("range", Node::object());
+      ends.add("least", range->least ? Node::of_double(*range->least) : Node());
+      ends.add("greatest", range->greatest ? Node::of_double(*range->greatest) : Node());
+    }
     node.add("reason", Node::of_string(requirement.bound.reason));
     const std::string objection = bounds.ledger.objection(requirement.bound.assumptions, scenario::counts_from(resolved.scenario, resolved.scenario.require[requirement.requirement]));
     node.add("objection", objection.empty() ? Node() : Node::of_string(objection));

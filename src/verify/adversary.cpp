@@ -5,6 +5,7 @@
 
 #include "sim/random.hpp"
 #include "verify/critical.hpp"
+#include "verify/plain.hpp"
 #include "verify/probe.hpp"
 #include "verify/shortened.hpp"
 
@@ -66,7 +67,10 @@ class Searcher {
       ++search_.runs;
       cost_of_run_ = probes[i]->events + cost_of_a_node * resolved_.plan.nodes.size();
       if (i == 0)
-        for (const RequirementResult& requirement : probes[i]->requirements) search_.findings.push_back({requirement, {}, false, {}, 0, false});
+        for (const RequirementResult& requirement : probes[i]->requirements) {
+          search_.findings.push_back({requirement, {}, false, {}, 0, false});
+          plain_.push_back(plain(resolved_.scenario, requirement));
+        }
       note(*probes[i], scenarios[i], false, true);
     }
     for (Finding& finding : search_.findings) {
@@ -80,7 +84,7 @@ class Searcher {
     Duration longest;
     for (const Finding& finding : search_.findings)
       for (const std::optional<Duration>& time : {finding.requirement.limit, finding.simulated})
-        if (time && finding.requirement.kind == RequirementKind::reaction) longest = std::max(longest, *time * 2);
+        if (time && plain_[static_cast<std::size_t>(&finding - search_.findings.data())].kind == RequirementKind::reaction) longest = std::max(longest, *time * 2);
     shorter_ = shortened(resolved_.scenario, longest);
     is_shorter_ = shorter_.duration != resolved_.scenario.duration;
     if (!is_shorter_) return;
@@ -95,15 +99,16 @@ class Searcher {
     for (std::size_t i = 0; i < search_.findings.size() && i < probe.requirements.size(); ++i) {
       const RequirementResult& seen = probe.requirements[i];
       Finding& finding = search_.findings[i];
-      if (is_part && !counts_in_a_part(seen.kind)) continue;
+      if (is_part && !counts_in_a_part(plain_[i].kind)) continue;
       // How many frames come until the end depends on when the talker begins, and says nothing about the network.
-      if (!is_as_it_is && (seen.kind == RequirementKind::delivered || (seen.figure && !seen.figure->is_upper))) continue;
+      const bool is_of_latency = seen.kind == RequirementKind::figure && !plain_[i].subject.empty();
+      if (!is_as_it_is && (seen.kind == RequirementKind::delivered || (seen.figure && !seen.figure->is_upper && !is_of_latency))) continue;
       // What was not complete at the end might have been so later.
       const bool failed = seen.verdict == results::Verdict::fail && (!is_part || seen.measured || seen.kind == RequirementKind::invariants) &&
                           !(is_part && seen.measured && seen.limit && *seen.measured <= *seen.limit && !is_too_fast(seen));
       const bool worse = (failed && !finding.worst.failed) || (failed == finding.worst.failed && seen.measured > finding.worst.measured);
       if (!worse && !finding.worst.scenario.name.empty()) continue;
-      finding.worst = {seen.measured, failed || finding.worst.failed, scenario};
+      finding.worst = {seen.measured, failed || finding.worst.failed, scenario, seen.figure ? seen.figure->found : std::nullopt};
     }
   }
 
@@ -151,7 +156,7 @@ class Searcher {
   }
 
   void run_in_full(std::size_t line) {
-    const RequirementKind kind = search_.findings[line].requirement.kind;
+    const RequirementKind kind = plain_[line].kind;
     if (!is_shorter_ || !best_ || search_.partial || (kind != RequirementKind::latency && kind != RequirementKind::jitter)) return;
     const Scenario full = scenario_of(resolved_.scenario, search_.freedoms, best_->second);
     const std::optional<Probe> seen = probe(full, bounds_, options_.interrupted);
@@ -285,6 +290,7 @@ class Searcher {
   CriticalInstants instants_;
   sim::RandomStream chance_;
   Search search_;
+  std::vector<RequirementResult> plain_;   // by finding
   Scenario shorter_;
   bool is_shorter_ = false;
   std::optional<std::pair<std::int64_t, Choice>> best_;   // of the search for the present requirement

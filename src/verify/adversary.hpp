@@ -26,6 +26,7 @@ struct Worst {
   std::optional<sim::Duration> measured;    ///< of requirements about times
   bool failed = false;
   scenario::Scenario scenario;              ///< a file of it replays the run
+  std::optional<double> figure = {};        ///< of requirements about figures
 };
 
 /// What was found for one requirement, in the order of RunResult::requirements.

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <map>
 
+#include "analysis/figure_bound.hpp"
 #include "analysis/program_assessment.hpp"
 #include "explore/search.hpp"
+#include "scenario/figures/requirement.hpp"
 #include "scenario/figures/requirement_rules.hpp"
 #include "scenario/json/quantity.hpp"
+#include "sim/check.hpp"
 
 namespace takt::verify {
 namespace {
@@ -26,8 +29,13 @@ std::optional<std::string_view> bounded_as(RequirementKind kind) {
     case RequirementKind::dropped: return "dropped";
     case RequirementKind::delivered: return "delivered";
     case RequirementKind::sync: return "sync";
-    default: return std::nullopt;
+    case RequirementKind::success: return "success";
+    case RequirementKind::buffered: return "buffered";
+    case RequirementKind::irregular: return "irregular";
+    case RequirementKind::figure: return "figure";
+    case RequirementKind::invariants: break;
   }
+  return std::nullopt;
 }
 
 class Prover {
@@ -40,14 +48,12 @@ class Prover {
     const auto what = bounded_as(requirement.kind);
     const auto bound = std::find_if(bounds_.requirements.begin(), bounds_.requirements.end(),
                                     [&](const analysis::Bounds::Requirement& each) { return what && each.requirement == requirement.requirement && each.what == *what; });
-    if (bound == bounds_.requirements.end()) {
-      proof.reason = "nothing is known about it";
-      return proof;
-    }
+    TAKT_CHECK(bound != bounds_.requirements.end(), "whatever is required is bounded, or has a reason why not");
     proof.from = scenario::counts_from(resolved_.scenario, resolved_.scenario.require[bound->requirement]);
     proof.time = bound->bound.duration;
     proof.reason = bound->bound.reason;
     proof.assumptions = bound->bound.assumptions;
+    if (requirement.kind == RequirementKind::figure) return figure(requirement, bound->bound, std::move(proof));
     if (requirement.kind == RequirementKind::delivered) return delivered(requirement, std::move(proof));
     if (requirement.kind == RequirementKind::dropped)
       judge_count(requirement, bound->bound.count, proof);
@@ -90,22 +96,56 @@ class Prover {
   /// Whatever has been produced so early that it must have come.
   Proof delivered(const RequirementResult& requirement, Proof proof) const {
     const analysis::StreamBound* const bound = stream_named(requirement.subject);
-    const auto& streams = resolved_.scenario.streams;
-    const auto stream = std::find_if(streams.begin(), streams.end(), [&](const scenario::Stream& s) { return s.name == requirement.subject; });
-    if (bound == nullptr || stream == streams.end() || !stream->every) {
-      proof.reason = "how many frames there are is not known beforehand";
-    } else if (!bound->loses_nothing || !bound->latency) {
-      proof.reason = !bound->reason.empty() ? bound->reason : bound->loss_reason;
-    } else {
-      const Duration last = resolved_.scenario.duration - *bound->latency - stream->jitter - stream->offset.value_or(Duration()) - proof.from;
-      // One more than whole periods if the first frame comes with the first instant.
-      const std::int64_t begun = proof.from == Duration() ? 1 : 0;
-      const std::uint64_t frames = last < Duration() ? 0 : static_cast<std::uint64_t>(last.ps() / stream->every->ps() + begun) * resolved_.plan.streams[bound->index.value].listeners.size();
-      proof.holds = frames >= requirement.count_limit.value_or(0);
-      proof.reason = proof.holds ? "" : "only " + std::to_string(frames) + " frames must have come at the end";
-      proof.assumptions = bound->assumptions;
+    TAKT_CHECK(bound != nullptr, "a stream of a requirement is one");
+    const analysis::DeliveredFrames frames = analysis::frames_delivered(resolved_, *bound, proof.from);
+    proof.assumptions = bound->assumptions;
+    proof.holds = frames.least && *frames.least >= requirement.count_limit.value_or(0);
+    proof.reason = proof.holds ? "" : frames.least.value_or(0) == 0 && !frames.reason.empty() ? frames.reason : "only " + std::to_string(frames.least.value_or(0)) + " frames must have come at the end";
+    return proof;
+  }
+
+  /// What is known of the figure must lie within the limit.
+  Proof figure(const RequirementResult& requirement, const analysis::RequirementBound& bound, Proof proof) {
+    scenario::json::Diagnostics diagnostics;
+    const auto asked = scenario::read_figure_requirement(resolved_.scenario.require[*requirement.requirement], diagnostics);
+    TAKT_CHECK(asked && bound.figure, "a requirement that was resolved has a figure");
+    analysis::FigureRange range = *bound.figure;
+    if (counts_violations(asked->figure)) range = violations(asked->figure.steps[1], proof);
+    const auto exceeds = [&](const std::optional<double>& end, bool is_asked) { return is_asked && end && !asked->limit.holds(end); };
+    const bool asks_least = asked->limit.relation != scenario::Relation::at_most;
+    const bool asks_greatest = asked->limit.relation != scenario::Relation::at_least;
+    proof.holds = (!asks_least || asked->limit.holds(range.least)) && (!asks_greatest || asked->limit.holds(range.greatest));
+    if (proof.holds) {
+      proof.reason.clear();
+      if (!proof.time && proof.remark.empty()) proof.remark = "between " + (range.least ? scenario::text_of(*range.least, asked->figure.unit) : "0") + " and " + (range.greatest ? scenario::text_of(*range.greatest, asked->figure.unit) : "any figure");
+    } else if (exceeds(range.greatest, asks_greatest)) {
+      proof.reason = "it may be as much as " + scenario::text_of(*range.greatest, asked->figure.unit);
+    } else if (exceeds(range.least, asks_least)) {
+      proof.reason = "it may be as little as " + scenario::text_of(*range.least, asked->figure.unit) + (bound.reason.empty() ? "" : ": " + bound.reason);
     }
     return proof;
+  }
+
+  static bool counts_violations(const scenario::Figure& figure) {
+    return figure.steps.size() == 5 && figure.steps[0] == "programs" && figure.steps[2] == "violations" && figure.take == scenario::Take::count;
+  }
+
+  /// None of Programs whose invariants are proved.
+  analysis::FigureRange violations(const std::string& of, Proof& proof) {
+    analysis::FigureRange range{0.0, 0.0};
+    proof.reason.clear();
+    for (const scenario::ResolvedProgram& program : resolved_.programs) {
+      if (of != "*" && program.name != of) continue;
+      RequirementResult asked;
+      asked.kind = RequirementKind::invariants;
+      asked.subject = program.name;
+      const Proof each = invariants(asked);
+      proof.assumptions.add(each.assumptions);
+      if (!each.holds) range.greatest.reset();
+      if (proof.reason.empty()) proof.reason = each.reason;
+      if (proof.remark.empty()) proof.remark = each.remark;
+    }
+    return range;
   }
 
   Proof invariants(const RequirementResult& requirement) {

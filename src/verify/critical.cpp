@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "models/ethernet/sizes.hpp"
+#include "verify/plain.hpp"
 
 namespace takt::verify {
 
@@ -100,8 +101,9 @@ Duration CriticalInstants::phase_of(std::size_t stream, const Choice& choice) co
   return phase;
 }
 
-std::vector<std::size_t> CriticalInstants::streams_of(const results::RequirementResult& requirement) const {
+std::vector<std::size_t> CriticalInstants::streams_of(const results::RequirementResult& asked) const {
   using Kind = results::RequirementKind;
+  const results::RequirementResult requirement = plain(resolved_->scenario, asked);
   std::vector<std::size_t> found;
   if (requirement.kind == Kind::reaction || requirement.kind == Kind::invariants) {
     for (const scenario::ResolvedProgram& program : resolved_->programs)
@@ -109,7 +111,7 @@ std::vector<std::size_t> CriticalInstants::streams_of(const results::Requirement
         for (const models::StreamIndex stream : program.state_streams) found.push_back(stream.value);
   } else if (requirement.kind != Kind::sync) {
     for (std::size_t s = 0; s < resolved_->plan.streams.size(); ++s)
-      if (resolved_->plan.streams[s].name == requirement.subject) found.push_back(s);
+      if (requirement.subject == "*" || resolved_->plan.streams[s].name == requirement.subject) found.push_back(s);
   }
   return found;
 }

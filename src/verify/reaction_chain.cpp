@@ -153,8 +153,8 @@ Found longest(const scenario::Run& run, const scenario::Requirement& requirement
 
 }  // namespace
 
-std::vector<SlackPart> reaction_parts(const scenario::Run& run, const FrameLog& log, const analysis::Bounds& bounds, std::size_t requirement, Duration measured, Duration bound) {
-  const Found found = longest(run, run.resolved().scenario.require[requirement], measured);
+std::vector<SlackPart> reaction_parts(const scenario::Run& run, const FrameLog& log, const analysis::Bounds& bounds, const scenario::Requirement& requirement, Duration measured, Duration bound) {
+  const Found found = longest(run, requirement, measured);
   if (found.reaction == nullptr) return {};
   std::vector<SlackPart> parts = Chain(run, log, bounds, *found.reaction).make(found.programs);
   Duration chain;

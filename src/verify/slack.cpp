@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <tuple>
 
+#include "analysis/figure_bound.hpp"
+#include "scenario/figures/requirement.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "sim/check.hpp"
 #include "verify/frame_log.hpp"
+#include "verify/plain.hpp"
 #include "verify/reaction_chain.hpp"
 
 namespace takt::verify {
@@ -118,6 +121,16 @@ std::vector<SlackPart> parts_of_latency(const LooseEnd& end, const analysis::Bou
   return parts;
 }
 
+/// As scenario::Requirement says it, of a requirement on a figure too.
+scenario::Requirement reaction_asked(const scenario::Scenario& scenario, std::size_t requirement) {
+  const scenario::Requirement& asked = scenario.require[requirement];
+  if (asked.reaction) return asked;
+  scenario::json::Diagnostics diagnostics;
+  scenario::Requirement made = *analysis::reaction_of(scenario::read_figure_requirement(asked, diagnostics)->figure);
+  made.after = asked.after;
+  return made;
+}
+
 std::vector<SlackPart> parts_of_reaction(const LooseEnd& end, const analysis::Bounds& bounds, const scenario::Resolved& resolved, const std::function<bool()>& interrupted) {
   if (!end.requirement.requirement) return {};
   std::vector<bool> words(resolved.plan.streams.size());
@@ -126,15 +139,17 @@ std::vector<SlackPart> parts_of_reaction(const LooseEnd& end, const analysis::Bo
   scenario::Run run(resolved);
   FrameLog log(run.network(), {}, {}, std::move(words));
   if (!replay(run, log, interrupted)) return {};
-  return reaction_parts(run, log, bounds, *end.requirement.requirement, end.measured, end.bound);
+  return reaction_parts(run, log, bounds, reaction_asked(resolved.scenario, *end.requirement.requirement), end.measured, end.bound);
 }
 
 }  // namespace
 
 bool is_tight(RequirementKind kind, double tightness) { return tightness >= (kind == RequirementKind::reaction ? 0.9 : 0.85); }
 
-std::vector<SlackPart> slack_of(const LooseEnd& end, const analysis::Bounds& bounds, const std::function<bool()>& interrupted) {
+std::vector<SlackPart> slack_of(const LooseEnd& asked, const analysis::Bounds& bounds, const std::function<bool()>& interrupted) {
   scenario::json::Diagnostics diagnostics;
+  const results::RequirementResult requirement = plain(asked.worst, asked.requirement);
+  const LooseEnd end{requirement, asked.measured, asked.bound, asked.worst};
   const auto resolved = scenario::resolve(end.worst, diagnostics);
   if (!resolved) return {};
   std::vector<SlackPart> parts;

@@ -1,0 +1,237 @@
+#include "analysis/figure_bound.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "analysis/flow_graph.hpp"
+#include "scenario/topology/graph_figures.hpp"
+
+namespace takt::analysis {
+namespace {
+
+using scenario::Figure;
+using scenario::Take;
+using sim::Duration;
+
+/// What takt has no bound for, by the first step of the pointer.
+std::string unbounded_text(const Figure& figure) {
+  constexpr std::pair<std::string_view, const char*> texts[] = {{"applications", "what applications do, and when"},
+                                                                {"clocks", "clocks: synchronisation is simulated"},
+                                                                {"events", "how many events a run has"},
+                                                                {"ingress", "what filters, gates and meters of the ingress count"},
+                                                                {"ports", "this figure of ports"},
+                                                                {"programs", "this figure of Programs"},
+                                                                {"redundancy", "what splits and recoveries of redundant streams count"},
+                                                                {"requirements", "what requirements come to"},
+                                                                {"signals", "how regular the pulses of a signal are"},
+                                                                {"streams", "this figure of streams"}};
+  for (const auto& [step, text] : texts)
+    if (!figure.steps.empty() && figure.steps.front() == step) return std::string("takt has no bound for ") + text;
+  return "takt has no bound for this figure";
+}
+
+bool has_steps(const Figure& figure, std::initializer_list<std::string_view> steps) {
+  return figure.steps.size() == steps.size() && std::equal(steps.begin(), steps.end(), figure.steps.begin(), [](std::string_view step, const std::string& has) { return step == "?" || step == has; });
+}
+
+/// What each of the values can be that the figure is taken of, in the numbers of the result.
+class Values {
+ public:
+  void add(std::optional<double> least, std::optional<double> greatest, const std::string& reason) {
+    ranges_.push_back({least, greatest});
+    if ((!least || !greatest) && reason_.empty()) reason_ = reason;
+  }
+  void rest_on(const Assumptions& assumptions) { assumptions_.add(assumptions); }
+
+  RequirementBound taken(const Figure& figure) const {
+    RequirementBound bound;
+    bound.figure.emplace();
+    if (ranges_.empty() || figure.take == Take::count) {
+      bound.reason = unbounded_text(figure);
+      return bound;
+    }
+    bound.assumptions = assumptions_;
+    bound.figure->least = of_all(&FigureRange::least, figure.take, std::min<double>);
+    bound.figure->greatest = of_all(&FigureRange::greatest, figure.take, std::max<double>);
+    // The least of several is no greater than any of them, and so on.
+    for (const FigureRange& range : ranges_) {
+      if (figure.take == Take::min && range.greatest) bound.figure->greatest = std::min(bound.figure->greatest.value_or(*range.greatest), *range.greatest);
+      if (figure.take == Take::max && range.least) bound.figure->least = std::max(bound.figure->least.value_or(*range.least), *range.least);
+    }
+    for (std::optional<double>* const end : {&bound.figure->least, &bound.figure->greatest})
+      if (*end) **end /= figure.divisor;
+    if (!bound.figure->least || !bound.figure->greatest) bound.reason = reason_.empty() ? unbounded_text(figure) : reason_;
+    return bound;
+  }
+
+ private:
+  std::optional<double> of_all(std::optional<double> FigureRange::*end, Take take, const double& (*further)(const double&, const double&)) const {
+    std::optional<double> all;
+    for (const FigureRange& range : ranges_) {
+      const std::optional<double>& one = range.*end;
+      if (!one) return std::nullopt;
+      all = !all ? one : take == Take::sum ? *all + *one : further(*all, *one);
+    }
+    return all;
+  }
+
+  std::vector<FigureRange> ranges_;
+  std::string reason_;
+  Assumptions assumptions_;
+};
+
+double number(Duration duration) { return static_cast<double>(duration.ps()); }
+std::optional<double> number(const std::optional<Duration>& duration) { return duration ? std::optional(number(*duration)) : std::nullopt; }
+std::optional<double> number(const std::optional<std::uint64_t>& count) { return count ? std::optional(static_cast<double>(*count)) : std::nullopt; }
+
+class FigureBounder {
+ public:
+  FigureBounder(const scenario::Resolved& resolved, const Bounds& bounds, const Figure& figure, Duration from) : r_(resolved), bounds_(bounds), figure_(figure), from_(from) {}
+
+  RequirementBound make() {
+    if (!figure_.steps.empty() && figure_.steps.front() == "streams") add_streams();
+    if (has_steps(figure_, {"dropped", "?"})) add_all_drops();
+    if (has_steps(figure_, {"ports", "?", "queue_peak"})) add_queues();
+    if (!figure_.steps.empty() && figure_.steps.front() == "topology") return topology();
+    return values_.taken(figure_);
+  }
+
+ private:
+  void add_streams() {
+    for (const StreamBound& stream : bounds_.streams) {
+      if (figure_.steps.size() < 3 || (figure_.steps[1] != "*" && figure_.steps[1] != stream.name)) continue;
+      if (has_steps(figure_, {"streams", "?", "latency_ps", "?"}))
+        add_latency(stream);
+      else if (has_steps(figure_, {"streams", "?", "lost"}) || has_steps(figure_, {"streams", "?", "dropped", "?"}))
+        add_losses(stream);
+      else if (has_steps(figure_, {"streams", "?", "delivered"}))
+        add_delivered(stream);
+    }
+  }
+
+  /// Means and percentiles lie between the fastest and the slowest; no deviation is greater than what lies between these.
+  void add_latency(const StreamBound& stream) {
+    values_.rest_on(stream.assumptions);
+    if (figure_.steps.back() == "stddev")
+      values_.add(0, stream.latency ? std::optional(number(*stream.latency - stream.least)) : std::nullopt, stream.reason);
+    else
+      values_.add(number(stream.least), number(stream.latency), stream.reason);
+  }
+
+  void add_losses(const StreamBound& stream) {
+    values_.rest_on(stream.assumptions);
+    values_.add(0, stream.loses_nothing ? std::optional(0.0) : std::nullopt, stream.loss_reason);
+  }
+
+  void add_all_drops() {
+    for (const StreamBound& stream : bounds_.streams) add_losses(stream);
+    if (!r_.plan.gptp.empty()) values_.add(0, std::nullopt, "takt has no bound for what is dropped of gPTP");
+  }
+
+  void add_delivered(const StreamBound& stream) {
+    values_.rest_on(stream.assumptions);
+    const DeliveredFrames frames = frames_delivered(r_, stream, from_);
+    values_.add(number(frames.least), number(frames.greatest), frames.reason);
+  }
+
+  /// Every queue is a part of what is in it or on the wire.
+  void add_queues() {
+    if (!figure_.only.empty() || figure_.steps[1] != "*") return;
+    for (const QueueBound& queue : bounds_.queues) values_.add(0, number(queue.frames), "a queue of " + r_.plan.nodes[queue.node.value].name + ":" + std::to_string(queue.port) + " is unbounded");
+    for (const StreamBound& stream : bounds_.streams) {
+      values_.rest_on(stream.assumptions);
+      if (stream.hops.empty()) values_.add(0, std::nullopt, stream.reason);   // in no queue that was looked at
+    }
+  }
+
+  /// What the network's graph is like is known.
+  RequirementBound topology() const {
+    scenario::json::Node result = scenario::json::Node::object();
+    result.add("topology", scenario::topology_node(r_));
+    RequirementBound bound;
+    bound.figure.emplace();
+    const std::optional<double> value = scenario::value_of(figure_, result);
+    bound.figure->least = bound.figure->greatest = value;
+    if (!value) bound.reason = "the network has no such figure";
+    return bound;
+  }
+
+  const scenario::Resolved& r_;
+  const Bounds& bounds_;
+  const Figure& figure_;
+  Duration from_;
+  Values values_;
+};
+
+const std::string* text_in(const Figure& figure, std::string_view key) {
+  for (const auto& [name, value] : figure.only)
+    if (name == key && value.kind == scenario::json::Kind::string) return &value.text;
+  return nullptr;
+}
+
+template <class E>
+std::optional<E> named(const std::string* text) {
+  if (text == nullptr) return std::nullopt;
+  for (const scenario::json::EnumName& name : describe(scenario::json::Type<E>{}).names)
+    if (name.name == *text) return static_cast<E>(name.value);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<scenario::Requirement> reaction_of(const Figure& figure) {
+  const bool is_reaction = has_steps(figure, {"programs", "?", "reactions", "?", "duration_ps"}) || has_steps(figure, {"programs", "?", "tree_reactions", "?", "duration_ps"});
+  if (!is_reaction || figure.take == Take::count || figure.take == Take::sum) return std::nullopt;
+  scenario::Requirement asked;
+  asked.reaction = named<scenario::Reaction>(text_in(figure, "kind"));
+  if (!asked.reaction) return std::nullopt;
+  asked.cause = named<handshake::Cause>(text_in(figure, "cause"));
+  asked.tree = figure.steps[2] == "tree_reactions";
+  if (figure.steps[1] != "*") asked.program = figure.steps[1];
+  return asked;
+}
+
+std::optional<std::string> latency_of(const Figure& figure) {
+  return has_steps(figure, {"streams", "?", "latency_ps", "?"}) && figure.steps.back() != "stddev" ? std::optional(figure.steps[1]) : std::nullopt;
+}
+
+DeliveredFrames frames_delivered(const scenario::Resolved& resolved, const StreamBound& bound, Duration from) {
+  const auto& streams = resolved.scenario.streams;
+  const auto stream = std::find_if(streams.begin(), streams.end(), [&](const scenario::Stream& s) { return s.name == bound.name; });
+  if (stream == streams.end() || !stream->every) return {{}, {}, "how many frames there are is not known beforehand"};
+  DeliveredFrames frames;
+  const models::StreamPlan& plan = resolved.plan.streams[bound.index.value];
+  const std::uint64_t listeners = plan.listeners.size();
+  const ClockQuality clock = clock_quality(resolved, plan.talker, {});
+  const Duration shortest = Duration::from_ps(stream->every->ps() - scaled_up(stream->every->ps(), clock.rate_ppt, 1'000'000'000'000));
+  const Duration longest = Duration::from_ps(scaled_up(stream->every->ps(), 1'000'000'000'000 + clock.rate_ppt, 1'000'000'000'000));
+  const Duration unsure = Duration::from_ps(2 * clock.error);
+  if (!bound.loses_nothing || !bound.latency) {
+    frames.least = 0;
+    frames.reason = !bound.reason.empty() ? bound.reason : bound.loss_reason;
+  } else {
+    // Whatever has been produced so early that it must have come; one more than whole periods if the first frame comes with the first instant.
+    const Duration last = resolved.scenario.duration - *bound.latency - stream->jitter - stream->offset.value_or(Duration()) - from - unsure;
+    const std::int64_t begun = from == Duration() ? 1 : 0;
+    frames.least = last < Duration() ? 0 : static_cast<std::uint64_t>(last.ps() / longest.ps() + begun) * listeners;
+  }
+  const bool may_be_more = !resolved.plan.impairments.empty() || !resolved.redundancies.empty() || !resolved.scenario.faults.empty() || shortest <= Duration();
+  if (may_be_more)
+    frames.reason = frames.reason.empty() ? "faults and redundancy may bring a frame more than once, or more frames than the talker's" : frames.reason;
+  else
+    frames.greatest = static_cast<std::uint64_t>((resolved.scenario.duration - from + stream->jitter + unsure).ps() / shortest.ps() + 1) * listeners;
+  return frames;
+}
+
+RequirementBound bound_of_figure(const scenario::Resolved& resolved, const Bounds& bounds, const Figure& figure, Duration from, const ReactionBoundOf& reaction) {
+  if (const std::optional<scenario::Requirement> asked = reaction_of(figure)) {
+    RequirementBound bound = reaction(*asked);
+    bound.figure = FigureRange{0.0, {}};
+    if (bound.duration) bound.figure->greatest = number(*bound.duration) / figure.divisor;
+    return bound;
+  }
+  return FigureBounder(resolved, bounds, figure, from).make();
+}
+
+}  // namespace takt::analysis

@@ -39,6 +39,25 @@ void set_rate(ClockQuality& quality, const models::OscillatorConfig& oscillator,
   quality.fastest_ppt = offset + rounding_ppt;
 }
 
+/// All that chance may make of a node's oscillator, by the ends of the ranges that the scenario gives: a bound holds for every seed.
+std::vector<models::OscillatorConfig> possible_oscillators(const scenario::Resolved& r, const models::NodePlan& node) {
+  const scenario::Clocks& clocks = r.scenario.clocks;
+  const auto own = std::find_if(clocks.nodes.begin(), clocks.nodes.end(), [&](const auto& each) { return each.first == node.name; });
+  const scenario::Clock* const clock = own != clocks.nodes.end() ? &own->second : clocks.all ? &*clocks.all : nullptr;
+  std::vector<models::OscillatorConfig> all{node.clock->oscillator};
+  if (clock == nullptr || clock->ideal) return all;
+  const auto spread = [&](const scenario::FrequencyRange& range, auto set) {
+    if (!range.from || !range.to) return;
+    const std::vector<models::OscillatorConfig> before = std::move(all);
+    all.clear();
+    for (const models::OscillatorConfig& each : before)
+      for (const sim::FrequencyOffset end : {*range.from, *range.to}) set(all.emplace_back(each), end);
+  };
+  spread(clock->offset, [](models::OscillatorConfig& made, sim::FrequencyOffset end) { made.offset = end; });
+  spread(clock->drift, [](models::OscillatorConfig& made, sim::FrequencyOffset end) { made.drift_ppt_per_second = end.parts_per_trillion; });
+  return all;
+}
+
 PortModel model_of(const scenario::Resolved& r, const GraphPort& port, const BoundOptions& options) {
   PortModel model;
   model.octet_time = port.octet_time;
@@ -108,13 +127,22 @@ ClockQuality clock_quality(const scenario::Resolved& r, models::NodeIndex node, 
   if (speaks_gptp) {
     // Everybody follows the grandmaster, who may be anybody.
     for (const models::NodePlan& other : r.plan.nodes)
-      if (other.clock) quality.rate_ppt = std::max(quality.rate_ppt, greatest_deviation(other.clock->oscillator, r.scenario.duration));
+      if (other.clock)
+        for (const models::OscillatorConfig& each : possible_oscillators(r, other)) quality.rate_ppt = std::max(quality.rate_ppt, greatest_deviation(each, r.scenario.duration));
     quality.slowest_ppt = -quality.rate_ppt;
     quality.fastest_ppt = quality.rate_ppt;
     quality.error = clock_premise(r, options).error.ps();
     return quality;
   }
-  set_rate(quality, plan.clock->oscillator, r.scenario.duration);
+  bool is_first = true;
+  for (const models::OscillatorConfig& each : possible_oscillators(r, plan)) {
+    ClockQuality one;
+    set_rate(one, each, r.scenario.duration);
+    quality.rate_ppt = std::max(quality.rate_ppt, one.rate_ppt);
+    quality.slowest_ppt = is_first ? one.slowest_ppt : std::min(quality.slowest_ppt, one.slowest_ppt);
+    quality.fastest_ppt = is_first ? one.fastest_ppt : std::max(quality.fastest_ppt, one.fastest_ppt);
+    is_first = false;
+  }
   quality.is_synchronised = false;
   return quality;
 }

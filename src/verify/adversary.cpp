@@ -145,6 +145,10 @@ class Searcher {
         }
         ++search_.runs;
         spent_ += probes[i]->events + cost_of_a_node * resolved_.plan.nodes.size();
+        if (loses_too_much(choices[from + i], *probes[i])) {
+          found.push_back(-1);
+          continue;
+        }
         note(*probes[i], scenarios[i], is_shorter_);
         found.push_back(badness(*probes[i], line));
         if (!best_ || found.back() > best_->first) best_ = {found.back(), choices[from + i]};
@@ -218,9 +222,23 @@ class Searcher {
   Choice meeting(const RequirementResult& requirement, Choice choice) const {
     for (std::size_t f = 0; f < search_.freedoms.size(); ++f) {
       const std::vector<Duration> values = instants_.of(f, requirement, choice);
-      choice.values[f] = search_.freedoms[f].is_latency() && values.size() > 1 ? slowest(search_.freedoms[f]) : values.size() > 1 ? values[1] : values[0];
+      choice.values[f] = search_.freedoms[f].is_latency() && values.size() > 1 ? slowest(search_.freedoms[f]) : values.size() > 1 && !is_about_chance(search_.freedoms[f]) ? values[1] : values[0];
     }
     return choice;
+  }
+
+  /// Where no value is likely to be worse than another.
+  static bool is_about_chance(const Freedom& freedom) { return freedom.kind == Freedom::Kind::losses || freedom.kind == Freedom::Kind::frequency; }
+
+  /// Frames are lost by choice, and more of them than the scenario's requirements leave room for.
+  bool loses_too_much(const Choice& choice, const Probe& probe) const {
+    bool loses = false;
+    for (std::size_t f = 0; f < search_.freedoms.size(); ++f) loses = loses || (search_.freedoms[f].kind == Freedom::Kind::losses && choice.values[f] != Duration());
+    return loses && std::any_of(probe.requirements.begin(), probe.requirements.end(), [](const RequirementResult& each) {
+             const bool is_of_losses = each.kind == RequirementKind::dropped || each.kind == RequirementKind::delivered ||
+                                       (each.figure && (each.figure->name == "lost" || each.figure->name == "dropped" || each.figure->name.ends_with("/lost")));
+             return is_of_losses && each.verdict == results::Verdict::fail;
+           });
   }
 
   /// A timer is at its worst if it is late after it was early; the ways to the network and from it are at their worst whenever they are slow.

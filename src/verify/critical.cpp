@@ -59,7 +59,7 @@ CriticalInstants::CriticalInstants(const Resolved& resolved, std::span<const Fre
 std::vector<std::size_t> CriticalInstants::streams_moved_by(std::size_t f) const {
   const Freedom& freedom = freedoms_[f];
   std::vector<std::size_t> found;
-  if (freedom.kind == Freedom::Kind::talker) {
+  if (freedom.kind == Freedom::Kind::talker || freedom.kind == Freedom::Kind::jitter) {
     for (std::size_t s = 0; s < resolved_->plan.streams.size(); ++s)
       if (resolved_->plan.streams[s].name == resolved_->scenario.streams[freedom.item].name) found.push_back(s);
   } else if (freedom.kind == Freedom::Kind::publisher) {
@@ -97,7 +97,7 @@ Duration CriticalInstants::phase_of(std::size_t stream, const Choice& choice) co
   const Timing& timing = timings_[stream];
   Duration phase = timing.phase;
   for (const std::size_t f : timing.freedoms)
-    if (choice.values[f] != Duration()) phase = choice.values[f];
+    if (choice.values[f] != Duration()) phase = freedoms_[f].kind == Freedom::Kind::jitter ? phase + choice.values[f] : choice.values[f];
   return phase;
 }
 
@@ -136,6 +136,7 @@ std::vector<Duration> CriticalInstants::of(std::size_t f, const results::Require
     if (matters(freedom, requirement)) values = {by_chance, always_least, always_greatest, either_end};
     return values;
   }
+  if (freedom.kind == Freedom::Kind::frequency) return {by_chance, always_least, always_greatest};
   if (freedom.kind == Freedom::Kind::call) {
     const scenario::ScriptEntry& entry = resolved_->scenario.script[freedom.item];
     // A reaction to one method does not depend on when another one was called.
@@ -158,7 +159,13 @@ std::vector<Duration> CriticalInstants::of(std::size_t f, const results::Require
     for (const Visit& visit : visits_[moved])
       for (const Visit& theirs : visits_[other])
         if (theirs.port == visit.port && values.size() < most_values)
-          for (const Duration apart : {Duration(), shift}) add(phase_of(other, choice) + theirs.after - visit.after + apart);
+          for (const Duration apart : {Duration(), shift}) {
+            const Duration instant = phase_of(other, choice) + theirs.after - visit.after + apart;
+            if (freedom.kind != Freedom::Kind::jitter)
+              add(instant);
+            else if (const Duration late = modulo(instant - (phase_of(moved, choice) - choice.values[f]), timings_[moved].period); late < freedom.range)
+              add(late);
+          }
   };
   for (const std::size_t moved : streams_moved_by(f)) {
     if (std::find(targets.begin(), targets.end(), moved) == targets.end())
@@ -167,6 +174,7 @@ std::vector<Duration> CriticalInstants::of(std::size_t f, const results::Require
       for (std::size_t other = 0; other < timings_.size(); ++other) meet(moved, other, just);
   }
   for (std::int64_t part = 0; part < parts_of_range; ++part) add(freedom.range * part / parts_of_range);
+  if (freedom.kind == Freedom::Kind::jitter) add(freedom.range - Duration::from_ps(1));
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scenario/description/promises.hpp"
+#include "scenario/json/quantity.hpp"
 #include "sim/check.hpp"
 
 namespace takt::verify {
@@ -64,10 +65,15 @@ FaultSpan span_of(const F& fault) {
     return {fault.at, fault.at};
 }
 
-void add_faults(const Scenario& scenario, std::vector<Freedom>& found) {
+Duration longest_period(const Scenario& scenario) {
   Duration longest;
   for (const scenario::Stream& stream : scenario.streams) longest = std::max(longest, stream.every.value_or(Duration()));
   for (const Program& program : scenario.programs) longest = std::max(longest, program.cycle);
+  return longest;
+}
+
+void add_faults(const Scenario& scenario, std::vector<Freedom>& found) {
+  const Duration longest = longest_period(scenario);
   std::vector<FaultSpan> spans;
   for (const scenario::Fault& fault : scenario.faults) spans.push_back(std::visit([](const auto& each) { return span_of(each); }, fault));
   for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
@@ -79,6 +85,67 @@ void add_faults(const Scenario& scenario, std::vector<Freedom>& found) {
     const Duration range = std::min(longest, next - spans[i].end);
     if (range > Duration()) found.push_back({Freedom::Kind::fault, i, 0, range, "instant of fault " + std::to_string(i + 1), {}, {}, {}});
   }
+}
+
+void add_jitters(const Scenario& scenario, std::vector<Freedom>& found) {
+  for (std::size_t s = 0; s < scenario.streams.size(); ++s)
+    if (const scenario::Stream& stream = scenario.streams[s]; stream.every && stream.jitter > Duration())
+      found.push_back({Freedom::Kind::jitter, s, 0, stream.jitter + Duration::from_ps(1), "jitter of " + stream.name, {}, {}, {}});
+}
+
+void add_losses(const Scenario& scenario, std::vector<Freedom>& found) {
+  for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
+    const auto* const errors = std::get_if<scenario::FrameErrors>(&scenario.faults[i]);
+    const bool is_chance = errors != nullptr && (errors->burst_loss || (errors->loss && *errors->loss > 0 && *errors->loss < 1));
+    if (!is_chance || errors->at >= scenario.duration || longest_period(scenario) == Duration()) continue;
+    const Duration range = std::min(errors->lasts.value_or(scenario.duration), scenario.duration - errors->at);
+    if (range > Duration()) found.push_back({Freedom::Kind::losses, i, 0, range, "losses by fault " + std::to_string(i + 1), {}, {}, {}});
+  }
+}
+
+void lose_in_one_stretch(Scenario& made, std::size_t item, Duration later) {
+  auto& errors = std::get<scenario::FrameErrors>(made.faults[item]);
+  scenario::FrameErrors rest = errors;
+  rest.loss.reset();
+  rest.burst_loss.reset();
+  const Duration end = errors.at + std::min(errors.lasts.value_or(made.duration), made.duration);
+  errors.burst_loss.reset();
+  errors.loss = 1;
+  errors.corruption.reset();
+  errors.bit_error_rate.reset();
+  errors.duplication.reset();
+  errors.at += later;
+  errors.lasts = std::min(longest_period(made), end - errors.at);
+  if (rest.corruption || rest.bit_error_rate || rest.duplication) made.faults.emplace_back(std::move(rest));
+}
+
+/// What the scenario says of the node's clock, if it gives a range of frequencies.
+const scenario::Clock* ranging_clock(const Scenario& scenario, const std::string& node) {
+  const scenario::Clocks& clocks = scenario.clocks;
+  const auto own = std::find_if(clocks.nodes.begin(), clocks.nodes.end(), [&](const auto& each) { return each.first == node; });
+  const scenario::Clock* const clock = own != clocks.nodes.end() ? &own->second : clocks.all ? &*clocks.all : nullptr;
+  return clock != nullptr && !clock->ideal && clock->offset.from && clock->offset.to && *clock->offset.from != *clock->offset.to ? clock : nullptr;
+}
+
+void add_frequencies(const scenario::Resolved& r, std::vector<Freedom>& found) {
+  for (const models::NodePlan& node : r.plan.nodes) {
+    const scenario::Clock* const clock = ranging_clock(r.scenario, node.name);
+    if (clock == nullptr) continue;
+    found.push_back({Freedom::Kind::frequency, 0, 0, always_greatest + Duration::from_ps(1),
+                     "frequency of " + node.name + ", " + scenario::json::to_text(*clock->offset.from) + " to " + scenario::json::to_text(*clock->offset.to), {}, {}, {}, node.name});
+  }
+}
+
+void set_frequency(Scenario& made, const std::string& node, Duration value) {
+  scenario::Clock clock = *ranging_clock(made, node);
+  clock.offset.fixed = value == always_least ? clock.offset.from : clock.offset.to;
+  clock.offset.from.reset();
+  clock.offset.to.reset();
+  const auto own = std::find_if(made.clocks.nodes.begin(), made.clocks.nodes.end(), [&](const auto& each) { return each.first == node; });
+  if (own != made.clocks.nodes.end())
+    own->second = std::move(clock);
+  else
+    made.clocks.nodes.emplace_back(node, std::move(clock));
 }
 
 /// What has no ceiling worth the name is left to chance: no bound is claimed there, and a frame for ever under way shows nothing.
@@ -131,6 +198,9 @@ std::vector<Freedom> freedoms_of(const scenario::Resolved& resolved) {
   add_talkers(resolved.scenario, found);
   add_faults(resolved.scenario, found);
   add_latencies(resolved, found);
+  add_jitters(resolved.scenario, found);
+  add_losses(resolved.scenario, found);
+  add_frequencies(resolved, found);
   return found;
 }
 
@@ -152,6 +222,12 @@ Scenario scenario_of(const Scenario& scenario, std::span<const Freedom> freedoms
       case Freedom::Kind::fault: std::visit([&](auto& fault) { fault.at += value; }, made.faults[freedom.item]); break;
       case Freedom::Kind::host_latency: fix(std::get<scenario::HostNode>(made.network.nodes[freedom.item].second).os, freedom, value); break;
       case Freedom::Kind::generator_latency: fix(made.network.generate[freedom.item].os, freedom, value); break;
+      case Freedom::Kind::jitter:
+        made.streams[freedom.item].offset = made.streams[freedom.item].offset.value_or(Duration()) + value;
+        made.streams[freedom.item].jitter = Duration();
+        break;
+      case Freedom::Kind::losses: lose_in_one_stretch(made, freedom.item, value); break;
+      case Freedom::Kind::frequency: set_frequency(made, freedom.node, value); break;
     }
   }
   return made;

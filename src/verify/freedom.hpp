@@ -8,7 +8,10 @@
 //   instant of a call      later by less than a cycle, and still before the next entry of the script
 //   instant of a fault     of a link or node: later by less than the longest period, and still before the next fault
 //   latency of a host      of transmission, reception and wake-up, where chance decides: as it has it, always the least, always the greatest, or one of these
-//   seed                   all else that chance decides: oscillators, losses, jitter, gaps between frames
+//   jitter of a talker     the same in each frame, within the stream's "jitter"
+//   losses on a link       where chance loses frames: as it has it, or all in one stretch as long as the longest period, and no others
+//   frequency of a clock   where the scenario gives a range: as chance has it, the lowest, or the highest
+//   seed                   all else that chance decides: oscillators that drift, gaps between frames
 #pragma once
 
 #include <cstdint>
@@ -28,7 +31,7 @@ inline constexpr sim::Duration either_end = sim::Duration::from_ps(3);   ///< th
 
 /// Something that is free: a time from 0 up to, but without, `range`.
 struct Freedom {
-  enum class Kind : std::uint8_t { talker, publisher, call, fault, host_latency, generator_latency };
+  enum class Kind : std::uint8_t { talker, publisher, call, fault, host_latency, generator_latency, jitter, losses, frequency };
   enum class Latency : std::uint8_t { transmit, receive, wake_up };
   Kind kind{};
   std::size_t item = 0;          ///< in Scenario::streams, programs, script, faults, or network's nodes or generate
@@ -38,6 +41,7 @@ struct Freedom {
   Latency latency{};             ///< of latencies
   sim::Duration least = {};
   sim::Duration greatest = {};
+  std::string node = {};         ///< of frequencies
   bool operator==(const Freedom&) const = default;
   bool is_latency() const { return kind == Kind::host_latency || kind == Kind::generator_latency; }
 };

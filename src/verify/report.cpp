@@ -88,6 +88,7 @@ std::string contradiction_text(const Contradiction& contradiction, const Witness
 
 std::string freedom_text(const Freedom& freedom) {
   if (freedom.is_latency()) return fmt::format("  {} from {} to {}\n", freedom.name, figure(freedom.least), figure(freedom.greatest));
+  if (freedom.kind == Freedom::Kind::frequency) return "  " + freedom.name + "\n";
   return fmt::format("  {} within {}\n", freedom.name, figure(freedom.range));
 }
 
@@ -131,7 +132,7 @@ std::string json_report(const std::string& scenario, const Verification& verific
   for (const Freedom& freedom : verification.freedoms) {
     Node node = Node::object();
     node.add("what", Node::of_string(freedom.name));
-    node.add("range_ps", Node::of_integer(freedom.is_latency() ? (freedom.greatest - freedom.least).ps() : freedom.range.ps()));
+    node.add("range_ps", freedom.kind == Freedom::Kind::frequency ? Node() : Node::of_integer(freedom.is_latency() ? (freedom.greatest - freedom.least).ps() : freedom.range.ps()));
     open.items.push_back(std::move(node));
   }
   root.add("free", std::move(open));

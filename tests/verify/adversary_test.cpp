@@ -136,5 +136,76 @@ TEST(Shortened, LeavesAloneWhatDependsOnItsTimes) {
   EXPECT_EQ(shortened(scenario->scenario, 1_ms), scenario->scenario);
 }
 
+// A talker that is late by up to 12 us in its promised phase meets the long frame that is on its way 12 us after the start; chance would have to hit the nanosecond.
+TEST(Adversary, ChoosesProductionJitterWithinItsSupport) {
+  const auto scenario = resolved(R"({"name": "late", "duration": "20ms",
+    "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "c": {"kind": "host"}, "sw": {"kind": "switch"}},
+      "links": [{"ends": ["a", "sw"]}, {"ends": ["sw", "b"]}, {"ends": ["c", "sw"]}]},
+    "streams": [{"name": "urgent", "from": "a", "to": "b", "payload": "100B", "pcp": 6, "every": "1ms", "offset": "0us", "jitter": "40us"},
+                {"name": "bulk", "from": "c", "to": "b", "payload": "1400B", "pcp": 0, "every": "1ms", "offset": "0us"}],
+    "require": [{"stream": "urgent", "latency": "1ms"}]})");
+  ASSERT_TRUE(scenario);
+  const std::vector<Freedom> freedoms = freedoms_of(*scenario);
+  ASSERT_EQ(freedoms.size(), 1u);
+  EXPECT_EQ(freedoms[0].name, "jitter of urgent");
+  const analysis::Bounds bounds = analysis::bound(*scenario);
+  const Search found = search(*scenario, bounds, {});
+  // The whole long frame but 1 ns, and no more than the bound has.
+  const Duration alone = 2 * (154 * 8_ns + 50_ns);
+  EXPECT_GE(*found.findings[0].worst.measured, alone + 1470 * 8_ns - 1_ns);
+  EXPECT_LE(*found.findings[0].worst.measured, *bounds.streams[0].latency);
+  EXPECT_EQ(found.findings[0].worst.scenario.streams[0].jitter, Duration());
+  EXPECT_EQ(probe(found.findings[0].worst.scenario, {}, {})->requirements[0].measured, found.findings[0].worst.measured);
+}
+
+// Which frames a link loses is chosen, as far as "dropped" leaves room: one period of losses and no others, replayed by a fault of its own.
+TEST(Adversary, ChoosesLossesWithinWhatIsRequired) {
+  const std::string text = R"({"name": "lossy", "duration": "100ms",
+    "network": {"nodes": {"m": {"kind": "host"}, "s": {"kind": "host"}}, "links": [{"ends": ["m", "s"]}]},
+    "programs": [{"name": "p", "master": "m", "slaves": ["s"], "cycle": "1ms", "receive_timeout": "10ms", "phases": {"m": "0us", "s": "500us"}, "process_data": []}],
+    "script": [{"at": "2ms", "program": "p", "call": "Start"}, {"at": "50.1ms", "program": "p", "call": "Halt"}],
+    "faults": [{"kind": "frame-errors", "link": ["m", "s"], "towards": "s", "loss": 0.000001, "at": "45ms", "for": "10ms"}],
+    "require": [{"reaction": "halt", "within": "5ms"})";
+  const auto scenario = resolved(text + "]}");
+  ASSERT_TRUE(scenario);
+  const std::vector<Freedom> freedoms = freedoms_of(*scenario);
+  EXPECT_TRUE(std::any_of(freedoms.begin(), freedoms.end(), [](const Freedom& each) { return each.name == "losses by fault 1" && each.range == 10_ms; }));
+  const Search found = search(*scenario, analysis::bound(*scenario), {});
+  EXPECT_GT(*found.findings[0].worst.measured, *found.findings[0].simulated + 900_us);   // the word that tells it is lost, and comes a cycle later
+  EXPECT_EQ(probe(found.findings[0].worst.scenario, {}, {})->requirements[0].measured, found.findings[0].worst.measured);
+  const auto strict = resolved(text + R"(, {"stream": "p/state/m", "dropped": 0}]})");
+  ASSERT_TRUE(strict);
+  const Search none = search(*strict, analysis::bound(*strict), {});
+  EXPECT_LE(*none.findings[0].worst.measured, *none.findings[0].simulated + 900_us);
+  EXPECT_FALSE(none.findings[1].worst.failed);
+}
+
+// Clocks run at the ends of their range, and the bounds hold for whatever the seed draws.
+TEST(Adversary, ChoosesFrequenciesWithinTheirRange) {
+  const std::string text = R"({"name": "drifting", "duration": "20ms", "seed": SEED,
+    "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]},
+    "clocks": {"all": {"offset": {"from": "-100ppm", "to": "100ppm"}}},
+    "programs": [{"name": "p", "master": "a", "slaves": ["b"], "cycle": "1ms"}],
+    "script": [{"at": "2ms", "program": "p", "call": "Start"}],
+    "require": [{"reaction": "start", "within": "10ms"}]})";
+  const auto with_seed = [&](const std::string& seed) {
+    std::string made = text;
+    return resolved(made.replace(made.find("SEED"), 4, seed));
+  };
+  const auto one = with_seed("1");
+  const auto two = with_seed("2");
+  ASSERT_TRUE(one && two);
+  EXPECT_EQ(analysis::bound(*one).requirements[0].bound.duration, analysis::bound(*two).requirements[0].bound.duration);
+  const std::vector<Freedom> freedoms = freedoms_of(*one);
+  const auto frequency = std::find_if(freedoms.begin(), freedoms.end(), [](const Freedom& each) { return each.name == "frequency of b, -100ppm to 100ppm"; });
+  ASSERT_NE(frequency, freedoms.end());
+  Choice choice{1, std::vector<Duration>(freedoms.size())};
+  choice.values[static_cast<std::size_t>(frequency - freedoms.begin())] = always_greatest;
+  const scenario::Scenario made = scenario_of(one->scenario, freedoms, choice);
+  ASSERT_EQ(made.clocks.nodes.size(), 1u);
+  EXPECT_EQ(made.clocks.nodes[0].second.offset.fixed, sim::FrequencyOffset{100'000'000});
+  EXPECT_TRUE(probe(made, {}, {}));
+}
+
 }  // namespace
 }  // namespace takt::verify

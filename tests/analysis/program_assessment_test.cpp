@@ -66,6 +66,27 @@ TEST(ProgramAssessment, WhatReactionsRestOn) {
   EXPECT_EQ(rests_on(*losses, Reaction::halt, Cause::crash), (std::vector{A::nothing_else, A::listed_faults_only, A::no_loss}));
 }
 
+// Silence counts from the last word that came; a crash from an instant at which that was still under way, for as long as the slowest word may be.
+TEST(ProgramAssessment, HaltsCountFromTheirCauses) {
+  const auto halt = [](const Bounds& bounds, Cause cause) {
+    return *std::find_if(bounds.reactions.begin(), bounds.reactions.end(), [&](const ReactionBound& each) { return each.kind == Reaction::halt && each.cause == cause; });
+  };
+  const Bounds bounds = bound(*cell(""));
+  Duration slowest_word;
+  for (const StreamBound& each : bounds.streams) slowest_word = std::max(slowest_word, each.latency.value());
+  EXPECT_GT(slowest_word, 10_us);
+  EXPECT_EQ(*halt(bounds, Cause::crash).bound - *halt(bounds, Cause::silence).bound, slowest_word);
+  EXPECT_EQ(halt(bounds, Cause::cut).bound, halt(bounds, Cause::crash).bound);
+  // The next word of one that is back comes within a cycle; from there a halt spreads as one that is called.
+  EXPECT_EQ(*halt(bounds, Cause::restart).bound - *halt(bounds, Cause::command).bound, 1_ms + slowest_word);
+  const Bounds of_paper = bound(*cell(paper));
+  EXPECT_TRUE(halt(of_paper, Cause::command).bound);
+  for (const Cause cause : {Cause::crash, Cause::cut, Cause::silence, Cause::restart}) {
+    EXPECT_FALSE(halt(of_paper, cause).bound);
+    EXPECT_EQ(halt(of_paper, cause).reason, "the handshake paper notices neither silence nor a restart");
+  }
+}
+
 TEST(ProgramAssessment, WhoLosesWordsHasNoProof) {
   EXPECT_EQ(bound(*cell("")).ledger[A::no_loss].standing, Standing::open);
   EXPECT_EQ(bound(*cell("")).ledger[A::no_loss].why, "");

@@ -81,6 +81,39 @@ TEST(Applications, ASignalIsAsRegularAsItsThread) {
   EXPECT_EQ(result.signals[0].edges.front().first.since_start().ps(), 6'000'000'000);
 }
 
+results::Verdict verdict_of(const std::string& text) { return result_of(text).requirements.at(0).verdict; }
+
+// A response of an interval misses all, one of less none; a thread that is first due after the end has done nothing, which is no success.
+TEST(Applications, SuccessIsJudgedByThread) {
+  using results::Verdict;
+  const auto published = [](const std::string& thread, const std::string& of = "", const std::string& duration = "1s") {
+    return pair(opc_ua + R"(}, {"name": "y", "fields": {"level": "UInt32"}, )" + opc_ua, R"("every": "1ms")" + thread, R"("every": "1ms"}, {"name": "other", "subscribe": "y", "every": "1ms")",
+                R"(, "require": [{"application": "p", "success": 100)" + of + "}]", duration);
+  };
+  EXPECT_EQ(verdict_of(published("")), Verdict::pass);
+  EXPECT_EQ(verdict_of(published(R"(, "response": "1ms")")), Verdict::fail);
+  EXPECT_EQ(verdict_of(published(R"(, "offset": "999us")", "", "500us")), Verdict::fail);
+  // The other thread of the application misses all.
+  const std::string two = R"(}, {"name": "slow", "publish": "y", "every": "1ms", "response": "1ms")";
+  const results::RunResult all = result_of(published(two));
+  ASSERT_EQ(all.requirements.size(), 2u);
+  EXPECT_EQ(all.requirements[0].verdict, Verdict::pass);
+  EXPECT_EQ(all.requirements[1].verdict, Verdict::fail);
+  EXPECT_EQ(result_of(published(two, R"(, "thread": "publish")")).verdict, Verdict::pass);
+}
+
+// Pulses of 10 ms whose ends are up to 8 ms late: few of them are within a tenth. In 5 ms there is none.
+TEST(Applications, RegularityIsJudged) {
+  using results::Verdict;
+  const auto with = [](const std::string& response, const std::string& duration = "1s") {
+    return verdict_of(pair(opc_ua, R"("every": "10ms", "payload": "alternate", "response": "1ms")", R"("every": "10ms", "offset": "5ms", "signal": "out", "response": )" + response,
+                           R"(, "require": [{"signal": "out", "irregular": 1}])", duration));
+  };
+  EXPECT_EQ(with("\"1ms\""), Verdict::pass);
+  EXPECT_EQ(with(R"({"uniform": {"from": "0s", "to": "8ms"}})"), Verdict::fail);
+  EXPECT_EQ(with("\"1ms\"", "5ms"), Verdict::fail);
+}
+
 TEST(Applications, ACrashEndsTestsAndTheApplicationBeginsAnew) {
   const std::string faults = R"(, "faults": [{"kind": "crash", "at": "205ms", "for": "100ms", "node": "a"}])";
   const results::RunResult result = result_of(pair(opc_ua, R"("every": "1ms", "response": "1us")", R"("every": "1ms", "offset": "500us")", faults));

@@ -12,6 +12,7 @@ using results::RequirementResult;
 using results::RunResult;
 using results::StreamResult;
 using results::Verdict;
+using sim::Duration;
 using namespace sim::literals;
 
 RunResult judged(const Resolved& resolved) {
@@ -129,6 +130,16 @@ TEST(Losses, OfARedundantStreamWithoutAWay) {
   EXPECT_GE(safety.lost, 99u);
   EXPECT_LE(safety.lost, 101u);
   EXPECT_EQ(safety.lost + safety.delivered + (safety.oldest_in_flight ? 1u : 0u), safety.sent);
+}
+
+// The frame of 10 ms has come over two switches, of 20 us each; its copy is still on the way over four.
+TEST(Losses, ACopyUnderWayOfAFrameThatHasComeIsNothing) {
+  const RunResult result = judged(R"({"name": "ring", "duration": "10060us", "network": {"generate": [{"topology": "ring", "switches": 4, "hosts_per_switch": 1, "forwarding_delay": "20us"}]},
+    "streams": [{"name": "s", "from": "h1", "to": "h2", "payload": "64B", "every": "1ms", "redundancy": 2}], "require": [{"stream": "s", "dropped": 0, "delivered": 11, "latency": "50us"}]})");
+  EXPECT_EQ(stream(result, "s").in_flight, 1u);
+  EXPECT_FALSE(stream(result, "s").oldest_in_flight);
+  EXPECT_EQ(stream(result, "s").lost, 0u);
+  EXPECT_EQ(result.verdict, Verdict::pass);
 }
 
 TEST(Losses, FramesThatComeTwiceAreNotMoreThanOne) {
@@ -256,6 +267,50 @@ TEST(After, CountsReactionsThatBeginThen) {
   EXPECT_EQ(result.requirements.at(2).remark, "no such reaction");
   EXPECT_EQ(result.requirements.at(3).verdict, Verdict::pass);
   EXPECT_EQ(judged(text, {"warm_up=5ms"}).requirements.at(0).verdict, Verdict::fail);
+}
+
+std::string called(const std::string& requirement, const std::vector<std::pair<const char*, const char*>>& calls) {
+  std::string script;
+  for (const auto& [at, call] : calls) script += (script.empty() ? "" : ", ") + std::string(R"({"at": ")") + at + R"(", "program": "p", "call": ")" + call + "\"}";
+  return over_one_switch(R"(, "programs": [{"name": "p", "master": "a", "slaves": ["b"], "cycle": "100us", "initialisation": "200us"}], "script": [)" + script + R"(], "require": [)" + requirement + "]");
+}
+
+// Just behind the master's publishing a call waits for almost a cycle, just before it for nothing.
+TEST(Reactions, TheSlowestCounts) {
+  const auto suspend = [](const std::vector<std::pair<const char*, const char*>>& calls) { return judged(called(R"({"reaction": "suspend", "within": "1ms"})", calls)).requirements.at(0).measured.value(); };
+  const Duration slow = suspend({{"1ms", "Start"}, {"3010us", "Suspend"}});
+  const Duration fast = suspend({{"1ms", "Start"}, {"5090us", "Suspend"}});
+  ASSERT_GT(slow, fast);
+  EXPECT_EQ(suspend({{"1ms", "Start"}, {"3010us", "Suspend"}, {"4ms", "Resume"}, {"5090us", "Suspend"}}), slow);
+}
+
+// A halt overtakes the start: there is none that was, or should have been, complete.
+TEST(Reactions, OvertakenOnesDoNotCount) {
+  const RequirementResult start = judged(called(R"({"reaction": "start", "within": "5ms"})", {{"1ms", "Start"}, {"1100us", "Halt"}})).requirements.at(0);
+  EXPECT_EQ(start.verdict, Verdict::fail);
+  EXPECT_EQ(start.remark, "no such reaction");
+}
+
+// The outer group is suspended before the slave of the inner one has heard of it, whose master publishes each 5 ms.
+TEST(Reactions, OfTheTreeAreThoseOfAllGroups) {
+  const RunResult result = judged(R"({"name": "tree", "duration": "100ms", "network": {"nodes": {"m": {"kind": "host"}, "b": {"kind": "host"}, "c": {"kind": "host"}, "sw": {"kind": "switch"}},
+    "links": [{"ends": ["m", "sw"]}, {"ends": ["b", "sw"]}, {"ends": ["c", "sw"]}]},
+    "programs": [{"name": "o", "master": "m", "slaves": ["b"], "cycle": "1ms"}, {"name": "i", "within": "o", "master": "b", "slaves": ["c"], "cycle": "5ms"}],
+    "script": [{"at": "10ms", "program": "o", "call": "Start"}, {"at": "61ms", "program": "o", "call": "Suspend"}],
+    "require": [{"reaction": "suspend", "program": "o", "within": "3ms"}, {"reaction": "suspend", "program": "o", "tree": true, "within": "3ms"}]})");
+  EXPECT_EQ(result.requirements.at(0).verdict, Verdict::pass) << result.requirements.at(0).remark;
+  EXPECT_EQ(result.requirements.at(1).verdict, Verdict::fail) << result.requirements.at(1).remark;
+  EXPECT_GT(result.requirements.at(1).measured, result.requirements.at(0).measured);
+}
+
+// Two oscillators 20 ppm apart: gPTP holds them within a millisecond, and nobody within a picosecond.
+TEST(Clocks, AreJudgedByTheirGreatestError) {
+  const auto verdict = [](const char* limit) {
+    return judged(std::string(R"({"name": "clocks", "duration": "3s", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]},
+      "clocks": {"all": {"offset": "10ppm"}, "nodes": {"b": {"offset": "-10ppm"}}, "gptp": {}}, "require": [{"sync": ")") + limit + R"(", "after": "2s"}]})").requirements.at(0).verdict;
+  };
+  EXPECT_EQ(verdict("1ms"), Verdict::pass);
+  EXPECT_EQ(verdict("1ps"), Verdict::fail);
 }
 
 TEST(After, IsRefusedOfFiguresThatCountFromTheStart) {

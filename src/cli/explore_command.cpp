@@ -19,6 +19,7 @@
 #include "explore/search.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
+#include "verify/roles_question.hpp"
 
 namespace takt::cli {
 namespace {
@@ -37,6 +38,8 @@ struct ExploreOptions {
   bool no_finish = false;
   bool nested = false;
   std::optional<unsigned> inner_slaves;
+  std::optional<unsigned> candidates;
+  bool starts_again = false;
   bool quiet = false;
   std::string out;
   std::string format = "text";
@@ -93,6 +96,25 @@ std::string not_in_trees(const explore::Question& question, const ExploreOptions
   return wrong;
 }
 
+/// The same with roles.
+std::string not_with_roles(const explore::Question& question, const ExploreOptions& options) {
+  std::string wrong;
+  const auto refuse = [&wrong](bool is_wrong, const std::string& what) {
+    if (is_wrong) wrong += (wrong.empty() ? "" : "; ") + what;
+  };
+  refuse(options.starts_again && !question.has_roles(), "--starts-again says what happens when the node of a role was replaced: give --candidates, too");
+  if (!question.has_roles()) return wrong;
+  refuse(question.variant != handshake::Variant::Robust, "paper knows no roles");
+  refuse(question.is_tree(), "roles are explored in single groups, and candidates join by themselves");
+  refuse(question.subscription != handshake::Subscription::Star, "roles are explored in stars");
+  refuse(question.network != explore::Network::registers, "roles are explored on registers");
+  refuse(question.faults.contains(explore::Fault::duplicate) || question.faults.contains(explore::Fault::reorder) || question.faults.contains(explore::Fault::forge),
+         "roles are explored with loss, crash, restart and timeout");
+  refuse(question.slaves > explore::most_explored_roles, "at most " + std::to_string(explore::most_explored_roles) + " roles can be explored");
+  refuse(!options.out.empty(), "findings with roles are drawn as charts, not written as scenarios (--out)");
+  return wrong;
+}
+
 /// What is to be explored: the group of the options, or each Program of the scenario. Empty after a mistake.
 std::vector<Subject> subjects_of(const ExploreOptions& options) {
   std::vector<Subject> subjects;
@@ -120,12 +142,17 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
     }
     question.variant = variant_of(variant);
     if (options.nested) question.inner_slaves = static_cast<std::uint8_t>(options.inner_slaves.value_or(1));
-    question.commands = options.calls.value_or(usual_calls(question.nested() ? question.slaves + question.inner_slaves : question.slaves));
+    if (options.candidates) question.candidates = static_cast<std::uint8_t>(*options.candidates);
+    if (options.starts_again) question.starts_again = true;
+    const unsigned nodes = question.has_roles() ? question.slaves + question.candidates - 1U : question.nested() ? question.slaves + question.inner_slaves : question.slaves;
+    question.commands = options.calls.value_or(usual_calls(nodes));
     if (question.variant == handshake::Variant::Paper && question.faults.contains(explore::Fault::forge)) {
       std::fprintf(stderr, "takt: %s: forge is explored with robust; a word of paper is a state and nothing more, and whoever forges it is believed\n", name.c_str());
       return false;
     }
-    if (const std::string wrong = not_in_trees(question, options); !wrong.empty()) {
+    std::string wrong = not_in_trees(question, options);
+    if (wrong.empty()) wrong = not_with_roles(question, options);
+    if (!wrong.empty()) {
       std::fprintf(stderr, "takt: %s: %s\n", name.c_str(), wrong.c_str());
       return false;
     }
@@ -143,8 +170,20 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
   const auto resolved = scenario::load_file(options.scenario, {}, diagnostics);
   std::fputs(diagnostics.to_text().c_str(), stderr);
   if (!resolved) return {};
-  for (const scenario::Program& program : resolved->scenario.programs) {
+  for (const scenario::ResolvedProgram& each : resolved->programs) {
+    const scenario::Program& program = *each.description;
     const std::size_t slaves = options.slaves.value_or(static_cast<unsigned>(program.slaves.size() + program.roles.size()));
+    question.candidates = 0;
+    if (each.has_roles() && options.slaves) {
+      std::fprintf(stderr, "takt: %s has roles, so --slaves does not go with it\n", program.name.c_str());
+      return {};
+    }
+    if (each.has_roles()) {
+      if (const auto wrong = verify::set_roles(each, question)) {
+        std::fprintf(stderr, "takt: %s: %s: give --slaves and --candidates instead of the scenario\n", program.name.c_str(), wrong->c_str());
+        return {};
+      }
+    }
     const handshake::Variant variant = program.variant == scenario::Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
     if (!add(program.name, slaves, variant, program.subscription == scenario::Subscription::all_to_all)) return {};
   }
@@ -276,6 +315,10 @@ void add_explore_command(CLI::App& app, ExitStatus& status) {
       ->check(CLI::Range(1U, static_cast<unsigned>(explore::most_inner_slaves)))
       ->type_name("N");
   command.add_flag("--joining", options->question.joining, "The last slave is down at the beginning and comes up at any time, or never (where --nested can be explored)");
+  command.add_option("--candidates", options->candidates, "Nodes that may have the slaves' places, which are roles then (up to 2 roles; where --nested can be explored, without forge)")
+      ->check(CLI::Range(1U, static_cast<unsigned>(explore::most_explored_candidates)))
+      ->type_name("N");
+  command.add_flag("--starts-again", options->starts_again, "With roles: the master starts the group again when a node that was lost in a run has been replaced");
   command.add_flag("--no-finish", options->no_finish, "No Program ends by itself");
   command.add_flag("--no-symmetry", options->no_symmetry, "Tell equal slaves apart");
   command.add_option("--out", options->out, "Write a scenario for each violation into this folder")->type_name("DIR");
@@ -289,6 +332,7 @@ void add_explore_command(CLI::App& app, ExitStatus& status) {
       "  takt explore --slaves 2 --faults loss,reorder --network channels=2\n"
       "  takt explore --slaves 1 --nested --faults crash --calls 2\n"
       "  takt explore --slaves 1 --calls 1 --faults forge\n"
+      "  takt explore --slaves 1 --candidates 2 --faults crash\n"
       "Ctrl-C ends the search and prints what was found until then.\n"
       "Exit status: 0 all hold, 1 violated, not reached or not decided, 2 bad input, 130 interrupted before a violation was found.");
   command.callback([options, &status] { status = run(*options); });

@@ -17,6 +17,8 @@ enum class ActionKind : std::uint8_t {
   // -- from here on the adversary
   call,         ///< participant, method
   finish,       ///< participant: the Program ends by itself
+  join,         ///< candidate: it begins to announce itself
+  leave,        ///< candidate: it asks to be let go, or announces itself no more
   lose,         ///< channel: the register's word is lost; `channels`: and which of its messages
   duplicate,    ///< channel: a copy of the register's word stays behind
   reorder,      ///< channel: the register's word is overtaken by the next one

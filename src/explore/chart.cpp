@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "explore/roles_chart.hpp"
 #include "explore/tree_chart.hpp"
 
 namespace takt::explore {
@@ -97,6 +98,8 @@ std::string sentence(const Happening& it) {
     case ActionKind::silence: return it.who + " notices that " + it.peer + " is silent";
     case ActionKind::call: return std::string(program::methods[it.method].name) + " is called at the " + it.who;
     case ActionKind::finish: return "the Program of " + it.who + " ends by itself";
+    case ActionKind::join: return it.who + " joins";
+    case ActionKind::leave: return it.who + " asks to be let go";
     case ActionKind::lose: return "fault: lost between " + it.from + " and " + it.to + ": " + it.word;
     case ActionKind::duplicate: return "fault: duplicated between " + it.from + " and " + it.to;
     case ActionKind::reorder: return "fault: " + std::string(it.is_overtaking ? "overtaken" : "delayed") + " between " + it.from + " and " + it.to + (it.is_overtaking ? " by " : ": ") + it.word;
@@ -139,6 +142,7 @@ std::string chart(const Question& question, const Story& story) {
 }
 
 std::string chart(const Question& question, const Beginning& beginning, const Trace& trace) {
+  if (question.has_roles()) return drawn(chart_of_roles(question, beginning, trace));
   return question.is_tree() ? drawn(chart_of_tree(question, beginning, trace)) : chart(question, replay(question, beginning, trace));
 }
 

@@ -194,7 +194,7 @@ class Search {
     for (std::size_t p = 0; p < property_count; ++p) {
       const auto property = static_cast<Property>(p);
       Verdict& verdict = answer_.verdicts[p];
-      if (is_of_silence(property) && !model_.question().asks_for_silence()) {
+      if ((is_of_silence(property) && !model_.question().asks_for_silence()) || (is_of_roles(property) && !model_.question().has_roles())) {
         verdict = Verdict::not_asked;
         continue;
       }

@@ -42,6 +42,10 @@ inline constexpr std::size_t most_slaves_all_to_all = 3;
 inline constexpr std::size_t most_outer_slaves = 2;
 inline constexpr std::size_t most_inner_slaves = 2;
 
+/// A group with roles.
+inline constexpr std::size_t most_explored_roles = 2;
+inline constexpr std::size_t most_explored_candidates = 3;
+
 struct Question {
   handshake::Variant variant = handshake::Variant::Robust;
   std::uint8_t slaves = 1;           ///< 1 to most_slaves, with all-to-all subscription to most_slaves_all_to_all
@@ -58,7 +62,13 @@ struct Question {
   bool symmetry = true;              ///< slaves that play the same part are one state
   std::uint8_t inner_slaves = 0;     ///< 0: one group. Else the last slave is the master of an inner group with so many slaves
   bool joining = false;              ///< the last slave (of the inner group, if there is one) is down at the beginning, and comes up at any time or never
+  std::uint8_t candidates = 0;       ///< 0: fixed slaves. Else so many nodes may have the roles, of which there are `slaves`
+  std::array<std::uint8_t, most_explored_candidates> offers{0xFF, 0xFF, 0xFF};  ///< by candidate: the roles that it can have, bit i for role i
+  std::uint8_t joined = 0xFF;        ///< candidates that announce themselves when they are switched on, bit i for candidate i
+  bool starts_again = false;         ///< the master starts the group again when a node that was lost in a run has been replaced
   bool operator==(const Question&) const = default;
+  /// Explored by the model of groups with roles (roles_model.hpp): `robust`, star, registers, no delayed copies.
+  bool has_roles() const { return candidates != 0; }
   bool nested() const { return inner_slaves != 0; }
   /// Explored by the model of groups in groups (tree_model.hpp): `robust`, star, registers, no delayed copies, slaves told apart.
   bool is_tree() const { return nested() || joining; }

@@ -95,6 +95,8 @@ class Player {
         break;
       case ActionKind::forge: forge(action, told); break;
       case ActionKind::crash: down_[action.who] = true; break;
+      case ActionKind::join:
+      case ActionKind::leave: break;  // of candidates
       case ActionKind::restart: {
         down_[action.who] = false;
         members_[action.who] = Participant(config(action.who, members_[action.who].config().incarnation + 1));

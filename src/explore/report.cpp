@@ -54,9 +54,11 @@ std::string question_line(const Question& question) {
   const std::string inner = !question.nested() ? "" : ", the last of them master of " + std::to_string(question.inner_slaves) + (question.inner_slaves == 1 ? " inner slave" : " inner slaves");
   const std::string joining = !question.joining ? "" : question.nested() ? ", the last inner slave joins" : ", the last slave joins";
   const std::string beginnings = question.beginnings == Beginnings::all ? "" : ", switched on";
-  return variant_name(question.variant) + ", 1 master and " + std::to_string(question.slaves) + (question.slaves == 1 ? " slave" : " slaves") + inner + joining + subscription + network + beginnings +
+  const std::string of = question.has_roles() ? " role" : " slave";
+  const std::string candidates = !question.has_roles() ? "" : " for " + std::to_string(question.candidates) + (question.candidates == 1 ? " candidate" : " candidates") + (question.starts_again ? ", started again after a replacement" : "");
+  return variant_name(question.variant) + ", 1 master and " + std::to_string(question.slaves) + of + (question.slaves == 1 ? "" : "s") + candidates + inner + joining + subscription + network + beginnings +
          "; in a run at most " +
-         std::to_string(question.commands) + " calls and " +
+         std::to_string(question.commands) + (question.has_roles() ? " calls, joins and leaves and " : " calls and ") +
          (faults.empty() ? "no fault" : std::to_string(question.fault_budget) + (question.fault_budget == 1 ? " fault of: " : " faults of: ") + faults);
 }
 
@@ -85,6 +87,7 @@ std::string json_report(const std::string& program, const Question& question, co
       {"nested", yes(question.nested())},
       {"inner_slaves", std::to_string(question.inner_slaves)},
       {"joining", yes(question.joining)},
+      {"candidates", std::to_string(question.candidates)},
       {"network", quoted(question.network == Network::registers ? "registers" : "channels=" + std::to_string(question.capacity))},
       {"beginnings", quoted(question.beginnings == Beginnings::all ? "all" : "switched-on")},
       {"faults", "[" + fault_list(question, "\"", ", ", "\"") + "]"},

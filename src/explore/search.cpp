@@ -5,6 +5,7 @@
 namespace takt::explore {
 
 class GroupModel;
+class RolesModel;
 class TreeModel;
 
 bool Answer::all_hold() const {
@@ -16,6 +17,7 @@ bool Answer::any_violated() const {
 }
 
 Answer explore(const Question& question, const Watcher& watcher) {
+  if (question.has_roles()) return search<RolesModel>(question, watcher);
   return question.is_tree() ? search<TreeModel>(question, watcher) : search<GroupModel>(question, watcher);
 }
 

@@ -1,61 +1,33 @@
 #include "explore/tree_chart.hpp"
 
+#include "explore/retelling.hpp"
 #include "explore/tree_model.hpp"
-#include "sim/check.hpp"
 
 namespace takt::explore {
 namespace {
 
 class Teller {
  public:
-  explicit Teller(const Question& question) : model_(question), tree_(model_.tree()), state_(model_.switched_on()) {}
+  explicit Teller(const Question& question) : model_(question), tree_(model_.tree()) {}
 
   Chart tell(const Beginning& beginning, const Trace& trace) {
     Chart chart;
     for (std::size_t p = 0; p < tree_.participants(); ++p) chart.names.push_back(tree_.name(p));
     chart.width = 15;
-    // Numbers of states belong to one model, so the beginning is gone through again.
-    state_.set_commands_left(most_commands);
-    Next next;
-    for (const Action action : beginning.actions)
-      if (model_.act(state_, action, next)) state_ = next.state;
-    state_.set_commands_left(model_.question().commands);
-    state_.set_faults_left(model_.question().fault_budget);
-    chart.beginning = beginning.name;
-    chart.states = states();
-    chart.cycle = trace.cycle;
-    for (const Action action : trace.actions) {
-      chart.steps.push_back(told(action));
-      ChartStep& step = chart.steps.back();
-      try {
-        model_.act(state_, action, next);
-      } catch (const sim::InvariantBroken& broken) {
-        step.states = states();
-        step.findings.push_back(std::string("breaks ") + broken.what());
-        break;
-      }
-      for (std::size_t p = 0; p < property_count; ++p) {
-        const auto property = static_cast<Property>(p);
-        if (must_always_hold(property) && next.properties.contains(property)) step.findings.push_back("violates " + std::string(name_of(property)));
-      }
-      state_ = next.state;
-      step.states = states();
-    }
-    return chart;
+    return retold(model_, std::move(chart), beginning, trace, [this](const State& state) { return states(state); }, [this](const State& state, Action action) { return told(state, action); });
   }
 
  private:
-  std::vector<std::string> states() const {
+  std::vector<std::string> states(const State& state) const {
     std::vector<std::string> states;
     for (std::size_t p = 0; p < tree_.participants(); ++p)
-      states.push_back(model_.is_down(state_, p) ? down_state : std::string(handshake::name_of(model_.state_of(state_, p))));
+      states.push_back(model_.is_down(state, p) ? down_state : std::string(handshake::name_of(model_.state_of(state, p))));
     return states;
   }
   std::string text(const handshake::Word& word, std::size_t sender) const {
     return text_of(word, tree_.name(tree_.number_of(tree_.group_of(sender), word.intent.origin)));
   }
-  /// What the action is, before it is taken.
-  ChartStep told(Action action) const {
+  ChartStep told(const State& state, Action action) const {
     const ActionKind kind = action.kind;
     const bool of_channel = kind == ActionKind::send || kind == ActionKind::receive || kind == ActionKind::lose;
     const bool of_node = kind == ActionKind::crash || kind == ActionKind::restart;
@@ -63,24 +35,23 @@ class Teller {
     it.kind = kind;
     it.method = action.what;
     ChartStep step;
-    step.mark = mark_of(kind);
     if (of_channel) {
       const TreeShape::Channel& ends = tree_.channel(action.who);
       it.from = tree_.name(ends.sender);
       it.to = tree_.name(ends.receiver);
-      it.word = text(kind == ActionKind::send ? model_.word(state_, ends.sender) : model_.word_in(state_, action.who), ends.sender);
+      it.word = text(kind == ActionKind::send ? model_.word(state, ends.sender) : model_.word_in(state, action.who), ends.sender);
       if (kind == ActionKind::receive) step.arrow = {ends.sender, ends.receiver};
       else step.marked = {ends.sender};
     } else if (of_node) {
       it.who = tree_.node_name(action.who);
-      it.comes_up = model_.is_down(state_, tree_.participant_of(action.who, handshake::Side::Outer));
+      it.comes_up = model_.is_down(state, tree_.participant_of(action.who, handshake::Side::Outer));
       for (std::size_t p = 0; p < tree_.participants(); ++p)
         if (tree_.node_of(p) == action.who) step.marked.push_back(p);
     } else {
       it.who = tree_.name(action.who);
       if (kind == ActionKind::silence || kind == ActionKind::timeout) it.peer = tree_.name(tree_.peer_of(action.who, action.what));
       if (kind == ActionKind::forge) {
-        const Letter letter = forgeries(model_.word(state_, action.who), tree_.size(tree_.group_of(action.who)) - 1)[action.what];
+        const Letter letter = forgeries(model_.word(state, action.who), tree_.size(tree_.group_of(action.who)) - 1)[action.what];
         it.word = text(letter.word, action.who);
         it.is_overtaking = letter.ahead;
       }
@@ -92,7 +63,6 @@ class Teller {
 
   TreeModel model_;
   const TreeShape& tree_;
-  State state_;
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "analysis/figure_bound.hpp"
 #include "analysis/program_assessment.hpp"
@@ -12,6 +11,8 @@
 #include "scenario/figures/requirement_rules.hpp"
 #include "scenario/json/quantity.hpp"
 #include "sim/check.hpp"
+#include "verify/roles_question.hpp"
+#include "wire/plug_endpoint.hpp"
 
 namespace takt::verify {
 namespace {
@@ -153,8 +154,8 @@ class Prover {
     const auto unknown = [](std::string why) { return Proof{{}, false, std::move(why), {}, {}, {}}; };
     if (program == resolved_.programs.end()) return unknown("no such Program");
     if (program->description->violations == scenario::Violations::reported) return {{}, true, {}, {}, {}, {}};
-    if (program->has_roles()) return unknown("who has a role is settled while the Program runs");
     if (!program->nested.empty()) return unknown("takt explore looks at single groups, not at nodes that join two");
+    if (program->has_roles()) return invariants_of(*program);
     const std::size_t slaves = program->participants.size() - 1;
     if (slaves > explore::most_slaves) return unknown("at most " + std::to_string(explore::most_slaves) + " slaves can be explored");
     if (program->description->subscription != scenario::Subscription::star) return unknown("takt explore --subscription all-to-all looks at it");
@@ -166,7 +167,13 @@ class Prover {
     explore::Question question;
     question.variant = program.description->variant == scenario::Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
     question.slaves = static_cast<std::uint8_t>(program.participants.size() - 1);
-    const analysis::EventsInARow row = analysis::events_in_a_row(resolved_, bounds_, static_cast<std::size_t>(&program - resolved_.programs.data()));
+    analysis::EventsInARow row = analysis::events_in_a_row(resolved_, bounds_, static_cast<std::size_t>(&program - resolved_.programs.data()));
+    if (program.has_roles()) {
+      if (const auto wrong = set_roles(program, question)) return {{}, false, *wrong, {}, {}, {}};
+      // Who has a role at rest depends on all that was before: the whole scenario is one row from the start.
+      question.beginnings = explore::Beginnings::switched_on;
+      row = all_events();
+    }
     question.commands = static_cast<std::uint32_t>(std::max<std::size_t>(1, row.calls));
     question.fault_budget = static_cast<std::uint32_t>(row.faults);
     for (const explore::Fault fault : {explore::Fault::crash, explore::Fault::restart})
@@ -177,18 +184,17 @@ class Prover {
     Proof proof;
     proof.assumptions.add(analysis::Assumption::nothing_else);
     if (!resolved_.scenario.faults.empty()) proof.assumptions.add(analysis::Assumption::listed_faults_only);
-    for (const models::StreamIndex stream : program.state_streams) {
+    for (const auto& [stream, cycle, timeout] : messages_of(program)) {
       const analysis::StreamBound& state = bounds_.streams[stream.value];
       proof.assumptions.add(state.assumptions);
       if (!state.loses_nothing && !is_lost_with_its_ends(program, state)) proof.assumptions.add(analysis::Assumption::no_loss);
-      if (!is_heard_in_time(program, state)) {
-        proof.reason = "a participant may be taken for silent: the time-out " + std::to_string(program.receive_timeout.ps() / 1'000'000) + " us is not longer than a cycle and the bound of " + state.name;
+      if (!is_heard_in_time(cycle, timeout, state)) {
+        proof.reason = "a participant may be taken for silent: the time-out " + std::to_string(timeout.ps() / 1'000'000) + " us is not longer than a cycle and the bound of " + state.name;
         return proof;
       }
     }
-    const auto key = std::tuple(question.variant, question.slaves, question.commands, question.fault_budget);
-    auto known = explored_.find(key);
-    if (known == explored_.end()) known = explored_.emplace(key, explored(question)).first;
+    auto known = std::find_if(explored_.begin(), explored_.end(), [&](const auto& each) { return each.first == question; });
+    if (known == explored_.end()) known = explored_.insert(explored_.end(), {question, explored(question)});
     proof.holds = known->second.holds;
     proof.reason = known->second.reason;
     proof.remark = known->second.remark;
@@ -199,17 +205,47 @@ class Prover {
   bool is_lost_with_its_ends(const scenario::ResolvedProgram& program, const analysis::StreamBound& state) const {
     return state.loses_by_faults_only && resolved_.plan.impairments.empty() && std::all_of(resolved_.script.begin(), resolved_.script.end(), [&](const scenario::ResolvedAction& action) {
       const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what);
-      const bool is_participant = node != nullptr && std::find(program.participants.begin(), program.participants.end(), node->node) != program.participants.end();
+      const bool is_participant = node != nullptr && (std::find(program.participants.begin(), program.participants.end(), node->node) != program.participants.end() ||
+                                                      std::any_of(program.candidates.begin(), program.candidates.end(), [&](const scenario::ResolvedCandidate& each) { return each.node == node->node; }));
       return is_participant || (node == nullptr && !std::holds_alternative<scenario::ResolvedLink>(action.what));
     });
   }
 
-  bool is_heard_in_time(const scenario::ResolvedProgram& program, const analysis::StreamBound& state) const {
+  struct Cyclic {
+    models::StreamIndex stream;
+    Duration cycle;
+    Duration timeout;
+  };
+  /// What a Program publishes, and after which time its silence is noticed. The table has no time-out: it goes with the master's state.
+  static std::vector<Cyclic> messages_of(const scenario::ResolvedProgram& program) {
+    std::vector<Cyclic> messages;
+    for (const models::StreamIndex stream : program.state_streams) messages.push_back({stream, program.description->cycle, program.receive_timeout});
+    if (!program.has_roles()) return messages;
+    const Duration announce_timeout = program.announce_every * wire::announcements_missed + program.announce_every / 2;
+    messages.push_back({program.table_stream, program.announce_every, announce_timeout});
+    for (const scenario::ResolvedCandidate& candidate : program.candidates) {
+      messages.push_back({candidate.announcements, program.announce_every, announce_timeout});
+      messages.push_back({candidate.state, program.description->cycle, program.receive_timeout});
+    }
+    return messages;
+  }
+
+  /// Calls, joins and leaves are calls here; every node that goes down or comes up may be one of the Program's.
+  analysis::EventsInARow all_events() const {
+    analysis::EventsInARow all;
+    for (const scenario::ResolvedAction& action : resolved_.script) {
+      if (std::holds_alternative<scenario::ResolvedCall>(action.what) || std::holds_alternative<scenario::ResolvedPlug>(action.what)) ++all.calls;
+      if (std::holds_alternative<scenario::ResolvedNode>(action.what)) ++all.faults;
+    }
+    return all;
+  }
+
+  bool is_heard_in_time(Duration cycle, Duration timeout, const analysis::StreamBound& state) const {
     if (!state.latency) return false;
     const models::OsLatency& os = resolved_.plan.os_latencies[resolved_.plan.nodes[resolved_.plan.streams[state.index.value].talker.value].os_latency];
     // Clocks are never so bad that a time-out is a tenth shorter, or a cycle a tenth longer.
-    const std::int64_t longest = program.description->cycle.ps() + program.description->cycle.ps() / 10 + (*state.latency - state.least).ps() + os.wake_up.greatest().ps();
-    return longest < program.receive_timeout.ps() - program.receive_timeout.ps() / 10;
+    const std::int64_t longest = cycle.ps() + cycle.ps() / 10 + (*state.latency - state.least).ps() + os.wake_up.greatest().ps();
+    return longest < timeout.ps() - timeout.ps() / 10;
   }
 
   Proof explored(const explore::Question& question) const {
@@ -224,15 +260,15 @@ class Prover {
       return proof;
     }
     proof.holds = true;
-    proof.remark = fmt::format("explored: {} states, {} call{} and {} fault{} before the group rests", answer.states, question.commands, question.commands == 1 ? "" : "s",
-                               question.fault_budget, question.fault_budget == 1 ? "" : "s");
+    proof.remark = fmt::format("explored: {} states, {} call{} and {} fault{} {}", answer.states, question.commands, question.commands == 1 ? "" : "s", question.fault_budget,
+                               question.fault_budget == 1 ? "" : "s", question.has_roles() ? "in all, joins and leaves among the calls" : "before the group rests");
     return proof;
   }
 
   const scenario::Resolved& resolved_;
   const ProofOptions& options_;
   const analysis::Bounds& bounds_;
-  std::map<std::tuple<handshake::Variant, std::uint8_t, std::uint32_t, std::uint32_t>, Proof> explored_;
+  std::vector<std::pair<explore::Question, Proof>> explored_;
 };
 
 }  // namespace

@@ -50,6 +50,16 @@ class Answers(unittest.TestCase):
             self.assertNotIn("F1", json.loads(out)["properties"])
             self.assertNotIn("F1 ", explore("--slaves", 1, *faults)[1])
 
+    def test_roles_are_explored_with_their_candidates(self):
+        status, out, err = explore("--slaves", 1, "--candidates", 2, "--calls", 1, "--format", "json")
+        answer = json.loads(out)
+        self.assertEqual((status, err, answer["states"], answer["candidates"]), (0, "", 12709, 2))
+        self.assertEqual(answer["properties"]["B1"], "holds")
+        self.assertNotIn("B1", json.loads(explore("--slaves", 1, "--calls", 1, "--format", "json")[1])["properties"])
+        for wrong, why in ((("--faults", "forge"), "loss, crash, restart and timeout"), (("--variant", "paper"), "paper knows no roles"), (("--joining",), "single groups")):
+            status, _, err = explore("--slaves", 1, "--candidates", 2, *wrong)
+            self.assertEqual((status, why in err), (2, True), err)
+
     def test_paper_is_violated(self):
         status, out, _ = explore("--slaves", 1, "--variant", "paper", "--format", "json")
         self.assertEqual(status, 1)

@@ -18,6 +18,8 @@ struct Case {
   handshake::Subscription subscription = handshake::Subscription::Star;
   std::uint8_t inner_slaves = 0;
   bool forges = false;   ///< the only fault is a forged word
+  std::uint8_t candidates = 0;
+  std::uint8_t first_offers = 0xFF;  ///< the roles that the first of them can have
 };
 
 /// From short to long; together a few seconds for a handshake that is right.
@@ -30,7 +32,10 @@ const std::vector<Case>& cases() {
                                      {1, 1, 1, Network::channels},
                                      {1, 2, 0, Network::registers, handshake::Subscription::Star, 1},
                                      {1, 1, 1, Network::registers, handshake::Subscription::Star, 1},
-                                     {1, 1, 1, Network::registers, handshake::Subscription::Star, 0, true}};
+                                     {1, 1, 1, Network::registers, handshake::Subscription::Star, 0, true},
+                                     {1, 1, 0, Network::registers, handshake::Subscription::Star, 0, false, 2},
+                                     {2, 1, 0, Network::registers, handshake::Subscription::Star, 0, false, 2, 2},
+                                     {1, 1, 1, Network::registers, handshake::Subscription::Star, 0, false, 1}};
   return all;
 }
 
@@ -42,13 +47,15 @@ Question question_of(const Case& each) {
   question.network = each.network;
   question.subscription = each.subscription;
   question.inner_slaves = each.inner_slaves;
+  question.candidates = each.candidates;
+  question.offers[0] = each.first_offers;
   question.states = 20'000'000;
   if (each.faults == 0) return question;
   if (each.forges) question.faults.insert(Fault::forge);
   for (std::size_t f = 0; f < fault_count; ++f) {
     const auto fault = static_cast<Fault>(f);
     if (each.forges || fault == Fault::forge) continue;
-    if (!question.is_tree() || (fault != Fault::duplicate && fault != Fault::reorder)) question.faults.insert(fault);
+    if ((!question.is_tree() && !question.has_roles()) || (fault != Fault::duplicate && fault != Fault::reorder)) question.faults.insert(fault);
   }
   return question;
 }

@@ -1,0 +1,15 @@
+// The roles of a scenario's Program as a question to the explorer.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "explore/question.hpp"
+#include "scenario/resolve/resolved.hpp"
+
+namespace takt::verify {
+
+/// Sets roles and candidates; what cannot be explored, or nothing.
+std::optional<std::string> set_roles(const scenario::ResolvedProgram& program, explore::Question& question);
+
+}  // namespace takt::verify

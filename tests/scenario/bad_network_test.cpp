@@ -23,6 +23,8 @@ const BadCase nodes_cases[] = {
      R"(2:53: error at /network/nodes/a/os/receive/uniform: an empty interval: found 2us to 1us, expected from at most to)"},
     {"LatencyTableWithoutWeight", with_node(R"({"kind": "host", "os": {"receive": {"table": [{"value": "2us", "weight": 0}]}}})"),
      R"(2:51: error at /network/nodes/a/os/receive/table: a table without weight: found weights that are all 0, expected at least one positive weight)"},
+    {"LatencyBeyondWhatAPortKeeps", with_node(R"({"kind": "host", "os": {"receive": "11s"}})"),
+     R"(2:41: error at /network/nodes/a/os/receive: too long to receive: found 11s, expected at most 10s)"},
     {"QueuesOutOfRange", with_node(R"({"kind": "host", "queues": {"frames": 0, "octets": "63B", "classes": [{"class": 8}]}})"),
      R"(2:44: error at /network/nodes/a/queues/frames: out of range: found the number 0, expected an integer from 1 to 4294967295
 2:57: error at /network/nodes/a/queues/octets: out of range: found "63B", expected a size of at least 64B

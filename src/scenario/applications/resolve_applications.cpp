@@ -187,7 +187,8 @@ class ApplicationResolver {
       if (one.publishes) one.pattern = thread.payload ? thread.payload->pattern : Pattern::counter;
       if (thread.payload && one.publishes) {
         one.payload = *thread.payload;
-        if (one.topic < r_.topics.size()) vocabulary::check_instances(*thread.payload, !r_.topics[one.topic].description->keys.empty() && !thread.payload->copy_of, diagnostics_);
+        if (one.topic < r_.topics.size() && !diagnostics_.is_refused(r_.topics[one.topic].description->where.at("keys")))
+          vocabulary::check_instances(*thread.payload, !r_.topics[one.topic].description->keys.empty() && !thread.payload->copy_of, diagnostics_);
       }
       if (thread.signal) add_signal(*thread.signal, one, made);
       made.threads.push_back(std::move(one));

@@ -151,7 +151,7 @@ class ClockResolver {
   /// Nobody is elected grandmaster of a domain of a hot standby who is not named: that would be a third source of time.
   void check_grandmaster(const json::NameMap<GptpNode>& nodes, const json::Source& where) {
     const bool is_named = std::any_of(nodes.begin(), nodes.end(), [](const auto& node) { return node.second.roles || node.second.priority1.value_or(255) < 255; });
-    if (!is_named) diagnostics_.error_unless(diagnostics_.is_refused(where.at("nodes")), where.place(), "a domain of a hot standby without a grandmaster", {"no node with \"priority1\" or \"roles\"", "a \"priority1\" below 255 at the node that is to be grandmaster, or the \"roles\" of the ports"});
+    if (!is_named) diagnostics_.error_unless(!where.is_known() || diagnostics_.is_refused(where.at("nodes")), where.place(), "a domain of a hot standby without a grandmaster", {"no node with \"priority1\" or \"roles\"", "a \"priority1\" below 255 at the node that is to be grandmaster, or the \"roles\" of the ports"});
   }
 
   /// A message that is cut has no time stamp that means anything.

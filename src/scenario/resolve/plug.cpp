@@ -24,8 +24,8 @@ class RoleResolver {
 
   void run(std::size_t& publishers) {
     const std::size_t errors_before = diagnostics_.errors();
-    check();
     const auto master = builder_.host(description_.master, description_.where.at("master"));
+    check();
     if (master) find_candidates(*master);
     if (diagnostics_.errors() != errors_before) return;
     program_.participants = {models::NodeIndex{*master}};

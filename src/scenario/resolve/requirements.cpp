@@ -75,8 +75,9 @@ class Requirements {
   /// A cause that cannot be: a limit that nothing can ever fail is no requirement.
   void check_cause(const Requirement& requirement) {
     using handshake::Cause;
-    if (!requirement.reaction || !requirement.cause || *requirement.cause == Cause::command || *requirement.reaction == Reaction::halt) return;
-    const bool may_go_on = *requirement.reaction == Reaction::start && std::ranges::any_of(r_.scenario.programs, [](const Program& program) { return program.on_replacement == OnReplacement::restart; });
+    if (!requirement.reaction || !requirement.cause || *requirement.cause == Cause::command || *requirement.reaction == Reaction::halt || diagnostics_.is_refused(requirement.where.at("reaction"))) return;
+    const auto goes_on = [&](const Program& program) { return program.on_replacement == OnReplacement::restart || diagnostics_.is_refused(program.where.at("on_replacement")); };
+    const bool may_go_on = *requirement.reaction == Reaction::start && (std::ranges::any_of(r_.scenario.programs, goes_on) || !are_all_named(r_.scenario.programs, r_.scenario.where.at("programs"), diagnostics_));
     if (!may_go_on && *requirement.cause != Cause::nested)
       diagnostics_.error(requirement.where.at("cause"), "a reaction that has no such cause", {json::quote(spelling(*requirement.reaction)) + " because of a " + json::quote(spelling(*requirement.cause)),
                          "\"halt\", or \"start\" of a program with \"on_replacement\": \"restart\""});

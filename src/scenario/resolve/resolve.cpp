@@ -366,7 +366,10 @@ class Resolver {
   void add_action(const ScriptEntry& entry) {
     if (r_.scenario.duration > Duration() && entry.at > r_.scenario.duration)  // 0: refused by the table
       diagnostics_.warning(entry.where.at("at"), "after the end of the simulation", {json::to_text(entry.at), "at most " + json::to_text(r_.scenario.duration)});
-    if (entry.call) add_call(entry);
+    if (entry.call) {
+      check_caller(entry);
+      add_call(entry);
+    }
     if (entry.join || entry.leave) resolve_plug_action(r_, entry, diagnostics_);
     if (entry.call || (!entry.set_gates && !entry.join && !entry.leave)) return;
     for (const auto& [present, name] : {std::pair(entry.program.has_value(), "program"), std::pair(entry.on.has_value(), "on")})
@@ -405,6 +408,24 @@ class Resolver {
                                 "at most " + json::to_text(link.rate) + " then"});
       }
     }
+  }
+
+  /// Whatever the program is: who is a participant of none is a mistake of its own.
+  void check_caller(const ScriptEntry& entry) {
+    if (!entry.on || is_program(entry.program) || !are_all_named(r_.scenario.programs, r_.scenario.where.at("programs"), diagnostics_)) return;
+    std::vector<std::string_view> names;
+    for (const Program& program : r_.scenario.programs) {
+      if (may_be_participant(program, *entry.on)) return;
+      names.push_back(program.master);
+      names.insert(names.end(), program.slaves.begin(), program.slaves.end());
+      for (const Role& role : program.roles) names.push_back(role.name);
+    }
+    if (std::find(names.begin(), names.end(), *entry.on) == names.end())
+      diagnostics_.error_unless(diagnostics_.is_refused(entry.where.at("on")), entry.where.at("on"), "not a participant of a program", {json::quote(*entry.on), "the master or a slave of one", json::suggest(*entry.on, names)});
+  }
+
+  bool is_program(const std::optional<std::string>& name) const {
+    return name && std::ranges::any_of(r_.scenario.programs, [&](const Program& program) { return program.name == *name; });
   }
 
   void add_call(const ScriptEntry& entry) {

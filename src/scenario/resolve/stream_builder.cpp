@@ -89,7 +89,8 @@ void StreamBuilder::check_names_of_paths(const NewStream& wanted) {
 bool StreamBuilder::check_size(const NewStream& wanted) {
   const Octets msdu = wanted.headers + wanted.payload;
   if (msdu <= models::maximum_msdu) return true;
-  diagnostics_.error(wanted.of_program ? wanted.where.at("fields") : wanted.where.at("payload"), "more than one frame",
+  // Without IP and UDP it might fit.
+  diagnostics_.error_unless(diagnostics_.is_refused(wanted.where.at("encapsulation")), wanted.of_program ? wanted.where.at("fields") : wanted.where.at("payload"), "more than one frame",
                      {std::to_string(msdu.count) + " octets after the EtherType", "at most 1500 with all headers"});
   return false;
 }

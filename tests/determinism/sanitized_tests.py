@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""Builds the tests of models, of scenarios and of properties with AddressSanitizer and UndefinedBehaviorSanitizer, and runs them in short form.
+
+usage: sanitized_tests.py SOURCE BUILD_FOLDER
+
+It shares the build folder of the sanitized variant of across_builds.py, which runs every shipped scenario in the same build. There every frame is an
+allocation of its own (models/ethernet/frame_pool.hpp): who looks at one that has ended is found.
+"""
+import concurrent.futures
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+import across_builds
+
+VARIANT = "clang-asan-ubsan"
+# What each test finds in its environment so that it takes seconds: less of the same cases.
+TESTS = {
+    "takt_models_parts_test": {},
+    "takt_network_test": {},
+    "takt_host_test": {},
+    "takt_ingress_pipeline_test": {},
+    "takt_frer_test": {"RC_PARAMS": "seed=2026 max_success=20"},
+    "takt_preemption_test": {},
+    "takt_regression_test": {},
+    "takt_network_property_test": {"RC_PARAMS": "seed=2026 max_success=20"},
+    "takt_determinism_property_test": {"RC_PARAMS": "seed=2026 max_success=10"},
+    "takt_feature_pairs_test": {"RC_PARAMS": "seed=2026 max_success=30", "TAKT_PAIR_SEEDS": "1"},
+}
+SANITIZERS = {
+    "ASAN_OPTIONS": "detect_stack_use_after_return=1:strict_init_order=1:check_initialization_order=1",
+    "UBSAN_OPTIONS": "print_stacktrace=1",
+}
+
+
+def run_test(folder, name):
+    began = time.monotonic()
+    done = subprocess.run([folder / name, "--gtest_brief=1"], capture_output=True, text=True, env={**os.environ, **SANITIZERS, **TESTS[name]})
+    return name, done.returncode, time.monotonic() - began, done.stdout + done.stderr
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    source, builds = map(pathlib.Path, sys.argv[1:3])
+    compiler, build_type, sanitizers = across_builds.VARIANTS[VARIANT]
+    if shutil.which(compiler) is None:
+        print(f"no {compiler} here, left out")
+        return 77  # skipped, for ctest
+    folder = across_builds.build(source, builds / VARIANT, compiler, build_type, sanitizers, TESTS).parent
+    failed = 0
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for name, status, seconds, output in pool.map(lambda name: run_test(folder, name), TESTS):
+            print(f"{name}: {'passed' if status == 0 else f'ended with {status}'}, {seconds:.0f} s")
+            if status != 0:
+                failed += 1
+                print(output[-8000:])
+    print(f"{len(TESTS)} tests with {sanitizers}, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

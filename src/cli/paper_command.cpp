@@ -88,14 +88,14 @@ ExitStatus run_validation(PaperOptions& options) {
   return hand_over(options, made, diagnostics);
 }
 
-void add_output_options(CLI::App& command, PaperOptions& options) {
-  command.add_option("--out", options.out, "Write report, figures (SVG) and scenarios into this folder")->type_name("DIR");
+void add_output_options(CLI::App& command, PaperOptions& options, const char* written) {
+  command.add_option("--out", options.out, written)->type_name("DIR");
   command.add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}))->type_name("FORMAT");
   command.add_flag("--quiet", options.quiet, "Do not say what is being done");
 }
 
 void add_common_options(CLI::App& command, PaperOptions& options) {
-  add_output_options(command, options);
+  add_output_options(command, options, "Write report, figures (SVG) and scenarios into this folder");
   command.add_flag("--speed", options.speed, "Say how long the runs took");
 }
 
@@ -135,7 +135,7 @@ void add_validation(CLI::App& command, ExitStatus& status) {
   validation.add_flag("--short", options->validation.is_short, "Of large tables some rows only");
   validation.add_option("--tables", options->validation.tables, "Where the tables of published figures are (validation)")->type_name("DIR");
   validation.add_option("--jobs", options->validation.jobs, "Threads; the figures are the same for any number (one for each core)")->check(CLI::Range(1u, 256u))->type_name("N");
-  add_output_options(validation, *options);
+  add_output_options(validation, *options, "Write report, pictures (SVG) and the page docs/validation.md into this folder");
   validation.footer(
       "Examples:\n"
       "  takt paper validation --short                  a few seconds\n"

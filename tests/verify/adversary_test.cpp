@@ -134,6 +134,11 @@ TEST(Shortened, LeavesAloneWhatDependsOnItsTimes) {
   text.insert(text.rfind("\"require\""), R"("faults": [{"kind": "link-down", "link": ["m", "s"], "at": "600ms", "for": "1ms"}], )");
   const auto scenario = resolved(text);
   EXPECT_EQ(shortened(scenario->scenario, 1_ms), scenario->scenario);
+  // So does what counts from an instant on.
+  std::string late = halted;
+  late.insert(late.rfind("\"require\""), R"("warm_up": "1ms", )");
+  const auto warm = resolved(late);
+  EXPECT_EQ(shortened(warm->scenario, 1_ms), warm->scenario);
 }
 
 // A talker that is late by up to 12 us in its promised phase meets the long frame that is on its way 12 us after the start; chance would have to hit the nanosecond.

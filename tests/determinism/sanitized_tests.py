@@ -27,7 +27,6 @@ TESTS = {
     "takt_preemption_test": {},
     "takt_regression_test": {},
     "takt_judges_test": {},
-    "takt_generated_scenarios_test": {"TAKT_GENERATED": "25"},
     "takt_network_property_test": {"RC_PARAMS": "seed=2026 max_success=20"},
     "takt_determinism_property_test": {"RC_PARAMS": "seed=2026 max_success=10"},
     "takt_feature_pairs_test": {"RC_PARAMS": "seed=2026 max_success=30", "TAKT_PAIR_SEEDS": "1"},

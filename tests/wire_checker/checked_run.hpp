@@ -63,10 +63,18 @@ class CheckedRun {
   void look_at_pool() {
     const models::Traffic& traffic = run.network().traffic();
     std::uint64_t references = 0, alive = 0, in_flight = 0;
+#ifdef TAKT_LONE_SLOTS
+    // Of a frame that has ended nothing is left to look at.
+    traffic.for_each_live([&](const models::Frame& frame) {
+      references += frame.references;
+      ++alive;
+    });
+#else
     for (const std::uint32_t handle : checker.handles()) {
       references += traffic.frame({handle}).references;
       alive += traffic.frame({handle}).references > 0 ? 1 : 0;
     }
+#endif
     for (const models::Stream& stream : traffic.streams()) in_flight += stream.in_flight();
     // A frame of which only the header has come may wait as a record that no trace has named.
     bool cuts_through = false;

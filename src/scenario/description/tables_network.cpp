@@ -106,7 +106,7 @@ const json::Object& describe(json::Type<OperatingSystem>) {
   static constexpr json::Field fields[] = {
       optional<&OperatingSystem::profile>("profile", "Where the delays come from that are not given here."),
       optional<&OperatingSystem::transmit>("transmit", "From the application's send to the network interface."),
-      optional<&OperatingSystem::receive>("receive", "From the last bit at the network interface to the application; at most 10 s."),
+      optional<&OperatingSystem::receive>("receive", "From the last bit at the network interface to the application; a fixed one is at most 10 s."),
       optional<&OperatingSystem::wake_up>("wake_up", "From a timer's expiry to the application."),
   };
   static constexpr json::Object table =

@@ -35,11 +35,12 @@ void DeliveryBook::drop(const Frame& frame, DropReason reason) {
     account.first_sequence = std::min(account.first_sequence, frame.sequence);
     ++account.dropped[static_cast<std::size_t>(reason)];
   }
-  if (entry.arrivals.empty()) return;
-  std::array<std::uint64_t, 8> boundaries{};
-  const std::size_t count = std::min(boundaries.size(), entry.accounts.size());
-  for (std::size_t i = 0; i < count; ++i) boundaries[i] = entry.accounts[i].first_sequence;
-  for (Arrivals& arrivals : entry.arrivals) arrivals.ledger.bound(std::span(boundaries).first(count));
+  for (Arrivals& arrivals : entry.arrivals) {
+    if (!arrivals.ledger.has_many_gaps()) continue;
+    std::vector<std::uint64_t> boundaries;
+    for (const LaterAccount& account : entry.accounts) boundaries.push_back(account.first_sequence);
+    arrivals.ledger.fold(boundaries);
+  }
 }
 
 std::span<const LaterAccount> DeliveryBook::accounts(StreamIndex stream) const {

@@ -24,10 +24,10 @@ class SequenceLedger {
   /// Of the frames `first` .. `end` - 1, those of which no copy has come.
   std::uint64_t missing(std::uint64_t first, std::uint64_t end) const;
 
-  /// To be called now and then: `boundaries` are the values of `first` that missing() will be asked.
-  void bound(std::span<const std::uint64_t> boundaries) {
-    if (gaps_.size() > most_gaps) fold(boundaries);
-  }
+  /// To be looked at now and then: there are so many gaps that the older half should be folded.
+  bool has_many_gaps() const { return gaps_.size() > most_gaps; }
+  /// `boundaries` are the values of `first` that missing() will be asked.
+  void fold(std::span<const std::uint64_t> boundaries);
   static constexpr std::size_t most_gaps = 1 << 16;
 
  private:
@@ -38,7 +38,6 @@ class SequenceLedger {
     bool is_exact() const { return missing == last - first + 1; }
   };
   void arrive_out_of_turn(std::uint64_t sequence);
-  void fold(std::span<const std::uint64_t> boundaries);
   std::size_t at_or_after(std::uint64_t sequence) const;
 
   std::uint64_t next_ = 0;  // after the greatest that has come

@@ -175,7 +175,7 @@ TEST(Losses, LedgerStaysSmall) {
   // Every third is lost.
   for (std::uint64_t sequence = 0; sequence < 2 * half; ++sequence) {
     if (sequence % 3 != 0) ledger.arrive(sequence);
-    ledger.bound(boundaries);
+    if (ledger.has_many_gaps()) ledger.fold(boundaries);
   }
   const auto lost = [](std::uint64_t from, std::uint64_t to) { return (to + 2) / 3 - (from + 2) / 3; };
   EXPECT_EQ(ledger.missing(0, 2 * half), lost(0, 2 * half));

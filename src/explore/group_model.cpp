@@ -31,9 +31,6 @@ GroupModel::GroupModel(const Question& question)
 
 void GroupModel::list_actions() {
   const auto participants = static_cast<std::uint8_t>(question_.slaves + 1);
-  const auto add = [this](ActionKind kind, std::size_t who, std::size_t what) {
-    actions_.push_back({kind, static_cast<std::uint8_t>(who), static_cast<std::uint16_t>(what)});
-  };
   const std::size_t places = question_.network == Network::channels ? question_.capacity : 1;
   const auto each_channel = [&](ActionKind kind, std::size_t count) {
     for (std::size_t c = 0; c < wiring_.size(); ++c)
@@ -52,18 +49,18 @@ void GroupModel::list_actions() {
   if (strays && question_.network == Network::registers) add(ActionKind::deliver_late, 0, 0);
   each_participant(ActionKind::initialised);
   if (question_.faults.contains(Fault::crash) || question_.faults.contains(Fault::forge)) each_peer(ActionKind::silence);
-  network_count_ = actions_.size();
+  end_network();
   for (std::uint8_t i = 0; i < participants; ++i)
     for (std::uint8_t m = 0; m < program::methods.size(); ++m) add(ActionKind::call, i, m);
   if (question_.finishes) each_participant(ActionKind::finish);
-  fault_begin_ = actions_.size();
+  end_calls();
   if (question_.faults.contains(Fault::loss)) each_channel(ActionKind::lose, places);
   if (question_.faults.contains(Fault::duplicate)) each_channel(ActionKind::duplicate, 1);
   if (question_.faults.contains(Fault::reorder)) each_channel(ActionKind::reorder, 1);
   if (question_.faults.contains(Fault::crash)) each_participant(ActionKind::crash);
-  restart_begin_ = actions_.size();
+  begin_free();
   if (question_.faults.contains(Fault::restart)) each_participant(ActionKind::restart);
-  restart_end_ = actions_.size();
+  end_free();
   if (question_.faults.contains(Fault::timeout)) each_peer(ActionKind::timeout);
   if (question_.faults.contains(Fault::forge))
     for (std::size_t i = 0; i < participants; ++i)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "explore/action.hpp"
+#include "explore/action_list.hpp"
 #include "explore/contents.hpp"
 #include "explore/ghost.hpp"
 #include "explore/members.hpp"
@@ -20,7 +21,7 @@
 
 namespace takt::explore {
 
-class GroupModel {
+class GroupModel : public ActionList {
  public:
   explicit GroupModel(const Question& question);
   GroupModel(const GroupModel&) = delete;
@@ -30,18 +31,6 @@ class GroupModel {
   const std::vector<Beginning>& beginnings() const { return beginnings_; }
   const Wiring& wiring() const { return wiring_; }
   const Shape& shape() const { return shape_; }
-  /// Network actions first, calls then, faults last.
-  std::span<const Action> actions() const { return actions_; }
-  std::span<const Action> network_actions() const { return {actions_.data(), network_count_}; }
-  /// Of the adversary, those that a state may allow: nothing that was left out is possible in it.
-  std::span<const Action> calls(const State& state) const {
-    return {actions_.data() + network_count_, state.commands_left() == 0 ? 0 : fault_begin_ - network_count_};
-  }
-  std::span<const Action> faults(const State& state) const {
-    const std::size_t begin = state.faults_left() == 0 ? restart_begin_ : fault_begin_;  // whoever is down may come up for nothing
-    const std::size_t end = state.faults_left() == 0 ? restart_end_ : actions_.size();
-    return {actions_.data() + begin, end - begin};
-  }
 
   /// False if the action is not possible, or changes nothing.
   bool act(const State& state, Action action, Next& next);
@@ -126,12 +115,7 @@ class GroupModel {
   std::vector<std::uint32_t> renamed_ghost_;  ///< by ghost and renaming
   std::vector<bool> goes_round_;               ///< by member
   Memo watched_;                               ///< (ghost, participant, effect) -> (ghost, violated)
-  std::vector<Action> actions_;
   std::vector<std::uint8_t> renamed_channel_;  ///< by channel and renaming
-  std::size_t network_count_ = 0;
-  std::size_t fault_begin_ = 0;
-  std::size_t restart_begin_ = 0;
-  std::size_t restart_end_ = 0;
   std::vector<Beginning> beginnings_;
 };
 

@@ -30,6 +30,16 @@ struct Next {
 /// Which states may lie on cycles of network steps.
 enum class Recurrence : std::uint8_t { none, some, all };
 
+/// The part of a Model whose participants are told apart, and of which nothing is known of who can go round.
+class ToldApart {
+ public:
+  bool with_symmetry() const { return false; }
+  bool symmetric() const { return true; }
+  const State& canonical(const State& state) const { return state; }
+  Recurrence recurrence() const { return Recurrence::all; }
+  bool recurs(const State&) const { return true; }
+};
+
 template <class M>
 concept Model = std::constructible_from<M, const Question&> && requires(M& model, const M& known, const State& state, Action action, Next& next) {
   { known.question() } -> std::same_as<const Question&>;

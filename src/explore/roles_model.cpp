@@ -24,7 +24,6 @@ RolesModel::RolesModel(const Question& question) : question_(question), stations
 }
 
 void RolesModel::list_actions() {
-  const auto add = [this](ActionKind kind, std::size_t who, std::size_t what = 0) { actions_.push_back({kind, static_cast<std::uint8_t>(who), static_cast<std::uint16_t>(what)}); };
   const auto each_channel = [&](ActionKind kind) {
     for (std::size_t c = 0; c < channels_of_candidate * question_.candidates; ++c) add(kind, c);
   };
@@ -39,7 +38,7 @@ void RolesModel::list_actions() {
   each_channel(ActionKind::receive);
   each_station(ActionKind::initialised);
   each_time_out(ActionKind::silence);
-  network_count_ = actions_.size();
+  end_network();
   for (std::size_t s = 0; s < stations(); ++s)
     for (std::size_t m = 0; m < program::methods.size(); ++m) add(ActionKind::call, s, m);
   if (question_.finishes) each_station(ActionKind::finish);
@@ -47,9 +46,9 @@ void RolesModel::list_actions() {
     add(ActionKind::join, c);
     add(ActionKind::leave, c);
   }
-  fault_begin_ = actions_.size();
+  end_calls();
   if (question_.faults.contains(Fault::restart)) each_station(ActionKind::restart);
-  restart_end_ = actions_.size();
+  end_free();
   if (question_.faults.contains(Fault::crash)) each_station(ActionKind::crash);
   if (question_.faults.contains(Fault::loss)) each_channel(ActionKind::lose);
   if (question_.faults.contains(Fault::timeout)) each_time_out(ActionKind::timeout);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "explore/action_list.hpp"
 #include "explore/model.hpp"
 #include "explore/stations.hpp"
 
@@ -25,7 +26,7 @@ struct RolesGhost {
   bool operator==(const RolesGhost&) const = default;
 };
 
-class RolesModel {
+class RolesModel : public ActionList, public ToldApart {
  public:
   enum class Channel : std::uint8_t { announcement, word_up, table, word_down };
   static constexpr std::size_t channels_of_candidate = 4;
@@ -35,21 +36,9 @@ class RolesModel {
   const Question& question() const { return question_; }
   const Shape& shape() const { return shape_; }
   const std::vector<Beginning>& beginnings() const { return beginnings_; }
-  std::span<const Action> actions() const { return actions_; }
-  std::span<const Action> network_actions() const { return {actions_.data(), network_count_}; }
-  std::span<const Action> calls(const State& state) const { return {actions_.data() + network_count_, state.commands_left() == 0 ? 0 : fault_begin_ - network_count_}; }
-  /// Whoever is down may come up for nothing.
-  std::span<const Action> faults(const State& state) const {
-    return {actions_.data() + fault_begin_, (state.faults_left() == 0 ? restart_end_ : actions_.size()) - fault_begin_};
-  }
 
   State switched_on();
   bool act(const State& state, Action action, Next& next);
-  bool with_symmetry() const { return false; }
-  bool symmetric() const { return true; }
-  const State& canonical(const State& state) const { return state; }
-  Recurrence recurrence() const { return Recurrence::all; }
-  bool recurs(const State&) const { return true; }
 
   /// The goal of L1: whoever announces itself is known, roles are filled if they can be, whoever has one knows it, and all have done what was
   /// asked for last; a Start at rest ends in Running. The master is down: the goal of F1, all others Halted.
@@ -105,10 +94,6 @@ class RolesModel {
   Shape shape_;
   Stations stations_;
   Interner<RolesGhost, HashOfGhost> ghosts_;
-  std::vector<Action> actions_;
-  std::size_t network_count_ = 0;
-  std::size_t fault_begin_ = 0;
-  std::size_t restart_end_ = 0;
   std::vector<Beginning> beginnings_;
 };
 

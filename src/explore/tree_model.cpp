@@ -39,9 +39,6 @@ TreeModel::TreeModel(const Question& question) : question_(question), tree_(ques
 }
 
 void TreeModel::list_actions() {
-  const auto add = [this](ActionKind kind, std::size_t who, std::size_t what) {
-    actions_.push_back({kind, static_cast<std::uint8_t>(who), static_cast<std::uint16_t>(what)});
-  };
   const auto each_channel = [&](ActionKind kind) {
     for (std::size_t c = 0; c < tree_.channels(); ++c) add(kind, c, 0);
   };
@@ -52,19 +49,19 @@ void TreeModel::list_actions() {
   each_channel(ActionKind::receive);
   for (std::size_t p = 0; p < tree_.participants(); ++p) add(ActionKind::initialised, p, 0);
   if (question_.faults.contains(Fault::crash) || question_.faults.contains(Fault::forge) || question_.joining) each_peer(ActionKind::silence);
-  network_count_ = actions_.size();
+  end_network();
   for (std::size_t p = 0; p < tree_.participants(); ++p)
     for (std::size_t m = 0; m < program::methods.size(); ++m) add(ActionKind::call, p, m);
   if (question_.finishes)
     for (std::size_t p = 0; p < tree_.participants(); ++p) add(ActionKind::finish, p, 0);
-  fault_begin_ = actions_.size();
+  end_calls();
   if (question_.faults.contains(Fault::loss)) each_channel(ActionKind::lose);
   for (std::size_t node = 0; node < tree_.nodes(); ++node) {
     if (question_.faults.contains(Fault::crash)) add(ActionKind::crash, node, 0);
     if (question_.faults.contains(Fault::restart) || node == tree_.joining_node()) add(ActionKind::restart, node, 0);
   }
   if (question_.faults.contains(Fault::timeout)) each_peer(ActionKind::timeout);
-  forge_begin_ = actions_.size();
+  end_free();  // there are many words to forge, and with no fault left none of them is possible
   if (question_.faults.contains(Fault::forge))
     for (std::size_t p = 0; p < tree_.participants(); ++p)
       for (std::size_t word = 0; word < most_forgeries; ++word) add(ActionKind::forge, p, word);

@@ -9,12 +9,13 @@
 #include <span>
 #include <vector>
 
+#include "explore/action_list.hpp"
 #include "explore/model.hpp"
 #include "explore/tree_nodes.hpp"
 
 namespace takt::explore {
 
-class TreeModel {
+class TreeModel : public ActionList, public ToldApart {
  public:
   explicit TreeModel(const Question& question);
 
@@ -22,22 +23,9 @@ class TreeModel {
   const TreeShape& tree() const { return tree_; }
   const Shape& shape() const { return shape_; }
   const std::vector<Beginning>& beginnings() const { return beginnings_; }
-  std::span<const Action> actions() const { return actions_; }
-  std::span<const Action> network_actions() const { return {actions_.data(), network_count_}; }
-  std::span<const Action> calls(const State& state) const { return {actions_.data() + network_count_, state.commands_left() == 0 ? 0 : fault_begin_ - network_count_}; }
-  /// There are many words to forge, and with no fault left none of them is possible.
-  std::span<const Action> faults(const State& state) const {
-    return {actions_.data() + fault_begin_, (state.faults_left() == 0 ? forge_begin_ : actions_.size()) - fault_begin_};
-  }
 
   State switched_on();
   bool act(const State& state, Action action, Next& next);
-  /// Slaves are told apart, and nothing is known of who can go round.
-  bool with_symmetry() const { return false; }
-  bool symmetric() const { return true; }
-  const State& canonical(const State& state) const { return state; }
-  Recurrence recurrence() const { return Recurrence::all; }
-  bool recurs(const State&) const { return true; }
 
   /// The goal of L1: in each group the same intent and the state that it names, the same in both. Somebody is down: the goal of F1, all others Halted.
   bool settled(const State& state) const;
@@ -82,10 +70,6 @@ class TreeModel {
   TreeNodes nodes_;
   Interner<TreeGhost, HashOfGhost> ghosts_;
   Memo watched_;                ///< (ghost, node, effects) -> (ghost, violated)
-  std::vector<Action> actions_;
-  std::size_t network_count_ = 0;
-  std::size_t fault_begin_ = 0;
-  std::size_t forge_begin_ = 0;
   std::vector<Beginning> beginnings_;
 };
 

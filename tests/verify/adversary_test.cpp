@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scenario/resolve/resolve.hpp"
 #include "sim/time.hpp"
+#include "tests/verify/support.hpp"
 #include "verify/probe.hpp"
 #include "verify/shortened.hpp"
 
@@ -13,13 +13,6 @@ namespace {
 
 using sim::Duration;
 using namespace sim::literals;  // NOLINT
-
-std::unique_ptr<scenario::Resolved> resolved(const std::string& text) {
-  scenario::json::Diagnostics diagnostics;
-  auto found = scenario::load_text(text, "test", {}, diagnostics);
-  EXPECT_TRUE(found) << diagnostics.to_text();
-  return found;
-}
 
 // urgent and bulk come from hosts of their own and share the way from the switch to b.
 std::string two_talkers(const std::string& bulk = {}) {

@@ -7,6 +7,7 @@
 #include "scenario/run/run.hpp"
 #include "verify/monitor.hpp"
 #include "verify/report.hpp"
+#include "tests/verify/support.hpp"
 #include "verify/sandwich.hpp"
 
 namespace takt::verify {
@@ -16,14 +17,6 @@ using analysis::Assumption;
 using analysis::Standing;
 using sim::Duration;
 using namespace sim::literals;  // NOLINT
-
-Options small() {
-  Options options;
-  options.search.seeds = 1;
-  options.search.events = 400'000;
-  options.proof.states = 100'000;
-  return options;
-}
 
 std::unique_ptr<scenario::Resolved> finding(const std::string& name, const std::vector<std::string>& sets = {}) {
   scenario::json::Diagnostics diagnostics;

@@ -3,6 +3,7 @@
 
 #include "analysis/bounds.hpp"
 #include "scenario/resolve/resolve.hpp"
+#include "tests/verify/support.hpp"
 #include "verify/sandwich.hpp"
 
 namespace takt::verify {
@@ -11,24 +12,14 @@ namespace {
 using sim::Duration;
 using namespace sim::literals;  // NOLINT
 
-Options small() {
-  Options options;
-  options.search.seeds = 1;
-  options.search.events = 300'000;
-  options.proof.states = 100'000;
-  return options;
-}
-
 Verification verified(const std::string& requirements, const std::string& more = {}) {
-  scenario::json::Diagnostics diagnostics;
-  const auto resolved = scenario::load_text(R"({"name": "two", "duration": "20ms",
+  const auto scenario = resolved(R"({"name": "two", "duration": "20ms",
     "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "c": {"kind": "host"}, "sw": {"kind": "switch"}},
       "links": [{"ends": ["a", "sw"]}, {"ends": ["sw", "b"]}, {"ends": ["c", "sw"]}]},
     "streams": [{"name": "urgent", "from": "a", "to": "b", "payload": "100B", "pcp": 6, "every": "1ms"},
                 {"name": "bulk", "from": "c", "to": "b", "payload": "1400B", "pcp": 0, "every": "1ms"}],
-    )" + more + R"("require": [)" + requirements + "]}", "test", {}, diagnostics);
-  EXPECT_TRUE(resolved) << diagnostics.to_text();
-  return resolved ? verify(*resolved, small()) : Verification();
+    )" + more + R"("require": [)" + requirements + "]}");
+  return verify(*scenario, small());
 }
 
 void expect_verdicts(const Verification& found, const std::vector<Verdict>& expected) {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "results/evaluate.hpp"
-#include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
+#include "tests/verify/support.hpp"
 
 namespace takt::verify {
 namespace {
@@ -24,10 +24,7 @@ struct Watched {
   results::RunResult result;
   analysis::Bounds bounds;
 
-  explicit Watched(const std::string& text) {
-    scenario::json::Diagnostics diagnostics;
-    resolved = scenario::load_text(text, "watched.json", {}, diagnostics);
-    if (!resolved) throw std::runtime_error(diagnostics.to_text());
+  explicit Watched(const std::string& text) : resolved(verify::resolved(text)) {
     run = std::make_unique<scenario::Run>(*resolved);
     run->advance();
     result = results::evaluate(*run, false);

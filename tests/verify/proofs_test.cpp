@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "results/evaluate.hpp"
-#include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
+#include "tests/verify/support.hpp"
 #include "verify/bounds.hpp"
 
 namespace takt::verify {
@@ -21,13 +21,11 @@ struct Proved {
 
 /// The proof of each line of the table: of the requirements, then of the Programs' invariants.
 std::vector<Proved> proved(const std::string& text, const ProofOptions& options = {}) {
-  scenario::json::Diagnostics diagnostics;
-  const auto resolved = scenario::load_text(text, "proved.json", {}, diagnostics);
-  if (!resolved) throw std::runtime_error(diagnostics.to_text());
-  scenario::Run run(*resolved);
+  const auto made = resolved(text);
+  scenario::Run run(*made);
   run.advance();
   const std::vector<results::RequirementResult> requirements = results::evaluate(run, false).requirements;
-  const std::vector<Proof> proofs = prove(*resolved, analysis::bound(*resolved), requirements, options);
+  const std::vector<Proof> proofs = prove(*made, analysis::bound(*made), requirements, options);
   std::vector<Proved> all;
   for (std::size_t i = 0; i < proofs.size(); ++i) all.push_back({proofs[i], requirements[i]});
   return all;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "scenario/resolve/resolve.hpp"
+#include "tests/verify/support.hpp"
 #include "verify/report.hpp"
 
 namespace takt::verify {
@@ -23,15 +23,6 @@ std::vector<std::string> shipped() {
   }
   std::sort(files.begin(), files.end());
   return files;
-}
-
-/// Enough to see something, little enough for all of them.
-Options small() {
-  Options options;
-  options.search.seeds = 1;
-  options.search.events = 400'000;
-  options.proof.states = 100'000;
-  return options;
 }
 
 TEST(Sandwich, OfEveryShippedScenario) {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "results/evaluate.hpp"
-#include "scenario/resolve/resolve.hpp"
+#include "tests/verify/support.hpp"
 #include "verify/report.hpp"
 
 namespace takt::verify {
@@ -21,17 +21,14 @@ struct Replay {
 
 /// The first requirement of the scenario as it is.
 Replay replay(const std::string& text) {
-  scenario::json::Diagnostics diagnostics;
-  const auto resolved = scenario::load_text(text, "test", {}, diagnostics);
-  EXPECT_TRUE(resolved) << diagnostics.to_text();
-  if (!resolved) return {};
-  const analysis::Bounds bounds = analysis::bound(*resolved);
-  scenario::Run run(*resolved);
+  const auto scenario = resolved(text);
+  const analysis::Bounds bounds = analysis::bound(*scenario);
+  scenario::Run run(*scenario);
   run.advance();
   Replay made;
   made.requirement = results::evaluate(run, false).requirements.front();
   made.bound = bounds.requirements.front().bound.duration.value_or(Duration());
-  made.parts = slack_of({made.requirement, *made.requirement.measured, made.bound, resolved->scenario}, bounds, {});
+  made.parts = slack_of({made.requirement, *made.requirement.measured, made.bound, scenario->scenario}, bounds, {});
   Duration of_run;
   Duration of_bound;
   for (const SlackPart& part : made.parts) {

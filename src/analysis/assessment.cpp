@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "analysis/outages.hpp"
+#include "analysis/gate_beginning.hpp"
 #include "scenario/figures/requirement_rules.hpp"
 #include "scenario/json/quantity.hpp"
 
@@ -11,12 +11,6 @@ namespace {
 
 using scenario::json::to_text;
 using sim::Duration;
-
-/// A list whose base time is over begins with the next cycle; until then all gates are as they were.
-template <class Config>
-Duration begins(const Config& gates, Duration from = {}) {
-  return models::first_cycle_from(sim::LocalTime() + from, gates.admin_base_time, gates.admin_cycle_time).since_start();
-}
 
 class Assessor {
  public:
@@ -46,14 +40,15 @@ class Assessor {
   }
 
   void assess_gates() {
-    const Duration begin = first_instant_of_all_gates(r_);
+    GateBeginning beginning(r_, options_);
+    const Duration begin = beginning.latest_of_all();
     ledger_.state(Assumption::gates_in_force, "gate lists run", begin);
     ledger_.discharge(Assumption::gates_in_force, "their base times");
     Duration changed;
     for (const scenario::ResolvedAction& action : r_.script) {
       const auto* const gates = std::get_if<scenario::ResolvedGates>(&action.what);
       if (gates == nullptr || !happens(action)) continue;
-      changed = std::max(changed, begins(gates->gates, action.at.since_start()));
+      changed = std::max(changed, beginning.latest(gates->node, gates->gates, action.at.since_start()));
     }
     ledger_.state(Assumption::gates_do_not_change, "no gate list is exchanged", changed);
     ledger_.discharge(Assumption::gates_do_not_change, "the script");
@@ -120,16 +115,6 @@ ClockPremise clock_premise(const scenario::Resolved& resolved, const BoundOption
     }
   }
   return premise;
-}
-
-Duration first_instant_of_all_gates(const scenario::Resolved& resolved) {
-  Duration begin;
-  for (const models::PortConfig& config : resolved.plan.port_configs)
-    if (config.shaping.gates) begin = std::max(begin, begins(*config.shaping.gates));
-  for (const models::IngressConfig& ingress : resolved.plan.ingress_configs)
-    for (const models::StreamGateConfig& gate : ingress.stream_gates)
-      if (!gate.admin_control_list.empty()) begin = std::max(begin, begins(gate));
-  return begin;
 }
 
 AssumptionLedger assess(const scenario::Resolved& resolved, const FlowGraph& graph, const BoundOptions& options) { return Assessor(resolved, graph, options).run(); }

@@ -18,9 +18,6 @@ struct ClockPremise {
 };
 ClockPremise clock_premise(const scenario::Resolved& resolved, const BoundOptions& options);
 
-/// From when on every gate list of the scenario runs that it does not exchange later; 0 if all do from the start.
-sim::Duration first_instant_of_all_gates(const scenario::Resolved& resolved);
-
 AssumptionLedger assess(const scenario::Resolved& resolved, const FlowGraph& graph, const BoundOptions& options);
 
 }  // namespace takt::analysis

@@ -5,6 +5,7 @@
 #include "analysis/assessment.hpp"
 #include "analysis/flow_routes.hpp"
 #include "analysis/flow_sources.hpp"
+#include "analysis/gate_beginning.hpp"
 #include "models/egress/class_set.hpp"
 #include "scenario/resolve/cqf.hpp"
 
@@ -95,7 +96,7 @@ void note_unordered_classes(const scenario::Resolved& r, FlowGraph& graph) {
   }
 }
 
-void note_assumptions(const scenario::Resolved& r, FlowGraph& graph) {
+void note_assumptions(const scenario::Resolved& r, const BoundOptions& options, FlowGraph& graph) {
   Assumptions& all = graph.assumptions;
   all.add(Assumption::nothing_else);
   const auto is_random = [](const sim::Distribution& d) { return d.greatest() != d.least(); };
@@ -107,7 +108,7 @@ void note_assumptions(const scenario::Resolved& r, FlowGraph& graph) {
     if (std::holds_alternative<scenario::ResolvedStuckGate>(action.what) || std::holds_alternative<scenario::ResolvedClockFault>(action.what)) all.add(Assumption::no_disturbance);
   }
   if (!graph.uncertain_paths.empty()) all.add(Assumption::no_disturbance);
-  if (first_instant_of_all_gates(r) > sim::Duration()) all.add(Assumption::gates_in_force);
+  if (GateBeginning(r, options).latest_of_all() > sim::Duration()) all.add(Assumption::gates_in_force);
   if (!r.plan.gptp.empty()) {
     all.add(Assumption::gptp_traffic);
     all.add(Assumption::clock_error);
@@ -163,7 +164,7 @@ FlowGraph make_flow_graph(const scenario::Resolved& resolved, const BoundOptions
   add_flows(resolved, options, graph);
   add_routes(resolved, graph);
   note_unordered_classes(resolved, graph);
-  note_assumptions(resolved, graph);
+  note_assumptions(resolved, options, graph);
   return graph;
 }
 

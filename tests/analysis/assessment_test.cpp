@@ -153,6 +153,23 @@ TEST(Assessment, WhatHoldsFromWhenOn) {
   EXPECT_EQ(bound(*star("")).ledger[A::drained].standing, Standing::discharged);
 }
 
+// A base time is an instant of the node's own clock: one that is slow shows it later, one that begins ahead has passed it already.
+TEST(Assessment, GatesBeginWhenTheClockOfTheirNodeSaysSo) {
+  const auto begins = [](const std::string& clock, const std::string& base_time) {
+    const std::string gate = R"(, "ingress": {"filters": [{"stream": "urgent", "gate": "g"}], "gates": [{"name": "g", "base_time": ")" + base_time + R"(", "entries": [{"open": true, "for": "1ms"}]}]})";
+    return bound(*star(R"(, "clocks": {"all": {)" + clock + "}}", gate)).ledger[A::gates_in_force].holds_from;
+  };
+  const sim::Duration slow = begins(R"("offset": "-1000ppm")", "6ms");   // 6 ms / 0.999
+  EXPECT_GE(slow, 6'006'006_ns);
+  EXPECT_LT(slow, 6'006'010_ns);
+  const sim::Duration either = begins(R"("offset": {"from": "-1000ppm", "to": "1000ppm"})", "6ms");
+  EXPECT_EQ(either, slow);
+  EXPECT_EQ(begins(R"("offset": "0ppm", "initial": "2300us")", "0ms") / 1_us, 700);
+  EXPECT_EQ(begins(R"("offset": "0ppm", "initial": "-3ms")", "6ms") / 1_us, 9'000);
+  const std::string late = exchange + R"(, "base_time": "12ms"}}}], "clocks": {"all": {"offset": "-1000ppm"}})";
+  EXPECT_GE(bound(*star(late, R"(, "egress": [{"to": "b", )" + window + "}}]")).ledger[A::gates_do_not_change].holds_from, 12'012'012_ns);
+}
+
 // A clock that goes at another frequency is not as the bounds take it: they promise nothing.
 TEST(Assessment, WhatTheScenarioContradictsIsWithdrawn) {
   const Bounds bounds = bound(*star(R"(, "clocks": {"all": {"offset": "10ppm"}}, "faults": [{"kind": "clock", "node": "a", "at": "5ms", "offset": "20ppm"}], "require": [{"stream": "urgent", "latency": "1ms", "dropped": 0}])"));

@@ -1,4 +1,4 @@
-// The analysis of one port, class by class. For port_bound.cpp and port_schedule.cpp alone; everybody else calls bound_port().
+// The analysis of one port, class by class. For port_bound.cpp, port_schedule.cpp and port_windows.cpp alone; everybody else calls bound_port().
 #pragma once
 
 #include <algorithm>
@@ -203,6 +203,7 @@ class PortAnalysis {
   std::vector<Ps> delays_in_busy_period(models::TrafficClass q, std::string& reason);
   std::optional<SequenceBound> sequence_of(models::TrafficClass q, std::string& reason) const;
   SequenceWindows windows_of(const GateCycle& gates, models::TrafficClass q) const;
+  std::vector<Ps> delays_in_windows(models::TrafficClass q) const;
   std::vector<Ps> waits_at_phases(models::TrafficClass q, const Service& service, Ps busy) const;
   void refine_by_phases(models::TrafficClass q);
   bool phases_count(models::TrafficClass q) const;

@@ -189,6 +189,7 @@ void PortAnalysis::bound_class(TrafficClass q) {
   const Ps by_room = wait_in_full_queue(q);
   // Frames that have their windows to themselves wait for nothing else: no other argument says more.
   if (!sequence || !sequence->is_exact) delays = delays_in_busy_period(q, bound.reason);
+  if (delays.empty() && !sequence) delays = delays_in_windows(q);
   if (delays.empty()) {
     if (!sequence && !is_bounded(by_room)) {
       if (!missed.empty()) bound.reason = missed;

@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <deque>
 
-#include "handshake/tree_observer.hpp"
+#include "handshake/observer.hpp"
 #include "scenario/resolve/nesting.hpp"
 #include "vocabulary/protocol.hpp"
 
 namespace takt::emulate {
 namespace {
 
-/// Where a Program's steps go: to an observer of its own, or to that of its tree.
+/// Where a Program's steps go: to the observer of its tree, which may be itself alone.
 struct Watched {
-  handshake::GroupObserver* group = nullptr;
-  handshake::TreeObserver* tree = nullptr;
-  std::size_t number = 0;                       ///< of the group in the tree
+  handshake::Observer* observer = nullptr;
+  std::size_t group = 0;                        ///< of the tree
   std::vector<handshake::PublishedState> states;  ///< by participant
 };
 
@@ -22,10 +21,9 @@ class Checker {
  public:
   explicit Checker(const scenario::Resolved& resolved) : resolved_(resolved), watched_(resolved.programs.size()) {
     for (const std::vector<std::uint32_t>& tree : scenario::trees_of(resolved)) watch(tree);
-    for (std::size_t p = 0; p < watched_.size(); ++p) {
-      const std::size_t participants = resolved.programs[p].participant_names.size();
-      watched_[p].states.assign(participants, handshake::PublishedState::Halted);
-      if (watched_[p].tree == nullptr) watched_[p].group = &groups_.emplace_back(variant_of(resolved.programs[p].description->variant), participants);
+    for (std::uint32_t p = 0; p < watched_.size(); ++p) {
+      watched_[p].states.assign(resolved.programs[p].participant_names.size(), handshake::PublishedState::Halted);
+      if (watched_[p].observer == nullptr) watch({p});
     }
   }
 
@@ -33,7 +31,7 @@ class Checker {
     Watched& watched = watched_[step.program];
     if (step.is_crash) {
       watched.states[step.participant] = handshake::PublishedState::Halted;
-      watched.group != nullptr ? watched.group->on_restart(step.participant) : watched.tree->on_restart(watched.number, step.participant);
+      watched.observer->on_restart(watched.observer->tree().number_of(watched.group, step.participant));
       return;
     }
     handshake::Outputs outputs;
@@ -46,40 +44,39 @@ class Checker {
     after.state = watched.states[step.participant];
     after.run = step.run;
     after.intent.run = step.intent_run;
-    watched.group != nullptr ? watched.group->on_step(step.participant, outputs, after) : watched.tree->on_step(watched.number, step.participant, outputs, after);
+    watched.observer->on_step(watched.observer->tree().number_of(watched.group, step.participant), outputs, after);
   }
 
   std::vector<std::string> violated() const {
     std::vector<std::string> texts;
-    for (std::size_t p = 0; p < watched_.size(); ++p)
-      if (watched_[p].group != nullptr)
-        for (const handshake::Violation& violation : watched_[p].group->violations()) texts.push_back(text_of(p, violation));
-    for (const Tree& tree : trees_)
-      for (const handshake::TreeViolation& each : tree.observer.violations())
-        texts.push_back(text_of(tree.programs[each.group], each.violation) + (each.of_tree ? " (of the tree)" : ""));
+    // Programs that stand alone come first.
+    for (const bool is_nested : {false, true})
+      for (const Tree& tree : trees_)
+        for (const handshake::Violation& each : tree.observer.violations())
+          if ((tree.programs.size() > 1) == is_nested) texts.push_back(text_of(tree.programs[each.group], each) + (each.of_tree ? " (of the tree)" : ""));
     return texts;
   }
 
  private:
   struct Tree {
     std::vector<std::uint32_t> programs;
-    handshake::TreeObserver observer;
+    handshake::Observer observer;
   };
 
   void watch(const std::vector<std::uint32_t>& tree) {
     std::vector<handshake::TreeGroup> groups;
     for (const std::uint32_t number : tree) {
-      handshake::TreeGroup group{resolved_.programs[number].participants.size(), 0, 0};
+      handshake::TreeGroup group{resolved_.programs[number].participant_names.size(), 0, 0};
       if (const auto& outer = resolved_.programs[number].outer) {
         group.outer = static_cast<std::size_t>(std::find(tree.begin(), tree.end(), outer->program) - tree.begin());
         group.outer_index = outer->participant;
       }
       groups.push_back(group);
     }
-    trees_.push_back({tree, handshake::TreeObserver(std::move(groups))});
+    trees_.push_back({tree, handshake::Observer(variant_of(resolved_.programs[tree.front()].description->variant), handshake::GroupTree(std::move(groups)))});
     for (std::size_t g = 0; g < tree.size(); ++g) {
-      watched_[tree[g]].tree = &trees_.back().observer;
-      watched_[tree[g]].number = g;
+      watched_[tree[g]].observer = &trees_.back().observer;
+      watched_[tree[g]].group = g;
     }
   }
 
@@ -90,8 +87,7 @@ class Checker {
 
   const scenario::Resolved& resolved_;
   std::vector<Watched> watched_;
-  std::deque<handshake::GroupObserver> groups_;  // deques, because they are pointed at
-  std::deque<Tree> trees_;
+  std::deque<Tree> trees_;  // a deque, because they are pointed at
 };
 
 }  // namespace

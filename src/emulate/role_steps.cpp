@@ -16,7 +16,7 @@ class Merger {
  public:
   explicit Merger(const scenario::Resolved& resolved) : resolved_(resolved) {
     for (const scenario::ResolvedProgram& program : resolved.programs) {
-      groups_.push_back({handshake::RoleObserver(program.description->roles.size()), {}});
+      groups_.push_back({std::vector<handshake::RoleObserver>(program.description->roles.size()), {}});
       result_.histories.emplace_back(program.description->roles.size());
     }
   }
@@ -33,7 +33,7 @@ class Merger {
 
  private:
   struct Group {
-    handshake::RoleObserver observer;
+    std::vector<handshake::RoleObserver> observers;                          ///< by role
     std::map<std::pair<std::uint8_t, std::uint32_t>, PublishedState> lives;  ///< the states of participants on candidates
   };
 
@@ -41,7 +41,7 @@ class Merger {
     Group& group = groups_[step.program];
     const std::size_t role = step.participant - std::size_t{1};
     const auto known = group.lives.find({step.bound->candidate, step.bound->life});
-    const auto change = group.observer.on_bound(role, *step.bound, known == group.lives.end() ? std::nullopt : std::optional(known->second));
+    const auto change = group.observers[role].on_bound(*step.bound, known == group.lives.end() ? std::nullopt : std::optional(known->second));
     if (change.gone) crash(step, *change.gone);
     if (!change.is_another) return;
     const auto& candidates = resolved_.programs[step.program].candidates;
@@ -54,12 +54,12 @@ class Merger {
     const std::pair life{step.self->candidate, step.self->life};
     if (step.is_crash) {
       group.lives.erase(life);
-      if (const auto before = group.observer.on_dropped(role, *step.self)) crash(step, *before);
+      if (const auto before = group.observers[role].on_dropped(*step.self)) crash(step, *before);
       return;
     }
     PublishedState& state = group.lives.try_emplace(life, PublishedState::Halted).first->second;
     if (step.change) state = step.change->to;
-    if (group.observer.on_step(role, *step.self, state)) result_.steps.push_back(step);
+    if (group.observers[role].on_step(*step.self, state)) result_.steps.push_back(step);
   }
 
   void crash(const LoggedStep& step, PublishedState before) {

@@ -1,4 +1,4 @@
-// Of what candidates have logged, which steps are those of a role's participant, by the ghost that the simulator has, too.
+// Of what candidates have logged, which steps are those of a role's participant, by the observer that the simulator has, too.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@ using program::Method;
 
 GroupModel::GroupModel(const Question& question)
     : question_(question), wiring_(question), shape_(question, wiring_.size()), renamings_(question.slaves, question.symmetry), members_(question_, renamings_),
-      contents_(members_, renamings_) {
+      contents_(members_, renamings_), group_(question.slaves + 1U) {
   const bool is_star = question.subscription == handshake::Subscription::Star;
   TAKT_CHECK(question.slaves >= 1 && question.slaves <= (is_star ? most_slaves : most_slaves_all_to_all), "a group to explore is small");
   TAKT_CHECK(question.commands <= most_commands && question.fault_budget <= most_faults, "budgets are small");
@@ -83,7 +83,7 @@ void GroupModel::make_beginnings() {
 State GroupModel::switched_on() {
   State state(shape_);
   for (std::size_t i = 0; i <= question_.slaves; ++i) state.set_member(i, members_.fresh(i, 1));
-  state.set_ghost(intern_ghost(Ghost(question_.variant, question_.slaves + 1U)));
+  state.set_observer(intern_observer(SmallObserver(question_.variant, group_)));
   return state;
 }
 
@@ -177,9 +177,9 @@ bool GroupModel::finish(const State& state, std::size_t participant, Next& next)
 /// `paper`: what was asked before the group came to rest does not count any more.
 void GroupModel::end_round(const State& state, Next& next) {
   if (question_.variant != Variant::Paper || !at_rest(state)) return;
-  Ghost ghost = ghosts_[state.ghost()];
-  ghost.at_rest();
-  next.state.set_ghost(intern_ghost(ghost));
+  SmallObserver observer = observers_[state.observer()];
+  observer.at_rest();
+  next.state.set_observer(intern_observer(observer));
 }
 
 /// One packet, which all hear who hear that participant.
@@ -206,9 +206,9 @@ bool GroupModel::restart(const State& state, std::size_t participant, Next& next
   next = {state, {}};
   // `paper` does not publish incarnations, so its lives need not be told apart.
   next.state.set_member(participant, members_.fresh(participant, question_.variant == Variant::Paper ? incarnation : incarnation + 1));
-  Ghost ghost = ghosts_[state.ghost()];
-  ghost.on_restart(participant);
-  next.state.set_ghost(intern_ghost(ghost));
+  SmallObserver observer = observers_[state.observer()];
+  observer.on_restart(participant);
+  next.state.set_observer(intern_observer(observer));
   return true;
 }
 
@@ -232,31 +232,31 @@ bool GroupModel::step(std::size_t participant, const Stimulus& stimulus, Next& n
   return stepped.member != before;
 }
 
-/// Shows a step to the ghost.
+/// Shows a step to the observer.
 void GroupModel::watch(std::size_t participant, std::uint16_t effect, Next& next) {
   const Effect& seen = members_.effect(effect);
-  const std::uint64_t key = std::uint64_t{next.state.ghost()} << 20 | std::uint64_t{participant} << 16 | effect;
+  const std::uint64_t key = std::uint64_t{next.state.observer()} << 20 | std::uint64_t{participant} << 16 | effect;
   std::uint64_t found = watched_.find(key);
   if (found == Memo::absent) {
-    Ghost ghost = ghosts_[next.state.ghost()];
-    const PropertySet violated = ghost.on_effect(participant, seen);
-    found = std::uint64_t{intern_ghost(ghost)} | std::uint64_t{violated.bits} << 32;
+    SmallObserver observer = observers_[next.state.observer()];
+    const PropertySet violated = observer.on_effect(group_, participant, seen);
+    found = std::uint64_t{intern_observer(observer)} | std::uint64_t{violated.bits} << 32;
     watched_.insert(key, found);
   }
-  next.state.set_ghost(static_cast<std::uint32_t>(found));
+  next.state.set_observer(static_cast<std::uint32_t>(found));
   next.properties.bits |= static_cast<std::uint32_t>(found >> 32) | seen.properties.bits;
   if (question_.variant == Variant::Paper && seen.begins_round()) outdate(participant, next);
 }
 
-std::uint32_t GroupModel::intern_ghost(const Ghost& ghost) {
-  const std::uint32_t id = ghosts_.intern(ghost);
+std::uint32_t GroupModel::intern_observer(const SmallObserver& observer) {
+  const std::uint32_t id = observers_.intern(observer);
   const std::size_t count = renamings_.size();
-  if ((id + 1U) * count <= renamed_ghost_.size()) return id;
+  if ((id + 1U) * count <= renamed_observer_.size()) return id;
   std::vector<std::uint32_t> images;
-  for (std::size_t r = 0; r < count; ++r) images.push_back(ghosts_.intern(ghost.renamed(renamings_[r])));
-  renamed_ghost_.resize(ghosts_.size() * count, 0);
+  for (std::size_t r = 0; r < count; ++r) images.push_back(observers_.intern(observer.renamed(renamings_[r])));
+  renamed_observer_.resize(observers_.size() * count, 0);
   for (std::size_t r = 0; r < count; ++r)
-    for (std::size_t s = 0; s < count; ++s) renamed_ghost_[images[r] * count + s] = images[renamings_.then(r, s)];
+    for (std::size_t s = 0; s < count; ++s) renamed_observer_[images[r] * count + s] = images[renamings_.then(r, s)];
   return id;
 }
 
@@ -296,7 +296,7 @@ bool GroupModel::settled(const State& state) const {
   }
   if (state.promised() && first.state != PublishedState::Running) return false;
   if (question_.variant == Variant::Robust) return first.state == handshake::goal_of(first.intent.kind);
-  return first.state != PublishedState::HaltedInit && ghosts_[state.ghost()].asked(first.state);
+  return first.state != PublishedState::HaltedInit && observers_[state.observer()].asked(first.state);
 }
 
 Recurrence GroupModel::recurrence() {

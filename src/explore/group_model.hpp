@@ -10,7 +10,7 @@
 #include "explore/action.hpp"
 #include "explore/action_list.hpp"
 #include "explore/contents.hpp"
-#include "explore/ghost.hpp"
+#include "explore/small_observer.hpp"
 #include "explore/members.hpp"
 #include "explore/model.hpp"
 #include "explore/property.hpp"
@@ -52,13 +52,9 @@ class GroupModel : public ActionList {
   const Members& members() const { return members_; }
   std::size_t value_count() const { return members_.size(); }
   std::size_t word_count() const { return members_.word_count() - 1; }
-  std::size_t ghost_count() const { return ghosts_.size(); }
+  std::size_t observer_count() const { return observers_.size(); }
 
  private:
-  struct HashOfGhost {
-    std::size_t operator()(const Ghost& ghost) const { return ghost.hash(); }
-  };
-
   void list_actions();
   void make_beginnings();
   State switched_on();
@@ -98,7 +94,7 @@ class GroupModel : public ActionList {
   }
   void end_round(const State& state, Next& next);
   void watch(std::size_t participant, std::uint16_t effect, Next& next);
-  std::uint32_t intern_ghost(const Ghost& ghost);
+  std::uint32_t intern_observer(const SmallObserver& observer);
   bool at_rest(const State& state) const;
   bool is_down(const State& state, std::size_t participant) const { return members_[state.member(participant)].down; }
   std::uint64_t sort_key(const State& state, std::size_t slave) const;
@@ -111,10 +107,11 @@ class GroupModel : public ActionList {
   Renamings renamings_;
   Members members_;
   Contents contents_;
-  Interner<Ghost, HashOfGhost> ghosts_;
-  std::vector<std::uint32_t> renamed_ghost_;  ///< by ghost and renaming
+  handshake::GroupTree group_;
+  Interner<SmallObserver, HashOfObserver> observers_;
+  std::vector<std::uint32_t> renamed_observer_;  ///< by observer and renaming
   std::vector<bool> goes_round_;               ///< by member
-  Memo watched_;                               ///< (ghost, participant, effect) -> (ghost, violated)
+  Memo watched_;                               ///< (observer, participant, effect) -> (observer, violated)
   std::vector<std::uint8_t> renamed_channel_;  ///< by channel and renaming
   std::vector<Beginning> beginnings_;
 };

@@ -16,14 +16,8 @@ using handshake::Word;
 
 bool are_transitions(PublishedState from, std::span<const StateChange> changes) {
   for (const StateChange& change : changes) {
-    if (change.from != from) return false;
+    if (change.from != from || !handshake::is_transition(change)) return false;
     from = change.to;
-    const bool substate = (change.from == PublishedState::Halted && change.to == PublishedState::HaltedInit) ||
-                          (change.from == PublishedState::HaltedInit && change.to == PublishedState::Halted);
-    const program::Transition* transition = program::transition_with_number(change.transition);
-    const bool in_table = transition != nullptr && change.to != PublishedState::HaltedInit &&
-                          transition->from == handshake::base_state(change.from) && transition->to == handshake::base_state(change.to);
-    if (change.transition == 0 ? !substate : !in_table) return false;
   }
   return true;
 }
@@ -232,6 +226,7 @@ std::size_t HashOfEffect::operator()(const Effect& effect) const {
   std::uint64_t digest = mixed(std::uint64_t{effect.run} << 32 | effect.properties.bits);
   for (const StateChange& change : effect.change)
     digest = mixed(digest ^ (change.transition | handshake::index_of(change.from) << 8 | handshake::index_of(change.to) << 16));
+  digest = mixed(digest ^ (std::uint64_t{effect.started_run} << 32 | effect.outer_run));
   return mixed(digest ^ (effect.change_count | std::uint64_t{effect.joins} << 8 | std::uint64_t{effect.raised} << 9 |
                          handshake::index_of(effect.kind) << 16));
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "explore/forgery.hpp"
-#include "explore/ghost.hpp"
+#include "explore/small_observer.hpp"
 #include "explore/hash_index.hpp"
 #include "explore/question.hpp"
 #include "explore/renaming.hpp"

@@ -27,11 +27,4 @@ handshake::Word renamed(const handshake::Word& word, const Renaming& renaming) {
   return result;
 }
 
-std::uint8_t renamed_set(std::uint8_t set, const Renaming& renaming) {
-  unsigned result = 0;
-  for (std::size_t i = 0; i < renaming.to.size(); ++i)
-    if (((set >> i) & 1U) != 0) result |= 1U << renaming.to[i];
-  return static_cast<std::uint8_t>(result);
-}
-
 }  // namespace takt::explore

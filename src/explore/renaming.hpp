@@ -34,7 +34,5 @@ class Renamings {
 
 /// The word as it would be if the slaves had the other names.
 handshake::Word renamed(const handshake::Word& word, const Renaming& renaming);
-/// A set of participants, bit i for participant i.
-std::uint8_t renamed_set(std::uint8_t set, const Renaming& renaming);
 
 }  // namespace takt::explore

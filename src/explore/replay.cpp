@@ -180,7 +180,7 @@ class Player {
 
   Question question_;
   Wiring wiring_;
-  handshake::GroupObserver observer_;
+  handshake::Observer observer_;
   std::vector<Participant> members_;
   std::vector<std::uint16_t> sequence_;
   std::vector<bool> down_;

@@ -9,7 +9,7 @@
 #include "explore/action.hpp"
 #include "explore/model.hpp"
 #include "explore/search.hpp"
-#include "handshake/invariants.hpp"
+#include "handshake/observer.hpp"
 
 namespace takt::explore {
 

@@ -8,15 +8,15 @@ namespace takt::explore {
 using handshake::PublishedState;
 using program::Method;
 
-RolesModel::RolesModel(const Question& question) : question_(question), stations_(question) {
+RolesModel::RolesModel(const Question& question) : question_(question), stations_(question), group_(question.slaves + 1U) {
   TAKT_CHECK(question.slaves >= 1 && question.slaves <= most_explored_roles && question.candidates >= 1 && question.candidates <= most_explored_candidates, "a group to explore is small");
   TAKT_CHECK(question.variant == handshake::Variant::Robust && question.subscription == handshake::Subscription::Star && question.network == Network::registers && !question.is_tree(),
              "roles are explored with robust in stars on registers");
   TAKT_CHECK(!question.faults.contains(Fault::duplicate) && !question.faults.contains(Fault::reorder) && !question.faults.contains(Fault::forge), "no delayed copies and no strangers with roles");
   shape_.wide = true;
   shape_.channels_at = static_cast<std::uint8_t>(stations());
-  shape_.ghost_at = shape_.late_at = static_cast<std::uint8_t>(stations() + channels_of_candidate * question.candidates);
-  shape_.rest_at = static_cast<std::uint8_t>(shape_.ghost_at + 1);
+  shape_.observer_at = shape_.late_at = static_cast<std::uint8_t>(stations() + channels_of_candidate * question.candidates);
+  shape_.rest_at = static_cast<std::uint8_t>(shape_.observer_at + 1);
   shape_.words = static_cast<std::uint8_t>((shape_.rest_at + 2U) / 2U * 2U);
   TAKT_CHECK(shape_.words <= State::most_words, "a group to explore is small");
   list_actions();
@@ -58,7 +58,7 @@ State RolesModel::switched_on() {
   State state(shape_);
   state.set_member(0, stations_.master(1, false));
   for (std::size_t c = 0; c < question_.candidates; ++c) state.set_member(c + 1, stations_.candidate(c, 1, false, false));
-  state.set_ghost(ghosts_.intern({Ghost(handshake::Variant::Robust, roles() + 1), {}, {}}));
+  state.set_observer(observers_.intern({SmallObserver(handshake::Variant::Robust, group_), {}}));
   return state;
 }
 
@@ -194,15 +194,12 @@ bool RolesModel::crash(const State& state, std::size_t station, Next& next) {
     return true;
   }
   const Stations::Node before = node(state, station - 1);
-  RolesGhost ghost = ghosts_[state.ghost()];
+  RolesObserver observer = observers_[state.observer()];
   if (before.member) {
     const std::size_t role = before.member->config().index - 1U;
-    if (ghost.bindings[role] == Binding{before.number, before.candidate.announcement().life}) {
-      ghost.group.on_restart(role + 1);
-      ghost.awaited[role] = false;
-    }
+    if (observer.roles[role].on_dropped({before.number, before.candidate.announcement().life})) observer.group.on_restart(role + 1);
   }
-  next.state.set_ghost(ghosts_.intern(ghost));
+  next.state.set_observer(observers_.intern(observer));
   next.state.set_member(station, stations_.candidate(station - 1, before.candidate.announcement().life, before.candidate.announces(), true));
   return true;
 }
@@ -211,9 +208,9 @@ bool RolesModel::crash(const State& state, std::size_t station, Next& next) {
 bool RolesModel::restart(const State& state, std::size_t station, Next& next) {
   if (!is_down(state, station)) crash(state, station, next);
   if (station == 0) {
-    RolesGhost ghost = ghosts_[next.state.ghost()];
-    ghost.group.on_restart(0);
-    next.state.set_ghost(ghosts_.intern(ghost));
+    RolesObserver observer = observers_[next.state.observer()];
+    observer.group.on_restart(0);
+    next.state.set_observer(observers_.intern(observer));
     next.state.set_member(0, stations_.master(master(state).participant.config().incarnation + 1, false));
   } else {
     const handshake::Candidate& candidate = node(state, station - 1).candidate;
@@ -232,38 +229,34 @@ bool RolesModel::step(std::size_t station, Happens what, std::size_t which, Noti
   return stepped.station != before || (!refused && next.properties.bits != 0);
 }
 
-/// Shows a step to the ghost. True if it was a call that is refused.
+/// Shows a step to the observer. True if it was a call that is refused.
 bool RolesModel::watch(std::uint32_t events, Next& next) {
   const RoleEvents& all = stations_.events(events);
   next.properties.bits |= all.properties.bits;
   if (all.each.empty()) return all.refused;
-  RolesGhost ghost = ghosts_[next.state.ghost()];
+  RolesObserver observer = observers_[next.state.observer()];
   for (const RoleEvent& each : all.each) {
     if (each.participant == 0) {
-      next.properties.bits |= ghost.group.on_effect(0, each.effect).bits;
+      next.properties.bits |= observer.group.on_effect(group_, 0, each.effect).bits;
       continue;
     }
     const std::size_t role = each.participant - 1U;
-    Binding& binding = ghost.bindings[role];
-    const bool is_holder = binding == each.self;
-    if (each.kind == RoleEvent::Kind::bound) {
-      if (is_holder) continue;
-      binding = each.self;
-      ghost.group.on_restart(role + 1);
-      const Participant* const before = holder(next.state, role);
-      ghost.awaited[role] = before != nullptr && before->state() != PublishedState::Halted;
-    } else if (!is_holder) {
-      continue;  // let go, and does not know yet
-    } else if (each.kind == RoleEvent::Kind::dropped) {
-      ghost.group.on_restart(role + 1);
-      ghost.awaited[role] = false;
-    } else if (ghost.awaited[role]) {
-      ghost.awaited[role] = each.after != PublishedState::Halted;
-    } else {
-      next.properties.bits |= ghost.group.on_effect(each.participant, each.effect).bits;
+    handshake::RoleObserver& of_role = observer.roles[role];
+    switch (each.kind) {
+      case RoleEvent::Kind::bound: {
+        const Participant* const before = holder(next.state, role);
+        if (of_role.on_bound(each.self, before == nullptr ? std::nullopt : std::optional(before->state())).is_new) observer.group.on_restart(role + 1);
+        break;
+      }
+      case RoleEvent::Kind::dropped:
+        if (of_role.on_dropped(each.self)) observer.group.on_restart(role + 1);
+        break;
+      case RoleEvent::Kind::step:
+        if (of_role.on_step(each.self, each.after)) next.properties.bits |= observer.group.on_effect(group_, each.participant, each.effect).bits;
+        break;
     }
   }
-  next.state.set_ghost(ghosts_.intern(ghost));
+  next.state.set_observer(observers_.intern(observer));
   return all.refused;
 }
 
@@ -357,10 +350,10 @@ bool RolesModel::at_rest(const State& state) {
   return true;
 }
 
-std::size_t RolesModel::HashOfGhost::operator()(const RolesGhost& ghost) const {
-  std::uint64_t digest = ghost.group.hash();
-  for (std::size_t role = 0; role < most_explored_roles; ++role)
-    digest = mixed(digest ^ (std::uint64_t{ghost.bindings[role].candidate} << 33 | std::uint64_t{ghost.bindings[role].life} << 1 | (ghost.awaited[role] ? 1U : 0U)));
+std::size_t RolesModel::HashOfObserver::operator()(const RolesObserver& observer) const {
+  std::uint64_t digest = observer.group.hash();
+  for (const handshake::RoleObserver& each : observer.roles)
+    digest = mixed(digest ^ (std::uint64_t{each.binding().candidate} << 40 | std::uint64_t{each.binding().life} << 8 | handshake::index_of(each.state()) << 1 | (each.is_awaited() ? 1U : 0U)));
   return digest;
 }
 

@@ -15,15 +15,15 @@
 #include "explore/action_list.hpp"
 #include "explore/model.hpp"
 #include "explore/stations.hpp"
+#include "handshake/role_observer.hpp"
 
 namespace takt::explore {
 
-/// The observer of S1, S2 and S4 of whoever has the roles, by the rules of handshake::RoleObserver.
-struct RolesGhost {
-  Ghost group;
-  std::array<Binding, most_explored_roles> bindings{};
-  std::array<bool, most_explored_roles> awaited{};   ///< bound to a life that is still in a former run: seen from when it is Halted on
-  bool operator==(const RolesGhost&) const = default;
+/// Who watches whoever has the roles.
+struct RolesObserver {
+  SmallObserver group;
+  std::array<handshake::RoleObserver, most_explored_roles> roles{};
+  bool operator==(const RolesObserver&) const = default;
 };
 
 class RolesModel : public ActionList, public ToldApart {
@@ -66,8 +66,8 @@ class RolesModel : public ActionList, public ToldApart {
   static std::size_t channel(std::size_t candidate, Channel kind) { return candidate * channels_of_candidate + static_cast<std::size_t>(kind); }
 
  private:
-  struct HashOfGhost {
-    std::size_t operator()(const RolesGhost& ghost) const;
+  struct HashOfObserver {
+    std::size_t operator()(const RolesObserver& observer) const;
   };
   void list_actions();
   void make_beginnings();
@@ -93,7 +93,8 @@ class RolesModel : public ActionList, public ToldApart {
   Question question_;
   Shape shape_;
   Stations stations_;
-  Interner<RolesGhost, HashOfGhost> ghosts_;
+  handshake::GroupTree group_;   ///< the master and the roles
+  Interner<RolesObserver, HashOfObserver> observers_;
   std::vector<Beginning> beginnings_;
 };
 

@@ -4,7 +4,7 @@
 //   channels          numbers of words, two in a word of 32 bits; 0: nothing was published.
 //                     `channels`: what is in flight (Contents), one in a word
 //   late              `registers` only: the delayed copy: its word, its channel, how far it was overtaken
-//   ghost             the ghost, as a number
+//   observer          the observer, as a number
 //   rest              calls left, faults left, for each register whether its data is from before the receiver's round, and what
 //                     follows from a forged word
 #pragma once
@@ -27,7 +27,7 @@ enum class Late : std::uint8_t { none, same, newer_sent, overtaken };
 struct Shape {
   std::uint8_t channels_at = 2;
   std::uint8_t late_at = 3;
-  std::uint8_t ghost_at = 4;
+  std::uint8_t observer_at = 4;
   std::uint8_t rest_at = 5;
   std::uint8_t words = 6;     ///< in all, an even number
   bool wide = false;          ///< a word of 32 bits for each channel, and no delayed copy
@@ -37,8 +37,8 @@ struct Shape {
     const std::size_t participants = question.slaves + 1U;
     channels_at = static_cast<std::uint8_t>(participants);
     late_at = static_cast<std::uint8_t>(participants + (wide ? channels : (channels + 1) / 2));
-    ghost_at = static_cast<std::uint8_t>(wide ? late_at : late_at + 1);
-    rest_at = static_cast<std::uint8_t>(ghost_at + 1);
+    observer_at = static_cast<std::uint8_t>(wide ? late_at : late_at + 1);
+    rest_at = static_cast<std::uint8_t>(observer_at + 1);
     words = static_cast<std::uint8_t>((rest_at + 2U) / 2U * 2U);
   }
   constexpr bool operator==(const Shape&) const = default;
@@ -80,8 +80,8 @@ class State {
   void set_late(Late late) { set_late(late, late_channel(), late_word()); }
   void clear_late() { words_[shape_.late_at] = 0; }
 
-  std::uint32_t ghost() const { return words_[shape_.ghost_at]; }
-  void set_ghost(std::uint32_t ghost) { words_[shape_.ghost_at] = ghost; }
+  std::uint32_t observer() const { return words_[shape_.observer_at]; }
+  void set_observer(std::uint32_t observer) { words_[shape_.observer_at] = observer; }
 
   std::uint32_t commands_left() const { return rest() & 0xFU; }
   void set_commands_left(std::uint32_t count) { rest() = (rest() & ~0xFU) | count; }

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "explore/ghost.hpp"
+#include "explore/small_observer.hpp"
 #include "explore/hash_index.hpp"
 #include "explore/members.hpp"
 #include "handshake/binder.hpp"

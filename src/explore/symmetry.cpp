@@ -78,7 +78,7 @@ State GroupModel::renamed(const State& state, std::size_t renaming) const {
   }
   if (state.late() != Late::none)
     result.set_late(state.late(), channel(state.late_channel()), members_.renamed_word(state.late_word(), renaming));
-  result.set_ghost(renamed_ghost_[state.ghost() * renamings_.size() + renaming]);
+  result.set_observer(renamed_observer_[state.observer() * renamings_.size() + renaming]);
   return result;
 }
 

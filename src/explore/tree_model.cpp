@@ -16,13 +16,13 @@ namespace {
 
 std::size_t at(Side side) { return static_cast<std::size_t>(side); }
 
-/// Nodes, registers, the ghost and the budgets.
+/// Nodes, registers, the observer and the budgets.
 Shape shape_of(const TreeShape& tree) {
   Shape shape;
   shape.wide = true;
   shape.channels_at = static_cast<std::uint8_t>(tree.nodes());
-  shape.ghost_at = shape.late_at = static_cast<std::uint8_t>(tree.nodes() + tree.channels());
-  shape.rest_at = static_cast<std::uint8_t>(shape.ghost_at + 1);
+  shape.observer_at = shape.late_at = static_cast<std::uint8_t>(tree.nodes() + tree.channels());
+  shape.rest_at = static_cast<std::uint8_t>(shape.observer_at + 1);
   shape.words = static_cast<std::uint8_t>((shape.rest_at + 2U) / 2U * 2U);
   TAKT_CHECK(shape.words <= State::most_words, "a tree to explore is small");
   return shape;
@@ -71,7 +71,7 @@ State TreeModel::switched_on() {
   State state(shape_);
   for (std::size_t node = 0; node < tree_.nodes(); ++node)
     state.set_member(node, node == tree_.joining_node() ? nodes_.down(node, 0) : nodes_.fresh(node, 1));
-  state.set_ghost(ghosts_.intern(TreeGhost(tree_)));
+  state.set_observer(observers_.intern(SmallObserver(handshake::Variant::Robust, tree_.tree())));
   return state;
 }
 
@@ -211,10 +211,10 @@ bool TreeModel::fault(const State& state, Action action, Next& next) {
 bool TreeModel::restart(const State& state, std::size_t node, Next& next) {
   next = {state, {}};
   next.state.set_member(node, nodes_.fresh(node, nodes_[state.member(node)].incarnation + 1));
-  TreeGhost ghost = ghosts_[state.ghost()];
-  ghost.on_restart(tree_, tree_.participant_of(node, Side::Outer));
-  if (tree_.is_nested(node)) ghost.on_restart(tree_, tree_.participant_of(node, Side::Inner));
-  next.state.set_ghost(ghosts_.intern(ghost));
+  SmallObserver observer = observers_[state.observer()];
+  observer.on_restart(tree_.participant_of(node, Side::Outer));
+  if (tree_.is_nested(node)) observer.on_restart(tree_.participant_of(node, Side::Inner));
+  next.state.set_observer(observers_.intern(observer));
   return true;
 }
 
@@ -242,23 +242,23 @@ bool TreeModel::step(std::size_t participant, TreeStimulus stimulus, Next& next)
   return stepped.node != before || next.properties.bits != 0;
 }
 
-/// Shows a step to the ghost.
+/// Shows a step to the observer.
 void TreeModel::watch(std::size_t node, std::uint32_t effects, Next& next) {
   TAKT_CHECK(effects <= 0x0FFF'FFFF, "the effects of a step have 28 bits");
-  const std::uint64_t key = std::uint64_t{next.state.ghost()} << 32 | std::uint64_t{node} << 28 | effects;
+  const std::uint64_t key = std::uint64_t{next.state.observer()} << 32 | std::uint64_t{node} << 28 | effects;
   std::uint64_t found = watched_.find(key);
   if (found == Memo::absent) {
-    TreeGhost ghost = ghosts_[next.state.ghost()];
+    SmallObserver observer = observers_[next.state.observer()];
     PropertySet seen;
     const TreeEffects& all = nodes_.effects(effects);
     for (std::size_t i = 0; i < all.count; ++i) {
       seen.bits |= all.each[i].effect.properties.bits;
-      seen.bits |= ghost.on_effect(tree_, tree_.participant_of(node, all.each[i].side), all.each[i]).bits;
+      seen.bits |= observer.on_effect(tree_.tree(), tree_.participant_of(node, all.each[i].side), all.each[i].effect).bits;
     }
-    found = std::uint64_t{ghosts_.intern(ghost)} | std::uint64_t{seen.bits} << 32;
+    found = std::uint64_t{observers_.intern(observer)} | std::uint64_t{seen.bits} << 32;
     watched_.insert(key, found);
   }
-  next.state.set_ghost(static_cast<std::uint32_t>(found));
+  next.state.set_observer(static_cast<std::uint32_t>(found));
   next.properties.bits |= static_cast<std::uint32_t>(found >> 32);
 }
 

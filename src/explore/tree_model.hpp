@@ -1,5 +1,5 @@
 // A group nested in another one, or a group with a slave that joins, on sampled registers: which actions there are, and what each makes of
-// a state. The counterpart of group_model.hpp, whose State it fills: nodes instead of participants, a word in each channel, a TreeGhost.
+// a state. The counterpart of group_model.hpp, whose State it fills: nodes instead of participants, a word in each channel, a SmallObserver of the tree.
 //
 // Actions name participants as TreeShape numbers them; crash and restart take the whole node, which `who` then numbers.
 #pragma once
@@ -41,10 +41,6 @@ class TreeModel : public ActionList, public ToldApart {
   std::size_t word_count() const { return nodes_.word_count() - 1; }
 
  private:
-  struct HashOfGhost {
-    std::size_t operator()(const TreeGhost& ghost) const { return ghost.hash(); }
-  };
-
   void list_actions();
   void make_beginnings();
 
@@ -68,8 +64,8 @@ class TreeModel : public ActionList, public ToldApart {
   TreeShape tree_;
   Shape shape_;
   TreeNodes nodes_;
-  Interner<TreeGhost, HashOfGhost> ghosts_;
-  Memo watched_;                ///< (ghost, node, effects) -> (ghost, violated)
+  Interner<SmallObserver, HashOfObserver> observers_;
+  Memo watched_;                ///< (observer, node, effects) -> (observer, violated)
   std::vector<Beginning> beginnings_;
 };
 

@@ -37,8 +37,6 @@ NestedOutputs take(Nested& value, Side side, const Input& input) {
   return value.step(side, input);
 }
 
-bool is_nothing(const TreeEffect& effect) { return effect.effect == Effect{} && effect.inner_run == 0; }
-
 }  // namespace
 
 TreeNodes::TreeNodes(const TreeShape& shape) : shape_(shape) {
@@ -88,10 +86,10 @@ TreeStepped TreeNodes::step_anew(NodeId id, const TreeStimulus& stimulus) {
           effect.effect = effect_of(before[at(one.side)], one.after, one.outputs);
           before[at(one.side)] = one.after;
           if (one.side == Side::Inner && one.outputs.raised && one.outputs.raised_kind == handshake::IntentKind::Start) {
-            effect.inner_run = one.after.intent.run;
-            effect.outer_run = before[at(Side::Outer)].intent.run;
+            effect.effect.started_run = one.after.intent.run;
+            effect.effect.outer_run = before[at(Side::Outer)].intent.run;
           }
-          if (!is_nothing(effect)) effects.each[effects.count++] = effect;
+          if (effect.effect != Effect{}) effects.each[effects.count++] = effect;
         }
         PropertySet more;
         if (stimulus.kind == Input::Kind::PeerSilent) {
@@ -168,7 +166,6 @@ std::size_t TreeNodes::HashOfEffects::operator()(const TreeEffects& effects) con
   for (std::size_t i = 0; i < effects.count; ++i) {
     const TreeEffect& each = effects.each[i];
     digest = mixed(digest ^ HashOfEffect{}(each.effect)) + static_cast<std::uint64_t>(each.side);
-    digest = mixed(digest ^ (std::uint64_t{each.inner_run} << 32 | each.outer_run));
   }
   return digest;
 }

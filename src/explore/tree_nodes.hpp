@@ -10,7 +10,7 @@
 
 #include "explore/hash_index.hpp"
 #include "explore/members.hpp"
-#include "explore/tree_ghost.hpp"
+#include "explore/small_observer.hpp"
 #include "explore/tree_shape.hpp"
 #include "handshake/nested_participant.hpp"
 
@@ -24,6 +24,13 @@ struct TreeStimulus {
   handshake::Input::Kind kind = handshake::Input::Kind::Finished;
   std::uint8_t what = 0;      ///< method or peer
   WordId word = no_word;
+};
+
+/// What one participant's part of a node's step means to whoever watches.
+struct TreeEffect {
+  handshake::Side side = handshake::Side::Outer;
+  Effect effect;
+  constexpr bool operator==(const TreeEffect&) const = default;
 };
 
 /// All that follows from one input, in the order of the steps.

@@ -8,9 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "explore/question.hpp"
 #include "handshake/coupling.hpp"
+#include "handshake/group_tree.hpp"
 
 namespace takt::explore {
 
@@ -25,7 +27,7 @@ class TreeShape {
   };
 
   explicit TreeShape(const Question& question)
-      : outer_(question.slaves + 1U), inner_(question.nested() ? question.inner_slaves + 1U : 0U), joins_(question.joining) {
+      : tree_(groups_of(question)), outer_(question.slaves + 1U), inner_(question.nested() ? question.inner_slaves + 1U : 0U), joins_(question.joining) {
     for (std::size_t p = 0; p < participants(); ++p) node_of_[p] = static_cast<std::uint8_t>(p < outer_ ? p : p - 1);
     for (std::size_t group = 0; group < groups(); ++group)
       for (std::size_t i = 1; i < size(group); ++i) {
@@ -34,13 +36,14 @@ class TreeShape {
       }
   }
 
-  std::size_t groups() const { return inner_ == 0 ? 1 : 2; }
-  std::size_t size(std::size_t group) const { return group == 0 ? outer_ : inner_; }
-  std::size_t participants() const { return outer_ + inner_; }
+  const handshake::GroupTree& tree() const { return tree_; }
+  std::size_t groups() const { return tree_.groups(); }
+  std::size_t size(std::size_t group) const { return tree_.size(group); }
+  std::size_t participants() const { return tree_.participants(); }
   std::size_t nodes() const { return inner_ == 0 ? outer_ : participants() - 1; }
-  std::size_t group_of(std::size_t participant) const { return participant < outer_ ? 0 : 1; }
-  std::size_t index_of(std::size_t participant) const { return participant < outer_ ? participant : participant - outer_; }
-  std::size_t number_of(std::size_t group, std::size_t index) const { return group == 0 ? index : outer_ + index; }
+  std::size_t group_of(std::size_t participant) const { return tree_.group_of(participant); }
+  std::size_t index_of(std::size_t participant) const { return tree_.index_of(participant); }
+  std::size_t number_of(std::size_t group, std::size_t index) const { return tree_.number_of(group, index); }
 
   bool is_nested(std::size_t node) const { return inner_ != 0 && node == outer_ - 1; }
   std::size_t node_of(std::size_t participant) const { return node_of_[participant]; }
@@ -72,11 +75,17 @@ class TreeShape {
   std::string node_name(std::size_t node) const { return is_nested(node) ? "the node of " + name(node) + " and inner master" : name(participant_of(node, handshake::Side::Outer)); }
 
  private:
+  static std::vector<handshake::TreeGroup> groups_of(const Question& question) {
+    std::vector<handshake::TreeGroup> groups{{question.slaves + std::size_t{1}, 0, 0}};
+    if (question.nested()) groups.push_back({question.inner_slaves + std::size_t{1}, 0, question.slaves});
+    return groups;
+  }
   void add(std::size_t sender, std::size_t receiver, std::size_t peer) {
     channels_[channel_count_++] = {static_cast<std::uint8_t>(sender), static_cast<std::uint8_t>(receiver), static_cast<std::uint8_t>(peer)};
   }
 
-  std::size_t outer_;
+  handshake::GroupTree tree_;
+  std::size_t outer_;   ///< participants of the outer group
   std::size_t inner_;
   bool joins_;
   std::array<std::uint8_t, most_participants> node_of_{};

@@ -1,4 +1,4 @@
-// The ghost observer of a group: sees every participant from outside and checks S1 to S5. No protocol code asks it.
+// S1 to S5, what always holds in a group, and how it can be found violated (observer.hpp).
 //
 //   S1 nobody is Running in a run before all were Ready in it
 //   S2 the master is Running only after all slaves were Running in it
@@ -15,15 +15,19 @@
 // sent by one that was Running, after the receiver's round began. That is as much as the states alone can mean: it
 // blames nobody who was merely overtaken by a halt, and it does not see that somebody who has missed a halt is Ready
 // from before.
+//
+// In nested groups S1 and S2 hold of each group and of the tree as a whole (`robust` only, like nesting):
+//
+//   S1 nobody in the tree is Running in a run of the tree before every node was Ready in it, and a node is Ready in the outer group only after all
+//      slaves of its inner group were Ready in the run that was started for it
+//   S2 whoever has groups below it is Running only after everybody there was Running in it
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string_view>
-#include <vector>
 
-#include "handshake/participant.hpp"
+#include "handshake/io.hpp"
 
 namespace takt::handshake {
 
@@ -31,6 +35,7 @@ enum class Invariant : std::uint8_t { S1, S2, S3, S4, S5 };
 
 enum class Finding : std::uint8_t {
   RunningBeforeAllReady,      ///< S1
+  ReadyBeforeInnerGroup,      ///< S1 of the tree
   MasterBeforeSlaves,         ///< S2
   DataOfOneNotRunning,        ///< S3: the sender was not Running when it sent
   DataToOneNotRunning,        ///< S3
@@ -43,7 +48,9 @@ enum class Finding : std::uint8_t {
 struct Violation {
   Invariant invariant = Invariant::S1;
   Finding finding = Finding::RunningBeforeAllReady;
-  std::uint8_t participant = 0;  ///< who did it; for S3 the receiver
+  std::uint8_t participant = 0;  ///< who did it, of its group; for S3 the receiver
+  std::uint16_t group = 0;       ///< of the tree
+  bool of_tree = false;          ///< S1 and S2 of the whole tree; else of the group alone
   constexpr bool operator==(const Violation&) const = default;
 };
 
@@ -53,6 +60,7 @@ constexpr std::string_view name_of(Invariant invariant) {
 }
 constexpr std::string_view text_of(Finding finding) {
   constexpr std::string_view texts[]{"is Running in a run in which not all have been Ready",
+                                     "is Ready before all slaves of the group within its node have been Ready",
                                      "is master and Running before all slaves have been Running",
                                      "was given process data of a sender that was not Running",
                                      "was given process data while it was not Running",
@@ -63,67 +71,13 @@ constexpr std::string_view text_of(Finding finding) {
   return texts[static_cast<std::size_t>(finding)];
 }
 
-/// A value: copied, compared and hashed with the participants it watches. Participant 0 is the master.
-class GroupObserver {
- public:
-  static constexpr std::size_t max_participants = 65;
-
-  GroupObserver(Variant variant, std::size_t participants);
-
-  /// All changes of one step and the word after it. Enough by itself, besides restarts and process data.
-  void on_step(std::size_t participant, const Outputs& outputs, const Word& after);
-  void on_transition(std::size_t participant, StateChange change, const Word& after);
-  /// The word has changed without a transition: in `robust` one that is Ready may join a new run so.
-  void on_word(std::size_t participant, const Word& after);
-  /// It is new: Halted, and it knows nothing.
-  void on_restart(std::size_t participant);
-
-  /// The run (`paper`: the number of rounds begun so far by anybody) in which a participant that is Running sends now;
-  /// 0 if it is not Running. Goes with each process-data message.
-  std::uint32_t sending_run(std::size_t participant) const;
-  /// An application has been given process data that was sent when the sender's sending_run was `sent_in`.
-  void on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in);
-
-  /// In the order of their discovery.
-  std::span<const Violation> violations() const { return violations_; }
-
-  bool operator==(const GroupObserver&) const = default;
-  std::uint64_t hash() const;
-
- private:
-  struct ParticipantSet {
-    std::uint64_t slaves = 0;  ///< bit i for participant i + 1
-    bool master = false;
-    void insert(std::size_t participant);
-    bool operator==(const ParticipantSet&) const = default;
-  };
-  /// What happened in a run; `paper`: since a participant's round began.
-  struct Run {
-    std::uint32_t id = 0;    ///< the run; `paper`: the participant
-    ParticipantSet ready;    ///< who was Ready at any time in it
-    ParticipantSet running;  ///< who was Running at any time in it
-    bool operator==(const Run&) const = default;
-  };
-  struct Seen {
-    PublishedState state = PublishedState::Halted;
-    bool passed_init = false;  ///< since it was last Halted
-    std::uint32_t run = 0;  ///< `paper`: the number of its round, counted over all participants
-    bool operator==(const Seen&) const = default;
-  };
-
-  void check_is_transition(std::size_t participant, StateChange change);
-  void begin_round(std::size_t participant);
-  void became_ready(std::size_t participant);
-  void became_running(std::size_t participant);
-  Run& facts_for(std::size_t participant);
-  std::uint64_t all_slaves() const;
-  void report(Invariant invariant, Finding finding, std::size_t participant);
-
-  Variant variant_;
-  std::uint32_t rounds_ = 0;  ///< `paper` only
-  std::vector<Seen> seen_;
-  std::vector<Run> runs_;  ///< one for each run that anybody was Ready or Running in; `paper`: for each participant
-  std::vector<Violation> violations_;
-};
+/// Of a state to itself there is none; `transition` has the number of the table, 0 where only the substate changes.
+constexpr bool is_transition(const StateChange& change) {
+  const bool substate = (change.from == PublishedState::Halted && change.to == PublishedState::HaltedInit) ||
+                        (change.from == PublishedState::HaltedInit && change.to == PublishedState::Halted);
+  if (change.transition == 0) return substate;
+  const program::Transition* transition = program::transition_with_number(change.transition);
+  return transition != nullptr && change.to != PublishedState::HaltedInit && transition->from == base_state(change.from) && transition->to == base_state(change.to);
+}
 
 }  // namespace takt::handshake

@@ -130,4 +130,10 @@ void ReactionTracker::complete_those_reached(sim::TrueTime at) {
   });
 }
 
+void TreeReactions::on_step(std::size_t number, const Outputs& outputs, sim::TrueTime at, const Origin& origin) {
+  Outputs seen = outputs;
+  if (outputs.alarm == Alarm::OtherGroup) seen.raised = false;
+  tracker_.on_step(number, seen, Word{}, at, origin);  // without an intent: numbers of different groups cannot be compared
+}
+
 }  // namespace takt::handshake

@@ -1,7 +1,7 @@
 // How long a group takes to react: from an accepted command, or from what happens to the group (a crash, a link that fails), to the moment at which
 // all living participants have reached the state that follows.
 //
-// A ghost like GroupObserver: it sees all participants and true time; no protocol code asks it.
+// Like the Observer it sees all participants and true time; no protocol code asks it.
 #pragma once
 
 #include <array>
@@ -84,6 +84,20 @@ class ReactionTracker {
   std::optional<Origin> fault_;                             ///< the last one, until somebody calls Start
   std::vector<Reaction> reactions_;
   std::vector<Open> open_;
+};
+
+/// Reaction times of the whole tree: until the participants of all its groups have reached the state that was asked for.
+/// What one group only passes on to the other is no reaction of its own. Of two reactions the later supersedes.
+class TreeReactions {
+ public:
+  explicit TreeReactions(std::size_t participants) : tracker_(participants) {}
+  void on_step(std::size_t number, const Outputs& outputs, sim::TrueTime at, const Origin& origin = {});
+  void on_crash(std::size_t number, sim::TrueTime at) { tracker_.on_crash(number, at); }
+  void on_restart(std::size_t number, sim::TrueTime at) { tracker_.on_restart(number, at); }
+  std::span<const Reaction> reactions() const { return tracker_.reactions(); }
+
+ private:
+  ReactionTracker tracker_;
 };
 
 }  // namespace takt::handshake

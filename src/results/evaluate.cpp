@@ -65,9 +65,9 @@ void add_tree(const scenario::Run& run, std::size_t index, TrueTime from, Progra
       result.tree_reactions.push_back(result_of(reaction, name(program, participant)));
     }
     for (const scenario::TreeMonitor::Violation& each : tree->violations())
-      result.violations.push_back({each.time, std::string(handshake::name_of(each.violation.violation.invariant)) + " of the tree",
-                                   name(tree->programs()[each.violation.group], each.violation.violation.participant),
-                                   std::string(handshake::text_of(each.violation.violation.finding))});
+      result.violations.push_back({each.time, std::string(handshake::name_of(each.violation.invariant)) + " of the tree",
+                                   name(tree->programs()[each.violation.group], each.violation.participant),
+                                   std::string(handshake::text_of(each.violation.finding))});
   }
 }
 

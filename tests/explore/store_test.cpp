@@ -15,7 +15,7 @@ Shape star(std::uint8_t slaves) {
 State state_number(std::uint8_t slaves, std::uint32_t number) {
   State state(star(slaves));
   state.set_member(0, number);
-  state.set_ghost(number * 7);
+  state.set_observer(number * 7);
   state.set_reg(1, static_cast<WordId>(number));
   return state;
 }

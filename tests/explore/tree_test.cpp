@@ -80,34 +80,33 @@ TEST(Tree, OneGroupHasAsManyStatesAsInTheOtherModel) {
   }
 }
 
-TreeEffect change(Side side, PublishedState from, PublishedState to, std::uint8_t transition, std::uint32_t run) {
-  TreeEffect effect;
-  effect.side = side;
-  effect.effect.change_count = 1;
-  effect.effect.change[0] = {transition, from, to};
-  effect.effect.run = run;
+Effect change(PublishedState from, PublishedState to, std::uint8_t transition, std::uint32_t run) {
+  Effect effect;
+  effect.change_count = 1;
+  effect.change[0] = {transition, from, to};
+  effect.run = run;
   return effect;
 }
 
 /// Outer master 0, node 1; inner master 2, inner slave 3.
 class Watched : public testing::Test {
  protected:
-  PropertySet init(std::size_t who) { return ghost.on_effect(shape, who, change(Side::Outer, PublishedState::Halted, PublishedState::HaltedInit, 0, 0)); }
+  PropertySet init(std::size_t who) { return observer.on_effect(shape.tree(), who, change(PublishedState::Halted, PublishedState::HaltedInit, 0, 0)); }
   PropertySet ready(std::size_t who, std::uint32_t run) {
-    return ghost.on_effect(shape, who, change(Side::Outer, PublishedState::HaltedInit, PublishedState::Ready, 1, run));
+    return observer.on_effect(shape.tree(), who, change(PublishedState::HaltedInit, PublishedState::Ready, 1, run));
   }
   PropertySet running(std::size_t who, std::uint32_t run) {
-    return ghost.on_effect(shape, who, change(Side::Outer, PublishedState::Ready, PublishedState::Running, 2, run));
+    return observer.on_effect(shape.tree(), who, change(PublishedState::Ready, PublishedState::Running, 2, run));
   }
   void started() {
-    TreeEffect effect = change(Side::Inner, PublishedState::Halted, PublishedState::HaltedInit, 0, 0);
-    effect.inner_run = inner;
+    Effect effect = change(PublishedState::Halted, PublishedState::HaltedInit, 0, 0);
+    effect.started_run = inner;
     effect.outer_run = outer;
-    ghost.on_effect(shape, 2, effect);
+    observer.on_effect(shape.tree(), 2, effect);
   }
   static constexpr std::uint32_t outer = 7, inner = 9;
   TreeShape shape{tree(1, 1, false, 1, {})};
-  TreeGhost ghost{shape};
+  SmallObserver observer{handshake::Variant::Robust, shape.tree()};
 };
 
 TEST_F(Watched, ARightStartViolatesNothing) {

@@ -1,5 +1,5 @@
 // The search and the observer side by side: random walks through the model, each played again with the real
-// participants, the real GroupObserver and real sequence numbers.
+// participants, the real Observer and real sequence numbers.
 #include <gtest/gtest.h>
 
 #include <algorithm>

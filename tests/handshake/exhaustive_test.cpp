@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "handshake/invariants.hpp"
+#include "handshake/observer.hpp"
 #include "handshake/participant.hpp"
 
 namespace takt::handshake {
@@ -35,7 +35,7 @@ struct State {
   std::vector<Member> members;
   std::vector<Channel> up;    ///< slave i + 1 to master
   std::vector<Channel> down;  ///< master to slave i + 1
-  GroupObserver observer;
+  Observer observer;
   Budget left;
 
   Config config(std::size_t i, std::uint32_t incarnation) const {

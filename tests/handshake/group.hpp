@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "handshake/invariants.hpp"
+#include "handshake/observer.hpp"
 #include "handshake/participant.hpp"
 #include "handshake/reaction.hpp"
 
@@ -18,7 +18,7 @@ struct Message {
   std::size_t to = 0;
   Word word;
   std::uint16_t sequence = 0;
-  std::uint32_t sent_in = 0;  ///< GroupObserver::sending_run
+  std::uint32_t sent_in = 0;  ///< Observer::sending_run
 };
 
 class Group {
@@ -38,7 +38,7 @@ class Group {
             static_cast<std::uint8_t>(pending_.size() - 1), incarnation_[i], subscription_};
   }
 
-  /// One step; everything that a host and the ghosts do with its outputs.
+  /// One step; everything that a host and the observers do with its outputs.
   Outputs step(std::size_t i, const Input& input) {
     const Word before = members_[i].word();
     const Outputs outputs = members_[i].step(input);
@@ -143,7 +143,7 @@ class Group {
     return text;
   }
 
-  GroupObserver observer;
+  Observer observer;
   ReactionTracker reactions;
   sim::TrueTime now;
   std::string journal;

@@ -1,5 +1,5 @@
 // The observer finds what is planted: each invariant can fail.
-#include "handshake/invariants.hpp"
+#include "handshake/observer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ class Puppet {
   }
   std::vector<Violation> violations() const { return {observer.violations().begin(), observer.violations().end()}; }
 
-  GroupObserver observer;
+  Observer observer;
 
  private:
   std::vector<PublishedState> state_;
@@ -136,7 +136,7 @@ TEST_P(Planted, S4RunningWithoutInit) {
 }
 
 TEST_P(Planted, S4INITOfAFormerLifeDoesNotCount) {
-  GroupObserver observer(GetParam(), 2);
+  Observer observer(GetParam(), 2);
   observer.on_transition(0, {0, halted, init}, {1, init, {}, 0});
   observer.on_restart(0);
   observer.on_transition(0, {1, halted, ready}, {2, ready, {}, 1});
@@ -150,7 +150,7 @@ TEST_P(Planted, S4INITOfAFormerLifeDoesNotCount) {
 
 TEST_P(Planted, S5NoSuchTransitionAndJumps) {
   const auto first = [](StateChange change) {
-    GroupObserver observer(GetParam(), 2);
+    Observer observer(GetParam(), 2);
     observer.on_transition(1, change, {1, change.to, {}, 1});
     return observer.violations().empty() ? Violation{} : observer.violations()[0];
   };

@@ -98,7 +98,7 @@ class World {
 
 /// F1: the node of a participant falls silent; whoever listens to it notices, and all the others hear of it.
 std::string silence(Tree& tree, std::size_t silent_node) {
-  const auto is_silent = [&](std::size_t group, std::size_t i) { return tree.node_of(tree.observer.number_of(group, i)) == silent_node; };
+  const auto is_silent = [&](std::size_t group, std::size_t i) { return tree.node_of(tree.shape().number_of(group, i)) == silent_node; };
   for (std::size_t n = 0; n < tree.participants(); ++n) {
     const auto [group, i] = tree.place(n);
     if (is_silent(group, i)) continue;

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "handshake/binder.hpp"
-#include "handshake/invariants.hpp"
+#include "handshake/observer.hpp"
 #include "handshake/participant.hpp"
+#include "handshake/role_observer.hpp"
 
 namespace takt::handshake {
 
@@ -34,7 +35,7 @@ class PlugGroup {
 
   PlugGroup(std::vector<SkillId> roles, std::vector<std::vector<SkillId>> offers, bool restarts = false)
       : observer(Variant::Robust, roles.size() + 1), roles_(std::move(roles)), offers_(std::move(offers)), restarts_(restarts),
-        master_(config(0, 1)), binder_(roles_, offers_.size(), restarts), members_(offers_.size()), ghosts_(roles_.size()), awaited_(roles_.size()),
+        master_(config(0, 1)), binder_(roles_, offers_.size(), restarts), members_(offers_.size()), role_observers_(roles_.size()),
         sequence_(offers_.size() + 1), heard_announcement_(offers_.size()), announced_(offers_.size()), heard_table_(offers_.size()), pending_(offers_.size() + 1) {
     for (std::uint8_t c = 0; c < offers_.size(); ++c) candidates_.emplace_back(c, 1, offers_[c]);
   }
@@ -110,7 +111,7 @@ class PlugGroup {
       message.kind = PlugMessage::Kind::Word;
       message.word = members_[c]->word();
       message.sender = members_[c]->config().index;
-      message.sent_in = is_ghost(c) ? observer.sending_run(message.sender) : 0;
+      message.sent_in = is_seen(c) ? observer.sending_run(message.sender) : 0;
       made.push_back(message);
       return made;
     }
@@ -180,7 +181,7 @@ class PlugGroup {
     return text;
   }
 
-  GroupObserver observer;
+  Observer observer;
 
  private:
   struct Heard {
@@ -231,7 +232,7 @@ class PlugGroup {
     }
     if (!members_[c]) return;
     const bool ignored = step_member(c, Input::received(0, message.word, message.sequence)).ignored;
-    if (message.sent_in != 0 && !ignored && members_[c]->process_data_counts(0) && is_ghost(c))
+    if (message.sent_in != 0 && !ignored && members_[c]->process_data_counts(0) && is_seen(c))
       observer.on_process_data(0, members_[c]->config().index, message.sent_in);
   }
 
@@ -241,37 +242,28 @@ class PlugGroup {
     if (outputs.begin_initialisation) pending_[0] = outputs.initialisation_run;
     return outputs;
   }
-  /// Who has been let go and does not know yet is nobody's participant: the ghost does not look at it.
+  /// Who has been let go and does not know yet is nobody's participant: the observer does not look at it.
   Outputs step_member(std::size_t c, const Input& input) {
     const Outputs outputs = members_[c]->step(input);
-    if (!is_ghost(c)) await_ghost(c);
-    else observer.on_step(members_[c]->config().index, outputs, members_[c]->word());
+    if (role_observer(c).on_step(binding_of(c), members_[c]->state())) observer.on_step(members_[c]->config().index, outputs, members_[c]->word());
     if (outputs.begin_initialisation) pending_[c + 1] = outputs.initialisation_run;
     return outputs;
   }
   void drop_member(std::size_t c) {
-    if (members_[c] && is_ghost(c)) observer.on_restart(members_[c]->config().index);
+    if (members_[c] && role_observer(c).on_dropped(binding_of(c))) observer.on_restart(members_[c]->config().index);
     members_[c].reset();
     pending_[c + 1].reset();
   }
-  bool is_ghost(std::size_t c) const {
-    if (!members_[c]) return false;
-    const Binding& ghost = ghosts_[members_[c]->config().index - std::size_t{1}];
-    return ghost.candidate == c && ghost.life == candidates_[c].announcement().life && !awaited_[members_[c]->config().index - std::size_t{1}];
-  }
-  /// A restarted master may bind a life that goes on in a former run: the ghost looks at it from when it is Halted on.
-  void await_ghost(std::size_t c) {
-    const std::size_t role = members_[c]->config().index - std::size_t{1};
-    if (ghosts_[role] == Binding{static_cast<std::uint8_t>(c), candidates_[c].announcement().life} && members_[c]->state() == PublishedState::Halted) awaited_[role] = false;
-  }
+  Binding binding_of(std::size_t c) const { return {static_cast<std::uint8_t>(c), candidates_[c].announcement().life}; }
+  RoleObserver& role_observer(std::size_t c) { return role_observers_[members_[c]->config().index - std::size_t{1}]; }
+  bool is_seen(std::size_t c) { return members_[c] && role_observer(c).counts(binding_of(c)); }
   void settle() {
     while (const auto input = binder_.next(master_view_of(master_))) {
       step_master(*input);
-      if (input->kind != Input::Kind::PeerReplaced || ghosts_[input->peer] == binder_.binding(input->peer)) continue;
-      ghosts_[input->peer] = binder_.binding(input->peer);
-      observer.on_restart(input->peer + std::size_t{1});
-      const Binding& ghost = ghosts_[input->peer];
-      awaited_[input->peer] = ghost.bound() && members_[ghost.candidate] && members_[ghost.candidate]->state() != PublishedState::Halted;
+      if (input->kind != Input::Kind::PeerReplaced) continue;
+      const Binding& bound = binder_.binding(input->peer);
+      const PublishedState before = bound.bound() && members_[bound.candidate] ? members_[bound.candidate]->state() : PublishedState::Halted;
+      if (role_observers_[input->peer].on_bound(bound, before).is_new) observer.on_restart(input->peer + std::size_t{1});
     }
   }
 
@@ -301,8 +293,7 @@ class PlugGroup {
   Binder binder_;
   std::vector<Candidate> candidates_;
   std::vector<std::optional<Member>> members_;           // by candidate
-  std::vector<Binding> ghosts_;                          // by role: whom the observer takes for it
-  std::vector<bool> awaited_;                            // by role: the ghost waits until its participant is Halted
+  std::vector<RoleObserver> role_observers_;
   std::vector<std::uint16_t> sequence_;                  // by station
   std::vector<Heard> heard_announcement_;                // at the master, by candidate
   std::vector<std::optional<Announcement>> announced_;   // at the master, by candidate: what the binder goes by
@@ -324,8 +315,8 @@ inline std::uint64_t PlugGroup::hash() const {
   mix(wants_restart() ? 1 : 0);
   for (std::size_t role = 0; role < roles(); ++role) {
     mix_binding(binder_.binding(role));
-    mix_binding(ghosts_[role]);
-    mix(awaited_[role] ? 1 : 0);
+    mix_binding(role_observers_[role].binding());
+    mix(role_observers_[role].is_awaited() ? 1 : 0);
   }
   for (std::uint8_t c = 0; c < offers_.size(); ++c) {
     mix_announcement(candidates_[c].announcement());

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "handshake/nested_participant.hpp"
-#include "handshake/tree_observer.hpp"
+#include "handshake/observer.hpp"
+#include "handshake/reaction.hpp"
 
 namespace takt::handshake {
 
@@ -27,14 +28,14 @@ class Tree {
   using Plain = Participant<4>;
   using Nested = NestedParticipant<4, 4>;
 
-  explicit Tree(std::vector<TreeGroup> groups) : observer(std::move(groups)), reactions(observer.participants()) {
-    places_.resize(observer.participants());
-    for (std::size_t g = 0; g < observer.groups().size(); ++g)
-      for (std::size_t p = 0; p < observer.groups()[g].participants; ++p) {
-        Place& place = places_[observer.number_of(g, p)];
+  explicit Tree(std::vector<TreeGroup> groups) : observer(Variant::Robust, GroupTree(std::move(groups))), reactions(shape().participants()) {
+    places_.resize(shape().participants());
+    for (std::size_t g = 0; g < shape().groups(); ++g)
+      for (std::size_t p = 0; p < shape().size(g); ++p) {
+        Place& place = places_[shape().number_of(g, p)];
         place = {g, p, 0, Side::Outer};
         if (g != 0 && p == 0) {  // the node is there already, as a slave of the outer group
-          const TreeGroup& group = observer.groups()[g];
+          const TreeGroup& group = shape().group(g);
           place.node = at(group.outer, group.outer_index).node;
           place.side = Side::Inner;
           inner_group_[place.node] = g;
@@ -43,7 +44,7 @@ class Tree {
         place.node = nodes_.size();
         nodes_.push_back({});
         inner_group_.push_back(0);
-        node_place_.push_back(observer.number_of(g, p));
+        node_place_.push_back(shape().number_of(g, p));
         incarnation_.push_back(1);
       }
     pending_.resize(places_.size());
@@ -51,8 +52,9 @@ class Tree {
     for (std::size_t n = 0; n < nodes_.size(); ++n) make(n);
   }
 
-  std::size_t groups() const { return observer.groups().size(); }
-  std::size_t size(std::size_t group) const { return observer.groups()[group].participants; }
+  const GroupTree& shape() const { return observer.tree(); }
+  std::size_t groups() const { return shape().groups(); }
+  std::size_t size(std::size_t group) const { return shape().size(group); }
   std::size_t participants() const { return places_.size(); }
   std::size_t nodes() const { return nodes_.size(); }
   std::pair<std::size_t, std::size_t> place(std::size_t number) const { return {places_[number].group, places_[number].index}; }
@@ -69,14 +71,14 @@ class Tree {
     const Place place = at(group, i);
     if (auto* plain = std::get_if<Plain>(&nodes_[place.node])) {
       const Outputs outputs = plain->step(input);
-      note(observer.number_of(group, i), outputs, plain->word());
+      note(shape().number_of(group, i), outputs, plain->word());
       return outputs;
     }
     Nested& nested = std::get<Nested>(nodes_[place.node]);
     const NestedOutputs all = nested.step(place.side, input);
     const Place& outside = places_[node_place_[place.node]];
     for (const NestedOutputs::One& one : all.all())
-      note(one.side == Side::Outer ? observer.number_of(outside.group, outside.index) : observer.number_of(inner_group_[place.node], 0), one.outputs,
+      note(one.side == Side::Outer ? shape().number_of(outside.group, outside.index) : shape().number_of(inner_group_[place.node], 0), one.outputs,
            one.after);
     return input.kind == Input::Kind::Initialised ? Outputs{} : all.steps[0].outputs;
   }
@@ -90,13 +92,13 @@ class Tree {
   }
 
   TreeMessage message(std::size_t group, std::size_t from, std::size_t to) {
-    return {group, from, to, member(group, from).word(), ++sequence_[observer.number_of(group, from)], observer.sending_run(group, from)};
+    return {group, from, to, member(group, from).word(), ++sequence_[shape().number_of(group, from)], observer.sending_run(shape().number_of(group, from))};
   }
   void deliver(const TreeMessage& message) {
     const std::size_t peer = member(message.group, message.to).peer_of(message.from);
     const bool ignored = step(message.group, message.to, Input::received(peer, message.word, message.sequence)).ignored;
     if (message.sent_in != 0 && !ignored && member(message.group, message.to).process_data_counts(peer))
-      observer.on_process_data(message.group, message.from, message.to, message.sent_in);
+      observer.on_process_data(shape().number_of(message.group, message.from), shape().number_of(message.group, message.to), message.sent_in);
   }
   void tell_all(std::size_t group, std::size_t from) {
     for (std::size_t peer = 0; peer < member(group, from).peer_count(); ++peer)
@@ -120,7 +122,7 @@ class Tree {
       if (places_[n].node != node) continue;
       sequence_[n] = 0;
       pending_[n] = {};
-      observer.on_restart(places_[n].group, places_[n].index);
+      observer.on_restart(n);
       reactions.on_restart(n, now);
     }
   }
@@ -146,13 +148,13 @@ class Tree {
               " intent " + std::to_string(word.intent.number) + "/" + std::string(name_of(word.intent.kind)) + "/" +
               std::to_string(word.intent.origin) + "/" + std::to_string(word.intent.run) + " run " + std::to_string(word.run) + "\n";
     }
-    for (const TreeViolation& each : observer.violations())
-      text += "  " + std::string(name_of(each.violation.invariant)) + (each.of_tree ? " of the tree" : "") + ": group " + std::to_string(each.group) +
-              " participant " + std::to_string(each.violation.participant) + " " + std::string(text_of(each.violation.finding)) + "\n";
+    for (const Violation& each : observer.violations())
+      text += "  " + std::string(name_of(each.invariant)) + (each.of_tree ? " of the tree" : "") + ": group " + std::to_string(each.group) +
+              " participant " + std::to_string(each.participant) + " " + std::string(text_of(each.finding)) + "\n";
     return text;
   }
 
-  TreeObserver observer;
+  Observer observer;
   TreeReactions reactions;
   sim::TrueTime now;
   std::string journal;
@@ -168,7 +170,7 @@ class Tree {
     bool under_way = false;
     std::uint32_t run = 0;
   };
-  const Place& at(std::size_t group, std::size_t i) const { return places_[observer.number_of(group, i)]; }
+  const Place& at(std::size_t group, std::size_t i) const { return places_[shape().number_of(group, i)]; }
   Config config(std::size_t group, std::size_t i, std::uint32_t incarnation) const {
     return {Variant::Robust, i == 0 ? Role::Master : Role::Slave, static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(size(group) - 1),
             incarnation,     Subscription::Star,                 false};
@@ -184,7 +186,7 @@ class Tree {
   }
   void note(std::size_t number, const Outputs& outputs, const Word& after) {
     const Place& place = places_[number];
-    observer.on_step(place.group, place.index, outputs, after);
+    observer.on_step(number, outputs, after);
     reactions.on_step(number, outputs, now);
     for (const StateChange& change : outputs.changes())
       journal += std::to_string(place.group) + "." + std::to_string(place.index) + ":" + std::string(name_of(change.to)) + " ";

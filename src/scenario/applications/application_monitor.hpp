@@ -1,4 +1,4 @@
-// What a run learns about the threads of applications: ghosts, in true time. No application asks them.
+// What a run learns about the threads of applications: in true time. No application asks them.
 #pragma once
 
 #include <cstdint>

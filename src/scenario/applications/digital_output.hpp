@@ -1,4 +1,4 @@
-// A digital output as an oscilloscope sees it: edges in true time, pulses and periods. A ghost.
+// A digital output as an oscilloscope sees it: edges in true time, pulses and periods. Nobody asks it.
 #pragma once
 
 #include <algorithm>

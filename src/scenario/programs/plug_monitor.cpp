@@ -15,7 +15,7 @@ void PlugMonitor::settle(sim::Simulation&) {
 }
 
 void PlugMonitor::bind(std::size_t role, const handshake::Binding& binding) {
-  const handshake::RoleObserver::Change change = observer_.on_bound(role, binding, state_of_(binding));
+  const handshake::RoleObserver::Change change = observers_[role].on_bound(binding, state_of_(binding));
   if (!change.is_new) return;
   if (change.gone) program_->on_gone(role + 1, *change.gone);
   if (binding.bound()) program_->on_back(role + 1, nodes_[binding.candidate]);
@@ -26,20 +26,20 @@ void PlugMonitor::bind(std::size_t role, const handshake::Binding& binding) {
 }
 
 void PlugMonitor::on_step(std::size_t role, const handshake::Binding& self, const handshake::Outputs& outputs, const handshake::Word& after) {
-  if (observer_.on_step(role, self, after.state)) program_->on_step(role + 1, outputs, after);
+  if (observers_[role].on_step(self, after.state)) program_->on_step(role + 1, outputs, after);
 }
 
 void PlugMonitor::on_dropped(std::size_t role, const handshake::Binding& self, bool has_crashed) {
-  const auto before = observer_.on_dropped(role, self);
+  const auto before = observers_[role].on_dropped(self);
   if (before) has_crashed ? program_->on_crash(role + 1, *before) : program_->on_gone(role + 1, *before);
 }
 
 void PlugMonitor::on_process_data(std::size_t role, const handshake::Binding& self, std::size_t from, std::uint32_t sent_in) {
-  if (observer_.counts(role, self)) program_->on_process_data(from, role + 1, sent_in);
+  if (observers_[role].counts(self)) program_->on_process_data(from, role + 1, sent_in);
 }
 
 bool PlugMonitor::has_role(std::uint8_t candidate) const {
-  for (std::size_t role = 0; role < observer_.roles(); ++role)
+  for (std::size_t role = 0; role < observers_.size(); ++role)
     if (binding(role).bound() && binding(role).candidate == candidate) return true;
   return false;
 }

@@ -19,7 +19,7 @@ struct BindingRecord {
   std::optional<std::uint8_t> candidate;  ///< none: nobody
 };
 
-/// A handshake::RoleObserver before a ProgramMonitor. What an instant does to bindings counts from its end on, whatever else happens in it: a node
+/// A handshake::RoleObserver for each role before a ProgramMonitor. What an instant does to bindings counts from its end on, whatever else happens in it: a node
 /// that falls silent for the master when the master falls silent for it still takes its last step in its role.
 class PlugMonitor final : public sim::Component {
  public:
@@ -28,7 +28,7 @@ class PlugMonitor final : public sim::Component {
 
   /// `nodes`: of the candidates.
   PlugMonitor(sim::Simulation& simulation, std::uint32_t number, ProgramMonitor& program, std::size_t roles, std::vector<std::uint32_t> nodes, StateOf state_of)
-      : simulation_(&simulation), number_(number), program_(&program), observer_(roles), nodes_(std::move(nodes)), state_of_(std::move(state_of)) {}
+      : simulation_(&simulation), number_(number), program_(&program), observers_(roles), nodes_(std::move(nodes)), state_of_(std::move(state_of)) {}
 
   void on_bound(std::size_t role, const handshake::Binding& binding);
   /// The participant on a candidate has taken a step in its role.
@@ -37,8 +37,8 @@ class PlugMonitor final : public sim::Component {
   void on_dropped(std::size_t role, const handshake::Binding& self, bool has_crashed);
   void on_process_data(std::size_t role, const handshake::Binding& self, std::size_t from, std::uint32_t sent_in);
 
-  handshake::PublishedState state(std::size_t role) const { return observer_.state(role); }
-  const handshake::Binding& binding(std::size_t role) const { return observer_.binding(role); }
+  handshake::PublishedState state(std::size_t role) const { return observers_[role].state(); }
+  const handshake::Binding& binding(std::size_t role) const { return observers_[role].binding(); }
   bool has_role(std::uint8_t candidate) const;
   const std::vector<BindingRecord>& history() const { return history_; }
 
@@ -53,7 +53,7 @@ class PlugMonitor final : public sim::Component {
   sim::Simulation* simulation_;
   std::uint32_t number_;
   ProgramMonitor* program_;
-  handshake::RoleObserver observer_;
+  std::vector<handshake::RoleObserver> observers_;   // by role
   std::vector<std::uint32_t> nodes_;   // of the candidates
   StateOf state_of_;
   std::vector<std::pair<std::size_t, handshake::Binding>> bound_now_;   // roles, and what they got in this instant

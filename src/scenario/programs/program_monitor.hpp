@@ -1,4 +1,4 @@
-// What a run learns about one Program: reactions, states, violated invariants. Ghosts: no participant asks them.
+// What a run learns about one Program: reactions, states, violated invariants. No participant asks for it.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "handshake/invariants.hpp"
+#include "handshake/observer.hpp"
 #include "handshake/reaction.hpp"
 #include "scenario/programs/program_faults.hpp"
 #include "scenario/programs/round_trips.hpp"
@@ -113,7 +113,7 @@ class ProgramMonitor {
   TreeMonitor* tree_ = nullptr;
   std::size_t group_ = 0;
   std::uint32_t number_;
-  handshake::GroupObserver observer_;
+  handshake::Observer observer_;
   handshake::ReactionTracker tracker_;
   std::vector<ProgramFault> faults_;
   std::vector<std::uint32_t> nodes_;      // by participant

@@ -1,4 +1,4 @@
-// How long it takes from publishing process data to receiving the reply. A ghost: it sees both ends and true time, no participant asks it.
+// How long it takes from publishing process data to receiving the reply. It sees both ends and true time, no participant asks it.
 #pragma once
 
 #include <cstdint>

@@ -2,24 +2,26 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
-#include "handshake/tree_observer.hpp"
+#include "handshake/observer.hpp"
+#include "handshake/reaction.hpp"
 #include "sim/simulation.hpp"
 
 namespace takt::scenario {
 
-/// A ghost beside the ProgramMonitors of its programs, which hand on what they see.
+/// Stands beside the ProgramMonitors of its programs, which hand on what they see.
 class TreeMonitor {
  public:
   struct Violation {
     sim::TrueTime time;
-    handshake::TreeViolation violation;
+    handshake::Violation violation;
   };
 
   /// `programs`: numbers of the run's programs in the order of `groups`.
   TreeMonitor(sim::Simulation& simulation, std::vector<std::uint32_t> programs, std::vector<handshake::TreeGroup> groups)
-      : simulation_(&simulation), programs_(std::move(programs)), observer_(std::move(groups)), reactions_(observer_.participants()) {}
+      : simulation_(&simulation), programs_(std::move(programs)), observer_(handshake::Variant::Robust, handshake::GroupTree(std::move(groups))), reactions_(observer_.tree().participants()) {}
 
   void on_step(std::size_t group, std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after, const handshake::Origin& origin);
   void on_crash(std::size_t group, std::size_t participant);
@@ -35,7 +37,7 @@ class TreeMonitor {
  private:
   sim::Simulation* simulation_;
   std::vector<std::uint32_t> programs_;
-  handshake::TreeObserver observer_;
+  handshake::Observer observer_;
   handshake::TreeReactions reactions_;
   std::size_t seen_ = 0;
   std::vector<Violation> violations_;

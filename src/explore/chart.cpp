@@ -2,9 +2,6 @@
 
 #include <algorithm>
 
-#include "explore/roles_chart.hpp"
-#include "explore/tree_chart.hpp"
-
 namespace takt::explore {
 namespace {
 

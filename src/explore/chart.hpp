@@ -60,6 +60,9 @@ std::string participant_name(std::size_t participant);
 std::string sentence(const Told& told, const Wiring& wiring);
 /// Of a single group.
 std::string chart(const Question& question, const Story& story);
+/// These go through the run once more with its model (retelling.hpp).
+Chart chart_of_tree(const Question& question, const Beginning& beginning, const Trace& trace);
+Chart chart_of_roles(const Question& question, const Beginning& beginning, const Trace& trace);
 /// Of whatever the question is of.
 std::string chart(const Question& question, const Beginning& beginning, const Trace& trace);
 

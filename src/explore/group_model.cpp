@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "explore/beginnings.hpp"
+#include "explore/forged_words.hpp"
 #include "explore/recurrence.hpp"
 #include "sim/check.hpp"
 
@@ -89,21 +90,8 @@ State GroupModel::switched_on() {
 
 bool GroupModel::act(const State& state, Action action, Next& next) {
   if (!change(state, action, next)) return false;
-  if (question_.faults.contains(Fault::forge)) judge_forgery(state, action, next);
+  if (question_.faults.contains(Fault::forge)) judge_forgery(*this, state, action, next);
   return true;
-}
-
-/// Whoever has believed a stranger may break S1 to S5, until all are Halted and know it. From then on the group is as it was: it keeps
-/// them, and a Start succeeds.
-void GroupModel::judge_forgery(const State& state, Action action, Next& next) {
-  if (action.kind == ActionKind::forge) next.state.set_misled(true);
-  if (next.state.misled()) {
-    for (const Property property : {Property::S1, Property::S2, Property::S3, Property::S4, Property::S5}) next.properties.erase(property);
-    if (halted_for_all(next.state)) next.state.set_misled(false);
-  }
-  if (is_network(action.kind)) return;
-  const bool is_start = action.kind == ActionKind::call && program::methods[action.what].method == Method::Start;
-  next.state.set_promised(is_start && halted_for_all(state));
 }
 
 /// Nothing of before is left that anybody could still hear or believe.

@@ -37,6 +37,8 @@ class GroupModel : public ActionList {
   /// The same for all states that differ in the names of slaves only.
   State canonical(const State& state);
 
+  /// All are Halted and have heard so of each other: nothing of before is left that anybody could still hear or believe.
+  bool halted_for_all(const State& state);
   /// The goal of L1 (somebody down: of F1) holds here.
   bool settled(const State& state) const;
   bool anybody_down(const State& state) const;
@@ -61,8 +63,6 @@ class GroupModel : public ActionList {
 
   bool change(const State& state, Action action, Next& next);
   bool forge(const State& state, std::size_t as, std::size_t what, Next& next);
-  void judge_forgery(const State& state, Action action, Next& next);
-  bool halted_for_all(const State& state);
   bool initialised(const State& state, std::size_t participant, Next& next);
   bool call(const State& state, std::size_t participant, std::size_t method, Next& next);
   bool finish(const State& state, std::size_t participant, Next& next);

@@ -82,13 +82,19 @@ void Members::compare_under_other_names(MemberId member, const Stimulus& stimulu
 Stepped Members::step_value(MemberId member, const Stimulus& stimulus) {
   const Participant before = values_[member];
   Participant after = before;
-  const Outputs outputs = after.step(input_of(stimulus.kind, stimulus.what, words_[stimulus.word], stimulus.overtaken, before.intent().run));
+  const Input input = input_of(stimulus.kind, stimulus.what, words_[stimulus.word], stimulus.overtaken, before.intent().run);
+  const Outputs outputs = after.step(input);
   after.forget_last_transition();
+  Effect effect = effect_of(before.word(), after.word(), outputs);
+  effect.properties.bits |= judged(input, outputs, before.state(), after).bits;
+  effect.raised = outputs.raised && question_.variant == Variant::Paper;  // `robust` says it in the words
+  if (effect.raised) effect.kind = outputs.raised_kind;
   Stepped stepped;
   stepped.member = intern(after);
-  if (stimulus.kind == Input::Kind::Received)
-    stepped.data_counts = word(stimulus.word).state == PublishedState::Running && !outputs.ignored && after.process_data_counts(stimulus.what);
-  stepped.effect = effect_of(before, after, stimulus, outputs);
+  stepped.data_counts = data_counts(input, outputs, after);
+  const std::uint32_t id = effects_.intern(effect);
+  TAKT_CHECK(id <= 0xFFFF, "a step has few effects");
+  stepped.effect = static_cast<std::uint16_t>(id);
   return stepped;
 }
 
@@ -131,19 +137,19 @@ Effect effect_of(const Word& before, const Word& after, const Outputs& outputs) 
   return effect;
 }
 
-std::uint16_t Members::effect_of(const Participant& before, const Participant& after, const Stimulus& stimulus, const Outputs& outputs) {
-  Effect effect = explore::effect_of(before.word(), after.word(), outputs);
-  effect.raised = outputs.raised && question_.variant == Variant::Paper;  // `robust` says it in the words
-  if (effect.raised) effect.kind = outputs.raised_kind;
-  if (stimulus.kind == Input::Kind::PeerSilent && before.state() != PublishedState::Halted) effect.properties.insert(Property::silence);
-  if (stimulus.kind == Input::Kind::PeerSilent && after.state() != PublishedState::Halted) effect.properties.insert(Property::F1);
-  const bool robust = question_.variant == Variant::Robust;
-  if (robust && stimulus.kind == Input::Kind::Received && !outputs.ignored && word(stimulus.word).state == PublishedState::Running &&
-      after.process_data_counts(stimulus.what) && word(stimulus.word).run != after.run())
-    effect.properties.insert(Property::S3);
-  const std::uint32_t id = effects_.intern(effect);
-  TAKT_CHECK(id <= 0xFFFF, "a step has few effects");
-  return static_cast<std::uint16_t>(id);
+PropertySet judged(const Input& input, const Outputs& outputs, PublishedState before, const Participant& after) {
+  PropertySet seen;
+  if (input.kind == Input::Kind::PeerSilent) {
+    if (before != PublishedState::Halted) seen.insert(Property::silence);
+    if (after.state() != PublishedState::Halted) seen.insert(Property::F1);
+  }
+  const bool robust = after.config().variant == Variant::Robust;
+  if (robust && data_counts(input, outputs, after) && input.word.run != after.run()) seen.insert(Property::S3);
+  return seen;
+}
+
+bool data_counts(const Input& input, const Outputs& outputs, const Participant& after) {
+  return input.kind == Input::Kind::Received && !outputs.ignored && input.word.state == PublishedState::Running && after.process_data_counts(input.peer);
 }
 
 MemberId Members::intern(const Participant& value) {

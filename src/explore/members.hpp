@@ -50,6 +50,10 @@ bool are_transitions(handshake::PublishedState from, std::span<const handshake::
 
 /// What a step means, but for what depends on the input. `before` and `after` are the participant's words.
 Effect effect_of(const handshake::Word& before, const handshake::Word& after, const handshake::Outputs& outputs);
+/// What the input and its outcome say of `silence`, F1 and S3 of `robust`. `before`: the state of the participant.
+PropertySet judged(const handshake::Input& input, const handshake::Outputs& outputs, handshake::PublishedState before, const Participant& after);
+/// Process data in the message reaches the application.
+bool data_counts(const handshake::Input& input, const handshake::Outputs& outputs, const Participant& after);
 /// `run`: of the intent that it follows.
 handshake::Input input_of(handshake::Input::Kind kind, std::size_t what, const Letter& letter, bool overtaken, std::uint32_t run);
 
@@ -126,7 +130,6 @@ class Members {
   Stepped step_anew(MemberId member, const Stimulus& stimulus);
   Stepped step_value(MemberId member, const Stimulus& stimulus);
   void compare_under_other_names(MemberId member, const Stimulus& stimulus, const Stepped& stepped);
-  std::uint16_t effect_of(const Participant& before, const Participant& after, const Stimulus& stimulus, const handshake::Outputs& outputs);
   MemberId intern(const Participant& value);
   void add_traits(MemberId member);
   void add_images(const std::vector<MemberId>& images);

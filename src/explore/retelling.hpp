@@ -9,9 +9,19 @@
 
 namespace takt::explore {
 
-/// `told(state, action)` is a step before it is taken, `states(state)` are the cells of the columns.
-template <class M, class States, class Told>
-Chart retold(M& model, Chart chart, const Beginning& beginning, const Trace& trace, States&& states, Told&& told) {
+/// What there is to say of a model's states and actions: a class made from a Question, with
+///   M model                                    whose runs are told
+///   width                                      of a column
+///   names()                                    of the columns
+///   states(state)                              the cells of the columns
+///   step(state, action)                        a step before it is taken
+template <class W>
+Chart told_with(const Question& question, const Beginning& beginning, const Trace& trace) {
+  W words(question);
+  auto& model = words.model;
+  Chart chart;
+  chart.names = words.names();
+  chart.width = W::width;
   State state = model.switched_on();
   // Numbers of states belong to one model, so the beginning is gone through again.
   state.set_commands_left(most_commands);
@@ -21,15 +31,15 @@ Chart retold(M& model, Chart chart, const Beginning& beginning, const Trace& tra
   state.set_commands_left(model.question().commands);
   state.set_faults_left(model.question().fault_budget);
   chart.beginning = beginning.name;
-  chart.states = states(state);
+  chart.states = words.states(state);
   chart.cycle = trace.cycle;
   for (const Action action : trace.actions) {
-    ChartStep& step = chart.steps.emplace_back(told(state, action));
+    ChartStep& step = chart.steps.emplace_back(words.step(state, action));
     step.mark = mark_of(action.kind);
     try {
       model.act(state, action, next);
     } catch (const sim::InvariantBroken& broken) {
-      step.states = states(state);
+      step.states = words.states(state);
       step.findings.push_back(std::string("breaks ") + broken.what());
       break;
     }
@@ -38,7 +48,7 @@ Chart retold(M& model, Chart chart, const Beginning& beginning, const Trace& tra
       if (must_always_hold(property) && next.properties.contains(property)) step.findings.push_back("violates " + std::string(name_of(property)));
     }
     state = next.state;
-    step.states = states(state);
+    step.states = words.states(state);
   }
   return chart;
 }

@@ -32,12 +32,7 @@ Outputs take(Participant& participant, const Input& input, const Binding& self, 
   event.after = participant.state();
   events.properties.bits |= event.effect.properties.bits;
   event.effect.properties = {};
-  const bool data_counts = input.kind == Input::Kind::Received && !outputs.ignored && input.word.state == PublishedState::Running && participant.process_data_counts(input.peer);
-  if (data_counts && input.word.run != participant.run()) events.properties.insert(Property::S3);
-  if (input.kind == Input::Kind::PeerSilent) {
-    if (before.state != PublishedState::Halted) events.properties.insert(Property::silence);
-    if (participant.state() != PublishedState::Halted) events.properties.insert(Property::F1);
-  }
+  events.properties.bits |= judged(input, outputs, before.state, participant).bits;
   if (event.effect != Effect{}) events.each.push_back(event);
   return outputs;
 }

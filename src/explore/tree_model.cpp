@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "explore/beginnings.hpp"
+#include "explore/forged_words.hpp"
 #include "sim/check.hpp"
 
 namespace takt::explore {
@@ -92,22 +93,11 @@ void TreeModel::make_beginnings() {
 
 bool TreeModel::act(const State& state, Action action, Next& next) {
   if (!change(state, action, next)) return false;
-  if (question_.faults.contains(Fault::forge)) judge_forgery(state, action, next);
+  if (question_.faults.contains(Fault::forge)) judge_forgery(*this, state, action, next);
   return true;
 }
 
-/// As in a single group (GroupModel::judge_forgery).
-void TreeModel::judge_forgery(const State& state, Action action, Next& next) {
-  if (action.kind == ActionKind::forge) next.state.set_misled(true);
-  if (next.state.misled()) {
-    for (const Property property : {Property::S1, Property::S2, Property::S3, Property::S4, Property::S5}) next.properties.erase(property);
-    if (halted_for_all(next.state)) next.state.set_misled(false);
-  }
-  if (is_network(action.kind)) return;
-  const bool is_start = action.kind == ActionKind::call && action.who == 0 && program::methods[action.what].method == Method::Start;
-  next.state.set_promised(is_start && halted_for_all(state));
-}
-
+/// Nothing of before is left that anybody could still hear or believe.
 bool TreeModel::halted_for_all(const State& state) {
   if (anybody_down(state)) return false;
   for (std::size_t p = 0; p < tree_.participants(); ++p)

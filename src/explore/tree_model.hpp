@@ -27,6 +27,8 @@ class TreeModel : public ActionList, public ToldApart {
   State switched_on();
   bool act(const State& state, Action action, Next& next);
 
+  /// All are Halted and have heard so of each other.
+  bool halted_for_all(const State& state);
   /// The goal of L1: in each group the same intent and the state that it names, the same in both. Somebody is down: the goal of F1, all others Halted.
   bool settled(const State& state) const;
   bool anybody_down(const State& state) const;
@@ -46,8 +48,6 @@ class TreeModel : public ActionList, public ToldApart {
 
   bool change(const State& state, Action action, Next& next);
   bool forge(const State& state, Action action, Next& next);
-  void judge_forgery(const State& state, Action action, Next& next);
-  bool halted_for_all(const State& state);
   bool is_deaf(const State& state, std::size_t participant, std::size_t peer) const;
   bool publish(const State& state, std::size_t channel, Next& next) const;
   bool sample(const State& state, std::size_t channel, Next& next);

@@ -76,7 +76,7 @@ TreeStepped TreeNodes::step_anew(NodeId id, const TreeStimulus& stimulus) {
   std::visit(
       [&](auto& value) {
         for (const Side side : {Side::Outer, Side::Inner}) before[at(side)] = participant(value, side).word();
-        const std::array<Word, 2> first = before;
+        const PublishedState first = before[at(stimulus.side)].state;
         const auto& stepping = participant(value, stimulus.side);
         const Input input = input_of(stimulus.kind, stimulus.what, words_[stimulus.word], false, stepping.intent().run);
         const NestedOutputs outputs = take(value, stimulus.side, input);
@@ -91,16 +91,9 @@ TreeStepped TreeNodes::step_anew(NodeId id, const TreeStimulus& stimulus) {
           }
           if (effect.effect != Effect{}) effects.each[effects.count++] = effect;
         }
-        PropertySet more;
-        if (stimulus.kind == Input::Kind::PeerSilent) {
-          if (first[at(stimulus.side)].state != PublishedState::Halted) more.insert(Property::silence);
-          for (const Side side : {Side::Outer, Side::Inner})
-            if (participant(value, side).state() != PublishedState::Halted) more.insert(Property::F1);
-        }
-        if (stimulus.kind == Input::Kind::Received && !outputs.steps[0].outputs.ignored && input.word.state == PublishedState::Running) {
-          const auto& hearing = participant(value, stimulus.side);
-          if (hearing.process_data_counts(stimulus.what) && input.word.run != hearing.run()) more.insert(Property::S3);
-        }
+        PropertySet more = judged(input, outputs.steps[0].outputs, first, participant(value, stimulus.side));
+        const Side other = stimulus.side == Side::Outer ? Side::Inner : Side::Outer;
+        if (stimulus.kind == Input::Kind::PeerSilent && participant(value, other).state() != PublishedState::Halted) more.insert(Property::F1);
         if (more.bits != 0) {
           if (effects.count == 0) effects.each[effects.count++].side = stimulus.side;
           effects.each[0].effect.properties.bits |= more.bits;

@@ -6,7 +6,7 @@
 
 #include "analysis/figure_bound.hpp"
 #include "analysis/program_assessment.hpp"
-#include "explore/search.hpp"
+#include "explore/search/search.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "scenario/figures/requirement_rules.hpp"
 #include "scenario/json/quantity.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "explore/question.hpp"
+#include "explore/model/question.hpp"
 #include "scenario/resolve/resolved.hpp"
 
 namespace takt::verify {

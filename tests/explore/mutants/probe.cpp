@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "explore/report.hpp"
-#include "explore/search.hpp"
+#include "explore/report/report.hpp"
+#include "explore/search/search.hpp"
 
 namespace takt::explore {
 namespace {

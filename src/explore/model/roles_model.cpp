@@ -1,0 +1,360 @@
+#include "explore/model/roles_model.hpp"
+
+#include "explore/model/beginnings.hpp"
+#include "sim/check.hpp"
+
+namespace takt::explore {
+
+using handshake::PublishedState;
+using program::Method;
+
+RolesModel::RolesModel(const Question& question) : question_(question), stations_(question), group_(question.slaves + 1U) {
+  TAKT_CHECK(question.slaves >= 1 && question.slaves <= most_explored_roles && question.candidates >= 1 && question.candidates <= most_explored_candidates, "a group to explore is small");
+  TAKT_CHECK(question.variant == handshake::Variant::Robust && question.subscription == handshake::Subscription::Star && question.network == Network::registers && !question.is_tree(),
+             "roles are explored with robust in stars on registers");
+  TAKT_CHECK(!question.faults.contains(Fault::duplicate) && !question.faults.contains(Fault::reorder) && !question.faults.contains(Fault::forge), "no delayed copies and no strangers with roles");
+  shape_.wide = true;
+  shape_.channels_at = static_cast<std::uint8_t>(stations());
+  shape_.observer_at = shape_.late_at = static_cast<std::uint8_t>(stations() + channels_of_candidate * question.candidates);
+  shape_.rest_at = static_cast<std::uint8_t>(shape_.observer_at + 1);
+  shape_.words = static_cast<std::uint8_t>((shape_.rest_at + 2U) / 2U * 2U);
+  TAKT_CHECK(shape_.words <= State::most_words, "a group to explore is small");
+  list_actions();
+  make_beginnings();
+}
+
+void RolesModel::list_actions() {
+  const auto each_channel = [&](ActionKind kind) {
+    for (std::size_t c = 0; c < channels_of_candidate * question_.candidates; ++c) add(kind, c);
+  };
+  const auto each_station = [&](ActionKind kind) {
+    for (std::size_t s = 0; s < stations(); ++s) add(kind, s);
+  };
+  const auto each_time_out = [&](ActionKind kind) {
+    for (std::size_t what = 0; what < roles() + question_.candidates; ++what) add(kind, 0, what);
+    for (std::size_t s = 1; s < stations(); ++s) add(kind, s);
+  };
+  each_channel(ActionKind::send);
+  each_channel(ActionKind::receive);
+  each_station(ActionKind::initialised);
+  each_time_out(ActionKind::silence);
+  end_network();
+  for (std::size_t s = 0; s < stations(); ++s)
+    for (std::size_t m = 0; m < program::methods.size(); ++m) add(ActionKind::call, s, m);
+  if (question_.finishes) each_station(ActionKind::finish);
+  for (std::size_t c = 0; c < question_.candidates; ++c) {
+    add(ActionKind::join, c);
+    add(ActionKind::leave, c);
+  }
+  end_calls();
+  if (question_.faults.contains(Fault::restart)) each_station(ActionKind::restart);
+  end_free();
+  if (question_.faults.contains(Fault::crash)) each_station(ActionKind::crash);
+  if (question_.faults.contains(Fault::loss)) each_channel(ActionKind::lose);
+  if (question_.faults.contains(Fault::timeout)) each_time_out(ActionKind::timeout);
+}
+
+State RolesModel::switched_on() {
+  State state(shape_);
+  state.set_member(0, stations_.master(1, false));
+  for (std::size_t c = 0; c < question_.candidates; ++c) state.set_member(c + 1, stations_.candidate(c, 1, false, false));
+  state.set_observer(observers_.intern({SmallObserver(handshake::Variant::Robust, group_), {}}));
+  return state;
+}
+
+/// Switched on, those who announce themselves from the start have not been heard yet; in the other rests all have joined.
+void RolesModel::make_beginnings() {
+  const auto begun = [this](std::string name, std::uint8_t joined) {
+    Opening opening(*this, switched_on(), std::move(name));
+    for (std::uint8_t c = 0; c < question_.candidates; ++c)
+      if (((joined >> c) & 1U) != 0) opening.take({ActionKind::join, c, 0});
+    return opening;
+  };
+  begun("switched on", question_.joined).keep(1, PublishedState::Halted, beginnings_);
+  if (question_.beginnings == Beginnings::switched_on) return;
+  if (question_.joined != 0) begun("switched on, nobody has joined", 0).keep(1, PublishedState::Halted, beginnings_);
+  const std::size_t channels = channels_of_candidate * question_.candidates;
+  constexpr int rounds = 12;
+  for (const Rest& rest : rests()) {
+    if (rest.calls.empty()) continue;  // it follows from the first
+    Opening opening = begun(rest.name, 0xFF);
+    opening.settle(stations(), channels, rounds);
+    for (const Method method : rest.calls) {
+      opening.call(method);
+      opening.settle(stations(), channels, rounds);
+    }
+    opening.keep(roles() + 1, rest.state, beginnings_);
+  }
+}
+
+bool RolesModel::act(const State& state, Action action, Next& next) {
+  if (!change(state, action, next)) return false;
+  judge_holders(next);
+  if (is_network(action.kind)) return true;
+  const bool is_start = action.kind == ActionKind::call && action.who == 0 && program::methods[action.what].method == Method::Start;
+  next.state.set_promised(is_start && at_rest(state));
+  return true;
+}
+
+bool RolesModel::change(const State& state, Action action, Next& next) {
+  next = {state, {}};
+  const bool is_down_now = !is_network(action.kind) && (action.kind == ActionKind::crash || action.kind == ActionKind::restart) && is_down(state, action.who);
+  const bool is_free = action.kind == ActionKind::restart && is_down_now;
+  if (is_fault(action.kind)) {
+    if (!is_free && state.faults_left() == 0) return false;
+    if (!is_free) next.state.set_faults_left(state.faults_left() - 1);
+  } else if (!is_network(action.kind)) {
+    if (state.commands_left() == 0) return false;
+    next.state.set_commands_left(state.commands_left() - 1);
+  }
+  switch (action.kind) {
+    case ActionKind::send: return publish(state, action.who, next);
+    case ActionKind::receive: return receive(state, action.who, next);
+    case ActionKind::initialised: {
+      const Participant* const participant = action.who == 0 ? &master(state).participant : node(state, action.who - 1U).member ? &*node(state, action.who - 1U).member : nullptr;
+      if (is_down(state, action.who) || participant == nullptr || participant->state() != PublishedState::HaltedInit) return false;
+      return step(action.who, Happens::initialised, 0, no_notice, next);
+    }
+    case ActionKind::silence: return expire(state, action, true, next);
+    case ActionKind::timeout: return expire(state, action, false, next);
+    case ActionKind::call: return !is_down(state, action.who) && step(action.who, Happens::call, action.what, no_notice, next);
+    case ActionKind::finish: {
+      const bool runs = action.who == 0 ? master(state).participant.state() == PublishedState::Running
+                                        : node(state, action.who - 1U).member && node(state, action.who - 1U).member->state() == PublishedState::Running;
+      return runs && !is_down(state, action.who) && step(action.who, Happens::finished, 0, no_notice, next);
+    }
+    case ActionKind::join:
+    case ActionKind::leave: {
+      const handshake::Candidate& candidate = node(state, action.who).candidate;
+      const bool is_there = candidate.announces() && !candidate.announcement().leaving;
+      if (is_down(state, action.who + 1U) || is_there == (action.kind == ActionKind::join)) return false;
+      return step(action.who + 1U, action.kind == ActionKind::join ? Happens::join : Happens::leave, 0, no_notice, next);
+    }
+    case ActionKind::lose: return forget(action.who, next);
+    case ActionKind::crash: return !is_down_now && crash(state, action.who, next);
+    case ActionKind::restart: return restart(state, action.who, next);
+    default: return false;
+  }
+}
+
+NoticeId RolesModel::said(const State& state, std::size_t channel) {
+  const StationId sender = state.member(is_up(channel) ? candidate_of(channel) + 1 : 0);
+  switch (kind_of(channel)) {
+    case Channel::announcement: return stations_.announcement(sender);
+    case Channel::word_up: return stations_.word_of_node(sender);
+    case Channel::table: return stations_.table(sender);
+    case Channel::word_down: return stations_.word_of_master(sender);
+  }
+  return no_notice;
+}
+
+bool RolesModel::publish(const State& state, std::size_t channel, Next& next) {
+  if (is_down(state, is_up(channel) ? candidate_of(channel) + 1 : 0)) return false;
+  const NoticeId notice = said(state, channel);
+  if (notice == no_notice || notice == state.content(channel)) return false;
+  next.state.set_content(channel, notice);
+  return true;
+}
+
+bool RolesModel::receive(const State& state, std::size_t channel, Next& next) {
+  const NoticeId notice = state.content(channel);
+  const std::size_t receiver = is_up(channel) ? 0 : candidate_of(channel) + 1;
+  if (notice == no_notice || is_down(state, receiver)) return false;
+  return step(receiver, Happens::received, is_up(channel) ? candidate_of(channel) : 0, notice, next);
+}
+
+/// Falls silent: who is down, announces itself no more, or has the role no more. Then nothing of it is under way.
+bool RolesModel::expire(const State& state, Action action, bool is_silent, Next& next) {
+  if (is_down(state, action.who)) return false;
+  if (action.who != 0) {
+    if (is_down(state, 0) != is_silent || !node(state, action.who - 1U).member) return false;
+    const bool changed = step(action.who, Happens::master_silent, 0, no_notice, next);
+    const bool forgotten = is_silent && (static_cast<unsigned>(forget(channel(action.who - 1U, Channel::table), next)) | static_cast<unsigned>(forget(channel(action.who - 1U, Channel::word_down), next))) != 0;
+    return changed || forgotten;
+  }
+  const bool of_role = action.what < roles();
+  if (of_role && !binder(state).binding(action.what).bound()) return false;
+  const std::size_t candidate = of_role ? binder(state).binding(action.what).candidate : action.what - roles();
+  const bool is_gone = of_role ? holder(state, action.what) == nullptr : is_down(state, candidate + 1) || !node(state, candidate).candidate.announces();
+  if (is_gone != is_silent || (of_role && !is_heard(state, action.what))) return false;
+  const bool changed = step(0, of_role ? Happens::role_silent : Happens::announcer_silent, of_role ? action.what : candidate, no_notice, next);
+  const bool forgotten = is_silent && forget(channel(candidate, of_role ? Channel::word_up : Channel::announcement), next);
+  return changed || forgotten;
+}
+
+bool RolesModel::forget(std::size_t channel, Next& next) const {
+  if (next.state.content(channel) == no_notice) return false;
+  next.state.set_content(channel, no_notice);
+  return true;
+}
+
+bool RolesModel::crash(const State& state, std::size_t station, Next& next) {
+  if (station == 0) {
+    next.state.set_member(0, stations_.master(master(state).participant.config().incarnation, true));
+    return true;
+  }
+  const Stations::Node before = node(state, station - 1);
+  RolesObserver observer = observers_[state.observer()];
+  if (before.member) {
+    const std::size_t role = before.member->config().index - 1U;
+    if (observer.roles[role].on_dropped({before.number, before.candidate.announcement().life})) observer.group.on_restart(role + 1);
+  }
+  next.state.set_observer(observers_.intern(observer));
+  next.state.set_member(station, stations_.candidate(station - 1, before.candidate.announcement().life, before.candidate.announces(), true));
+  return true;
+}
+
+/// One that goes down and comes up at once loses what one that crashes loses.
+bool RolesModel::restart(const State& state, std::size_t station, Next& next) {
+  if (!is_down(state, station)) crash(state, station, next);
+  if (station == 0) {
+    RolesObserver observer = observers_[next.state.observer()];
+    observer.group.on_restart(0);
+    next.state.set_observer(observers_.intern(observer));
+    next.state.set_member(0, stations_.master(master(state).participant.config().incarnation + 1, false));
+  } else {
+    const handshake::Candidate& candidate = node(state, station - 1).candidate;
+    const bool joined = candidate.announces();
+    next.state.set_member(station, stations_.candidate(station - 1, handshake::next_life(candidate.announcement().life), joined, false));
+  }
+  return true;
+}
+
+bool RolesModel::step(std::size_t station, Happens what, std::size_t which, NoticeId notice, Next& next) {
+  const StationId before = next.state.member(station);
+  const Stations::Stepped stepped = station == 0 ? stations_.step_master(before, what, which, notice) : stations_.step_node(before, what, which, notice);
+  next.state.set_member(station, stepped.station);
+  const bool refused = stepped.events != 0 && watch(stepped.events, next);
+  // A call that is refused may still end the wish to start again; it costs a call as well.
+  return stepped.station != before || (!refused && next.properties.bits != 0);
+}
+
+/// Shows a step to the observer. True if it was a call that is refused.
+bool RolesModel::watch(std::uint32_t events, Next& next) {
+  const RoleEvents& all = stations_.events(events);
+  next.properties.bits |= all.properties.bits;
+  if (all.each.empty()) return all.refused;
+  RolesObserver observer = observers_[next.state.observer()];
+  for (const RoleEvent& each : all.each) {
+    if (each.participant == 0) {
+      next.properties.bits |= observer.group.on_effect(group_, 0, each.effect).bits;
+      continue;
+    }
+    const std::size_t role = each.participant - 1U;
+    handshake::RoleObserver& of_role = observer.roles[role];
+    switch (each.kind) {
+      case RoleEvent::Kind::bound: {
+        const Participant* const before = holder(next.state, role);
+        if (of_role.on_bound(each.self, before == nullptr ? std::nullopt : std::optional(before->state())).is_new) observer.group.on_restart(role + 1);
+        break;
+      }
+      case RoleEvent::Kind::dropped:
+        if (of_role.on_dropped(each.self)) observer.group.on_restart(role + 1);
+        break;
+      case RoleEvent::Kind::step:
+        if (of_role.on_step(each.self, each.after)) next.properties.bits |= observer.group.on_effect(group_, each.participant, each.effect).bits;
+        break;
+    }
+  }
+  next.state.set_observer(observers_.intern(observer));
+  return all.refused;
+}
+
+/// Of those that live at most one says the words of a role that the master takes, and it is the one that has the role.
+void RolesModel::judge_holders(Next& next) const {
+  if (is_down(next.state, 0)) return;
+  for (std::size_t role = 0; role < roles(); ++role) {
+    const Binding& binding = binder(next.state).binding(role);
+    if (!binding.bound()) continue;
+    for (std::size_t c = 0; c < question_.candidates; ++c) {
+      const Stations::Node& each = node(next.state, c);
+      const bool counts = each.member && each.member->config().index == role + 1 && each.member->config().incarnation == handshake::incarnation_of(binding.candidate, binding.life);
+      if (counts && c != binding.candidate) next.properties.insert(Property::B1);
+    }
+  }
+}
+
+const Participant* RolesModel::holder(const State& state, std::size_t role) const {
+  const Binding& binding = binder(state).binding(role);
+  if (!binding.bound()) return nullptr;
+  const Stations::Node& each = node(state, binding.candidate);
+  const bool is_holder = each.member && each.member->config().index == role + 1 && each.candidate.announcement().life == binding.life;
+  return is_holder ? &*each.member : nullptr;
+}
+
+/// A time-out runs from the first word on.
+bool RolesModel::is_heard(const State& state, std::size_t role) const {
+  for (std::size_t s = 0; s < handshake::published_state_count; ++s)
+    if (master(state).participant.peer_heard_in(role, handshake::published_state_at(s))) return true;
+  return false;
+}
+
+PublishedState RolesModel::state_of(const State& state, std::size_t participant) const {
+  if (participant == 0) return master(state).participant.state();
+  const Participant* const each = holder(state, participant - 1);
+  return each == nullptr ? PublishedState::Halted : each->state();
+}
+
+bool RolesModel::all_running(const State& state) const {
+  if (is_down(state, 0)) return false;
+  for (std::size_t p = 0; p <= roles(); ++p)
+    if (state_of(state, p) != PublishedState::Running) return false;
+  return true;
+}
+
+/// From this role on each can have a candidate of its own that is there; `taken`: a set of candidates.
+bool RolesModel::can_be_filled(const State& state, std::size_t role, unsigned taken) const {
+  if (role == roles()) return true;
+  for (std::size_t c = 0; c < question_.candidates; ++c) {
+    const bool offers = ((question_.offers[c] >> role) & 1U) != 0;
+    if (offers && ((taken >> c) & 1U) == 0 && !node(state, c).down && node(state, c).candidate.announces() && can_be_filled(state, role + 1, taken | 1U << c)) return true;
+  }
+  return false;
+}
+
+/// Nobody is to be let go, whoever announces itself is known and nobody else is, and whoever believes to have a role has it.
+bool RolesModel::knows_candidates(const State& state) const {
+  for (std::size_t c = 0; c < question_.candidates; ++c) {
+    const Stations::Node& each = node(state, c);
+    const bool is_there = !each.down && each.candidate.announces();
+    if ((is_there && each.candidate.announcement().leaving) || binder(state).present(static_cast<std::uint8_t>(c)) != is_there) return false;
+    if (each.member && holder(state, each.member->config().index - 1U) != &*each.member) return false;
+  }
+  return true;
+}
+
+bool RolesModel::settled(const State& state) const {
+  const Participant& leader = master(state).participant;
+  if (is_down(state, 0)) {
+    for (std::size_t c = 0; c < question_.candidates; ++c)
+      if (node(state, c).member && node(state, c).member->state() != PublishedState::Halted) return false;
+    return true;
+  }
+  const bool complete = binder(state).complete();
+  if (!knows_candidates(state) || complete != can_be_filled(state, 0, 0)) return false;
+  const PublishedState goal = complete ? handshake::goal_of(leader.intent().kind) : PublishedState::Halted;
+  if (leader.state() != goal || (state.promised() && goal != PublishedState::Running)) return false;
+  if (complete && goal == PublishedState::Halted && !leader.may_start()) return false;
+  for (std::size_t role = 0; role < roles(); ++role) {
+    const Participant* const each = holder(state, role);
+    if (each == nullptr ? binder(state).binding(role).bound() : each->state() != goal || each->intent() != leader.intent()) return false;
+  }
+  return true;
+}
+
+/// Settled, and nothing of before is left that anybody could still hear.
+bool RolesModel::at_rest(const State& state) {
+  if (is_down(state, 0) || !settled(state)) return false;
+  for (std::size_t c = 0; c < channels_of_candidate * question_.candidates; ++c)
+    if (state.content(c) != no_notice && state.content(c) != said(state, c)) return false;
+  return true;
+}
+
+std::size_t RolesModel::HashOfObserver::operator()(const RolesObserver& observer) const {
+  std::uint64_t digest = observer.group.hash();
+  for (const handshake::RoleObserver& each : observer.roles)
+    digest = mixed(digest ^ (std::uint64_t{each.binding().candidate} << 40 | std::uint64_t{each.binding().life} << 8 | handshake::index_of(each.state()) << 1 | (each.is_awaited() ? 1U : 0U)));
+  return digest;
+}
+
+}  // namespace takt::explore

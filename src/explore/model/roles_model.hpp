@@ -1,0 +1,101 @@
+// A group with roles on sampled registers: candidates announce themselves, the master binds the roles to them, and all may leave, crash and
+// come back in every order. The counterpart of group_model.hpp, whose State it fills: stations instead of participants, a notice in each channel.
+//
+// Station 0 is the master, station c + 1 candidate c. Each candidate has four channels: what it announces, and what it says in its role; the table of
+// bindings, and what the master says. At the master the time-outs of roles come before those of announcements.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "explore/model/action_list.hpp"
+#include "explore/model/model.hpp"
+#include "explore/model/stations.hpp"
+#include "handshake/role_observer.hpp"
+
+namespace takt::explore {
+
+/// Who watches whoever has the roles.
+struct RolesObserver {
+  SmallObserver group;
+  std::array<handshake::RoleObserver, most_explored_roles> roles{};
+  bool operator==(const RolesObserver&) const = default;
+};
+
+class RolesModel : public ActionList, public ToldApart {
+ public:
+  enum class Channel : std::uint8_t { announcement, word_up, table, word_down };
+  static constexpr std::size_t channels_of_candidate = 4;
+
+  explicit RolesModel(const Question& question);
+
+  const Question& question() const { return question_; }
+  const Shape& shape() const { return shape_; }
+  const std::vector<Beginning>& beginnings() const { return beginnings_; }
+
+  State switched_on();
+  bool act(const State& state, Action action, Next& next);
+
+  /// The goal of L1: whoever announces itself is known, roles are filled if they can be, whoever has one knows it, and all have done what was
+  /// asked for last; a Start at rest ends in Running. The master is down: the goal of F1, all others Halted.
+  bool settled(const State& state) const;
+  bool anybody_down(const State& state) const { return is_down(state, 0); }
+  bool all_running(const State& state) const;
+  std::size_t value_count() const { return stations_.size(); }
+  std::size_t word_count() const { return stations_.notice_count() - 1; }
+
+  std::size_t stations() const { return question_.candidates + 1U; }
+  std::size_t roles() const { return question_.slaves; }
+  bool is_down(const State& state, std::size_t station) const { return station == 0 ? master(state).down : node(state, station - 1).down; }
+  const Stations::Master& master(const State& state) const { return stations_.master(state.member(0)); }
+  const handshake::Binder& binder(const State& state) const { return stations_.binder(state.member(0)); }
+  const Stations::Node& node(const State& state, std::size_t candidate) const { return stations_.node(state.member(candidate + 1)); }
+  /// Of the master, or of whoever has a role; Halted if nobody has.
+  handshake::PublishedState state_of(const State& state, std::size_t participant) const;
+  /// What stands in a register, and what would be put there.
+  const Notice& notice_in(const State& state, std::size_t channel) const { return stations_.notice(state.content(channel)); }
+  const Notice& notice_for(const State& state, std::size_t channel) { return stations_.notice(said(state, channel)); }
+
+  static std::size_t candidate_of(std::size_t channel) { return channel / channels_of_candidate; }
+  static Channel kind_of(std::size_t channel) { return static_cast<Channel>(channel % channels_of_candidate); }
+  static bool is_up(std::size_t channel) { return kind_of(channel) <= Channel::word_up; }
+  static std::size_t channel(std::size_t candidate, Channel kind) { return candidate * channels_of_candidate + static_cast<std::size_t>(kind); }
+
+ private:
+  struct HashOfObserver {
+    std::size_t operator()(const RolesObserver& observer) const;
+  };
+  void list_actions();
+  void make_beginnings();
+  bool change(const State& state, Action action, Next& next);
+  bool publish(const State& state, std::size_t channel, Next& next);
+  bool receive(const State& state, std::size_t channel, Next& next);
+  bool expire(const State& state, Action action, bool is_silent, Next& next);
+  bool crash(const State& state, std::size_t station, Next& next);
+  bool restart(const State& state, std::size_t station, Next& next);
+  bool forget(std::size_t channel, Next& next) const;
+  /// False if nothing changes.
+  bool step(std::size_t station, Happens what, std::size_t which, NoticeId notice, Next& next);
+  bool watch(std::uint32_t events, Next& next);
+  void judge_holders(Next& next) const;
+  NoticeId said(const State& state, std::size_t channel);
+  bool at_rest(const State& state);
+  /// The participant of the life to which the role is bound; null if it does not know yet, or is gone.
+  const Participant* holder(const State& state, std::size_t role) const;
+  bool is_heard(const State& state, std::size_t role) const;
+  bool can_be_filled(const State& state, std::size_t role, unsigned taken) const;
+  bool knows_candidates(const State& state) const;
+
+  Question question_;
+  Shape shape_;
+  Stations stations_;
+  handshake::GroupTree group_;   ///< the master and the roles
+  Interner<RolesObserver, HashOfObserver> observers_;
+  std::vector<Beginning> beginnings_;
+};
+
+}  // namespace takt::explore

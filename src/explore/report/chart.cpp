@@ -1,0 +1,146 @@
+#include "explore/report/chart.hpp"
+
+#include <algorithm>
+
+namespace takt::explore {
+namespace {
+
+constexpr std::size_t margin = 6;
+
+std::string padded(std::string text, std::size_t width) {
+  if (text.size() < width) text.resize(width, ' ');
+  return text;
+}
+std::string trimmed(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+std::string number(std::size_t value) {
+  const std::string digits = std::to_string(value);
+  return std::string(digits.size() < margin - 2 ? margin - 2 - digits.size() : 0, ' ') + digits + "  ";
+}
+
+class Drawing {
+ public:
+  explicit Drawing(const Chart& chart) : chart_(chart) {}
+
+  std::string text() const {
+    std::string text = trimmed(columns(chart_.names));
+    const std::vector<std::string>* before = &chart_.states;
+    text += trimmed(columns(*before) + "at the beginning: " + chart_.beginning);
+    for (std::size_t i = 0; i < chart_.steps.size(); ++i) {
+      const ChartStep& step = chart_.steps[i];
+      if (chart_.cycle != 0 && i + chart_.cycle == chart_.steps.size()) text += trimmed(lifelines(*before) + "from here on again and again:");
+      text += trimmed(line(step, i + 1) + step.sentence);
+      if (step.states != *before) text += trimmed(columns(step.states));
+      for (const std::string& finding : step.findings) text += trimmed(lifelines(step.states) + finding);
+      before = &step.states;
+    }
+    return text;
+  }
+
+ private:
+  std::string columns(const std::vector<std::string>& cells) const {
+    std::string line(margin, ' ');
+    for (const std::string& cell : cells) line += padded(cell, chart_.width);
+    return line;
+  }
+  std::size_t place(std::size_t column) const { return margin + chart_.width * column; }
+  std::string lifelines(const std::vector<std::string>& states) const {
+    std::string line(place(states.size()), ' ');
+    for (std::size_t i = 0; i < states.size(); ++i) line[place(i)] = states[i] == down_state ? ' ' : '|';
+    return line;
+  }
+  std::string line(const ChartStep& step, std::size_t count) const {
+    std::string line = lifelines(step.states);
+    line.replace(0, margin, number(count));
+    for (const std::size_t column : step.marked) line[place(column)] = step.mark;
+    if (!step.arrow) return line;
+    const std::size_t from = place(step.arrow->first);
+    const std::size_t to = place(step.arrow->second);
+    for (std::size_t i = std::min(from, to) + 1; i < std::max(from, to); ++i)
+      if (line[i] == ' ') line[i] = '-';
+    (from < to ? line[to - 1] : line[to + 1]) = from < to ? '>' : '<';
+    return line;
+  }
+
+  const Chart& chart_;
+};
+
+std::vector<std::string> states_of(const Told& told) {
+  std::vector<std::string> states;
+  for (std::size_t i = 0; i < told.states.size(); ++i) states.push_back(told.down[i] ? down_state : std::string(handshake::name_of(told.states[i])));
+  return states;
+}
+
+}  // namespace
+
+std::string drawn(const Chart& chart) { return Drawing(chart).text(); }
+
+std::string participant_name(std::size_t participant) { return participant == 0 ? "master" : "slave " + std::to_string(participant); }
+
+std::string text_of(const handshake::Word& word, const std::string& origin) {
+  const std::string state(handshake::name_of(word.state));
+  if (word.incarnation == 0) return state;  // `paper` says no more
+  return state + " (intent " + std::to_string(word.intent.number) + " " + std::string(handshake::name_of(word.intent.kind)) + " of " + origin + ", run " +
+         std::to_string(word.run & 0xFFFFU) + ")";
+}
+
+std::string sentence(const Happening& it) {
+  switch (it.kind) {
+    case ActionKind::send: return it.from + " publishes to " + it.to + ": " + it.word;
+    case ActionKind::receive: return it.to + " hears " + it.from + ": " + it.word;
+    case ActionKind::deliver_late: return it.to + " hears a late word of " + it.from + ": " + it.word;
+    case ActionKind::initialised: return it.who + " has initialised";
+    case ActionKind::silence: return it.who + " notices that " + it.peer + " is silent";
+    case ActionKind::call: return std::string(program::methods[it.method].name) + " is called at the " + it.who;
+    case ActionKind::finish: return "the Program of " + it.who + " ends by itself";
+    case ActionKind::join: return it.who + " joins";
+    case ActionKind::leave: return it.who + " asks to be let go";
+    case ActionKind::lose: return "fault: lost between " + it.from + " and " + it.to + ": " + it.word;
+    case ActionKind::duplicate: return "fault: duplicated between " + it.from + " and " + it.to;
+    case ActionKind::reorder: return "fault: " + std::string(it.is_overtaking ? "overtaken" : "delayed") + " between " + it.from + " and " + it.to + (it.is_overtaking ? " by " : ": ") + it.word;
+    case ActionKind::crash: return "fault: " + it.who + " crashes";
+    case ActionKind::restart: return it.comes_up ? it.who + " comes up" : "fault: " + it.who + " restarts without memory";
+    case ActionKind::forge: return "fault: a stranger speaks as " + it.who + ": " + it.word + (it.is_overtaking ? ", far ahead" : "");
+    case ActionKind::timeout: return "fault: " + it.who + " hears nothing of " + it.peer + " in time";
+  }
+  return {};
+}
+
+std::string sentence(const Told& told, const Wiring& wiring) {
+  return sentence({told.action.kind, participant_name(told.action.who), participant_name(wiring.sender(told.channel)), participant_name(wiring.receiver(told.channel)),
+                   participant_name(peer_participant(told.action.who, told.action.what)), text_of(told.word, participant_name(told.word.intent.origin)), told.action.what,
+                   told.is_overtaking, false});
+}
+
+std::string chart(const Question& question, const Story& story) {
+  const Wiring wiring(question);
+  Chart chart;
+  for (std::size_t i = 0; i <= question.slaves; ++i) chart.names.push_back(participant_name(i));
+  chart.beginning = story.beginning;
+  chart.states.assign(chart.names.size(), std::string(handshake::name_of(handshake::PublishedState::Halted)));
+  if (!story.opening_steps.empty()) chart.states = states_of(story.opening_steps.back());
+  chart.cycle = story.cycle;
+  for (const Told& told : story.steps) {
+    ChartStep& step = chart.steps.emplace_back();
+    step.sentence = sentence(told, wiring);
+    step.states = states_of(told);
+    const bool heard = told.action.kind == ActionKind::receive || told.action.kind == ActionKind::deliver_late;
+    if (heard) step.arrow = {wiring.sender(told.channel), wiring.receiver(told.channel)};
+    else step.marked = {told.actor};
+    step.mark = mark_of(told.action.kind);
+    for (const handshake::Violation& violation : told.violations)
+      step.findings.push_back("violates " + std::string(handshake::name_of(violation.invariant)) + ": " + participant_name(violation.participant) + " " +
+                              std::string(handshake::text_of(violation.finding)));
+    if (!told.broken.empty()) step.findings.push_back("breaks " + told.broken);
+  }
+  return drawn(chart);
+}
+
+std::string chart(const Question& question, const Beginning& beginning, const Trace& trace) {
+  if (question.has_roles()) return drawn(chart_of_roles(question, beginning, trace));
+  return question.is_tree() ? drawn(chart_of_tree(question, beginning, trace)) : chart(question, replay(question, beginning, trace));
+}
+
+}  // namespace takt::explore

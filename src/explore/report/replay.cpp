@@ -1,0 +1,220 @@
+#include "explore/report/replay.hpp"
+
+#include <algorithm>
+
+#include "explore/model/members.hpp"
+#include "explore/model/wiring.hpp"
+#include "sim/check.hpp"
+
+namespace takt::explore {
+
+using handshake::Input;
+using handshake::Outputs;
+using handshake::Word;
+
+namespace {
+
+struct Sent {
+  Word word;
+  std::uint16_t sequence = 0;
+  std::uint32_t sent_in = 0;
+  bool present = false;
+  bool strays = false;  ///< `channels`: it is heard out of its turn
+};
+
+constexpr std::uint16_t far_ahead = 1000;
+
+class Player {
+ public:
+  explicit Player(const Question& question)
+      : question_(question), wiring_(question), observer_(question.variant, question.slaves + 1U), sequence_(question.slaves + 1U, 0),
+        down_(question.slaves + 1U, false), register_(wiring_.size()), in_flight_(wiring_.size()) {
+    for (std::size_t i = 0; i <= question.slaves; ++i) members_.push_back(Participant(config(i, 1)));
+  }
+
+  Told play(Action action) {
+    Told told;
+    told.action = action;
+    const std::size_t before = observer_.violations().size();
+    try {
+      act(action, told);
+    } catch (const sim::InvariantBroken& broken) {
+      told.broken = broken.what();
+    }
+    for (std::size_t i = 0; i < members_.size(); ++i) told.states.push_back(members_[i].state());
+    told.down = down_;
+    told.violations.assign(observer_.violations().begin() + static_cast<std::ptrdiff_t>(before), observer_.violations().end());
+    return told;
+  }
+
+ private:
+  handshake::Config config(std::size_t index, std::uint32_t incarnation) const {
+    return {question_.variant, index == 0 ? handshake::Role::Master : handshake::Role::Slave, static_cast<std::uint8_t>(index),
+            question_.slaves, incarnation, question_.subscription};
+  }
+
+  void act(Action action, Told& told) {
+    told.actor = action.who;
+    switch (action.kind) {
+      case ActionKind::send: publish(action.who, told); break;
+      case ActionKind::receive: hear(action.who, on_channels() ? taken(action.who, next_in(action.who)) : register_[action.who], told); break;
+      case ActionKind::deliver_late:
+        if (on_channels()) {
+          hear(action.who, taken(action.who, action.what), told);
+          break;
+        }
+        hear(late_channel_, late_, told);
+        late_ = {};
+        break;
+      case ActionKind::initialised: step(action.who, Input::initialised(members_[action.who].intent().run)); break;
+      case ActionKind::silence: {
+        step(action.who, Input::peer_silent(action.what));
+        const std::size_t channel = wiring_.channel(peer_participant(action.who, action.what), action.who);
+        if (!down_[peer_participant(action.who, action.what)]) break;  // its words are taken for old ones
+        register_[channel] = {};
+        in_flight_[channel].clear();
+        break;
+      }
+      case ActionKind::timeout: step(action.who, Input::peer_silent(action.what)); break;
+      case ActionKind::call: step(action.who, Input::command(program::methods[action.what].method)); break;
+      case ActionKind::finish: step(action.who, Input::finished()); break;
+      case ActionKind::lose:
+        if (on_channels()) {
+          tell_channel(action.who, taken(action.who, action.what).word, told);
+          break;
+        }
+        tell_channel(action.who, register_[action.who].word, told);
+        register_[action.who] = {};
+        break;
+      case ActionKind::duplicate: hold(action.who, told); break;
+      case ActionKind::reorder:
+        hold(action.who, told);
+        if (on_channels()) break;
+        publish(action.who, told);
+        told.is_overtaking = true;
+        break;
+      case ActionKind::forge: forge(action, told); break;
+      case ActionKind::crash: down_[action.who] = true; break;
+      case ActionKind::join:
+      case ActionKind::leave: break;  // of candidates
+      case ActionKind::restart: {
+        down_[action.who] = false;
+        members_[action.who] = Participant(config(action.who, members_[action.who].config().incarnation + 1));
+        sequence_[action.who] = 0;
+        observer_.on_restart(action.who);
+        break;
+      }
+    }
+  }
+
+  Outputs step(std::size_t who, const Input& input) {
+    const Outputs outputs = members_[who].step(input);
+    observer_.on_step(who, outputs, members_[who].word());
+    return outputs;
+  }
+  bool on_channels() const { return question_.network == Network::channels; }
+  /// The first message that does not stray.
+  std::size_t next_in(std::size_t channel) const {
+    const std::vector<Sent>& sent = in_flight_[channel];
+    return static_cast<std::size_t>(std::find_if(sent.begin(), sent.end(), [](const Sent& each) { return !each.strays; }) - sent.begin());
+  }
+  Sent taken(std::size_t channel, std::size_t position) {
+    TAKT_CHECK(position < in_flight_[channel].size(), "only what is in flight arrives");
+    const Sent sent = in_flight_[channel][position];
+    in_flight_[channel].erase(in_flight_[channel].begin() + static_cast<std::ptrdiff_t>(position));
+    return sent;
+  }
+  void tell_channel(std::size_t channel, const Word& word, Told& told) const {
+    told.channel = channel;
+    told.actor = wiring_.sender(channel);
+    told.word = word;
+    told.has_word = true;
+  }
+  void publish(std::size_t channel, Told& told) {
+    const std::size_t sender = wiring_.sender(channel);
+    register_[channel] = {members_[sender].word(), ++sequence_[sender], observer_.sending_run(sender), true, false};
+    if (on_channels()) in_flight_[channel].push_back(register_[channel]);
+    tell_channel(channel, register_[channel].word, told);
+  }
+  /// One packet to all who hear that participant. A number that it has used or will use, or one far ahead.
+  void forge(Action action, Told& told) {
+    const Participant now = down_[action.who] ? Participant(config(action.who, members_[action.who].config().incarnation)) : members_[action.who];
+    const Letter letter = forgeries(now.word(), question_.slaves)[action.what];
+    const auto sequence = static_cast<std::uint16_t>(sequence_[action.who] + (letter.ahead ? far_ahead : 0));
+    for (std::size_t c = 0; c < wiring_.size(); ++c) {
+      if (wiring_.sender(c) != action.who) continue;
+      const Sent sent{letter.word, sequence, 0, true, false};
+      if (on_channels() && in_flight_[c].size() < question_.capacity) in_flight_[c].push_back(sent);
+      register_[c] = sent;
+    }
+    told.word = letter.word;
+    told.has_word = true;
+    told.is_overtaking = letter.ahead;
+  }
+  void hold(std::size_t channel, Told& told) {
+    if (on_channels()) {
+      const std::size_t next = next_in(channel);
+      Sent sent = in_flight_[channel][next];
+      sent.strays = true;
+      tell_channel(channel, sent.word, told);
+      if (told.action.kind == ActionKind::reorder) in_flight_[channel][next] = sent;
+      else in_flight_[channel].insert(in_flight_[channel].begin() + static_cast<std::ptrdiff_t>(next), sent);
+      return;
+    }
+    late_ = register_[channel];
+    late_channel_ = channel;
+    tell_channel(channel, late_.word, told);
+  }
+  void hear(std::size_t channel, const Sent message, Told& told) {
+    TAKT_CHECK(message.present, "only what was published is heard");
+    const std::size_t from = wiring_.sender(channel);
+    const std::size_t to = wiring_.receiver(channel);
+    tell_channel(channel, message.word, told);
+    told.actor = to;
+    if (down_[to]) return;
+    const std::size_t peer = wiring_.peer(channel);
+    const Outputs outputs = step(to, Input::received(peer, message.word, message.sequence));
+    if (message.sent_in != 0 && !outputs.ignored && members_[to].process_data_counts(peer))
+      observer_.on_process_data(from, to, message.sent_in);
+  }
+
+  Question question_;
+  Wiring wiring_;
+  handshake::Observer observer_;
+  std::vector<Participant> members_;
+  std::vector<std::uint16_t> sequence_;
+  std::vector<bool> down_;
+  std::vector<Sent> register_;
+  std::vector<std::vector<Sent>> in_flight_;
+  Sent late_;
+  std::size_t late_channel_ = 0;
+};
+
+constexpr handshake::Invariant invariant_of(Property property) {
+  return static_cast<handshake::Invariant>(index_of(property));
+}
+
+}  // namespace
+
+Story replay(const Question& question, const Beginning& beginning, const Trace& trace) {
+  Story story;
+  story.beginning = beginning.name;
+  story.cycle = trace.cycle;
+  Player player(question);
+  for (const Action action : beginning.actions) story.opening_steps.push_back(player.play(action));
+  for (const Action action : trace.actions) {
+    story.steps.push_back(player.play(action));
+    if (!story.steps.back().broken.empty()) break;
+  }
+  return story;
+}
+
+bool observed(const Story& story, Property property) {
+  if (property > Property::S5) return false;
+  return std::any_of(story.steps.begin(), story.steps.end(), [&](const Told& told) {
+    return std::any_of(told.violations.begin(), told.violations.end(),
+                       [&](const handshake::Violation& each) { return each.invariant == invariant_of(property); });
+  });
+}
+
+}  // namespace takt::explore

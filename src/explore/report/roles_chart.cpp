@@ -1,0 +1,72 @@
+#include "explore/model/roles_model.hpp"
+#include "explore/report/retelling.hpp"
+
+namespace takt::explore {
+namespace {
+
+std::string name(std::size_t station) { return station == 0 ? "master" : "candidate " + std::to_string(station); }
+std::string role_name(std::size_t role) { return "role " + std::to_string(role + 1); }
+
+struct Words {
+  static constexpr std::size_t width = 20;
+  explicit Words(const Question& question) : model(question) {}
+  RolesModel model;
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (std::size_t s = 0; s < model.stations(); ++s) names.push_back(name(s));
+    return names;
+  }
+  std::vector<std::string> states(const State& state) const {
+    std::vector<std::string> states{model.is_down(state, 0) ? down_state : std::string(handshake::name_of(model.state_of(state, 0)))};
+    for (std::size_t c = 0; c < model.question().candidates; ++c) {
+      const Stations::Node& node = model.node(state, c);
+      if (node.down) states.emplace_back(down_state);
+      else if (node.member) states.push_back(std::string(handshake::name_of(node.member->state())) + ", " + role_name(node.member->config().index - 1U));
+      else states.emplace_back(node.candidate.announces() ? "joins" : "away");
+    }
+    return states;
+  }
+  static std::string text(const Notice& notice, std::size_t candidate) {
+    if (notice.kind == Notice::Kind::announcement)
+      return "life " + std::to_string(notice.announcement.life) + (notice.announcement.leaving ? ", leaving" : "");
+    if (notice.kind == Notice::Kind::word)
+      return text_of(notice.word, notice.word.intent.origin == 0 ? "master" : role_name(notice.word.intent.origin - 1U));
+    std::string text = "bound";
+    for (std::size_t role = 0; role < notice.bindings.size(); ++role)
+      if (notice.bindings[role].bound())
+        text += ", " + role_name(role) + ": " + name(notice.bindings[role].candidate + 1U) + " life " + std::to_string(notice.bindings[role].life);
+    return text + (notice.used_lives[candidate] == 0 ? "" : "; life " + std::to_string(notice.used_lives[candidate]) + " is used");
+  }
+  ChartStep step(const State& state, Action action) {
+    const ActionKind kind = action.kind;
+    Happening it;
+    it.kind = kind;
+    it.method = action.what;
+    ChartStep made;
+    if (kind == ActionKind::send || kind == ActionKind::receive || kind == ActionKind::lose) {
+      const std::size_t candidate = RolesModel::candidate_of(action.who);
+      const std::size_t from = RolesModel::is_up(action.who) ? candidate + 1 : 0;
+      const std::size_t to = RolesModel::is_up(action.who) ? 0 : candidate + 1;
+      it.from = name(from);
+      it.to = name(to);
+      it.word = text(kind == ActionKind::send ? model.notice_for(state, action.who) : model.notice_in(state, action.who), candidate);
+      if (kind == ActionKind::receive) made.arrow = {from, to};
+      else made.marked = {from};
+    } else {
+      const std::size_t station = kind == ActionKind::join || kind == ActionKind::leave ? action.who + std::size_t{1} : action.who;
+      it.who = name(station);
+      it.comes_up = model.is_down(state, station);
+      it.peer = station != 0 ? name(0) : action.what < model.roles() ? role_name(action.what) : name(action.what - model.roles() + 1) + " as one that announces itself";
+      made.marked = {station};
+    }
+    made.sentence = sentence(it);
+    return made;
+  }
+};
+
+}  // namespace
+
+Chart chart_of_roles(const Question& question, const Beginning& beginning, const Trace& trace) { return told_with<Words>(question, beginning, trace); }
+
+}  // namespace takt::explore

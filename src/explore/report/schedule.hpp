@@ -1,0 +1,25 @@
+// A found run as a scenario: when each call is made and which messages get through, so that `takt run` does the same.
+//
+// All publish at the beginning of each millisecond and every message takes the same time; a message that the run does not
+// hear is lost. What cannot be said in a scenario is listed in `missing`.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "explore/model/question.hpp"
+#include "explore/properties/property.hpp"
+#include "explore/report/replay.hpp"
+
+namespace takt::explore {
+
+struct ScenarioText {
+  std::string json;
+  std::vector<std::string> missing;  ///< what of the run is not in it; then it may not do the same
+};
+
+/// `name` becomes the scenario's; `property` is what is to be seen.
+ScenarioText scenario_of(const Question& question, const Story& story, Property property, const std::string& name);
+
+}  // namespace takt::explore

@@ -1,0 +1,73 @@
+// One word of any content, said by a stranger: the group settles, starts again, and keeps S1 to S5 from the next halt on.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+
+#include "../ask.hpp"
+#include "explore/model/forgery.hpp"
+
+namespace takt::explore {
+namespace {
+
+Question forging(std::uint8_t slaves, std::uint32_t commands) {
+  Question question;
+  question.slaves = slaves;
+  return with(question, commands, std::array{Fault::forge});
+}
+
+void expect_to_recover(const Question& question, std::uint64_t states) {
+  SCOPED_TRACE(question_line(question));
+  const Answer answer = ask(question);
+  EXPECT_TRUE(answer.exhausted);
+  for (const Property property : {Property::S1, Property::S2, Property::S3, Property::S4, Property::S5, Property::L1})
+    EXPECT_EQ(answer[property], Verdict::holds) << text_report(question, answer, 0.0);
+  EXPECT_NE(answer[Property::F1], Verdict::violated) << text_report(question, answer, 0.0);
+  EXPECT_EQ(answer[Property::all_running], Verdict::reached);
+  EXPECT_EQ(answer.states, states);
+}
+
+TEST(Forge, AWordOfAnyContent) {
+#ifndef NDEBUG
+  expect_to_recover(forging(1, 0), 106668);
+#else
+  expect_to_recover(forging(1, 1), 1614677);
+#endif
+}
+
+TEST(Forge, AMessageOfAnyContentAmongOthers) {
+#ifndef NDEBUG
+  GTEST_SKIP() << "takes long where nothing is optimised";
+#endif
+  Question question = forging(1, 1);
+  question.network = Network::channels;
+  question.beginnings = Beginnings::switched_on;
+  expect_to_recover(question, 1234210);
+}
+
+TEST(Forge, ToANodeOfTwoGroups) {
+#ifndef NDEBUG
+  GTEST_SKIP() << "takes long where nothing is optimised";
+#endif
+  Question question = forging(1, 0);
+  question.inner_slaves = 1;
+  expect_to_recover(question, 3289234);
+}
+
+// Words that no participant can say are not worth a search; of those that it can say every kind and state is among them.
+TEST(Forge, WhatAStrangerMaySay) {
+  handshake::Word said{1, handshake::PublishedState::Running, {2, handshake::IntentKind::Start, 0, handshake::run_of(1, 2)}, handshake::run_of(1, 2)};
+  const std::vector<Letter> letters = forgeries(said, 2);
+  std::size_t kinds = 0;
+  std::size_t ahead = 0;
+  for (const Letter& letter : letters) {
+    EXPECT_TRUE(handshake::is_valid(letter.word, handshake::Variant::Robust, 2));
+    kinds |= std::size_t{1} << (handshake::index_of(letter.word.intent.kind) * handshake::published_state_count + handshake::index_of(letter.word.state));
+    if (letter.ahead) ++ahead;
+  }
+  EXPECT_EQ(std::popcount(kinds), 8) << "three states of a start, one of each other kind";
+  EXPECT_EQ(3 * ahead, letters.size()) << "in turn, far ahead, and of another incarnation";
+}
+
+}  // namespace
+}  // namespace takt::explore

@@ -1,0 +1,78 @@
+// Groups with roles: verdicts and numbers of states, and what the observer of roles sees.
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+
+#include "../ask.hpp"
+#include "explore/model/roles_model.hpp"
+#include "explore/report/chart.hpp"
+
+namespace takt::explore {
+namespace {
+
+Question of_roles(std::uint8_t roles, std::uint8_t candidates, std::uint32_t commands, std::initializer_list<Fault> faults, bool starts_again = false) {
+  Question question;
+  question.slaves = roles;
+  question.candidates = candidates;
+  question.starts_again = starts_again;
+  return with(question, commands, faults);
+}
+
+TEST(Roles, HoldInEveryOrder) {
+  const Case cases[] = {
+      {of_roles(1, 1, 1, {}), 398, 706},
+      {of_roles(1, 1, 1, {Fault::loss, Fault::crash, Fault::restart, Fault::timeout}), 45383, 119880},
+      {of_roles(1, 2, 1, {}), 12709, 47709},
+      {of_roles(2, 2, 1, {}), 30245, 121548},
+#ifdef NDEBUG
+      {of_roles(1, 1, 2, {Fault::restart}), 273307, 782208},
+      {of_roles(1, 2, 2, {}), 257385, 1078436},
+      {of_roles(1, 2, 1, {Fault::crash}, true), 360120, 1545424},
+#endif
+  };
+  for (const Case& each : cases) EXPECT_EQ(expect_to_hold(each)[Property::B1], Verdict::holds);
+}
+
+TEST(Roles, RunsBeginWhereverAGroupRests) {
+  const RolesModel model(of_roles(2, 3, 1, {}));
+  std::vector<std::string> names;
+  for (const Beginning& each : model.beginnings()) names.push_back(each.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"switched on", "switched on, nobody has joined", "Running", "Suspended", "Ready after a reset"}));
+}
+
+// Whoever offers a skill that no role needs is never bound: the roles cannot be filled, so nothing can be started.
+TEST(Roles, AGroupWhoseRolesNobodyFillsStaysHalted) {
+  Question question = of_roles(2, 2, 2, {});
+  question.offers = {1, 1, 0};
+  const Answer answer = ask(question);
+  EXPECT_EQ(answer[Property::all_running], Verdict::unreached);
+  EXPECT_EQ(answer[Property::L1], Verdict::holds);
+  EXPECT_EQ(answer[Property::B1], Verdict::holds);
+}
+
+/// A step in a state in which the property is violated by hand.
+TEST(Roles, ASecondHolderThatCountsIsSeen) {
+  Stations stations(of_roles(1, 2, 1, {}));
+  // Bound is the first candidate; its word is said by the second one.
+  const StationId first = stations.step_node(stations.candidate(0, 1, true, false), Happens::join).station;
+  StationId master = stations.step_master(stations.master(1, false), Happens::received, 0, stations.announcement(first)).station;
+  const StationId bound = stations.step_node(first, Happens::received, 0, stations.table(master)).station;
+  ASSERT_TRUE(stations.node(bound).member.has_value());
+  const auto heard = [&](std::size_t from) { return stations.events(stations.step_master(master, Happens::received, from, stations.word_of_node(bound)).events).properties; };
+  EXPECT_FALSE(heard(0).contains(Property::B1));
+  EXPECT_TRUE(heard(1).contains(Property::B1));
+}
+
+TEST(Roles, AChartNamesTheRoles) {
+  Question question = of_roles(1, 2, 1, {});
+  question.beginnings = Beginnings::switched_on;
+  const Answer answer = ask(question);
+  ASSERT_EQ(answer[Property::all_running], Verdict::reached);
+  const Trace& trace = *answer.traces[index_of(Property::all_running)];
+  const std::string text = chart(question, answer.beginnings[trace.beginning], trace);
+  for (const char* part : {"master              candidate 1         candidate 2\n", "hears master: bound, role 1: candidate 1 life 1", "Start is called at the master", "Running             Running, role 1     joins\n"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+}  // namespace
+}  // namespace takt::explore

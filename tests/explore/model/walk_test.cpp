@@ -1,0 +1,156 @@
+// The search and the observer side by side: random walks through the model, each played again with the real
+// participants, the real Observer and real sequence numbers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "explore/model/group_model.hpp"
+#include "explore/report/replay.hpp"
+#include "explore/search/search.hpp"
+
+namespace takt::explore {
+namespace {
+
+using handshake::Variant;
+
+/// Numbers that are the same everywhere.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : state_(seed) {}
+  std::size_t below(std::size_t count) {
+    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<std::size_t>((state_ >> 33) % count);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+struct Walk {
+  Trace trace;
+  std::vector<State> states;
+  std::vector<PropertySet> properties;
+};
+
+/// All but what a stranger says.
+constexpr Fault true_faults[] = {Fault::loss, Fault::duplicate, Fault::reorder, Fault::crash, Fault::restart, Fault::timeout};
+
+/// `forgery`: of so many steps about one is a forged word.
+Walk walk(GroupModel& model, std::uint64_t seed, std::size_t length, std::size_t forgery = 0) {
+  Dice dice(seed);
+  const auto forged = static_cast<std::size_t>(std::find_if(model.actions().begin(), model.actions().end(), [](const Action& each) { return each.kind == ActionKind::forge; }) -
+                                               model.actions().begin());
+  Walk result;
+  result.trace.beginning = dice.below(model.beginnings().size());
+  State now = model.beginnings()[result.trace.beginning].state;
+  for (std::size_t i = 0; i < 40 * length && result.trace.actions.size() < length; ++i) {
+    const bool forges = forgery != 0 && dice.below(forgery) == 0;
+    const Action action = model.actions()[forges ? forged + dice.below(model.actions().size() - forged) : dice.below(forged)];
+    Next next;
+    if (!forges && !is_network(action.kind) && dice.below(4) != 0) continue;
+    if (!model.act(now, action, next)) continue;
+    now = next.state;
+    result.trace.actions.push_back(action);
+    result.states.push_back(now);
+    result.properties.push_back(next.properties);
+  }
+  return result;
+}
+
+std::uint32_t invariants_of(const Told& told) {
+  PropertySet set;
+  for (const handshake::Violation& each : told.violations) set.insert(static_cast<Property>(each.invariant));
+  return set.bits;
+}
+
+void compare(Variant variant, std::uint8_t slaves, std::uint64_t walks, Question question = {}, std::size_t forgery = 0) {
+  question.variant = variant;
+  question.slaves = slaves;
+  question.commands = 6;
+  question.fault_budget = 4;
+  for (const Fault fault : true_faults) question.faults.insert(fault);
+  if (forgery != 0) question.faults.insert(Fault::forge);
+  GroupModel model(question);
+  std::size_t violations = 0;
+  for (std::uint64_t seed = 0; seed < walks; ++seed) {
+    const Walk taken = walk(model, seed, 60, forgery);
+    const Story story = replay(question, model.beginnings()[taken.trace.beginning], taken.trace);
+    ASSERT_EQ(story.steps.size(), taken.states.size());
+    for (std::size_t i = 0; i < story.steps.size(); ++i) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", step " << i);
+      for (std::size_t p = 0; p <= slaves; ++p) {
+        const Members::Traits& member = model.members()[taken.states[i].member(p)];
+        ASSERT_EQ(member.down, story.steps[i].down[p]);
+        if (!member.down) {
+          ASSERT_EQ(member.state, story.steps[i].states[p]);
+        }
+      }
+      constexpr std::uint32_t safety = 0x1F;  // S1 to S5
+      if (forgery == 0) {
+        ASSERT_EQ(taken.properties[i].bits & safety, invariants_of(story.steps[i]));
+      }
+      violations += story.steps[i].violations.size();
+    }
+  }
+  if (forgery == 0) {
+    EXPECT_EQ(violations > 0, variant == Variant::Paper);
+  }
+}
+
+TEST(Walks, RobustDoesTheSameInTheModelAndInTheOpen) {
+  for (std::uint8_t slaves = 1; slaves <= 3; ++slaves) compare(Variant::Robust, slaves, 500);
+}
+TEST(Walks, PaperDoesTheSameInTheModelAndInTheOpen) {
+  for (std::uint8_t slaves = 1; slaves <= 3; ++slaves) compare(Variant::Paper, slaves, 500);
+}
+
+TEST(Walks, AllToAllDoesTheSameInTheModelAndInTheOpen) {
+  Question question;
+  question.subscription = handshake::Subscription::AllToAll;
+  for (const Variant variant : {Variant::Robust, Variant::Paper})
+    for (std::uint8_t slaves = 2; slaves <= 3; ++slaves) compare(variant, slaves, 500, question);
+}
+// What a stranger says is heard in the open as it is in the model. (There S1 to S5 are not judged while it may do harm.)
+TEST(Walks, ForgedWordsDoTheSameInTheModelAndInTheOpen) {
+  Question question;
+  compare(Variant::Robust, 1, 500, question, 20);
+  compare(Variant::Robust, 2, 500, question, 20);
+  question.network = Network::channels;
+  compare(Variant::Robust, 2, 500, question, 20);
+}
+TEST(Walks, ChannelsDoTheSameInTheModelAndInTheOpen) {
+  Question question;
+  question.network = Network::channels;
+  // One message overtaken at a time in each channel: then the model's sequence numbers are exact (README.md).
+  for (question.capacity = 1; question.capacity <= 2; ++question.capacity)
+    for (const Variant variant : {Variant::Robust, Variant::Paper})
+      for (std::uint8_t slaves = 1; slaves <= 3; ++slaves) compare(variant, slaves, 500, question);
+}
+
+// Other names, same behaviour: what a step does under other names is what it does, renamed.
+TEST(Symmetry, StepsCommuteWithNames) {
+  Question question;
+  question.slaves = 3;
+  question.commands = 6;
+  question.fault_budget = 4;
+  for (const Fault fault : true_faults) question.faults.insert(fault);
+  for (int kind = 0; kind < 6; ++kind) {
+    question.variant = kind % 2 == 0 ? Variant::Robust : Variant::Paper;
+    question.subscription = kind / 2 == 1 ? handshake::Subscription::AllToAll : handshake::Subscription::Star;
+    question.network = kind / 2 == 2 ? Network::channels : Network::registers;
+    SCOPED_TRACE(kind);
+    GroupModel model(question);
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+      const Walk taken = walk(model, seed, 60);
+      for (const State& state : taken.states) {
+        const State once = model.canonical(state);
+        EXPECT_EQ(model.canonical(once), once);
+        EXPECT_EQ(model.settled(once), model.settled(state));
+      }
+    }
+    EXPECT_TRUE(model.symmetric());
+  }
+}
+
+}  // namespace
+}  // namespace takt::explore

@@ -19,7 +19,7 @@
 #include "explore/search/search.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
-#include "verify/roles_question.hpp"
+#include "verify/roles_query.hpp"
 
 namespace takt::cli {
 namespace {
@@ -29,7 +29,7 @@ struct ExploreOptions {
   std::optional<unsigned> slaves;
   std::optional<std::string> variant;
   std::vector<std::string> faults;
-  explore::Question question;
+  explore::Query query;
   std::optional<std::uint32_t> calls;
   std::optional<std::string> subscription;
   std::string network = "registers";
@@ -47,7 +47,7 @@ struct ExploreOptions {
 
 struct Subject {
   std::string name;
-  explore::Question question;
+  explore::Query query;
 };
 
 /// Runs that end in a minute or so: fewer calls where there are more slaves.
@@ -64,53 +64,53 @@ std::string status_of(const explore::Progress& now, double spent) {
 }
 
 /// "registers", "channels" or "channels=N"; says what is wrong.
-std::string set_network(const std::string& text, explore::Question& question) {
+std::string set_network(const std::string& text, explore::Query& query) {
   if (text == "registers") return {};
   constexpr std::string_view channels = "channels";
   if (!text.starts_with(channels)) return "expected registers or channels=N, found " + text;
-  question.network = explore::Network::channels;
+  query.network = explore::Network::channels;
   if (text.size() == channels.size()) return {};
   const std::string capacity = text.substr(channels.size());
   if (capacity.size() != 2 || capacity[0] != '=' || capacity[1] < '1' || capacity[1] > '0' + explore::most_capacity)
     return "expected channels=1 to channels=" + std::to_string(explore::most_capacity) + ", found " + text;
-  question.capacity = static_cast<std::uint8_t>(capacity[1] - '0');
+  query.capacity = static_cast<std::uint8_t>(capacity[1] - '0');
   return {};
 }
 
 /// What is asked for with --nested or --joining and cannot be explored; empty if all can.
-std::string not_in_trees(const explore::Question& question, const ExploreOptions& options) {
+std::string not_in_trees(const explore::Query& query, const ExploreOptions& options) {
   std::string wrong;
   const auto refuse = [&wrong](bool is_wrong, const std::string& what) {
     if (is_wrong) wrong += (wrong.empty() ? "" : "; ") + what;
   };
   refuse(options.nested && !options.scenario.empty(), "--nested goes with --slaves N; the Programs of a scenario are explored one by one");
   refuse(options.inner_slaves.has_value() && !options.nested, "--inner-slaves says the size of the inner group of --nested");
-  if (!question.is_tree()) return wrong;
-  refuse(question.variant != handshake::Variant::Robust, "paper knows neither nested groups nor joining slaves");
-  refuse(question.subscription != handshake::Subscription::Star, "nested groups and joining slaves are explored in stars");
-  refuse(question.network != explore::Network::registers, "nested groups and joining slaves are explored on registers");
-  refuse(question.faults.contains(explore::Fault::duplicate) || question.faults.contains(explore::Fault::reorder),
+  if (!query.is_tree()) return wrong;
+  refuse(query.variant != handshake::Variant::Robust, "paper knows neither nested groups nor joining slaves");
+  refuse(query.subscription != handshake::Subscription::Star, "nested groups and joining slaves are explored in stars");
+  refuse(query.network != explore::Network::registers, "nested groups and joining slaves are explored on registers");
+  refuse(query.faults.contains(explore::Fault::duplicate) || query.faults.contains(explore::Fault::reorder),
          "nested groups and joining slaves are explored with loss, crash, restart, timeout and forge");
-  refuse(question.nested() && question.slaves > explore::most_outer_slaves, "nested groups have at most " + std::to_string(explore::most_outer_slaves) + " outer slaves");
+  refuse(query.nested() && query.slaves > explore::most_outer_slaves, "nested groups have at most " + std::to_string(explore::most_outer_slaves) + " outer slaves");
   refuse(!options.out.empty(), "findings with nested groups or joining slaves are drawn as charts, not written as scenarios (--out)");
   return wrong;
 }
 
 /// The same with roles.
-std::string not_with_roles(const explore::Question& question, const ExploreOptions& options) {
+std::string not_with_roles(const explore::Query& query, const ExploreOptions& options) {
   std::string wrong;
   const auto refuse = [&wrong](bool is_wrong, const std::string& what) {
     if (is_wrong) wrong += (wrong.empty() ? "" : "; ") + what;
   };
-  refuse(options.starts_again && !question.has_roles(), "--starts-again says what happens when the node of a role was replaced: give --candidates, too");
-  if (!question.has_roles()) return wrong;
-  refuse(question.variant != handshake::Variant::Robust, "paper knows no roles");
-  refuse(question.is_tree(), "roles are explored in single groups, and candidates join by themselves");
-  refuse(question.subscription != handshake::Subscription::Star, "roles are explored in stars");
-  refuse(question.network != explore::Network::registers, "roles are explored on registers");
-  refuse(question.faults.contains(explore::Fault::duplicate) || question.faults.contains(explore::Fault::reorder) || question.faults.contains(explore::Fault::forge),
+  refuse(options.starts_again && !query.has_roles(), "--starts-again says what happens when the node of a role was replaced: give --candidates, too");
+  if (!query.has_roles()) return wrong;
+  refuse(query.variant != handshake::Variant::Robust, "paper knows no roles");
+  refuse(query.is_tree(), "roles are explored in single groups, and candidates join by themselves");
+  refuse(query.subscription != handshake::Subscription::Star, "roles are explored in stars");
+  refuse(query.network != explore::Network::registers, "roles are explored on registers");
+  refuse(query.faults.contains(explore::Fault::duplicate) || query.faults.contains(explore::Fault::reorder) || query.faults.contains(explore::Fault::forge),
          "roles are explored with loss, crash, restart and timeout");
-  refuse(question.slaves > explore::most_explored_roles, "at most " + std::to_string(explore::most_explored_roles) + " roles can be explored");
+  refuse(query.slaves > explore::most_explored_roles, "at most " + std::to_string(explore::most_explored_roles) + " roles can be explored");
   refuse(!options.out.empty(), "findings with roles are drawn as charts, not written as scenarios (--out)");
   return wrong;
 }
@@ -118,45 +118,45 @@ std::string not_with_roles(const explore::Question& question, const ExploreOptio
 /// What is to be explored: the group of the options, or each Program of the scenario. Empty after a mistake.
 std::vector<Subject> subjects_of(const ExploreOptions& options) {
   std::vector<Subject> subjects;
-  explore::Question question = options.question;
-  question.symmetry = !options.no_symmetry;
-  question.finishes = !options.no_finish;
+  explore::Query query = options.query;
+  query.symmetry = !options.no_symmetry;
+  query.finishes = !options.no_finish;
   for (std::size_t f = 0; f < explore::fault_count; ++f)
     for (const std::string& each : options.faults)
-      if (each == explore::fault_names[f]) question.faults.insert(static_cast<explore::Fault>(f));
+      if (each == explore::fault_names[f]) query.faults.insert(static_cast<explore::Fault>(f));
   const auto variant_of = [&](handshake::Variant otherwise) {
     if (!options.variant) return otherwise;
     return *options.variant == "paper" ? handshake::Variant::Paper : handshake::Variant::Robust;
   };
-  set_network(options.network, question);
-  if (options.beginnings == "switched-on") question.beginnings = explore::Beginnings::switched_on;
+  set_network(options.network, query);
+  if (options.beginnings == "switched-on") query.beginnings = explore::Beginnings::switched_on;
   const auto add = [&](std::string name, std::size_t slaves, handshake::Variant variant, bool all_to_all) {
-    question.slaves = static_cast<std::uint8_t>(slaves);
+    query.slaves = static_cast<std::uint8_t>(slaves);
     if (options.subscription) all_to_all = *options.subscription == "all-to-all";
-    question.subscription = all_to_all ? handshake::Subscription::AllToAll : handshake::Subscription::Star;
+    query.subscription = all_to_all ? handshake::Subscription::AllToAll : handshake::Subscription::Star;
     const std::size_t most = all_to_all ? explore::most_slaves_all_to_all : explore::most_slaves;
     if (slaves > most) {
       std::fprintf(stderr, "takt: %s has %zu slaves%s; at most %zu can be explored: give --slaves N to explore a smaller group with its variant\n", name.c_str(), slaves,
                    all_to_all ? " with all-to-all subscription" : "", most);
       return false;
     }
-    question.variant = variant_of(variant);
-    if (options.nested) question.inner_slaves = static_cast<std::uint8_t>(options.inner_slaves.value_or(1));
-    if (options.candidates) question.candidates = static_cast<std::uint8_t>(*options.candidates);
-    if (options.starts_again) question.starts_again = true;
-    const unsigned nodes = question.has_roles() ? question.slaves + question.candidates - 1U : question.nested() ? question.slaves + question.inner_slaves : question.slaves;
-    question.commands = options.calls.value_or(usual_calls(nodes));
-    if (question.variant == handshake::Variant::Paper && question.faults.contains(explore::Fault::forge)) {
+    query.variant = variant_of(variant);
+    if (options.nested) query.inner_slaves = static_cast<std::uint8_t>(options.inner_slaves.value_or(1));
+    if (options.candidates) query.candidates = static_cast<std::uint8_t>(*options.candidates);
+    if (options.starts_again) query.starts_again = true;
+    const unsigned nodes = query.has_roles() ? query.slaves + query.candidates - 1U : query.nested() ? query.slaves + query.inner_slaves : query.slaves;
+    query.commands = options.calls.value_or(usual_calls(nodes));
+    if (query.variant == handshake::Variant::Paper && query.faults.contains(explore::Fault::forge)) {
       std::fprintf(stderr, "takt: %s: forge is explored with robust; a word of paper is a state and nothing more, and whoever forges it is believed\n", name.c_str());
       return false;
     }
-    std::string wrong = not_in_trees(question, options);
-    if (wrong.empty()) wrong = not_with_roles(question, options);
+    std::string wrong = not_in_trees(query, options);
+    if (wrong.empty()) wrong = not_with_roles(query, options);
     if (!wrong.empty()) {
       std::fprintf(stderr, "takt: %s: %s\n", name.c_str(), wrong.c_str());
       return false;
     }
-    subjects.push_back({std::move(name), question});
+    subjects.push_back({std::move(name), query});
     return true;
   };
   if (options.scenario.empty()) {
@@ -173,13 +173,13 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
   for (const scenario::ResolvedProgram& each : resolved->programs) {
     const scenario::Program& program = *each.description;
     const std::size_t slaves = options.slaves.value_or(static_cast<unsigned>(program.slaves.size() + program.roles.size()));
-    question.candidates = 0;
+    query.candidates = 0;
     if (each.has_roles() && options.slaves) {
       std::fprintf(stderr, "takt: %s has roles, so --slaves does not go with it\n", program.name.c_str());
       return {};
     }
     if (each.has_roles()) {
-      if (const auto wrong = verify::set_roles(each, question)) {
+      if (const auto wrong = verify::set_roles(each, query)) {
         std::fprintf(stderr, "takt: %s: %s: give --slaves and --candidates instead of the scenario\n", program.name.c_str(), wrong->c_str());
         return {};
       }
@@ -193,31 +193,31 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
 
 /// Whether `takt run` does the same: the same invariant is violated; or, where the group does not settle, all end in the same
 /// states, or still change at the end.
-bool replays(const std::string& text, const explore::Story& story, explore::Property property) {
+bool replays(const std::string& text, const explore::Replay& replayed, explore::Property property) {
   scenario::json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(text, "finding", {}, diagnostics);
   std::fputs(diagnostics.to_text().c_str(), stderr);
   if (!resolved) return false;
   scenario::Run run(*resolved);
   constexpr auto last_moments = sim::Duration::from_ps(10'000'000'000);
-  if (story.cycle != 0) run.simulation().run(run.end() + -last_moments);
+  if (replayed.cycle != 0) run.simulation().run(run.end() + -last_moments);
   const std::uint64_t changes = run.monitor(0).changes();
   run.advance();
   for (const scenario::ViolationRecord& each : run.monitor(0).violations())
     if (handshake::name_of(each.violation.invariant) == explore::name_of(property)) return true;
   if (property != explore::Property::L1 && property != explore::Property::F1) return false;
-  if (story.cycle != 0) return run.monitor(0).changes() > changes;
-  const explore::Told& last = story.steps.back();
+  if (replayed.cycle != 0) return run.monitor(0).changes() > changes;
+  const explore::ReplayStep& last = replayed.steps.back();
   for (std::size_t i = 0; i < last.states.size(); ++i)
     if (!last.down[i] && run.state(0, i) != last.states[i]) return false;
   return true;
 }
 
 /// Writes the scenario of one counter-example and says whether it does the same. False if the file cannot be written.
-bool write_finding(const Subject& subject, const explore::Answer& answer, explore::Property property, const explore::Trace& trace, const std::string& folder) {
-  const explore::Story story = explore::replay(subject.question, answer.beginnings[trace.beginning], trace);
+bool write_finding(const Subject& subject, const explore::SearchResult& result, explore::Property property, const explore::Trace& trace, const std::string& folder) {
+  const explore::Replay replayed = explore::replay(subject.query, result.beginnings[trace.beginning], trace);
   const std::string name = subject.name + (trace.cycle != 0 ? "-chase-" : "-") + std::string(explore::name_of(property));
-  const explore::ScenarioText text = explore::scenario_of(subject.question, story, property, name);
+  const explore::ScenarioText text = explore::scenario_of(subject.query, replayed, property, name);
   const std::string path = folder + "/" + name + ".json";
   std::ofstream file(path + ".tmp", std::ios::binary);
   file << text.json;
@@ -228,20 +228,20 @@ bool write_finding(const Subject& subject, const explore::Answer& answer, explor
     std::fprintf(stderr, "takt: cannot write %s\n", path.c_str());
     return false;
   }
-  std::fprintf(stderr, "%s: %s\n", path.c_str(), replays(text.json, story, property) ? "takt run does the same" : "takt run does not do the same");
+  std::fprintf(stderr, "%s: %s\n", path.c_str(), replays(text.json, replayed, property) ? "takt run does the same" : "takt run does not do the same");
   for (const std::string& each : text.missing) std::fprintf(stderr, "  no scenario can say: %s\n", each.c_str());
   return true;
 }
 
 /// One scenario for each violated property.
-bool write_findings(const Subject& subject, const explore::Answer& answer, const std::string& folder) {
+bool write_findings(const Subject& subject, const explore::SearchResult& result, const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   for (std::size_t p = 0; p < explore::property_count; ++p) {
     const auto property = static_cast<explore::Property>(p);
-    if (answer[property] == explore::Verdict::violated && answer.traces[p] && !write_finding(subject, answer, property, *answer.traces[p], folder)) return false;
+    if (result[property] == explore::Verdict::violated && result.traces[p] && !write_finding(subject, result, property, *result.traces[p], folder)) return false;
   }
-  return !answer.chase || write_finding(subject, answer, explore::Property::L1, *answer.chase, folder);
+  return !result.livelock || write_finding(subject, result, explore::Property::L1, *result.livelock, folder);
 }
 
 ExitStatus run(const ExploreOptions& options) {
@@ -252,24 +252,24 @@ ExitStatus run(const ExploreOptions& options) {
   std::vector<std::string> pages;
   for (const Subject& subject : subjects) {
     const double began = cpu_seconds();
-    explore::Answer answer;
+    explore::SearchResult result;
     {
       StatusLine line(!options.quiet);
-      answer = explore::explore(subject.question, [&](const explore::Progress& progress) {
+      result = explore::explore(subject.query, [&](const explore::Progress& progress) {
         if (line.is_due()) line.show(status_of(progress, cpu_seconds() - began));
         return !interrupt.requested();
       });
     }
     const double spent = cpu_seconds() - began;
     if (options.format == "json") {
-      pages.push_back(explore::json_report(options.scenario.empty() ? "" : subject.name, subject.question, answer, spent));
+      pages.push_back(explore::json_report(options.scenario.empty() ? "" : subject.name, subject.query, result, spent));
     } else {
       if (subjects.size() > 1) std::printf("Program %s\n", subject.name.c_str());
-      std::fputs(explore::text_report(subject.question, answer, spent).c_str(), stdout);
+      std::fputs(explore::text_report(subject.query, result, spent).c_str(), stdout);
     }
-    if (!options.out.empty() && !write_findings(subject, answer, options.out)) return ExitStatus::internal_error;
-    if (!answer.all_hold()) status = answer.interrupted && !answer.any_violated() && status == ExitStatus::pass ? ExitStatus::interrupted : ExitStatus::requirement_failed;
-    if (answer.interrupted) break;
+    if (!options.out.empty() && !write_findings(subject, result, options.out)) return ExitStatus::internal_error;
+    if (!result.all_hold()) status = result.interrupted && !result.any_violated() && status == ExitStatus::pass ? ExitStatus::interrupted : ExitStatus::requirement_failed;
+    if (result.interrupted) break;
   }
   // One document: an object for one Program, an array of such objects for a scenario with several.
   std::string document;
@@ -290,19 +290,19 @@ void add_explore_command(CLI::App& app, ExitStatus& status) {
   command.add_option("--faults", options->faults, "Classes of faults, with commas between")
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>(explore::fault_names.begin(), explore::fault_names.end())));
-  command.add_option("--fault-budget", options->question.fault_budget, "Faults in a run, of all classes together")
+  command.add_option("--fault-budget", options->query.fault_budget, "Faults in a run, of all classes together")
       ->check(CLI::Range(0U, explore::most_faults))
       ->capture_default_str();
   command.add_option("--calls", options->calls, "Method calls and ends of the Program in a run (default: 4, 2, 1, 1 for 1 to 4 slaves)")
       ->check(CLI::Range(0U, explore::most_commands));
-  command.add_option("--depth", options->question.depth, "Steps of a run")->type_name("D");
-  command.add_option("--budget", options->question.states, "States to store at most")
+  command.add_option("--depth", options->query.depth, "Steps of a run")->type_name("D");
+  command.add_option("--budget", options->query.states, "States to store at most")
       ->check(CLI::Range(std::uint64_t{1}, explore::most_states))
       ->type_name("STATES")
       ->capture_default_str();
   command.add_option("--network", options->network, "How words travel: registers (the last word, as cyclic publishing gives) or channels=N (N messages in flight, default 2)")
       ->check([](const std::string& text) {
-        explore::Question unused;
+        explore::Query unused;
         return set_network(text, unused);
       })
       ->capture_default_str();
@@ -314,7 +314,7 @@ void add_explore_command(CLI::App& app, ExitStatus& status) {
   command.add_option("--inner-slaves", options->inner_slaves, "Slaves of the inner group (default 1)")
       ->check(CLI::Range(1U, static_cast<unsigned>(explore::most_inner_slaves)))
       ->type_name("N");
-  command.add_flag("--joining", options->question.joining, "The last slave is down at the beginning and comes up at any time, or never (where --nested can be explored)");
+  command.add_flag("--joining", options->query.joining, "The last slave is down at the beginning and comes up at any time, or never (where --nested can be explored)");
   command.add_option("--candidates", options->candidates, "Nodes that may have the slaves' places, which are roles then (up to 2 roles; where --nested can be explored, without forge)")
       ->check(CLI::Range(1U, static_cast<unsigned>(explore::most_explored_candidates)))
       ->type_name("N");

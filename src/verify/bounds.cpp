@@ -11,7 +11,7 @@
 #include "scenario/figures/requirement_rules.hpp"
 #include "scenario/json/quantity.hpp"
 #include "sim/check.hpp"
-#include "verify/roles_question.hpp"
+#include "verify/roles_query.hpp"
 #include "wire/plug_endpoint.hpp"
 
 namespace takt::verify {
@@ -164,22 +164,22 @@ class Prover {
 
   /// Explores what the scenario can bring about: from any state in which the group rests, as many calls and faults as come before it rests again.
   Proof invariants_of(const scenario::ResolvedProgram& program) {
-    explore::Question question;
-    question.variant = program.description->variant == scenario::Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
-    question.slaves = static_cast<std::uint8_t>(program.participants.size() - 1);
+    explore::Query query;
+    query.variant = program.description->variant == scenario::Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
+    query.slaves = static_cast<std::uint8_t>(program.participants.size() - 1);
     analysis::EventsInARow row = analysis::events_in_a_row(resolved_, bounds_, static_cast<std::size_t>(&program - resolved_.programs.data()));
     if (program.has_roles()) {
-      if (const auto wrong = set_roles(program, question)) return {{}, false, *wrong, {}, {}, {}};
+      if (const auto wrong = set_roles(program, query)) return {{}, false, *wrong, {}, {}, {}};
       // Who has a role at rest depends on all that was before: the whole scenario is one row from the start.
-      question.beginnings = explore::Beginnings::switched_on;
+      query.beginnings = explore::Beginnings::switched_on;
       row = all_events();
     }
-    question.commands = static_cast<std::uint32_t>(std::max<std::size_t>(1, row.calls));
-    question.fault_budget = static_cast<std::uint32_t>(row.faults);
+    query.commands = static_cast<std::uint32_t>(std::max<std::size_t>(1, row.calls));
+    query.fault_budget = static_cast<std::uint32_t>(row.faults);
     for (const explore::Fault fault : {explore::Fault::crash, explore::Fault::restart})
-      if (row.faults > 0) question.faults.insert(fault);
-    question.states = options_.states;
-    if (question.commands > explore::most_commands || question.fault_budget > explore::most_faults)
+      if (row.faults > 0) query.faults.insert(fault);
+    query.states = options_.states;
+    if (query.commands > explore::most_commands || query.fault_budget > explore::most_faults)
       return {{}, false, fmt::format("{} calls and {} faults come before the group is at rest, more than can be explored", row.calls, row.faults), {}, {}, {}};
     Proof proof;
     proof.assumptions.add(analysis::Assumption::nothing_else);
@@ -193,8 +193,8 @@ class Prover {
         return proof;
       }
     }
-    auto known = std::find_if(explored_.begin(), explored_.end(), [&](const auto& each) { return each.first == question; });
-    if (known == explored_.end()) known = explored_.insert(explored_.end(), {question, explored(question)});
+    auto known = std::find_if(explored_.begin(), explored_.end(), [&](const auto& each) { return each.first == query; });
+    if (known == explored_.end()) known = explored_.insert(explored_.end(), {query, explored(query)});
     proof.holds = known->second.holds;
     proof.reason = known->second.reason;
     proof.remark = known->second.remark;
@@ -248,27 +248,27 @@ class Prover {
     return longest < timeout.ps() - timeout.ps() / 10;
   }
 
-  Proof explored(const explore::Question& question) const {
-    const explore::Answer answer = explore::explore(question, [&](const auto&...) { return !options_.interrupted || !options_.interrupted(); });
+  Proof explored(const explore::Query& query) const {
+    const explore::SearchResult result = explore::explore(query, [&](const auto&...) { return !options_.interrupted || !options_.interrupted(); });
     Proof proof;
     for (const explore::Property property : {explore::Property::S1, explore::Property::S2, explore::Property::S3, explore::Property::S4, explore::Property::S5})
-      if (answer[property] == explore::Verdict::violated)
+      if (result[property] == explore::Verdict::violated)
         proof.reason = "takt explore finds a run that violates " + std::string(explore::name_of(property)) + ", though perhaps not with this script";
     if (!proof.reason.empty()) return proof;
-    if (!answer.exhausted) {
-      proof.reason = fmt::format("{} states of the handshake were looked at, not all; takt explore takes the time", answer.states);
+    if (!result.exhausted) {
+      proof.reason = fmt::format("{} states of the handshake were looked at, not all; takt explore takes the time", result.states);
       return proof;
     }
     proof.holds = true;
-    proof.remark = fmt::format("explored: {} states, {} call{} and {} fault{} {}", answer.states, question.commands, question.commands == 1 ? "" : "s", question.fault_budget,
-                               question.fault_budget == 1 ? "" : "s", question.has_roles() ? "in all, joins and leaves among the calls" : "before the group rests");
+    proof.remark = fmt::format("explored: {} states, {} call{} and {} fault{} {}", result.states, query.commands, query.commands == 1 ? "" : "s", query.fault_budget,
+                               query.fault_budget == 1 ? "" : "s", query.has_roles() ? "in all, joins and leaves among the calls" : "before the group rests");
     return proof;
   }
 
   const scenario::Resolved& resolved_;
   const ProofOptions& options_;
   const analysis::Bounds& bounds_;
-  std::vector<std::pair<explore::Question, Proof>> explored_;
+  std::vector<std::pair<explore::Query, Proof>> explored_;
 };
 
 }  // namespace

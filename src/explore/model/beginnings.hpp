@@ -54,12 +54,12 @@ class Opening {
       }
     }
   }
-  /// Keeps it, with the budgets of the question, if all are in that state; a handshake that does not get there fails elsewhere.
+  /// Keeps it, with the budgets of the query, if all are in that state; a handshake that does not get there fails elsewhere.
   void keep(std::size_t participants, handshake::PublishedState rest, std::vector<Beginning>& beginnings) {
     for (std::size_t p = 0; p < participants; ++p)
       if (model_.state_of(beginning_.state, p) != rest) return;
-    beginning_.state.set_commands_left(model_.question().commands);
-    beginning_.state.set_faults_left(model_.question().fault_budget);
+    beginning_.state.set_commands_left(model_.query().commands);
+    beginning_.state.set_faults_left(model_.query().fault_budget);
     beginnings.push_back(std::move(beginning_));
   }
 

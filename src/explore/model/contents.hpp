@@ -12,7 +12,7 @@
 
 #include "explore/model/hash_index.hpp"
 #include "explore/model/members.hpp"
-#include "explore/model/question.hpp"
+#include "explore/model/query.hpp"
 #include "explore/model/renaming.hpp"
 
 namespace takt::explore {

@@ -15,14 +15,14 @@ using handshake::PublishedState;
 using handshake::Variant;
 using program::Method;
 
-GroupModel::GroupModel(const Question& question)
-    : question_(question), wiring_(question), shape_(question, wiring_.size()), renamings_(question.slaves, question.symmetry), members_(question_, renamings_),
-      contents_(members_, renamings_), group_(question.slaves + 1U) {
-  const bool is_star = question.subscription == handshake::Subscription::Star;
-  TAKT_CHECK(question.slaves >= 1 && question.slaves <= (is_star ? most_slaves : most_slaves_all_to_all), "a group to explore is small");
-  TAKT_CHECK(question.commands <= most_commands && question.fault_budget <= most_faults, "budgets are small");
-  TAKT_CHECK(question.variant == Variant::Robust || !question.faults.contains(Fault::forge), "the words of paper say too little to forge much");
-  TAKT_CHECK(question.capacity >= 1 && question.capacity <= most_capacity, "channels are short");
+GroupModel::GroupModel(const Query& query)
+    : query_(query), wiring_(query), shape_(query, wiring_.size()), renamings_(query.slaves, query.symmetry), members_(query_, renamings_),
+      contents_(members_, renamings_), group_(query.slaves + 1U) {
+  const bool is_star = query.subscription == handshake::Subscription::Star;
+  TAKT_CHECK(query.slaves >= 1 && query.slaves <= (is_star ? most_slaves : most_slaves_all_to_all), "a group to explore is small");
+  TAKT_CHECK(query.commands <= most_commands && query.fault_budget <= most_faults, "budgets are small");
+  TAKT_CHECK(query.variant == Variant::Robust || !query.faults.contains(Fault::forge), "the words of paper say too little to forge much");
+  TAKT_CHECK(query.capacity >= 1 && query.capacity <= most_capacity, "channels are short");
   for (std::size_t c = 0; c < wiring_.size(); ++c)
     for (std::size_t r = 0; r < renamings_.size(); ++r)
       renamed_channel_.push_back(static_cast<std::uint8_t>(wiring_.channel(renamings_[r].to[wiring_.sender(c)], renamings_[r].to[wiring_.receiver(c)])));
@@ -31,8 +31,8 @@ GroupModel::GroupModel(const Question& question)
 }
 
 void GroupModel::list_actions() {
-  const auto participants = static_cast<std::uint8_t>(question_.slaves + 1);
-  const std::size_t places = question_.network == Network::channels ? question_.capacity : 1;
+  const auto participants = static_cast<std::uint8_t>(query_.slaves + 1);
+  const std::size_t places = query_.network == Network::channels ? query_.capacity : 1;
   const auto each_channel = [&](ActionKind kind, std::size_t count) {
     for (std::size_t c = 0; c < wiring_.size(); ++c)
       for (std::size_t place = 0; place < count; ++place) add(kind, c, place);
@@ -43,33 +43,33 @@ void GroupModel::list_actions() {
   const auto each_participant = [&](ActionKind kind) {
     for (std::uint8_t i = 0; i < participants; ++i) add(kind, i, 0);
   };
-  const bool strays = question_.faults.contains(Fault::duplicate) || question_.faults.contains(Fault::reorder);
+  const bool strays = query_.faults.contains(Fault::duplicate) || query_.faults.contains(Fault::reorder);
   each_channel(ActionKind::send, 1);
   each_channel(ActionKind::receive, 1);
-  if (strays && question_.network == Network::channels) each_channel(ActionKind::deliver_late, places);
-  if (strays && question_.network == Network::registers) add(ActionKind::deliver_late, 0, 0);
+  if (strays && query_.network == Network::channels) each_channel(ActionKind::deliver_late, places);
+  if (strays && query_.network == Network::registers) add(ActionKind::deliver_late, 0, 0);
   each_participant(ActionKind::initialised);
-  if (question_.faults.contains(Fault::crash) || question_.faults.contains(Fault::forge)) each_peer(ActionKind::silence);
+  if (query_.faults.contains(Fault::crash) || query_.faults.contains(Fault::forge)) each_peer(ActionKind::silence);
   end_network();
   for (std::uint8_t i = 0; i < participants; ++i)
     for (std::uint8_t m = 0; m < program::methods.size(); ++m) add(ActionKind::call, i, m);
-  if (question_.finishes) each_participant(ActionKind::finish);
+  if (query_.finishes) each_participant(ActionKind::finish);
   end_calls();
-  if (question_.faults.contains(Fault::loss)) each_channel(ActionKind::lose, places);
-  if (question_.faults.contains(Fault::duplicate)) each_channel(ActionKind::duplicate, 1);
-  if (question_.faults.contains(Fault::reorder)) each_channel(ActionKind::reorder, 1);
-  if (question_.faults.contains(Fault::crash)) each_participant(ActionKind::crash);
+  if (query_.faults.contains(Fault::loss)) each_channel(ActionKind::lose, places);
+  if (query_.faults.contains(Fault::duplicate)) each_channel(ActionKind::duplicate, 1);
+  if (query_.faults.contains(Fault::reorder)) each_channel(ActionKind::reorder, 1);
+  if (query_.faults.contains(Fault::crash)) each_participant(ActionKind::crash);
   begin_free();
-  if (question_.faults.contains(Fault::restart)) each_participant(ActionKind::restart);
+  if (query_.faults.contains(Fault::restart)) each_participant(ActionKind::restart);
   end_free();
-  if (question_.faults.contains(Fault::timeout)) each_peer(ActionKind::timeout);
-  if (question_.faults.contains(Fault::forge))
+  if (query_.faults.contains(Fault::timeout)) each_peer(ActionKind::timeout);
+  if (query_.faults.contains(Fault::forge))
     for (std::size_t i = 0; i < participants; ++i)
       for (std::size_t word = 0; word < most_forgeries; ++word) add(ActionKind::forge, i, word);
 }
 
 void GroupModel::make_beginnings() {
-  const std::size_t participants = question_.slaves + 1U;
+  const std::size_t participants = query_.slaves + 1U;
   for (const Rest& rest : rests()) {
     Opening opening(*this, switched_on(), rest.name);
     for (const Method method : rest.calls) {
@@ -77,27 +77,27 @@ void GroupModel::make_beginnings() {
       opening.settle(participants, wiring_.size(), 6);
     }
     opening.keep(participants, rest.state, beginnings_);
-    if (question_.beginnings == Beginnings::switched_on) break;
+    if (query_.beginnings == Beginnings::switched_on) break;
   }
 }
 
 State GroupModel::switched_on() {
   State state(shape_);
-  for (std::size_t i = 0; i <= question_.slaves; ++i) state.set_member(i, members_.fresh(i, 1));
-  state.set_observer(intern_observer(SmallObserver(question_.variant, group_)));
+  for (std::size_t i = 0; i <= query_.slaves; ++i) state.set_member(i, members_.fresh(i, 1));
+  state.set_observer(intern_observer(SmallObserver(query_.variant, group_)));
   return state;
 }
 
 bool GroupModel::act(const State& state, Action action, Next& next) {
   if (!change(state, action, next)) return false;
-  if (question_.faults.contains(Fault::forge)) judge_forgery(*this, state, action, next);
+  if (query_.faults.contains(Fault::forge)) judge_forgery(*this, state, action, next);
   return true;
 }
 
 /// Nothing of before is left that anybody could still hear or believe.
 bool GroupModel::halted_for_all(const State& state) {
   if (members_[state.member(0)].state != PublishedState::Halted || !at_rest(state)) return false;
-  for (std::size_t i = 0; i <= question_.slaves; ++i)
+  for (std::size_t i = 0; i <= query_.slaves; ++i)
     if (members_[state.member(i)].deaf != 0) return false;
   Next heard;
   for (std::size_t c = 0; c < wiring_.size(); ++c) {
@@ -112,7 +112,7 @@ bool GroupModel::change(const State& state, Action action, Next& next) {
   switch (action.kind) {
     case ActionKind::send:
     case ActionKind::receive:
-    case ActionKind::deliver_late: return question_.network == Network::registers ? act_on_registers(state, action, next) : act_on_channels(state, action, next);
+    case ActionKind::deliver_late: return query_.network == Network::registers ? act_on_registers(state, action, next) : act_on_channels(state, action, next);
     case ActionKind::initialised: return initialised(state, action.who, next);
     case ActionKind::silence: return expire(state, action.who, action.what, true, next);
     case ActionKind::call: return call(state, action.who, action.what, next);
@@ -131,7 +131,7 @@ bool GroupModel::fault(const State& state, Action action, Next& next) {
     case ActionKind::restart: possible = restart(state, action.who, next); break;
     case ActionKind::forge: possible = forge(state, action.who, action.what, next); break;
     case ActionKind::timeout: possible = expire(state, action.who, action.what, false, next); break;
-    default: possible = question_.network == Network::registers ? act_on_registers(state, action, next) : act_on_channels(state, action, next); break;
+    default: possible = query_.network == Network::registers ? act_on_registers(state, action, next) : act_on_channels(state, action, next); break;
   }
   if (possible && !is_free) next.state.set_faults_left(state.faults_left() - 1);
   return possible;
@@ -164,7 +164,7 @@ bool GroupModel::finish(const State& state, std::size_t participant, Next& next)
 
 /// `paper`: what was asked before the group came to rest does not count any more.
 void GroupModel::end_round(const State& state, Next& next) {
-  if (question_.variant != Variant::Paper || !at_rest(state)) return;
+  if (query_.variant != Variant::Paper || !at_rest(state)) return;
   SmallObserver observer = observers_[state.observer()];
   observer.at_rest();
   next.state.set_observer(intern_observer(observer));
@@ -193,7 +193,7 @@ bool GroupModel::restart(const State& state, std::size_t participant, Next& next
   const std::uint32_t incarnation = members_.incarnation(state.member(participant));
   next = {state, {}};
   // `paper` does not publish incarnations, so its lives need not be told apart.
-  next.state.set_member(participant, members_.fresh(participant, question_.variant == Variant::Paper ? incarnation : incarnation + 1));
+  next.state.set_member(participant, members_.fresh(participant, query_.variant == Variant::Paper ? incarnation : incarnation + 1));
   SmallObserver observer = observers_[state.observer()];
   observer.on_restart(participant);
   next.state.set_observer(intern_observer(observer));
@@ -233,7 +233,7 @@ void GroupModel::watch(std::size_t participant, std::uint16_t effect, Next& next
   }
   next.state.set_observer(static_cast<std::uint32_t>(found));
   next.properties.bits |= static_cast<std::uint32_t>(found >> 32) | seen.properties.bits;
-  if (question_.variant == Variant::Paper && seen.begins_round()) outdate(participant, next);
+  if (query_.variant == Variant::Paper && seen.begins_round()) outdate(participant, next);
 }
 
 std::uint32_t GroupModel::intern_observer(const SmallObserver& observer) {
@@ -249,13 +249,13 @@ std::uint32_t GroupModel::intern_observer(const SmallObserver& observer) {
 }
 
 bool GroupModel::anybody_down(const State& state) const {
-  for (std::size_t i = 0; i <= question_.slaves; ++i)
+  for (std::size_t i = 0; i <= query_.slaves; ++i)
     if (is_down(state, i)) return true;
   return false;
 }
 
 bool GroupModel::all_running(const State& state) const {
-  for (std::size_t i = 0; i <= question_.slaves; ++i)
+  for (std::size_t i = 0; i <= query_.slaves; ++i)
     if (members_[state.member(i)].state != PublishedState::Running || is_down(state, i)) return false;
   return true;
 }
@@ -264,7 +264,7 @@ bool GroupModel::all_running(const State& state) const {
 bool GroupModel::at_rest(const State& state) const {
   const PublishedState first = members_[state.member(0)].state;
   if (first == PublishedState::HaltedInit || state.late() != Late::none) return false;
-  for (std::size_t i = 0; i <= question_.slaves; ++i)
+  for (std::size_t i = 0; i <= query_.slaves; ++i)
     if (is_down(state, i) || members_[state.member(i)].state != first) return false;
   for (std::size_t c = 0; c < wiring_.size(); ++c)
     if (!says_what_its_sender_says(state, c)) return false;
@@ -273,28 +273,28 @@ bool GroupModel::at_rest(const State& state) const {
 
 bool GroupModel::settled(const State& state) const {
   if (anybody_down(state)) {
-    for (std::size_t i = 0; i <= question_.slaves; ++i)
+    for (std::size_t i = 0; i <= query_.slaves; ++i)
       if (!is_down(state, i) && members_[state.member(i)].state != PublishedState::Halted) return false;
     return true;
   }
   const handshake::Word& first = members_.word(members_[state.member(0)].word);
-  for (std::size_t i = 1; i <= question_.slaves; ++i) {
+  for (std::size_t i = 1; i <= query_.slaves; ++i) {
     const handshake::Word& word = members_.word(members_[state.member(i)].word);
     if (word.state != first.state || !(word.intent == first.intent)) return false;
   }
   if (state.promised() && first.state != PublishedState::Running) return false;
-  if (question_.variant == Variant::Robust) return first.state == handshake::goal_of(first.intent.kind);
+  if (query_.variant == Variant::Robust) return first.state == handshake::goal_of(first.intent.kind);
   return first.state != PublishedState::HaltedInit && observers_[state.observer()].asked(first.state);
 }
 
 Recurrence GroupModel::recurrence() {
-  if (question_.network == Network::channels) return Recurrence::all;
-  goes_round_ = members_that_go_round(members_, question_.slaves);
+  if (query_.network == Network::channels) return Recurrence::all;
+  goes_round_ = members_that_go_round(members_, query_.slaves);
   return std::find(goes_round_.begin(), goes_round_.end(), true) == goes_round_.end() ? Recurrence::none : Recurrence::some;
 }
 
 bool GroupModel::recurs(const State& state) const {
-  for (std::size_t i = 0; i <= question_.slaves; ++i)
+  for (std::size_t i = 0; i <= query_.slaves; ++i)
     if (goes_round_[state.member(i)]) return true;
   return false;
 }

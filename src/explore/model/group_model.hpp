@@ -12,7 +12,7 @@
 #include "explore/model/contents.hpp"
 #include "explore/model/members.hpp"
 #include "explore/model/model.hpp"
-#include "explore/model/question.hpp"
+#include "explore/model/query.hpp"
 #include "explore/model/renaming.hpp"
 #include "explore/model/state.hpp"
 #include "explore/model/wiring.hpp"
@@ -23,11 +23,11 @@ namespace takt::explore {
 
 class GroupModel : public ActionList {
  public:
-  explicit GroupModel(const Question& question);
+  explicit GroupModel(const Query& query);
   GroupModel(const GroupModel&) = delete;
   GroupModel& operator=(const GroupModel&) = delete;
 
-  const Question& question() const { return question_; }
+  const Query& query() const { return query_; }
   const std::vector<Beginning>& beginnings() const { return beginnings_; }
   const Wiring& wiring() const { return wiring_; }
   const Shape& shape() const { return shape_; }
@@ -43,7 +43,7 @@ class GroupModel : public ActionList {
   bool settled(const State& state) const;
   bool anybody_down(const State& state) const;
   bool all_running(const State& state) const;
-  bool with_symmetry() const { return question_.symmetry && question_.slaves > 1; }
+  bool with_symmetry() const { return query_.symmetry && query_.slaves > 1; }
   bool symmetric() const { return members_.symmetric(); }
   /// On registers states with somebody who can go round (recurrence.hpp).
   Recurrence recurrence();
@@ -101,7 +101,7 @@ class GroupModel : public ActionList {
   State renamed(const State& state, std::size_t renaming) const;
   bool names_matter(const State& state) const;
 
-  Question question_;
+  Query query_;
   Wiring wiring_;
   Shape shape_;
   Renamings renamings_;

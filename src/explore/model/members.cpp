@@ -22,7 +22,7 @@ bool are_transitions(PublishedState from, std::span<const StateChange> changes) 
   return true;
 }
 
-Members::Members(const Question& question, const Renamings& renamings) : question_(question), renamings_(&renamings) {
+Members::Members(const Query& query, const Renamings& renamings) : query_(query), renamings_(&renamings) {
   words_.append(Letter{});  // no_word
   renamed_word_.assign(renamings.size(), no_word);
   word_orbit_.push_back(0);
@@ -31,8 +31,8 @@ Members::Members(const Question& question, const Renamings& renamings) : questio
 }
 
 handshake::Config Members::config(std::size_t index, std::uint32_t incarnation) const {
-  return {question_.variant, index == 0 ? handshake::Role::Master : handshake::Role::Slave, static_cast<std::uint8_t>(index),
-          question_.slaves, incarnation, question_.subscription};
+  return {query_.variant, index == 0 ? handshake::Role::Master : handshake::Role::Slave, static_cast<std::uint8_t>(index),
+          query_.slaves, incarnation, query_.subscription};
 }
 
 MemberId Members::fresh(std::size_t index, std::uint32_t incarnation) {
@@ -42,7 +42,7 @@ MemberId Members::fresh(std::size_t index, std::uint32_t incarnation) {
 MemberId Members::down(std::size_t index, std::uint32_t incarnation) {
   while (down_.size() <= incarnation) {
     std::vector<MemberId> all;
-    for (std::size_t i = 0; i <= question_.slaves; ++i) {
+    for (std::size_t i = 0; i <= query_.slaves; ++i) {
       all.push_back(values_.append(Participant(config(i, static_cast<std::uint32_t>(down_.size())))));
       add_traits(all.back());
       traits_.back().down = true;
@@ -87,7 +87,7 @@ Stepped Members::step_value(MemberId member, const Stimulus& stimulus) {
   after.forget_last_transition();
   Effect effect = effect_of(before.word(), after.word(), outputs);
   effect.properties.bits |= judged(input, outputs, before.state(), after).bits;
-  effect.raised = outputs.raised && question_.variant == Variant::Paper;  // `robust` says it in the words
+  effect.raised = outputs.raised && query_.variant == Variant::Paper;  // `robust` says it in the words
   if (effect.raised) effect.kind = outputs.raised_kind;
   Stepped stepped;
   stepped.member = intern(after);
@@ -186,7 +186,7 @@ void Members::add_traits(MemberId member) {
 const std::vector<WordId>& Members::forged(MemberId member) {
   if (forged_.size() <= member) forged_.resize(values_.size());
   if (forged_[member].empty())
-    for (const Letter& letter : forgeries(values_[member].word(), question_.slaves)) forged_[member].push_back(intern_word(letter));
+    for (const Letter& letter : forgeries(values_[member].word(), query_.slaves)) forged_[member].push_back(intern_word(letter));
   return forged_[member];
 }
 

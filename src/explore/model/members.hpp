@@ -9,7 +9,7 @@
 
 #include "explore/model/forgery.hpp"
 #include "explore/model/hash_index.hpp"
-#include "explore/model/question.hpp"
+#include "explore/model/query.hpp"
 #include "explore/model/renaming.hpp"
 #include "explore/properties/small_observer.hpp"
 #include "handshake/participant.hpp"
@@ -70,7 +70,7 @@ class Members {
     std::uint32_t orbit = 0;              ///< the same number for whoever differs in names only
   };
 
-  Members(const Question& question, const Renamings& renamings);
+  Members(const Query& query, const Renamings& renamings);
 
   MemberId fresh(std::size_t index, std::uint32_t incarnation);
   /// One that is down; it remembers only how often it was up.
@@ -135,7 +135,7 @@ class Members {
   void add_images(const std::vector<MemberId>& images);
   WordId intern_word(const Letter& letter);
 
-  Question question_;
+  Query query_;
   const Renamings* renamings_;
   Interner<Participant, HashOfValue> values_;
   std::vector<Traits> traits_;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "explore/model/action.hpp"
-#include "explore/model/question.hpp"
+#include "explore/model/query.hpp"
 #include "explore/model/state.hpp"
 #include "explore/properties/property.hpp"
 
@@ -41,8 +41,8 @@ class ToldApart {
 };
 
 template <class M>
-concept Model = std::constructible_from<M, const Question&> && requires(M& model, const M& known, const State& state, Action action, Next& next) {
-  { known.question() } -> std::same_as<const Question&>;
+concept Model = std::constructible_from<M, const Query&> && requires(M& model, const M& known, const State& state, Action action, Next& next) {
+  { known.query() } -> std::same_as<const Query&>;
   { known.shape() } -> std::same_as<const Shape&>;
   { known.beginnings() } -> std::same_as<const std::vector<Beginning>&>;
   /// Network actions first, calls then, faults last.

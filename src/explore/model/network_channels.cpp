@@ -25,7 +25,7 @@ bool GroupModel::act_on_channels(const State& state, Action action, Next& next) 
 bool GroupModel::publish_to_channel(const State& state, std::size_t channel, Next& next) {
   const Members::Traits& sender = members_[state.member(wiring_.sender(channel))];
   const Content& before = contents_[state.content(channel)];
-  if (sender.down || before.size() >= question_.capacity) return false;
+  if (sender.down || before.size() >= query_.capacity) return false;
   const Message* last = before.last();
   if (last != nullptr && last->word == sender.word && !last->outdated && !last->strays) return false;
   Content content = before;
@@ -51,7 +51,7 @@ bool GroupModel::hear(const State& state, std::size_t channel, std::size_t posit
 
 bool GroupModel::change_content(const State& state, Action action, Next& next) {
   Content content = contents_[state.content(action.who)];
-  const bool has_room = content.size() < question_.capacity;
+  const bool has_room = content.size() < query_.capacity;
   const std::optional<std::size_t> first = content.next();
   switch (action.kind) {
     case ActionKind::lose:

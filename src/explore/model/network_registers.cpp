@@ -30,9 +30,9 @@ bool GroupModel::publish_to_register(const State& state, std::size_t channel, Ne
 
 /// It stands there like one that was published. False if there is no room.
 bool GroupModel::put_into_channel(const State& state, std::size_t channel, WordId word, Next& next) {
-  if (question_.network == Network::channels) {
+  if (query_.network == Network::channels) {
     Content content = contents_[state.content(channel)];
-    if (content.size() >= question_.capacity) return false;
+    if (content.size() >= query_.capacity) return false;
     content.push(word);
     next.state.set_content(channel, contents_.intern(content));
     return true;
@@ -95,7 +95,7 @@ bool GroupModel::keep_copy(const State& state, std::size_t channel, bool overtak
 
 /// Nothing of it is under way any more. The delayed copy may still come.
 bool GroupModel::forget_channel(std::size_t channel, Next& next) const {
-  if (question_.network == Network::channels) {
+  if (query_.network == Network::channels) {
     if (next.state.content(channel) == Contents::empty) return false;
     next.state.set_content(channel, Contents::empty);
     return true;
@@ -110,7 +110,7 @@ bool GroupModel::forget_channel(std::size_t channel, Next& next) const {
 void GroupModel::outdate(std::size_t participant, Next& next) {
   for (std::size_t c = 0; c < wiring_.size(); ++c) {
     if (wiring_.receiver(c) != participant) continue;
-    if (question_.network == Network::channels) {
+    if (query_.network == Network::channels) {
       Content content = contents_[next.state.content(c)];
       for (std::size_t i = 0; i < content.size(); ++i) content[i].outdated = content[i].outdated || members_.word(content[i].word).state == PublishedState::Running;
       next.state.set_content(c, contents_.intern(content));
@@ -123,7 +123,7 @@ void GroupModel::outdate(std::size_t participant, Next& next) {
 
 bool GroupModel::says_what_its_sender_says(const State& state, std::size_t channel) const {
   const WordId said = members_[state.member(wiring_.sender(channel))].word;
-  if (question_.network == Network::registers) return state.reg(channel) == said;
+  if (query_.network == Network::registers) return state.reg(channel) == said;
   const Content& content = contents_[state.content(channel)];
   for (std::size_t i = 0; i < content.size(); ++i)
     if (content[i].word != said) return false;

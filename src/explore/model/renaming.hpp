@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "explore/model/question.hpp"
+#include "explore/model/query.hpp"
 #include "handshake/word.hpp"
 
 namespace takt::explore {

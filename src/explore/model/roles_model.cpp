@@ -8,14 +8,14 @@ namespace takt::explore {
 using handshake::PublishedState;
 using program::Method;
 
-RolesModel::RolesModel(const Question& question) : question_(question), stations_(question), group_(question.slaves + 1U) {
-  TAKT_CHECK(question.slaves >= 1 && question.slaves <= most_explored_roles && question.candidates >= 1 && question.candidates <= most_explored_candidates, "a group to explore is small");
-  TAKT_CHECK(question.variant == handshake::Variant::Robust && question.subscription == handshake::Subscription::Star && question.network == Network::registers && !question.is_tree(),
+RolesModel::RolesModel(const Query& query) : query_(query), stations_(query), group_(query.slaves + 1U) {
+  TAKT_CHECK(query.slaves >= 1 && query.slaves <= most_explored_roles && query.candidates >= 1 && query.candidates <= most_explored_candidates, "a group to explore is small");
+  TAKT_CHECK(query.variant == handshake::Variant::Robust && query.subscription == handshake::Subscription::Star && query.network == Network::registers && !query.is_tree(),
              "roles are explored with robust in stars on registers");
-  TAKT_CHECK(!question.faults.contains(Fault::duplicate) && !question.faults.contains(Fault::reorder) && !question.faults.contains(Fault::forge), "no delayed copies and no strangers with roles");
+  TAKT_CHECK(!query.faults.contains(Fault::duplicate) && !query.faults.contains(Fault::reorder) && !query.faults.contains(Fault::forge), "no delayed copies and no strangers with roles");
   shape_.wide = true;
   shape_.channels_at = static_cast<std::uint8_t>(stations());
-  shape_.observer_at = shape_.late_at = static_cast<std::uint8_t>(stations() + channels_of_candidate * question.candidates);
+  shape_.observer_at = shape_.late_at = static_cast<std::uint8_t>(stations() + channels_of_candidate * query.candidates);
   shape_.rest_at = static_cast<std::uint8_t>(shape_.observer_at + 1);
   shape_.words = static_cast<std::uint8_t>((shape_.rest_at + 2U) / 2U * 2U);
   TAKT_CHECK(shape_.words <= State::most_words, "a group to explore is small");
@@ -25,13 +25,13 @@ RolesModel::RolesModel(const Question& question) : question_(question), stations
 
 void RolesModel::list_actions() {
   const auto each_channel = [&](ActionKind kind) {
-    for (std::size_t c = 0; c < channels_of_candidate * question_.candidates; ++c) add(kind, c);
+    for (std::size_t c = 0; c < channels_of_candidate * query_.candidates; ++c) add(kind, c);
   };
   const auto each_station = [&](ActionKind kind) {
     for (std::size_t s = 0; s < stations(); ++s) add(kind, s);
   };
   const auto each_time_out = [&](ActionKind kind) {
-    for (std::size_t what = 0; what < roles() + question_.candidates; ++what) add(kind, 0, what);
+    for (std::size_t what = 0; what < roles() + query_.candidates; ++what) add(kind, 0, what);
     for (std::size_t s = 1; s < stations(); ++s) add(kind, s);
   };
   each_channel(ActionKind::send);
@@ -41,23 +41,23 @@ void RolesModel::list_actions() {
   end_network();
   for (std::size_t s = 0; s < stations(); ++s)
     for (std::size_t m = 0; m < program::methods.size(); ++m) add(ActionKind::call, s, m);
-  if (question_.finishes) each_station(ActionKind::finish);
-  for (std::size_t c = 0; c < question_.candidates; ++c) {
+  if (query_.finishes) each_station(ActionKind::finish);
+  for (std::size_t c = 0; c < query_.candidates; ++c) {
     add(ActionKind::join, c);
     add(ActionKind::leave, c);
   }
   end_calls();
-  if (question_.faults.contains(Fault::restart)) each_station(ActionKind::restart);
+  if (query_.faults.contains(Fault::restart)) each_station(ActionKind::restart);
   end_free();
-  if (question_.faults.contains(Fault::crash)) each_station(ActionKind::crash);
-  if (question_.faults.contains(Fault::loss)) each_channel(ActionKind::lose);
-  if (question_.faults.contains(Fault::timeout)) each_time_out(ActionKind::timeout);
+  if (query_.faults.contains(Fault::crash)) each_station(ActionKind::crash);
+  if (query_.faults.contains(Fault::loss)) each_channel(ActionKind::lose);
+  if (query_.faults.contains(Fault::timeout)) each_time_out(ActionKind::timeout);
 }
 
 State RolesModel::switched_on() {
   State state(shape_);
   state.set_member(0, stations_.master(1, false));
-  for (std::size_t c = 0; c < question_.candidates; ++c) state.set_member(c + 1, stations_.candidate(c, 1, false, false));
+  for (std::size_t c = 0; c < query_.candidates; ++c) state.set_member(c + 1, stations_.candidate(c, 1, false, false));
   state.set_observer(observers_.intern({SmallObserver(handshake::Variant::Robust, group_), {}}));
   return state;
 }
@@ -66,14 +66,14 @@ State RolesModel::switched_on() {
 void RolesModel::make_beginnings() {
   const auto begun = [this](std::string name, std::uint8_t joined) {
     Opening opening(*this, switched_on(), std::move(name));
-    for (std::uint8_t c = 0; c < question_.candidates; ++c)
+    for (std::uint8_t c = 0; c < query_.candidates; ++c)
       if (((joined >> c) & 1U) != 0) opening.take({ActionKind::join, c, 0});
     return opening;
   };
-  begun("switched on", question_.joined).keep(1, PublishedState::Halted, beginnings_);
-  if (question_.beginnings == Beginnings::switched_on) return;
-  if (question_.joined != 0) begun("switched on, nobody has joined", 0).keep(1, PublishedState::Halted, beginnings_);
-  const std::size_t channels = channels_of_candidate * question_.candidates;
+  begun("switched on", query_.joined).keep(1, PublishedState::Halted, beginnings_);
+  if (query_.beginnings == Beginnings::switched_on) return;
+  if (query_.joined != 0) begun("switched on, nobody has joined", 0).keep(1, PublishedState::Halted, beginnings_);
+  const std::size_t channels = channels_of_candidate * query_.candidates;
   constexpr int rounds = 12;
   for (const Rest& rest : rests()) {
     if (rest.calls.empty()) continue;  // it follows from the first
@@ -266,7 +266,7 @@ void RolesModel::judge_holders(Next& next) const {
   for (std::size_t role = 0; role < roles(); ++role) {
     const Binding& binding = binder(next.state).binding(role);
     if (!binding.bound()) continue;
-    for (std::size_t c = 0; c < question_.candidates; ++c) {
+    for (std::size_t c = 0; c < query_.candidates; ++c) {
       const Stations::Node& each = node(next.state, c);
       const bool counts = each.member && each.member->config().index == role + 1 && each.member->config().incarnation == handshake::incarnation_of(binding.candidate, binding.life);
       if (counts && c != binding.candidate) next.properties.insert(Property::B1);
@@ -305,8 +305,8 @@ bool RolesModel::all_running(const State& state) const {
 /// From this role on each can have a candidate of its own that is there; `taken`: a set of candidates.
 bool RolesModel::can_be_filled(const State& state, std::size_t role, unsigned taken) const {
   if (role == roles()) return true;
-  for (std::size_t c = 0; c < question_.candidates; ++c) {
-    const bool offers = ((question_.offers[c] >> role) & 1U) != 0;
+  for (std::size_t c = 0; c < query_.candidates; ++c) {
+    const bool offers = ((query_.offers[c] >> role) & 1U) != 0;
     if (offers && ((taken >> c) & 1U) == 0 && !node(state, c).down && node(state, c).candidate.announces() && can_be_filled(state, role + 1, taken | 1U << c)) return true;
   }
   return false;
@@ -314,7 +314,7 @@ bool RolesModel::can_be_filled(const State& state, std::size_t role, unsigned ta
 
 /// Nobody is to be let go, whoever announces itself is known and nobody else is, and whoever believes to have a role has it.
 bool RolesModel::knows_candidates(const State& state) const {
-  for (std::size_t c = 0; c < question_.candidates; ++c) {
+  for (std::size_t c = 0; c < query_.candidates; ++c) {
     const Stations::Node& each = node(state, c);
     const bool is_there = !each.down && each.candidate.announces();
     if ((is_there && each.candidate.announcement().leaving) || binder(state).present(static_cast<std::uint8_t>(c)) != is_there) return false;
@@ -326,7 +326,7 @@ bool RolesModel::knows_candidates(const State& state) const {
 bool RolesModel::settled(const State& state) const {
   const Participant& leader = master(state).participant;
   if (is_down(state, 0)) {
-    for (std::size_t c = 0; c < question_.candidates; ++c)
+    for (std::size_t c = 0; c < query_.candidates; ++c)
       if (node(state, c).member && node(state, c).member->state() != PublishedState::Halted) return false;
     return true;
   }
@@ -345,7 +345,7 @@ bool RolesModel::settled(const State& state) const {
 /// Settled, and nothing of before is left that anybody could still hear.
 bool RolesModel::at_rest(const State& state) {
   if (is_down(state, 0) || !settled(state)) return false;
-  for (std::size_t c = 0; c < channels_of_candidate * question_.candidates; ++c)
+  for (std::size_t c = 0; c < channels_of_candidate * query_.candidates; ++c)
     if (state.content(c) != no_notice && state.content(c) != said(state, c)) return false;
   return true;
 }

@@ -31,9 +31,9 @@ class RolesModel : public ActionList, public ToldApart {
   enum class Channel : std::uint8_t { announcement, word_up, table, word_down };
   static constexpr std::size_t channels_of_candidate = 4;
 
-  explicit RolesModel(const Question& question);
+  explicit RolesModel(const Query& query);
 
-  const Question& question() const { return question_; }
+  const Query& query() const { return query_; }
   const Shape& shape() const { return shape_; }
   const std::vector<Beginning>& beginnings() const { return beginnings_; }
 
@@ -48,8 +48,8 @@ class RolesModel : public ActionList, public ToldApart {
   std::size_t value_count() const { return stations_.size(); }
   std::size_t word_count() const { return stations_.notice_count() - 1; }
 
-  std::size_t stations() const { return question_.candidates + 1U; }
-  std::size_t roles() const { return question_.slaves; }
+  std::size_t stations() const { return query_.candidates + 1U; }
+  std::size_t roles() const { return query_.slaves; }
   bool is_down(const State& state, std::size_t station) const { return station == 0 ? master(state).down : node(state, station - 1).down; }
   const Stations::Master& master(const State& state) const { return stations_.master(state.member(0)); }
   const handshake::Binder& binder(const State& state) const { return stations_.binder(state.member(0)); }
@@ -90,7 +90,7 @@ class RolesModel : public ActionList, public ToldApart {
   bool can_be_filled(const State& state, std::size_t role, unsigned taken) const;
   bool knows_candidates(const State& state) const;
 
-  Question question_;
+  Query query_;
   Shape shape_;
   Stations stations_;
   handshake::GroupTree group_;   ///< the master and the roles

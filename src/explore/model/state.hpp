@@ -23,7 +23,7 @@ namespace takt::explore {
 /// Where a delayed copy stands among what the receiver has heard.
 enum class Late : std::uint8_t { none, same, newer_sent, overtaken };
 
-/// Where what stands in the states of one question.
+/// Where what stands in the states of one query.
 struct Shape {
   std::uint8_t channels_at = 2;
   std::uint8_t late_at = 3;
@@ -33,8 +33,8 @@ struct Shape {
   bool wide = false;          ///< a word of 32 bits for each channel, and no delayed copy
 
   constexpr Shape() = default;
-  Shape(const Question& question, std::size_t channels) : wide(question.network == Network::channels) {
-    const std::size_t participants = question.slaves + 1U;
+  Shape(const Query& query, std::size_t channels) : wide(query.network == Network::channels) {
+    const std::size_t participants = query.slaves + 1U;
     channels_at = static_cast<std::uint8_t>(participants);
     late_at = static_cast<std::uint8_t>(participants + (wide ? channels : (channels + 1) / 2));
     observer_at = static_cast<std::uint8_t>(wide ? late_at : late_at + 1);

@@ -80,25 +80,25 @@ std::size_t Stations::Hash<RoleEvents>::operator()(const RoleEvents& value) cons
   return digest;
 }
 
-Stations::Stations(const Question& question) : question_(question) {
-  for (std::uint32_t role = 0; role < question.slaves; ++role) skills_.push_back(role + 1);
+Stations::Stations(const Query& query) : query_(query) {
+  for (std::uint32_t role = 0; role < query.slaves; ++role) skills_.push_back(role + 1);
   notices_.intern(Notice{});    // nothing
   events_.intern(RoleEvents{});
 }
 
 handshake::Config Stations::config(std::size_t index, std::uint32_t incarnation) const {
-  return {handshake::Variant::Robust, index == 0 ? handshake::Role::Master : handshake::Role::Slave, static_cast<std::uint8_t>(index), question_.slaves, incarnation,
+  return {handshake::Variant::Robust, index == 0 ? handshake::Role::Master : handshake::Role::Slave, static_cast<std::uint8_t>(index), query_.slaves, incarnation,
           handshake::Subscription::Star, false};
 }
 
 StationId Stations::master(std::uint32_t incarnation, bool down) {
-  return masters_.intern({Participant(config(0, incarnation)), binders_.intern(Binder(skills_, question_.candidates, question_.starts_again)), down});
+  return masters_.intern({Participant(config(0, incarnation)), binders_.intern(Binder(skills_, query_.candidates, query_.starts_again)), down});
 }
 
 StationId Stations::candidate(std::size_t number, std::uint32_t life, bool joined, bool down) {
   std::vector<SkillId> offered;
   for (std::size_t role = 0; role < skills_.size(); ++role)
-    if (((question_.offers[number] >> role) & 1U) != 0) offered.push_back(skills_[role]);
+    if (((query_.offers[number] >> role) & 1U) != 0) offered.push_back(skills_[role]);
   const auto index = static_cast<std::uint8_t>(number);
   Node node{index, Candidate(index, life, offered), std::nullopt, down};
   if (joined) node.candidate.join();
@@ -163,7 +163,7 @@ void Stations::settle(Participant& participant, Binder& binder, RoleEvents& even
       event.participant = static_cast<std::uint8_t>(input->peer + 1);
       event.self = binder.binding(input->peer);
       events.each.push_back(event);
-      const bool is_wrong = participant.state() != PublishedState::Halted || (event.self.bound() && ((question_.offers[event.self.candidate] >> input->peer) & 1U) == 0);
+      const bool is_wrong = participant.state() != PublishedState::Halted || (event.self.bound() && ((query_.offers[event.self.candidate] >> input->peer) & 1U) == 0);
       if (is_wrong || std::count_if(binder.bindings().begin(), binder.bindings().end(), [&](const Binding& each) { return each.bound() && each.candidate == event.self.candidate; }) > 1)
         events.properties.insert(Property::B1);
     }
@@ -181,7 +181,7 @@ StationId Stations::stepped_node(StationId id, Happens what, std::size_t which, 
   } else if (what == Happens::leave) {
     node.candidate.leave();
   } else if (is_table) {
-    const auto change = node.candidate.table(std::span(notice.bindings).first(question_.slaves), notice.used_lives[node.number]);
+    const auto change = node.candidate.table(std::span(notice.bindings).first(query_.slaves), notice.used_lives[node.number]);
     if (change == Candidate::Change::Released && node.member) {
       RoleEvent event;
       event.kind = RoleEvent::Kind::dropped;

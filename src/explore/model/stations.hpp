@@ -72,7 +72,7 @@ class Stations {
     std::uint32_t events = 0;     ///< 0: nothing to see
   };
 
-  explicit Stations(const Question& question);
+  explicit Stations(const Query& query);
 
   StationId master(std::uint32_t incarnation, bool down);
   StationId candidate(std::size_t number, std::uint32_t life, bool joined, bool down);
@@ -106,7 +106,7 @@ class Stations {
   void settle(Participant& participant, handshake::Binder& binder, RoleEvents& events) const;
   handshake::Config config(std::size_t index, std::uint32_t incarnation) const;
 
-  Question question_;
+  Query query_;
   std::vector<handshake::SkillId> skills_;                ///< by role
   Interner<Master, Hash<Master>> masters_;
   Interner<handshake::Binder, Hash<handshake::Binder>> binders_;

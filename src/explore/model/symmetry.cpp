@@ -8,9 +8,9 @@ namespace takt::explore {
 /// What tells a slave from others without its name.
 std::uint64_t GroupModel::sort_key(const State& state, std::size_t slave) const {
   const std::size_t up = slave - 1;
-  const std::size_t down = up + question_.slaves;
+  const std::size_t down = up + query_.slaves;
   const std::uint64_t member = std::uint64_t{members_[state.member(slave)].orbit} << 32;
-  if (question_.network == Network::channels) return member ^ std::uint64_t{contents_.orbit(state.content(up))} << 16 ^ contents_.orbit(state.content(down));
+  if (query_.network == Network::channels) return member ^ std::uint64_t{contents_.orbit(state.content(up))} << 16 ^ contents_.orbit(state.content(down));
   return member ^ std::uint64_t{members_.word_orbit(state.reg(up))} << 16 ^ members_.word_orbit(state.reg(down));
 }
 
@@ -26,10 +26,10 @@ bool GroupModel::names_matter(const State& state) const {
     seen[count++] = rank;
     return false;
   };
-  for (std::size_t i = 0; i <= question_.slaves; ++i)
+  for (std::size_t i = 0; i <= query_.slaves; ++i)
     if (clashes(members_[state.member(i)].word)) return true;
   for (std::size_t c = 0; c < wiring_.size(); ++c) {
-    if (question_.network == Network::registers) {
+    if (query_.network == Network::registers) {
       if (clashes(state.reg(c))) return true;
       continue;
     }
@@ -44,7 +44,7 @@ State GroupModel::canonical(const State& state) {
   if (renamings_.size() == 1) return state;
   std::array<std::uint64_t, most_slaves + 1> key{};
   bool rises = true;
-  for (std::size_t i = 1; i <= question_.slaves; ++i) {
+  for (std::size_t i = 1; i <= query_.slaves; ++i) {
     key[i] = sort_key(state, i);
     rises = rises && (i == 1 || key[i - 1] < key[i]);
   }
@@ -53,8 +53,8 @@ State GroupModel::canonical(const State& state) {
   bool found = false;
   for (std::size_t r = 0; r < renamings_.size(); ++r) {
     std::array<std::uint64_t, most_slaves + 1> sorted{};
-    for (std::size_t i = 1; i <= question_.slaves; ++i) sorted[renamings_[r].to[i]] = key[i];
-    if (!std::is_sorted(sorted.begin() + 1, sorted.begin() + 1 + question_.slaves)) continue;
+    for (std::size_t i = 1; i <= query_.slaves; ++i) sorted[renamings_[r].to[i]] = key[i];
+    if (!std::is_sorted(sorted.begin() + 1, sorted.begin() + 1 + query_.slaves)) continue;
     const State other = r == 0 ? state : renamed(state, r);
     if (!found || other < least) least = other;
     found = true;
@@ -64,12 +64,12 @@ State GroupModel::canonical(const State& state) {
 
 State GroupModel::renamed(const State& state, std::size_t renaming) const {
   const Renaming& names = renamings_[renaming];
-  const std::size_t slaves = question_.slaves;
+  const std::size_t slaves = query_.slaves;
   State result = state;
   const auto channel = [&](std::size_t c) { return static_cast<std::size_t>(renamed_channel_[c * renamings_.size() + renaming]); };
   for (std::size_t i = 0; i <= slaves; ++i) result.set_member(names.to[i], members_.renamed(state.member(i), renaming));
   for (std::size_t c = 0; c < wiring_.size(); ++c) {
-    if (question_.network == Network::channels) {
+    if (query_.network == Network::channels) {
       result.set_content(channel(c), contents_.renamed(state.content(c), renaming));
       continue;
     }

@@ -31,10 +31,10 @@ Shape shape_of(const TreeShape& tree) {
 
 }  // namespace
 
-TreeModel::TreeModel(const Question& question) : question_(question), tree_(question), shape_(shape_of(tree_)), nodes_(tree_) {
-  TAKT_CHECK(question.variant == handshake::Variant::Robust && question.subscription == handshake::Subscription::Star && question.network == Network::registers,
+TreeModel::TreeModel(const Query& query) : query_(query), tree_(query), shape_(shape_of(tree_)), nodes_(tree_) {
+  TAKT_CHECK(query.variant == handshake::Variant::Robust && query.subscription == handshake::Subscription::Star && query.network == Network::registers,
              "trees are explored with robust in stars on registers");
-  TAKT_CHECK(!question.faults.contains(Fault::duplicate) && !question.faults.contains(Fault::reorder), "no delayed copies in trees");
+  TAKT_CHECK(!query.faults.contains(Fault::duplicate) && !query.faults.contains(Fault::reorder), "no delayed copies in trees");
   list_actions();
   make_beginnings();
 }
@@ -49,21 +49,21 @@ void TreeModel::list_actions() {
   each_channel(ActionKind::send);
   each_channel(ActionKind::receive);
   for (std::size_t p = 0; p < tree_.participants(); ++p) add(ActionKind::initialised, p, 0);
-  if (question_.faults.contains(Fault::crash) || question_.faults.contains(Fault::forge) || question_.joining) each_peer(ActionKind::silence);
+  if (query_.faults.contains(Fault::crash) || query_.faults.contains(Fault::forge) || query_.joining) each_peer(ActionKind::silence);
   end_network();
   for (std::size_t p = 0; p < tree_.participants(); ++p)
     for (std::size_t m = 0; m < program::methods.size(); ++m) add(ActionKind::call, p, m);
-  if (question_.finishes)
+  if (query_.finishes)
     for (std::size_t p = 0; p < tree_.participants(); ++p) add(ActionKind::finish, p, 0);
   end_calls();
-  if (question_.faults.contains(Fault::loss)) each_channel(ActionKind::lose);
+  if (query_.faults.contains(Fault::loss)) each_channel(ActionKind::lose);
   for (std::size_t node = 0; node < tree_.nodes(); ++node) {
-    if (question_.faults.contains(Fault::crash)) add(ActionKind::crash, node, 0);
-    if (question_.faults.contains(Fault::restart) || node == tree_.joining_node()) add(ActionKind::restart, node, 0);
+    if (query_.faults.contains(Fault::crash)) add(ActionKind::crash, node, 0);
+    if (query_.faults.contains(Fault::restart) || node == tree_.joining_node()) add(ActionKind::restart, node, 0);
   }
-  if (question_.faults.contains(Fault::timeout)) each_peer(ActionKind::timeout);
+  if (query_.faults.contains(Fault::timeout)) each_peer(ActionKind::timeout);
   end_free();  // there are many words to forge, and with no fault left none of them is possible
-  if (question_.faults.contains(Fault::forge))
+  if (query_.faults.contains(Fault::forge))
     for (std::size_t p = 0; p < tree_.participants(); ++p)
       for (std::size_t word = 0; word < most_forgeries; ++word) add(ActionKind::forge, p, word);
 }
@@ -79,21 +79,21 @@ State TreeModel::switched_on() {
 /// One that joins is down when all others are switched on; in the other rests it has joined.
 void TreeModel::make_beginnings() {
   for (const Rest& rest : rests()) {
-    const bool joins = question_.joining && !rest.calls.empty();
-    Opening opening(*this, switched_on(), rest.name + std::string(question_.joining && !joins ? ", but for the one that joins" : ""));
+    const bool joins = query_.joining && !rest.calls.empty();
+    Opening opening(*this, switched_on(), rest.name + std::string(query_.joining && !joins ? ", but for the one that joins" : ""));
     if (joins) opening.take({ActionKind::restart, static_cast<std::uint8_t>(tree_.joining_node()), 0});
     for (const Method method : rest.calls) {
       opening.call(method);
       opening.settle(tree_.participants(), tree_.channels(), 12);
     }
     opening.keep(tree_.participants(), rest.state, beginnings_);
-    if (question_.beginnings == Beginnings::switched_on) break;
+    if (query_.beginnings == Beginnings::switched_on) break;
   }
 }
 
 bool TreeModel::act(const State& state, Action action, Next& next) {
   if (!change(state, action, next)) return false;
-  if (question_.faults.contains(Fault::forge)) judge_forgery(*this, state, action, next);
+  if (query_.faults.contains(Fault::forge)) judge_forgery(*this, state, action, next);
   return true;
 }
 
@@ -189,7 +189,7 @@ bool TreeModel::fault(const State& state, Action action, Next& next) {
       next = {state, {}};
       if (possible) next.state.set_member(action.who, nodes_.down(action.who, nodes_[state.member(action.who)].incarnation));
       break;
-    case ActionKind::restart: possible = (is_free || question_.faults.contains(Fault::restart)) && restart(state, action.who, next); break;
+    case ActionKind::restart: possible = (is_free || query_.faults.contains(Fault::restart)) && restart(state, action.who, next); break;
     case ActionKind::forge: possible = forge(state, action, next); break;
     case ActionKind::timeout: possible = expire(state, action, false, next); break;
     default: break;

@@ -17,9 +17,9 @@ namespace takt::explore {
 
 class TreeModel : public ActionList, public ToldApart {
  public:
-  explicit TreeModel(const Question& question);
+  explicit TreeModel(const Query& query);
 
-  const Question& question() const { return question_; }
+  const Query& query() const { return query_; }
   const TreeShape& tree() const { return tree_; }
   const Shape& shape() const { return shape_; }
   const std::vector<Beginning>& beginnings() const { return beginnings_; }
@@ -60,7 +60,7 @@ class TreeModel : public ActionList, public ToldApart {
   void watch(std::size_t node, std::uint32_t effects, Next& next);
   WordId word_of(const State& state, std::size_t participant) const;
 
-  Question question_;
+  Query query_;
   TreeShape tree_;
   Shape shape_;
   TreeNodes nodes_;

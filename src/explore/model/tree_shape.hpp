@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "explore/model/question.hpp"
+#include "explore/model/query.hpp"
 #include "handshake/coupling.hpp"
 #include "handshake/group_tree.hpp"
 
@@ -26,8 +26,8 @@ class TreeShape {
     std::uint8_t peer = 0;      ///< the sender, among the peers of the receiver
   };
 
-  explicit TreeShape(const Question& question)
-      : tree_(groups_of(question)), outer_(question.slaves + 1U), inner_(question.nested() ? question.inner_slaves + 1U : 0U), joins_(question.joining) {
+  explicit TreeShape(const Query& query)
+      : tree_(groups_of(query)), outer_(query.slaves + 1U), inner_(query.nested() ? query.inner_slaves + 1U : 0U), joins_(query.joining) {
     for (std::size_t p = 0; p < participants(); ++p) node_of_[p] = static_cast<std::uint8_t>(p < outer_ ? p : p - 1);
     for (std::size_t group = 0; group < groups(); ++group)
       for (std::size_t i = 1; i < size(group); ++i) {
@@ -75,9 +75,9 @@ class TreeShape {
   std::string node_name(std::size_t node) const { return is_nested(node) ? "the node of " + name(node) + " and inner master" : name(participant_of(node, handshake::Side::Outer)); }
 
  private:
-  static std::vector<handshake::TreeGroup> groups_of(const Question& question) {
-    std::vector<handshake::TreeGroup> groups{{question.slaves + std::size_t{1}, 0, 0}};
-    if (question.nested()) groups.push_back({question.inner_slaves + std::size_t{1}, 0, question.slaves});
+  static std::vector<handshake::TreeGroup> groups_of(const Query& query) {
+    std::vector<handshake::TreeGroup> groups{{query.slaves + std::size_t{1}, 0, 0}};
+    if (query.nested()) groups.push_back({query.inner_slaves + std::size_t{1}, 0, query.slaves});
     return groups;
   }
   void add(std::size_t sender, std::size_t receiver, std::size_t peer) {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "explore/model/question.hpp"
+#include "explore/model/query.hpp"
 
 namespace takt::explore {
 
@@ -15,11 +15,11 @@ inline constexpr std::size_t most_channels = 12;
 
 class Wiring {
  public:
-  explicit Wiring(const Question& question) {
-    const std::size_t slaves = question.slaves;
+  explicit Wiring(const Query& query) {
+    const std::size_t slaves = query.slaves;
     for (std::size_t i = 1; i <= slaves; ++i) add(i, 0);
     for (std::size_t i = 1; i <= slaves; ++i) add(0, i);
-    if (question.subscription == handshake::Subscription::Star) return;
+    if (query.subscription == handshake::Subscription::Star) return;
     for (std::size_t from = 1; from <= slaves; ++from)
       for (std::size_t to = 1; to <= slaves; ++to)
         if (from != to) add(from, to);

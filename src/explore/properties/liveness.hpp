@@ -173,7 +173,7 @@ Liveness judge_cycles(M& model, const StateStore& store, const Watcher& watcher)
 
 /// The network steps inside a component from one state back to itself; in the stored, canonical names.
 template <Model M>
-std::vector<StateStore::Position> lap(M& model, const StateStore& store, const FairCycle& cycle) {
+std::vector<StateStore::Position> once_around(M& model, const StateStore& store, const FairCycle& cycle) {
   using Position = StateStore::Position;
   Graph<M> graph(model, store);
   std::vector<Position> from(cycle.component.size(), StateStore::nowhere);

@@ -67,9 +67,9 @@ class Drawing {
   const Chart& chart_;
 };
 
-std::vector<std::string> states_of(const Told& told) {
+std::vector<std::string> states_of(const ReplayStep& done) {
   std::vector<std::string> states;
-  for (std::size_t i = 0; i < told.states.size(); ++i) states.push_back(told.down[i] ? down_state : std::string(handshake::name_of(told.states[i])));
+  for (std::size_t i = 0; i < done.states.size(); ++i) states.push_back(done.down[i] ? down_state : std::string(handshake::name_of(done.states[i])));
   return states;
 }
 
@@ -108,39 +108,39 @@ std::string sentence(const Happening& it) {
   return {};
 }
 
-std::string sentence(const Told& told, const Wiring& wiring) {
-  return sentence({told.action.kind, participant_name(told.action.who), participant_name(wiring.sender(told.channel)), participant_name(wiring.receiver(told.channel)),
-                   participant_name(peer_participant(told.action.who, told.action.what)), text_of(told.word, participant_name(told.word.intent.origin)), told.action.what,
-                   told.is_overtaking, false});
+std::string sentence(const ReplayStep& done, const Wiring& wiring) {
+  return sentence({done.action.kind, participant_name(done.action.who), participant_name(wiring.sender(done.channel)), participant_name(wiring.receiver(done.channel)),
+                   participant_name(peer_participant(done.action.who, done.action.what)), text_of(done.word, participant_name(done.word.intent.origin)), done.action.what,
+                   done.is_overtaking, false});
 }
 
-std::string chart(const Question& question, const Story& story) {
-  const Wiring wiring(question);
+std::string chart(const Query& query, const Replay& replayed) {
+  const Wiring wiring(query);
   Chart chart;
-  for (std::size_t i = 0; i <= question.slaves; ++i) chart.names.push_back(participant_name(i));
-  chart.beginning = story.beginning;
+  for (std::size_t i = 0; i <= query.slaves; ++i) chart.names.push_back(participant_name(i));
+  chart.beginning = replayed.beginning;
   chart.states.assign(chart.names.size(), std::string(handshake::name_of(handshake::PublishedState::Halted)));
-  if (!story.opening_steps.empty()) chart.states = states_of(story.opening_steps.back());
-  chart.cycle = story.cycle;
-  for (const Told& told : story.steps) {
+  if (!replayed.opening_steps.empty()) chart.states = states_of(replayed.opening_steps.back());
+  chart.cycle = replayed.cycle;
+  for (const ReplayStep& done : replayed.steps) {
     ChartStep& step = chart.steps.emplace_back();
-    step.sentence = sentence(told, wiring);
-    step.states = states_of(told);
-    const bool heard = told.action.kind == ActionKind::receive || told.action.kind == ActionKind::deliver_late;
-    if (heard) step.arrow = {wiring.sender(told.channel), wiring.receiver(told.channel)};
-    else step.marked = {told.actor};
-    step.mark = mark_of(told.action.kind);
-    for (const handshake::Violation& violation : told.violations)
+    step.sentence = sentence(done, wiring);
+    step.states = states_of(done);
+    const bool heard = done.action.kind == ActionKind::receive || done.action.kind == ActionKind::deliver_late;
+    if (heard) step.arrow = {wiring.sender(done.channel), wiring.receiver(done.channel)};
+    else step.marked = {done.actor};
+    step.mark = mark_of(done.action.kind);
+    for (const handshake::Violation& violation : done.violations)
       step.findings.push_back("violates " + std::string(handshake::name_of(violation.invariant)) + ": " + participant_name(violation.participant) + " " +
                               std::string(handshake::text_of(violation.finding)));
-    if (!told.broken.empty()) step.findings.push_back("breaks " + told.broken);
+    if (!done.broken.empty()) step.findings.push_back("breaks " + done.broken);
   }
   return drawn(chart);
 }
 
-std::string chart(const Question& question, const Beginning& beginning, const Trace& trace) {
-  if (question.has_roles()) return drawn(chart_of_roles(question, beginning, trace));
-  return question.is_tree() ? drawn(chart_of_tree(question, beginning, trace)) : chart(question, replay(question, beginning, trace));
+std::string chart(const Query& query, const Beginning& beginning, const Trace& trace) {
+  if (query.has_roles()) return drawn(chart_of_roles(query, beginning, trace));
+  return query.is_tree() ? drawn(chart_of_tree(query, beginning, trace)) : chart(query, replay(query, beginning, trace));
 }
 
 }  // namespace takt::explore

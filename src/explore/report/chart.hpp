@@ -57,13 +57,13 @@ constexpr char mark_of(ActionKind kind) { return kind == ActionKind::send ? 'o' 
 /// "master", "slave 1", ...
 std::string participant_name(std::size_t participant);
 /// What happens, in a sentence.
-std::string sentence(const Told& told, const Wiring& wiring);
+std::string sentence(const ReplayStep& done, const Wiring& wiring);
 /// Of a single group.
-std::string chart(const Question& question, const Story& story);
-/// These go through the run once more with its model (retelling.hpp).
-Chart chart_of_tree(const Question& question, const Beginning& beginning, const Trace& trace);
-Chart chart_of_roles(const Question& question, const Beginning& beginning, const Trace& trace);
-/// Of whatever the question is of.
-std::string chart(const Question& question, const Beginning& beginning, const Trace& trace);
+std::string chart(const Query& query, const Replay& replayed);
+/// These go through the run once more with its model (model_chart.hpp).
+Chart chart_of_tree(const Query& query, const Beginning& beginning, const Trace& trace);
+Chart chart_of_roles(const Query& query, const Beginning& beginning, const Trace& trace);
+/// Of whatever the query is of.
+std::string chart(const Query& query, const Beginning& beginning, const Trace& trace);
 
 }  // namespace takt::explore

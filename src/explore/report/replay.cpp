@@ -26,44 +26,44 @@ constexpr std::uint16_t far_ahead = 1000;
 
 class Player {
  public:
-  explicit Player(const Question& question)
-      : question_(question), wiring_(question), observer_(question.variant, question.slaves + 1U), sequence_(question.slaves + 1U, 0),
-        down_(question.slaves + 1U, false), register_(wiring_.size()), in_flight_(wiring_.size()) {
-    for (std::size_t i = 0; i <= question.slaves; ++i) members_.push_back(Participant(config(i, 1)));
+  explicit Player(const Query& query)
+      : query_(query), wiring_(query), observer_(query.variant, query.slaves + 1U), sequence_(query.slaves + 1U, 0),
+        down_(query.slaves + 1U, false), register_(wiring_.size()), in_flight_(wiring_.size()) {
+    for (std::size_t i = 0; i <= query.slaves; ++i) members_.push_back(Participant(config(i, 1)));
   }
 
-  Told play(Action action) {
-    Told told;
-    told.action = action;
+  ReplayStep play(Action action) {
+    ReplayStep done;
+    done.action = action;
     const std::size_t before = observer_.violations().size();
     try {
-      act(action, told);
+      act(action, done);
     } catch (const sim::InvariantBroken& broken) {
-      told.broken = broken.what();
+      done.broken = broken.what();
     }
-    for (std::size_t i = 0; i < members_.size(); ++i) told.states.push_back(members_[i].state());
-    told.down = down_;
-    told.violations.assign(observer_.violations().begin() + static_cast<std::ptrdiff_t>(before), observer_.violations().end());
-    return told;
+    for (std::size_t i = 0; i < members_.size(); ++i) done.states.push_back(members_[i].state());
+    done.down = down_;
+    done.violations.assign(observer_.violations().begin() + static_cast<std::ptrdiff_t>(before), observer_.violations().end());
+    return done;
   }
 
  private:
   handshake::Config config(std::size_t index, std::uint32_t incarnation) const {
-    return {question_.variant, index == 0 ? handshake::Role::Master : handshake::Role::Slave, static_cast<std::uint8_t>(index),
-            question_.slaves, incarnation, question_.subscription};
+    return {query_.variant, index == 0 ? handshake::Role::Master : handshake::Role::Slave, static_cast<std::uint8_t>(index),
+            query_.slaves, incarnation, query_.subscription};
   }
 
-  void act(Action action, Told& told) {
-    told.actor = action.who;
+  void act(Action action, ReplayStep& done) {
+    done.actor = action.who;
     switch (action.kind) {
-      case ActionKind::send: publish(action.who, told); break;
-      case ActionKind::receive: hear(action.who, on_channels() ? taken(action.who, next_in(action.who)) : register_[action.who], told); break;
+      case ActionKind::send: publish(action.who, done); break;
+      case ActionKind::receive: hear(action.who, on_channels() ? taken(action.who, next_in(action.who)) : register_[action.who], done); break;
       case ActionKind::deliver_late:
         if (on_channels()) {
-          hear(action.who, taken(action.who, action.what), told);
+          hear(action.who, taken(action.who, action.what), done);
           break;
         }
-        hear(late_channel_, late_, told);
+        hear(late_channel_, late_, done);
         late_ = {};
         break;
       case ActionKind::initialised: step(action.who, Input::initialised(members_[action.who].intent().run)); break;
@@ -80,20 +80,20 @@ class Player {
       case ActionKind::finish: step(action.who, Input::finished()); break;
       case ActionKind::lose:
         if (on_channels()) {
-          tell_channel(action.who, taken(action.who, action.what).word, told);
+          tell_channel(action.who, taken(action.who, action.what).word, done);
           break;
         }
-        tell_channel(action.who, register_[action.who].word, told);
+        tell_channel(action.who, register_[action.who].word, done);
         register_[action.who] = {};
         break;
-      case ActionKind::duplicate: hold(action.who, told); break;
+      case ActionKind::duplicate: hold(action.who, done); break;
       case ActionKind::reorder:
-        hold(action.who, told);
+        hold(action.who, done);
         if (on_channels()) break;
-        publish(action.who, told);
-        told.is_overtaking = true;
+        publish(action.who, done);
+        done.is_overtaking = true;
         break;
-      case ActionKind::forge: forge(action, told); break;
+      case ActionKind::forge: forge(action, done); break;
       case ActionKind::crash: down_[action.who] = true; break;
       case ActionKind::join:
       case ActionKind::leave: break;  // of candidates
@@ -112,7 +112,7 @@ class Player {
     observer_.on_step(who, outputs, members_[who].word());
     return outputs;
   }
-  bool on_channels() const { return question_.network == Network::channels; }
+  bool on_channels() const { return query_.network == Network::channels; }
   /// The first message that does not stray.
   std::size_t next_in(std::size_t channel) const {
     const std::vector<Sent>& sent = in_flight_[channel];
@@ -124,53 +124,53 @@ class Player {
     in_flight_[channel].erase(in_flight_[channel].begin() + static_cast<std::ptrdiff_t>(position));
     return sent;
   }
-  void tell_channel(std::size_t channel, const Word& word, Told& told) const {
-    told.channel = channel;
-    told.actor = wiring_.sender(channel);
-    told.word = word;
-    told.has_word = true;
+  void tell_channel(std::size_t channel, const Word& word, ReplayStep& done) const {
+    done.channel = channel;
+    done.actor = wiring_.sender(channel);
+    done.word = word;
+    done.has_word = true;
   }
-  void publish(std::size_t channel, Told& told) {
+  void publish(std::size_t channel, ReplayStep& done) {
     const std::size_t sender = wiring_.sender(channel);
     register_[channel] = {members_[sender].word(), ++sequence_[sender], observer_.sending_run(sender), true, false};
     if (on_channels()) in_flight_[channel].push_back(register_[channel]);
-    tell_channel(channel, register_[channel].word, told);
+    tell_channel(channel, register_[channel].word, done);
   }
   /// One packet to all who hear that participant. A number that it has used or will use, or one far ahead.
-  void forge(Action action, Told& told) {
+  void forge(Action action, ReplayStep& done) {
     const Participant now = down_[action.who] ? Participant(config(action.who, members_[action.who].config().incarnation)) : members_[action.who];
-    const Letter letter = forgeries(now.word(), question_.slaves)[action.what];
+    const Letter letter = forgeries(now.word(), query_.slaves)[action.what];
     const auto sequence = static_cast<std::uint16_t>(sequence_[action.who] + (letter.ahead ? far_ahead : 0));
     for (std::size_t c = 0; c < wiring_.size(); ++c) {
       if (wiring_.sender(c) != action.who) continue;
       const Sent sent{letter.word, sequence, 0, true, false};
-      if (on_channels() && in_flight_[c].size() < question_.capacity) in_flight_[c].push_back(sent);
+      if (on_channels() && in_flight_[c].size() < query_.capacity) in_flight_[c].push_back(sent);
       register_[c] = sent;
     }
-    told.word = letter.word;
-    told.has_word = true;
-    told.is_overtaking = letter.ahead;
+    done.word = letter.word;
+    done.has_word = true;
+    done.is_overtaking = letter.ahead;
   }
-  void hold(std::size_t channel, Told& told) {
+  void hold(std::size_t channel, ReplayStep& done) {
     if (on_channels()) {
       const std::size_t next = next_in(channel);
       Sent sent = in_flight_[channel][next];
       sent.strays = true;
-      tell_channel(channel, sent.word, told);
-      if (told.action.kind == ActionKind::reorder) in_flight_[channel][next] = sent;
+      tell_channel(channel, sent.word, done);
+      if (done.action.kind == ActionKind::reorder) in_flight_[channel][next] = sent;
       else in_flight_[channel].insert(in_flight_[channel].begin() + static_cast<std::ptrdiff_t>(next), sent);
       return;
     }
     late_ = register_[channel];
     late_channel_ = channel;
-    tell_channel(channel, late_.word, told);
+    tell_channel(channel, late_.word, done);
   }
-  void hear(std::size_t channel, const Sent message, Told& told) {
+  void hear(std::size_t channel, const Sent message, ReplayStep& done) {
     TAKT_CHECK(message.present, "only what was published is heard");
     const std::size_t from = wiring_.sender(channel);
     const std::size_t to = wiring_.receiver(channel);
-    tell_channel(channel, message.word, told);
-    told.actor = to;
+    tell_channel(channel, message.word, done);
+    done.actor = to;
     if (down_[to]) return;
     const std::size_t peer = wiring_.peer(channel);
     const Outputs outputs = step(to, Input::received(peer, message.word, message.sequence));
@@ -178,7 +178,7 @@ class Player {
       observer_.on_process_data(from, to, message.sent_in);
   }
 
-  Question question_;
+  Query query_;
   Wiring wiring_;
   handshake::Observer observer_;
   std::vector<Participant> members_;
@@ -196,23 +196,23 @@ constexpr handshake::Invariant invariant_of(Property property) {
 
 }  // namespace
 
-Story replay(const Question& question, const Beginning& beginning, const Trace& trace) {
-  Story story;
-  story.beginning = beginning.name;
-  story.cycle = trace.cycle;
-  Player player(question);
-  for (const Action action : beginning.actions) story.opening_steps.push_back(player.play(action));
+Replay replay(const Query& query, const Beginning& beginning, const Trace& trace) {
+  Replay replayed;
+  replayed.beginning = beginning.name;
+  replayed.cycle = trace.cycle;
+  Player player(query);
+  for (const Action action : beginning.actions) replayed.opening_steps.push_back(player.play(action));
   for (const Action action : trace.actions) {
-    story.steps.push_back(player.play(action));
-    if (!story.steps.back().broken.empty()) break;
+    replayed.steps.push_back(player.play(action));
+    if (!replayed.steps.back().broken.empty()) break;
   }
-  return story;
+  return replayed;
 }
 
-bool observed(const Story& story, Property property) {
+bool observed(const Replay& replayed, Property property) {
   if (property > Property::S5) return false;
-  return std::any_of(story.steps.begin(), story.steps.end(), [&](const Told& told) {
-    return std::any_of(told.violations.begin(), told.violations.end(),
+  return std::any_of(replayed.steps.begin(), replayed.steps.end(), [&](const ReplayStep& done) {
+    return std::any_of(done.violations.begin(), done.violations.end(),
                        [&](const handshake::Violation& each) { return each.invariant == invariant_of(property); });
   });
 }

@@ -14,7 +14,7 @@
 namespace takt::explore {
 
 /// One step of the run.
-struct Told {
+struct ReplayStep {
   Action action;
   std::vector<handshake::PublishedState> states;  ///< of all, after it
   std::vector<bool> down;
@@ -27,17 +27,17 @@ struct Told {
   std::string broken;             ///< the CHECK that it breaks; then nothing follows
 };
 
-struct Story {
+struct Replay {
   std::string beginning;
-  std::vector<Told> opening_steps;  ///< calls and messages that lead to the beginning
-  std::vector<Told> steps;
+  std::vector<ReplayStep> opening_steps;  ///< calls and messages that lead to the beginning
+  std::vector<ReplayStep> steps;
   std::size_t cycle = 0;          ///< of Trace
 };
 
 /// Plays the trace from switched on.
-Story replay(const Question& question, const Beginning& beginning, const Trace& trace);
+Replay replay(const Query& query, const Beginning& beginning, const Trace& trace);
 
 /// The invariant that the observer reports for a property; false for L1, F1 and whatever must be reached.
-bool observed(const Story& story, Property property);
+bool observed(const Replay& replayed, Property property);
 
 }  // namespace takt::explore

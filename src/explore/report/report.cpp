@@ -9,11 +9,11 @@ namespace {
 
 std::string variant_name(handshake::Variant variant) { return variant == handshake::Variant::Paper ? "paper" : "robust"; }
 
-std::string fault_list(const Question& question, const char* before, const char* between, const char* after) {
+std::string fault_list(const Query& query, const char* before, const char* between, const char* after) {
   std::string text;
   for (std::size_t f = 0; f < fault_count; ++f) {
     const auto fault = static_cast<Fault>(f);
-    if (question.faults.contains(fault)) text += (text.empty() ? "" : between) + std::string(before) + std::string(name_of(fault)) + after;
+    if (query.faults.contains(fault)) text += (text.empty() ? "" : between) + std::string(before) + std::string(name_of(fault)) + after;
   }
   return text;
 }
@@ -31,86 +31,86 @@ std::string padded(std::string text, std::size_t width) {
 
 const char* yes(bool value) { return value ? "true" : "false"; }
 
-std::string verdict_line(const Answer& answer, std::size_t p) {
-  std::string line = "  " + padded(std::string(property_names[p]), 20) + padded(std::string(name_of(answer.verdicts[p])), 10);
-  if (answer.traces[p]) line += "after " + std::to_string(answer.traces[p]->actions.size()) + " steps from \"" + answer.beginnings[answer.traces[p]->beginning].name + "\"; ";
+std::string verdict_line(const SearchResult& result, std::size_t p) {
+  std::string line = "  " + padded(std::string(property_names[p]), 20) + padded(std::string(name_of(result.verdicts[p])), 10);
+  if (result.traces[p]) line += "after " + std::to_string(result.traces[p]->actions.size()) + " steps from \"" + result.beginnings[result.traces[p]->beginning].name + "\"; ";
   return line + std::string(property_texts[p]) + "\n";
 }
 
-std::string counter_example(const Question& question, const Answer& answer, Property property, const Trace& trace) {
-  const Beginning& beginning = answer.beginnings[trace.beginning];
+std::string counter_example(const Query& query, const SearchResult& result, Property property, const Trace& trace) {
+  const Beginning& beginning = result.beginnings[trace.beginning];
   std::string text = "\n" + std::string(name_of(property)) + " is violated: " + std::string(property_texts[index_of(property)]) + "\n\n" +
-                     chart(question, beginning, trace);
+                     chart(query, beginning, trace);
   if (property == Property::L1 || property == Property::F1) text += trace.cycle == 0 ? "      and nothing changes any more\n" : "      and so for ever\n";
   return text;
 }
 
 }  // namespace
 
-std::string question_line(const Question& question) {
-  const std::string faults = fault_list(question, "", ", ", "");
-  const std::string network = question.network == Network::registers ? "" : ", channels of " + std::to_string(question.capacity);
-  const std::string subscription = question.subscription == handshake::Subscription::Star ? "" : ", all-to-all";
-  const std::string inner = !question.nested() ? "" : ", the last of them master of " + std::to_string(question.inner_slaves) + (question.inner_slaves == 1 ? " inner slave" : " inner slaves");
-  const std::string joining = !question.joining ? "" : question.nested() ? ", the last inner slave joins" : ", the last slave joins";
-  const std::string beginnings = question.beginnings == Beginnings::all ? "" : ", switched on";
-  const std::string of = question.has_roles() ? " role" : " slave";
-  const std::string candidates = !question.has_roles() ? "" : " for " + std::to_string(question.candidates) + (question.candidates == 1 ? " candidate" : " candidates") + (question.starts_again ? ", started again after a replacement" : "");
-  return variant_name(question.variant) + ", 1 master and " + std::to_string(question.slaves) + of + (question.slaves == 1 ? "" : "s") + candidates + inner + joining + subscription + network + beginnings +
+std::string query_line(const Query& query) {
+  const std::string faults = fault_list(query, "", ", ", "");
+  const std::string network = query.network == Network::registers ? "" : ", channels of " + std::to_string(query.capacity);
+  const std::string subscription = query.subscription == handshake::Subscription::Star ? "" : ", all-to-all";
+  const std::string inner = !query.nested() ? "" : ", the last of them master of " + std::to_string(query.inner_slaves) + (query.inner_slaves == 1 ? " inner slave" : " inner slaves");
+  const std::string joining = !query.joining ? "" : query.nested() ? ", the last inner slave joins" : ", the last slave joins";
+  const std::string beginnings = query.beginnings == Beginnings::all ? "" : ", switched on";
+  const std::string of = query.has_roles() ? " role" : " slave";
+  const std::string candidates = !query.has_roles() ? "" : " for " + std::to_string(query.candidates) + (query.candidates == 1 ? " candidate" : " candidates") + (query.starts_again ? ", started again after a replacement" : "");
+  return variant_name(query.variant) + ", 1 master and " + std::to_string(query.slaves) + of + (query.slaves == 1 ? "" : "s") + candidates + inner + joining + subscription + network + beginnings +
          "; in a run at most " +
-         std::to_string(question.commands) + (question.has_roles() ? " calls, joins and leaves and " : " calls and ") +
-         (faults.empty() ? "no fault" : std::to_string(question.fault_budget) + (question.fault_budget == 1 ? " fault of: " : " faults of: ") + faults);
+         std::to_string(query.commands) + (query.has_roles() ? " calls, joins and leaves and " : " calls and ") +
+         (faults.empty() ? "no fault" : std::to_string(query.fault_budget) + (query.fault_budget == 1 ? " fault of: " : " faults of: ") + faults);
 }
 
-std::string text_report(const Question& question, const Answer& answer, double cpu_s) {
-  std::string text = question_line(question) + "\n";
-  text += std::to_string(answer.states) + " states, " + std::to_string(answer.transitions) + " steps, depth " + std::to_string(answer.depth) + ", " +
-          fixed(cpu_s, 2) + " s CPU, " + fixed(static_cast<double>(answer.octets) / static_cast<double>(answer.states), 1) + " octets a state, " +
-          (answer.symmetry ? "slaves are equal" : "slaves are told apart") + "\n";
-  text += answer.exhausted ? "The whole space was searched.\n"
-                           : answer.interrupted ? "Interrupted: what was found until then.\n" : "Not the whole space was searched: the limit of states or depth was reached.\n";
+std::string text_report(const Query& query, const SearchResult& result, double cpu_s) {
+  std::string text = query_line(query) + "\n";
+  text += std::to_string(result.states) + " states, " + std::to_string(result.transitions) + " steps, depth " + std::to_string(result.depth) + ", " +
+          fixed(cpu_s, 2) + " s CPU, " + fixed(static_cast<double>(result.octets) / static_cast<double>(result.states), 1) + " octets a state, " +
+          (result.symmetry ? "slaves are equal" : "slaves are told apart") + "\n";
+  text += result.exhausted ? "The whole space was searched.\n"
+                           : result.interrupted ? "Interrupted: what was found until then.\n" : "Not the whole space was searched: the limit of states or depth was reached.\n";
   for (std::size_t p = 0; p < property_count; ++p)
-    if (answer.verdicts[p] != Verdict::not_asked) text += verdict_line(answer, p);
+    if (result.verdicts[p] != Verdict::not_asked) text += verdict_line(result, p);
   for (std::size_t p = 0; p < property_count; ++p)
-    if (answer.verdicts[p] == Verdict::violated && answer.traces[p]) text += counter_example(question, answer, static_cast<Property>(p), *answer.traces[p]);
-  const bool is_new = answer.chase && answer.traces[index_of(Property::L1)] && answer.traces[index_of(Property::L1)]->cycle == 0;
-  if (is_new) text += counter_example(question, answer, Property::L1, *answer.chase);
+    if (result.verdicts[p] == Verdict::violated && result.traces[p]) text += counter_example(query, result, static_cast<Property>(p), *result.traces[p]);
+  const bool is_new = result.livelock && result.traces[index_of(Property::L1)] && result.traces[index_of(Property::L1)]->cycle == 0;
+  if (is_new) text += counter_example(query, result, Property::L1, *result.livelock);
   return text;
 }
 
-std::string json_report(const std::string& program, const Question& question, const Answer& answer, double cpu_s) {
+std::string json_report(const std::string& program, const Query& query, const SearchResult& result, double cpu_s) {
   const auto quoted = [](std::string_view text) { return "\"" + std::string(text) + "\""; };
   const std::vector<std::pair<std::string, std::string>> members{
-      {"variant", quoted(variant_name(question.variant))},
-      {"slaves", std::to_string(question.slaves)},
-      {"subscription", quoted(question.subscription == handshake::Subscription::Star ? "star" : "all-to-all")},
-      {"nested", yes(question.nested())},
-      {"inner_slaves", std::to_string(question.inner_slaves)},
-      {"joining", yes(question.joining)},
-      {"candidates", std::to_string(question.candidates)},
-      {"network", quoted(question.network == Network::registers ? "registers" : "channels=" + std::to_string(question.capacity))},
-      {"beginnings", quoted(question.beginnings == Beginnings::all ? "all" : "switched-on")},
-      {"faults", "[" + fault_list(question, "\"", ", ", "\"") + "]"},
-      {"fault_budget", std::to_string(question.fault_budget)},
-      {"calls", std::to_string(question.commands)},
-      {"states", std::to_string(answer.states)},
-      {"steps", std::to_string(answer.transitions)},
-      {"quiescent", std::to_string(answer.quiescent)},
-      {"depth", std::to_string(answer.depth)},
+      {"variant", quoted(variant_name(query.variant))},
+      {"slaves", std::to_string(query.slaves)},
+      {"subscription", quoted(query.subscription == handshake::Subscription::Star ? "star" : "all-to-all")},
+      {"nested", yes(query.nested())},
+      {"inner_slaves", std::to_string(query.inner_slaves)},
+      {"joining", yes(query.joining)},
+      {"candidates", std::to_string(query.candidates)},
+      {"network", quoted(query.network == Network::registers ? "registers" : "channels=" + std::to_string(query.capacity))},
+      {"beginnings", quoted(query.beginnings == Beginnings::all ? "all" : "switched-on")},
+      {"faults", "[" + fault_list(query, "\"", ", ", "\"") + "]"},
+      {"fault_budget", std::to_string(query.fault_budget)},
+      {"calls", std::to_string(query.commands)},
+      {"states", std::to_string(result.states)},
+      {"steps", std::to_string(result.transitions)},
+      {"quiescent", std::to_string(result.quiescent)},
+      {"depth", std::to_string(result.depth)},
       {"cpu_s", fixed(cpu_s, 3)},
-      {"exhausted", yes(answer.exhausted)},
-      {"interrupted", yes(answer.interrupted)},
-      {"symmetry", yes(answer.symmetry)},
-      {"octets", std::to_string(answer.octets)},
-      {"octets_per_state", fixed(static_cast<double>(answer.octets) / static_cast<double>(answer.states), 1)}};
+      {"exhausted", yes(result.exhausted)},
+      {"interrupted", yes(result.interrupted)},
+      {"symmetry", yes(result.symmetry)},
+      {"octets", std::to_string(result.octets)},
+      {"octets_per_state", fixed(static_cast<double>(result.octets) / static_cast<double>(result.states), 1)}};
   std::string text = "{";
   if (!program.empty()) text += "\n  \"program\": " + quoted(program) + ",";
   for (const auto& [key, value] : members) text += "\n  " + quoted(key) + ": " + value + ",";
   text += "\n  \"properties\": {";
   bool first = true;
   for (std::size_t p = 0; p < property_count; ++p) {
-    if (answer.verdicts[p] == Verdict::not_asked) continue;
-    text += (first ? "\n    " : ",\n    ") + quoted(property_names[p]) + ": " + quoted(name_of(answer.verdicts[p]));
+    if (result.verdicts[p] == Verdict::not_asked) continue;
+    text += (first ? "\n    " : ",\n    ") + quoted(property_names[p]) + ": " + quoted(name_of(result.verdicts[p]));
     first = false;
   }
   return text + "\n  }\n}";

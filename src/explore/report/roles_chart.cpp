@@ -1,5 +1,5 @@
 #include "explore/model/roles_model.hpp"
-#include "explore/report/retelling.hpp"
+#include "explore/report/model_chart.hpp"
 
 namespace takt::explore {
 namespace {
@@ -9,7 +9,7 @@ std::string role_name(std::size_t role) { return "role " + std::to_string(role +
 
 struct Words {
   static constexpr std::size_t width = 20;
-  explicit Words(const Question& question) : model(question) {}
+  explicit Words(const Query& query) : model(query) {}
   RolesModel model;
 
   std::vector<std::string> names() const {
@@ -19,7 +19,7 @@ struct Words {
   }
   std::vector<std::string> states(const State& state) const {
     std::vector<std::string> states{model.is_down(state, 0) ? down_state : std::string(handshake::name_of(model.state_of(state, 0)))};
-    for (std::size_t c = 0; c < model.question().candidates; ++c) {
+    for (std::size_t c = 0; c < model.query().candidates; ++c) {
       const Stations::Node& node = model.node(state, c);
       if (node.down) states.emplace_back(down_state);
       else if (node.member) states.push_back(std::string(handshake::name_of(node.member->state())) + ", " + role_name(node.member->config().index - 1U));
@@ -67,6 +67,6 @@ struct Words {
 
 }  // namespace
 
-Chart chart_of_roles(const Question& question, const Beginning& beginning, const Trace& trace) { return told_with<Words>(question, beginning, trace); }
+Chart chart_of_roles(const Query& query, const Beginning& beginning, const Trace& trace) { return chart_with<Words>(query, beginning, trace); }
 
 }  // namespace takt::explore

@@ -20,7 +20,7 @@ std::string node_of(std::size_t participant) { return participant == 0 ? "master
 /// Finds a time for each step. The run is walked once; only the order of what depends on each other counts.
 class Scheduler {
  public:
-  Scheduler(const Question& question, std::vector<Told> steps) : slaves_(question.slaves), wiring_(question), steps_(std::move(steps)) {
+  Scheduler(const Query& query, std::vector<ReplayStep> steps) : slaves_(query.slaves), wiring_(query), steps_(std::move(steps)) {
     heard_.resize(wiring_.size());
     since_.resize(slaves_ + 1, 0);
     initialising_.resize(slaves_ + 1, 0);
@@ -51,39 +51,39 @@ class Scheduler {
  private:
   /// A time for one step.
   void place(std::size_t step) {
-    const Told& told = steps_[step];
-    switch (told.action.kind) {
+    const ReplayStep& done = steps_[step];
+    switch (done.action.kind) {
       case ActionKind::send:
         if (is_crossing(step)) open_flight();
         break;
       case ActionKind::lose: break;
       case ActionKind::silence: break;  // comes by itself
       case ActionKind::receive: hear(step); break;
-      case ActionKind::initialised: initialise(told); break;
+      case ActionKind::initialised: initialise(done); break;
       case ActionKind::call:
         if (hears_old_data(step)) open_flight();
         advance();
-        calls_.push_back({now_, std::string(program::methods[told.action.what].name), told.action.who});
-        changed(told);
+        calls_.push_back({now_, std::string(program::methods[done.action.what].name), done.action.who});
+        changed(done);
         break;
       case ActionKind::crash:
         advance();
-        crashes_.push_back({now_, told.action.who, std::nullopt});
+        crashes_.push_back({now_, done.action.who, std::nullopt});
         break;
-      case ActionKind::restart: restart(told); break;
-      default: missing_.push_back(sentence(told, wiring_)); break;
+      case ActionKind::restart: restart(done); break;
+      default: missing_.push_back(sentence(done, wiring_)); break;
     }
   }
 
   /// The sender changes before this word is heard, so it has to be in flight then.
   bool is_crossing(std::size_t step) const {
-    const Told& sent = steps_[step];
+    const ReplayStep& sent = steps_[step];
     bool sender_moved = false;
     for (std::size_t i = step + 1; i < steps_.size(); ++i) {
-      const Told& told = steps_[i];
-      if (told.action.kind == ActionKind::send && told.action.who == sent.action.who) return false;
-      if (told.action.kind == ActionKind::receive && told.action.who == sent.action.who) return sender_moved;
-      sender_moved = sender_moved || told.states[sent.actor] != sent.states[sent.actor];
+      const ReplayStep& done = steps_[i];
+      if (done.action.kind == ActionKind::send && done.action.who == sent.action.who) return false;
+      if (done.action.kind == ActionKind::receive && done.action.who == sent.action.who) return sender_moved;
+      sender_moved = sender_moved || done.states[sent.actor] != sent.states[sent.actor];
     }
     return false;
   }
@@ -105,49 +105,49 @@ class Scheduler {
   }
 
   void hear(std::size_t step) {
-    const Told& told = steps_[step];
-    const std::size_t channel = told.channel;
+    const ReplayStep& done = steps_[step];
+    const std::size_t channel = done.channel;
     const std::size_t sender = wiring_.sender(channel);
-    const bool changes = step == 0 || steps_[step - 1].states != told.states || !told.violations.empty() || told.word.state != last_heard(step);
+    const bool changes = step == 0 || steps_[step - 1].states != done.states || !done.violations.empty() || done.word.state != last_heard(step);
     if (!changes) return;  // it hears what it knows
     std::int64_t sent = flight_ >= 0 && now_ <= flight_ * period + flight ? flight_ : -1;
     const bool in_flight = sent >= 0 && steps_[step].word.state == state_at(sender, sent * period);
     if (!in_flight) {
       sent = (now_ - 1) / period;  // the arrival may be of the last publishing, if the sender has said it then
       if (sent < 0 || sent * period + flight < now_ || since_[sender] >= sent * period || taken(channel, sent)) sent = (now_ / period) + 1;
-      if (told.word.state != state_[sender]) missing_.push_back("a message that is under way while its sender goes on: " + sentence(told, wiring_));
+      if (done.word.state != state_[sender]) missing_.push_back("a message that is under way while its sender goes on: " + sentence(done, wiring_));
     }
     now_ = sent * period + flight;
     heard_[channel].push_back(sent);
-    changed(told);
+    changed(done);
   }
 
-  void initialise(const Told& told) {
-    const std::int64_t due = initialising_[told.action.who] + initialisation;
-    if (due < now_) missing_.push_back("an initialisation that takes longer than others: " + sentence(told, wiring_));
+  void initialise(const ReplayStep& done) {
+    const std::int64_t due = initialising_[done.action.who] + initialisation;
+    if (due < now_) missing_.push_back("an initialisation that takes longer than others: " + sentence(done, wiring_));
     now_ = std::max(now_, due);
-    changed(told);
+    changed(done);
   }
 
-  void restart(const Told& told) {
+  void restart(const ReplayStep& done) {
     advance();
-    if (!crashes_.empty() && crashes_.back().node == told.action.who && !crashes_.back().lasts) {
+    if (!crashes_.empty() && crashes_.back().node == done.action.who && !crashes_.back().lasts) {
       crashes_.back().lasts = now_ - crashes_.back().at;
     } else {
-      crashes_.push_back({now_, told.action.who, 10});
+      crashes_.push_back({now_, done.action.who, 10});
     }
     now_ += 10;
-    changed(told);
+    changed(done);
   }
 
   void advance() { now_ = std::max(now_ + 10, first_call); }
 
-  void changed(const Told& told) {
+  void changed(const ReplayStep& done) {
     for (std::size_t i = 0; i <= slaves_; ++i) {
-      if (told.states[i] == state_[i]) continue;
-      if (told.states[i] == handshake::PublishedState::HaltedInit) initialising_[i] = now_;
+      if (done.states[i] == state_[i]) continue;
+      if (done.states[i] == handshake::PublishedState::HaltedInit) initialising_[i] = now_;
       before_.push_back({i, now_, state_[i]});
-      state_[i] = told.states[i];
+      state_[i] = done.states[i];
       since_[i] = now_;
     }
   }
@@ -171,7 +171,7 @@ class Scheduler {
   };
   std::size_t slaves_;
   Wiring wiring_;
-  std::vector<Told> steps_;
+  std::vector<ReplayStep> steps_;
   std::int64_t now_ = 0;
   std::int64_t flight_ = -1;                  ///< the period whose messages are pinned
   std::vector<std::vector<std::int64_t>> heard_;
@@ -211,11 +211,11 @@ std::string list(const std::vector<std::string>& items) {
 
 }  // namespace
 
-ScenarioText scenario_of(const Question& question, const Story& story, Property property, const std::string& name) {
-  std::vector<Told> steps = story.opening_steps;
-  steps.insert(steps.end(), story.steps.begin(), story.steps.end());
-  const Wiring wiring(question);
-  Scheduler scheduler(question, std::move(steps));
+ScenarioText scenario_of(const Query& query, const Replay& replayed, Property property, const std::string& name) {
+  std::vector<ReplayStep> steps = replayed.opening_steps;
+  steps.insert(steps.end(), replayed.steps.begin(), replayed.steps.end());
+  const Wiring wiring(query);
+  Scheduler scheduler(query, std::move(steps));
   scheduler.run();
   const std::int64_t until = (scheduler.end() / period + 1) * period - 1;
   const std::int64_t duration = until + 1 + (property == Property::L1 || property == Property::F1 ? 250 * period : 2 * period);
@@ -224,7 +224,7 @@ ScenarioText scenario_of(const Question& question, const Story& story, Property 
   std::string links;
   std::string slaves;
   std::vector<std::string> data;
-  for (std::size_t i = 0; i <= question.slaves; ++i) {
+  for (std::size_t i = 0; i <= query.slaves; ++i) {
     nodes += ",\n      \"" + node_of(i) + "\": {\"kind\": \"host\"}";
     links += (i == 0 ? "\n      " : ",\n      ") + std::string("{\"ends\": [\"") + node_of(i) + "\", \"switch\"], \"rate\": \"1Gbps\"}";
     if (i != 0) slaves += (i == 1 ? "\"" : ", \"") + node_of(i) + "\"";
@@ -237,7 +237,7 @@ ScenarioText scenario_of(const Question& question, const Story& story, Property 
     asked = call.method;
   }
   std::vector<std::string> faults;
-  for (std::size_t c = 0; c < 2U * question.slaves; ++c)
+  for (std::size_t c = 0; c < 2U * query.slaves; ++c)
     add_losses(faults, wiring.sender(c), wiring.receiver(c), scheduler.heard(c), until);
   for (const Scheduler::Crash& crash : scheduler.crashes())
     faults.push_back("{\"kind\": \"crash\", \"node\": \"" + node_of(crash.node) + "\", \"at\": " + microseconds(crash.at) +
@@ -249,9 +249,9 @@ ScenarioText scenario_of(const Question& question, const Story& story, Property 
 
   ScenarioText text;
   text.missing = scheduler.missing();
-  if (question.subscription == handshake::Subscription::AllToAll) text.missing.push_back("which of the other slaves hears a slave's message");
+  if (query.subscription == handshake::Subscription::AllToAll) text.missing.push_back("which of the other slaves hears a slave's message");
   std::string head = "// Found by takt explore: " + std::string(name_of(property)) + ", " + std::string(property_texts[index_of(property)]) + ", is violated.\n//\n";
-  const std::string drawn = chart(question, story);
+  const std::string drawn = chart(query, replayed);
   for (std::size_t begin = 0; begin < drawn.size();) {
     const std::size_t end = drawn.find('\n', begin);
     head += "// " + drawn.substr(begin, end - begin) + "\n";
@@ -259,8 +259,8 @@ ScenarioText scenario_of(const Question& question, const Story& story, Property 
   }
   text.json = head + "{\n  \"$schema\": \"../takt.schema.json\",\n  \"name\": \"" + name + "\",\n  \"duration\": " + microseconds(duration) +
               ",\n  \"network\": {\n    \"nodes\": {" + nodes + "\n    },\n    \"links\": [" + links + "\n    ]\n  },\n  \"programs\": [\n    {\n" +
-              "      \"name\": \"group\",\n      \"variant\": \"" + (question.variant == handshake::Variant::Paper ? "paper" : "robust") +
-              "\"," + (question.subscription == handshake::Subscription::AllToAll ? "\n      \"subscription\": \"all-to-all\"," : "") + "\n      \"master\": \"master\",\n      \"slaves\": [" + slaves + "],\n      \"cycle\": " + microseconds(period) +
+              "      \"name\": \"group\",\n      \"variant\": \"" + (query.variant == handshake::Variant::Paper ? "paper" : "robust") +
+              "\"," + (query.subscription == handshake::Subscription::AllToAll ? "\n      \"subscription\": \"all-to-all\"," : "") + "\n      \"master\": \"master\",\n      \"slaves\": [" + slaves + "],\n      \"cycle\": " + microseconds(period) +
               ",\n      \"receive_timeout\": \"100ms\",\n      \"initialisation\": " + microseconds(initialisation) +
               ",\n      \"process_data\": " + list(data) + "\n    }\n  ],\n  \"script\": " + list(script) + ",\n  \"faults\": " + list(faults) +
               ",\n  \"require\": " + list(require) + "\n}\n";

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "explore/model/question.hpp"
+#include "explore/model/query.hpp"
 #include "explore/properties/property.hpp"
 #include "explore/report/replay.hpp"
 
@@ -20,6 +20,6 @@ struct ScenarioText {
 };
 
 /// `name` becomes the scenario's; `property` is what is to be seen.
-ScenarioText scenario_of(const Question& question, const Story& story, Property property, const std::string& name);
+ScenarioText scenario_of(const Query& query, const Replay& replayed, Property property, const std::string& name);
 
 }  // namespace takt::explore

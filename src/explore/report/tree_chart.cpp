@@ -1,12 +1,12 @@
 #include "explore/model/tree_model.hpp"
-#include "explore/report/retelling.hpp"
+#include "explore/report/model_chart.hpp"
 
 namespace takt::explore {
 namespace {
 
 struct Words {
   static constexpr std::size_t width = 15;
-  explicit Words(const Question& question) : model(question), tree(model.tree()) {}
+  explicit Words(const Query& query) : model(query), tree(model.tree()) {}
   TreeModel model;
   const TreeShape& tree;
 
@@ -61,6 +61,6 @@ struct Words {
 
 }  // namespace
 
-Chart chart_of_tree(const Question& question, const Beginning& beginning, const Trace& trace) { return told_with<Words>(question, beginning, trace); }
+Chart chart_of_tree(const Query& query, const Beginning& beginning, const Trace& trace) { return chart_with<Words>(query, beginning, trace); }
 
 }  // namespace takt::explore

@@ -20,18 +20,18 @@ namespace takt::explore {
 template <Model M>
 class Search {
  public:
-  Search(const Question& question, const Watcher& watcher)
-      : watcher_(watcher), model_(question), store_(model_.shape(), question.states) {}
+  Search(const Query& query, const Watcher& watcher)
+      : watcher_(watcher), model_(query), store_(model_.shape(), query.states) {}
 
   /// False if the result would depend on the names of slaves: try again without symmetry.
-  bool run(Answer& answer) {
+  bool run(SearchResult& result) {
     begin();
     while (expanded_ < store_.size() && !ended_) step();
-    answer_.exhausted = !ended_ && !cut_;
-    if (answer_.exhausted && loops_back_ && !judge()) return false;
+    result_.exhausted = !ended_ && !cut_;
+    if (result_.exhausted && loops_back_ && !judge()) return false;
     if (!model_.symmetric() || !trace_all()) return false;
     finish();
-    answer = std::move(answer_);
+    result = std::move(result_);
     return true;
   }
 
@@ -67,7 +67,7 @@ class Search {
       ++depth_;
       level_end_ = store_.size();
     }
-    if (depth_ >= model_.question().depth) {
+    if (depth_ >= model_.query().depth) {
       cut_ = true;
       ended_ = true;
       return;
@@ -84,7 +84,7 @@ class Search {
       watched_ = expanded_;
       if (!watcher_({store_.size(), expanded_, depth_, store_.memory(), false})) {
         ended_ = true;
-        answer_.interrupted = true;
+        result_.interrupted = true;
       }
     }
   }
@@ -96,7 +96,7 @@ class Search {
     for (const Action& action : network)
       if (take(state, position, action, true)) quiescent = false;
     if (quiescent) {
-      ++answer_.quiescent;
+      ++result_.quiescent;
       if (!model_.settled(state)) see(model_.anybody_down(state) ? Property::F1 : Property::L1, position, false);
     }
     for (const Action& action : model_.calls(state)) take(state, position, action, false);
@@ -105,7 +105,7 @@ class Search {
 
   bool take(const State& state, Position position, Action action, bool network) {
     if (!act(state, position, action)) return false;
-    ++answer_.transitions;
+    ++result_.transitions;
     if ((next_.properties.bits & ~seen_.bits) != 0) {
       for (std::size_t p = 0; p < property_count; ++p)
         if (next_.properties.contains(static_cast<Property>(p))) see(static_cast<Property>(p), position, true);
@@ -127,7 +127,7 @@ class Search {
       std::optional<Trace> trace = TraceBuilder<M>(model_, store_).to(position);
       if (!trace) throw;
       trace->actions.push_back(action);
-      throw sim::InvariantBroken(std::string(broken.what()) + "\n\n" + chart(model_.question(), model_.beginnings()[trace->beginning], *trace));
+      throw sim::InvariantBroken(std::string(broken.what()) + "\n\n" + chart(model_.query(), model_.beginnings()[trace->beginning], *trace));
     }
   }
 
@@ -153,11 +153,11 @@ class Search {
   /// without.
   bool judge() {
     const Liveness liveness = judge_cycles(model_, store_, watcher_);
-    answer_.interrupted = liveness.interrupted;
+    result_.interrupted = liveness.interrupted;
     judged_ = !liveness.interrupted;
-    answer_.cyclic_states = liveness.cyclic_states;
+    result_.cyclic_states = liveness.cyclic_states;
     if (model_.with_symmetry() && (liveness.unsettled || liveness.unhalted || turns_)) return false;
-    chase_ = liveness.unsettled;
+    livelock_ = liveness.unsettled;
     see_cycle(Property::L1, liveness.unsettled);
     see_cycle(Property::F1, liveness.unhalted);
     return true;
@@ -173,35 +173,35 @@ class Search {
     for (std::size_t p = 0; p < property_count; ++p) {
       const Sighting& sighting = sightings_[p];
       if (sighting.state == StateStore::nowhere) continue;
-      std::optional<Trace> trace = sighting.cycle            ? builder.around(lap(model_, store_, *sighting.cycle))
+      std::optional<Trace> trace = sighting.cycle            ? builder.around(once_around(model_, store_, *sighting.cycle))
                                    : sighting.on_the_way_out ? builder.to(sighting.state, static_cast<Property>(p))
                                                              : builder.to(sighting.state);
       if (!trace && model_.with_symmetry()) return false;
-      answer_.traces[p] = std::move(trace);
+      result_.traces[p] = std::move(trace);
     }
-    if (chase_) answer_.chase = builder.around(lap(model_, store_, *chase_));
+    if (livelock_) result_.livelock = builder.around(once_around(model_, store_, *livelock_));
     return true;
   }
 
   void finish() {
-    answer_.states = store_.size();
-    answer_.depth = depth_;
-    answer_.symmetry = model_.with_symmetry();
-    answer_.beginnings = model_.beginnings();
-    answer_.octets = store_.memory();
-    answer_.participants = model_.value_count();
-    answer_.words = model_.word_count();
+    result_.states = store_.size();
+    result_.depth = depth_;
+    result_.symmetry = model_.with_symmetry();
+    result_.beginnings = model_.beginnings();
+    result_.octets = store_.memory();
+    result_.participants = model_.value_count();
+    result_.words = model_.word_count();
     for (std::size_t p = 0; p < property_count; ++p) {
       const auto property = static_cast<Property>(p);
-      Verdict& verdict = answer_.verdicts[p];
-      if ((is_of_silence(property) && !model_.question().asks_for_silence()) || (is_of_roles(property) && !model_.question().has_roles())) {
+      Verdict& verdict = result_.verdicts[p];
+      if ((is_of_silence(property) && !model_.query().asks_for_silence()) || (is_of_roles(property) && !model_.query().has_roles())) {
         verdict = Verdict::not_asked;
         continue;
       }
       if (must_always_hold(property)) {
         verdict = seen_.contains(property) ? Verdict::violated : Verdict::holds;
         const bool is_liveness = property == Property::L1 || property == Property::F1;
-        const bool decided = answer_.exhausted && (judged_ || !loops_back_);
+        const bool decided = result_.exhausted && (judged_ || !loops_back_);
         if (is_liveness && verdict == Verdict::holds && !decided) verdict = Verdict::unknown;
       } else {
         verdict = seen_.contains(property) ? Verdict::reached : Verdict::unreached;
@@ -212,12 +212,12 @@ class Search {
   const Watcher& watcher_;
   M model_;
   StateStore store_;
-  Answer answer_;
+  SearchResult result_;
   Next next_;
   std::vector<Candidate> candidates_;
   std::array<Sighting, property_count> sightings_;
   PropertySet seen_;
-  std::optional<FairCycle> chase_;
+  std::optional<FairCycle> livelock_;
   std::size_t expanded_ = 0;
   std::size_t level_end_ = 0;
   std::size_t watched_ = 0;
@@ -231,14 +231,14 @@ class Search {
 };
 
 template <class M>
-Answer search(const Question& question, const Watcher& watcher) {
+SearchResult search(const Query& query, const Watcher& watcher) {
   static_assert(Model<M>);
-  Answer answer;
-  if (Search<M>(question, watcher).run(answer)) return answer;
-  Question plain = question;
+  SearchResult result;
+  if (Search<M>(query, watcher).run(result)) return result;
+  Query plain = query;
   plain.symmetry = false;
-  Search<M>(plain, watcher).run(answer);
-  return answer;
+  Search<M>(plain, watcher).run(result);
+  return result;
 }
 
 }  // namespace takt::explore

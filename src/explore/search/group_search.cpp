@@ -3,6 +3,6 @@
 
 namespace takt::explore {
 
-template Answer search<GroupModel>(const Question& question, const Watcher& watcher);
+template SearchResult search<GroupModel>(const Query& query, const Watcher& watcher);
 
 }  // namespace takt::explore

@@ -3,6 +3,6 @@
 
 namespace takt::explore {
 
-template Answer search<RolesModel>(const Question& question, const Watcher& watcher);
+template SearchResult search<RolesModel>(const Query& query, const Watcher& watcher);
 
 }  // namespace takt::explore

@@ -22,7 +22,7 @@ struct Progress {
   std::uint64_t octets = 0;     ///< of states and their table
   bool in_cycles = false;       ///< all were found; cycles are judged
 };
-/// Asked now and then; false ends the search, and the answer is partial.
+/// Asked now and then; false ends the search, and the result is partial.
 using Watcher = std::function<bool(const Progress&)>;
 
 /// A run, concrete: slaves keep their names.
@@ -32,7 +32,7 @@ struct Trace {
   std::size_t cycle = 0;              ///< the last so many of them repeat for ever; 0: nothing more can happen (L1, F1)
 };
 
-struct Answer {
+struct SearchResult {
   std::uint64_t states = 0;
   std::uint64_t transitions = 0;      ///< that change something
   std::uint32_t depth = 0;            ///< of the deepest state
@@ -47,7 +47,7 @@ struct Answer {
   std::vector<Beginning> beginnings;
   std::array<Verdict, property_count> verdicts{};
   std::array<std::optional<Trace>, property_count> traces;  ///< of what is violated or reached
-  std::optional<Trace> chase;         ///< L1: a cycle that never ends, even if L1 is violated in a shorter way, too
+  std::optional<Trace> livelock;         ///< L1: a cycle that never ends, even if L1 is violated in a shorter way, too
 
   Verdict operator[](Property property) const { return verdicts[index_of(property)]; }
   /// Whatever must hold holds and whatever must be reached is reached.
@@ -58,9 +58,9 @@ struct Answer {
 /// Searches all states of one Model (engine.hpp). Symmetry is given up by itself where slaves turn out not to be equal, or where
 /// cycles of network steps have to be judged by names.
 template <class M>
-Answer search(const Question& question, const Watcher& watcher);
+SearchResult search(const Query& query, const Watcher& watcher);
 
-/// The search of the model that the question is of.
-Answer explore(const Question& question, const Watcher& watcher);
+/// The search of the model that the query is of.
+SearchResult explore(const Query& query, const Watcher& watcher);
 
 }  // namespace takt::explore

@@ -20,8 +20,8 @@ class TraceBuilder {
   std::optional<Trace> to(StateStore::Position target);
   /// The same, and then an action that violates or reaches the property.
   std::optional<Trace> to(StateStore::Position target, Property property);
-  /// The same, and then once around the cycle `lap` of states, which begins and ends with the target.
-  std::optional<Trace> around(const std::vector<StateStore::Position>& lap);
+  /// The same, and then once around this cycle of states, which begins and ends with the target.
+  std::optional<Trace> around(const std::vector<StateStore::Position>& cycle);
 
  private:
   bool walk_to(StateStore::Position target);
@@ -53,11 +53,11 @@ std::optional<Trace> TraceBuilder<M>::to(StateStore::Position target, Property p
 }
 
 template <Model M>
-std::optional<Trace> TraceBuilder<M>::around(const std::vector<StateStore::Position>& lap) {
-  if (!walk_to(lap.front())) return std::nullopt;
-  for (std::size_t i = 1; i < lap.size(); ++i)
-    if (!follow(lap[i])) return std::nullopt;
-  trace_.cycle = lap.size() - 1;
+std::optional<Trace> TraceBuilder<M>::around(const std::vector<StateStore::Position>& cycle) {
+  if (!walk_to(cycle.front())) return std::nullopt;
+  for (std::size_t i = 1; i < cycle.size(); ++i)
+    if (!follow(cycle[i])) return std::nullopt;
+  trace_.cycle = cycle.size() - 1;
   return trace_;
 }
 

@@ -3,6 +3,6 @@
 
 namespace takt::explore {
 
-template Answer search<TreeModel>(const Question& question, const Watcher& watcher);
+template SearchResult search<TreeModel>(const Query& query, const Watcher& watcher);
 
 }  // namespace takt::explore

@@ -59,10 +59,10 @@ TEST(Content, ACopyOfWhatIsLostStaysACopyOfNobody) {
 }
 
 TEST(Content, EqualContentsAreOneNumber) {
-  Question question;
-  question.slaves = 2;
+  Query query;
+  query.slaves = 2;
   const Renamings renamings(2, true);
-  Members members(question, renamings);
+  Members members(query, renamings);
   Contents contents(members, renamings);
   EXPECT_EQ(contents.intern(Content{}), Contents::empty);
   const WordId word = members[members.fresh(1, 1)].word;

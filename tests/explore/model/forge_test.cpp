@@ -10,21 +10,21 @@
 namespace takt::explore {
 namespace {
 
-Question forging(std::uint8_t slaves, std::uint32_t commands) {
-  Question question;
-  question.slaves = slaves;
-  return with(question, commands, std::array{Fault::forge});
+Query forging(std::uint8_t slaves, std::uint32_t commands) {
+  Query query;
+  query.slaves = slaves;
+  return with(query, commands, std::array{Fault::forge});
 }
 
-void expect_to_recover(const Question& question, std::uint64_t states) {
-  SCOPED_TRACE(question_line(question));
-  const Answer answer = ask(question);
-  EXPECT_TRUE(answer.exhausted);
+void expect_to_recover(const Query& query, std::uint64_t states) {
+  SCOPED_TRACE(query_line(query));
+  const SearchResult result = ask(query);
+  EXPECT_TRUE(result.exhausted);
   for (const Property property : {Property::S1, Property::S2, Property::S3, Property::S4, Property::S5, Property::L1})
-    EXPECT_EQ(answer[property], Verdict::holds) << text_report(question, answer, 0.0);
-  EXPECT_NE(answer[Property::F1], Verdict::violated) << text_report(question, answer, 0.0);
-  EXPECT_EQ(answer[Property::all_running], Verdict::reached);
-  EXPECT_EQ(answer.states, states);
+    EXPECT_EQ(result[property], Verdict::holds) << text_report(query, result, 0.0);
+  EXPECT_NE(result[Property::F1], Verdict::violated) << text_report(query, result, 0.0);
+  EXPECT_EQ(result[Property::all_running], Verdict::reached);
+  EXPECT_EQ(result.states, states);
 }
 
 TEST(Forge, AWordOfAnyContent) {
@@ -39,19 +39,19 @@ TEST(Forge, AMessageOfAnyContentAmongOthers) {
 #ifndef NDEBUG
   GTEST_SKIP() << "takes long where nothing is optimised";
 #endif
-  Question question = forging(1, 1);
-  question.network = Network::channels;
-  question.beginnings = Beginnings::switched_on;
-  expect_to_recover(question, 1234210);
+  Query query = forging(1, 1);
+  query.network = Network::channels;
+  query.beginnings = Beginnings::switched_on;
+  expect_to_recover(query, 1234210);
 }
 
 TEST(Forge, ToANodeOfTwoGroups) {
 #ifndef NDEBUG
   GTEST_SKIP() << "takes long where nothing is optimised";
 #endif
-  Question question = forging(1, 0);
-  question.inner_slaves = 1;
-  expect_to_recover(question, 3289234);
+  Query query = forging(1, 0);
+  query.inner_slaves = 1;
+  expect_to_recover(query, 3289234);
 }
 
 // Words that no participant can say are not worth a search; of those that it can say every kind and state is among them.

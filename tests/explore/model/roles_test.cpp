@@ -10,12 +10,12 @@
 namespace takt::explore {
 namespace {
 
-Question of_roles(std::uint8_t roles, std::uint8_t candidates, std::uint32_t commands, std::initializer_list<Fault> faults, bool starts_again = false) {
-  Question question;
-  question.slaves = roles;
-  question.candidates = candidates;
-  question.starts_again = starts_again;
-  return with(question, commands, faults);
+Query of_roles(std::uint8_t roles, std::uint8_t candidates, std::uint32_t commands, std::initializer_list<Fault> faults, bool starts_again = false) {
+  Query query;
+  query.slaves = roles;
+  query.candidates = candidates;
+  query.starts_again = starts_again;
+  return with(query, commands, faults);
 }
 
 TEST(Roles, HoldInEveryOrder) {
@@ -42,12 +42,12 @@ TEST(Roles, RunsBeginWhereverAGroupRests) {
 
 // Whoever offers a skill that no role needs is never bound: the roles cannot be filled, so nothing can be started.
 TEST(Roles, AGroupWhoseRolesNobodyFillsStaysHalted) {
-  Question question = of_roles(2, 2, 2, {});
-  question.offers = {1, 1, 0};
-  const Answer answer = ask(question);
-  EXPECT_EQ(answer[Property::all_running], Verdict::unreached);
-  EXPECT_EQ(answer[Property::L1], Verdict::holds);
-  EXPECT_EQ(answer[Property::B1], Verdict::holds);
+  Query query = of_roles(2, 2, 2, {});
+  query.offers = {1, 1, 0};
+  const SearchResult result = ask(query);
+  EXPECT_EQ(result[Property::all_running], Verdict::unreached);
+  EXPECT_EQ(result[Property::L1], Verdict::holds);
+  EXPECT_EQ(result[Property::B1], Verdict::holds);
 }
 
 /// A step in a state in which the property is violated by hand.
@@ -64,12 +64,12 @@ TEST(Roles, ASecondHolderThatCountsIsSeen) {
 }
 
 TEST(Roles, AChartNamesTheRoles) {
-  Question question = of_roles(1, 2, 1, {});
-  question.beginnings = Beginnings::switched_on;
-  const Answer answer = ask(question);
-  ASSERT_EQ(answer[Property::all_running], Verdict::reached);
-  const Trace& trace = *answer.traces[index_of(Property::all_running)];
-  const std::string text = chart(question, answer.beginnings[trace.beginning], trace);
+  Query query = of_roles(1, 2, 1, {});
+  query.beginnings = Beginnings::switched_on;
+  const SearchResult result = ask(query);
+  ASSERT_EQ(result[Property::all_running], Verdict::reached);
+  const Trace& trace = *result.traces[index_of(Property::all_running)];
+  const std::string text = chart(query, result.beginnings[trace.beginning], trace);
   for (const char* part : {"master              candidate 1         candidate 2\n", "hears master: bound, role 1: candidate 1 life 1", "Start is called at the master", "Running             Running, role 1     joins\n"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }

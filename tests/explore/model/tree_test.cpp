@@ -15,12 +15,12 @@ namespace {
 using handshake::PublishedState;
 using handshake::Side;
 
-Question tree(std::uint8_t slaves, std::uint8_t inner, bool joining, std::uint32_t commands, std::initializer_list<Fault> faults) {
-  Question question;
-  question.slaves = slaves;
-  question.inner_slaves = inner;
-  question.joining = joining;
-  return with(question, commands, faults);
+Query tree(std::uint8_t slaves, std::uint8_t inner, bool joining, std::uint32_t commands, std::initializer_list<Fault> faults) {
+  Query query;
+  query.slaves = slaves;
+  query.inner_slaves = inner;
+  query.joining = joining;
+  return with(query, commands, faults);
 }
 
 TEST(Tree, HoldsInEveryOrder) {
@@ -46,10 +46,10 @@ TEST(Tree, HoldsInEveryOrder) {
 /// A group without an inner one is the group of the other model.
 TEST(Tree, OneGroupHasAsManyStatesAsInTheOtherModel) {
   for (std::uint8_t slaves = 1; slaves <= 2; ++slaves) {
-    Question question = tree(slaves, 0, false, 2, {Fault::crash});
-    question.symmetry = false;
-    const Answer other = ask(question);
-    TreeModel model(question);
+    Query query = tree(slaves, 0, false, 2, {Fault::crash});
+    query.symmetry = false;
+    const SearchResult other = ask(query);
+    TreeModel model(query);
     Interner<State, decltype([](const State& state) { return static_cast<std::size_t>(state.hash()); })> seen;
     for (const Beginning& beginning : model.beginnings()) seen.intern(beginning.state);
     Next next;
@@ -133,13 +133,13 @@ TEST_F(Watched, ARunThatNobodyStartedFromOutsideIsSeen) {
 
 /// The same with the participants and the observer of the tests of the handshake.
 /// Whether everybody was Running once.
-bool walk(const Question& question, std::uint64_t seed, int length) {
-  TreeModel model(question);
+bool walk(const Query& query, std::uint64_t seed, int length) {
+  TreeModel model(query);
   const TreeShape& shape = model.tree();
   std::vector<handshake::TreeGroup> groups{{shape.size(0), 0, 0}};
   if (shape.groups() == 2) groups.push_back({shape.size(1), 0, shape.size(0) - 1});
   handshake::Tree real(groups);
-  bool has_joined = !question.joining;
+  bool has_joined = !query.joining;
   State state = model.switched_on();
   state.set_commands_left(most_commands);
   state.set_faults_left(7);
@@ -194,25 +194,25 @@ TEST(Tree, WalksAsTheHandshakeDoes) {
 }
 
 TEST(Tree, AChartNamesBothGroups) {
-  Question question = tree(1, 1, true, 1, {});
-  question.beginnings = Beginnings::switched_on;
-  const Answer answer = ask(question);
-  ASSERT_EQ(answer[Property::all_running], Verdict::reached);
-  const Trace& trace = *answer.traces[index_of(Property::all_running)];
-  const std::string text = chart(question, answer.beginnings[trace.beginning], trace);
+  Query query = tree(1, 1, true, 1, {});
+  query.beginnings = Beginnings::switched_on;
+  const SearchResult result = ask(query);
+  ASSERT_EQ(result[Property::all_running], Verdict::reached);
+  const Trace& trace = *result.traces[index_of(Property::all_running)];
+  const std::string text = chart(query, result.beginnings[trace.beginning], trace);
   for (const char* part : {"master         slave 1        inner master   inner slave 1\n", "inner slave 1 comes up", "Start is called at the master",
                            "inner master hears inner slave 1: Ready", "      Running        Running        Running        Running\n"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
 TEST(Tree, ACutSearchDecidesNoLiveness) {
-  Question question = tree(1, 1, false, 2, {Fault::crash});
-  question.states = 1000;
-  const Answer answer = ask(question);
-  EXPECT_FALSE(answer.exhausted);
-  EXPECT_EQ(answer.states, 1000U);
-  EXPECT_EQ(answer[Property::L1], Verdict::unknown);
-  EXPECT_EQ(answer[Property::F1], Verdict::unknown);
+  Query query = tree(1, 1, false, 2, {Fault::crash});
+  query.states = 1000;
+  const SearchResult result = ask(query);
+  EXPECT_FALSE(result.exhausted);
+  EXPECT_EQ(result.states, 1000U);
+  EXPECT_EQ(result[Property::L1], Verdict::unknown);
+  EXPECT_EQ(result[Property::F1], Verdict::unknown);
 }
 
 }  // namespace

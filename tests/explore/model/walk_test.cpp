@@ -57,39 +57,39 @@ Walk walk(GroupModel& model, std::uint64_t seed, std::size_t length, std::size_t
   return result;
 }
 
-std::uint32_t invariants_of(const Told& told) {
+std::uint32_t invariants_of(const ReplayStep& done) {
   PropertySet set;
-  for (const handshake::Violation& each : told.violations) set.insert(static_cast<Property>(each.invariant));
+  for (const handshake::Violation& each : done.violations) set.insert(static_cast<Property>(each.invariant));
   return set.bits;
 }
 
-void compare(Variant variant, std::uint8_t slaves, std::uint64_t walks, Question question = {}, std::size_t forgery = 0) {
-  question.variant = variant;
-  question.slaves = slaves;
-  question.commands = 6;
-  question.fault_budget = 4;
-  for (const Fault fault : true_faults) question.faults.insert(fault);
-  if (forgery != 0) question.faults.insert(Fault::forge);
-  GroupModel model(question);
+void compare(Variant variant, std::uint8_t slaves, std::uint64_t walks, Query query = {}, std::size_t forgery = 0) {
+  query.variant = variant;
+  query.slaves = slaves;
+  query.commands = 6;
+  query.fault_budget = 4;
+  for (const Fault fault : true_faults) query.faults.insert(fault);
+  if (forgery != 0) query.faults.insert(Fault::forge);
+  GroupModel model(query);
   std::size_t violations = 0;
   for (std::uint64_t seed = 0; seed < walks; ++seed) {
     const Walk taken = walk(model, seed, 60, forgery);
-    const Story story = replay(question, model.beginnings()[taken.trace.beginning], taken.trace);
-    ASSERT_EQ(story.steps.size(), taken.states.size());
-    for (std::size_t i = 0; i < story.steps.size(); ++i) {
+    const Replay replayed = replay(query, model.beginnings()[taken.trace.beginning], taken.trace);
+    ASSERT_EQ(replayed.steps.size(), taken.states.size());
+    for (std::size_t i = 0; i < replayed.steps.size(); ++i) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", step " << i);
       for (std::size_t p = 0; p <= slaves; ++p) {
         const Members::Traits& member = model.members()[taken.states[i].member(p)];
-        ASSERT_EQ(member.down, story.steps[i].down[p]);
+        ASSERT_EQ(member.down, replayed.steps[i].down[p]);
         if (!member.down) {
-          ASSERT_EQ(member.state, story.steps[i].states[p]);
+          ASSERT_EQ(member.state, replayed.steps[i].states[p]);
         }
       }
       constexpr std::uint32_t safety = 0x1F;  // S1 to S5
       if (forgery == 0) {
-        ASSERT_EQ(taken.properties[i].bits & safety, invariants_of(story.steps[i]));
+        ASSERT_EQ(taken.properties[i].bits & safety, invariants_of(replayed.steps[i]));
       }
-      violations += story.steps[i].violations.size();
+      violations += replayed.steps[i].violations.size();
     }
   }
   if (forgery == 0) {
@@ -105,41 +105,41 @@ TEST(Walks, PaperDoesTheSameInTheModelAndInTheOpen) {
 }
 
 TEST(Walks, AllToAllDoesTheSameInTheModelAndInTheOpen) {
-  Question question;
-  question.subscription = handshake::Subscription::AllToAll;
+  Query query;
+  query.subscription = handshake::Subscription::AllToAll;
   for (const Variant variant : {Variant::Robust, Variant::Paper})
-    for (std::uint8_t slaves = 2; slaves <= 3; ++slaves) compare(variant, slaves, 500, question);
+    for (std::uint8_t slaves = 2; slaves <= 3; ++slaves) compare(variant, slaves, 500, query);
 }
 // What a stranger says is heard in the open as it is in the model. (There S1 to S5 are not judged while it may do harm.)
 TEST(Walks, ForgedWordsDoTheSameInTheModelAndInTheOpen) {
-  Question question;
-  compare(Variant::Robust, 1, 500, question, 20);
-  compare(Variant::Robust, 2, 500, question, 20);
-  question.network = Network::channels;
-  compare(Variant::Robust, 2, 500, question, 20);
+  Query query;
+  compare(Variant::Robust, 1, 500, query, 20);
+  compare(Variant::Robust, 2, 500, query, 20);
+  query.network = Network::channels;
+  compare(Variant::Robust, 2, 500, query, 20);
 }
 TEST(Walks, ChannelsDoTheSameInTheModelAndInTheOpen) {
-  Question question;
-  question.network = Network::channels;
+  Query query;
+  query.network = Network::channels;
   // One message overtaken at a time in each channel: then the model's sequence numbers are exact (README.md).
-  for (question.capacity = 1; question.capacity <= 2; ++question.capacity)
+  for (query.capacity = 1; query.capacity <= 2; ++query.capacity)
     for (const Variant variant : {Variant::Robust, Variant::Paper})
-      for (std::uint8_t slaves = 1; slaves <= 3; ++slaves) compare(variant, slaves, 500, question);
+      for (std::uint8_t slaves = 1; slaves <= 3; ++slaves) compare(variant, slaves, 500, query);
 }
 
 // Other names, same behaviour: what a step does under other names is what it does, renamed.
 TEST(Symmetry, StepsCommuteWithNames) {
-  Question question;
-  question.slaves = 3;
-  question.commands = 6;
-  question.fault_budget = 4;
-  for (const Fault fault : true_faults) question.faults.insert(fault);
+  Query query;
+  query.slaves = 3;
+  query.commands = 6;
+  query.fault_budget = 4;
+  for (const Fault fault : true_faults) query.faults.insert(fault);
   for (int kind = 0; kind < 6; ++kind) {
-    question.variant = kind % 2 == 0 ? Variant::Robust : Variant::Paper;
-    question.subscription = kind / 2 == 1 ? handshake::Subscription::AllToAll : handshake::Subscription::Star;
-    question.network = kind / 2 == 2 ? Network::channels : Network::registers;
+    query.variant = kind % 2 == 0 ? Variant::Robust : Variant::Paper;
+    query.subscription = kind / 2 == 1 ? handshake::Subscription::AllToAll : handshake::Subscription::Star;
+    query.network = kind / 2 == 2 ? Network::channels : Network::registers;
     SCOPED_TRACE(kind);
-    GroupModel model(question);
+    GroupModel model(query);
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       const Walk taken = walk(model, seed, 60);
       for (const State& state : taken.states) {

@@ -39,37 +39,37 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-Question question_of(const Case& each) {
-  Question question;
-  question.slaves = each.slaves;
-  question.commands = each.commands;
-  question.fault_budget = each.faults;
-  question.network = each.network;
-  question.subscription = each.subscription;
-  question.inner_slaves = each.inner_slaves;
-  question.candidates = each.candidates;
-  question.offers[0] = each.first_offers;
-  question.states = 20'000'000;
-  if (each.faults == 0) return question;
-  if (each.forges) question.faults.insert(Fault::forge);
+Query question_of(const Case& each) {
+  Query query;
+  query.slaves = each.slaves;
+  query.commands = each.commands;
+  query.fault_budget = each.faults;
+  query.network = each.network;
+  query.subscription = each.subscription;
+  query.inner_slaves = each.inner_slaves;
+  query.candidates = each.candidates;
+  query.offers[0] = each.first_offers;
+  query.states = 20'000'000;
+  if (each.faults == 0) return query;
+  if (each.forges) query.faults.insert(Fault::forge);
   for (std::size_t f = 0; f < fault_count; ++f) {
     const auto fault = static_cast<Fault>(f);
     if (each.forges || fault == Fault::forge) continue;
-    if ((!question.is_tree() && !question.has_roles()) || (fault != Fault::duplicate && fault != Fault::reorder)) question.faults.insert(fault);
+    if ((!query.is_tree() && !query.has_roles()) || (fault != Fault::duplicate && fault != Fault::reorder)) query.faults.insert(fault);
   }
-  return question;
+  return query;
 }
 
 int probe() {
   for (const Case& each : cases()) {
-    const Question question = question_of(each);
-    std::printf("%s\n", question_line(question).c_str());
+    const Query query = question_of(each);
+    std::printf("%s\n", query_line(query).c_str());
     std::fflush(stdout);  // a mutant may break a CHECK
-    const Answer answer = explore(question, [](const Progress&) { return true; });
+    const SearchResult result = explore(query, [](const Progress&) { return true; });
     for (std::size_t p = 0; p < property_count; ++p) {
-      if (answer.verdicts[p] != Verdict::violated && answer.verdicts[p] != Verdict::unreached) continue;
+      if (result.verdicts[p] != Verdict::violated && result.verdicts[p] != Verdict::unreached) continue;
       // The page with the chart first, for the last two lines are what the caller looks for.
-      if (question.is_tree()) std::printf("%s\n%s\n", text_report(question, answer, 0.0).c_str(), question_line(question).c_str());
+      if (query.is_tree()) std::printf("%s\n%s\n", text_report(query, result, 0.0).c_str(), query_line(query).c_str());
       std::printf("killed %.*s\n", static_cast<int>(property_names[p].size()), property_names[p].data());
       return 0;
     }

@@ -13,10 +13,10 @@ namespace {
 
 using handshake::Variant;
 
-/// The graph of a small question, told apart: for each state where each network action leads.
+/// The graph of a small query, told apart: for each state where each network action leads.
 class Whole {
  public:
-  explicit Whole(const Question& question) : model_(question) {
+  explicit Whole(const Query& query) : model_(query) {
     for (const Beginning& beginning : model_.beginnings()) states_.intern(beginning.state);
     Next next;
     for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -76,26 +76,26 @@ class Whole {
   std::vector<std::uint32_t> to_;
 };
 
-Question small(Variant variant, std::uint8_t slaves, std::uint32_t commands, std::initializer_list<Fault> faults) {
-  Question question;
-  question.variant = variant;
-  question.slaves = slaves;
-  question.symmetry = false;
-  return with(question, commands, faults);
+Query small(Variant variant, std::uint8_t slaves, std::uint32_t commands, std::initializer_list<Fault> faults) {
+  Query query;
+  query.variant = variant;
+  query.slaves = slaves;
+  query.symmetry = false;
+  return with(query, commands, faults);
 }
 
-void compare(const Question& question) {
-  Whole whole(question);
+void compare(const Query& query) {
+  Whole whole(query);
   GroupModel& model = whole.model();
   const bool unsettled = whole.fair_run_visits([&](const State& state) { return !model.settled(state) && !model.anybody_down(state); });
   const bool unhalted = whole.fair_run_visits([&](const State& state) { return !model.settled(state) && model.anybody_down(state); });
-  Question asked = question;
+  Query asked = query;
   for (const bool symmetry : {false, true}) {
     asked.symmetry = symmetry;
-    const Answer answer = ask(asked);
-    EXPECT_EQ(answer[Property::L1] == Verdict::violated, unsettled) << symmetry;
-    if (question.asks_for_silence() && question.variant == Variant::Robust) {
-      EXPECT_EQ(answer[Property::F1] == Verdict::violated, unhalted) << symmetry;
+    const SearchResult result = ask(asked);
+    EXPECT_EQ(result[Property::L1] == Verdict::violated, unsettled) << symmetry;
+    if (query.asks_for_silence() && query.variant == Variant::Robust) {
+      EXPECT_EQ(result[Property::F1] == Verdict::violated, unhalted) << symmetry;
     }
   }
 }
@@ -114,15 +114,15 @@ TEST(Liveness, PaperAgreesWithTheFixedPoint) {
 
 TEST(Liveness, ChannelsAgreeWithTheFixedPoint) {
   for (const Variant variant : {Variant::Robust, Variant::Paper}) {
-    Question question = small(variant, 1, 2, {});
-    question.network = Network::channels;
-    compare(question);
-    question = small(variant, 2, 0, {});
-    question.network = Network::channels;
-    question.capacity = 1;
-    compare(question);
-    question.faults.insert(Fault::crash);
-    compare(question);
+    Query query = small(variant, 1, 2, {});
+    query.network = Network::channels;
+    compare(query);
+    query = small(variant, 2, 0, {});
+    query.network = Network::channels;
+    query.capacity = 1;
+    compare(query);
+    query.faults.insert(Fault::crash);
+    compare(query);
   }
 }
 

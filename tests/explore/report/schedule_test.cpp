@@ -71,7 +71,7 @@ TEST(Findings, AreSeenByARun) {
 struct Row {
   std::string scenario;
   std::string property;
-  Question question;
+  Query query;
 };
 
 std::vector<Row> table() {
@@ -84,14 +84,14 @@ std::vector<Row> table() {
     std::istringstream rest(line.substr(line.find('|', 3) + 1));
     std::string bar;
     rest >> row.property >> bar;
-    row.question.variant = handshake::Variant::Paper;
-    row.question.finishes = false;
+    row.query.variant = handshake::Variant::Paper;
+    row.query.finishes = false;
     for (std::string word; rest >> word && word != "|";) {
       std::string value;
       rest >> value;
-      if (word.ends_with("--slaves")) row.question.slaves = static_cast<std::uint8_t>(std::stoi(value));
-      if (word.ends_with("--calls")) row.question.commands = static_cast<std::uint32_t>(std::stoi(value));
-      if (word.ends_with("--faults") && value.starts_with("crash")) row.question.faults.insert(Fault::crash);
+      if (word.ends_with("--slaves")) row.query.slaves = static_cast<std::uint8_t>(std::stoi(value));
+      if (word.ends_with("--calls")) row.query.commands = static_cast<std::uint32_t>(std::stoi(value));
+      if (word.ends_with("--faults") && value.starts_with("crash")) row.query.faults.insert(Fault::crash);
     }
     rows.push_back(row);
   }
@@ -108,10 +108,10 @@ TEST(Findings, StandInTheTable) {
     SCOPED_TRACE(row.scenario);
     EXPECT_TRUE(std::filesystem::exists(std::string(TAKT_SOURCE_DIR) + "/scenarios/findings/" + row.scenario + ".json"));
     EXPECT_TRUE(row.scenario.ends_with(row.property));
-    const Answer answer = ask(row.question);
+    const SearchResult result = ask(row.query);
     for (std::size_t p = 0; p < property_count; ++p)
       if (property_names[p] == row.property) {
-        EXPECT_EQ(answer.verdicts[p], Verdict::violated);
+        EXPECT_EQ(result.verdicts[p], Verdict::violated);
       }
   }
 }

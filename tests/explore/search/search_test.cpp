@@ -16,17 +16,17 @@ using handshake::Variant;
 
 constexpr Fault every_fault[] = {Fault::loss, Fault::duplicate, Fault::reorder, Fault::crash, Fault::restart, Fault::timeout};
 
-Question question(Variant variant, std::uint8_t slaves, std::uint32_t commands, std::uint32_t faults, std::span<const Fault> classes) {
-  Question result;
+Query query(Variant variant, std::uint8_t slaves, std::uint32_t commands, std::uint32_t faults, std::span<const Fault> classes) {
+  Query result;
   result.variant = variant;
   result.slaves = slaves;
   result.fault_budget = faults;
   return with(result, commands, classes);
 }
 
-std::string verdicts(const Answer& answer) {
+std::string verdicts(const SearchResult& result) {
   std::string text;
-  for (std::size_t p = 0; p < property_count; ++p) text += std::string(property_names[p]) + " " + std::string(name_of(answer.verdicts[p])) + "\n";
+  for (std::size_t p = 0; p < property_count; ++p) text += std::string(property_names[p]) + " " + std::string(name_of(result.verdicts[p])) + "\n";
   return text;
 }
 
@@ -46,21 +46,21 @@ TEST(Robust, HoldsInEveryOrderUnderEveryFault) {
 #endif
   for (const BudgetCase& each : cases) {
     SCOPED_TRACE(testing::Message() << int{each.slaves} << " slaves, " << each.commands << " calls, " << each.faults << " faults");
-    Question asked = question(Variant::Robust, each.slaves, each.commands, each.faults, every_fault);
-    const Answer answer = ask(asked);
-    EXPECT_TRUE(answer.exhausted);
-    EXPECT_TRUE(answer.all_hold()) << verdicts(answer);
-    EXPECT_EQ(answer.symmetry, each.slaves > 1);
+    Query asked = query(Variant::Robust, each.slaves, each.commands, each.faults, every_fault);
+    const SearchResult result = ask(asked);
+    EXPECT_TRUE(result.exhausted);
+    EXPECT_TRUE(result.all_hold()) << verdicts(result);
+    EXPECT_EQ(result.symmetry, each.slaves > 1);
     if (each.states != 0) {
-      EXPECT_EQ(answer.states, each.states);
+      EXPECT_EQ(result.states, each.states);
     }
     asked.symmetry = false;
-    const Answer plain = ask(asked);
+    const SearchResult plain = ask(asked);
     if (each.plain != 0) {
       EXPECT_EQ(plain.states, each.plain);
     }
-    EXPECT_EQ(verdicts(plain), verdicts(answer));
-    EXPECT_EQ(plain.depth, answer.depth);
+    EXPECT_EQ(verdicts(plain), verdicts(result));
+    EXPECT_EQ(plain.depth, result.depth);
   }
 }
 
@@ -77,15 +77,15 @@ TEST(Robust, HoldsUnderEachClassOfFaultsByItself) {
   for (const FaultCase& each : cases) {
     SCOPED_TRACE(name_of(each.fault));
     const Fault classes[] = {each.fault};
-    const Answer one = ask(question(Variant::Robust, 1, 2, 2, classes));
+    const SearchResult one = ask(query(Variant::Robust, 1, 2, 2, classes));
     EXPECT_TRUE(one.exhausted && one.all_hold()) << verdicts(one);
     EXPECT_EQ(one.states, each.one_slave);
-    Question asked = question(Variant::Robust, 2, 1, 1, classes);
-    const Answer two = ask(asked);
+    Query asked = query(Variant::Robust, 2, 1, 1, classes);
+    const SearchResult two = ask(asked);
     EXPECT_TRUE(two.exhausted && two.all_hold()) << verdicts(two);
     EXPECT_EQ(two.states, each.two_slaves);
     asked.symmetry = false;
-    const Answer apart = ask(asked);
+    const SearchResult apart = ask(asked);
     EXPECT_EQ(apart.states, each.told_apart);
     EXPECT_EQ(verdicts(apart), verdicts(two));
   }
@@ -103,28 +103,28 @@ struct NetworkCase {
 TEST(Robust, HoldsOnChannelsAndWithAllToAllSubscription) {
   using handshake::Subscription;
   constexpr NetworkCase cases[] = {{1, 1, Subscription::Star, 14555, 14555}, {1, 2, Subscription::Star, 28271, 28271}, {1, 3, Subscription::Star, 32314, 32314}};
-  const auto check = [](const NetworkCase& each, Question asked) {
+  const auto check = [](const NetworkCase& each, Query asked) {
     SCOPED_TRACE(testing::Message() << int{each.slaves} << " slaves, channels of " << int{each.capacity} << ", subscription " << static_cast<int>(each.subscription));
     asked.subscription = each.subscription;
     if (each.capacity != 0) {
       asked.network = Network::channels;
       asked.capacity = each.capacity;
     }
-    const Answer answer = ask(asked);
-    EXPECT_TRUE(answer.exhausted && answer.all_hold()) << verdicts(answer);
-    EXPECT_EQ(answer.states, each.states);
-    EXPECT_EQ(answer.symmetry, each.slaves > 1);
+    const SearchResult result = ask(asked);
+    EXPECT_TRUE(result.exhausted && result.all_hold()) << verdicts(result);
+    EXPECT_EQ(result.states, each.states);
+    EXPECT_EQ(result.symmetry, each.slaves > 1);
     asked.symmetry = false;
-    const Answer apart = ask(asked);
+    const SearchResult apart = ask(asked);
     EXPECT_EQ(apart.states, each.told_apart);
-    EXPECT_EQ(verdicts(apart), verdicts(answer));
+    EXPECT_EQ(verdicts(apart), verdicts(result));
   };
-  for (const NetworkCase& each : cases) check(each, question(Variant::Robust, each.slaves, 1, 1, every_fault));
+  for (const NetworkCase& each : cases) check(each, query(Variant::Robust, each.slaves, 1, 1, every_fault));
 #ifdef NDEBUG
   constexpr Fault crash[] = {Fault::crash};
-  check({2, 1, Subscription::Star, 37751, 74500}, question(Variant::Robust, 2, 1, 1, crash));
-  check({2, 2, Subscription::Star, 12842, 25264}, question(Variant::Robust, 2, 1, 0, {}));
-  check({2, 0, Subscription::AllToAll, 582170, 1117007}, question(Variant::Robust, 2, 1, 1, crash));
+  check({2, 1, Subscription::Star, 37751, 74500}, query(Variant::Robust, 2, 1, 1, crash));
+  check({2, 2, Subscription::Star, 12842, 25264}, query(Variant::Robust, 2, 1, 0, {}));
+  check({2, 0, Subscription::AllToAll, 582170, 1117007}, query(Variant::Robust, 2, 1, 1, crash));
 #endif
 }
 
@@ -132,17 +132,17 @@ TEST(Robust, HoldsOnChannelsAndWithAllToAllSubscription) {
 TEST(Paper, FailsOnEveryNetwork) {
   for (const bool channels : {false, true}) {
     SCOPED_TRACE(channels);
-    Question asked = question(Variant::Paper, channels ? 1 : 2, channels ? 2 : 1, 0, {});
+    Query asked = query(Variant::Paper, channels ? 1 : 2, channels ? 2 : 1, 0, {});
     if (channels) asked.network = Network::channels;
     else asked.subscription = handshake::Subscription::AllToAll;
-    const Answer answer = ask(asked);
-    EXPECT_TRUE(answer.exhausted);
-    for (const Property property : {Property::S1, Property::S2, Property::L1}) EXPECT_EQ(answer[property], Verdict::violated) << name_of(property);
-    for (const Property property : {Property::S4, Property::S5}) EXPECT_EQ(answer[property], Verdict::holds) << name_of(property);
+    const SearchResult result = ask(asked);
+    EXPECT_TRUE(result.exhausted);
+    for (const Property property : {Property::S1, Property::S2, Property::L1}) EXPECT_EQ(result[property], Verdict::violated) << name_of(property);
+    for (const Property property : {Property::S4, Property::S5}) EXPECT_EQ(result[property], Verdict::holds) << name_of(property);
     for (const Property property : {Property::S1, Property::S2}) {
-      if (!answer.traces[index_of(property)]) continue;
-      const Trace& trace = *answer.traces[index_of(property)];
-      EXPECT_TRUE(observed(replay(asked, answer.beginnings[trace.beginning], trace), property)) << name_of(property);
+      if (!result.traces[index_of(property)]) continue;
+      const Trace& trace = *result.traces[index_of(property)];
+      EXPECT_TRUE(observed(replay(asked, result.beginnings[trace.beginning], trace), property)) << name_of(property);
     }
   }
 }
@@ -151,9 +151,9 @@ TEST(Paper, FailsOnEveryNetwork) {
 TEST(Silence, IsAskedOnlyWhereSomebodyCanBeSilent) {
   const auto of_silence = [](std::initializer_list<Fault> classes, std::uint32_t budget) {
     const std::vector<Fault> all(classes);
-    const Answer answer = ask(question(Variant::Robust, 1, 2, budget, all));
-    EXPECT_TRUE(answer.all_hold());
-    return std::pair(answer[Property::F1], answer[Property::silence]);
+    const SearchResult result = ask(query(Variant::Robust, 1, 2, budget, all));
+    EXPECT_TRUE(result.all_hold());
+    return std::pair(result[Property::F1], result[Property::silence]);
   };
   EXPECT_EQ(of_silence({Fault::loss, Fault::restart}, 1), std::pair(Verdict::not_asked, Verdict::not_asked));
   EXPECT_EQ(of_silence({Fault::crash}, 0), std::pair(Verdict::not_asked, Verdict::not_asked));
@@ -162,59 +162,59 @@ TEST(Silence, IsAskedOnlyWhereSomebodyCanBeSilent) {
 }
 
 TEST(Paper, FailsAsTheReadmeOfTheHandshakeSays) {
-  const Answer answer = ask(question(Variant::Paper, 1, 2, 1, every_fault));
-  EXPECT_TRUE(answer.exhausted);
-  for (const Property property : {Property::S1, Property::S2, Property::S3, Property::F1, Property::L1}) EXPECT_EQ(answer[property], Verdict::violated) << name_of(property);
-  for (const Property property : {Property::S4, Property::S5}) EXPECT_EQ(answer[property], Verdict::holds) << name_of(property);
-  for (std::size_t p = index_of(Property::all_running); p < property_count; ++p) EXPECT_EQ(answer.verdicts[p], Verdict::reached) << property_names[p];
+  const SearchResult result = ask(query(Variant::Paper, 1, 2, 1, every_fault));
+  EXPECT_TRUE(result.exhausted);
+  for (const Property property : {Property::S1, Property::S2, Property::S3, Property::F1, Property::L1}) EXPECT_EQ(result[property], Verdict::violated) << name_of(property);
+  for (const Property property : {Property::S4, Property::S5}) EXPECT_EQ(result[property], Verdict::holds) << name_of(property);
+  for (std::size_t p = index_of(Property::all_running); p < property_count; ++p) EXPECT_EQ(result.verdicts[p], Verdict::reached) << property_names[p];
 }
 
 // The counter-example of an invariant is one for the observer of all other tests, too.
 TEST(Paper, TheObserverSeesWhatTheSearchSees) {
   for (std::uint8_t slaves = 1; slaves <= 2; ++slaves) {
     for (const bool finishes : {true, false}) {
-      Question asked = question(Variant::Paper, slaves, slaves == 1 ? 3 : 1, 1, every_fault);
+      Query asked = query(Variant::Paper, slaves, slaves == 1 ? 3 : 1, 1, every_fault);
       asked.finishes = finishes;
-      const Answer answer = ask(asked);
+      const SearchResult result = ask(asked);
       for (const Property property : {Property::S1, Property::S2, Property::S3}) {
-        if (answer[property] != Verdict::violated) continue;
-        const Trace& trace = *answer.traces[index_of(property)];
-        EXPECT_TRUE(observed(replay(asked, answer.beginnings[trace.beginning], trace), property)) << name_of(property);
+        if (result[property] != Verdict::violated) continue;
+        const Trace& trace = *result.traces[index_of(property)];
+        EXPECT_TRUE(observed(replay(asked, result.beginnings[trace.beginning], trace), property)) << name_of(property);
       }
     }
   }
 }
 
 // Suspend and resume that cross chase each other for ever: a cycle, and not only an end at the wrong place.
-TEST(Paper, HasFairCyclesOutsideTheGoal) { EXPECT_GT(ask(question(Variant::Paper, 1, 2, 0, {})).cyclic_states, 100U); }
+TEST(Paper, HasFairCyclesOutsideTheGoal) { EXPECT_GT(ask(query(Variant::Paper, 1, 2, 0, {})).cyclic_states, 100U); }
 
 // Without any call the paper's group stays where it is; with none, nothing can be reached either, and that is said.
 TEST(Vacuity, NothingIsReachedWithoutCalls) {
-  const Answer answer = ask(question(Variant::Robust, 1, 0, 0, {}));
-  EXPECT_TRUE(answer.exhausted);
-  EXPECT_FALSE(answer.all_hold());
-  EXPECT_FALSE(answer.any_violated());
-  EXPECT_EQ(answer[Property::T5], Verdict::unreached);
+  const SearchResult result = ask(query(Variant::Robust, 1, 0, 0, {}));
+  EXPECT_TRUE(result.exhausted);
+  EXPECT_FALSE(result.all_hold());
+  EXPECT_FALSE(result.any_violated());
+  EXPECT_EQ(result[Property::T5], Verdict::unreached);
 }
 
 TEST(Limits, StatesAndDepth) {
-  Question asked = question(Variant::Robust, 1, 4, 0, {});
+  Query asked = query(Variant::Robust, 1, 4, 0, {});
   asked.states = 1000;
-  const Answer few = ask(asked);
+  const SearchResult few = ask(asked);
   EXPECT_EQ(few.states, 1000U);
   EXPECT_FALSE(few.exhausted);
   EXPECT_EQ(few[Property::L1], Verdict::unknown);
-  asked = question(Variant::Robust, 1, 4, 0, {});
+  asked = query(Variant::Robust, 1, 4, 0, {});
   asked.depth = 5;
-  const Answer shallow = ask(asked);
+  const SearchResult shallow = ask(asked);
   EXPECT_EQ(shallow.depth, 5U);
   EXPECT_FALSE(shallow.exhausted);
 }
 
 TEST(Limits, CanBeInterrupted) {
-  const Answer answer = explore(question(Variant::Robust, 2, 2, 1, every_fault), [](const Progress&) { return false; });
-  EXPECT_TRUE(answer.interrupted);
-  EXPECT_FALSE(answer.exhausted);
+  const SearchResult result = explore(query(Variant::Robust, 2, 2, 1, every_fault), [](const Progress&) { return false; });
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_FALSE(result.exhausted);
 }
 
 }  // namespace

@@ -7,9 +7,9 @@ namespace takt::explore {
 namespace {
 
 Shape star(std::uint8_t slaves) {
-  Question question;
-  question.slaves = slaves;
-  return Shape(question, Wiring(question).size());
+  Query query;
+  query.slaves = slaves;
+  return Shape(query, Wiring(query).size());
 }
 
 State state_number(std::uint8_t slaves, std::uint32_t number) {

@@ -46,7 +46,7 @@ inline constexpr std::size_t most_inner_slaves = 2;
 inline constexpr std::size_t most_explored_roles = 2;
 inline constexpr std::size_t most_explored_candidates = 3;
 
-struct Question {
+struct Query {
   handshake::Variant variant = handshake::Variant::Robust;
   std::uint8_t slaves = 1;           ///< 1 to most_slaves, with all-to-all subscription to most_slaves_all_to_all
   handshake::Subscription subscription = handshake::Subscription::Star;
@@ -66,7 +66,7 @@ struct Question {
   std::array<std::uint8_t, most_explored_candidates> offers{0xFF, 0xFF, 0xFF};  ///< by candidate: the roles that it can have, bit i for role i
   std::uint8_t joined = 0xFF;        ///< candidates that announce themselves when they are switched on, bit i for candidate i
   bool starts_again = false;         ///< the master starts the group again when a node that was lost in a run has been replaced
-  bool operator==(const Question&) const = default;
+  bool operator==(const Query&) const = default;
   /// Explored by the model of groups with roles (roles_model.hpp): `robust`, star, registers, no delayed copies.
   bool has_roles() const { return candidates != 0; }
   bool nested() const { return inner_slaves != 0; }

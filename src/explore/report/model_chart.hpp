@@ -9,15 +9,15 @@
 
 namespace takt::explore {
 
-/// What there is to say of a model's states and actions: a class made from a Question, with
+/// What there is to say of a model's states and actions: a class made from a Query, with
 ///   M model                                    whose runs are told
 ///   width                                      of a column
 ///   names()                                    of the columns
 ///   states(state)                              the cells of the columns
 ///   step(state, action)                        a step before it is taken
 template <class W>
-Chart told_with(const Question& question, const Beginning& beginning, const Trace& trace) {
-  W words(question);
+Chart chart_with(const Query& query, const Beginning& beginning, const Trace& trace) {
+  W words(query);
   auto& model = words.model;
   Chart chart;
   chart.names = words.names();
@@ -28,8 +28,8 @@ Chart told_with(const Question& question, const Beginning& beginning, const Trac
   Next next;
   for (const Action action : beginning.actions)
     if (model.act(state, action, next)) state = next.state;
-  state.set_commands_left(model.question().commands);
-  state.set_faults_left(model.question().fault_budget);
+  state.set_commands_left(model.query().commands);
+  state.set_faults_left(model.query().fault_budget);
   chart.beginning = beginning.name;
   chart.states = words.states(state);
   chart.cycle = trace.cycle;

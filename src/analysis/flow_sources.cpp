@@ -83,6 +83,8 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, b
     flow.best_source = os.transmit.least().ps();
   }
   pattern.jitter = sum(pattern.jitter, flow.worst_source - flow.best_source);
+  // One that is handed over too late is lost only then, and under way until then.
+  if (flow.may_miss_launch) flow.worst_source = std::max(flow.worst_source, os.transmit.greatest().ps());
   if (const auto* const periodic = std::get_if<models::PeriodicSchedule>(&talker.schedule); periodic != nullptr && has_phase && !talker.babbles)
     flow.produced = ArrivalPhase{periodic->offset.ps() - clock.error, periodic->period.ps(), periodic->jitter.ps() + 2 * clock.error, clock.is_synchronised ? 0 : node.value + 1, clock.rate_ppt};
   flow.source = FrameArrivals(pattern);

@@ -270,6 +270,16 @@ TEST(Assessment, WhatIsDroppedByIntention) {
   EXPECT_EQ(safety_of(*healthy).loss_reason, "copies of a redundant stream are dropped");
 }
 
+// A frame that is handed over after its launch time is lost then, and was under way until then: older than a limit on the latency, it breaks it.
+TEST(Assessment, WhoMissesTheLaunchTimeIsUnderWayUntilThen) {
+  const auto latency = [](const std::string& most) {
+    return bound(*load(R"({"name": "launch", "duration": "50ms", "network": {"nodes": {"a": {"kind": "host", "os": {"transmit": {"uniform": {"from": "1us", "to": ")" + most + R"("}}}}, "b": {"kind": "host"}},
+      "links": [{"ends": ["a", "b"]}]}, "streams": [{"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "10ms", "launch": "20us"}]})")).streams[0].latency;
+  };
+  EXPECT_LT(latency("20us"), 22_us);
+  EXPECT_GE(latency("5ms"), 5_ms);
+}
+
 // (8 + 150) octets of 8 ns over each of two cables of 50 ns, and what the receiver's operating system takes.
 TEST(Assessment, ReceiversTakeTime) {
   const auto resolved = load(R"({"name": "receive", "duration": "50ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host", "os": {"receive": {"uniform": {"from": "2us", "to": "5us"}}}}, "sw": {"kind": "switch"}},

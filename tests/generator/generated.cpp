@@ -11,7 +11,7 @@ namespace {
 
 namespace json = scenario::json;
 
-constexpr unsigned most_repairs = 40;
+constexpr unsigned most_repairs = 100;
 
 /// The steps of a pointer without escapes, which generated names have none of.
 std::vector<std::string> steps_of(const std::string& pointer) {

@@ -7,7 +7,7 @@
 #include "analysis/bounds.hpp"
 #include "papers/charts.hpp"
 #include "papers/plants.hpp"
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/resolve/resolve.hpp"
 
 namespace takt::papers {
@@ -16,7 +16,7 @@ namespace {
 BeyondRow row_of(const Plant& plant, const scenario::Resolved& resolved, Reproduction& made) {
   scenario::Run run(resolved);
   run.advance();
-  const results::RunResult result = results::evaluate(run, false);
+  const results::RunResult result = evaluation::evaluate(run, false);
   const analysis::Bounds bounds = analysis::bound(resolved);
   BeyondRow row;
   row.variant = plant.variant;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "papers/published.hpp"
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/resolve/resolve.hpp"
 
 namespace takt::papers {
@@ -29,7 +29,7 @@ std::optional<results::RunResult> run(const ProgramsOptions& options, const Case
   if (options.progress) options.progress(fmt::format("claims: {} values, cycle {}", what.values, what.cycle_ms > 0 ? fmt::format("{} ms", what.cycle_ms) : "200 us"));
   scenario::Run live(*resolved);
   live.advance();
-  return results::evaluate(live, false);
+  return evaluation::evaluate(live, false);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "papers/charts.hpp"
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/resolve/resolve.hpp"
 
 namespace takt::papers {

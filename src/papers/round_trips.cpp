@@ -6,7 +6,7 @@
 
 #include "chart/histogram.hpp"
 #include "papers/published.hpp"
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 
@@ -57,7 +57,7 @@ bool reproduce_round_trips(const ProgramsOptions& options, Reproduction& made, s
     scenario::Run run(*resolved);
     run.advance();
     const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    const results::RunResult result = results::evaluate(run, false);
+    const results::RunResult result = evaluation::evaluate(run, false);
     const results::RoundTripResult& trip = result.programs.front().round_trips.front();
     made.speed.push_back({row.values, static_cast<double>(result.simulated.ps()) * 1e-12, took, result.events, result.digest, trip.count});
 

@@ -68,13 +68,13 @@ class Searcher {
       cost_of_run_ = probes[i]->events + cost_of_a_node * resolved_.plan.nodes.size();
       if (i == 0)
         for (const RequirementResult& requirement : probes[i]->requirements) {
-          search_.findings.push_back({requirement, {}, false, {}, 0, false});
+          search_.findings.emplace_back().requirement = requirement;
           plain_.push_back(plain(resolved_.scenario, requirement));
         }
       note(*probes[i], scenarios[i], false, true);
     }
     for (Finding& finding : search_.findings) {
-      finding.simulated = finding.worst.measured;
+      finding.simulated = finding.longest.measured;
       finding.failed_as_it_is = finding.worst.failed;
     }
     return true;
@@ -106,9 +106,11 @@ class Searcher {
       // What was not complete at the end might have been so later.
       const bool failed = seen.verdict == results::Verdict::fail && (!is_part || seen.measured || seen.kind == RequirementKind::invariants) &&
                           !(is_part && seen.measured && seen.limit && *seen.measured <= *seen.limit && !is_too_fast(seen));
+      Worst made{seen.measured, failed || finding.worst.failed, scenario, seen.figure ? seen.figure->found : std::nullopt};
+      if (finding.longest.scenario.name.empty() || seen.measured > finding.longest.measured) finding.longest = made;
       const bool worse = (failed && !finding.worst.failed) || (failed == finding.worst.failed && seen.measured > finding.worst.measured);
       if (!worse && !finding.worst.scenario.name.empty()) continue;
-      finding.worst = {seen.measured, failed || finding.worst.failed, scenario, seen.figure ? seen.figure->found : std::nullopt};
+      finding.worst = std::move(made);
     }
   }
 

@@ -34,7 +34,8 @@ struct Finding {
   results::RequirementResult requirement;   ///< text, kind and limit; of the scenario as it is
   std::optional<sim::Duration> simulated;   ///< worst of the runs of the scenario as it is
   bool failed_as_it_is = false;
-  Worst worst;                              ///< of all runs
+  Worst worst;                              ///< of all runs; one that fails is worse than any that does not
+  Worst longest;                            ///< that with the greatest measured, which need not be the one that fails: that may have lost a frame instead
   std::uint64_t runs = 0;                   ///< of the search for this requirement
   bool exhaustive = false;                  ///< all combinations of critical instants were run
 };

@@ -5,7 +5,7 @@
 #include <exception>
 #include <thread>
 
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 
@@ -19,7 +19,7 @@ std::optional<Probe> probe(const scenario::Scenario& scenario, const analysis::B
   constexpr std::uint64_t events_a_slice = 500'000;
   while (!run.advance(events_a_slice))
     if (interrupted && interrupted()) return std::nullopt;
-  results::RunResult result = results::evaluate(run, false);
+  results::RunResult result = evaluation::evaluate(run, false);
   std::vector<Violation> violations = violations_in(run, result);
   std::string contradiction = contradiction_in(*resolved, bounds, result);
   return Probe{std::move(result.requirements), run.simulation().event_count(), run.simulation().digest().value(), std::move(violations), std::move(contradiction)};

@@ -32,13 +32,14 @@ Line line_of(const Finding& finding, const Proof& proof, const analysis::Assumpt
   Line line;
   line.requirement = finding.requirement;
   line.simulated = finding.simulated;
-  line.adversarial = finding.worst.measured;
+  line.adversarial = finding.longest.measured;
   const std::string objection = ledger.objection(proof.assumptions, proof.from);
   if (objection.empty()) line.bound = proof.time;   // what does not stand is no bound
   line.reason = proof.reason;
   line.remark = proof.remark;
   line.assumptions = proof.assumptions;
   line.worst = finding.worst.scenario;
+  line.longest = finding.longest.scenario;
   line.runs = finding.runs;
   line.exhaustive = finding.exhaustive;
   if (finding.worst.failed)
@@ -60,7 +61,7 @@ void settle(analysis::AssumptionLedger& ledger, const std::vector<Violation>& vi
 std::optional<Contradiction> contradiction_of(const Line& line, const Finding& finding, const Proof& proof, const analysis::AssumptionLedger& ledger) {
   if (line.verdict != Verdict::refuted || !proof.holds || !ledger.objection(proof.assumptions, proof.from).empty()) return std::nullopt;
   // A bound says how long a reaction or a frame takes, not that there is one: a requirement that fails for want of it is refuted, and that is all.
-  if (line.requirement.limit && !finding.worst.measured) return std::nullopt;
+  if (line.requirement.limit && !finding.longest.measured) return std::nullopt;
   if (line.requirement.figure && !finding.worst.figure) return std::nullopt;   // likewise
   return Contradiction{line.requirement.text + ": a run fails what is proved", finding.worst.scenario};
 }
@@ -70,7 +71,7 @@ void add_slack(Verification& result, const analysis::Bounds& bounds, const std::
   if (result.contradiction) return;
   for (Line& line : result.lines)
     if (const std::optional<double> tightness = line.tightness(); tightness && !is_tight(line.requirement.kind, *tightness))
-      line.slack = slack_of({line.requirement, *line.adversarial, *line.bound, line.worst}, bounds, interrupted);
+      line.slack = slack_of({line.requirement, *line.adversarial, *line.bound, line.longest}, bounds, interrupted);
 }
 
 }  // namespace

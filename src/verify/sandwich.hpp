@@ -28,7 +28,8 @@ struct Line {
   std::string reason;                       ///< why it is not proved
   std::string remark;                       ///< how it is proved, where that is no bound
   analysis::Assumptions assumptions;        ///< what the bound or proof rests on
-  scenario::Scenario worst;                 ///< replays the adversarial maximum
+  scenario::Scenario worst;                 ///< the worst run; one that fails, if any does
+  scenario::Scenario longest;                ///< the run that `adversarial` was measured in
   std::uint64_t runs = 0;
   bool exhaustive = false;
   std::vector<SlackPart> slack;             ///< where the bound gives away what the worst run does not take, unless it is tight

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/assumption_ledger.hpp"
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "verify/monitor.hpp"
@@ -136,7 +136,7 @@ TEST(Assumptions, ARunAboveABoundIsAContradiction) {
   const auto resolved = small_network(R"(, "require": [{"stream": "urgent", "latency": "1ms"}])");
   scenario::Run run(*resolved);
   run.advance();
-  const results::RunResult result = results::evaluate(run, false);
+  const results::RunResult result = evaluation::evaluate(run, false);
   analysis::Bounds bounds = analysis::bound(*resolved);
   EXPECT_EQ(contradiction_in(*resolved, bounds, result), "");
   const auto urgent = std::find_if(bounds.streams.begin(), bounds.streams.end(), [](const auto& stream) { return stream.name == "urgent"; });

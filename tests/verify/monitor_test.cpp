@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/run/run.hpp"
 #include "tests/verify/support.hpp"
 
@@ -27,7 +27,7 @@ struct Watched {
   explicit Watched(const std::string& text) : resolved(verify::resolved(text)) {
     run = std::make_unique<scenario::Run>(*resolved);
     run->advance();
-    result = results::evaluate(*run, false);
+    result = evaluation::evaluate(*run, false);
     bounds = analysis::bound(*resolved);
   }
   std::string violated(Assumption assumption) const {

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/run/run.hpp"
 #include "tests/verify/support.hpp"
 #include "verify/bounds.hpp"
@@ -24,7 +24,7 @@ std::vector<Proved> proved(const std::string& text, const ProofOptions& options 
   const auto made = resolved(text);
   scenario::Run run(*made);
   run.advance();
-  const std::vector<results::RequirementResult> requirements = results::evaluate(run, false).requirements;
+  const std::vector<results::RequirementResult> requirements = evaluation::evaluate(run, false).requirements;
   const std::vector<Proof> proofs = prove(*made, analysis::bound(*made), requirements, options);
   std::vector<Proved> all;
   for (std::size_t i = 0; i < proofs.size(); ++i) all.push_back({proofs[i], requirements[i]});

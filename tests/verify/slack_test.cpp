@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "tests/verify/support.hpp"
 #include "verify/report.hpp"
 
@@ -26,7 +26,7 @@ Replay replay(const std::string& text) {
   scenario::Run run(*scenario);
   run.advance();
   Replay made;
-  made.requirement = results::evaluate(run, false).requirements.front();
+  made.requirement = evaluation::evaluate(run, false).requirements.front();
   made.bound = bounds.requirements.front().bound.duration.value_or(Duration());
   made.parts = slack_of({made.requirement, *made.requirement.measured, made.bound, scenario->scenario}, bounds, {});
   Duration of_run;

@@ -4,7 +4,7 @@
 #include <ctime>
 
 #include "papers/coexistence/output_log.hpp"
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/run/run.hpp"
 
 namespace takt::papers::coexistence {
@@ -45,7 +45,7 @@ RunFigures run(const scenario::Resolved& resolved, std::string_view commands_of)
   made.commands = log.commands();
   if (!resolved.scenario.applications.empty()) made.begin = sim::TrueTime() + resolved.scenario.applications.front().scheduler.after;
   made.end = live.end();
-  const results::RunResult result = results::evaluate(live, false);
+  const results::RunResult result = evaluation::evaluate(live, false);
   made.passed = result.verdict == results::Verdict::pass;
   made.simulated_seconds = static_cast<double>(result.simulated.ps()) * 1e-12;
   made.events = result.events;

@@ -9,7 +9,7 @@
 
 #include "analysis/bounds.hpp"
 #include "analysis/server_network_file.hpp"
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "results/result_json.hpp"
 #include "scenario/figures/figure.hpp"
 #include "scenario/resolve/resolve.hpp"
@@ -68,7 +68,7 @@ class Worker {
   void run(const scenario::Resolved& resolved) {
     scenario::Run run(resolved);
     run.advance();
-    const Node result = results::run_node(results::evaluate(run, false));
+    const Node result = results::run_node(evaluation::evaluate(run, false));
     for (const std::size_t f : job_.figures) {
       const auto figure = scenario::read_figure({text(f).where, "figure", *text(f).figure, text(f).only, {}, text(f).unit}, job_.diagnostics);
       if (!figure) continue;
@@ -99,7 +99,7 @@ class Worker {
     const verify::Search found = verify::search(resolved, analysis::bound(resolved), options);
     for (const std::size_t f : job_.figures) {
       if (found.contradiction) made_[f].reason = found.contradiction->text;   // takt is wrong: that is no figure
-      else if (!found.findings.empty() && found.findings.front().worst.measured) made_[f].value = in_unit(*found.findings.front().worst.measured, text(f).unit);
+      else if (!found.findings.empty() && found.findings.front().longest.measured) made_[f].value = in_unit(*found.findings.front().longest.measured, text(f).unit);
       else made_[f].reason = "no run delivers a frame";
     }
   }

@@ -11,7 +11,7 @@
 #include "results/result_json.hpp"
 #include "output/result_folder.hpp"
 #include "output/text_report.hpp"
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 
 namespace takt::cli {
 namespace {
@@ -59,7 +59,7 @@ ExitStatus run(const RunOptions& options) {
   }
   if (const std::string problem = recording.open(); !problem.empty()) return cannot_write(problem);
   const bool complete = simulate(live, !options.quiet && !options.scenario.is_json());
-  const results::RunResult result = results::evaluate(live, !complete);
+  const results::RunResult result = evaluation::evaluate(live, !complete);
   if (const std::string problem = recording.close(); !problem.empty()) return cannot_write(problem);
   if (!options.out.empty()) {
     if (const std::string problem = output::write_result_folder(options.out, result, scenario::json::encode(resolved->scenario)); !problem.empty())

@@ -1,4 +1,4 @@
-// takt schema: what the files of takt may say, as JSON Schema for editors or as a page for people.
+// takt schema: what the files of takt may say and its outputs hold, as JSON Schema or as a page for people.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,8 @@
 #include "node/applications/config.hpp"
 #include "node/config.hpp"
 #include "scenario/description/description.hpp"
+#include "results/run_result.hpp"
+#include "scenario/json/record.hpp"
 #include "scenario/json/reference.hpp"
 #include "study/description.hpp"
 
@@ -19,18 +21,29 @@ namespace {
 
 namespace json = scenario::json;
 
-/// A kind of file that takt reads.
+/// A kind of file that takt reads, or of output that it writes.
 struct FileKind {
   const char* name;
   const char* title;
   json::Node (*schema)(std::string_view title);
+  const json::Record* (*record)() = nullptr;   ///< of an output
 };
 
+template <class T>
+constexpr FileKind read_as(const char* name, const char* title) {
+  return {name, title, json::schema_tree<T>};
+}
+template <class T>
+constexpr FileKind written_as(const char* name, const char* title) {
+  return {name, title, [](std::string_view words) { return json::record_schema(describe(json::Type<T>{}), words); }, [] { return &describe(json::Type<T>{}); }};
+}
+
 constexpr std::array file_kinds{
-    FileKind{"scenario", "takt scenario", json::schema_tree<scenario::Scenario>},
-    FileKind{"study", "takt study", json::schema_tree<study::Study>},
-    FileKind{"node", "takt node: Programs", json::schema_tree<node::Config>},
-    FileKind{"applications", "takt node: applications", json::schema_tree<node::ApplicationsConfig>},
+    read_as<scenario::Scenario>("scenario", "takt scenario"),
+    read_as<study::Study>("study", "takt study"),
+    read_as<node::Config>("node", "takt node: Programs"),
+    read_as<node::ApplicationsConfig>("applications", "takt node: applications"),
+    written_as<results::RunResult>("result", "takt run: result.json"),
 };
 
 struct Options {
@@ -40,9 +53,13 @@ struct Options {
 
 std::string text_for(const Options& options) {
   const FileKind& kind = *std::ranges::find_if(file_kinds, [&](const FileKind& each) { return each.name == options.kind; });
-  const json::Node tree = kind.schema(kind.title);
-  if (!options.as_reference) return json::pretty(tree);
-  return json::reference(tree, fmt::format("All keys of such a file. Made by `takt schema {} --reference` from the tables that the loader reads by; every mistake in a file is "
+  if (!options.as_reference) return json::pretty(kind.schema(kind.title));
+  if (kind.record != nullptr)
+    return json::record_reference(*kind.record(), kind.title,
+                                  fmt::format("Made by `takt schema {} --reference` from the tables that the output is written by; `takt schema {}` prints its JSON Schema. Keys that end with "
+                                              "`_ps`, and all times, are whole picoseconds.",
+                                              kind.name, kind.name));
+  return json::reference(kind.schema(kind.title), fmt::format("All keys of such a file. Made by `takt schema {} --reference` from the tables that the loader reads by; every mistake in a file is "
                                            "reported with its place and what was expected, and `takt schema {}` prints the JSON Schema for editors.",
                                            kind.name, kind.name));
 }
@@ -50,11 +67,11 @@ std::string text_for(const Options& options) {
 }  // namespace
 
 void add_schema_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("schema", "Print what files of takt may say: JSON Schema for editors, or a page for people");
+  CLI::App& command = *app.add_subcommand("schema", "Print what files of takt may say and its outputs hold: JSON Schema, or a page for people");
   const auto options = std::make_shared<Options>();
   std::vector<std::string> names;
   for (const FileKind& kind : file_kinds) names.emplace_back(kind.name);
-  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them)")->check(CLI::IsMember(names));
+  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result")->check(CLI::IsMember(names));
   command.add_flag("--reference", options->as_reference, "Markdown for people instead: every key with unit, range, default and meaning");
   command.footer("Examples:\n  takt schema > scenarios/takt.schema.json\n  takt schema study > scenarios/studies/takt-study.schema.json\n  takt schema scenario --reference | less");
   command.callback([options, &status] {

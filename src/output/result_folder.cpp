@@ -9,55 +9,53 @@
 #include <filesystem>
 
 #include "results/result_json.hpp"
+#include "scenario/json/csv.hpp"
 
 namespace takt::output {
 namespace {
 
-/// RFC 4180: quoted where a separator, quote or line break stands inside.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
+namespace json = scenario::json;
+using json::Column;
+using json::Row;
+
+std::vector<Row> rows_by_name(const json::Node& objects) {
+  std::vector<Row> rows;
+  for (const json::Member& member : objects.members) rows.push_back({{member.key}, &member.value});
+  return rows;
 }
 
-std::string streams_csv(const results::RunResult& result) {
-  std::string out = "stream,sent,copies,delivered,dropped,in_flight,min_ps,mean_ps,p50_ps,p99_ps,max_ps,stddev_ps\n";
-  for (const results::StreamResult& s : result.streams) {
-    out += fmt::format("{},{},{},{},{},{}", cell(s.name), s.sent, s.copies, s.delivered, s.dropped_in_all(), s.in_flight);
-    if (s.latency)
-      out += fmt::format(",{},{},{},{},{},{}\n", s.latency->min.ps(), s.latency->mean.ps(), s.latency->p50.ps(), s.latency->p99.ps(), s.latency->max.ps(),
-                         s.latency->stddev.ps());
-    else
-      out += ",,,,,,\n";
-  }
-  return out;
+std::string streams_csv(const json::Node& result) {
+  static constexpr std::string_view first[] = {"stream"};
+  static constexpr Column columns[] = {{"sent", "/sent"}, {"copies", "/copies"}, {"delivered", "/delivered"}, {"dropped", "/dropped/*"}, {"in_flight", "/in_flight"},
+                                       {"min_ps", "/latency_ps/min"}, {"mean_ps", "/latency_ps/mean"}, {"p50_ps", "/latency_ps/p50"}, {"p99_ps", "/latency_ps/p99"},
+                                       {"max_ps", "/latency_ps/max"}, {"stddev_ps", "/latency_ps/stddev"}};
+  return json::csv(first, columns, rows_by_name(*result.find("streams")));
 }
 
-std::string reactions_csv(const results::RunResult& result) {
-  std::string out = "program,kind,initiator,cause,began_ps,completed_ps,duration_ps,superseded\n";
-  for (const results::ProgramResult& p : result.programs)
-    for (const results::ReactionResult& r : p.reactions)
-      out += fmt::format("{},{},{},{},{},{},{},{}\n", cell(p.name), r.kind, cell(r.initiator), r.cause, r.began.ps(),
-                         r.completed ? std::to_string(r.completed->ps()) : "", r.completed ? std::to_string(r.duration()->ps()) : "", r.superseded ? 1 : 0);
-  return out;
+std::string reactions_csv(const json::Node& result) {
+  static constexpr std::string_view first[] = {"program"};
+  static constexpr Column columns[] = {{"kind", "/kind"}, {"initiator", "/initiator"}, {"cause", "/cause"}, {"began_ps", "/began_ps"}, {"completed_ps", "/completed_ps"},
+                                       {"duration_ps", "/duration_ps"}, {"superseded", "/superseded"}};
+  std::vector<Row> rows;
+  for (const json::Member& program : result.find("programs")->members)
+    for (const json::Node& reaction : program.value.find("reactions")->items) rows.push_back({{program.key}, &reaction});
+  return json::csv(first, columns, rows);
 }
 
-std::string ports_csv(const results::RunResult& result) {
-  std::string out = "node,port,peer,frames,dropped,queue_peak,utilisation\n";
-  for (const results::PortResult& p : result.ports)
-    out += fmt::format("{},{},{},{},{},{},{:.9f}\n", cell(p.node), p.port, cell(p.peer), p.frames, p.dropped, p.queue_peak, p.utilisation);
-  return out;
+std::string ports_csv(const json::Node& result) {
+  static constexpr Column columns[] = {{"node", "/node"}, {"port", "/port"}, {"peer", "/peer"}, {"frames", "/frames"}, {"dropped", "/dropped"}, {"queue_peak", "/queue_peak"},
+                                       {"utilisation", "/utilisation"}};
+  std::vector<Row> rows;
+  for (const json::Node& port : result.find("ports")->items) rows.push_back({{}, &port});
+  return json::csv({}, columns, rows);
 }
 
 std::string histograms_csv(const results::RunResult& result) {
-  std::string out = "stream,from_ps,to_ps,count\n";
+  static constexpr std::string_view first[] = {"stream", "from_ps", "to_ps", "count"};
+  std::vector<Row> rows;
   for (const results::StreamResult& s : result.streams)
-    for (const results::HistogramBucket& b : s.histogram) out += fmt::format("{},{},{},{}\n", cell(s.name), b.from.ps(), b.to.ps(), b.count);
-  return out;
+    for (const results::HistogramBucket& b : s.histogram) rows.push_back({{s.name, std::to_string(b.from.ps()), std::to_string(b.to.ps()), std::to_string(b.count)}, nullptr});
+  return json::csv(first, {}, rows);
 }
 
 std::string failure(const std::string& path) { return fmt::format("{}: {}", path, std::strerror(errno)); }
@@ -88,10 +86,11 @@ std::string write_result_folder(const std::string& folder, const results::RunRes
   std::filesystem::create_directories(folder, error);
   if (error) return folder + ": " + error.message();
   const std::filesystem::path base(folder);
+  const json::Node node = results::run_node(result);
   const std::pair<const char*, std::string> files[] = {
-      {"scenario.json", resolved_scenario},      {"streams.csv", streams_csv(result)}, {"reactions.csv", reactions_csv(result)},
-      {"ports.csv", ports_csv(result)},          {"histograms.csv", histograms_csv(result)},
-      {"result.json", results::run_json(result)},  // last: where it is, everything is
+      {"scenario.json", resolved_scenario},      {"streams.csv", streams_csv(node)}, {"reactions.csv", reactions_csv(node)},
+      {"ports.csv", ports_csv(node)},            {"histograms.csv", histograms_csv(result)},
+      {"result.json", json::pretty(node)},  // last: where it is, everything is
   };
   for (const auto& [name, content] : files)
     if (std::string problem = write_file((base / name).string(), content); !problem.empty()) return problem;

@@ -4,7 +4,7 @@
 #include <memory>
 #include <set>
 
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "sim/check.hpp"
@@ -118,7 +118,7 @@ Outcome run(const Scenario& scenario) {
   TAKT_CHECK(resolved != nullptr, "a trial of a sound scenario is one");
   scenario::Run live(*resolved);
   live.advance();
-  return Outcome(results::evaluate(live, false));
+  return Outcome(evaluation::evaluate(live, false));
 }
 
 }  // namespace takt::property

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenario/json/type.hpp"
 #include "sim/time.hpp"
 
 namespace takt::results {
@@ -121,5 +122,15 @@ struct SignalResult {
     return 100.0 * static_cast<double>(irregular_pulses) / static_cast<double>(pulses->count);
   }
 };
+
+// What result.json holds of them: the tables.
+const scenario::json::Record& describe(scenario::json::Type<ApplicationResult>);
+const scenario::json::Record& describe(scenario::json::Type<ThreadResult>);
+const scenario::json::Record& describe(scenario::json::Type<CriterionResult>);
+const scenario::json::Record& describe(scenario::json::Type<DurationSummary>);
+const scenario::json::Record& describe(scenario::json::Type<ParticipantResult>);
+const scenario::json::Record& describe(scenario::json::Type<BufferResult>);
+const scenario::json::Record& describe(scenario::json::Type<KeptResult>);
+const scenario::json::Record& describe(scenario::json::Type<SignalResult>);
 
 }  // namespace takt::results

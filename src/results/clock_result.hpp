@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scenario/json/type.hpp"
 #include "sim/time.hpp"
 
 namespace takt::results {
@@ -33,5 +34,9 @@ struct ClockResult {
   std::uint64_t messages = 0;                 ///< sent
   std::vector<ClockChangeResult> changes;     ///< the first 4096
 };
+
+// What result.json holds of them: the tables.
+const scenario::json::Record& describe(scenario::json::Type<ClockResult>);
+const scenario::json::Record& describe(scenario::json::Type<ClockChangeResult>);
 
 }  // namespace takt::results

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "scenario/json/type.hpp"
 #include "sim/time.hpp"
 
 namespace takt::results {
@@ -103,5 +104,18 @@ struct RedundancyResult {
   std::vector<SplitResult> splits;
   std::vector<RecoveryResult> recoveries;
 };
+
+// What result.json holds of them: the tables.
+const scenario::json::Record& describe(scenario::json::Type<IngressResult>);
+const scenario::json::Record& describe(scenario::json::Type<StreamFilterResult>);
+const scenario::json::Record& describe(scenario::json::Type<StreamGateResult>);
+const scenario::json::Record& describe(scenario::json::Type<FlowMeterResult>);
+const scenario::json::Record& describe(scenario::json::Type<AtsSchedulerResult>);
+const scenario::json::Record& describe(scenario::json::Type<RedundancyResult>);
+const scenario::json::Record& describe(scenario::json::Type<SplitResult>);
+const scenario::json::Record& describe(scenario::json::Type<RecoveryResult>);
+const scenario::json::Record& describe(scenario::json::Type<RecoveryCounters>);
+const scenario::json::Record& describe(scenario::json::Type<LatentErrorResult>);
+const scenario::json::Record& describe(scenario::json::Type<RecoveryResult::Individual>);
 
 }  // namespace takt::results

@@ -8,7 +8,7 @@
 
 namespace takt::results {
 
-/// Keys and meaning: docs/results.md. All times are whole picoseconds in keys that end with _ps.
+/// Keys and meaning: docs/reference/result.md. All times are whole picoseconds in keys that end with _ps.
 std::string run_json(const RunResult& result);
 /// The same before it is text.
 scenario::json::Node run_node(const RunResult& result);

@@ -10,6 +10,7 @@
 #include "results/application_result.hpp"
 #include "results/clock_result.hpp"
 #include "results/ingress_result.hpp"
+#include "scenario/json/type.hpp"
 #include "sim/time.hpp"
 
 namespace takt::results {
@@ -95,6 +96,15 @@ struct TimelineEntry {
   std::string call;                        ///< method and status, or empty
   std::string state;                       ///< the new state, or empty
   std::string fault;                       ///< what happens to the group's nodes and links, of no participant; or empty
+};
+
+/// An entry as result.json has it, with the participant's name.
+struct TimelineRow {
+  TrueTime at;
+  std::string participant;
+  std::string call;
+  std::string state;
+  std::string fault;
 };
 
 /// A role of a program got a node, or lost it.
@@ -189,5 +199,19 @@ struct RunResult {
   std::vector<IngressResult> ingress;      ///< of switches whose ingress has met a frame
   RedundancyResult redundancy;
 };
+
+// What result.json holds of them: the tables.
+const scenario::json::Record& describe(scenario::json::Type<RunResult>);
+const scenario::json::Record& describe(scenario::json::Type<RequirementResult>);
+const scenario::json::Record& describe(scenario::json::Type<StreamResult>);
+const scenario::json::Record& describe(scenario::json::Type<LatencySummary>);
+const scenario::json::Record& describe(scenario::json::Type<HistogramBucket>);
+const scenario::json::Record& describe(scenario::json::Type<ProgramResult>);
+const scenario::json::Record& describe(scenario::json::Type<ReactionResult>);
+const scenario::json::Record& describe(scenario::json::Type<BindingResult>);
+const scenario::json::Record& describe(scenario::json::Type<ViolationResult>);
+const scenario::json::Record& describe(scenario::json::Type<TimelineRow>);
+const scenario::json::Record& describe(scenario::json::Type<RoundTripResult>);
+const scenario::json::Record& describe(scenario::json::Type<PortResult>);
 
 }  // namespace takt::results

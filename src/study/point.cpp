@@ -6,7 +6,7 @@
 #include <ctime>
 
 #include "results/result_json.hpp"
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "scenario/topology/graph_figures.hpp"
@@ -87,7 +87,7 @@ Outcome run_scenario(const Plan& plan, const scenario::Scenario& scenario) {
   if (!resolved) return impossible(diagnostics);
   scenario::Run run(*resolved);
   run.advance();
-  const results::RunResult result = results::evaluate(run, false);
+  const results::RunResult result = evaluation::evaluate(run, false);
   json::Node node = results::run_node(result);
   if (asks_for_topology(plan)) node.add("topology", topology_node(*resolved));
   Outcome outcome;

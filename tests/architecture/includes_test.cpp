@@ -21,6 +21,7 @@ const Prefixes scenario = {"scenario/"};
 const Prefixes json = {"scenario/json/"};
 const Prefixes questions = {"analysis/", "explore/", "synthesis/", "verify/"};
 const Prefixes results = {"results/"};
+const Prefixes evaluation = {"evaluation/"};
 const Prefixes output = {"output/"};
 const Prefixes chart = {"chart/"};
 const Prefixes study = {"study/"};
@@ -51,19 +52,20 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/storage/", all_of({base, protocol, storage})});
     list.push_back({"src/node/", all_of({base, protocol, vocabulary, storage, node, json})});
     list.push_back({"src/scenario/json/", all_of({base, json})});
-    const Prefixes below = all_of({kernel, models, protocol, vocabulary, scenario});
+    list.push_back({"src/results/", all_of({base, json, results})});
+    const Prefixes below = all_of({kernel, models, protocol, vocabulary, results, scenario});
     list.push_back({"src/scenario/", below});
     // Beside the questions, but its points are results as result.json has them, and its report is drawn.
-    list.push_back({"src/study/", all_of({below, questions, results, output, chart, study})});
-    for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, results})});
-    list.push_back({"src/results/", all_of({below, results})});
-    list.push_back({"src/output/", all_of({below, questions, results, output})});
+    list.push_back({"src/study/", all_of({below, questions, evaluation, output, chart, study})});
+    for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, evaluation})});
+    list.push_back({"src/evaluation/", all_of({below, evaluation})});
+    list.push_back({"src/output/", all_of({below, questions, evaluation, output})});
     list.push_back({"src/chart/", chart});
-    list.push_back({"src/papers/", all_of({below, questions, results, chart, papers})});
-    list.push_back({"src/property/", all_of({below, questions, results, output, {"property/"}})});
+    list.push_back({"src/papers/", all_of({below, questions, evaluation, chart, papers})});
+    list.push_back({"src/property/", all_of({below, questions, evaluation, output, {"property/"}})});
     list.push_back({"src/emulate/", all_of({below, node, emulate})});
-    list.push_back({"src/cli/", all_of({below, questions, study, results, output, node, emulate, papers, cli})});
-    list.push_back({"src/main.cpp", all_of({below, questions, study, results, output, node, emulate, papers, cli})});
+    list.push_back({"src/cli/", all_of({below, questions, study, evaluation, output, node, emulate, papers, cli})});
+    list.push_back({"src/main.cpp", all_of({below, questions, study, evaluation, output, node, emulate, papers, cli})});
     return list;
   }();
   return all;
@@ -88,7 +90,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, output, cli, node, emulate, vocabulary, chart, papers, study, storage, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, evaluation, output, cli, node, emulate, vocabulary, chart, papers, study, storage, {"property/"}});
   return roots;
 }
 

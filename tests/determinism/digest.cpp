@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 
@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   }
   takt::scenario::Run run(*resolved);
   run.advance();
-  const takt::results::RunResult result = takt::results::evaluate(run, false);
+  const takt::results::RunResult result = takt::evaluation::evaluate(run, false);
   std::printf("%016llx %llu\n", static_cast<unsigned long long>(result.digest), static_cast<unsigned long long>(result.events));
   return 0;
 }

@@ -12,7 +12,7 @@
 
 #include "results/result_json.hpp"
 #include "output/text_report.hpp"
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/json/override.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
@@ -44,7 +44,7 @@ bool is_left_out(const scenario::Scenario& scenario) {
 std::uint64_t digest_of(const scenario::Resolved& resolved) {
   scenario::Run run(resolved);
   const bool is_complete = run.advance(most_events);
-  const results::RunResult result = results::evaluate(run, !is_complete);
+  const results::RunResult result = evaluation::evaluate(run, !is_complete);
   json::Diagnostics diagnostics;
   TAKT_CHECK(json::parse(results::run_json(result), "result.json", diagnostics), "a result is valid JSON");
   TAKT_CHECK(!output::run_report(result).empty() && !output::check_report(resolved).empty(), "there is a report");

@@ -9,7 +9,7 @@
 #include "analysis/bounds.hpp"
 #include "analysis/report.hpp"
 #include "output/text_report.hpp"
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "results/result_json.hpp"
 #include "scenario/json/document.hpp"
 #include "scenario/json/quantity.hpp"
@@ -88,7 +88,7 @@ class Checks {
     run.advance();
     checked_.events = run.simulation().event_count();
     digest_ = run.simulation().digest().value();
-    result_ = std::make_unique<results::RunResult>(results::evaluate(run, false));
+    result_ = std::make_unique<results::RunResult>(evaluation::evaluate(run, false));
     static_cast<void>(output::run_report(*result_));
     static_cast<void>(output::check_report(r_));
     json::Diagnostics diagnostics;
@@ -119,7 +119,7 @@ class Checks {
     scenario::Run run(r_);
     while (!run.advance(997)) continue;
     expect(run.simulation().digest().value() == digest_, [] { return std::string("the digest of a run in steps differs"); });
-    expect(results::run_json(results::evaluate(run, false)) == results::run_json(*result_), [] { return std::string("the result of a run in steps differs"); });
+    expect(results::run_json(evaluation::evaluate(run, false)) == results::run_json(*result_), [] { return std::string("the result of a run in steps differs"); });
   }
 
   void wire() {
@@ -221,7 +221,7 @@ class Checks {
     if (!again) return wrong(line.requirement.text + ": its worst run is refused: " + diagnostics.to_text());
     scenario::Run run(*again);
     run.advance();
-    const results::RunResult result = results::evaluate(run, false);
+    const results::RunResult result = evaluation::evaluate(run, false);
     expect(number < result.requirements.size() && result.requirements[number].verdict == results::Verdict::fail, [&] { return line.requirement.text + ": refuted, but its worst run passes"; });
   }
 

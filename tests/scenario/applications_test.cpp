@@ -1,7 +1,7 @@
 // Applications with threads: criteria, values, signals and gateways against numbers worked out by hand, over both protocols.
 #include <cmath>
 
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "support.hpp"
 
 namespace takt::scenario::test {
@@ -20,7 +20,7 @@ results::RunResult result_of(const std::string& text) {
   const auto resolved = sound(text);
   LiveRun run(*resolved);
   run.advance();
-  return results::evaluate(run, false);
+  return evaluation::evaluate(run, false);
 }
 
 TEST(Applications, EveryActivationThatEndsInTimeIsACall) {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "support.hpp"
 
 namespace takt::scenario::test {
@@ -20,7 +20,7 @@ results::RunResult result_of(const std::string& text) {
   const auto resolved = sound(text);
   LiveRun run(*resolved);
   run.advance();
-  return results::evaluate(run, false);
+  return evaluation::evaluate(run, false);
 }
 
 // For two seconds, and until the next HEARTBEAT after them, nobody acknowledges: the history fills, one write waits until its time is over, those that come meanwhile are refused.

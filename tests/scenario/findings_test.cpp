@@ -1,7 +1,7 @@
 // Scenarios of tests/findings: what takt once got wrong, each with requirements that say what is right.
 #include <algorithm>
 
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "support.hpp"
 
 namespace takt::scenario::test {
@@ -18,7 +18,7 @@ void expect_pass(const std::string& name, const std::vector<std::string>& overri
   ASSERT_TRUE(resolved) << diagnostics.to_text();
   LiveRun run(*resolved);
   ASSERT_TRUE(run.advance());
-  const results::RunResult result = results::evaluate(run, false);
+  const results::RunResult result = evaluation::evaluate(run, false);
   EXPECT_EQ(result.verdict, results::Verdict::pass);
   for (const results::RequirementResult& requirement : result.requirements) EXPECT_EQ(requirement.verdict, results::Verdict::pass) << requirement.text << ": " << requirement.remark;
 }
@@ -39,7 +39,7 @@ results::RunResult run_of(const std::string& name) {
   if (!resolved) throw std::runtime_error(diagnostics.to_text());
   LiveRun run(*resolved);
   run.advance();
-  return results::evaluate(run, false);
+  return evaluation::evaluate(run, false);
 }
 
 /// The line of that kind and cause; there is one.
@@ -87,7 +87,7 @@ results::RunResult cell_with(const std::string& faults, const std::string& requi
   "script": [{"at": "10ms", "program": "p", "call": "Start"}], "faults": [)" + faults + R"(], "require": [)" + require + "]}");
   LiveRun run(*resolved);
   run.advance();
-  return results::evaluate(run, false);
+  return evaluation::evaluate(run, false);
 }
 
 // The master finds h3 silent 5 ms after its last word, which came within the cycle before the cut; h3 finds the master silent likewise.

@@ -1,7 +1,7 @@
 // Nested programs and programs with roles on simulated hosts.
 #include <fmt/format.h>
 
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "support.hpp"
 
 namespace takt::scenario::test {
@@ -14,7 +14,7 @@ RunResult run(const std::string& text) {
   const auto resolved = sound(text);
   LiveRun live(*resolved);
   live.advance();
-  return results::evaluate(live, false);
+  return evaluation::evaluate(live, false);
 }
 
 std::string scenario(const std::string& nodes, const std::string& rest) {

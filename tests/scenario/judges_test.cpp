@@ -1,6 +1,6 @@
 // The judges of requirements: what is lost or never comes, copies, what begins before the requirement counts, values that must be equal.
 #include "models/ethernet/sequence_ledger.hpp"
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "results/result_json.hpp"
 #include "scenario/figures/requirement_rules.hpp"
 #include "support.hpp"
@@ -18,7 +18,7 @@ using namespace sim::literals;
 RunResult judged(const Resolved& resolved) {
   LiveRun live(resolved);
   live.advance();
-  return results::evaluate(live, false);
+  return evaluation::evaluate(live, false);
 }
 RunResult judged(const std::string& text, const std::vector<std::string>& overrides = {}) { return judged(*sound(text, overrides)); }
 

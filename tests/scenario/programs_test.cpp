@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "support.hpp"
 
 namespace takt::scenario::test {
@@ -51,7 +51,7 @@ RunResult run(const std::string& text) {
   const auto resolved = sound(text);
   LiveRun live(*resolved);
   live.advance();
-  return results::evaluate(live, false);
+  return evaluation::evaluate(live, false);
 }
 
 std::vector<std::string> kinds(const ProgramResult& program) {

@@ -1,5 +1,5 @@
 // Process data that answers process data: the round trip to the picosecond, and what is refused.
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/programs/reply_worker.hpp"
 #include "support.hpp"
 
@@ -19,7 +19,7 @@ TEST(Replies, RoundTripToThePicosecond) {
   const auto resolved = sound(pair(R"(, "replies": [{"to": "forth", "with": "back"}])"));
   LiveRun run(*resolved);
   run.advance();
-  const results::RunResult result = results::evaluate(run, false);
+  const results::RunResult result = evaluation::evaluate(run, false);
   ASSERT_EQ(result.programs[0].round_trips.size(), 1u);
   const results::RoundTripResult& trip = result.programs[0].round_trips[0];
   EXPECT_EQ(trip.request, "forth");
@@ -43,7 +43,7 @@ TEST(Replies, WithoutRepliesBothArePublishedEveryCycle) {
   const auto resolved = sound(pair(""));
   LiveRun run(*resolved);
   run.advance();
-  const results::RunResult result = results::evaluate(run, false);
+  const results::RunResult result = evaluation::evaluate(run, false);
   EXPECT_TRUE(result.programs[0].round_trips.empty());
   EXPECT_GT(result.streams[3].sent, 80u);
 }
@@ -53,7 +53,7 @@ TEST(Replies, WorkQueues) {
   const auto resolved = sound(pair(R"(, "replies": [{"to": "forth", "with": "back"}])", R"("processing": {"per_message": "1500us"})"));
   LiveRun run(*resolved);
   run.advance();
-  const results::RunResult result = results::evaluate(run, false);
+  const results::RunResult result = evaluation::evaluate(run, false);
   const results::RoundTripResult& trip = result.programs[0].round_trips[0];
   EXPECT_NEAR(static_cast<double>(trip.count), 86 / 1.5, 3);
   EXPECT_GT(trip.time->max, trip.time->min * 10);

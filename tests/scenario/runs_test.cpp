@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "support.hpp"
 
 namespace takt::scenario::test {
@@ -44,7 +44,7 @@ TEST(Runs, EveryShippedScenarioPasses) {
     const auto resolved = shipped(name);
     LiveRun run(*resolved);
     ASSERT_TRUE(run.advance());
-    const results::RunResult result = results::evaluate(run, false);
+    const results::RunResult result = evaluation::evaluate(run, false);
     EXPECT_EQ(result.verdict, results::Verdict::pass) << name;
     for (const results::ProgramResult& program : result.programs) EXPECT_TRUE(program.violations.empty() || program.violations_allowed) << name;
   }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "sim/random.hpp"
@@ -31,7 +31,7 @@ std::unique_ptr<Resolved> load(const std::string& text, std::string* problems = 
 results::RunResult run(const Resolved& resolved) {
   scenario::Run live(resolved);
   live.advance();
-  return results::evaluate(live, false);
+  return evaluation::evaluate(live, false);
 }
 
 const results::StreamResult& stream(const results::RunResult& result, const std::string& name) {

@@ -3,22 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "results/run_result.hpp"
+#include "scenario/json/record.hpp"
+#include "scenario/topology/graph_figures.hpp"
+
 namespace takt::scenario {
 namespace {
-
-/// The alternatives of "{a,b}", or the step itself.
-std::vector<std::string_view> names_of(std::string_view step) {
-  if (!step.starts_with('{')) return {step};
-  std::vector<std::string_view> names;
-  step.remove_prefix(1);
-  step.remove_suffix(1);
-  for (std::size_t comma = 0; comma != std::string_view::npos;) {
-    comma = step.find(',');
-    names.push_back(step.substr(0, comma));
-    if (comma != std::string_view::npos) step.remove_prefix(comma + 1);
-  }
-  return names;
-}
 
 bool is_index(std::string_view step) {
   return !step.empty() && std::all_of(step.begin(), step.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -26,76 +16,54 @@ bool is_index(std::string_view step) {
 
 bool matches(std::string_view pattern, std::string_view step) {
   if (step == "*" || pattern.starts_with('<')) return true;
-  if (pattern == "[]") return is_index(step);
-  const auto names = names_of(pattern);
-  return std::find(names.begin(), names.end(), step) != names.end();
+  return pattern == "[]" ? is_index(step) : pattern == step;
 }
+
+/// What a scenario has names of; other names are of what a run makes.
+constexpr std::string_view scenario_names[] = {"stream", "program", "application", "signal", "node", "reason"};
+
+std::string key_step(std::string_view keys) {
+  const bool is_known = std::ranges::find(scenario_names, keys) != std::end(scenario_names);
+  return is_known ? "/<" + std::string(keys) + ">" : "/<>";
+}
+
+class FigureWalk {
+ public:
+  explicit FigureWalk(std::vector<KnownFigure>& figures) : figures_(figures) {}
+
+  void record(const json::Record& record, const std::string& path, const json::Meaning& outer) {
+    for (const json::Output& output : record.outputs) {
+      json::Meaning meaning = output.meaning;
+      meaning.counts_from_start = meaning.counts_from_start || outer.counts_from_start;
+      meaning.is_judgement = meaning.is_judgement || outer.is_judgement;
+      shape(*output.shape, output.is_spread ? path : record.is_row ? path + "/[]" : path + "/" + std::string(output.name), meaning);
+    }
+  }
+
+ private:
+  void shape(const json::Shape& what, const std::string& path, const json::Meaning& meaning) {
+    using Kind = json::Shape::Kind;
+    if (what.kind == Kind::record) return record(what.record(), path, meaning);
+    if (what.kind == Kind::list) return shape(*what.item, path + "/[]", meaning);
+    if (what.kind == Kind::map) return shape(*what.item, path + key_step(meaning.keys), meaning);
+    using enum FigureKind;
+    const FigureKind kind = meaning.is_judgement ? verdict : what.kind == Kind::text ? text : meaning.is_zero_if_absent ? counter : number;
+    if (figures_.empty() || figures_.back().pattern != path) figures_.push_back({kind, path, meaning.counts_from_start});
+  }
+
+  std::vector<KnownFigure>& figures_;
+};
 
 }  // namespace
 
-// docs/results.md says what they mean; tests/scenario/figures_test.cpp holds them against the results of the shipped scenarios.
 const std::vector<KnownFigure>& known_figures() {
-  using enum FigureKind;
-  static const std::vector<KnownFigure> all = {
-      {number, "/{seed,simulated_ps,from_ps,events,partial}"},
-      {text, "/{takt,scenario,digest}"},
-      {verdict, "/verdict"},
-      {verdict, "/requirements/[]/{text,verdict,measured_ps,limit_ps,least_measured_ps,least_limit_ps,from_ps,remark,figure,found,at_most,at_least,equal,within,unit}"},
-      {number, "/streams/<stream>/{sent,delivered,lost,copies,in_flight,oldest_in_flight_ps,listeners}"},
-      {counter, "/streams/<stream>/dropped/<reason>"},
-      {number, "/streams/<stream>/latency_ps/{min,mean,p50,p99,max,stddev}"},
-      {text, "/programs/<program>/variant"},
-      {text, "/programs/<program>/{reactions,tree_reactions}/[]/{kind,initiator,cause}"},
-      {number, "/programs/<program>/{reactions,tree_reactions}/[]/{began_ps,completed_ps,duration_ps,superseded}"},
-      {number, "/programs/<program>/bindings/[]/at_ps"},
-      {text, "/programs/<program>/bindings/[]/{role,node}"},
-      {text, "/programs/<program>/states/<>"},
-      {number, "/programs/<program>/violations/[]/at_ps"},
-      {text, "/programs/<program>/violations/[]/{invariant,participant,text}"},
-      {number, "/programs/<program>/timeline/[]/at_ps"},
-      {text, "/programs/<program>/timeline/[]/{participant,state,call,fault}"},
-      {number, "/programs/<program>/{changes,process_data_received}"},
-      {text, "/programs/<program>/round_trips/<>/request"},
-      {number, "/programs/<program>/round_trips/<>/count"},
-      {number, "/programs/<program>/round_trips/<>/{time_ps,one_way_ps}/{min,mean,p50,p99,max,stddev}"},
-      {number, "/programs/<program>/round_trips/<>/histogram_ps/[]/[]"},
-      {text, "/applications/<application>/{node,kind}"},
-      {text, "/applications/<application>/threads/<>/{publishes,subscribes}"},
-      {number, "/applications/<application>/threads/<>/{every_ps,activations,done,missed,published,refused,timed_out,arrived,buffered,overwritten,lost}"},
-      {number, "/applications/<application>/threads/<>/response_ps/{count,min,mean,max,deviation}"},
-      {number, "/applications/<application>/threads/<>/{calls,values}/{percent,tests,window_ps,expected,counted,beyond,windows_below,windows_above,discarded}"},
-      {number, "/applications/<application>/buffer/{received,forwarded,overwritten,dropped,stale,not_mapped}", true},
-      {number, "/applications/<application>/kept/<>/{received,restored,kept}", true},
-      {number, "/applications/<application>/buffer/age_ps/{min,mean,max}", true},
-      {number, "/applications/<application>/participants/[]/{domain,messages_sent,octets_sent,messages_received,heartbeats_sent,acknacks_sent,resent}", true},
-      {number, "/applications/<application>/participants/[]/discovery/{messages,octets,participants_found,participants_lost,matches,time_to_match_ps}", true},
-      {number, "/applications/<application>/participants/[]/{deadlines_missed,liveliness_lost,samples_rejected,writes_timed_out}", true},
-      {text, "/applications/<application>/participants/[]/incompatible/[]"},
-      {number, "/signals/<signal>/{nominal_ps,irregular_pulses,irregular_periods,irregular_percent}"},
-      {number, "/signals/<signal>/{pulses_ps,periods_ps}/{count,min,mean,max,deviation}"},
-      {text, "/ports/[]/{node,peer}"},
-      {number, "/ports/[]/{port,frames,dropped,queue_peak,utilisation,fragments_cut,frames_cut_through,bad_fcs_forwarded,transmission_overrun}", true},
-      {counter, "/dropped/<reason>"},
-      {text, "/clocks/[]/{node,grandmaster,state}"},
-      {number, "/clocks/[]/{time_to_lock_ps,samples,rate_error_ppt}"},
-      {number, "/clocks/[]/{steps,messages}", true},
-      {number, "/clocks/[]/offset/{min_ps,mean_ps,rms_ps,max_ps,abs_max_ps}"},
-      {number, "/clocks/[]/history/[]/at_ps"},
-      {text, "/clocks/[]/history/[]/{grandmaster,state}"},
-      {number, "/ingress/<node>/unidentified", true},
-      {text, "/ingress/<node>/filters/[]/stream"},
-      {number, "/ingress/<node>/filters/[]/{pcp,matching,passing,not_passing,passing_sdu,not_passing_sdu,red,blocked_due_to_oversize}", true},
-      {number, "/ingress/<node>/gates/<>/{passed,closed,octets_exceeded,closed_due_to_invalid_rx,closed_due_to_octets_exceeded}", true},
-      {number, "/ingress/<node>/meters/<>/{green,yellow,red,discarded,marks_all_red}", true},
-      {number, "/ingress/<node>/ats/<>/{passed,discarded,longest_hold_ps}", true},
-      {text, "/redundancy/splits/[]/{node,stream}"},
-      {number, "/redundancy/splits/[]/{members,frames,copies}", true},
-      {text, "/redundancy/recoveries/[]/{node,stream}"},
-      {number, "/redundancy/recoveries/[]/{passed,discarded,out_of_order,rogue,lost,tagless,resets}", true},
-      {number, "/redundancy/recoveries/[]/latent_errors/{paths,errors,resets,first_ps}", true},
-      {number, "/redundancy/recoveries/[]/individual/[]/{member,port,passed,discarded,out_of_order,rogue,lost,tagless,resets}", true},
-      {number, "/topology/{switches,links,diameter,bridges,disjoint_paths}"},
-  };
+  static const std::vector<KnownFigure> all = [] {
+    std::vector<KnownFigure> figures;
+    FigureWalk walk(figures);
+    walk.record(describe(json::Type<results::RunResult>{}), "", {});
+    walk.record(describe(json::Type<GraphFigures>{}), "/topology", {});
+    return figures;
+  }();
   return all;
 }
 
@@ -133,10 +101,8 @@ Lookup look_up(const std::vector<std::string>& steps) {
       lookup.wrong_step = i;
       for (const Candidate& candidate : candidates) {
         if (candidate.steps.size() <= i) continue;
-        for (const std::string_view name : names_of(candidate.steps[i])) {
-          std::string text(name == "[]" ? "an index or *" : name);
-          if (std::find(lookup.expected.begin(), lookup.expected.end(), text) == lookup.expected.end()) lookup.expected.push_back(std::move(text));
-        }
+        std::string text = candidate.steps[i] == "[]" ? "an index or *" : candidate.steps[i];
+        if (std::find(lookup.expected.begin(), lookup.expected.end(), text) == lookup.expected.end()) lookup.expected.push_back(std::move(text));
       }
       return lookup;
     }

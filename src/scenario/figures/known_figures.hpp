@@ -1,7 +1,6 @@
 // What result.json can hold, so that a pointer to what no run has is found out before the run.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,15 +14,14 @@ enum class FigureKind : std::uint8_t {
   verdict,  ///< what the run's requirements come to: no figure for a requirement
 };
 
-/// A way through result.json. A step is a name, "[]" (an index), "<>" (any name), "<stream>" and its like (a name of the scenario)
-/// or "{a,b}" (one of several names).
+/// A way through result.json. A step is a name, "[]" (an index), "<>" (any name), or "<stream>" and its like (a name of the scenario).
 struct KnownFigure {
   FigureKind kind;
-  std::string_view pattern;
+  std::string pattern;
   bool is_of_whole_run = false;   ///< counts from the start: no account of it is kept from a later instant on
 };
 
-/// Every value that is no object and no array.
+/// Every value that is no object and no array: a walk over the tables of results (json/record.hpp) and of GraphFigures.
 const std::vector<KnownFigure>& known_figures();
 
 /// The known figures that a pointer can lead to ("*" stands for everything), and if there are none, why.

@@ -14,12 +14,9 @@
 
 #include "scenario/json/quantity.hpp"
 #include "scenario/json/table.hpp"
+#include "scenario/json/type.hpp"
 
 namespace takt::scenario::json {
-
-/// Names a type in an overload of describe(), found by argument-dependent lookup in the type's own namespace.
-template <class T>
-struct Type {};
 
 /// A type that has a table: `const Object& describe(Type<T>)`, or Enumeration, Tagged or Custom. It must be declared
 /// beside the type, before the type is first used as a field.

@@ -74,20 +74,26 @@ std::optional<std::size_t> disjoint_paths_of(const Resolved& resolved) {
   return fewest;
 }
 
-json::Node integer(std::size_t value) { return json::Node::of_integer(static_cast<sim::int128>(value)); }
-json::Node integer(const std::optional<std::size_t>& value) { return value ? integer(*value) : json::Node(); }
-
 }  // namespace
 
-json::Node topology_node(const Resolved& resolved) {
-  const Graph graph = switches_of(resolved.topology);
-  json::Node node = json::Node::object();
-  node.add("switches", integer(boost::num_vertices(graph)));
-  node.add("links", integer(boost::num_edges(graph)));
-  node.add("diameter", integer(diameter_of(graph)));
-  node.add("bridges", integer(bridges_of(graph)));
-  node.add("disjoint_paths", integer(disjoint_paths_of(resolved)));
-  return node;
+const json::Record& describe(json::Type<GraphFigures>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&GraphFigures::switches>("switches", "Switches."),
+      json::output<&GraphFigures::links>("links", "Links between them."),
+      json::output<&GraphFigures::diameter>("diameter", "Links on the longest of the shortest paths between switches; null if some are not joined."),
+      json::output<&GraphFigures::bridges>("bridges", "Links between switches whose failure parts the network."),
+      json::output<&GraphFigures::disjoint_paths>("disjoint_paths",
+                                                  "The fewest node-disjoint paths between the switches of a Program's master and of a slave; null without Programs or if both hang at one switch."),
+  };
+  static constexpr json::Record record{"topology", "The graph of switches.", outputs};
+  return record;
 }
+
+GraphFigures graph_figures_of(const Resolved& resolved) {
+  const Graph graph = switches_of(resolved.topology);
+  return {boost::num_vertices(graph), boost::num_edges(graph), diameter_of(graph), bridges_of(graph), disjoint_paths_of(resolved)};
+}
+
+json::Node topology_node(const Resolved& resolved) { return json::ShapeOf<GraphFigures>::write(graph_figures_of(resolved)); }
 
 }  // namespace takt::scenario

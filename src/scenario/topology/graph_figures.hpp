@@ -1,14 +1,25 @@
 // What a network's graph is like, as figures that requirements and studies can look at.
 #pragma once
 
-#include "scenario/json/node.hpp"
+#include <cstddef>
+#include <optional>
+
+#include "scenario/json/record.hpp"
 #include "scenario/resolve/resolved.hpp"
 
 namespace takt::scenario {
 
-/// {"switches", "links" between them, "diameter" (links on the longest of the shortest paths between switches; null if some
-/// are not joined), "bridges" (links between switches whose failure parts the network), "disjoint_paths" (the fewest
-/// node-disjoint paths between the switches of a Program's master and of a slave; null without Programs or if both hang at one switch)}
+struct GraphFigures {
+  std::size_t switches = 0;
+  std::size_t links = 0;
+  std::optional<std::size_t> diameter;
+  std::size_t bridges = 0;
+  std::optional<std::size_t> disjoint_paths;
+};
+const json::Record& describe(json::Type<GraphFigures>);
+
+GraphFigures graph_figures_of(const Resolved& resolved);
+/// They as requirements and studies look at them, beside the figures of a run.
 json::Node topology_node(const Resolved& resolved);
 
 }  // namespace takt::scenario

@@ -1,8 +1,10 @@
-#include "results/collect_ingress.hpp"
+#include "evaluation/collect_ingress.hpp"
 
 #include <algorithm>
 
-namespace takt::results {
+namespace takt::evaluation {
+
+using namespace results;
 namespace {
 
 using models::IngressPipeline;
@@ -105,4 +107,4 @@ RedundancyResult redundancy_of(const scenario::Run& run) {
   return result;
 }
 
-}  // namespace takt::results
+}  // namespace takt::evaluation

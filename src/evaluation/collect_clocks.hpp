@@ -6,9 +6,9 @@
 #include "results/clock_result.hpp"
 #include "scenario/run/run.hpp"
 
-namespace takt::results {
+namespace takt::evaluation {
 
 /// One for each node with gPTP; empty without it.
-std::vector<ClockResult> clocks_of(const scenario::Run& run, sim::Duration from);
+std::vector<results::ClockResult> clocks_of(const scenario::Run& run, sim::Duration from);
 
-}  // namespace takt::results
+}  // namespace takt::evaluation

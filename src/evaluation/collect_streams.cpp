@@ -1,4 +1,4 @@
-#include "results/collect_streams.hpp"
+#include "evaluation/collect_streams.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,9 @@
 
 #include "sim/check.hpp"
 
-namespace takt::results {
+namespace takt::evaluation {
+
+using namespace results;
 namespace {
 
 using models::StreamIndex;
@@ -130,4 +132,4 @@ std::vector<std::pair<std::string, std::uint64_t>> drops_of(const scenario::Run&
   return drops;
 }
 
-}  // namespace takt::results
+}  // namespace takt::evaluation

@@ -9,14 +9,14 @@
 #include "results/run_result.hpp"
 #include "scenario/run/run.hpp"
 
-namespace takt::results {
+namespace takt::evaluation {
 
 /// Every stream but that of gPTP: of its frames that were produced at `from` or later. Where no account of a stream begins then, it is left empty.
-std::vector<StreamResult> streams_of(const scenario::Run& run, Duration from);
+std::vector<results::StreamResult> streams_of(const scenario::Run& run, sim::Duration from);
 
 /// What all streams, gPTP's as well, have lost of such frames, by reason in the order of DropReason.
-std::vector<std::pair<std::string, std::uint64_t>> drops_of(const scenario::Run& run, Duration from);
+std::vector<std::pair<std::string, std::uint64_t>> drops_of(const scenario::Run& run, sim::Duration from);
 
-LatencySummary summary_of(const sim::Histogram& histogram);
+results::LatencySummary summary_of(const sim::Histogram& histogram);
 
-}  // namespace takt::results
+}  // namespace takt::evaluation

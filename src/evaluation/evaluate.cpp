@@ -1,4 +1,4 @@
-#include "results/evaluate.hpp"
+#include "evaluation/evaluate.hpp"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 #include <cmath>
 #include <map>
 
-#include "results/collect_applications.hpp"
-#include "results/collect_clocks.hpp"
-#include "results/collect_ingress.hpp"
-#include "results/collect_streams.hpp"
-#include "results/judge_streams.hpp"
+#include "evaluation/collect_applications.hpp"
+#include "evaluation/collect_clocks.hpp"
+#include "evaluation/collect_ingress.hpp"
+#include "evaluation/collect_streams.hpp"
+#include "evaluation/judge_streams.hpp"
 #include "results/result_json.hpp"
 #include "results/version.hpp"
 #include "scenario/figures/requirement.hpp"
@@ -18,7 +18,9 @@
 #include "scenario/run/accounts.hpp"
 #include "scenario/topology/graph_figures.hpp"
 
-namespace takt::results {
+namespace takt::evaluation {
+
+using namespace results;
 namespace {
 
 using scenario::ResolvedProgram;
@@ -180,21 +182,20 @@ class Judge {
       for (const ReactionResult& one : requirement.tree ? program.tree_reactions : program.reactions) {
         if (one.kind != kind || one.superseded || (requirement.cause && one.cause != cause)) continue;
         ++seen;
-        if (!one.completed)
-          ++incomplete;
-        else
-          verdict.measured = std::max(verdict.measured.value_or(Duration()), *one.duration());
+        // One that is not complete takes longer than it has been going on for.
+        const Duration lasted = one.completed ? *one.duration() : figures_->result.simulated - one.began.since_start();
+        if (!one.completed) ++incomplete;
+        if (one.completed || lasted > *verdict.limit) verdict.measured = std::max(verdict.measured.value_or(Duration()), lasted);
       }
     }
-    verdict.remark = fmt::format("{} reaction{}", seen, seen == 1 ? "" : "s");
+    verdict.remark = incomplete > 0 ? fmt::format("{} of {} not complete at the end", incomplete, seen) : fmt::format("{} reaction{}", seen, seen == 1 ? "" : "s");
     if (verdict.measured && *verdict.measured > *verdict.limit) {
       verdict.verdict = Verdict::fail;
     } else if (seen == 0) {
       verdict.remark = "no such reaction";
       verdict.verdict = missing();
-    } else if (incomplete > 0) {
-      verdict.remark = fmt::format("{} of {} not complete at the end", incomplete, seen);
-      verdict.verdict = missing();
+    } else if (incomplete == seen) {
+      verdict.verdict = missing();   // young as they are, none shows that there is an end to it
     } else {
       verdict.verdict = held();
     }
@@ -311,19 +312,6 @@ class Judge {
   const Figures* figures_ = nullptr;
 };
 
-}  // namespace
-
-const char* name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::pass: return "pass";
-    case Verdict::fail: return "fail";
-    case Verdict::undecided: return "undecided";
-  }
-  return "?";
-}
-
-namespace {
-
 bool asks_for_graph(const scenario::Requirement& requirement) {
   return requirement.figure && (requirement.figure->starts_with("topology") || requirement.figure->starts_with("/topology"));
 }
@@ -406,4 +394,4 @@ RunResult evaluate(const scenario::Run& run, bool partial) {
   return result;
 }
 
-}  // namespace takt::results
+}  // namespace takt::evaluation

@@ -1,11 +1,13 @@
-#include "results/collect_applications.hpp"
+#include "evaluation/collect_applications.hpp"
 
 #include <cmath>
 
 #include "scenario/applications/dds_node.hpp"
 #include "scenario/applications/gateway_bridge.hpp"
 
-namespace takt::results {
+namespace takt::evaluation {
+
+using namespace results;
 namespace {
 
 std::optional<DurationSummary> summary_of(const scenario::DurationFigures& figures) {
@@ -91,4 +93,4 @@ std::vector<SignalResult> signals_of(const scenario::Run& run, sim::Duration fro
   return results;
 }
 
-}  // namespace takt::results
+}  // namespace takt::evaluation

@@ -1,8 +1,10 @@
-#include "results/collect_clocks.hpp"
+#include "evaluation/collect_clocks.hpp"
 
 #include <cmath>
 
-namespace takt::results {
+namespace takt::evaluation {
+
+using namespace results;
 namespace {
 
 const char* name_of(models::gptp::TargetState state) {
@@ -43,4 +45,4 @@ std::vector<ClockResult> clocks_of(const scenario::Run& run, sim::Duration from)
   return results;
 }
 
-}  // namespace takt::results
+}  // namespace takt::evaluation

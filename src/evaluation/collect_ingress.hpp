@@ -6,11 +6,11 @@
 #include "results/ingress_result.hpp"
 #include "scenario/run/run.hpp"
 
-namespace takt::results {
+namespace takt::evaluation {
 
 /// The switches whose ingress has met a frame.
-std::vector<IngressResult> ingress_of(const scenario::Run& run);
+std::vector<results::IngressResult> ingress_of(const scenario::Run& run);
 /// Of switches, then of hosts.
-RedundancyResult redundancy_of(const scenario::Run& run);
+results::RedundancyResult redundancy_of(const scenario::Run& run);
 
-}  // namespace takt::results
+}  // namespace takt::evaluation

@@ -1,4 +1,4 @@
-#include "results/judge_streams.hpp"
+#include "evaluation/judge_streams.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,9 @@
 #include "scenario/figures/requirement_rules.hpp"
 #include "scenario/json/quantity.hpp"
 
-namespace takt::results {
+namespace takt::evaluation {
+
+using namespace results;
 namespace {
 
 using scenario::json::to_text;
@@ -118,4 +120,4 @@ std::vector<RequirementResult> judge_stream(const scenario::Scenario& scenario, 
   return StreamJudge(scenario, requirement, stream, partial).all();
 }
 
-}  // namespace takt::results
+}  // namespace takt::evaluation

@@ -4,9 +4,9 @@
 #include "results/run_result.hpp"
 #include "scenario/run/run.hpp"
 
-namespace takt::results {
+namespace takt::evaluation {
 
 /// `partial`: the run was interrupted; what has not failed is then undecided.
-RunResult evaluate(const scenario::Run& run, bool partial);
+results::RunResult evaluate(const scenario::Run& run, bool partial);
 
-}  // namespace takt::results
+}  // namespace takt::evaluation

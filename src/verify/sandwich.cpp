@@ -61,7 +61,7 @@ void settle(analysis::AssumptionLedger& ledger, const std::vector<Violation>& vi
 std::optional<Contradiction> contradiction_of(const Line& line, const Finding& finding, const Proof& proof, const analysis::AssumptionLedger& ledger) {
   if (line.verdict != Verdict::refuted || !proof.holds || !ledger.objection(proof.assumptions, proof.from).empty()) return std::nullopt;
   // A bound says how long a reaction or a frame takes, not that there is one: a requirement that fails for want of it is refuted, and that is all.
-  if (line.requirement.limit && !finding.longest.measured) return std::nullopt;
+  if (line.requirement.limit && !finding.worst.measured) return std::nullopt;
   if (line.requirement.figure && !finding.worst.figure) return std::nullopt;   // likewise
   return Contradiction{line.requirement.text + ": a run fails what is proved", finding.worst.scenario};
 }

@@ -73,6 +73,24 @@ TEST(Assumptions, ClocksAreNotGoodFromTheStart) {
   EXPECT_EQ(found.ledger[Assumption::clock_error].holds_from, 5_s);
 }
 
+// Of two runs one loses a frame, and fails; the other takes longer. What was simulated is the longer.
+TEST(Assumptions, TheLongestRunIsTold) {
+  const auto resolved = finding("longest-run-loses-nothing.json");
+  scenario::Run run(*resolved);
+  while (!run.advance(100'000)) {}
+  const results::RunResult result = evaluation::evaluate(run, false);
+  const Verification found = verify(*resolved, small());
+  for (std::size_t i = 0; i < found.lines.size(); ++i) EXPECT_GE(found.lines[i].simulated, result.requirements[i].measured) << found.lines[i].requirement.text;
+}
+
+// A start that has not ended at the end of the run, and one frame that is handed over after its launch time: both broke what had been proved.
+TEST(Assumptions, WhatIsUnderWayAtTheEndContradictsNothing) {
+  for (const char* const name : {"start-at-the-end.json", "missed-launch.json"}) {
+    const Verification found = verify(*finding(name), small());
+    EXPECT_FALSE(found.contradiction) << found.contradiction->text;
+  }
+}
+
 TEST(Assumptions, WhatRestsOnARefutedPremiseIsUndecided) {
   const Verification found = verify(*finding("premise-refuted.json", {"/duration=6s"}), small());
   ASSERT_EQ(found.lines.size(), 3u);

@@ -25,6 +25,8 @@ Network::Network(sim::Simulation& simulation, NetworkPlan plan) : simulation_(&s
   add_talkers();
 }
 
+Network::~Network() = default;
+
 void Network::make_clocks() {
   clocks_.resize(plan_.nodes.size());
   followers_.resize(plan_.nodes.size());

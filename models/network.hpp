@@ -22,6 +22,7 @@ class Network final : private LinkLocalSender {
  public:
   /// The plan is taken by value: latencies and port configurations stay alive with the network.
   Network(sim::Simulation& simulation, NetworkPlan plan);
+  ~Network();
   Network(const Network&) = delete;
   Network& operator=(const Network&) = delete;
 

@@ -11,9 +11,9 @@
 #include "models/ethernet/frame.hpp"
 #include "models/fault/link_fault.hpp"
 #include "models/frer/redundancy_config.hpp"
-#include "models/gptp/station.hpp"
+#include "models/gptp/station_plan.hpp"
 #include "models/host/os_latency.hpp"
-#include "models/host/talker.hpp"
+#include "models/host/talker_schedule.hpp"
 #include "models/ingress/ingress_config.hpp"
 #include "sim/units.hpp"
 

@@ -2,42 +2,13 @@
 #pragma once
 
 #include <optional>
-#include <variant>
-#include <vector>
 
 #include "models/clock/local_clock.hpp"
 #include "models/host/host_output.hpp"
 #include "models/host/os_latency.hpp"
+#include "models/host/talker_schedule.hpp"
 
 namespace takt::models {
-
-/// Frame k is produced at offset + k * period + a uniform draw from [0, jitter]. jitter <= period.
-struct PeriodicSchedule {
-  sim::Duration offset;
-  sim::Duration period;
-  sim::Duration jitter;
-};
-/// Exponentially distributed gaps; the first frame comes one gap after the offset.
-struct ExponentialSchedule {
-  sim::Duration offset;
-  sim::Duration mean;
-};
-/// At offset + k * period, `frames` frames, `spacing` apart (0: all at the same instant).
-struct BurstSchedule {
-  sim::Duration offset;
-  sim::Duration period;
-  std::uint32_t frames = 1;
-  sim::Duration spacing;
-};
-/// Frames at given times with given payloads, ascending.
-struct TraceSchedule {
-  struct Entry {
-    sim::LocalTime time;
-    Octets payload;
-  };
-  std::vector<Entry> entries;
-};
-using TalkerSchedule = std::variant<PeriodicSchedule, ExponentialSchedule, BurstSchedule, TraceSchedule>;
 
 class Talker final : public sim::Component {
  public:

@@ -460,6 +460,9 @@ class Resolver {
 
 }  // namespace
 
+Resolved::Resolved() = default;
+Resolved::~Resolved() = default;
+
 std::unique_ptr<Resolved> resolve(Scenario scenario, json::Diagnostics& diagnostics) {
   auto resolved = std::make_unique<Resolved>();
   resolved->scenario = std::move(scenario);

@@ -178,7 +178,8 @@ struct ResolvedRedundancy {
 /// A scenario as it runs. Its parts point into one another (programs and redundancies into the scenario, streams by number into the plan), so it stays where
 /// it was made.
 struct Resolved {
-  Resolved() = default;
+  Resolved();    // both where they are compiled once: what is below is large
+  ~Resolved();
   Resolved(const Resolved&) = delete;
   Resolved& operator=(const Resolved&) = delete;
 

@@ -26,12 +26,13 @@ endif()
 # Where installed headers are (cmake/install.cmake).
 set(TAKT_INCLUDE_FOLDER include/takt)
 
-# takt_library(NAME SOURCES a.cpp ... LINKS other ...): one layer of the house; it links only what the layer may use.
-# Headers are included from the repository's root ("sim/time.hpp") or from src/ ("handshake/participant.hpp").
+# takt_library(NAME SOURCES a.cpp ... QUICKLY b.cpp ... LINKS other ...): one layer of the house; it links only what the layer may use.
+# QUICKLY are sources whose speed nobody notices (descriptions, commands, reports): they are compiled with -O1. Headers are included from the repository's root ("sim/time.hpp") or from src/ ("handshake/participant.hpp").
 function(takt_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
-  if(ARG_SOURCES)
-    add_library(${name} STATIC ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "SOURCES;QUICKLY;LINKS;PRIVATE_LINKS" ${ARGN})
+  set_source_files_properties(${ARG_QUICKLY} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
+  if(ARG_SOURCES OR ARG_QUICKLY)
+    add_library(${name} STATIC ${ARG_SOURCES} ${ARG_QUICKLY})
     target_link_libraries(${name} PUBLIC ${ARG_LINKS} PRIVATE takt_options ${ARG_PRIVATE_LINKS})
     target_include_directories(${name} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR};${PROJECT_SOURCE_DIR}/src>" $<INSTALL_INTERFACE:${TAKT_INCLUDE_FOLDER}>)
     target_compile_features(${name} PUBLIC cxx_std_20)
@@ -52,6 +53,7 @@ function(takt_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE takt_options ${ARG_LINKS} GTest::gtest GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE TAKT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${ARG_DEFINES})
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   add_test(NAME ${name} COMMAND ${name})
   if(rapidcheck IN_LIST ARG_LINKS)
     # The same cases in every run; RC_PARAMS="max_success=10000" and no seed, without ctest, try harder.

@@ -1,9 +1,9 @@
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string>
 
 #include "cli/commands.hpp"
 #include "results/version.hpp"
@@ -13,16 +13,7 @@ namespace {
 
 using takt::cli::ExitStatus;
 
-ExitStatus main_with(int argc, char** argv) {
-  CLI::App app("takt: simulates TSN networks whose nodes run distributed OPC UA Programs");
-  app.set_version_flag("--version", std::string("takt ") + takt::results::version);
-  app.require_subcommand(1);
-  app.footer(
-      "Examples:\n"
-      "  takt run scenarios/robot-arm.json      simulate and judge a scenario\n"
-      "  takt check scenarios/robot-arm.json    what the scenario resolves to\n"
-      "  takt run --help                        all options of a sub-command");
-  ExitStatus status = ExitStatus::pass;
+void add_commands(takt::cli::Command app, ExitStatus& status) {
   takt::cli::add_run_command(app, status);
   takt::cli::add_check_command(app, status);
   takt::cli::add_schema_command(app, status);
@@ -36,13 +27,16 @@ ExitStatus main_with(int argc, char** argv) {
   takt::cli::add_study_command(app, status);
   takt::cli::add_compare_command(app, status);
   takt::cli::add_paper_command(app, status);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    // Help and version are "errors" of the library with status 0.
-    return app.exit(error) == 0 ? ExitStatus::pass : ExitStatus::bad_input;
-  }
-  return status;
+}
+
+ExitStatus main_with(int argc, char** argv) {
+  return takt::cli::run_command_line(argc, argv, "takt: simulates TSN networks whose nodes run distributed OPC UA Programs",
+                                     std::string("takt ") + takt::results::version,
+                                     "Examples:\n"
+                                     "  takt run scenarios/robot-arm.json      simulate and judge a scenario\n"
+                                     "  takt check scenarios/robot-arm.json    what the scenario resolves to\n"
+                                     "  takt run --help                        all options of a sub-command",
+                                     add_commands);
 }
 
 }  // namespace

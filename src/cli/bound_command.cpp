@@ -1,5 +1,4 @@
 // takt bound: how late a frame can come and how long a reaction can take, whatever the phases.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -53,12 +52,12 @@ bool read_duration(const std::string& text, sim::Duration& value, bool as_json) 
 
 }  // namespace
 
-void add_bound_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("bound", "Bound latencies, backlogs and reactions by analysis");
+void add_bound_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("bound", "Bound latencies, backlogs and reactions by analysis");
   const auto options = std::make_shared<ScenarioOptions>();
   add_scenario_options(command, *options);
   const auto clock_error = std::make_shared<std::string>("1us");
-  command.add_option("--clock-error", *clock_error, "How far synchronised clocks are from true time at most, where no requirement \"sync\" says it (1us)")->type_name("D");
+  command.add_option("--clock-error", *clock_error, "How far synchronised clocks are from true time at most, where no requirement \"sync\" says it (1us)").type_name("D");
   command.footer(
       "Examples:\n"
       "  takt bound scenarios/robot-arm.json                 bounds by stream, hop and reaction, and what they rest on\n"

@@ -1,5 +1,4 @@
 // takt check: is it sound; what does it resolve to.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -12,8 +11,8 @@
 
 namespace takt::cli {
 
-void add_check_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("check", "Say whether a scenario is sound and what it resolves to");
+void add_check_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("check", "Say whether a scenario is sound and what it resolves to");
   const auto options = std::make_shared<ScenarioOptions>();
   add_scenario_options(command, *options);
   command.footer(

@@ -1,5 +1,4 @@
 // takt compare: is B better than A, by how much, and where do they part?
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <memory>
@@ -68,17 +67,17 @@ ExitStatus run(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("compare", "Is scenario B better than A, by how much, and where do they part?");
+void add_compare_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("compare", "Is scenario B better than A, by how much, and where do they part?");
   const auto options = std::make_shared<CompareOptions>();
-  command.add_option("A", options->a, "A scenario file")->required();
-  command.add_option("B", options->b, "Another one, or the same with --set-b")->required();
-  command.add_option("--set-a", options->overrides_of_a, "Another value in A: network.links.0.rate=100Mbps (repeatable)")->type_name("POINTER=VALUE")->allow_extra_args(false);
-  command.add_option("--set-b", options->overrides_of_b, "Another value in B (repeatable)")->type_name("POINTER=VALUE")->allow_extra_args(false);
-  command.add_option("--pairs", options->pairs, "Pairs of runs, each with one seed for both (10)")->check(CLI::Range(1u, 100'000u))->type_name("N");
-  command.add_option("--seed", options->first_seed, "The first seed (1)")->type_name("N");
-  command.add_option("--jobs", options->jobs, "Processes; the result is the same for any number")->check(CLI::Range(1u, 1024u))->type_name("N");
-  command.add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}))->type_name("FORMAT");
+  command.add_option("A", options->a, "A scenario file").required();
+  command.add_option("B", options->b, "Another one, or the same with --set-b").required();
+  command.add_option("--set-a", options->overrides_of_a, "Another value in A: network.links.0.rate=100Mbps (repeatable)").type_name("POINTER=VALUE").one_value_each();
+  command.add_option("--set-b", options->overrides_of_b, "Another value in B (repeatable)").type_name("POINTER=VALUE").one_value_each();
+  command.add_option("--pairs", options->pairs, "Pairs of runs, each with one seed for both (10)").between(1u, 100'000u).type_name("N");
+  command.add_option("--seed", options->first_seed, "The first seed (1)").type_name("N");
+  command.add_option("--jobs", options->jobs, "Processes; the result is the same for any number").between(1u, 1024u).type_name("N");
+  command.add_option("--format", options->format, "text or json").one_of({"text", "json"}).type_name("FORMAT");
   command.add_flag("--quiet", options->quiet, "No progress");
   command.footer(
       "Examples:\n"

@@ -1,5 +1,4 @@
 // takt ctl: speaks to a running node through its control socket.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -55,17 +54,17 @@ ExitStatus ask(const CtlOptions& options) {
 
 }  // namespace
 
-void add_ctl_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("ctl", "Call a method of a running node, or ask for its status");
+void add_ctl_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("ctl", "Call a method of a running node, or ask for its status");
   const auto options = std::make_shared<CtlOptions>();
-  command.add_option("NODE", options->node, "The node's name, or the path of its control socket")->required();
+  command.add_option("NODE", options->node, "The node's name, or the path of its control socket").required();
   command.add_option("REQUEST", options->request, "start, suspend, resume, halt, reset, join, leave or status")
-      ->required()
-      ->check(CLI::IsMember(std::vector<std::string>{"start", "suspend", "resume", "halt", "reset", "join", "leave", "status"}));
-  command.add_option("PROGRAM", options->program, "Of which Program, where the node is in several; the outermost if absent")->check([](const std::string& name) {
+      .required()
+      .one_of({"start", "suspend", "resume", "halt", "reset", "join", "leave", "status"});
+  command.add_option("PROGRAM", options->program, "Of which Program, where the node is in several; the outermost if absent").check([](const std::string& name) {
     return name.empty() || name.size() > 200 ? std::string("the name of a Program has 1 to 200 octets") : std::string();
   });
-  command.add_option("--format", options->format, "text or json")->check(CLI::IsMember(std::vector<std::string>{"text", "json"}));
+  command.add_option("--format", options->format, "text or json").one_of({"text", "json"});
   command.footer(
       "Examples:\n"
       "  takt ctl plc start\n"

@@ -1,5 +1,4 @@
 // takt emulate: a scenario on real nodes in network namespaces of this machine, compared with its simulated run.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -38,16 +37,16 @@ ExitStatus run_emulation(const ScenarioOptions& options, const std::string& keep
 
 }  // namespace
 
-void add_emulate_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("emulate", "Run a scenario on real nodes in network namespaces and compare it with the simulated run");
+void add_emulate_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("emulate", "Run a scenario on real nodes in network namespaces and compare it with the simulated run");
   const auto options = std::make_shared<ScenarioOptions>();
   const auto keep = std::make_shared<std::string>();
   const auto patience = std::make_shared<int>(10);
   add_scenario_options(command, *options);
-  command.add_option("--keep", *keep, "Keep the files and logs of the nodes in this folder")->type_name("FOLDER");
+  command.add_option("--keep", *keep, "Keep the files and logs of the nodes in this folder").type_name("FOLDER");
   command.add_option("--patience", *patience, "Seconds for nodes to come where the simulated run was, before the script goes on without them")
-      ->check(CLI::Range(0, 3600))
-      ->capture_default_str();
+      .between(0, 3600)
+      .default_in_help();
   command.footer(
       "Examples:\n"
       "  sudo takt emulate scenarios/three-slaves-star.json\n"

@@ -1,5 +1,4 @@
 // takt explore: every order of messages, calls and faults of a small group.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -281,48 +280,48 @@ ExitStatus run(const ExploreOptions& options) {
 
 }  // namespace
 
-void add_explore_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("explore", "Search every order of messages, calls and faults of a small group");
+void add_explore_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("explore", "Search every order of messages, calls and faults of a small group");
   const auto options = std::make_shared<ExploreOptions>();
-  command.add_option("scenario", options->scenario, "Take variant and slaves from its Programs")->type_name("SCENARIO");
-  command.add_option("--slaves", options->slaves, "Slaves of the group")->check(CLI::Range(1U, static_cast<unsigned>(explore::most_slaves)))->type_name("N");
-  command.add_option("--variant", options->variant, "The handshake (default: robust, or the scenario's)")->check(CLI::IsMember({"paper", "robust"}));
+  command.add_option("scenario", options->scenario, "Take variant and slaves from its Programs").type_name("SCENARIO");
+  command.add_option("--slaves", options->slaves, "Slaves of the group").between(1U, static_cast<unsigned>(explore::most_slaves)).type_name("N");
+  command.add_option("--variant", options->variant, "The handshake (default: robust, or the scenario's)").one_of({"paper", "robust"});
   command.add_option("--faults", options->faults, "Classes of faults, with commas between")
-      ->delimiter(',')
-      ->check(CLI::IsMember(std::vector<std::string>(explore::fault_names.begin(), explore::fault_names.end())));
+      .delimiter(',')
+      .one_of(std::vector<std::string>(explore::fault_names.begin(), explore::fault_names.end()));
   command.add_option("--fault-budget", options->query.fault_budget, "Faults in a run, of all classes together")
-      ->check(CLI::Range(0U, explore::most_faults))
-      ->capture_default_str();
+      .between(0U, explore::most_faults)
+      .default_in_help();
   command.add_option("--calls", options->calls, "Method calls and ends of the Program in a run (default: 4, 2, 1, 1 for 1 to 4 slaves)")
-      ->check(CLI::Range(0U, explore::most_commands));
-  command.add_option("--depth", options->query.depth, "Steps of a run")->type_name("D");
+      .between(0U, explore::most_commands);
+  command.add_option("--depth", options->query.depth, "Steps of a run").type_name("D");
   command.add_option("--budget", options->query.states, "States to store at most")
-      ->check(CLI::Range(std::uint64_t{1}, explore::most_states))
-      ->type_name("STATES")
-      ->capture_default_str();
+      .between(std::uint64_t{1}, explore::most_states)
+      .type_name("STATES")
+      .default_in_help();
   command.add_option("--network", options->network, "How words travel: registers (the last word, as cyclic publishing gives) or channels=N (N messages in flight, default 2)")
-      ->check([](const std::string& text) {
+      .check([](const std::string& text) {
         explore::Query unused;
         return set_network(text, unused);
       })
-      ->capture_default_str();
-  command.add_option("--subscription", options->subscription, "Who hears whom (default: star, or the scenario's)")->check(CLI::IsMember({"star", "all-to-all"}));
+      .default_in_help();
+  command.add_option("--subscription", options->subscription, "Who hears whom (default: star, or the scenario's)").one_of({"star", "all-to-all"});
   command.add_option("--beginnings", options->beginnings, "Where runs begin: all (wherever a group can rest) or switched-on")
-      ->check(CLI::IsMember({"all", "switched-on"}))
-      ->capture_default_str();
+      .one_of({"all", "switched-on"})
+      .default_in_help();
   command.add_flag("--nested", options->nested, "The last slave is the master of an inner group, too (robust, star, registers; loss, crash, restart, timeout, forge)");
   command.add_option("--inner-slaves", options->inner_slaves, "Slaves of the inner group (default 1)")
-      ->check(CLI::Range(1U, static_cast<unsigned>(explore::most_inner_slaves)))
-      ->type_name("N");
+      .between(1U, static_cast<unsigned>(explore::most_inner_slaves))
+      .type_name("N");
   command.add_flag("--joining", options->query.joining, "The last slave is down at the beginning and comes up at any time, or never (where --nested can be explored)");
   command.add_option("--candidates", options->candidates, "Nodes that may have the slaves' places, which are roles then (up to 2 roles; where --nested can be explored, without forge)")
-      ->check(CLI::Range(1U, static_cast<unsigned>(explore::most_explored_candidates)))
-      ->type_name("N");
+      .between(1U, static_cast<unsigned>(explore::most_explored_candidates))
+      .type_name("N");
   command.add_flag("--starts-again", options->starts_again, "With roles: the master starts the group again when a node that was lost in a run has been replaced");
   command.add_flag("--no-finish", options->no_finish, "No Program ends by itself");
   command.add_flag("--no-symmetry", options->no_symmetry, "Tell equal slaves apart");
-  command.add_option("--out", options->out, "Write a scenario for each violation into this folder")->type_name("DIR");
-  command.add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  command.add_option("--out", options->out, "Write a scenario for each violation into this folder").type_name("DIR");
+  command.add_option("--format", options->format, "text or json").one_of({"text", "json"});
   command.add_flag("--quiet", options->quiet, "No progress line");
   command.footer(
       "Examples:\n"

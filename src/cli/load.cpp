@@ -1,18 +1,17 @@
 #include "cli/load.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 namespace takt::cli {
 
-void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
-  command.add_option("SCENARIO", options.file, "The scenario file (JSON, comments allowed)")->required();
-  command.add_option("--seed", options.seed, "Another seed than the scenario's")->type_name("N");
-  command.add_option("--duration", options.duration, "Another duration, such as 100ms or 1h")->type_name("D");
+void add_scenario_options(Command command, ScenarioOptions& options) {
+  command.add_option("SCENARIO", options.file, "The scenario file (JSON, comments allowed)").required();
+  command.add_option("--seed", options.seed, "Another seed than the scenario's").type_name("N");
+  command.add_option("--duration", options.duration, "Another duration, such as 100ms or 1h").type_name("D");
   command.add_option("--set", options.overrides, "Another value in the scenario: network.links.0.rate=100Mbps (repeatable)")
-      ->type_name("POINTER=VALUE")
-      ->allow_extra_args(false);
-  command.add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}))->type_name("FORMAT");
+      .type_name("POINTER=VALUE")
+      .one_value_each();
+  command.add_option("--format", options.format, "text or json").one_of({"text", "json"}).type_name("FORMAT");
 }
 
 namespace {

@@ -6,11 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/command_line.hpp"
 #include "scenario/resolve/resolve.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace takt::cli {
 
@@ -24,7 +21,7 @@ struct ScenarioOptions {
 };
 
 /// Adds SCENARIO, --seed, --duration, --set and --format.
-void add_scenario_options(CLI::App& command, ScenarioOptions& options);
+void add_scenario_options(Command command, ScenarioOptions& options);
 
 /// Loads the scenario. Diagnostics go to standard error as text, or to standard output as JSON with --format json. Null if there
 /// was an error; the exit status is then bad_input.

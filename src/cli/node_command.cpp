@@ -1,5 +1,4 @@
 // takt node: a participant of Programs on this machine, or applications and gateways.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -81,11 +80,11 @@ ExitStatus run_node(const std::string& file, bool is_check) {
 
 }  // namespace
 
-void add_node_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("node", "Run a participant of Programs, or applications and gateways, on this machine");
+void add_node_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("node", "Run a participant of Programs, or applications and gateways, on this machine");
   const auto file = std::make_shared<std::string>();
   const auto is_check = std::make_shared<bool>(false);
-  command.add_option("CONFIG", *file, "The file of the node (JSON, comments allowed)")->required();
+  command.add_option("CONFIG", *file, "The file of the node (JSON, comments allowed)").required();
   command.add_flag("--check", *is_check, "Say whether the file is sound, and no more");
   command.footer(
       "Examples:\n"

@@ -1,5 +1,4 @@
 // takt paper: published evaluations, reproduced.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -88,22 +87,22 @@ ExitStatus run_validation(PaperOptions& options) {
   return hand_over(options, made, diagnostics);
 }
 
-void add_output_options(CLI::App& command, PaperOptions& options, const char* written) {
-  command.add_option("--out", options.out, written)->type_name("DIR");
-  command.add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}))->type_name("FORMAT");
+void add_output_options(Command command, PaperOptions& options, const char* written) {
+  command.add_option("--out", options.out, written).type_name("DIR");
+  command.add_option("--format", options.format, "text or json").one_of({"text", "json"}).type_name("FORMAT");
   command.add_flag("--quiet", options.quiet, "Do not say what is being done");
 }
 
-void add_common_options(CLI::App& command, PaperOptions& options) {
+void add_common_options(Command command, PaperOptions& options) {
   add_output_options(command, options, "Write report, figures (SVG) and scenarios into this folder");
   command.add_flag("--speed", options.speed, "Say how long the runs took");
 }
 
-void add_programs(CLI::App& command, ExitStatus& status) {
-  CLI::App& programs = *command.add_subcommand("programs", "Real-time capable OPC-UA Programs over TSN for distributed industrial control");
+void add_programs(Command command, ExitStatus& status) {
+  const Command programs = command.add_subcommand("programs", "Real-time capable OPC-UA Programs over TSN for distributed industrial control");
   const auto options = std::make_shared<PaperOptions>();
   programs.add_flag("--short", options->programs.is_short, "Three minutes of simulated time for each row instead of an hour");
-  programs.add_option("--scenarios", options->programs.scenarios, "Where its scenarios are (scenarios/papers/programs)")->type_name("DIR");
+  programs.add_option("--scenarios", options->programs.scenarios, "Where its scenarios are (scenarios/papers/programs)").type_name("DIR");
   add_common_options(programs, *options);
   programs.footer(
       "Examples:\n"
@@ -113,12 +112,12 @@ void add_programs(CLI::App& command, ExitStatus& status) {
   programs.callback([options, &status] { status = run_programs(*options); });
 }
 
-void add_coexistence(CLI::App& command, ExitStatus& status) {
-  CLI::App& coexistence = *command.add_subcommand("coexistence", "DDS and OPC UA protocol coexistence solution in real-time and Industry 4.0 context using non-ideal infrastructure");
+void add_coexistence(Command command, ExitStatus& status) {
+  const Command coexistence = command.add_subcommand("coexistence", "DDS and OPC UA protocol coexistence solution in real-time and Industry 4.0 context using non-ideal infrastructure");
   const auto options = std::make_shared<PaperOptions>();
   coexistence.add_flag("--short", options->coexistence.is_short, "Fewer repetitions, and what real-time Linux and TSN change at 10 and 1 ms only");
   coexistence.add_flag("--real", options->is_real, "Measure criteria 1 and 2 on this machine too: six nodes, and the gateway, as processes");
-  coexistence.add_option("--scenarios", options->coexistence.scenarios, "Where its scenarios are (scenarios/papers/coexistence)")->type_name("DIR");
+  coexistence.add_option("--scenarios", options->coexistence.scenarios, "Where its scenarios are (scenarios/papers/coexistence)").type_name("DIR");
   add_common_options(coexistence, *options);
   coexistence.footer(
       "Examples:\n"
@@ -129,12 +128,12 @@ void add_coexistence(CLI::App& command, ExitStatus& status) {
   coexistence.callback([options, &status] { status = run_coexistence(*options); });
 }
 
-void add_validation(CLI::App& command, ExitStatus& status) {
-  CLI::App& validation = *command.add_subcommand("validation", "Every published or measured figure that takt was compared with");
+void add_validation(Command command, ExitStatus& status) {
+  const Command validation = command.add_subcommand("validation", "Every published or measured figure that takt was compared with");
   const auto options = std::make_shared<PaperOptions>();
   validation.add_flag("--short", options->validation.is_short, "Of large tables some rows only");
-  validation.add_option("--tables", options->validation.tables, "Where the tables of published figures are (validation)")->type_name("DIR");
-  validation.add_option("--jobs", options->validation.jobs, "Threads; the figures are the same for any number (one for each core)")->check(CLI::Range(1u, 256u))->type_name("N");
+  validation.add_option("--tables", options->validation.tables, "Where the tables of published figures are (validation)").type_name("DIR");
+  validation.add_option("--jobs", options->validation.jobs, "Threads; the figures are the same for any number (one for each core)").between(1u, 256u).type_name("N");
   add_output_options(validation, *options, "Write report, pictures (SVG) and the page docs/validation.md into this folder");
   validation.footer(
       "Examples:\n"
@@ -146,9 +145,9 @@ void add_validation(CLI::App& command, ExitStatus& status) {
 
 }  // namespace
 
-void add_paper_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("paper", "Reproduce a published evaluation");
-  command.require_subcommand(1);
+void add_paper_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("paper", "Reproduce a published evaluation");
+  command.require_subcommand();
   add_programs(command, status);
   add_coexistence(command, status);
   add_validation(command, status);

@@ -1,5 +1,4 @@
 // takt program: the state machine of OPC UA Programs, from the table that the code runs on.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -8,12 +7,12 @@
 
 namespace takt::cli {
 
-void add_program_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("program", "Print the state machine of OPC UA Programs");
+void add_program_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("program", "Print the state machine of OPC UA Programs");
   const auto is_table = std::make_shared<bool>(false);
   const auto is_dot = std::make_shared<bool>(false);
-  CLI::Option* const table = command.add_flag("--table", *is_table, "States, transitions and methods as text (if nothing else is asked)");
-  command.add_flag("--dot", *is_dot, "The same as a graph for Graphviz")->excludes(table);
+  const Option table = command.add_flag("--table", *is_table, "States, transitions and methods as text (if nothing else is asked)");
+  command.add_flag("--dot", *is_dot, "The same as a graph for Graphviz").excludes(table);
   command.footer(
       "Examples:\n"
       "  takt program --table\n"

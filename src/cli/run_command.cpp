@@ -1,5 +1,4 @@
 // takt run: what happens.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -72,14 +71,14 @@ ExitStatus run(const RunOptions& options) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("run", "Simulate a scenario and judge it");
+void add_run_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("run", "Simulate a scenario and judge it");
   const auto options = std::make_shared<RunOptions>();
   add_scenario_options(command, options->scenario);
-  command.add_option("--out", options->out, "Write result.json, tables and the resolved scenario into this folder")->type_name("DIR");
+  command.add_option("--out", options->out, "Write result.json, tables and the resolved scenario into this folder").type_name("DIR");
   command.add_option("--pcap", options->recording.pcap, "Capture what these ports send, into DIR: all, NODE or NODE:PORT (repeatable)")
-      ->type_name("PORT")
-      ->allow_extra_args(false);
+      .type_name("PORT")
+      .one_value_each();
   command.add_flag("--timeline", options->recording.timeline, "Write frames and states as DIR/timeline.json, for ui.perfetto.dev");
   command.add_flag("--waves", options->recording.waves, "Write links, queues, gates and digital outputs as DIR/waves.vcd, for GTKWave");
   command.add_flag("--clocks", options->recording.clocks, "Write the offsets of all clocks from their grandmasters as DIR/clocks.csv");

@@ -1,7 +1,6 @@
 // takt schema: what the files of takt may say and its outputs hold, as JSON Schema or as a page for people.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -66,12 +65,12 @@ std::string text_for(const Options& options) {
 
 }  // namespace
 
-void add_schema_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("schema", "Print what files of takt may say and its outputs hold: JSON Schema, or a page for people");
+void add_schema_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("schema", "Print what files of takt may say and its outputs hold: JSON Schema, or a page for people");
   const auto options = std::make_shared<Options>();
   std::vector<std::string> names;
   for (const FileKind& kind : file_kinds) names.emplace_back(kind.name);
-  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result")->check(CLI::IsMember(names));
+  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result").one_of(names);
   command.add_flag("--reference", options->as_reference, "Markdown for people instead: every key with unit, range, default and meaning");
   command.footer("Examples:\n  takt schema > scenarios/takt.schema.json\n  takt schema study > scenarios/studies/takt-study.schema.json\n  takt schema scenario --reference | less");
   command.callback([options, &status] {

@@ -1,5 +1,4 @@
 // takt study: what if? A scenario, what of it varies, what comes of it.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -169,12 +168,12 @@ ExitStatus say_merged(const std::string& path) {
   return ExitStatus::pass;
 }
 
-void add_merge(CLI::App& study, ExitStatus& status) {
-  CLI::App& command = *study.add_subcommand("merge", "Join the stores of a study's shards into a new one");
+void add_merge(Command study, ExitStatus& status) {
+  const Command command = study.add_subcommand("merge", "Join the stores of a study's shards into a new one");
   const auto out = std::make_shared<std::string>();
   const auto parts = std::make_shared<std::vector<std::string>>();
-  command.add_option("OUT", *out, "The new store")->required();
-  command.add_option("PARTS", *parts, "The stores that are joined")->required();
+  command.add_option("OUT", *out, "The new store").required();
+  command.add_option("PARTS", *parts, "The stores that are joined").required();
   command.footer("Example:\n  takt study merge all.sqlite part-*.sqlite");
   command.callback([out, parts, &status] {
     const std::string problem = study::merge_stores(*out, *parts);
@@ -193,12 +192,12 @@ ExitStatus report(const std::string& store, const std::string& out) {
   return ExitStatus::internal_error;
 }
 
-void add_report(CLI::App& study, ExitStatus& status) {
-  CLI::App& command = *study.add_subcommand("report", "Tables and charts of a store, as one HTML file");
+void add_report(Command study, ExitStatus& status) {
+  const Command command = study.add_subcommand("report", "Tables and charts of a store, as one HTML file");
   const auto store = std::make_shared<std::string>();
   const auto out = std::make_shared<std::string>("study.html");
-  command.add_option("STORE", *store, "The store (study.sqlite)")->required();
-  command.add_option("--out", *out, "The HTML file that is written (study.html)")->type_name("FILE");
+  command.add_option("STORE", *store, "The store (study.sqlite)").required();
+  command.add_option("--out", *out, "The HTML file that is written (study.html)").type_name("FILE");
   command.footer("Example:\n  takt study report slaves.sqlite --out slaves.html");
   command.callback([store, out, &status] { status = report(*store, *out); });
 }
@@ -233,29 +232,29 @@ ExitStatus shrink(const ShrinkOptions& options) {
   return ExitStatus::pass;
 }
 
-void add_shrink(CLI::App& study, ExitStatus& status) {
-  CLI::App& command = *study.add_subcommand("shrink", "The least faults with which a point still fails, as a scenario that fails by itself");
+void add_shrink(Command study, ExitStatus& status) {
+  const Command command = study.add_subcommand("shrink", "The least faults with which a point still fails, as a scenario that fails by itself");
   const auto options = std::make_shared<ShrinkOptions>();
-  command.add_option("FILE", options->file, "The study file")->required();
-  command.add_option("POINT", options->point, "The number of a point that fails; takt study report names some")->required();
-  command.add_option("--out", options->out, "The scenario that is written (shrunk.json)")->type_name("FILE");
+  command.add_option("FILE", options->file, "The study file").required();
+  command.add_option("POINT", options->point, "The number of a point that fails; takt study report names some").required();
+  command.add_option("--out", options->out, "The scenario that is written (shrunk.json)").type_name("FILE");
   command.footer("Example:\n  takt study shrink FILE 17 --out worst.json && takt run worst.json");
   command.callback([options, &status] { status = shrink(*options); });
 }
 
 }  // namespace
 
-void add_study_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("study", "What if: run the variants of a scenario, keep the figures, report");
+void add_study_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("study", "What if: run the variants of a scenario, keep the figures, report");
   const auto options = std::make_shared<StudyOptions>();
   command.add_option("FILE", options->file, "The study file (JSON, comments allowed)");
-  command.add_option("--jobs", options->jobs, "Processes; the results are the same for any number (as many as the machine has cores)")->check(CLI::Range(1u, 1024u))->type_name("N");
-  command.add_option("--out", options->out, "The store of the results, SQLite (study.sqlite)")->type_name("STORE");
+  command.add_option("--jobs", options->jobs, "Processes; the results are the same for any number (as many as the machine has cores)").between(1u, 1024u).type_name("N");
+  command.add_option("--out", options->out, "The store of the results, SQLite (study.sqlite)").type_name("STORE");
   command.add_flag("--resume", options->resume, "Go on with a store: run only what is missing");
-  command.add_option("--shard", options->shard, "Only the I-th of N parts of the points, for several machines")->type_name("I/N");
+  command.add_option("--shard", options->shard, "Only the I-th of N parts of the points, for several machines").type_name("I/N");
   command.add_flag("--dry-run", options->dry_run, "Expand and check everything, print the variants, run nothing");
-  command.add_option("--find", options->find, "Search instead: \"max slaves such that reaction.start.max <= 1ms\"")->type_name("QUESTION");
-  command.add_option("--at", options->at, "With --find, another factor's level instead of its baseline (repeatable)")->type_name("FACTOR=LEVEL")->allow_extra_args(false);
+  command.add_option("--find", options->find, "Search instead: \"max slaves such that reaction.start.max <= 1ms\"").type_name("QUESTION");
+  command.add_option("--at", options->at, "With --find, another factor's level instead of its baseline (repeatable)").type_name("FACTOR=LEVEL").one_value_each();
   command.add_flag("--quiet", options->quiet, "No progress");
   add_report(command, status);
   add_merge(command, status);
@@ -266,8 +265,8 @@ void add_study_command(CLI::App& app, ExitStatus& status) {
       "  takt study scenarios/studies/slaves-hops-cycle.json --find 'max slaves such that halt <= 300us' --at cycle=200us\n"
       "  takt study FILE --shard 3/10 --out part-3.sqlite\n"
       "Exit status: 0 all points are there, 1 --find found nothing, 2 bad input (nothing was run), 3 internal error or a full disk, 130 interrupted.");
-  command.callback([&command, options, &status] {
-    if (command.get_subcommands().empty()) status = run(*options);
+  command.callback([command, options, &status] {
+    if (!command.has_chosen_subcommand()) status = run(*options);
   });
 }
 

@@ -1,5 +1,4 @@
 // takt verify: does it meet its requirements, whatever phases and chance bring?
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -103,14 +102,14 @@ ExitStatus run(VerifyOptions& options) {
 
 }  // namespace
 
-void add_verify_command(CLI::App& app, ExitStatus& status) {
-  CLI::App& command = *app.add_subcommand("verify", "Prove or refute each requirement: simulated, adversarial, bounded");
+void add_verify_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("verify", "Prove or refute each requirement: simulated, adversarial, bounded");
   const auto options = std::make_shared<VerifyOptions>();
   add_scenario_options(command, options->scenario);
-  command.add_option("--seeds", options->search.seeds, "Runs of the scenario as it is, with its seed and those after it")->check(CLI::Range(1u, 100'000u))->type_name("N");
-  command.add_option("--jobs", options->search.jobs, "Threads; the result is the same for any number")->check(CLI::Range(1u, 256u))->type_name("N");
-  command.add_option("--budget", options->budget, "What the search for the worst may cost, in millions of events")->check(CLI::Range(0.0, 1e6))->type_name("M");
-  command.add_option("--out", options->out, "Write into this folder, for each requirement, the scenario that replays its worst run")->type_name("DIR");
+  command.add_option("--seeds", options->search.seeds, "Runs of the scenario as it is, with its seed and those after it").between(1u, 100'000u).type_name("N");
+  command.add_option("--jobs", options->search.jobs, "Threads; the result is the same for any number").between(1u, 256u).type_name("N");
+  command.add_option("--budget", options->budget, "What the search for the worst may cost, in millions of events").between(0.0, 1e6).type_name("M");
+  command.add_option("--out", options->out, "Write into this folder, for each requirement, the scenario that replays its worst run").type_name("DIR");
   command.add_flag("--quiet", options->quiet, "Print one line");
   command.footer(
       "Examples:\n"

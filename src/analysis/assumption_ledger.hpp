@@ -8,6 +8,7 @@
 #include <string>
 
 #include "analysis/assumption.hpp"
+#include "scenario/json/type.hpp"
 #include "sim/time.hpp"
 
 namespace takt::analysis {
@@ -22,6 +23,8 @@ struct AssessedAssumption {
   std::string why;             ///< what discharges or violates it, or why it is open
   sim::Duration holds_from;    ///< since the start; a conclusion that counts from earlier does not stand
 };
+/// What reports hold of it, but for its name.
+const scenario::json::Record& describe(scenario::json::Type<AssessedAssumption>);
 
 class AssumptionLedger {
  public:

@@ -4,19 +4,18 @@
 
 #include <algorithm>
 
+#include "analysis/report_record.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "scenario/figures/requirement_rules.hpp"
-#include "scenario/json/node.hpp"
 #include "scenario/json/quantity.hpp"
+#include "scenario/json/record.hpp"
 
 namespace takt::analysis {
 namespace {
 
-using scenario::json::Node;
 using sim::Duration;
 
 std::string text_of(const std::optional<Duration>& value) { return value ? scenario::json::to_text(*value) : "unbounded"; }
-Node picoseconds(const std::optional<Duration>& value) { return value ? Node::of_integer(value->ps()) : Node(); }
 
 std::string numbers_of(const Assumptions& assumptions, const std::vector<Assumption>& all) {
   std::string text;
@@ -31,12 +30,6 @@ std::vector<Assumption> all_assumptions(const Bounds& bounds) {
   for (const StreamBound& stream : bounds.streams) all.add(stream.assumptions);
   for (const ReactionBound& reaction : bounds.reactions) all.add(reaction.assumptions);
   return all.list();
-}
-
-Node nodes_of(const Assumptions& assumptions) {
-  Node array = Node::array();
-  for (const Assumption assumption : assumptions.list()) array.items.push_back(Node::of_string(name_of(assumption)));
-  return array;
 }
 
 std::string figure_text(const scenario::Requirement& requirement) {
@@ -119,90 +112,18 @@ std::string text_report(const scenario::Resolved& resolved, const Bounds& bounds
 }
 
 std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds) {
-  Node root = Node::object();
-  root.add("scenario", Node::of_string(resolved.scenario.name));
-  Node& streams = root.add("streams", Node::array());
-  for (const StreamBound& stream : bounds.streams) {
-    Node node = Node::object();
-    node.add("name", Node::of_string(stream.name));
-    node.add("bound_ps", picoseconds(stream.latency));
-    node.add("tfa_ps", picoseconds(stream.total_flow));
-    node.add("sfa_ps", picoseconds(stream.separated_flow));
-    node.add("sfa_reason", Node::of_string(stream.separated_flow_reason));
-    node.add("least_ps", Node::of_integer(stream.least.ps()));
-    node.add("listener", Node::of_string(resolved.plan.nodes[stream.listener.value].name));
-    node.add("reason", Node::of_string(stream.reason));
-    node.add("loses_nothing", Node::of_bool(stream.loses_nothing));
-    Node hops = Node::array();
-    for (const HopBound& hop : stream.hops) {
-      Node made = Node::object();
-      made.add("port", Node::of_string(hop.name));
-      made.add("delay_ps", picoseconds(hop.delay));
-      made.add("backlog_bits", hop.backlog_bits ? Node::of_integer(static_cast<sim::int128>(*hop.backlog_bits)) : Node());
-      hops.items.push_back(std::move(made));
-    }
-    node.add("hops", std::move(hops));
-    node.add("assumptions", nodes_of(stream.assumptions));
-    streams.items.push_back(std::move(node));
-  }
-  Node& queues = root.add("queues", Node::array());
-  for (const QueueBound& queue : bounds.queues) {
-    Node node = Node::object();
-    node.add("node", Node::of_string(resolved.plan.nodes[queue.node.value].name));
-    node.add("port", Node::of_integer(queue.port));
-    node.add("class", Node::of_integer(queue.traffic_class));
-    node.add("backlog_bits", queue.bits ? Node::of_integer(static_cast<sim::int128>(*queue.bits)) : Node());
-    node.add("backlog_frames", queue.frames ? Node::of_integer(static_cast<sim::int128>(*queue.frames)) : Node());
-    queues.items.push_back(std::move(node));
-  }
-  Node& reactions = root.add("reactions", Node::array());
-  for (const ReactionBound& reaction : bounds.reactions) {
-    Node node = Node::object();
-    node.add("program", Node::of_string(resolved.programs[reaction.program].name));
-    node.add("kind", Node::of_string(scenario::spelling(reaction.kind)));
-    node.add("cause", Node::of_string(scenario::spelling(reaction.cause)));
-    node.add("tree", Node::of_bool(reaction.of_tree));
-    node.add("bound_ps", picoseconds(reaction.bound));
-    node.add("reason", Node::of_string(reaction.reason));
-    Node parts = Node::array();
-    for (const ReactionPart& part : reaction.parts) {
-      Node made = Node::object();
-      made.add("what", Node::of_string(part.what));
-      made.add("duration_ps", Node::of_integer(part.duration.ps()));
-      parts.items.push_back(std::move(made));
-    }
-    node.add("parts", std::move(parts));
-    node.add("assumptions", nodes_of(reaction.assumptions));
-    reactions.items.push_back(std::move(node));
-  }
-  Node& requirements = root.add("requirements", Node::array());
+  BoundReport report;
+  report.scenario = resolved.scenario.name;
+  for (const StreamBound& stream : bounds.streams) report.streams.push_back({&stream, resolved.plan.nodes[stream.listener.value].name});
+  for (const QueueBound& queue : bounds.queues) report.queues.push_back({&queue, resolved.plan.nodes[queue.node.value].name});
+  for (const ReactionBound& reaction : bounds.reactions) report.reactions.push_back({&reaction, resolved.programs[reaction.program].name});
   for (const Bounds::Requirement& requirement : bounds.requirements) {
-    Node node = Node::object();
-    node.add("text", Node::of_string(requirement_text(resolved.scenario.require[requirement.requirement], requirement.what)));
-    node.add("bound_ps", picoseconds(requirement.bound.duration));
-    node.add("bound_count", requirement.bound.count ? Node::of_integer(static_cast<sim::int128>(*requirement.bound.count)) : Node());
-    if (const auto& range = requirement.bound.figure) {
-      Node& ends = node.add("range", Node::object());
-      ends.add("least", range->least ? Node::of_double(*range->least) : Node());
-      ends.add("greatest", range->greatest ? Node::of_double(*range->greatest) : Node());
-    }
-    node.add("reason", Node::of_string(requirement.bound.reason));
-    const std::string objection = bounds.ledger.objection(requirement.bound.assumptions, scenario::counts_from(resolved.scenario, resolved.scenario.require[requirement.requirement]));
-    node.add("objection", objection.empty() ? Node() : Node::of_string(objection));
-    node.add("assumptions", nodes_of(requirement.bound.assumptions));
-    requirements.items.push_back(std::move(node));
+    const scenario::Requirement& asked = resolved.scenario.require[requirement.requirement];
+    std::string objection = bounds.ledger.objection(requirement.bound.assumptions, scenario::counts_from(resolved.scenario, asked));
+    report.requirements.push_back({requirement_text(asked, requirement.what), &requirement.bound, objection.empty() ? std::nullopt : std::optional(std::move(objection))});
   }
-  Node& assumptions = root.add("assumptions", Node::object());
-  for (const Assumption assumption : all_assumptions(bounds)) {
-    const AssessedAssumption& each = bounds.ledger[assumption];
-    Node node = Node::object();
-    node.add("text", Node::of_string(each.text));
-    node.add("standing", Node::of_string(name_of(each.standing)));
-    node.add("why", each.why.empty() ? Node() : Node::of_string(each.why));
-    node.add("holds_from_ps", Node::of_integer(each.holds_from.ps()));
-    assumptions.add(name_of(assumption), std::move(node));
-  }
-  return scenario::json::pretty(root);
+  for (const Assumption assumption : all_assumptions(bounds)) report.assumptions.emplace_back(name_of(assumption), bounds.ledger[assumption]);
+  return scenario::json::write(report);
 }
 
 }  // namespace takt::analysis

@@ -8,7 +8,7 @@
 namespace takt::analysis {
 
 std::string text_report(const scenario::Resolved& resolved, const Bounds& bounds);
-/// {"scenario", "streams": [{name, bound_ps, hops: [{port, delay_ps, backlog_bits}], ...}], "reactions": [{program, kind, bound_ps, parts}], ...}
+/// Keys and meaning: docs/reference/bound.md.
 std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds);
 
 }  // namespace takt::analysis

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "analysis/report_record.hpp"
 #include "cli/commands.hpp"
 #include "node/applications/config.hpp"
 #include "node/config.hpp"
@@ -13,6 +14,7 @@
 #include "scenario/json/record.hpp"
 #include "scenario/json/reference.hpp"
 #include "study/description.hpp"
+#include "verify/report_record.hpp"
 
 namespace takt::cli {
 
@@ -43,6 +45,8 @@ constexpr std::array file_kinds{
     read_as<node::Config>("node", "takt node: Programs"),
     read_as<node::ApplicationsConfig>("applications", "takt node: applications"),
     written_as<results::RunResult>("result", "takt run: result.json"),
+    written_as<analysis::BoundReport>("bound", "takt bound --format json"),
+    written_as<verify::Report>("verify", "takt verify --format json"),
 };
 
 struct Options {
@@ -70,7 +74,7 @@ void add_schema_command(Command app, ExitStatus& status) {
   const auto options = std::make_shared<Options>();
   std::vector<std::string> names;
   for (const FileKind& kind : file_kinds) names.emplace_back(kind.name);
-  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result").one_of(names);
+  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result, bound or verify").one_of(names);
   command.add_flag("--reference", options->as_reference, "Markdown for people instead: every key with unit, range, default and meaning");
   command.footer("Examples:\n  takt schema > scenarios/takt.schema.json\n  takt schema study > scenarios/studies/takt-study.schema.json\n  takt schema scenario --reference | less");
   command.callback([options, &status] {

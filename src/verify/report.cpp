@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "scenario/json/node.hpp"
-#include "scenario/json/quantity.hpp"
+#include "scenario/json/record.hpp"
+#include "verify/report_record.hpp"
 
 namespace takt::verify {
 namespace {
 
-using scenario::json::Node;
 using sim::Duration;
 
 /// Six digits are enough for people; the JSON has them all.
@@ -24,8 +23,6 @@ std::string figure(const std::optional<Duration>& time) {
   return fmt::format("{} ps", time->ps());
 }
 
-Node picoseconds(const std::optional<Duration>& time) { return time ? Node::of_integer(time->ps()) : Node(); }
-Node number(std::uint64_t value) { return Node::of_integer(static_cast<std::int64_t>(value)); }
 
 /// "the bound gives away 12.4 us of 30 us: 12 us at sw0:1 (blocking and other frames), 0.4 us at ...": the largest parts, what is alike in one.
 std::string slack_text(const Line& line) {
@@ -92,17 +89,6 @@ std::string freedom_text(const Freedom& freedom) {
   return fmt::format("  {} within {}\n", freedom.name, figure(freedom.range));
 }
 
-Node assumption_node(analysis::Assumption assumption, const analysis::AssumptionLedger& ledger) {
-  const analysis::AssessedAssumption& each = ledger[assumption];
-  Node node = Node::object();
-  node.add("name", Node::of_string(analysis::name_of(assumption)));
-  node.add("text", Node::of_string(each.text));
-  node.add("standing", Node::of_string(analysis::name_of(each.standing)));
-  node.add("why", each.why.empty() ? Node() : Node::of_string(each.why));
-  node.add("holds_from_ps", Node::of_integer(each.holds_from.ps()));
-  return node;
-}
-
 }  // namespace
 
 std::string text_report(const std::string& scenario, const Verification& verification, const std::vector<std::string>& files, const Witnesses& witnesses) {
@@ -123,61 +109,19 @@ std::string text_report(const std::string& scenario, const Verification& verific
 }
 
 std::string json_report(const std::string& scenario, const Verification& verification, const std::vector<std::string>& files, const Witnesses& witnesses) {
-  Node root = Node::object();
-  root.add("scenario", Node::of_string(scenario));
-  root.add("verdict", Node::of_string(verdict_text(verification)));
-  root.add("runs", number(verification.runs));
-  root.add("partial", Node::of_bool(verification.partial));
-  Node open = Node::array();
+  Report report{scenario, verdict_text(verification), verification.runs, verification.partial, {}, {}, {}, {}};
   for (const Freedom& freedom : verification.freedoms) {
-    Node node = Node::object();
-    node.add("what", Node::of_string(freedom.name));
-    node.add("range_ps", freedom.kind == Freedom::Kind::frequency ? Node() : Node::of_integer(freedom.is_latency() ? (freedom.greatest - freedom.least).ps() : freedom.range.ps()));
-    open.items.push_back(std::move(node));
+    const Duration range = freedom.is_latency() ? freedom.greatest - freedom.least : freedom.range;
+    report.free.push_back({freedom.name, freedom.kind == Freedom::Kind::frequency ? std::nullopt : std::optional(range)});
   }
-  root.add("free", std::move(open));
   analysis::Assumptions needed;
-  Node requirements = Node::array();
   for (std::size_t i = 0; i < verification.lines.size(); ++i) {
-    const Line& line = verification.lines[i];
-    Node node = Node::object();
-    node.add("text", Node::of_string(line.requirement.text));
-    node.add("simulated_ps", picoseconds(line.simulated));
-    node.add("adversarial_ps", picoseconds(line.adversarial));
-    node.add("bound_ps", picoseconds(line.bound));
-    node.add("limit_ps", picoseconds(line.requirement.limit));
-    node.add("verdict", Node::of_string(name_of(line.verdict)));
-    node.add("tightness", line.tightness() ? Node::of_double(*line.tightness()) : Node());
-    node.add("runs", number(line.runs));
-    node.add("exhaustive", Node::of_bool(line.exhaustive));
-    node.add("reason", line.reason.empty() ? Node() : Node::of_string(line.reason));
-    node.add("remark", line.remark.empty() ? Node() : Node::of_string(line.remark));
-    Node& slack = node.add("gives_away", Node::array());
-    for (const SlackPart& part : line.slack) {
-      Node made = Node::object();
-      made.add("where", Node::of_string(part.where));
-      made.add("what", Node::of_string(part.what));
-      made.add("bound_ps", Node::of_integer(part.bound.ps()));
-      made.add("run_ps", Node::of_integer(part.run.ps()));
-      slack.items.push_back(std::move(made));
-    }
-    Node assumptions = Node::array();
-    for (const analysis::Assumption assumption : line.assumptions.list()) assumptions.items.push_back(Node::of_string(analysis::name_of(assumption)));
-    needed.add(line.assumptions);
-    node.add("assumptions", std::move(assumptions));
-    node.add("file", files[i].empty() ? Node() : Node::of_string(files[i]));
-    requirements.items.push_back(std::move(node));
+    report.requirements.push_back({&verification.lines[i], files[i].empty() ? std::nullopt : std::optional(files[i])});
+    needed.add(verification.lines[i].assumptions);
   }
-  root.add("requirements", std::move(requirements));
-  Node& assumptions = root.add("assumptions", Node::array());
-  for (const analysis::Assumption assumption : needed.list()) assumptions.items.push_back(assumption_node(assumption, verification.ledger));
-  if (verification.contradiction) {
-    Node& contradiction = root.add("contradiction", Node::object());
-    contradiction.add("text", Node::of_string(verification.contradiction->text));
-    contradiction.add("run", Node::of_string(witnesses.run));
-    contradiction.add("bound", Node::of_string(witnesses.bound));
-  }
-  return scenario::json::pretty(root);
+  for (const analysis::Assumption assumption : needed.list()) report.assumptions.push_back({std::string(analysis::name_of(assumption)), verification.ledger[assumption]});
+  if (verification.contradiction) report.contradiction = ReportedContradiction{verification.contradiction->text, witnesses};
+  return scenario::json::write(report);
 }
 
 }  // namespace takt::verify

@@ -16,8 +16,7 @@ struct Witnesses {
 
 /// `files`: by line, the file that replays its worst run, or "".
 std::string text_report(const std::string& scenario, const Verification& verification, const std::vector<std::string>& files, const Witnesses& witnesses = {});
-/// One object: scenario, verdict, runs, partial, free[], requirements[] {text, simulated_ps, adversarial_ps, bound_ps, limit_ps, verdict, tightness,
-/// runs, exhaustive, reason, remark, gives_away[] {where, what, bound_ps, run_ps}, assumptions[], file}, assumptions[] {name, text, standing, why, holds_from_ps}, and contradiction {text, run, bound} if there is one. Figures that there are not are null.
+/// Keys and meaning: docs/reference/verify.md.
 std::string json_report(const std::string& scenario, const Verification& verification, const std::vector<std::string>& files, const Witnesses& witnesses = {});
 
 }  // namespace takt::verify

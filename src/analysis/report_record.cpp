@@ -1,0 +1,167 @@
+#include "analysis/report_record.hpp"
+
+#include "scenario/json/record.hpp"
+
+namespace takt::analysis {
+
+namespace json = scenario::json;
+using sim::Duration;
+
+namespace {
+
+std::string standing_of(const AssessedAssumption& each) { return std::string(name_of(each.standing)); }
+std::optional<std::string> why_of(const AssessedAssumption& each) { return each.why.empty() ? std::nullopt : std::optional(each.why); }
+
+std::string name_of_stream(const ReportedStream& stream) { return stream.bound->name; }
+std::optional<Duration> latency_of_stream(const ReportedStream& stream) { return stream.bound->latency; }
+std::optional<Duration> total_flow_of(const ReportedStream& stream) { return stream.bound->total_flow; }
+std::optional<Duration> separated_flow_of(const ReportedStream& stream) { return stream.bound->separated_flow; }
+std::string separated_flow_reason_of(const ReportedStream& stream) { return stream.bound->separated_flow_reason; }
+Duration least_of(const ReportedStream& stream) { return stream.bound->least; }
+std::string reason_of_stream(const ReportedStream& stream) { return stream.bound->reason; }
+bool loses_nothing(const ReportedStream& stream) { return stream.bound->loses_nothing; }
+const std::vector<HopBound>& hops_of(const ReportedStream& stream) { return stream.bound->hops; }
+std::vector<std::string> assumptions_of_stream(const ReportedStream& stream) { return names_of(stream.bound->assumptions); }
+
+std::uint16_t port_of(const ReportedQueue& queue) { return queue.bound->port; }
+models::TrafficClass class_of(const ReportedQueue& queue) { return queue.bound->traffic_class; }
+std::optional<std::uint64_t> bits_of(const ReportedQueue& queue) { return queue.bound->bits; }
+std::optional<std::uint64_t> frames_of(const ReportedQueue& queue) { return queue.bound->frames; }
+
+std::string kind_of(const ReportedReaction& reaction) { return std::string(scenario::spelling(reaction.bound->kind)); }
+std::string cause_of(const ReportedReaction& reaction) { return std::string(scenario::spelling(reaction.bound->cause)); }
+bool is_of_tree(const ReportedReaction& reaction) { return reaction.bound->of_tree; }
+std::optional<Duration> bound_of_reaction(const ReportedReaction& reaction) { return reaction.bound->bound; }
+std::string reason_of_reaction(const ReportedReaction& reaction) { return reaction.bound->reason; }
+const std::vector<ReactionPart>& parts_of(const ReportedReaction& reaction) { return reaction.bound->parts; }
+std::vector<std::string> assumptions_of_reaction(const ReportedReaction& reaction) { return names_of(reaction.bound->assumptions); }
+
+std::optional<Duration> duration_of(const ReportedRequirement& requirement) { return requirement.bound->duration; }
+std::optional<std::uint64_t> count_of(const ReportedRequirement& requirement) { return requirement.bound->count; }
+std::optional<FigureRange> range_of(const ReportedRequirement& requirement) { return requirement.bound->figure; }
+std::string reason_of_requirement(const ReportedRequirement& requirement) { return requirement.bound->reason; }
+std::vector<std::string> assumptions_of_requirement(const ReportedRequirement& requirement) { return names_of(requirement.bound->assumptions); }
+
+constexpr std::string_view reason_help = "Why there is no bound, or what is left to say of it.";
+constexpr std::string_view assumptions_help = "Names of what the bound rests on.";
+
+}  // namespace
+
+std::vector<std::string> names_of(const Assumptions& assumptions) {
+  std::vector<std::string> names;
+  for (const Assumption assumption : assumptions.list()) names.emplace_back(name_of(assumption));
+  return names;
+}
+
+const json::Record& describe(json::Type<AssessedAssumption>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&AssessedAssumption::text>("text", "What is assumed, with the scenario's figures."),
+      json::output<&standing_of>("standing", "`discharged`, `condition` (only the plant can keep it), `open` or `violated`."),
+      json::output<&why_of>("why", "What discharges or violates it, or why it is open; null for conditions."),
+      json::output<&AssessedAssumption::holds_from>("holds_from_ps", "What counts from earlier does not stand."),
+  };
+  static constexpr json::Record record{"assumption", "What becomes of an assumption in this scenario.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<HopBound>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&HopBound::name>("port", "The egress port and its peer."),
+      json::output<&HopBound::delay>("delay_ps", "From arrival at the port to the last bit on the wire; null: unbounded."),
+      json::output<&HopBound::backlog_bits>("backlog_bits", "Of the stream's class, preambles and gaps included; null: unbounded.", {.unit = "bits"}),
+  };
+  static constexpr json::Record record{"hop", "An egress port on the way of a stream.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<ReactionPart>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&ReactionPart::what>("what", "What happens."),
+      json::output<&ReactionPart::duration>("duration_ps", "How long that takes at most."),
+  };
+  static constexpr json::Record record{"part", "A part of a reaction's bound, in the order in which they happen.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<FigureRange>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&FigureRange::least>("least", "Null: not known."),
+      json::output<&FigureRange::greatest>("greatest", "Null: not known."),
+  };
+  static constexpr json::Record record{"range", "What a figure can be, in its unit.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<ReportedStream>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&name_of_stream>("name", "Its name."),
+      json::output<&latency_of_stream>("bound_ps", "From production to delivery, at any listener: the lesser of the two analyses; null: unbounded."),
+      json::output<&total_flow_of>("tfa_ps", "The same by total-flow analysis, the sum of the hops; null: unbounded."),
+      json::output<&separated_flow_of>("sfa_ps", "And by separated-flow analysis; null where that does not apply."),
+      json::output<&separated_flow_reason_of>("sfa_reason", "Why it does not."),
+      json::output<&least_of>("least_ps", "No delivered frame is faster."),
+      json::output<&ReportedStream::listener>("listener", "The listener that the bound is of."),
+      json::output<&reason_of_stream>("reason", reason_help),
+      json::output<&loses_nothing>("loses_nothing", "Queues have room for every backlog and nothing else drops its frames."),
+      json::output<&hops_of>("hops", "To that listener."),
+      json::output<&assumptions_of_stream>("assumptions", assumptions_help),
+  };
+  static constexpr json::Record record{"stream", "How late a frame of a stream can come.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<ReportedQueue>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&ReportedQueue::node>("node", "Whose port it is."),
+      json::output<&port_of>("port", "Its number, from 0."),
+      json::output<&class_of>("class", "The traffic class."),
+      json::output<&bits_of>("backlog_bits", "Preambles and gaps included; null: unbounded.", {.unit = "bits"}),
+      json::output<&frames_of>("backlog_frames", "Null: unbounded.", {.unit = "frames"}),
+  };
+  static constexpr json::Record record{"queue", "A queue of an egress port, and what may be in it or on the wire.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<ReportedReaction>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&ReportedReaction::program>("program", "The Program."),
+      json::output<&kind_of>("kind", "`start`, `halt`, `suspend`, `resume` or `reset`."),
+      json::output<&cause_of>("cause", "What it follows."),
+      json::output<&is_of_tree>("tree", "Of the Program and all that are nested in it."),
+      json::output<&bound_of_reaction>("bound_ps", "From the instant of the cause until all who live have reached the state; null: unbounded."),
+      json::output<&reason_of_reaction>("reason", reason_help),
+      json::output<&parts_of>("parts", "Of the slowest chain; they sum up to the bound."),
+      json::output<&assumptions_of_reaction>("assumptions", assumptions_help),
+  };
+  static constexpr json::Record record{"reaction", "How long a reaction can take.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<ReportedRequirement>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&ReportedRequirement::text>("text", "What is asked."),
+      json::output<&duration_of>("bound_ps", "What it can be at most; null where it is no time, or not bounded."),
+      json::output<&count_of>("bound_count", "The same of a number of frames; null where it is none."),
+      json::output_if_any<&range_of>("range", "What the figure can be.", "of a limit on a figure"),
+      json::output<&reason_of_requirement>("reason", reason_help),
+      json::output<&ReportedRequirement::objection>("objection", "Why the bound does not stand; null: it does."),
+      json::output<&assumptions_of_requirement>("assumptions", assumptions_help),
+  };
+  static constexpr json::Record record{"requirement", "One limit of a requirement, and what it can be at most.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<BoundReport>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&BoundReport::scenario>("scenario", "Its name."),
+      json::output<&BoundReport::streams>("streams", "In the order of the scenario."),
+      json::output<&BoundReport::queues>("queues", "Of classes that carry something."),
+      json::output<&BoundReport::reactions>("reactions", "Of each Program."),
+      json::output<&BoundReport::requirements>("requirements", "One for each limit, in the order of the scenario."),
+      json::output<&BoundReport::assumptions>("assumptions", "What any of the bounds rests on.", {.keys = "assumption"}),
+  };
+  static constexpr json::Record record{"bounds", "The bounds of a scenario.", outputs};
+  return record;
+}
+
+}  // namespace takt::analysis

@@ -17,7 +17,7 @@ install(TARGETS takt_options ${takt_installed} EXPORT takt-targets ARCHIVE DESTI
 
 set(takt_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/takt)
 install(EXPORT takt-targets NAMESPACE takt:: DESTINATION ${takt_cmake_folder} COMPONENT takt_library)
-foreach(folder program handshake uadp pubsub dds gateway wire vocabulary node scenario/json)
+foreach(folder program handshake uadp pubsub dds gateway wire vocabulary node json)
   install(DIRECTORY src/${folder}/ DESTINATION ${TAKT_INCLUDE_FOLDER}/${folder} COMPONENT takt_library FILES_MATCHING PATTERN "*.hpp"
           PATTERN node/applications EXCLUDE PATTERN node/dds EXCLUDE)  # parts of the command
 endforeach()

@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "analysis/gate_beginning.hpp"
+#include "json/quantity.hpp"
 #include "scenario/figures/requirement_rules.hpp"
-#include "scenario/json/quantity.hpp"
 
 namespace takt::analysis {
 namespace {
 
-using scenario::json::to_text;
+using json::to_text;
 using sim::Duration;
 
 class Assessor {

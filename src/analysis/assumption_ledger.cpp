@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "scenario/json/quantity.hpp"
+#include "json/quantity.hpp"
 
 namespace takt::analysis {
 
@@ -54,7 +54,7 @@ std::string AssumptionLedger::objection(const Assumptions& assumptions, sim::Dur
   for (const Assumption assumption : assumptions.list()) {
     const AssessedAssumption& each = (*this)[assumption];
     if (each.holds_from > from)
-      return rests_on(assumption) + "which is so from " + scenario::json::to_text(each.holds_from) + " on; the requirement counts from " + scenario::json::to_text(from) + " on, see \"after\"";
+      return rests_on(assumption) + "which is so from " + json::to_text(each.holds_from) + " on; the requirement counts from " + json::to_text(from) + " on, see \"after\"";
     if (open.empty() && each.standing == Standing::open) open = rests_on(assumption) + "which is not proved" + (each.why.empty() ? "" : ": " + each.why);
   }
   return open;

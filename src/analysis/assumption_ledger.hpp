@@ -8,7 +8,7 @@
 #include <string>
 
 #include "analysis/assumption.hpp"
-#include "scenario/json/type.hpp"
+#include "json/type.hpp"
 #include "sim/time.hpp"
 
 namespace takt::analysis {
@@ -24,7 +24,7 @@ struct AssessedAssumption {
   sim::Duration holds_from;    ///< since the start; a conclusion that counts from earlier does not stand
 };
 /// What reports hold of it, but for its name.
-const scenario::json::Record& describe(scenario::json::Type<AssessedAssumption>);
+const json::Record& describe(json::Type<AssessedAssumption>);
 
 class AssumptionLedger {
  public:

@@ -237,7 +237,7 @@ class RequirementBounds {
   }
 
   RequirementBound figure(const scenario::Requirement& requirement) const {
-    scenario::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     const auto asked = scenario::read_figure_requirement(requirement, diagnostics);
     TAKT_CHECK(asked, "a requirement that was resolved has a figure");
     RequirementBound bound = bound_of_figure(r_, bounds_, asked->figure, scenario::counts_from(r_.scenario, requirement), [this](const scenario::Requirement& each) { return reaction(each); });

@@ -147,7 +147,7 @@ class FigureBounder {
 
   /// What the network's graph is like is known.
   RequirementBound topology() const {
-    scenario::json::Node result = scenario::json::Node::object();
+    json::Node result = json::Node::object();
     result.add("topology", scenario::topology_node(r_));
     RequirementBound bound;
     bound.figure.emplace();
@@ -166,14 +166,14 @@ class FigureBounder {
 
 const std::string* text_in(const Figure& figure, std::string_view key) {
   for (const auto& [name, value] : figure.only)
-    if (name == key && value.kind == scenario::json::Kind::string) return &value.text;
+    if (name == key && value.kind == json::Kind::string) return &value.text;
   return nullptr;
 }
 
 template <class E>
 std::optional<E> named(const std::string* text) {
   if (text == nullptr) return std::nullopt;
-  for (const scenario::json::EnumName& name : describe(scenario::json::Type<E>{}).names)
+  for (const json::EnumName& name : describe(json::Type<E>{}).names)
     if (name.name == *text) return static_cast<E>(name.value);
   return std::nullopt;
 }

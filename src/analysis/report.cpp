@@ -5,17 +5,17 @@
 #include <algorithm>
 
 #include "analysis/report_record.hpp"
+#include "json/quantity.hpp"
+#include "json/record.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "scenario/figures/requirement_rules.hpp"
-#include "scenario/json/quantity.hpp"
-#include "scenario/json/record.hpp"
 
 namespace takt::analysis {
 namespace {
 
 using sim::Duration;
 
-std::string text_of(const std::optional<Duration>& value) { return value ? scenario::json::to_text(*value) : "unbounded"; }
+std::string text_of(const std::optional<Duration>& value) { return value ? json::to_text(*value) : "unbounded"; }
 
 std::string numbers_of(const Assumptions& assumptions, const std::vector<Assumption>& all) {
   std::string text;
@@ -33,7 +33,7 @@ std::vector<Assumption> all_assumptions(const Bounds& bounds) {
 }
 
 std::string figure_text(const scenario::Requirement& requirement) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto asked = scenario::read_figure_requirement(requirement, diagnostics);
   return asked ? fmt::format("figure {} {} {}", asked->name, scenario::text_of(asked->limit.relation), asked->limit.text) : "figure " + *requirement.figure;
 }
@@ -123,7 +123,7 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
     report.requirements.push_back({requirement_text(asked, requirement.what), &requirement.bound, objection.empty() ? std::nullopt : std::optional(std::move(objection))});
   }
   for (const Assumption assumption : all_assumptions(bounds)) report.assumptions.emplace_back(name_of(assumption), bounds.ledger[assumption]);
-  return scenario::json::write(report);
+  return json::write(report);
 }
 
 }  // namespace takt::analysis

@@ -1,10 +1,9 @@
 #include "analysis/report_record.hpp"
 
-#include "scenario/json/record.hpp"
+#include "json/record.hpp"
 
 namespace takt::analysis {
 
-namespace json = scenario::json;
 using sim::Duration;
 
 namespace {

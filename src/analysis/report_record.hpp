@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/bounds.hpp"
-#include "scenario/json/type.hpp"
+#include "json/type.hpp"
 
 namespace takt::analysis {
 
@@ -44,13 +44,13 @@ struct BoundReport {
 /// The names, as reports list them.
 std::vector<std::string> names_of(const Assumptions& assumptions);
 
-const scenario::json::Record& describe(scenario::json::Type<HopBound>);
-const scenario::json::Record& describe(scenario::json::Type<ReactionPart>);
-const scenario::json::Record& describe(scenario::json::Type<FigureRange>);
-const scenario::json::Record& describe(scenario::json::Type<ReportedStream>);
-const scenario::json::Record& describe(scenario::json::Type<ReportedQueue>);
-const scenario::json::Record& describe(scenario::json::Type<ReportedReaction>);
-const scenario::json::Record& describe(scenario::json::Type<ReportedRequirement>);
-const scenario::json::Record& describe(scenario::json::Type<BoundReport>);
+const json::Record& describe(json::Type<HopBound>);
+const json::Record& describe(json::Type<ReactionPart>);
+const json::Record& describe(json::Type<FigureRange>);
+const json::Record& describe(json::Type<ReportedStream>);
+const json::Record& describe(json::Type<ReportedQueue>);
+const json::Record& describe(json::Type<ReportedReaction>);
+const json::Record& describe(json::Type<ReportedRequirement>);
+const json::Record& describe(json::Type<BoundReport>);
 
 }  // namespace takt::analysis

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
-#include "scenario/json/fields.hpp"
-#include "scenario/json/reader.hpp"
-#include "scenario/json/suggest.hpp"
+#include "json/fields.hpp"
+#include "json/reader.hpp"
+#include "json/suggest.hpp"
 
 namespace takt::analysis {
 namespace file_format {
 
-namespace json = scenario::json;
 using json::optional;
 using json::required;
 
@@ -91,16 +90,14 @@ const json::Object& describe(json::Type<FlowEntry>) {
 }  // namespace file_format
 
 // Beside the enums, in their namespace.
-const scenario::json::Enumeration& describe(scenario::json::Type<NetworkAnalysis>) {
-  namespace json = scenario::json;
+const json::Enumeration& describe(json::Type<NetworkAnalysis>) {
   static constexpr json::EnumName names[] = {json::name(NetworkAnalysis::both, "both", "TFA, then SFA"), json::name(NetworkAnalysis::tfa, "TFA", "total-flow analysis"),
                                              json::name(NetworkAnalysis::sfa, "SFA", "separated-flow analysis")};
   static constexpr json::Enumeration table = json::enumeration<NetworkAnalysis>("an analysis", names);
   return table;
 }
 
-const scenario::json::Enumeration& describe(scenario::json::Type<Multiplexing>) {
-  namespace json = scenario::json;
+const json::Enumeration& describe(json::Type<Multiplexing>) {
   static constexpr json::EnumName names[] = {json::name(Multiplexing::fifo, "FIFO", "servers take all flows in the order of arrival"),
                                              json::name(Multiplexing::arbitrary, "arbitrary", "each flow is in order, nothing is known of the rest")};
   static constexpr json::Enumeration table = json::enumeration<Multiplexing>("a multiplexing", names);
@@ -125,7 +122,6 @@ const json::Object& describe(json::Type<File>) {
 
 namespace {
 
-namespace json = scenario::json;
 using json::Node;
 
 const char* const unbounded = "unbounded";

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "analysis/server_network.hpp"
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 
 namespace takt::analysis {
 
@@ -18,10 +18,10 @@ struct ServerNetworkFile {
 };
 
 /// True for a document of this format: an object with "servers".
-bool is_server_network(const scenario::json::Document& document);
+bool is_server_network(const json::Document& document);
 
 /// Reads and checks a document; mistakes go to `diagnostics`, and then there is no result.
-std::optional<ServerNetworkFile> read_server_network(const scenario::json::Document& document, scenario::json::Diagnostics& diagnostics);
+std::optional<ServerNetworkFile> read_server_network(const json::Document& document, json::Diagnostics& diagnostics);
 
 /// What the analyses say, as a page or as JSON. Throws RationalOverflow.
 std::string server_network_report(const ServerNetworkFile& file, bool as_json);

@@ -7,14 +7,14 @@
 #include "analysis/server_network_file.hpp"
 #include "cli/commands.hpp"
 #include "cli/load.hpp"
-#include "scenario/json/quantity.hpp"
+#include "json/quantity.hpp"
 
 namespace takt::cli {
 namespace {
 
-ExitStatus report_mistakes(const scenario::json::Diagnostics& diagnostics, bool as_json) {
+ExitStatus report_mistakes(const json::Diagnostics& diagnostics, bool as_json) {
   if (as_json)
-    std::fputs(scenario::json::pretty(diagnostics.to_json()).c_str(), stdout);
+    std::fputs(json::pretty(diagnostics.to_json()).c_str(), stdout);
   else
     std::fputs(diagnostics.to_text().c_str(), stderr);
   return ExitStatus::bad_input;
@@ -22,8 +22,8 @@ ExitStatus report_mistakes(const scenario::json::Diagnostics& diagnostics, bool 
 
 /// A file of servers and flows instead of a scenario. Nothing if it is none.
 std::optional<ExitStatus> bound_server_network(const ScenarioOptions& options) {
-  scenario::json::Diagnostics diagnostics;
-  const auto document = scenario::json::parse_file(options.file, diagnostics);
+  json::Diagnostics diagnostics;
+  const auto document = json::parse_file(options.file, diagnostics);
   if (!document || !analysis::is_server_network(*document)) return std::nullopt;
   if (options.seed || options.duration || !options.overrides.empty())
     diagnostics.error({options.file, 0, 0, ""}, "an option for scenarios", {"--seed, --duration or --set with a network of servers", "none of them"});
@@ -39,13 +39,13 @@ std::optional<ExitStatus> bound_server_network(const ScenarioOptions& options) {
 }
 
 bool read_duration(const std::string& text, sim::Duration& value, bool as_json) {
-  const auto parsed = scenario::json::parse_duration(text);
+  const auto parsed = json::parse_duration(text);
   if (parsed) {
     value = *parsed;
     return true;
   }
-  scenario::json::Diagnostics diagnostics;
-  diagnostics.error({"--clock-error", 0, 0, ""}, "not a duration", {scenario::json::quote(text), "a duration such as \"500ns\""});
+  json::Diagnostics diagnostics;
+  diagnostics.error({"--clock-error", 0, 0, ""}, "not a duration", {json::quote(text), "a duration such as \"500ns\""});
   report_mistakes(diagnostics, as_json);
   return false;
 }

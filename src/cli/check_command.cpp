@@ -34,7 +34,7 @@ void add_check_command(Command app, ExitStatus& status) {
         return;
       }
     }
-    const std::string page = options->is_json() ? scenario::json::encode(resolved->scenario) : output::check_report(*resolved);
+    const std::string page = options->is_json() ? json::encode(resolved->scenario) : output::check_report(*resolved);
     std::fputs(page.c_str(), stdout);
     status = ExitStatus::pass;
   });

@@ -26,16 +26,16 @@ struct CompareOptions {
 };
 
 /// The scenario with its overrides; it is resolved once, so that mistakes are told before anything runs.
-std::optional<scenario::json::Document> load(const std::string& file, const std::vector<std::string>& overrides, scenario::json::Diagnostics& diagnostics) {
-  auto document = scenario::json::parse_file(file, diagnostics);
+std::optional<json::Document> load(const std::string& file, const std::vector<std::string>& overrides, json::Diagnostics& diagnostics) {
+  auto document = json::parse_file(file, diagnostics);
   if (!document) return std::nullopt;
-  for (const std::string& option : overrides) scenario::json::apply(*document, option, diagnostics);
+  for (const std::string& option : overrides) json::apply(*document, option, diagnostics);
   scenario::load_file(file, overrides, diagnostics);
   return document;
 }
 
 ExitStatus run(const CompareOptions& options) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto a = load(options.a, options.overrides_of_a, diagnostics);
   // The mistakes of one file are told once.
   if (options.a == options.b && diagnostics.has_errors()) {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "json/document.hpp"
 #include "node/control_socket.hpp"
 #include "node/node_status.hpp"
-#include "scenario/json/document.hpp"
 
 namespace takt::cli {
 namespace {
@@ -19,8 +19,8 @@ struct CtlOptions {
   std::string format = "text";
 };
 
-std::string member(const scenario::json::Document& document, std::string_view key) {
-  const scenario::json::Node* const node = document.root().find(key);
+std::string member(const json::Document& document, std::string_view key) {
+  const json::Node* const node = document.root().find(key);
   return node == nullptr ? std::string() : node->text;
 }
 
@@ -31,8 +31,8 @@ ExitStatus ask(const CtlOptions& options) {
     std::fprintf(stderr, "takt: %s\n", problem.c_str());
     return ExitStatus::internal_error;
   }
-  scenario::json::Diagnostics diagnostics;
-  const auto document = scenario::json::parse(*answer, "answer", diagnostics);
+  json::Diagnostics diagnostics;
+  const auto document = json::parse(*answer, "answer", diagnostics);
   if (const std::string error = document ? member(*document, "error") : std::string(); !error.empty()) {
     std::fprintf(stderr, "takt: %s\n", error.c_str());
     return ExitStatus::bad_input;

@@ -165,7 +165,7 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
     }
     return add("group", *options.slaves, handshake::Variant::Robust, false) ? subjects : std::vector<Subject>{};
   }
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(options.scenario, {}, diagnostics);
   std::fputs(diagnostics.to_text().c_str(), stderr);
   if (!resolved) return {};
@@ -193,7 +193,7 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
 /// Whether `takt run` does the same: the same invariant is violated; or, where the group does not settle, all end in the same
 /// states, or still change at the end.
 bool replays(const std::string& text, const explore::Replay& replayed, explore::Property property) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(text, "finding", {}, diagnostics);
   std::fputs(diagnostics.to_text().c_str(), stderr);
   if (!resolved) return false;

@@ -21,15 +21,15 @@ std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, const s
   std::vector<std::string> overrides = options.overrides;
   if (options.seed) overrides.push_back("/seed=" + *options.seed);
   if (options.duration) overrides.push_back("/duration=" + *options.duration);
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   auto resolved = scenario::load_file(options.file, overrides, diagnostics);
   if (resolved && !command.empty() && !resolved->applications.empty()) {
     diagnostics.error(resolved->applications.front().where.place(), "applications, which " + command + " does not know",
-                      {scenario::json::quote(resolved->applications.front().name), "a scenario without \"applications\" and \"gateways\"; takt run and takt study know them"});
+                      {json::quote(resolved->applications.front().name), "a scenario without \"applications\" and \"gateways\"; takt run and takt study know them"});
     resolved.reset();
   }
   if (!resolved && options.is_json()) {
-    std::fputs(scenario::json::pretty(diagnostics.to_json()).c_str(), stdout);
+    std::fputs(json::pretty(diagnostics.to_json()).c_str(), stdout);
     return nullptr;
   }
   if (!resolved || !is_quiet) std::fputs(diagnostics.to_text().c_str(), stderr);

@@ -20,7 +20,7 @@ void print_warnings(const std::string& warnings) {
 }
 
 ExitStatus run_applications(const std::string& file, bool is_check) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto loaded = node::load_applications(file, diagnostics);
   const bool is_sound = loaded && (is_check || node::check_statistics(loaded->config, diagnostics));
   std::fputs(diagnostics.to_text().c_str(), stderr);
@@ -35,7 +35,7 @@ ExitStatus run_applications(const std::string& file, bool is_check) {
   }
   print_warnings(warnings);
   const InterruptGuard interrupt;  // before the start is told, which somebody may answer with a signal
-  std::printf("{\"event\": \"start\", \"node\": %s}\n", scenario::json::quote(loaded->config.node).c_str());
+  std::printf("{\"event\": \"start\", \"node\": %s}\n", json::quote(loaded->config.node).c_str());
   std::fflush(stdout);
   host->run([](const void* guard) { return static_cast<const InterruptGuard*>(guard)->requested(); }, &interrupt);
   const auto statistics = host->statistics();
@@ -53,7 +53,7 @@ ExitStatus run_applications(const std::string& file, bool is_check) {
 
 ExitStatus run_node(const std::string& file, bool is_check) {
   if (node::is_applications_file(file)) return run_applications(file, is_check);
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto loaded = node::load_config(file, diagnostics);
   std::fputs(diagnostics.to_text().c_str(), stderr);
   if (!loaded) return ExitStatus::bad_input;

@@ -26,11 +26,11 @@ void say(const std::string& what) { std::fprintf(stderr, "%s\n", what.c_str()); 
 
 /// Shows and writes what was made, or why nothing was.
 template <typename Reproduction>
-ExitStatus hand_over(const PaperOptions& options, const std::optional<Reproduction>& made, const scenario::json::Diagnostics& diagnostics) {
+ExitStatus hand_over(const PaperOptions& options, const std::optional<Reproduction>& made, const json::Diagnostics& diagnostics) {
   const bool is_json = options.format == "json";
   if (!made) {
     if (is_json)
-      std::fputs(scenario::json::pretty(diagnostics.to_json()).c_str(), stdout);
+      std::fputs(json::pretty(diagnostics.to_json()).c_str(), stdout);
     else
       std::fputs(diagnostics.to_text().c_str(), stderr);
     return ExitStatus::bad_input;
@@ -47,7 +47,7 @@ ExitStatus hand_over(const PaperOptions& options, const std::optional<Reproducti
 
 ExitStatus run_programs(PaperOptions& options) {
   if (!options.quiet) options.programs.progress = say;
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto made = papers::reproduce_programs(options.programs, diagnostics);
   const ExitStatus status = hand_over(options, made, diagnostics);
   std::fflush(stdout);
@@ -68,7 +68,7 @@ ExitStatus run_coexistence(PaperOptions& options) {
     options.coexistence.measured = criteria_of(*measured);
     measured_text = "\n" + emulate::to_text(*measured);
   }
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto made = papers::coexistence::reproduce(options.coexistence, diagnostics);
   const ExitStatus status = hand_over(options, made, diagnostics);
   if (options.format == "text") std::fputs(measured_text.c_str(), stdout);
@@ -82,7 +82,7 @@ ExitStatus run_coexistence(PaperOptions& options) {
 
 ExitStatus run_validation(PaperOptions& options) {
   if (!options.quiet) options.validation.progress = say;
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto made = papers::validation::validate(options.validation, diagnostics);
   return hand_over(options, made, diagnostics);
 }

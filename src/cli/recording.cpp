@@ -5,14 +5,14 @@
 
 namespace takt::cli {
 
-Recording::Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, scenario::json::Diagnostics& diagnostics)
+Recording::Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, json::Diagnostics& diagnostics)
     : options_(options), folder_(folder), run_(&run) {
   for (const std::string& text : options.pcap) select_ports(text, diagnostics);
   if (options.clocks && run.clocks() == nullptr)
     diagnostics.error({"--clocks", 0, 0, ""}, "no clocks to record", {"a scenario without gPTP", "\"gptp\" in \"clocks\""});
 }
 
-void Recording::select_ports(const std::string& text, scenario::json::Diagnostics& diagnostics) {
+void Recording::select_ports(const std::string& text, json::Diagnostics& diagnostics) {
   if (text == "all") {
     captures_.push_back({"all.pcap", {}});
     return;
@@ -30,7 +30,7 @@ void Recording::select_ports(const std::string& text, scenario::json::Diagnostic
   }
   if (capture.ports.empty())
     diagnostics.error({"--pcap " + text, 0, 0, ""}, "no such port",
-                      {scenario::json::quote(text), "all, a node (all its ports) or node:port", node ? "" : suggest_node(topology, name, diagnostics)});
+                      {json::quote(text), "all, a node (all its ports) or node:port", node ? "" : suggest_node(topology, name, diagnostics)});
   else
     captures_.push_back(std::move(capture));
 }

@@ -26,7 +26,7 @@ struct RecordingOptions {
 class Recording {
  public:
   /// Reports unknown ports to `diagnostics`; then nothing is recorded and nothing was written.
-  Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, scenario::json::Diagnostics& diagnostics);
+  Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, json::Diagnostics& diagnostics);
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
   ~Recording() { run_->simulation().set_trace(nullptr); }
@@ -41,7 +41,7 @@ class Recording {
     std::string file;
     std::vector<output::PortId> ports;  ///< none: all
   };
-  void select_ports(const std::string& text, scenario::json::Diagnostics& diagnostics);
+  void select_ports(const std::string& text, json::Diagnostics& diagnostics);
   void write_states();
   void write_faults(const std::string& program, const std::vector<scenario::ProgramFault>& faults);
 

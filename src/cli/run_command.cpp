@@ -48,7 +48,7 @@ ExitStatus run(const RunOptions& options) {
   const auto resolved = load(options.scenario, options.quiet);
   if (!resolved) return ExitStatus::bad_input;
   scenario::Run live(*resolved);
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   if (options.recording.is_wanted() && options.out.empty())
     diagnostics.error({"command line", 0, 0, ""}, "a recording without a folder", {"--pcap, --timeline, --waves or --clocks", "--out DIR"});
   Recording recording(options.recording, options.out, live, diagnostics);
@@ -61,7 +61,7 @@ ExitStatus run(const RunOptions& options) {
   const results::RunResult result = evaluation::evaluate(live, !complete);
   if (const std::string problem = recording.close(); !problem.empty()) return cannot_write(problem);
   if (!options.out.empty()) {
-    if (const std::string problem = output::write_result_folder(options.out, result, scenario::json::encode(resolved->scenario)); !problem.empty())
+    if (const std::string problem = output::write_result_folder(options.out, result, json::encode(resolved->scenario)); !problem.empty())
       return cannot_write(problem);
   }
   const std::string page = options.scenario.is_json() ? results::run_json(result) : options.quiet ? output::run_line(result) : output::run_report(result);

@@ -7,20 +7,18 @@
 
 #include "analysis/report_record.hpp"
 #include "cli/commands.hpp"
+#include "json/record.hpp"
+#include "json/reference.hpp"
 #include "node/applications/config.hpp"
 #include "node/config.hpp"
-#include "scenario/description/description.hpp"
 #include "results/run_result.hpp"
-#include "scenario/json/record.hpp"
-#include "scenario/json/reference.hpp"
+#include "scenario/description/description.hpp"
 #include "study/description.hpp"
 #include "verify/report_record.hpp"
 
 namespace takt::cli {
 
 namespace {
-
-namespace json = scenario::json;
 
 /// A kind of file that takt reads, or of output that it writes.
 struct FileKind {

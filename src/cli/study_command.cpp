@@ -5,7 +5,6 @@
 #include <memory>
 #include <thread>
 
-
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/study_progress.hpp"
@@ -47,7 +46,7 @@ ExitStatus bad(const std::string& message) {
 }
 
 std::unique_ptr<study::Plan> load_plan(const std::string& file) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   auto plan = study::load_plan(file, diagnostics);
   std::fputs(diagnostics.to_text().c_str(), stderr);
   return plan;
@@ -118,7 +117,7 @@ ExitStatus answer(study::Plan& plan, const StudyOptions& options, const study::R
   std::string problem;
   const auto question = study::read_question(plan, options.find, options.at, problem);
   if (!question) return bad("--find: " + problem);
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   study::check_names_of_measures(plan, plan.study.measures.size(), diagnostics);
   std::fputs(diagnostics.to_text().c_str(), stderr);
   if (diagnostics.has_errors()) return ExitStatus::bad_input;
@@ -220,7 +219,7 @@ ExitStatus shrink(const ShrinkOptions& options) {
   const study::Shrunk shrunk = study::shrink(*plan, options.point, how);
   if (shrunk.interrupted) return ExitStatus::interrupted;
   if (!shrunk.problem.empty()) return bad(shrunk.problem);
-  if (const std::string problem = output::write_file(options.out, scenario::json::encode(shrunk.scenario)); !problem.empty()) {
+  if (const std::string problem = output::write_file(options.out, json::encode(shrunk.scenario)); !problem.empty()) {
     std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
     return ExitStatus::internal_error;
   }

@@ -40,7 +40,7 @@ std::string write_worst(const std::string& folder, const verify::Verification& v
     const verify::Line& line = verification.lines[i];
     if (line.worst.name.empty()) continue;
     const std::string path = (std::filesystem::path(folder) / file_name(i, line.requirement)).string();
-    if (const std::string problem = output::write_file(path, scenario::json::encode(line.worst)); !problem.empty()) return problem;
+    if (const std::string problem = output::write_file(path, json::encode(line.worst)); !problem.empty()) return problem;
     files[i] = path;
   }
   return {};
@@ -53,8 +53,8 @@ std::string write_witnesses(const std::string& folder, const scenario::Resolved&
   std::filesystem::create_directories(path, error);
   if (error) return path.string() + ": " + error.message();
   files = {(path / "contradiction-run.json").string(), (path / "contradiction-bound.json").string()};
-  if (std::string problem = output::write_file(files.run, scenario::json::encode(contradiction.run)); !problem.empty()) return problem;
-  return output::write_file(files.bound, scenario::json::encode(resolved.scenario));
+  if (std::string problem = output::write_file(files.run, json::encode(contradiction.run)); !problem.empty()) return problem;
+  return output::write_file(files.bound, json::encode(resolved.scenario));
 }
 
 ExitStatus status_of(const verify::Verification& verification) {

@@ -15,12 +15,11 @@
 #include "emulate/child.hpp"
 #include "emulate/coexistence_files.hpp"
 #include "emulate/machine.hpp"
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 
 namespace takt::emulate {
 namespace {
 
-namespace json = scenario::json;
 namespace fs = std::filesystem;
 
 constexpr int settling_ms = 3'500;  // of the files, and for the last thread to start

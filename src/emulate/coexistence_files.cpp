@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "scenario/json/node.hpp"
+#include "json/node.hpp"
 
 namespace takt::emulate {
 namespace {
 
-std::string quote(const std::string& text) { return scenario::json::compact(scenario::json::Node::of_string(text)); }
+std::string quote(const std::string& text) { return json::compact(json::Node::of_string(text)); }
 
 /// Before that nothing is tested: processes start and find each other.
 constexpr const char* settling = "3s";

@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 
 #include "emulate/coexistence.hpp"
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 
 namespace takt::emulate {
 namespace {
-
-namespace json = scenario::json;
 
 std::string cell(const std::optional<double>& percent) { return percent ? fmt::format("{:.1f} %", *percent) : "-"; }
 

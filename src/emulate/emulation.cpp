@@ -21,14 +21,13 @@
 #include "emulate/node_status.hpp"
 #include "emulate/pace.hpp"
 #include "emulate/role_steps.hpp"
+#include "json/document.hpp"
 #include "node/control_socket.hpp"
-#include "scenario/json/document.hpp"
 #include "scenario/run/run.hpp"
 
 namespace takt::emulate {
 namespace {
 
-namespace json = scenario::json;
 namespace fs = std::filesystem;
 
 constexpr int start_timeout_ms = 20'000;

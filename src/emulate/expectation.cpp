@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 #include "scenario/run/run.hpp"
 
 namespace takt::emulate {
 namespace {
-
-namespace json = scenario::json;
 
 constexpr std::int64_t settled_cycles = 10;
 

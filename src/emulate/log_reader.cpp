@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 
 namespace takt::emulate {
 namespace {

@@ -10,11 +10,9 @@
 #include "emulate/comparison.hpp"
 #include "emulate/plan.hpp"
 #include "handshake/binder.hpp"
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 
 namespace takt::emulate {
-
-namespace json = scenario::json;
 
 /// A line of a log.
 struct LoggedStep {

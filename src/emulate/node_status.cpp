@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
+#include "json/document.hpp"
 #include "node/control_socket.hpp"
-#include "scenario/json/document.hpp"
 
 namespace takt::emulate {
 namespace {
-
-namespace json = scenario::json;
 
 /// Who has such a role is not to be heard.
 bool nobody_has(const json::Node& program, const std::string& role) {

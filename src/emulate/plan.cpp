@@ -8,13 +8,11 @@
 #include <set>
 #include <utility>
 
-#include "scenario/json/fields.hpp"
+#include "json/fields.hpp"
 #include "vocabulary/protocol.hpp"
 
 namespace takt::emulate {
 namespace {
-
-namespace json = scenario::json;
 
 constexpr std::size_t most_nodes = 250;  // of the topology: each is a namespace
 

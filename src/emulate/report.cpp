@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 
 #include "emulate/emulation.hpp"
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 
 namespace takt::emulate {
 namespace {
-
-namespace json = scenario::json;
 
 std::string sequence_of(const std::vector<handshake::StateChange>& changes) {
   std::string text = "Halted";

@@ -154,7 +154,7 @@ std::vector<PortResult> ports_of(const scenario::Run& run, Duration simulated) {
 /// What a run shows from an instant on, in the ways in which requirements ask for it.
 struct Figures {
   RunResult result;                                        // without verdicts
-  scenario::json::Node node = {};                          // as result.json has it, if a requirement asks for a figure
+  json::Node node = {};                          // as result.json has it, if a requirement asks for a figure
   std::map<std::string_view, const StreamResult*> streams = {};  // by name, if a requirement is on a stream
 };
 
@@ -248,7 +248,7 @@ class Judge {
 
   /// Of a run that was interrupted nothing can be said: a mean may fall again.
   void figure(const scenario::Requirement& requirement) {
-    scenario::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     const auto asked = scenario::read_figure_requirement(requirement, diagnostics);
     TAKT_CHECK(asked, "a requirement that was resolved has a figure");
     const auto found = scenario::value_of(asked->figure, figures_->node);
@@ -286,7 +286,7 @@ class Judge {
  private:
   /// To the picosecond: what the division by the unit has made of a whole number of them, and of a mean the nearest.
   static Duration duration_of(double value, const scenario::Figure& figure) { return Duration::from_ps(std::llround(value * figure.divisor)); }
-  static std::string json_text(Duration d) { return scenario::json::to_text(d); }
+  static std::string json_text(Duration d) { return json::to_text(d); }
   Verdict held() const { return result_.partial ? Verdict::undecided : Verdict::pass; }
   Verdict missing() const { return result_.partial ? Verdict::undecided : Verdict::fail; }
 
@@ -352,7 +352,7 @@ std::map<Duration, Figures> all_figures(const scenario::Run& run, bool partial) 
     if (requirement.stream && figures.streams.empty())
       for (const StreamResult& each : figures.result.streams) figures.streams.emplace(each.name, &each);
     if (!requirement.figure) continue;
-    if (figures.node.kind == scenario::json::Kind::null) figures.node = run_node(figures.result);
+    if (figures.node.kind == json::Kind::null) figures.node = run_node(figures.result);
     if (asks_for_graph(requirement) && figures.node.find("topology") == nullptr) figures.node.add("topology", scenario::topology_node(run.resolved()));
   }
   return all;
@@ -386,7 +386,7 @@ RunResult evaluate(const scenario::Run& run, bool partial) {
       RequirementResult& made = result.requirements[i];
       made.requirement = static_cast<std::size_t>(&requirement - scenario.require.data());
       made.from = from;
-      if (from > Duration() && !requirement.sync) made.text += " after " + scenario::json::to_text(from);
+      if (from > Duration() && !requirement.sync) made.text += " after " + json::to_text(from);
     }
   }
   for (const ProgramResult& program : result.programs) judge.invariants(program);

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 
+#include "json/quantity.hpp"
 #include "scenario/figures/requirement_rules.hpp"
-#include "scenario/json/quantity.hpp"
 
 namespace takt::evaluation {
 
 using namespace results;
 namespace {
 
-using scenario::json::to_text;
+using json::to_text;
 
 class StreamJudge {
  public:

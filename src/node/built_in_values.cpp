@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "scenario/json/diagnostics.hpp"
+#include "json/diagnostics.hpp"
 #include "uadp/builtin_type.hpp"
 
 namespace takt::node {
@@ -76,7 +76,7 @@ double value_of(const Source& source, double message, std::int64_t time_ns) {
 }
 
 BuiltInValues::BuiltInValues(const Config& config, const wire::ProgramShape& shape, std::FILE* log, bool is_named)
-    : program_(is_named ? "\"program\": " + scenario::json::quote(shape.name) + ", " : std::string()), log_values_every_(config.log_values_every), log_(log) {
+    : program_(is_named ? "\"program\": " + json::quote(shape.name) + ", " : std::string()), log_values_every_(config.log_values_every), log_(log) {
   for (const wire::DataSetShape& from : shape.data_sets) {
     DataSet& data_set = data_sets_.emplace_back();
     data_set.name = from.name;
@@ -105,10 +105,10 @@ void BuiltInValues::consume(std::size_t number, std::int64_t time_ns, uadp::Octe
   DataSet& data_set = data_sets_[number];
   if (!log_values_every_ || time_ns < data_set.next_log_ns) return;
   data_set.next_log_ns = time_ns + log_values_every_->ps() / 1000;
-  std::string line = fmt::format("{{\"time_ns\": {}, {}\"event\": \"data\", \"data_set\": {}, \"fields\": {{", time_ns, program_, scenario::json::quote(data_set.name));
+  std::string line = fmt::format("{{\"time_ns\": {}, {}\"event\": \"data\", \"data_set\": {}, \"fields\": {{", time_ns, program_, json::quote(data_set.name));
   for (const Field& field : data_set.fields) {
     if (&field != &data_set.fields.front()) line += ", ";
-    line += scenario::json::quote(field.name) + ": ";
+    line += json::quote(field.name) + ": ";
     if (field.count > 1) line += '[';
     for (std::size_t i = 0; i < field.count; ++i)
       line += (i == 0 ? "" : ", ") + codec_of(field.type).text(fields.data() + field.at + i * uadp::fixed_octets(field.type));

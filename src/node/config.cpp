@@ -4,9 +4,9 @@
 #include <set>
 #include <utility>
 
+#include "json/suggest.hpp"
 #include "node/plug_check.hpp"
 #include "node/program_check.hpp"
-#include "scenario/json/suggest.hpp"
 
 namespace takt::node {
 namespace {

@@ -8,14 +8,13 @@
 #include <variant>
 #include <vector>
 
-#include "scenario/json/fields.hpp"
+#include "json/fields.hpp"
 #include "sim/time.hpp"
 #include "vocabulary/protocol.hpp"
 #include "wire/plug_endpoint.hpp"
 
 namespace takt::node {
 
-namespace json = scenario::json;
 using sim::Duration;
 
 // The words that scenario files have too.

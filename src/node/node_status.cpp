@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 #include "sim/check.hpp"
 
 namespace takt::node {

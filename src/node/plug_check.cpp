@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "scenario/json/suggest.hpp"
+#include "json/suggest.hpp"
 
 namespace takt::node {
 namespace {

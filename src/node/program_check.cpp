@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "scenario/json/suggest.hpp"
+#include "json/suggest.hpp"
 
 namespace takt::node {
 namespace {

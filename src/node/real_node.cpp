@@ -13,7 +13,7 @@
 #include <cstring>
 #include <utility>
 
-#include "scenario/json/diagnostics.hpp"
+#include "json/diagnostics.hpp"
 
 namespace takt::node {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "scenario/json/diagnostics.hpp"
+#include "json/diagnostics.hpp"
 
 namespace takt::node {
 namespace {
@@ -28,11 +28,11 @@ void write(std::FILE* file, const std::string& line) {
 }  // namespace
 
 TransitionLog::TransitionLog(std::FILE* file, std::string_view program)
-    : file_(file), program_(program.empty() ? std::string() : "\"program\": " + scenario::json::quote(program) + ", "), names_(program_) {}
+    : file_(file), program_(program.empty() ? std::string() : "\"program\": " + json::quote(program) + ", "), names_(program_) {}
 
 void TransitionLog::started(std::int64_t time, std::string_view node, std::uint32_t incarnation) {
   write(file_, fmt::format("{{\"time_ns\": {}, \"event\": \"start\", \"node\": {}, \"incarnation\": {}}}\n", time,
-                           scenario::json::quote(node), incarnation));
+                           json::quote(node), incarnation));
 }
 
 void TransitionLog::stepped(std::int64_t time, const handshake::Outputs& outputs, const handshake::Word& after) {
@@ -55,12 +55,12 @@ void TransitionLog::called(std::int64_t time, program::Method method, program::S
 }
 
 void TransitionLog::bound(std::int64_t time, std::string_view role, std::string_view node, std::uint32_t life) {
-  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"bound\", \"role\": {}, \"to\": {}, \"life\": {}}}\n", time, program_, scenario::json::quote(role),
-                           node.empty() ? "null" : scenario::json::quote(node), life));
+  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"bound\", \"role\": {}, \"to\": {}, \"life\": {}}}\n", time, program_, json::quote(role),
+                           node.empty() ? "null" : json::quote(node), life));
 }
 
 void TransitionLog::took_role(std::int64_t time, std::string_view role, std::uint32_t life) {
-  names_ = program_ + "\"role\": " + scenario::json::quote(role) + ", ";
+  names_ = program_ + "\"role\": " + json::quote(role) + ", ";
   last_ = {};
   write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"role taken\", \"life\": {}}}\n", time, names_, life));
 }

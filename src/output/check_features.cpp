@@ -73,7 +73,7 @@ std::string port_text(const models::PortConfig& config, bool is_host) {
   if (config.shaping.gates) line.add(gates_text(*config.shaping.gates));
   for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
     if (const auto& shaper = config.shaping.shapers[q])
-      line.add(fmt::format("shaper of class {}: {}{}", q, scenario::json::to_text(shaper->idle_slope), shaper->of_whole_cycle ? "" : " while open"));
+      line.add(fmt::format("shaper of class {}: {}{}", q, json::to_text(shaper->idle_slope), shaper->of_whole_cycle ? "" : " while open"));
   if (config.shaping.timed != 0) line.add((is_host ? "launch times:" : "ATS:") + classes(config.shaping.timed));
   for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
     if (config.shaping.queue_max_sdu[q].count > 0) line.add(fmt::format("SDU of class {}: at most {} B", q, config.shaping.queue_max_sdu[q].count));
@@ -184,7 +184,7 @@ struct FaultText {
     return text + " " + when(fault);
   }
   std::string operator()(const scenario::ClockFault& fault) const {
-    const std::string what = fault.step ? "jumps by " + scenario::json::to_text(*fault.step) : "goes on with an offset of " + scenario::json::to_text(*fault.offset);
+    const std::string what = fault.step ? "jumps by " + json::to_text(*fault.step) : "goes on with an offset of " + json::to_text(*fault.offset);
     return fmt::format("the clock of {} {} at {}", fault.node, what, readable(fault.at));
   }
 };

@@ -8,13 +8,12 @@
 #include <cstring>
 #include <filesystem>
 
+#include "json/csv.hpp"
 #include "results/result_json.hpp"
-#include "scenario/json/csv.hpp"
 
 namespace takt::output {
 namespace {
 
-namespace json = scenario::json;
 using json::Column;
 using json::Row;
 

@@ -44,13 +44,13 @@ BeyondRow row_of(const Plant& plant, const scenario::Resolved& resolved, Reprodu
   return row;
 }
 
-bool add(const ProgramsOptions& options, BeyondTable table, const std::vector<Plant>& plants, Reproduction& made, scenario::json::Diagnostics& diagnostics) {
+bool add(const ProgramsOptions& options, BeyondTable table, const std::vector<Plant>& plants, Reproduction& made, json::Diagnostics& diagnostics) {
   for (const Plant& plant : plants) {
     if (options.progress) options.progress(plant.scenario.name);
     const auto resolved = scenario::resolve(plant.scenario, diagnostics);
     if (!resolved) return false;
     table.rows.push_back(row_of(plant, *resolved, made));
-    made.scenarios.emplace_back(plant.scenario.name, scenario::json::encode(plant.scenario));
+    made.scenarios.emplace_back(plant.scenario.name, json::encode(plant.scenario));
   }
   made.figures.push_back({table.name, reactions_chart(table)});
   made.beyond.push_back(std::move(table));
@@ -59,7 +59,7 @@ bool add(const ProgramsOptions& options, BeyondTable table, const std::vector<Pl
 
 }  // namespace
 
-bool go_beyond(const ProgramsOptions& options, Reproduction& made, scenario::json::Diagnostics& diagnostics) {
+bool go_beyond(const ProgramsOptions& options, Reproduction& made, json::Diagnostics& diagnostics) {
   const int rounds = options.is_short ? 40 : 400;
   return add(options, {"beyond-slaves", "Reaction time by number of slaves (one switch, cycle 200 us)", "slaves", {}}, plants_by_slaves(rounds), made, diagnostics) &&
          add(options, {"beyond-topology", "Reaction time by topology and switches to the farthest slave (three slaves, cycle 200 us)", "topology", {}},

@@ -6,6 +6,6 @@
 namespace takt::papers {
 
 /// False if a plant is refused.
-bool go_beyond(const ProgramsOptions& options, Reproduction& made, scenario::json::Diagnostics& diagnostics);
+bool go_beyond(const ProgramsOptions& options, Reproduction& made, json::Diagnostics& diagnostics);
 
 }  // namespace takt::papers

@@ -17,7 +17,7 @@ struct Case {
   int cycle_ms = 0;        // 0: as in the file
 };
 
-std::optional<results::RunResult> run(const ProgramsOptions& options, const Case& what, scenario::json::Diagnostics& diagnostics) {
+std::optional<results::RunResult> run(const ProgramsOptions& options, const Case& what, json::Diagnostics& diagnostics) {
   std::vector<std::string> overrides = {options.is_short ? "/duration=40s" : "/duration=610s"};
   for (const char* set : {"0", "1"}) overrides.push_back(fmt::format("/programs/0/process_data/{}/fields/values/count={}", set, what.values));
   if (what.cycle_ms > 0) {
@@ -34,7 +34,7 @@ std::optional<results::RunResult> run(const ProgramsOptions& options, const Case
 
 }  // namespace
 
-bool check_claims(const ProgramsOptions& options, Reproduction& made, scenario::json::Diagnostics& diagnostics) {
+bool check_claims(const ProgramsOptions& options, Reproduction& made, json::Diagnostics& diagnostics) {
   const auto trip_of = [](const results::RunResult& result) -> const results::RoundTripResult& { return result.programs.front().round_trips.front(); };
 
   // "a delay of approximately 0.4 milliseconds can be expected": from the greatest round trip of 160 bytes.

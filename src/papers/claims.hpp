@@ -6,6 +6,6 @@
 namespace takt::papers {
 
 /// False if a scenario cannot be read.
-bool check_claims(const ProgramsOptions& options, Reproduction& made, scenario::json::Diagnostics& diagnostics);
+bool check_claims(const ProgramsOptions& options, Reproduction& made, json::Diagnostics& diagnostics);
 
 }  // namespace takt::papers

@@ -9,7 +9,7 @@
 namespace takt::papers {
 namespace {
 
-using scenario::json::Node;
+using json::Node;
 
 std::string deviation_text(const Comparison& c) {
   if (!c.deviation) return "";

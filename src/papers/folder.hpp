@@ -5,14 +5,14 @@
 #include <utility>
 #include <vector>
 
+#include "json/node.hpp"
 #include "papers/comparison.hpp"
-#include "scenario/json/node.hpp"
 
 namespace takt::papers {
 
 /// published | reproduced | deviation | verdict, one line each; a column of what was measured if there is any.
 std::string text_of(const std::vector<Comparison>& comparisons);
-scenario::json::Node json_of(const std::vector<Comparison>& comparisons);
+json::Node json_of(const std::vector<Comparison>& comparisons);
 
 struct Folder {
   std::string text;                ///< report.txt

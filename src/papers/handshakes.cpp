@@ -68,7 +68,7 @@ Comparison order_of(const Sequence& sequence, bool is_paper, const scenario::Pro
 
 }  // namespace
 
-bool reproduce_handshakes(const ProgramsOptions& options, Reproduction& made, scenario::json::Diagnostics& diagnostics) {
+bool reproduce_handshakes(const ProgramsOptions& options, Reproduction& made, json::Diagnostics& diagnostics) {
   made.figures.push_back({"fig-1", state_machine_chart()});
   for (const char* variant : {"paper", "robust"}) {
     const auto resolved = scenario::load_file(options.scenarios + "/handshakes.json", {std::string("/programs/0/variant=") + variant}, diagnostics);

@@ -18,7 +18,7 @@ bool Reproduction::holds() const {
   return std::all_of(comparisons.begin(), comparisons.end(), [](const Comparison& comparison) { return comparison.holds; });
 }
 
-std::optional<Reproduction> reproduce_programs(const ProgramsOptions& options, scenario::json::Diagnostics& diagnostics) {
+std::optional<Reproduction> reproduce_programs(const ProgramsOptions& options, json::Diagnostics& diagnostics) {
   Reproduction made;
   made.is_short = options.is_short;
   if (!reproduce_round_trips(options, made, diagnostics)) return std::nullopt;

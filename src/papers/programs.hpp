@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "json/diagnostics.hpp"
+#include "json/override.hpp"
 #include "papers/comparison.hpp"
-#include "scenario/json/diagnostics.hpp"
-#include "scenario/json/override.hpp"
 #include "sim/time.hpp"
 
 namespace takt::papers {
@@ -68,6 +68,6 @@ struct Reproduction {
 };
 
 /// Runs everything. Nothing if a scenario cannot be read: the diagnostics say why.
-std::optional<Reproduction> reproduce_programs(const ProgramsOptions& options, scenario::json::Diagnostics& diagnostics);
+std::optional<Reproduction> reproduce_programs(const ProgramsOptions& options, json::Diagnostics& diagnostics);
 
 }  // namespace takt::papers

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "json/node.hpp"
 #include "papers/folder.hpp"
-#include "scenario/json/node.hpp"
 
 namespace takt::papers {
 namespace {
 
-using scenario::json::Node;
+using json::Node;
 
 std::string microseconds(const std::optional<sim::Duration>& d) { return d ? fmt::format("{:.1f}", static_cast<double>(d->ps()) * 1e-6) : "-"; }
 
@@ -76,7 +76,7 @@ std::string json_report(const Reproduction& made) {
     runs.add(std::to_string(speed.values), std::move(run));
   }
   node.add("runs", std::move(runs));
-  return scenario::json::pretty(node);
+  return json::pretty(node);
 }
 
 std::string write_folder(const std::string& folder, const Reproduction& made) {

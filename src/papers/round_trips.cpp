@@ -46,7 +46,7 @@ std::string histogram_of(const results::RoundTripResult& trip, int values, char 
 
 }  // namespace
 
-bool reproduce_round_trips(const ProgramsOptions& options, Reproduction& made, scenario::json::Diagnostics& diagnostics) {
+bool reproduce_round_trips(const ProgramsOptions& options, Reproduction& made, json::Diagnostics& diagnostics) {
   char letter = 'a';
   for (const PublishedRoundTrip& row : table_1) {
     const auto resolved = scenario::load_file(fmt::format("{}/round-trip-{}.json", options.scenarios, row.values),

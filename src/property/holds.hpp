@@ -65,7 +65,7 @@ inline std::string file_of(const std::string& name) {
 /// Whether the property holds for all trials that were drawn (100, unless RC_PARAMS says otherwise). If not, the smallest trial that
 /// was found is in the file that is printed.
 inline bool holds(const std::string& scenario_file, const Space& space, const Property& property) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(scenario_file, {}, diagnostics);
   if (!resolved) {
     std::cerr << diagnostics.to_text();
@@ -76,7 +76,7 @@ inline bool holds(const std::string& scenario_file, const Space& space, const Pr
     const scenario::Scenario trial = scenario_of(*resolved, space, detail::draw(space));
     if (property(run(trial))) return;
     // Shrinking goes on from what fails only, so what is written last is the smallest.
-    const std::string problem = output::write_file(file, scenario::json::encode(trial));
+    const std::string problem = output::write_file(file, json::encode(trial));
     RC_FAIL(problem.empty() ? "refuted, see takt run " + file : "refuted, and " + problem);
   });
 }

@@ -113,7 +113,7 @@ bool Outcome::latency_within(const std::string& stream, Duration limit) const {
 }
 
 Outcome run(const Scenario& scenario) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const std::unique_ptr<scenario::Resolved> resolved = scenario::resolve(scenario, diagnostics);
   TAKT_CHECK(resolved != nullptr, "a trial of a sound scenario is one");
   scenario::Run live(*resolved);

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenario/json/type.hpp"
+#include "json/type.hpp"
 #include "sim/time.hpp"
 
 namespace takt::results {
@@ -124,13 +124,13 @@ struct SignalResult {
 };
 
 // What result.json holds of them: the tables.
-const scenario::json::Record& describe(scenario::json::Type<ApplicationResult>);
-const scenario::json::Record& describe(scenario::json::Type<ThreadResult>);
-const scenario::json::Record& describe(scenario::json::Type<CriterionResult>);
-const scenario::json::Record& describe(scenario::json::Type<DurationSummary>);
-const scenario::json::Record& describe(scenario::json::Type<ParticipantResult>);
-const scenario::json::Record& describe(scenario::json::Type<BufferResult>);
-const scenario::json::Record& describe(scenario::json::Type<KeptResult>);
-const scenario::json::Record& describe(scenario::json::Type<SignalResult>);
+const json::Record& describe(json::Type<ApplicationResult>);
+const json::Record& describe(json::Type<ThreadResult>);
+const json::Record& describe(json::Type<CriterionResult>);
+const json::Record& describe(json::Type<DurationSummary>);
+const json::Record& describe(json::Type<ParticipantResult>);
+const json::Record& describe(json::Type<BufferResult>);
+const json::Record& describe(json::Type<KeptResult>);
+const json::Record& describe(json::Type<SignalResult>);
 
 }  // namespace takt::results

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/json/type.hpp"
+#include "json/type.hpp"
 #include "sim/time.hpp"
 
 namespace takt::results {
@@ -36,7 +36,7 @@ struct ClockResult {
 };
 
 // What result.json holds of them: the tables.
-const scenario::json::Record& describe(scenario::json::Type<ClockResult>);
-const scenario::json::Record& describe(scenario::json::Type<ClockChangeResult>);
+const json::Record& describe(json::Type<ClockResult>);
+const json::Record& describe(json::Type<ClockChangeResult>);
 
 }  // namespace takt::results

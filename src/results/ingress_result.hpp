@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/json/type.hpp"
+#include "json/type.hpp"
 #include "sim/time.hpp"
 
 namespace takt::results {
@@ -106,16 +106,16 @@ struct RedundancyResult {
 };
 
 // What result.json holds of them: the tables.
-const scenario::json::Record& describe(scenario::json::Type<IngressResult>);
-const scenario::json::Record& describe(scenario::json::Type<StreamFilterResult>);
-const scenario::json::Record& describe(scenario::json::Type<StreamGateResult>);
-const scenario::json::Record& describe(scenario::json::Type<FlowMeterResult>);
-const scenario::json::Record& describe(scenario::json::Type<AtsSchedulerResult>);
-const scenario::json::Record& describe(scenario::json::Type<RedundancyResult>);
-const scenario::json::Record& describe(scenario::json::Type<SplitResult>);
-const scenario::json::Record& describe(scenario::json::Type<RecoveryResult>);
-const scenario::json::Record& describe(scenario::json::Type<RecoveryCounters>);
-const scenario::json::Record& describe(scenario::json::Type<LatentErrorResult>);
-const scenario::json::Record& describe(scenario::json::Type<RecoveryResult::Individual>);
+const json::Record& describe(json::Type<IngressResult>);
+const json::Record& describe(json::Type<StreamFilterResult>);
+const json::Record& describe(json::Type<StreamGateResult>);
+const json::Record& describe(json::Type<FlowMeterResult>);
+const json::Record& describe(json::Type<AtsSchedulerResult>);
+const json::Record& describe(json::Type<RedundancyResult>);
+const json::Record& describe(json::Type<SplitResult>);
+const json::Record& describe(json::Type<RecoveryResult>);
+const json::Record& describe(json::Type<RecoveryCounters>);
+const json::Record& describe(json::Type<LatentErrorResult>);
+const json::Record& describe(json::Type<RecoveryResult::Individual>);
 
 }  // namespace takt::results

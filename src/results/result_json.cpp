@@ -1,10 +1,8 @@
 #include "results/result_json.hpp"
 
-#include "scenario/json/record.hpp"
+#include "json/record.hpp"
 
 namespace takt::results {
-
-namespace json = scenario::json;
 
 json::Node run_node(const RunResult& result) { return json::ShapeOf<RunResult>::write(result); }
 std::string run_json(const RunResult& result) { return json::pretty(run_node(result)); }

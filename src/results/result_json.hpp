@@ -3,14 +3,14 @@
 
 #include <string>
 
+#include "json/node.hpp"
 #include "results/run_result.hpp"
-#include "scenario/json/node.hpp"
 
 namespace takt::results {
 
 /// Keys and meaning: docs/reference/result.md. All times are whole picoseconds in keys that end with _ps.
 std::string run_json(const RunResult& result);
 /// The same before it is text.
-scenario::json::Node run_node(const RunResult& result);
+json::Node run_node(const RunResult& result);
 
 }  // namespace takt::results

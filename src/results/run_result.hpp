@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "json/type.hpp"
 #include "results/application_result.hpp"
 #include "results/clock_result.hpp"
 #include "results/ingress_result.hpp"
-#include "scenario/json/type.hpp"
 #include "sim/time.hpp"
 
 namespace takt::results {
@@ -201,17 +201,17 @@ struct RunResult {
 };
 
 // What result.json holds of them: the tables.
-const scenario::json::Record& describe(scenario::json::Type<RunResult>);
-const scenario::json::Record& describe(scenario::json::Type<RequirementResult>);
-const scenario::json::Record& describe(scenario::json::Type<StreamResult>);
-const scenario::json::Record& describe(scenario::json::Type<LatencySummary>);
-const scenario::json::Record& describe(scenario::json::Type<HistogramBucket>);
-const scenario::json::Record& describe(scenario::json::Type<ProgramResult>);
-const scenario::json::Record& describe(scenario::json::Type<ReactionResult>);
-const scenario::json::Record& describe(scenario::json::Type<BindingResult>);
-const scenario::json::Record& describe(scenario::json::Type<ViolationResult>);
-const scenario::json::Record& describe(scenario::json::Type<TimelineRow>);
-const scenario::json::Record& describe(scenario::json::Type<RoundTripResult>);
-const scenario::json::Record& describe(scenario::json::Type<PortResult>);
+const json::Record& describe(json::Type<RunResult>);
+const json::Record& describe(json::Type<RequirementResult>);
+const json::Record& describe(json::Type<StreamResult>);
+const json::Record& describe(json::Type<LatencySummary>);
+const json::Record& describe(json::Type<HistogramBucket>);
+const json::Record& describe(json::Type<ProgramResult>);
+const json::Record& describe(json::Type<ReactionResult>);
+const json::Record& describe(json::Type<BindingResult>);
+const json::Record& describe(json::Type<ViolationResult>);
+const json::Record& describe(json::Type<TimelineRow>);
+const json::Record& describe(json::Type<RoundTripResult>);
+const json::Record& describe(json::Type<PortResult>);
 
 }  // namespace takt::results

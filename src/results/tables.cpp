@@ -1,12 +1,10 @@
-// What result.json holds of a run: the table of the whole, of requirements, streams and ports. See scenario/json/record.hpp.
+// What result.json holds of a run: the table of the whole, of requirements, streams and ports. See json/record.hpp.
 #include <fmt/format.h>
 
+#include "json/record.hpp"
 #include "results/run_result.hpp"
-#include "scenario/json/record.hpp"
 
 namespace takt::results {
-
-namespace json = scenario::json;
 
 const char* name_of(Verdict verdict) {
   switch (verdict) {

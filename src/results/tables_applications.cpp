@@ -1,10 +1,8 @@
 // What result.json holds of applications with threads, gateways, persistence services and digital outputs.
+#include "json/record.hpp"
 #include "results/application_result.hpp"
-#include "scenario/json/record.hpp"
 
 namespace takt::results {
-
-namespace json = scenario::json;
 
 namespace {
 

@@ -1,12 +1,10 @@
 // What result.json holds of clocks.
 #include <algorithm>
 
+#include "json/record.hpp"
 #include "results/clock_result.hpp"
-#include "scenario/json/record.hpp"
 
 namespace takt::results {
-
-namespace json = scenario::json;
 
 namespace {
 

@@ -1,10 +1,8 @@
 // What result.json holds of the ingress of switches and of redundancy.
+#include "json/record.hpp"
 #include "results/ingress_result.hpp"
-#include "scenario/json/record.hpp"
 
 namespace takt::results {
-
-namespace json = scenario::json;
 
 namespace {
 

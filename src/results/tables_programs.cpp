@@ -1,10 +1,8 @@
 // What result.json holds of Programs.
+#include "json/record.hpp"
 #include "results/run_result.hpp"
-#include "scenario/json/record.hpp"
 
 namespace takt::results {
-
-namespace json = scenario::json;
 
 namespace {
 

@@ -8,15 +8,13 @@
 #include <variant>
 #include <vector>
 
+#include "json/any.hpp"
+#include "json/fields.hpp"
 #include "scenario/description/description.hpp"
-#include "scenario/json/any.hpp"
-#include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
 namespace takt::study {
-
-namespace json = scenario::json;
 
 using Value = json::Any;
 using scenario::Take;

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "scenario/json/suggest.hpp"
+#include "json/suggest.hpp"
 #include "scenario/topology/topology.hpp"
 #include "sim/random.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scenario/json/node.hpp"
+#include "json/node.hpp"
 #include "sim/check.hpp"
 #include "study/magnitude.hpp"
 
@@ -162,7 +162,7 @@ class ExpressionParser {
   }
   void fail(std::string_view expected) {
     if (!problem_.empty()) return;
-    problem_ = at_ < text_.size() ? "found " + scenario::json::quote(text_.substr(at_)) : std::string("it ends too early");
+    problem_ = at_ < text_.size() ? "found " + json::quote(text_.substr(at_)) : std::string("it ends too early");
     problem_ += ", expected " + std::string(expected);
   }
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <numeric>
 
-#include "scenario/json/suggest.hpp"
+#include "json/suggest.hpp"
 #include "study/pool.hpp"
 #include "study/statistics.hpp"
 

@@ -5,12 +5,10 @@
 #include <string>
 #include <string_view>
 
-#include "scenario/json/node.hpp"
-#include "scenario/json/quantity.hpp"
+#include "json/node.hpp"
+#include "json/quantity.hpp"
 
 namespace takt::study {
-
-namespace json = scenario::json;
 
 /// A quantity with its kind. `dimension` is null for a plain number.
 struct Magnitude {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "scenario/json/suggest.hpp"
+#include "json/suggest.hpp"
 
 namespace takt::study {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "json/document.hpp"
+#include "json/override.hpp"
 #include "scenario/description/description.hpp"
-#include "scenario/json/document.hpp"
-#include "scenario/json/override.hpp"
 #include "study/description.hpp"
 #include "study/measure.hpp"
 

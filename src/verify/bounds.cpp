@@ -7,9 +7,9 @@
 #include "analysis/figure_bound.hpp"
 #include "analysis/program_assessment.hpp"
 #include "explore/search/search.hpp"
+#include "json/quantity.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "scenario/figures/requirement_rules.hpp"
-#include "scenario/json/quantity.hpp"
 #include "sim/check.hpp"
 #include "verify/roles_query.hpp"
 #include "wire/plug_endpoint.hpp"
@@ -81,7 +81,7 @@ class Prover {
     if (requirement.least_limit && *requirement.least_limit > Duration()) {
       const analysis::StreamBound* const stream = stream_named(requirement.subject);
       if (requirement.kind != RequirementKind::latency || stream == nullptr || stream->least < *requirement.least_limit) {
-        proof.reason = "nothing shows that it is never less than " + scenario::json::to_text(*requirement.least_limit);
+        proof.reason = "nothing shows that it is never less than " + json::to_text(*requirement.least_limit);
         return;
       }
     }
@@ -107,7 +107,7 @@ class Prover {
 
   /// What is known of the figure must lie within the limit.
   Proof figure(const RequirementResult& requirement, const analysis::RequirementBound& bound, Proof proof) {
-    scenario::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     const auto asked = scenario::read_figure_requirement(resolved_.scenario.require[*requirement.requirement], diagnostics);
     TAKT_CHECK(asked && bound.figure, "a requirement that was resolved has a figure");
     analysis::FigureRange range = *bound.figure;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "json/quantity.hpp"
 #include "scenario/description/promises.hpp"
-#include "scenario/json/quantity.hpp"
 #include "sim/check.hpp"
 
 namespace takt::verify {
@@ -132,7 +132,7 @@ void add_frequencies(const scenario::Resolved& r, std::vector<Freedom>& found) {
     const scenario::Clock* const clock = ranging_clock(r.scenario, node.name);
     if (clock == nullptr) continue;
     found.push_back({Freedom::Kind::frequency, 0, 0, always_greatest + Duration::from_ps(1),
-                     "frequency of " + node.name + ", " + scenario::json::to_text(*clock->offset.from) + " to " + scenario::json::to_text(*clock->offset.to), {}, {}, {}, node.name});
+                     "frequency of " + node.name + ", " + json::to_text(*clock->offset.from) + " to " + json::to_text(*clock->offset.to), {}, {}, {}, node.name});
   }
 }
 

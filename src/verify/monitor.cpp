@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "analysis/assessment.hpp"
+#include "json/quantity.hpp"
 #include "scenario/figures/requirement_rules.hpp"
-#include "scenario/json/quantity.hpp"
 
 namespace takt::verify {
 namespace {
 
 using analysis::Assumption;
-using scenario::json::to_text;
+using json::to_text;
 
 /// As Assumption::program_publishes has it.
 constexpr std::size_t most_changes_in_a_cycle = 4;

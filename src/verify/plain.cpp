@@ -9,7 +9,7 @@ namespace takt::verify {
 results::RequirementResult plain(const scenario::Scenario& scenario, const results::RequirementResult& requirement) {
   results::RequirementResult made = requirement;
   if (requirement.kind != results::RequirementKind::figure || !requirement.requirement) return made;
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto asked = scenario::read_figure_requirement(scenario.require[*requirement.requirement], diagnostics);
   TAKT_CHECK(asked, "a requirement that was resolved has a figure");
   const bool is_greatest = asked->figure.take == scenario::Take::max && asked->limit.is_upper();

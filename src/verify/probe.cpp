@@ -12,7 +12,7 @@
 namespace takt::verify {
 
 std::optional<Probe> probe(const scenario::Scenario& scenario, const analysis::Bounds& bounds, const std::function<bool()>& interrupted) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::resolve(scenario, diagnostics);
   if (!resolved) return std::nullopt;
   scenario::Run run(*resolved);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "scenario/json/record.hpp"
+#include "json/record.hpp"
 #include "verify/report_record.hpp"
 
 namespace takt::verify {
@@ -22,7 +22,6 @@ std::string figure(const std::optional<Duration>& time) {
     if (ps >= unit) return fmt::format("{:.6g} {}", ps / unit, name);
   return fmt::format("{} ps", time->ps());
 }
-
 
 /// "the bound gives away 12.4 us of 30 us: 12 us at sw0:1 (blocking and other frames), 0.4 us at ...": the largest parts, what is alike in one.
 std::string slack_text(const Line& line) {
@@ -121,7 +120,7 @@ std::string json_report(const std::string& scenario, const Verification& verific
   }
   for (const analysis::Assumption assumption : needed.list()) report.assumptions.push_back({std::string(analysis::name_of(assumption)), verification.ledger[assumption]});
   if (verification.contradiction) report.contradiction = ReportedContradiction{verification.contradiction->text, witnesses};
-  return scenario::json::write(report);
+  return json::write(report);
 }
 
 }  // namespace takt::verify

@@ -1,11 +1,10 @@
 #include "verify/report_record.hpp"
 
 #include "analysis/report_record.hpp"
-#include "scenario/json/record.hpp"
+#include "json/record.hpp"
 
 namespace takt::verify {
 
-namespace json = scenario::json;
 using sim::Duration;
 
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/json/type.hpp"
+#include "json/type.hpp"
 #include "verify/report.hpp"
 
 namespace takt::verify {
@@ -41,11 +41,11 @@ struct Report {
   std::optional<ReportedContradiction> contradiction;
 };
 
-const scenario::json::Record& describe(scenario::json::Type<ReportedFreedom>);
-const scenario::json::Record& describe(scenario::json::Type<SlackPart>);
-const scenario::json::Record& describe(scenario::json::Type<ReportedLine>);
-const scenario::json::Record& describe(scenario::json::Type<ReportedAssumption>);
-const scenario::json::Record& describe(scenario::json::Type<ReportedContradiction>);
-const scenario::json::Record& describe(scenario::json::Type<Report>);
+const json::Record& describe(json::Type<ReportedFreedom>);
+const json::Record& describe(json::Type<SlackPart>);
+const json::Record& describe(json::Type<ReportedLine>);
+const json::Record& describe(json::Type<ReportedAssumption>);
+const json::Record& describe(json::Type<ReportedContradiction>);
+const json::Record& describe(json::Type<Report>);
 
 }  // namespace takt::verify

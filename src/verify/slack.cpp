@@ -125,7 +125,7 @@ std::vector<SlackPart> parts_of_latency(const LooseEnd& end, const analysis::Bou
 scenario::Requirement reaction_asked(const scenario::Scenario& scenario, std::size_t requirement) {
   const scenario::Requirement& asked = scenario.require[requirement];
   if (asked.reaction) return asked;
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   scenario::Requirement made = *analysis::reaction_of(scenario::read_figure_requirement(asked, diagnostics)->figure);
   made.after = asked.after;
   return made;
@@ -147,7 +147,7 @@ std::vector<SlackPart> parts_of_reaction(const LooseEnd& end, const analysis::Bo
 bool is_tight(RequirementKind kind, double tightness) { return tightness >= (kind == RequirementKind::reaction ? 0.9 : 0.85); }
 
 std::vector<SlackPart> slack_of(const LooseEnd& asked, const analysis::Bounds& bounds, const std::function<bool()>& interrupted) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const results::RequirementResult requirement = plain(asked.worst, asked.requirement);
   const LooseEnd end{requirement, asked.measured, asked.bound, asked.worst};
   const auto resolved = scenario::resolve(end.worst, diagnostics);

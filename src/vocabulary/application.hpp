@@ -5,11 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "scenario/json/fields.hpp"
+#include "json/fields.hpp"
 
 namespace takt::vocabulary {
-
-namespace json = scenario::json;
 
 enum class Protocol : std::uint8_t { opc_ua, dds };
 enum class Pattern : std::uint8_t { counter, alternate };

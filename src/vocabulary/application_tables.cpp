@@ -1,4 +1,4 @@
-// The words of applications. See scenario/json/fields.hpp.
+// The words of applications. See json/fields.hpp.
 #include "vocabulary/application.hpp"
 
 namespace takt::vocabulary {

@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "scenario/json/fields.hpp"
+#include "json/fields.hpp"
 #include "sim/time.hpp"
 
 namespace takt::vocabulary {
 
-namespace json = scenario::json;
 using sim::Duration;
 
 enum class Reliability : std::uint8_t { best_effort, reliable };

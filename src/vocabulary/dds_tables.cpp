@@ -1,4 +1,4 @@
-// The words of quality of service of DDS. See scenario/json/fields.hpp.
+// The words of quality of service of DDS. See json/fields.hpp.
 #include "vocabulary/dds.hpp"
 
 namespace takt::vocabulary {

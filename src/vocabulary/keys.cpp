@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "scenario/json/suggest.hpp"
+#include "json/suggest.hpp"
 #include "uadp/builtin_type.hpp"
 #include "vocabulary/protocol.hpp"
 

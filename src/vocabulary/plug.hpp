@@ -4,11 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "scenario/json/fields.hpp"
+#include "json/fields.hpp"
 
 namespace takt::vocabulary {
-
-namespace json = scenario::json;
 
 /// A place in a group for any node that offers a skill.
 struct Role {

@@ -4,11 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "scenario/json/fields.hpp"
+#include "json/fields.hpp"
 
 namespace takt::vocabulary {
-
-namespace json = scenario::json;
 
 enum class Variant : std::uint8_t { robust, paper };
 enum class Publish : std::uint8_t { cyclic, on_change };

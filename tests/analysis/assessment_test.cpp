@@ -17,7 +17,7 @@ using namespace sim::literals;  // NOLINT
 using A = Assumption;
 
 std::unique_ptr<scenario::Resolved> load(const std::string& text) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   auto resolved = scenario::load_text(text, "assessed.json", {}, diagnostics);
   if (!resolved) throw std::runtime_error(diagnostics.to_text());
   return resolved;
@@ -260,7 +260,7 @@ TEST(Assessment, WhatIsDroppedByIntention) {
   };
   EXPECT_TRUE(launched("\"20us\""));
   EXPECT_FALSE(launched("\"21us\""));
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto redundant = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/tests/findings/redundancy-dropped.json", {}, diagnostics);
   ASSERT_TRUE(redundant) << diagnostics.to_text();
   EXPECT_FALSE(safety_of(*redundant).loses_nothing);

@@ -15,7 +15,7 @@ struct Seen {
 
 /// A line of three switches that cut class 7 through, at 100 Mb/s; f goes from end to end.
 Seen line(const std::string& more_links, const std::string& more_streams) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const std::string bridge = R"({"kind": "switch", "forwarding_delay": "1us", "egress": [{"cut_through": [7]}]})";
   const auto resolved = scenario::load_text(
       R"({"name": "line", "duration": "5ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "c": {"kind": "host"}, "s1": )" + bridge + R"(, "s2": )" + bridge + R"(, "s3": )" + bridge +

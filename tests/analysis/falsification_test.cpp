@@ -65,7 +65,7 @@ std::string network(std::size_t number) {
 }
 
 std::unique_ptr<scenario::Resolved> load(const std::string& text, const std::vector<std::string>& overrides) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   return scenario::load_text(text, "random.json", overrides, diagnostics);
 }
 

@@ -18,7 +18,7 @@ std::size_t gated_networks() {
 }
 
 std::unique_ptr<scenario::Resolved> load(const std::string& text) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   return scenario::load_text(text, "gated.json", {}, diagnostics);
 }
 

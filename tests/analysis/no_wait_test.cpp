@@ -16,7 +16,7 @@ using namespace sim::literals;  // NOLINT
 constexpr Ps us = 1'000'000;
 
 std::unique_ptr<scenario::Resolved> load(const std::string& rest) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   auto resolved = scenario::load_text(R"({"name": "t", "duration": "20ms", )" + rest + "}", "t.json", {}, diagnostics);
   EXPECT_TRUE(resolved) << diagnostics.to_text();
   return resolved;

@@ -58,7 +58,7 @@ class PackedNetwork {
 };
 
 std::unique_ptr<scenario::Resolved> load(const std::string& text) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   auto resolved = scenario::load_text(text, "packed.json", {}, diagnostics);
   if (!resolved) ADD_FAILURE() << diagnostics.to_text() << text;
   return resolved;

@@ -88,7 +88,7 @@ TEST(PhasedBound, EveryClockForItself) {
 }
 
 std::unique_ptr<scenario::Resolved> two_talkers(const std::string& clocks, const std::string& more = "") {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   auto resolved = scenario::load_text(R"({"name": "two", "duration": "20ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "c": {"kind": "host"}, "s": {"kind": "switch", "forwarding_delay": "1us"}},
     "links": [{"ends": ["a", "s"], "rate": "1Gbps", "delay": "0s"}, {"ends": ["b", "s"], "rate": "1Gbps", "delay": "0s"}, {"ends": ["s", "c"], "rate": "1Gbps", "delay": "0s"}]},
     "streams": [{"name": "x", "from": "a", "to": "c", "payload": "200B", "every": "500us", "offset": "0us", "pcp": 5},

@@ -18,7 +18,7 @@ using handshake::Cause;
 using scenario::Reaction;
 
 std::unique_ptr<scenario::Resolved> load(const std::string& text) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   auto resolved = scenario::load_text(text, "cell.json", {}, diagnostics);
   if (!resolved) throw std::runtime_error(diagnostics.to_text());
   return resolved;

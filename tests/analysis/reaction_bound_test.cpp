@@ -117,7 +117,7 @@ TEST(ReactionBound, HoldsInTheSimulatorAtAllPhases) {
         for (int phase = 0; phase < 1000; phase += 97) {
           std::string digits = std::to_string(phase);
           digits.insert(0, 3 - digits.size(), '0');
-          scenario::json::Diagnostics diagnostics;
+          json::Diagnostics diagnostics;
           const auto resolved = scenario::load_text(cell_text(variant, publish, subscription, digits), "cell.json", {}, diagnostics);
           ASSERT_TRUE(resolved) << diagnostics.to_text();
           bounds = bound(*resolved).reactions;
@@ -159,7 +159,7 @@ TEST(ReactionBound, HaltsHoldFromTheirCausesAtAllPhases) {
   for (const std::string subscription : {"star", "all-to-all"})
     for (const auto& [cause, fault] : faults)
       for (int phase = 100; phase < 1000; phase += 97) {
-        scenario::json::Diagnostics diagnostics;
+        json::Diagnostics diagnostics;
         std::string text = cell_text("robust", "cyclic", subscription, "000");
         text.insert(text.rfind('}'), R"(, "faults": [{"at": "12)" + std::to_string(phase) + R"(us", )" + fault + R"(}], "require": [{"reaction": "halt", "within": "1s"}])");
         const auto resolved = scenario::load_text(text, "cell.json", {}, diagnostics);
@@ -192,7 +192,7 @@ TEST(ReactionBound, HoldsForNestedGroupsAtAllPhases) {
   std::map<std::tuple<std::size_t, scenario::Reaction, bool>, std::pair<sim::Duration, sim::Duration>> slowest;   // and the bound
   for (int phase = 0; phase < 1000; phase += 29) {
     const auto at = [&](int entry, int microseconds) { return "/script/" + std::to_string(entry) + "/at=" + std::to_string(microseconds) + "us"; };
-    scenario::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     const auto resolved = scenario::load_file(
         std::string(TAKT_SOURCE_DIR) + "/scenarios/programs/nested-cell.json",
         {"/duration=150ms", at(0, 5'000 + phase), at(1, 10'500 + phase * 5), at(2, 30'000 + phase * 3), at(3, 50'000 + phase), at(4, 70'000 + phase * 7), at(5, 90'000 + phase),

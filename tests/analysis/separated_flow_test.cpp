@@ -11,7 +11,7 @@ namespace {
 using sim::Duration;
 
 Bounds bounds_of(const std::string& more) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(R"({"name": "line", "duration": "10ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "c": {"kind": "host"},
     "s1": {"kind": "switch", "forwarding_delay": "1us"}, "s2": {"kind": "switch", "forwarding_delay": "1us")" +
                                                 std::string(more.starts_with("gates") ? R"(, "egress": [{"gates": {"entries": [{"open": [6], "for": "100us"}, {"open": [0], "for": "100us"}]}}])" : "") + R"(}},

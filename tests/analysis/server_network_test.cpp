@@ -85,14 +85,14 @@ TEST(ServerNetwork, KnowsCircles) {
   EXPECT_FALSE(network(3, {{0, 1}, {1, 2}, {2, 0}}).is_feed_forward());
 }
 
-std::optional<ServerNetworkFile> read(const std::string& text, scenario::json::Diagnostics& diagnostics) {
-  const auto document = scenario::json::parse(text, "n.json", diagnostics);
+std::optional<ServerNetworkFile> read(const std::string& text, json::Diagnostics& diagnostics) {
+  const auto document = json::parse(text, "n.json", diagnostics);
   EXPECT_TRUE(document && is_server_network(*document));
   return read_server_network(*document, diagnostics);
 }
 
 TEST(ServerNetworkFile, ReadsAndAnswers) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto file = read(R"({"servers": {"a": {"rate": 20, "latency": "20"}, "b": {"rate": "40/2", "latency": 2e1}},
                             "flows": {"x": {"path": ["a", "b"], "rate": 5.0, "burst": 25}}})", diagnostics);
   ASSERT_TRUE(file) << diagnostics.to_text();
@@ -101,7 +101,7 @@ TEST(ServerNetworkFile, ReadsAndAnswers) {
 }
 
 TEST(ServerNetworkFile, TellsAllMistakes) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   EXPECT_FALSE(read(R"({"servers": {"a": {"rate": 0, "latency": -1}}, "flows": {"x": {"path": ["b", "a", "a"], "rate": 5}}, "more": 1})", diagnostics));
   const std::string text = diagnostics.to_text();
   for (const char* const expected : {"/servers/a/rate", "/servers/a/latency", "unknown server", "a server twice", "burst", "more"})
@@ -109,7 +109,7 @@ TEST(ServerNetworkFile, TellsAllMistakes) {
 }
 
 TEST(ServerNetworkFile, RefusesCircles) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   EXPECT_FALSE(read(R"({"servers": {"a": {"rate": 2, "latency": 1}, "b": {"rate": 2, "latency": 1}},
                        "flows": {"x": {"path": ["a", "b"], "rate": 1, "burst": 1}, "y": {"path": ["b", "a"], "rate": 1, "burst": 1}}})", diagnostics));
   EXPECT_NE(diagnostics.to_text().find("circle"), std::string::npos);

@@ -11,7 +11,7 @@ namespace takt::analysis {
 namespace {
 
 std::unique_ptr<scenario::Resolved> load(const std::string& text) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   auto resolved = scenario::load_text(text, "slack.json", {}, diagnostics);
   if (!resolved) throw std::runtime_error(diagnostics.to_text());
   return resolved;

@@ -18,7 +18,7 @@ const Prefixes base = {"sim/time.hpp", "sim/units.hpp", "sim/check.hpp"};
 const Prefixes models = {"models/"};
 const Prefixes protocol = {"wire/", "uadp/", "pubsub/", "program/", "handshake/", "dds/", "gateway/"};
 const Prefixes scenario = {"scenario/"};
-const Prefixes json = {"scenario/json/"};
+const Prefixes json = {"json/"};
 const Prefixes questions = {"analysis/", "explore/", "synthesis/", "verify/"};
 const Prefixes results = {"results/"};
 const Prefixes evaluation = {"evaluation/"};
@@ -51,9 +51,9 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/vocabulary/", all_of({base, protocol, vocabulary, json})});
     list.push_back({"src/storage/", all_of({base, protocol, storage})});
     list.push_back({"src/node/", all_of({base, protocol, vocabulary, storage, node, json})});
-    list.push_back({"src/scenario/json/", all_of({base, json})});
+    list.push_back({"src/json/", all_of({base, json})});
     list.push_back({"src/results/", all_of({base, json, results})});
-    const Prefixes below = all_of({kernel, models, protocol, vocabulary, results, scenario});
+    const Prefixes below = all_of({kernel, models, protocol, vocabulary, json, results, scenario});
     list.push_back({"src/scenario/", below});
     // Beside the questions, but its points are results as result.json has them, and its report is drawn.
     list.push_back({"src/study/", all_of({below, questions, evaluation, output, chart, study})});
@@ -90,7 +90,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, scenario, questions, results, evaluation, output, cli, node, emulate, vocabulary, chart, papers, study, storage, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, output, cli, node, emulate, vocabulary, chart, papers, study, storage, {"property/"}});
   return roots;
 }
 

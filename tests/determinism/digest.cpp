@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     std::fputs("usage: takt_digest SCENARIO DURATION SEED\n", stderr);
     return 2;
   }
-  takt::scenario::json::Diagnostics diagnostics;
+  takt::json::Diagnostics diagnostics;
   const auto resolved = takt::scenario::load_file(argv[1], {"/duration=" + std::string(argv[2]), "/seed=" + std::string(argv[3])}, diagnostics);
   if (!resolved) {
     std::fputs(diagnostics.to_text().c_str(), stderr);

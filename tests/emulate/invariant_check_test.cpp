@@ -17,7 +17,7 @@ constexpr StateChange running{2, PublishedState::Ready, PublishedState::Running}
 
 /// p (master plc, slave m), and q within it (master m, slave x).
 std::unique_ptr<scenario::Resolved> nested() {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   auto resolved = scenario::load_text(R"({"name": "s", "duration": "1s", "network": {"nodes": {"plc": {"kind": "host"}, "m": {"kind": "host"}, "x": {"kind": "host"}, "w": {"kind": "switch"}},
  "links": [{"ends": ["plc", "w"]}, {"ends": ["m", "w"]}, {"ends": ["x", "w"]}]},
  "programs": [{"name": "p", "master": "plc", "slaves": ["m"], "cycle": "1ms"}, {"name": "q", "within": "p", "master": "m", "slaves": ["x"], "cycle": "1ms"}]})",

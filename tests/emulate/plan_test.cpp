@@ -20,7 +20,7 @@ const std::string program = R"(, "programs": [{"name": "p", "master": "m", "slav
 
 struct Planned {
   explicit Planned(const std::string& text) {
-    scenario::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     resolved = scenario::load_text(text, "s.json", {}, diagnostics);
     if (!resolved) throw std::runtime_error(diagnostics.to_text());
     plan = plan_of(*resolved);
@@ -56,7 +56,7 @@ TEST(Plan, FilesOfNodes) {
   for (const PlannedNode& node : planned.plan.nodes) {
     const std::string path = std::string(::testing::TempDir()) + "takt-planned.json";
     std::ofstream(path) << node.config;
-    scenario::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     const auto loaded = node::load_config(path, diagnostics);
     std::filesystem::remove(path);
     ASSERT_TRUE(loaded) << diagnostics.to_text();
@@ -112,7 +112,7 @@ TEST(Plan, NestedProgramsAreJoined) {
   EXPECT_EQ(std::get<CallAction>(planned.plan.actions[0].what).part, 1u);
   const std::string path = std::string(::testing::TempDir()) + "takt-planned-nested.json";
   std::ofstream(path) << both.config;
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto loaded = node::load_config(path, diagnostics);
   std::filesystem::remove(path);
   ASSERT_TRUE(loaded) << diagnostics.to_text();
@@ -154,7 +154,7 @@ TEST(Plan, RolesHaveCandidates) {
     if (const std::size_t mark = config.find(absent_mark); mark != std::string::npos) config.replace(mark, std::string(absent_mark).size(), "true");
     const std::string path = std::string(::testing::TempDir()) + "takt-planned-roles.json";
     std::ofstream(path) << config;
-    scenario::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     const auto loaded = node::load_config(path, diagnostics);
     std::filesystem::remove(path);
     ASSERT_TRUE(loaded) << config << diagnostics.to_text();

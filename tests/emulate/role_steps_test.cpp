@@ -14,7 +14,7 @@ using handshake::PublishedState;
 
 /// A master m, the role r; a and b weld.
 std::unique_ptr<scenario::Resolved> group(const std::string& more = "") {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   auto resolved = scenario::load_text(R"({"name": "s", "duration": "400ms", "network": {"nodes": {"m": {"kind": "host"}, "a": {"kind": "host", "offers": ["welding"]}, "b": {"kind": "host", "offers": ["welding"]},
  "w": {"kind": "switch"}}, "links": [{"ends": ["m", "w"]}, {"ends": ["a", "w"]}, {"ends": ["b", "w"]}]},
  "programs": [{"name": "p", "master": "m", "roles": [{"name": "r", "skill": "welding"}], "cycle": "1ms", "on_replacement": "restart"}])" + more + "}",

@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, [](int) { stopped = 1; });
   std::signal(SIGTERM, [](int) { stopped = 1; });
 
-  takt::scenario::json::Diagnostics mistakes;
+  takt::json::Diagnostics mistakes;
   const auto file = takt::node::load_config(argc == 2 ? argv[1] : "robot.json", mistakes);
   std::fputs(mistakes.to_text().c_str(), stderr);
   if (!file) return 2;

@@ -6,14 +6,14 @@
 #include <string>
 #include <string_view>
 
-#include "scenario/json/fields.hpp"
-#include "scenario/json/override.hpp"
-#include "scenario/json/sample.hpp"
+#include "json/fields.hpp"
+#include "json/override.hpp"
+#include "json/sample.hpp"
 #include "sim/check.hpp"
 
 namespace {
 
-namespace json = takt::scenario::json;
+namespace json = takt::json;
 
 // What is decoded. To fuzz another input, name its type and its check here and link its library.
 using Input = takt::sample::Sample;

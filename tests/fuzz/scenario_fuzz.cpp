@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "results/result_json.hpp"
-#include "output/text_report.hpp"
 #include "evaluation/evaluate.hpp"
-#include "scenario/json/override.hpp"
+#include "json/override.hpp"
+#include "output/text_report.hpp"
+#include "results/result_json.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "scenario/topology/generators.hpp"
@@ -22,7 +22,6 @@
 namespace {
 
 using namespace takt;
-namespace json = scenario::json;
 
 constexpr std::uint64_t most_generated = 200;  // nodes of one generator
 constexpr std::uint32_t most_at_once = 500;    // frames of a burst

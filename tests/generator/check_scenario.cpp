@@ -8,11 +8,11 @@
 
 #include "analysis/bounds.hpp"
 #include "analysis/report.hpp"
-#include "output/text_report.hpp"
 #include "evaluation/evaluate.hpp"
+#include "json/document.hpp"
+#include "json/quantity.hpp"
+#include "output/text_report.hpp"
 #include "results/result_json.hpp"
-#include "scenario/json/document.hpp"
-#include "scenario/json/quantity.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "tests/generator/schema_validation.hpp"
@@ -23,8 +23,7 @@
 namespace takt::generator {
 namespace {
 
-namespace json = scenario::json;
-using scenario::json::to_text;
+using json::to_text;
 
 std::string took(sim::Duration time) { return to_text(time); }
 

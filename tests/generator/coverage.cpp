@@ -10,11 +10,11 @@ class Walk {
   explicit Walk(Keys& keys) : keys_(keys) {}
 
   void object(const Node& node, const Definition& definition) {
-    if (definition.short_form != nullptr && node.kind != scenario::json::Kind::object) {
+    if (definition.short_form != nullptr && node.kind != json::Kind::object) {
       keys_.insert(definition.name + ":short");
       return value(node, *definition.short_form, definition.name + "." + definition.short_key);
     }
-    for (const scenario::json::Member& member : node.members) {
+    for (const json::Member& member : node.members) {
       const std::string key = definition.name + "." + member.key;
       keys_.insert(key);
       if (member.key == definition.tag_key) continue;
@@ -39,10 +39,10 @@ class Walk {
         for (const Node& item : node.items) value(item, *form.item, key);
         break;
       case ValueForm::Kind::map:
-        for (const scenario::json::Member& member : node.members) value(member.value, *form.item, key);
+        for (const json::Member& member : node.members) value(member.value, *form.item, key);
         break;
       case ValueForm::Kind::other:   // one name, or several
-        if (node.kind == scenario::json::Kind::array && node.items.size() > 1) keys_.insert(key + ":several");
+        if (node.kind == json::Kind::array && node.items.size() > 1) keys_.insert(key + ":several");
         break;
       default:
         break;
@@ -79,7 +79,7 @@ Keys all_keys() {
   Keys keys;
   for (const Definition& definition : Schema::of_scenarios().definitions()) {
     if (definition.short_form != nullptr) keys.insert(definition.name + ":short");
-    for (const scenario::json::Member& property : definition.properties->members) {
+    for (const json::Member& property : definition.properties->members) {
       keys.insert(definition.name + "." + property.key);
       add_words(property.value, definition.name + "." + property.key, keys);
     }

@@ -9,8 +9,6 @@
 namespace takt::generator {
 namespace {
 
-namespace json = scenario::json;
-
 constexpr unsigned most_repairs = 100;
 
 /// The steps of a pointer without escapes, which generated names have none of.

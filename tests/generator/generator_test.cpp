@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 #include "tests/generator/generated.hpp"
 #include "tests/generator/maker.hpp"
 
@@ -48,8 +48,8 @@ TEST(Generator, UsesEveryKeyAndEveryPairOfFeatures) {
       ADD_FAILURE() << number << ": " << made.problem << made.text;
       continue;
     }
-    scenario::json::Diagnostics diagnostics;
-    const Keys keys = keys_of(scenario::json::parse(made.text, "s.json", diagnostics)->root());
+    json::Diagnostics diagnostics;
+    const Keys keys = keys_of(json::parse(made.text, "s.json", diagnostics)->root());
     for (const std::string& key : keys) missing.erase(key);
     std::vector<Feature> met;
     for (const FeatureEntry& each : features())

@@ -6,8 +6,6 @@
 
 namespace takt::generator {
 
-namespace json = scenario::json;
-
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words;
   for (std::size_t begin = 0; begin < text.size();) {

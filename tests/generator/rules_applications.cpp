@@ -69,7 +69,7 @@ Made copied(Maker& m, const Scope& s) {
   const std::string own = s.around("thread")->text("publish");
   const auto fields_of = [&](const std::string& name) {
     for (std::size_t i = 0; i < m.topics; ++i)
-      if (name_of(m, i) == name) return scenario::json::compact(*topic(m, i).find("fields"));
+      if (name_of(m, i) == name) return json::compact(*topic(m, i).find("fields"));
     return std::string();
   };
   for (const Node& each : m.kept["subscribed"].items)

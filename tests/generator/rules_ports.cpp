@@ -23,7 +23,7 @@ std::vector<int> taken(const Scope& s, std::string_view key) {
   const Node* const there = s.made->find(key);
   if (there == nullptr) return values;
   for (const Node& each : there->items) {
-    const Node* const value = each.kind == scenario::json::Kind::object ? each.find("class") : &each;
+    const Node* const value = each.kind == json::Kind::object ? each.find("class") : &each;
     values.push_back(std::stoi(value->text));
   }
   return values;

@@ -47,7 +47,7 @@ bool is(const Maker& m, const Scope& program, Maker::Group group) { return m.gro
 std::vector<std::string> offering(const Maker& m, std::string_view skill) {
   std::vector<std::string> hosts;
   const Node* const nodes = m.root().find("network")->find("nodes");
-  for (const scenario::json::Member& each : nodes->members)
+  for (const json::Member& each : nodes->members)
     for (const std::string& offered : texts(each.value.find("offers")))
       if (offered == skill) hosts.push_back(each.key);
   return hosts;

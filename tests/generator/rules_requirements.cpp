@@ -38,7 +38,7 @@ Made signal(Maker& m, const Scope&) {
   if (const Node* const applications = m.root().find("applications"))
     for (const Node& each : applications->items)
       for (const Node& thread : each.find("threads")->items)
-        if (const Node* const found = thread.find("signal")) names.push_back(found->kind == scenario::json::Kind::string ? found->text : found->find("name")->text);
+        if (const Node* const found = thread.find("signal")) names.push_back(found->kind == json::Kind::string ? found->text : found->find("name")->text);
   return names.empty() ? std::nullopt : Made(text(m.draw.any(names)));
 }
 

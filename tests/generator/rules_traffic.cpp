@@ -11,7 +11,7 @@ using Made = std::optional<Node>;
 std::vector<std::string> receivers(const Scope& s) {
   const Node* const to = s.made->find("to");
   if (to == nullptr) return {};
-  if (to->kind == scenario::json::Kind::string) return {to->text};
+  if (to->kind == json::Kind::string) return {to->text};
   std::vector<std::string> names;
   for (const Node& each : to->items) names.push_back(each.text);
   return names;

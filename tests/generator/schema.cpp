@@ -8,8 +8,6 @@
 namespace takt::generator {
 namespace {
 
-namespace json = scenario::json;
-
 std::string text_of(const Node* node) { return node == nullptr ? std::string() : node->text; }
 
 const Node* without_reference(const Node& schema) {

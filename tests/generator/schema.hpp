@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "scenario/json/node.hpp"
+#include "json/node.hpp"
 
 namespace takt::generator {
 
-using scenario::json::Node;
+using json::Node;
 
 /// An object that scenarios may have.
 struct Definition {

@@ -15,7 +15,7 @@ namespace takt::generator {
 using valijson::adapters::NlohmannJsonAdapter;
 
 std::string refused_by_schema(const std::string& text) {
-  static const nlohmann::json source = nlohmann::json::parse(scenario::json::schema<scenario::Scenario>("takt scenario"));
+  static const nlohmann::json source = nlohmann::json::parse(json::schema<scenario::Scenario>("takt scenario"));
   static const auto schema = [] {
     auto parsed = std::make_unique<valijson::Schema>();
     const NlohmannJsonAdapter adapter(source);

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 
 namespace takt::generator {
 namespace {
 
-namespace json = scenario::json;
 using json::Node;
 
 /// Steps by number: items and members alike.

@@ -3,14 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 
 namespace takt::generator {
 namespace {
 
 std::string compact(const std::string& text) {
-  scenario::json::Diagnostics diagnostics;
-  return scenario::json::compact(scenario::json::parse(text, "s.json", diagnostics)->root());
+  json::Diagnostics diagnostics;
+  return json::compact(json::parse(text, "s.json", diagnostics)->root());
 }
 
 TEST(Shrink, LeavesWhatIsNeeded) {

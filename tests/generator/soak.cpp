@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 #include "study/pool.hpp"
 #include "tests/generator/check_scenario.hpp"
 #include "tests/generator/coverage.hpp"
@@ -26,7 +26,6 @@ namespace takt::generator {
 namespace {
 
 namespace fs = std::filesystem;
-namespace json = scenario::json;
 
 constexpr const char* usage =
     "Makes random scenarios of every feature, runs and verifies each, and shrinks what is wrong to a small scenario.\n"

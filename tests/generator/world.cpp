@@ -8,8 +8,6 @@
 namespace takt::generator {
 namespace {
 
-namespace json = scenario::json;
-
 Node link(const std::string& a, const std::string& b) {
   Node made = Node::object();
   made.add("ends", list({text(a), text(b)}));

@@ -125,7 +125,7 @@ TEST(NestedConfig, TheOctetsAreThoseOfTheSimulator) {
     hosts += "\"" + name + R"(": {"kind": "host"}, )";
     links += (links.empty() ? "" : ", ") + (R"({"ends": [")" + name + R"(", "w"]})");
   }
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(R"({"name": "s", "duration": "1ms", "network": {"nodes": {)" + hosts + R"("w": {"kind": "switch"}}, "links": [)" + links + "]}, \"programs\": [" + tree + "]}",
                                             "s.json", {}, diagnostics);
   ASSERT_TRUE(resolved) << diagnostics.to_text();

@@ -68,7 +68,7 @@ Said simulated() {
  "b": {"kind": "host", "offers": ["welding"]}, "c": {"kind": "host", "offers": ["gripping"]}, "w": {"kind": "switch"}},
  "links": [{"ends": ["m", "w"]}, {"ends": ["a", "w"]}, {"ends": ["b", "w"]}, {"ends": ["c", "w"]}]}, "programs": [{)" + shared + R"(, "absent": ["b"]}],
  "script": [{"at": "20.3ms", "join": "b"}, {"at": "50.3ms", "program": "p", "call": "Start"}, {"at": "100.3ms", "leave": "a"}, {"at": "150.3ms", "program": "p", "call": "Suspend"}]})";
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(text, "s.json", {}, diagnostics);
   EXPECT_TRUE(resolved) << diagnostics.to_text();
   scenario::Run run(*resolved);

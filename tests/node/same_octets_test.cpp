@@ -17,7 +17,7 @@ const std::string program = R"({"name": "p", "master": "m", "slaves": ["a", "b"]
 wire::ProgramFormat of_scenario(const std::string& variant) {
   const std::string text = R"({"name": "s", "duration": "1ms", "network": {"nodes": {"m": {"kind": "host"}, "a": {"kind": "host"}, "b": {"kind": "host"}, "w": {"kind": "switch"}},
  "links": [{"ends": ["m", "w"]}, {"ends": ["a", "w"]}, {"ends": ["b", "w"]}]}, "programs": [)" + program + R"(, "variant": ")" + variant + "\"}]}";
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(text, "s.json", {}, diagnostics);
   EXPECT_TRUE(resolved) << diagnostics.to_text();
   return wire::ProgramFormat(scenario::shape_of(resolved->programs[0]));

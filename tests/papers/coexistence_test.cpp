@@ -23,7 +23,7 @@ Options short_options() {
 
 const Reproduction& made() {
   static const Reproduction once = [] {
-    scenario::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     auto reproduction = reproduce(short_options(), diagnostics);
     EXPECT_TRUE(reproduction) << diagnostics.to_text();
     return reproduction.value_or(Reproduction());
@@ -64,7 +64,7 @@ TEST(CoexistencePaper, CellsAreDrawnNotComputed) {
 // The files carry the laws that the calibration gives, rounded.
 TEST(CoexistencePaper, ScenariosCarryTheCalibratedLaws) {
   for (const int interval : intervals) {
-    scenario::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     const auto resolved = scenario::load_file(short_options().scenarios + "/mirror-" + std::to_string(interval) + "ms.json", {}, diagnostics);
     ASSERT_TRUE(resolved) << diagnostics.to_text();
     for (const PublishedTable& table : tables) {
@@ -126,7 +126,7 @@ TEST(CoexistencePaper, MeasuredFiguresStandBesideTheOthers) {
 }
 
 TEST(CoexistencePaper, SaysWhereItsScenariosAreMissing) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   Options options = short_options();
   options.scenarios = "/nowhere";
   EXPECT_FALSE(reproduce(options, diagnostics));

@@ -16,7 +16,7 @@ ProgramsOptions short_options() {
 }
 
 TEST(ProgramsPaper, ShortFormHolds) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto made = reproduce_programs(short_options(), diagnostics);
   ASSERT_TRUE(made) << diagnostics.to_text();
   std::size_t predicted = 0;
@@ -45,7 +45,7 @@ TEST(ProgramsPaper, ShortFormHolds) {
 }
 
 TEST(ProgramsPaper, SaysWhereItsScenariosAreMissing) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   ProgramsOptions options = short_options();
   options.scenarios = "/nowhere";
   EXPECT_FALSE(reproduce_programs(options, diagnostics));

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scenario/json/document.hpp"
-#include "scenario/json/node.hpp"
+#include "json/document.hpp"
+#include "json/node.hpp"
 #include "tests/scenario/support.hpp"
 
 namespace takt::scenario::test {

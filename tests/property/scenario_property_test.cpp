@@ -33,7 +33,7 @@ TEST(Holds, RefutesAFalsePropertyByTheLeastThatDoes) {
     return true;
   };
   EXPECT_FALSE(holds(shipped("robot-arm.json"), {.highest_loss = 0.01, .link_downs = true, .longest = 20_ms}, never_silent));
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto least = scenario::load_file(file, {}, diagnostics);
   ASSERT_TRUE(least) << diagnostics.to_text();
   EXPECT_EQ(least->scenario.faults.size(), 1u);

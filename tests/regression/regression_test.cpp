@@ -25,7 +25,7 @@ bool is_to_be_refused(const std::string& file) { return std::filesystem::path(fi
 TEST(Regression, EveryScenario) {
   ASSERT_FALSE(scenario_files().empty());
   for (const std::string& file : scenario_files()) {
-    scenario::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     const auto resolved = scenario::load_file(file, {}, diagnostics);
     EXPECT_EQ(resolved == nullptr, is_to_be_refused(file)) << file << "\n" << diagnostics.to_text();
     if (!resolved) continue;

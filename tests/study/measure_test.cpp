@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 
 namespace takt::study {
 namespace {

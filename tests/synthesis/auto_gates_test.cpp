@@ -16,7 +16,6 @@ namespace takt::synthesis {
 namespace {
 
 using namespace sim::literals;  // NOLINT
-namespace json = scenario::json;
 using scenario::Resolved;
 using sim::Duration;
 

@@ -19,7 +19,7 @@ using sim::Duration;
 using namespace sim::literals;  // NOLINT
 
 std::unique_ptr<scenario::Resolved> finding(const std::string& name, const std::vector<std::string>& sets = {}) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/tests/findings/" + name, sets, diagnostics);
   EXPECT_TRUE(resolved) << diagnostics.to_text();
   return resolved;
@@ -27,7 +27,7 @@ std::unique_ptr<scenario::Resolved> finding(const std::string& name, const std::
 
 /// a and c send to b over a switch; `more` goes into the scenario.
 std::unique_ptr<scenario::Resolved> small_network(const std::string& more, const std::string& port = {}, const std::string& urgent = {}) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   auto resolved = scenario::load_text(R"({"name": "small", "duration": "50ms",
     "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "c": {"kind": "host"}, "sw": {"kind": "switch")" + port + R"(}},
       "links": [{"ends": ["a", "sw"]}, {"ends": ["sw", "b"]}, {"ends": ["c", "sw"]}]},

@@ -78,7 +78,7 @@ TEST(Figures, LossesTakeTheBoundsAway) {
 
 // A reaction by its figure has the bound of the reaction, and violations are none where the invariants are proved.
 TEST(Figures, OfPrograms) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(R"({"name": "pair", "duration": "60ms",
     "network": {"nodes": {"m": {"kind": "host"}, "s": {"kind": "host"}}, "links": [{"ends": ["m", "s"]}]},
     "programs": [{"name": "p", "master": "m", "slaves": ["s"], "cycle": "1ms"}],
@@ -95,14 +95,14 @@ TEST(Figures, OfPrograms) {
 
 // The worst run of a figure that is not tight is taken apart as that of the latency is.
 TEST(Figures, SayWhatTheirBoundGivesAway) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/scenarios/validation/cut-through.json", {}, diagnostics);
   ASSERT_TRUE(resolved) << diagnostics.to_text();
   scenario::Scenario asked = resolved->scenario;
   scenario::Requirement requirement;
   requirement.figure = "latency.frames.max";
   requirement.at_most.emplace();
-  requirement.at_most->node = scenario::json::Node::of_string("1ms");
+  requirement.at_most->node = json::Node::of_string("1ms");
   asked.require = {requirement};
   const auto again = scenario::resolve(asked, diagnostics);
   ASSERT_TRUE(again) << diagnostics.to_text();

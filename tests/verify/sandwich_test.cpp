@@ -29,7 +29,7 @@ TEST(Sandwich, OfEveryShippedScenario) {
   std::size_t bounds = 0;
   std::size_t files = 0;
   for (const std::string& file : shipped()) {
-    scenario::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     // Clocks take seconds to settle, and large rings to run; what they do in the first second must not exceed a bound either.
     const bool is_long = file.find("/clocks/") != std::string::npos || file.find("ring-1000") != std::string::npos;
     const auto resolved = scenario::load_file(file, is_long ? std::vector<std::string>{"/duration=300ms"} : std::vector<std::string>{}, diagnostics);
@@ -51,7 +51,7 @@ TEST(Sandwich, OfEveryShippedScenario) {
 
 // Streams with windows of their own: what is simulated, the worst that can be found and the bound are one.
 TEST(Sandwich, AutomaticGatesAreProved) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/scenarios/tsn/automatic-gates.json", {}, diagnostics);
   ASSERT_TRUE(resolved) << diagnostics.to_text();
   const Verification found = verify(*resolved, small());
@@ -69,7 +69,7 @@ TEST(Sandwich, AutomaticGatesAreProved) {
 
 // Operating systems, calls and phases meet at their worst: what the bounds give away is little.
 TEST(Sandwich, TheWorstRunOfRobotArmComesNearItsBounds) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/scenarios/robot-arm.json", {}, diagnostics);
   ASSERT_TRUE(resolved) << diagnostics.to_text();
   Options options;
@@ -82,7 +82,7 @@ TEST(Sandwich, TheWorstRunOfRobotArmComesNearItsBounds) {
 }
 
 Verification verified(const std::string& requirements) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(R"({"name": "two", "duration": "20ms",
     "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "c": {"kind": "host"}, "sw": {"kind": "switch"}},
       "links": [{"ends": ["a", "sw"]}, {"ends": ["sw", "b"]}, {"ends": ["c", "sw"]}]},
@@ -110,7 +110,7 @@ TEST(Sandwich, VerdictsFollowFromTheLimit) {
 
 // "suspend within 2ms" fails where nobody suspends: refuted by that run, which contradicts no bound.
 TEST(Sandwich, WantOfAReactionIsNoContradiction) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/tests/findings/contradiction-without-a-reaction.json", {}, diagnostics);
   ASSERT_TRUE(resolved) << diagnostics.to_text();
   const Verification found = verify(*resolved, small());
@@ -131,7 +131,7 @@ TEST(Sandwich, UndecidedBetweenTheWorstRunAndTheBound) {
 // Who has a role is settled while the Program runs, in every order that the explorer finds.
 TEST(Sandwich, InvariantsOfAProgramWithRolesAreExplored) {
   const auto judged = [](const std::string& script) {
-    scenario::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     const auto resolved = scenario::load_text(R"({"name": "roles", "duration": "300ms", "network": {
       "nodes": {"sw": {"kind": "switch"}, "m": {"kind": "host"}, "a": {"kind": "host", "offers": ["weld"]}, "b": {"kind": "host", "offers": ["weld"]}},
       "links": [{"ends": ["m", "sw"]}, {"ends": ["a", "sw"]}, {"ends": ["b", "sw"]}]},

@@ -129,7 +129,7 @@ TEST(Slack, IsSilentAboutWhatIsTight) {
 
 // The frame is cut through by the switch, which also has a class that is not: the bound stores it, 8 + 100 + 28 + 18 + 4 octets less what its header takes.
 TEST(Slack, StandsInTheReport) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/scenarios/validation/cut-through.json", {}, diagnostics);
   ASSERT_TRUE(resolved) << diagnostics.to_text();
   Options options;

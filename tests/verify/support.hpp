@@ -23,7 +23,7 @@ inline Options small() {
 
 /// A scenario that must be sound.
 inline std::unique_ptr<scenario::Resolved> resolved(const std::string& text) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   auto made = scenario::load_text(text, "test", {}, diagnostics);
   if (!made) throw std::runtime_error(diagnostics.to_text());
   return made;

@@ -36,7 +36,7 @@ BoundFigures run_bound(unsigned switches, unsigned streams) {
   BoundFigures figures;
   const std::string text = mesh_text(switches, streams);
   const double before = cpu_seconds();
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(text, "mesh.json", {}, diagnostics);
   if (!resolved) {
     std::fputs(diagnostics.to_text().c_str(), stderr);

@@ -10,7 +10,7 @@
 namespace takt::benchmark {
 
 PairFigures run_pair(double simulated_seconds) {
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const std::string duration = "/duration=" + std::to_string(static_cast<long long>(simulated_seconds * 1e6)) + "us";
   // One start and no further calls: both directions carry state and process data all the time, with every invariant checked.
   const auto resolved = scenario::load_file(TAKT_SOURCE_DIR "/scenarios/direct-link.json",

@@ -12,8 +12,8 @@ namespace takt::benchmark {
 double point_setup(unsigned points) {
   const double before = cpu_seconds();
   for (unsigned i = 0; i < points; ++i) {
-    scenario::json::Diagnostics diagnostics;
-    const auto base = scenario::json::parse_file(TAKT_SOURCE_DIR "/scenarios/robot-arm.json", diagnostics);
+    json::Diagnostics diagnostics;
+    const auto base = json::parse_file(TAKT_SOURCE_DIR "/scenarios/robot-arm.json", diagnostics);
     if (!base) std::abort();
     const study::Plan plan = study::plain_plan(*base, 1, 1);
     auto scenario = study::scenario_of(plan, {}, i, diagnostics);

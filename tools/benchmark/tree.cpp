@@ -37,7 +37,7 @@ TreeFigures run_tree(unsigned depth, unsigned fanout, unsigned hosts_per_leaf, d
 
   const std::size_t octets_before = allocated_octets();
   const double setup_before = cpu_seconds();
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(text, "tree.json", {}, diagnostics);
   if (!resolved) {
     std::fputs(diagnostics.to_text().c_str(), stderr);

@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
+#include "json/suggest.hpp"
 #include "node/dds/participant.hpp"
-#include "scenario/json/suggest.hpp"
 #include "sim/check.hpp"
 #include "vocabulary/keys.hpp"
 #include "vocabulary/protocol.hpp"

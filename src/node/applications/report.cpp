@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
+#include "json/document.hpp"
 #include "node/applications/host.hpp"
-#include "scenario/json/document.hpp"
 
 namespace takt::node {
 namespace {

@@ -12,7 +12,7 @@ bool Reproduction::holds() const {
   return std::all_of(comparisons.begin(), comparisons.end(), [](const Comparison& comparison) { return comparison.holds; });
 }
 
-std::optional<Reproduction> reproduce(const Options& options, scenario::json::Diagnostics& diagnostics) {
+std::optional<Reproduction> reproduce(const Options& options, json::Diagnostics& diagnostics) {
   Reproduction made;
   made.is_short = options.is_short;
   made.laws = compare_laws();

@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "json/diagnostics.hpp"
 #include "papers/coexistence/calibration.hpp"
 #include "papers/coexistence/measured.hpp"
 #include "papers/coexistence/runs.hpp"
 #include "papers/comparison.hpp"
-#include "scenario/json/diagnostics.hpp"
 
 namespace takt::papers::coexistence {
 
@@ -82,6 +82,6 @@ struct Reproduction {
 std::string cell_name(const PublishedTable& table, std::size_t column);
 
 /// Runs everything. Nothing if a scenario cannot be read: the diagnostics say why.
-std::optional<Reproduction> reproduce(const Options& options, scenario::json::Diagnostics& diagnostics);
+std::optional<Reproduction> reproduce(const Options& options, json::Diagnostics& diagnostics);
 
 }  // namespace takt::papers::coexistence

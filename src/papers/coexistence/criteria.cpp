@@ -145,7 +145,7 @@ std::string cell_name(const PublishedTable& table, std::size_t column) {
 const ThreadFigures& thread_of(const RunFigures& run, const PublishedTable& table) { return figures_of(run, table.protocol, table.node, table.operation); }
 const ThreadFigures& thread_of(const RunFigures& run, const Receiver& receiver) { return figures_of(run, receiver.protocol, receiver.node, "subscribe"); }
 
-bool reproduce_criteria(const Options& options, Reproduction& made, scenario::json::Diagnostics& diagnostics) {
+bool reproduce_criteria(const Options& options, Reproduction& made, json::Diagnostics& diagnostics) {
   ByColumn runs;
   ByColumn unloaded;
   made.repetitions = options.is_short ? repetitions_of_short : repetitions_of_long;

@@ -6,7 +6,7 @@
 namespace takt::papers::coexistence {
 
 /// False if a scenario cannot be read.
-bool reproduce_criteria(const Options& options, Reproduction& made, scenario::json::Diagnostics& diagnostics);
+bool reproduce_criteria(const Options& options, Reproduction& made, json::Diagnostics& diagnostics);
 
 /// The thread that a table is about: "dds-control", "subscribe".
 const ThreadFigures& thread_of(const RunFigures& run, const PublishedTable& table);

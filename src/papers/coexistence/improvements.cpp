@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <memory>
 
+#include "json/fields.hpp"
 #include "papers/coexistence/criteria.hpp"
 #include "papers/coexistence/variants.hpp"
-#include "scenario/json/fields.hpp"
 #include "scenario/resolve/resolve.hpp"
 
 namespace takt::papers::coexistence {
@@ -28,7 +28,7 @@ constexpr std::array<Variant, 4> variants = {{
 
 class Improver {
  public:
-  Improver(const Options& options, Reproduction& made, scenario::json::Diagnostics& diagnostics) : options_(options), made_(made), diagnostics_(diagnostics) {}
+  Improver(const Options& options, Reproduction& made, json::Diagnostics& diagnostics) : options_(options), made_(made), diagnostics_(diagnostics) {}
 
   bool row(const Variant& variant, int interval) {
     ImprovementRow row;
@@ -57,7 +57,7 @@ class Improver {
     if (variant.real_time) use_real_time_linux(scenario);
     if (variant.tsn) use_tsn(scenario);
     if (is_reaction) command_rarely(scenario);
-    made_.scenarios.emplace_back(scenario.name, scenario::json::encode(scenario));
+    made_.scenarios.emplace_back(scenario.name, json::encode(scenario));
     return scenario::resolve(scenario, diagnostics_);
   }
 
@@ -78,12 +78,12 @@ class Improver {
 
   const Options& options_;
   Reproduction& made_;
-  scenario::json::Diagnostics& diagnostics_;
+  json::Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
-bool improve(const Options& options, Reproduction& made, scenario::json::Diagnostics& diagnostics) {
+bool improve(const Options& options, Reproduction& made, json::Diagnostics& diagnostics) {
   Improver improver(options, made, diagnostics);
   for (const int interval : intervals) {
     if (options.is_short && interval != 10 && interval != 1) continue;

@@ -7,7 +7,7 @@
 namespace takt::papers::coexistence {
 namespace {
 
-using scenario::json::Node;
+using json::Node;
 
 double microseconds(sim::Duration d) { return static_cast<double>(d.ps()) * 1e-6; }
 
@@ -173,7 +173,7 @@ std::string json_report(const Reproduction& made) {
     runs.add(speed.scenario, std::move(run));
   }
   node.add("runs", std::move(runs));
-  return scenario::json::pretty(node);
+  return json::pretty(node);
 }
 
 std::string write_folder(const std::string& folder, const Reproduction& made) {

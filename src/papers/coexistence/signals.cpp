@@ -40,7 +40,7 @@ void check_claims(Reproduction& made) {
 
 }  // namespace
 
-bool reproduce_signals(const Options& options, Reproduction& made, scenario::json::Diagnostics& diagnostics) {
+bool reproduce_signals(const Options& options, Reproduction& made, json::Diagnostics& diagnostics) {
   int figure = 5;
   for (const int interval : signal_intervals) {
     const auto resolved = scenario::load_file(fmt::format("{}/gateway-{}ms.json", options.scenarios, interval), {}, diagnostics);

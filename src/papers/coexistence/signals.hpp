@@ -6,6 +6,6 @@
 namespace takt::papers::coexistence {
 
 /// False if a scenario cannot be read.
-bool reproduce_signals(const Options& options, Reproduction& made, scenario::json::Diagnostics& diagnostics);
+bool reproduce_signals(const Options& options, Reproduction& made, json::Diagnostics& diagnostics);
 
 }  // namespace takt::papers::coexistence

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-#include "scenario/json/override.hpp"
+#include "json/override.hpp"
 
 namespace takt::papers::validation {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "json/diagnostics.hpp"
+#include "json/document.hpp"
 #include "papers/validation/table.hpp"
-#include "scenario/json/diagnostics.hpp"
-#include "scenario/json/document.hpp"
 
 namespace takt::papers::validation {
 

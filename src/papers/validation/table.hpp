@@ -6,12 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "scenario/json/any.hpp"
-#include "scenario/json/fields.hpp"
+#include "json/any.hpp"
+#include "json/fields.hpp"
 
 namespace takt::papers::validation {
-
-namespace json = scenario::json;
 
 /// Places of a scenario and what is put there.
 using Patch = json::NameMap<json::Any>;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "json/fields.hpp"
 #include "scenario/applications/description_dds.hpp"
 #include "scenario/description/latency.hpp"
-#include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "vocabulary/application.hpp"
 #include "vocabulary/program.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "scenario/json/fields.hpp"
+#include "json/fields.hpp"
 #include "sim/time.hpp"
 #include "vocabulary/dds.hpp"
 

@@ -5,14 +5,14 @@
 #include <string_view>
 #include <utility>
 
+#include "json/suggest.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "scenario/applications/dds_qos.hpp"
+#include "scenario/applications/expected_values.hpp"
 #include "scenario/applications/gateway_bridge.hpp"
 #include "scenario/applications/opc_ua_port.hpp"
-#include "scenario/applications/expected_values.hpp"
 #include "scenario/applications/resolve_dds.hpp"
 #include "scenario/applications/resolved_dds.hpp"
-#include "scenario/json/suggest.hpp"
 #include "scenario/resolve/known_names.hpp"
 #include "scenario/resolve/os_profiles.hpp"
 #include "vocabulary/keys.hpp"

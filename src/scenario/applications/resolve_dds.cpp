@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "dds/participant/participant.hpp"
+#include "json/suggest.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "scenario/applications/dds_port.hpp"
 #include "scenario/applications/qos_places.hpp"
-#include "scenario/json/suggest.hpp"
 
 namespace takt::scenario {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/json/fields.hpp"
+#include "json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "handshake/cause.hpp"
+#include "json/any.hpp"
+#include "json/fields.hpp"
 #include "scenario/applications/description_applications.hpp"
 #include "scenario/description/clocks.hpp"
 #include "scenario/description/faults.hpp"
 #include "scenario/description/figures.hpp"
 #include "scenario/description/ingress.hpp"
 #include "scenario/description/latency.hpp"
-#include "scenario/json/any.hpp"
-#include "scenario/json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 #include "vocabulary/plug.hpp"
@@ -24,7 +24,7 @@
 
 namespace takt::handshake {
 /// Here, since the words are those of scenario files.
-const scenario::json::Enumeration& describe(scenario::json::Type<Cause>);
+const json::Enumeration& describe(json::Type<Cause>);
 }  // namespace takt::handshake
 
 namespace takt::scenario {

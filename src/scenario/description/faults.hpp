@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "scenario/json/fields.hpp"
+#include "json/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 

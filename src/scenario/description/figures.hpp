@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scenario/json/fields.hpp"
+#include "json/fields.hpp"
 
 namespace takt::scenario {
 

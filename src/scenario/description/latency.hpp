@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "scenario/json/fields.hpp"
+#include "json/fields.hpp"
 #include "sim/time.hpp"
 
 namespace takt::scenario {

@@ -210,9 +210,9 @@ const json::Object& describe(json::Type<Scenario>) {
 
 namespace takt::handshake {
 
-const scenario::json::Enumeration& describe(scenario::json::Type<Cause>) {
-  using scenario::json::name;
-  static constexpr scenario::json::EnumName names[] = {
+const json::Enumeration& describe(json::Type<Cause>) {
+  using json::name;
+  static constexpr json::EnumName names[] = {
       name(Cause::command, "command", "a method was called"),
       name(Cause::crash, "crash", "the node of a participant failed"),
       name(Cause::restart, "restart", "a node is back without its memory, before anybody found it silent"),
@@ -222,7 +222,7 @@ const scenario::json::Enumeration& describe(scenario::json::Type<Cause>) {
       name(Cause::mismatch, "mismatch", "a participant was told what it cannot follow"),
       name(Cause::nested, "nested", "the group around this one, or within it, did the same"),
   };
-  static constexpr scenario::json::Enumeration table = scenario::json::enumeration<Cause>("the cause of a reaction", names);
+  static constexpr json::Enumeration table = json::enumeration<Cause>("the cause of a reaction", names);
   return table;
 }
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "json/quantity.hpp"
+#include "json/suggest.hpp"
 #include "scenario/figures/known_figures.hpp"
-#include "scenario/json/quantity.hpp"
-#include "scenario/json/suggest.hpp"
 
 namespace takt::scenario {
 namespace {

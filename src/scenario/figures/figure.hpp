@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "json/any.hpp"
+#include "json/diagnostics.hpp"
+#include "json/document.hpp"
+#include "json/node.hpp"
 #include "scenario/description/description.hpp"
-#include "scenario/json/any.hpp"
-#include "scenario/json/diagnostics.hpp"
-#include "scenario/json/document.hpp"
-#include "scenario/json/node.hpp"
 
 namespace takt::scenario {
 

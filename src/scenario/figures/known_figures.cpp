@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "json/record.hpp"
 #include "results/run_result.hpp"
-#include "scenario/json/record.hpp"
 #include "scenario/topology/graph_figures.hpp"
 
 namespace takt::scenario {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "json/quantity.hpp"
+#include "json/suggest.hpp"
 #include "models/ethernet/frame.hpp"
 #include "scenario/figures/known_figures.hpp"
 #include "scenario/figures/requirement_rules.hpp"
-#include "scenario/json/quantity.hpp"
-#include "scenario/json/suggest.hpp"
 #include "scenario/resolve/known_names.hpp"
 
 namespace takt::scenario {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "json/quantity.hpp"
 #include "scenario/figures/known_figures.hpp"
-#include "scenario/json/quantity.hpp"
 
 namespace takt::scenario {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <optional>
 
+#include "json/diagnostics.hpp"
+#include "json/quantity.hpp"
 #include "models/egress/cyclic_schedule.hpp"
 #include "scenario/description/description.hpp"
-#include "scenario/json/diagnostics.hpp"
-#include "scenario/json/quantity.hpp"
 
 namespace takt::scenario {
 

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "json/suggest.hpp"
 #include "models/ethernet/sizes.hpp"
-#include "scenario/json/suggest.hpp"
 #include "scenario/resolve/known_names.hpp"
 #include "scenario/topology/rerouting.hpp"
 

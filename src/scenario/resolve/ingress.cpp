@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "scenario/json/suggest.hpp"
+#include "json/suggest.hpp"
 #include "scenario/resolve/cqf.hpp"
 #include "scenario/resolve/ingress_tables.hpp"
 #include "scenario/resolve/known_names.hpp"

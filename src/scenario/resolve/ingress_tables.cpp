@@ -3,7 +3,7 @@
 #include <charconv>
 #include <vector>
 
-#include "scenario/json/suggest.hpp"
+#include "json/suggest.hpp"
 #include "scenario/resolve/control_list.hpp"
 #include "scenario/resolve/known_names.hpp"
 

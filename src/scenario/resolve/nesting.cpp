@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "scenario/json/suggest.hpp"
+#include "json/suggest.hpp"
 #include "scenario/resolve/known_names.hpp"
 
 namespace takt::scenario {

@@ -1,7 +1,7 @@
 // Which Program is nested in which: checked, and noted in the resolved programs.
 #pragma once
 
-#include "scenario/json/diagnostics.hpp"
+#include "json/diagnostics.hpp"
 #include "scenario/resolve/resolved.hpp"
 
 namespace takt::scenario {

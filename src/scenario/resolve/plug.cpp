@@ -4,10 +4,10 @@
 #include <map>
 #include <set>
 
+#include "json/suggest.hpp"
 #include "models/ethernet/sizes.hpp"
-#include "scenario/json/suggest.hpp"
-#include "scenario/resolve/known_names.hpp"
 #include "scenario/programs/program_shape.hpp"
+#include "scenario/resolve/known_names.hpp"
 #include "uadp/builtin_type.hpp"
 #include "vocabulary/protocol.hpp"
 #include "wire/plug_endpoint.hpp"

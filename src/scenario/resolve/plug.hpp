@@ -1,7 +1,7 @@
 // Programs with roles: who may have which role, and the streams between the master and all that may.
 #pragma once
 
-#include "scenario/json/diagnostics.hpp"
+#include "json/diagnostics.hpp"
 #include "scenario/resolve/resolved.hpp"
 #include "scenario/resolve/stream_builder.hpp"
 

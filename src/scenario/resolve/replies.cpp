@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "scenario/json/suggest.hpp"
+#include "json/suggest.hpp"
 #include "scenario/resolve/known_names.hpp"
 #include "scenario/resolve/os_profiles.hpp"
 

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "json/suggest.hpp"
 #include "scenario/applications/resolve_applications.hpp"
 #include "scenario/figures/requirement.hpp"
-#include "scenario/json/suggest.hpp"
 #include "scenario/resolve/known_names.hpp"
 
 namespace takt::scenario {

@@ -4,11 +4,11 @@
 #include <set>
 #include <utility>
 
+#include "json/override.hpp"
+#include "json/suggest.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "scenario/applications/resolve_applications.hpp"
 #include "scenario/idle/idle.hpp"
-#include "scenario/json/override.hpp"
-#include "scenario/json/suggest.hpp"
 #include "scenario/programs/program_shape.hpp"
 #include "scenario/resolve/clocks.hpp"
 #include "scenario/resolve/demand.hpp"

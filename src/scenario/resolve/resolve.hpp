@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "scenario/json/document.hpp"
+#include "json/document.hpp"
 #include "scenario/resolve/resolved.hpp"
 
 namespace takt::scenario {

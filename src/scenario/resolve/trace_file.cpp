@@ -4,9 +4,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "json/quantity.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "scenario/description/limits.hpp"
-#include "scenario/json/quantity.hpp"
 
 namespace takt::scenario {
 namespace {

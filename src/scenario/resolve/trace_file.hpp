@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "json/diagnostics.hpp"
 #include "models/host/talker.hpp"
-#include "scenario/json/diagnostics.hpp"
 
 namespace takt::scenario {
 

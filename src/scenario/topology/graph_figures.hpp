@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "scenario/json/record.hpp"
+#include "json/record.hpp"
 #include "scenario/resolve/resolved.hpp"
 
 namespace takt::scenario {

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "scenario/json/suggest.hpp"
+#include "json/suggest.hpp"
 
 namespace takt::scenario {
 

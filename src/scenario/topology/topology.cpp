@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "json/suggest.hpp"
 #include "scenario/description/limits.hpp"
-#include "scenario/json/suggest.hpp"
 #include "scenario/topology/generators.hpp"
 
 namespace takt::scenario {

@@ -49,7 +49,7 @@ TEST(Findings, AreSeenByARun) {
   for (const auto& entry : std::filesystem::directory_iterator(std::string(TAKT_SOURCE_DIR) + "/scenarios/findings")) {
     if (entry.path().extension() != ".json") continue;
     const std::string name = entry.path().stem().string();
-    scenario::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     const auto resolved = scenario::load_file(entry.path().string(), {}, diagnostics);
     ASSERT_NE(resolved, nullptr) << diagnostics.to_text();
     scenario::Run run(*resolved);

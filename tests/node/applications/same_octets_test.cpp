@@ -49,7 +49,7 @@ class Capture final : public sim::TraceSink {
 
 std::vector<Message> simulated() {
   const std::string text = R"({"name": "same", "duration": "3900us", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]}, )" + words + "}";
-  scenario::json::Diagnostics diagnostics;
+  json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(text, "same.json", {}, diagnostics);
   EXPECT_TRUE(resolved) << diagnostics.to_text();
   if (!resolved) return {};

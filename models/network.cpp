@@ -23,6 +23,7 @@ Network::Network(sim::Simulation& simulation, NetworkPlan plan) : simulation_(&s
   announce_cut_through();
   set_up_gptp();
   add_talkers();
+  for (std::size_t p = 0; p < first_port_.back(); ++p) ports_[p].prepare();
 }
 
 Network::~Network() = default;
@@ -129,7 +130,7 @@ void Network::add_talker(const TalkerPlan& talker) {
   if (!talker.launch) return;
   talkers_.back()->set_launch(*talker.launch);
   output.look_closer();
-  for (EgressPort& port : mutable_ports(stream.talker)) port.make_conditional();
+  for (EgressPort& port : mutable_ports(stream.talker)) port.link().check_arrivals();
 }
 
 void Network::set_up_ingress() {
@@ -144,7 +145,7 @@ void Network::set_up_ingress() {
                                                     static_cast<std::uint32_t>(plan_.nodes.size()));
     bridges_[n]->set_ingress_chain(ingress_[n].get());
     for (EgressPort& port : mutable_ports(node))
-      if (port.is_connected()) port.make_conditional();
+      if (port.is_connected()) port.link().check_arrivals();
   }
 }
 
@@ -161,14 +162,14 @@ void Network::set_up_faults() {
     if (!link.may_fail) continue;
     for (const auto& [from, to] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
       const std::string path = plan_.nodes[from->node.value].name + " to " + plan_.nodes[to->node.value].name + ":" + std::to_string(to->port);
-      mutable_ports(from->node)[from->port].expect_faults(*simulation_, path);
+      mutable_ports(from->node)[from->port].link().expect_faults(*simulation_, path);
       if (outputs_[from->node.value]) outputs_[from->node.value]->look_closer();
     }
   }
   for (const ImpairmentPlan& impairment : plan_.impairments) {
     const LinkPlan& link = plan_.links[impairment.link];
     const LinkPlan::End& from = impairment.from_a_to_b ? link.a : link.b;
-    mutable_ports(from.node)[from.port].add_impairment(impairment.impairment);
+    mutable_ports(from.node)[from.port].link().add_impairment(impairment.impairment);
   }
 }
 
@@ -189,8 +190,8 @@ void Network::announce_cut_through() {
         for (unsigned p = 0; p < 8; ++p)
           if (&other != &port && other.is_connected() && contains(other.config().cut_through, other.config().traffic_class_of_priority[p])) priorities = static_cast<std::uint8_t>(priorities | 1u << p);
       priorities = static_cast<std::uint8_t>(priorities & ~timed);
-      if (priorities == 0 || !port.is_connected() || port.opposite() == nullptr) continue;
-      port.opposite()->notice_headers(priorities, plan_.nodes[n].cut_through_header);
+      if (priorities == 0 || !port.is_connected()) continue;
+      port.incoming().notice_headers(priorities, plan_.nodes[n].cut_through_header);
       announced = true;
     }
     // A header may lead to any port, whether that cuts through or not.
@@ -206,7 +207,7 @@ void Network::set_link(std::uint32_t link, bool up) {
   const bool was_up = reasons == 0;
   reasons = up ? reasons - 1 : reasons + 1;
   if (was_up == (reasons == 0)) return;
-  for (const LinkPlan::End& end : {plan.a, plan.b}) mutable_ports(end.node)[end.port].set_up(*simulation_, reasons == 0);
+  for (const LinkPlan::End& end : {plan.a, plan.b}) mutable_ports(end.node)[end.port].set_link_up(*simulation_, reasons == 0);
   for (const LinkPlan::End& end : {plan.a, plan.b})
     if (stations_[end.node.value]) stations_[end.node.value]->set_link(end.port, reasons == 0);
 }
@@ -281,7 +282,7 @@ void Network::connect(const LinkPlan::End& from, const LinkPlan::End& to, const 
   mutable_ports(from.node)[from.port].connect(*simulation_, shared_, port_config_of(from), clock_of(from.node),
                                               link.rate.octet_time(),
                                               {component_of(to.node), to.port, link.delay + fixed_delay_of(to.node), fixed_delay_of(to.node)},
-                                              &mutable_ports(to.node)[to.port]);
+                                              mutable_ports(to.node)[to.port].link());
   if (from.gates_may_stick) mutable_ports(from.node)[from.port].expect_stuck_gates();
 }
 

@@ -17,16 +17,16 @@ inline void Bridge::pass_on(sim::Simulation& simulation, ArrivalArgument arrival
 void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
   TAKT_CHECK(event.kind() == static_cast<sim::EventKind>(NodeEvent::frame_arrived), "a bridge receives frames only");
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
-  if (looks_closer_ || arrival.notes != 0) [[unlikely]]
-    receive_noted(simulation, arrival);
+  if (looks_closer_ || arrival.flags != 0) [[unlikely]]
+    receive_flagged(simulation, arrival);
   else
     pass_on(simulation, arrival);
 }
 
-void Bridge::receive_noted(sim::Simulation& simulation, ArrivalArgument arrival) {
-  if (looks_closer_ || arrival.notes != withdrawable)
+void Bridge::receive_flagged(sim::Simulation& simulation, ArrivalArgument arrival) {
+  if (looks_closer_ || arrival.flags != ArrivalArgument::preemptable)
     look_closer(simulation, arrival);
-  else if (ports_[arrival.port].opposite()->has_come(simulation.now(), arrival.frame))
+  else if (ports_[arrival.port].incoming().receive(simulation, arrival.frame, arrival.flags))
     pass_on(simulation, arrival);
 }
 
@@ -43,14 +43,12 @@ void Bridge::prefetch(const sim::Event& event, Ahead ahead) const {
 /// A frame in a condition of its own, or a bridge that does more than forward.
 void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
   FrameIndex frame = arrival.frame;
-  EgressPort* const sender = ports_[arrival.port].opposite();
-  if ((arrival.notes & (conditional | withdrawable)) != 0 && sender != nullptr && !sender->confirm(simulation, frame, arrival.notes)) return;
-  const bool only_header = (arrival.notes & header_only) != 0;
+  Link& link = ports_[arrival.port].incoming();
+  if (arrival.is_uncertain() && !link.receive(simulation, frame, arrival.flags)) return;
+  const bool only_header = (arrival.flags & ArrivalArgument::header_only) != 0;
   Header header;
   if (only_header) {
-    const Frame& record = traffic_->frame(frame);
-    header.sender = sender;
-    header.stored = simulation.now() + sender->octet_time() * (std::int64_t{preamble_and_sfd.count} + record.length - sender->header_notice(record).count);
+    header = {link.complete_at(simulation.now(), traffic_->frame(frame)), &link};
   } else if (traffic_->frame(frame).bad_fcs) {
     traffic_->drop(frame, DropReason::bad_fcs, id_, simulation);
     return;
@@ -122,7 +120,7 @@ void Bridge::hand_over(sim::Simulation& simulation, FrameIndex frame, std::uint1
     traffic_->set_tags(frame, false, traffic_->frame(frame).r_tagged);
   }
   if (header != nullptr)
-    port.offer_header(simulation, frame, from, header->stored, *header->sender);
+    port.offer_header(simulation, frame, from, header->stored, *header->link);
   else
     port.offer(simulation, frame, from);
 }

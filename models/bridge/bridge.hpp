@@ -41,7 +41,7 @@ class alignas(64) Bridge final : public sim::Component {
   /// What a frame still lacks when only its header has come.
   struct Header {
     sim::TrueTime stored;                 ///< when it has wholly come and the forwarding delay is over
-    EgressPort* sender = nullptr;         ///< the port from which it comes
+    Link* link = nullptr;                 ///< by which it comes
   };
   struct Arrived {
     FrameIndex frame;
@@ -50,7 +50,7 @@ class alignas(64) Bridge final : public sim::Component {
     Header header;
   };
   void pass_on(sim::Simulation& simulation, ArrivalArgument arrival);
-  [[gnu::noinline]] void receive_noted(sim::Simulation& simulation, ArrivalArgument arrival);
+  [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, ArrivalArgument arrival);
   void look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
   void forward(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header);
   void forward_to_many(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, std::span<const std::uint16_t> egress, const Header* header);

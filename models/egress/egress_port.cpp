@@ -18,30 +18,21 @@ void sort_by_rank(Arrivals& arrivals) {
 }  // namespace
 
 void EgressPort::connect(sim::Simulation& simulation, Shared& shared, const PortConfig& config, const LocalClock& clock,
-                         sim::Duration octet_time, LinkEnd far_end, EgressPort* opposite) {
+                         sim::Duration octet_time, LinkEnd far_end, Link& incoming) {
   TAKT_CHECK(shared_ == nullptr, "a port has one link");
-  TAKT_CHECK(octet_time.ps() > 0 && octet_time.ps() < (1 << 20), "an octet lasts between 1 ps and 1 us");
-  TAKT_CHECK(far_end.delay.ps() >= 0 && far_end.delay.ps() < (std::int64_t{1} << 44), "a link and its far node delay a frame by at most 17 s");
-  source_ = sim::EventSource(simulation.add(*this));
+  link_.connect(simulation.add(*this), *shared.traffic, octet_time, far_end);
   shared_ = &shared;
   config_ = &config;
   clock_ = &clock;
-  opposite_ = opposite;
-  octet_time_ps_ = static_cast<std::uint32_t>(octet_time.ps());
-  peer_order_ = sim::Event::order_of(sim::Phase::arrival, far_end.node, source_.id());
-  peer_port_ = far_end.port;
-  peer_delay_ps_ = static_cast<std::uint64_t>(far_end.delay.ps()) & 0xFFF'FFFF'FFFF;
+  incoming_ = &incoming;
   if (!config.shaping.is_plain()) make_shaping();
   if (config.preemption || config.cut_through != 0 || config.untagged) make_extras();
   if (config.preemption) extras_->merge = std::make_unique<MacMerge>(*config.preemption, octet_time);
-  if (config.cut_through != 0) make_conditional();
-  find_gates();
-  node_delay_ = far_end.node_delay;
+  if (config.cut_through != 0) link_.check_arrivals();
 }
 
 inline void EgressPort::find_way() {
-  if (extras_ && !shaping_ && queues_.empty() && extras_->merge && !extras_->merge->rest() && !extras_->fault && !extras_->conditional &&
-      extras_->noticed_priorities == 0 && !extras_->expects_headers)
+  if (extras_ && !shaping_ && queues_.empty() && extras_->merge && !extras_->merge->rest() && link_.is_plain() && !extras_->expects_headers)
     way_ = Way::merging;
   else
     way_ = !queues_.empty() || extras_ ? Way::detour : !shaping_ ? Way::straight : only_gates_ != nullptr ? Way::gated : Way::detour;
@@ -61,23 +52,11 @@ PortShaping& EgressPort::make_shaping() {
 
 EgressPort::Extras& EgressPort::make_extras() {
   if (!extras_) extras_ = std::make_unique<Extras>();
-  find_gates();
   return *extras_;
 }
 
-void EgressPort::notice_headers(std::uint8_t priorities, Octets header) {
-  make_extras().noticed_priorities = priorities;
-  extras_->noticed_header = header;
-  find_gates();
-}
-
-void EgressPort::expect_headers() {
-  make_extras().expects_headers = true;
-  find_gates();
-}
-
-void EgressPort::make_conditional() {
-  make_extras().conditional = true;
+void EgressPort::prepare() {
+  if (!link_.is_plain()) make_extras();
   find_gates();
 }
 
@@ -111,7 +90,7 @@ void EgressPort::take_last(sim::Simulation& simulation, FrameIndex frame, const 
     offer(simulation, frame, rank);
     return;
   }
-  if (simulation.now() >= busy_until_) {
+  if (simulation.now() >= link_.free_at()) {
     if (way_ == Way::straight) {
       start(simulation, frame, record);
       return;
@@ -133,7 +112,7 @@ void EgressPort::take_last(sim::Simulation& simulation, FrameIndex frame, const 
 void EgressPort::settle(sim::Simulation& simulation) {
   settling_ = false;
   // The common case: one frame, nothing waits, the medium is free.
-  if (has_arrival_ && way_ != Way::detour && more_arrivals_.empty() && simulation.now() >= busy_until_) [[likely]] {
+  if (has_arrival_ && way_ != Way::detour && more_arrivals_.empty() && simulation.now() >= link_.free_at()) [[likely]] {
     has_arrival_ = false;
     if (way_ == Way::straight)
       start(simulation, arrival_.frame);
@@ -170,9 +149,9 @@ inline void EgressPort::settle_one(sim::Simulation& simulation, FrameIndex frame
   const Frame& record = shared_->traffic->frame(frame);
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
   shaping_->frame_waits(now, q);
-  if (now < busy_until_) {
+  if (now < link_.free_at()) {
     admit(simulation, frame);
-    wake_at(simulation, busy_until_);
+    wake_at(simulation, link_.free_at());
     return;
   }
   const sim::TrueTime ready = shaping_->ready_time(now, q, {record.length, eligible_of(frame)});
@@ -192,8 +171,8 @@ inline void EgressPort::settle_waiting(sim::Simulation& simulation) {
   const sim::TrueTime now = simulation.now();
   const TrafficClass q = highest_class(queues_.waiting());
   const FrameIndex frame = queues_.head(q, shared_->entries);
-  sim::TrueTime ready = busy_until_;
-  if (now >= busy_until_) {
+  sim::TrueTime ready = link_.free_at();
+  if (now >= link_.free_at()) {
     ready = shaping_ && promised_ != now ? shaping_->ready_time(now, q, {shared_->traffic->frame(frame).length, eligible_of(frame)}) : now;
     if (ready == now) {
       pop(simulation, q);
@@ -203,7 +182,7 @@ inline void EgressPort::settle_waiting(sim::Simulation& simulation) {
       }
       start(simulation, frame);
       find_way();
-      ready = busy_until_;
+      ready = link_.free_at();
     }
   }
   if (!queues_.empty()) wake_at(simulation, ready);
@@ -217,11 +196,11 @@ void EgressPort::settle_many(sim::Simulation& simulation) {
       find_way();
       return;
     }
-    if (has_arrival_ && !shaping_ && simulation.now() < busy_until_) {
+    if (has_arrival_ && !shaping_ && simulation.now() < link_.free_at()) {
       has_arrival_ = false;
       admit(simulation, arrival_.frame);
       find_way();
-      if (!queues_.empty()) wake_at(simulation, busy_until_);
+      if (!queues_.empty()) wake_at(simulation, link_.free_at());
       return;
     }
     if (!has_arrival_ && is_one_class(queues_.waiting())) {
@@ -238,7 +217,7 @@ void EgressPort::settle_all_classes(sim::Simulation& simulation) {
   promised_ = sim::TrueTime::never();
   if (has_arrival_) more_arrivals_.insert(more_arrivals_.begin(), arrival_);
   has_arrival_ = false;
-  if (is_down()) {
+  if (!link_.is_up()) {
     for (const Arrival& arrival : more_arrivals_) give_up(simulation, arrival.frame, DropReason::link_down);
     more_arrivals_.clear();
     return;
@@ -246,7 +225,7 @@ void EgressPort::settle_all_classes(sim::Simulation& simulation) {
   sort_by_rank(more_arrivals_);
   const sim::TrueTime now = simulation.now();
   if (!shaping_ && !extras_) {  // only the classes count
-    if (now >= busy_until_) {
+    if (now >= link_.free_at()) {
       int greatest = queues_.empty() ? -1 : highest_class(queues_.waiting());
       std::size_t first = more_arrivals_.size();  // none of this instant, but the head of a queue
       for (std::size_t i = 0; i < more_arrivals_.size(); ++i) {
@@ -265,7 +244,7 @@ void EgressPort::settle_all_classes(sim::Simulation& simulation) {
     for (const Arrival& arrival : more_arrivals_) admit(simulation, arrival.frame);
     more_arrivals_.clear();
     find_way();
-    if (!queues_.empty()) wake_at(simulation, busy_until_);
+    if (!queues_.empty()) wake_at(simulation, link_.free_at());
     return;
   }
   if (shaping_) {
@@ -276,8 +255,8 @@ void EgressPort::settle_all_classes(sim::Simulation& simulation) {
   // Selection looks at the head of each class; a frame that has just come is the head of a class that had none.
   Heads heads;
   std::array<First, traffic_class_count> firsts;
-  sim::TrueTime next = busy_until_;
-  if (now >= busy_until_) {
+  sim::TrueTime next = link_.free_at();
+  if (now >= link_.free_at()) {
     const ClassSet candidates = find_heads(heads, firsts);
     const Choice choice = choose(now, candidates, heads);
     next = choice.selection.ask_again;
@@ -354,13 +333,13 @@ EgressPort::Choice EgressPort::choose(sim::TrueTime now, ClassSet candidates, co
 
 /// When to look again after a frame has started: at its end, or at a port that preempts when the MAC will be asked to hold.
 sim::TrueTime EgressPort::when_to_look(sim::TrueTime now) {
-  if (!extras_ || !extras_->merge) return busy_until_;
+  if (!extras_ || !extras_->merge) return link_.free_at();
   const MacMerge& merge = *extras_->merge;
-  sim::TrueTime next = queues_.empty() && more_arrivals_.empty() && !merge.rest() ? sim::TrueTime::never() : busy_until_;
-  if (merge.under_way() && now < busy_until_) {
+  sim::TrueTime next = queues_.empty() && more_arrivals_.empty() && !merge.rest() ? sim::TrueTime::never() : link_.free_at();
+  if (merge.under_way() && now < link_.free_at()) {
     const HoldRequest hold = hold_request(now);
     if (!hold.hold && hold.until != sim::LocalTime::never())
-      if (const sim::TrueTime begin = clock_->true_at(hold.until); begin < busy_until_) next = std::min(next, begin);
+      if (const sim::TrueTime begin = clock_->true_at(hold.until); begin < link_.free_at()) next = std::min(next, begin);
   }
   return next;
 }
@@ -414,8 +393,7 @@ void EgressPort::force_gate(sim::Simulation& simulation, TrafficClass q, std::op
 }
 
 void EgressPort::gates_changed(sim::Simulation& simulation) {
-  const sim::TrueTime last_bit = busy_until_ - octet_time() * inter_packet_gap.count;
-  if (last_bit > simulation.now()) shaping_->check_overrun(simulation.now(), sending_, last_bit);
+  if (const sim::TrueTime last_bit = link_.last_bit(); last_bit > simulation.now()) shaping_->check_overrun(simulation.now(), sending_, last_bit);
   find_gates();
   ask_again(simulation);
 }
@@ -459,32 +437,21 @@ void EgressPort::start(sim::Simulation& simulation, FrameIndex frame, const Fram
   if (record.link_local || simulation.trace() != nullptr) [[unlikely]]
     start_announced(simulation, frame, record);
   else
-    transmit(simulation, frame, record);
+    link_.transmit(simulation, frame, record);
 }
 
 /// The same where somebody wants to know.
 void EgressPort::start_announced(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
   if (record.link_local) shared_->link_local->transmission_starts(simulation, id(), frame);
-  transmit(simulation, frame, record);
+  link_.transmit(simulation, frame, record);
   if (sim::TraceSink* const trace = simulation.trace())
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, TransmissionDetail{record.length, class_of(frame)}.pack()});
-}
-
-inline void EgressPort::transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
-  const std::int64_t octet = octet_time_ps_;
-  const std::int64_t until_last_bit = octet * (preamble_and_sfd.count + record.length);
-  const sim::TrueTime now = simulation.now();
-  busy_until_ = now + sim::Duration::from_ps(until_last_bit + octet * inter_packet_gap.count);
-  wire_octets_sent_ += wire_length(Octets{record.length}).count;
-  simulation.schedule(source_, now + sim::Duration::from_ps(until_last_bit + static_cast<std::int64_t>(peer_delay_ps_)), peer_order_,
-                      static_cast<sim::EventKind>(NodeEvent::frame_arrived), ArrivalArgument::pack(frame, peer_port()));
 }
 
 void EgressPort::wake_at(sim::Simulation& simulation, sim::TrueTime time) {
   if (time >= wake_at_) return;
   wake_at_ = time;
-  ++other_events_;
-  simulation.schedule(source_, time, sim::Phase::arrival, id(), wake_up, 0);
+  link_.schedule_for_sender(simulation, time, wake_up, 0);
 }
 
 }  // namespace takt::models

@@ -20,11 +20,8 @@
 
 namespace takt::models {
 
-inline constexpr Octets mcrc{4};
 /// The last fragment has at least as many octets of the frame, FCS included (99.4.7.7, MIN_REMAIN).
 inline constexpr Octets minimum_final_fragment{64};
-/// What one more fragment costs on the medium: its mCRC, the gap behind it and the preamble of the next.
-inline constexpr Octets overhead_of_a_cut = mcrc + inter_packet_gap + preamble_and_sfd;
 
 /// addFragSize, 0 to 3: how much more than the minimum the link partner wants in a fragment that is not the last (30.14.1.7).
 class AddFragSize {

@@ -41,8 +41,8 @@ const Host::Listener* Host::listener_of(StreamIndex stream) const {
 
 void Host::handle(sim::Simulation& simulation, const sim::Event& event) {
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
-  if (looks_closer_ || arrival.notes != 0) [[unlikely]]
-    receive_noted(simulation, event.kind(), arrival);
+  if (looks_closer_ || arrival.flags != 0) [[unlikely]]
+    receive_flagged(simulation, event.kind(), arrival);
   else
     take_in(simulation, event.kind(), arrival);
 }
@@ -57,7 +57,7 @@ inline void Host::take_in(sim::Simulation& simulation, sim::EventKind kind, Arri
     simulation.schedule(source_, receive_.pass(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(arrival.frame, arrival.port));
 }
 
-void Host::receive_noted(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
+void Host::receive_flagged(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
   if (kind != deliver_now) {
     const std::optional<FrameIndex> frame = look_closer(simulation, arrival);
     if (!frame) return;
@@ -79,8 +79,7 @@ void Host::note_delivery(sim::Simulation& simulation, FrameIndex index) {
 /// A frame in a condition of its own, or a host that does more than deliver: what goes on, if anything.
 std::optional<FrameIndex> Host::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
   FrameIndex frame = arrival.frame;
-  EgressPort* const sender = arrival.port < ports_.size() ? ports_[arrival.port].opposite() : nullptr;
-  if ((arrival.notes & (conditional | withdrawable)) != 0 && sender != nullptr && !sender->confirm(simulation, frame, arrival.notes)) return std::nullopt;
+  if (arrival.is_uncertain() && !ports_[arrival.port].incoming().receive(simulation, frame, arrival.flags)) return std::nullopt;
   if (!up_ || traffic_->frame(frame).bad_fcs) {
     traffic_->drop(frame, up_ ? DropReason::bad_fcs : DropReason::node_down, id(), simulation);
     return std::nullopt;

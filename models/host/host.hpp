@@ -53,7 +53,7 @@ class Host final : public sim::Component {
   };
   std::optional<FrameIndex> look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
   void take_in(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
-  [[gnu::noinline]] void receive_noted(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
+  [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
   void note_delivery(sim::Simulation& simulation, FrameIndex frame);
   void deliver(sim::Simulation& simulation, FrameIndex index, const Frame& frame);
   const Listener* listener_of(StreamIndex stream) const;

@@ -1,0 +1,107 @@
+#include "models/ethernet/link.hpp"
+
+#include <algorithm>
+
+namespace takt::models {
+
+void Link::connect(sim::ComponentId sender, Traffic& traffic, sim::Duration octet_time, LinkEnd far_end) {
+  TAKT_CHECK(octet_time.ps() > 0 && octet_time.ps() < (1 << 20), "an octet lasts between 1 ps and 1 us");
+  TAKT_CHECK(far_end.delay.ps() >= 0 && far_end.delay.ps() < (std::int64_t{1} << 44), "a link and its far node delay a frame by at most 17 s");
+  source_ = sim::EventSource(sender);
+  traffic_ = &traffic;
+  octet_time_ps_ = static_cast<std::uint32_t>(octet_time.ps());
+  order_ = sim::Event::order_of(sim::Phase::arrival, far_end.node, sender);
+  port_ = far_end.port;
+  delay_ps_ = static_cast<std::uint64_t>(far_end.delay.ps()) & 0xFFF'FFFF'FFFF;
+  node_delay_ = far_end.node_delay;
+}
+
+void Link::expect_faults(const sim::Simulation& simulation, std::string_view path) {
+  checks_ = true;
+  if (!fault_) fault_ = std::make_unique<LinkFault>(simulation.seed(), path);
+}
+
+sim::TrueTime Link::transmit_any(sim::Simulation& simulation, FrameIndex frame, const Frame& record, bool is_preemptable) {
+  unsigned flags = checks_ || record.marked || record.bad_fcs ? unsigned{ArrivalArgument::check} : is_preemptable ? unsigned{ArrivalArgument::preemptable} : 0u;
+  Octets told_after = preamble_and_sfd + Octets{record.length};
+  // A header that is as long as the frame is a frame that is stored.
+  if (!is_preemptable && (noticed_priorities_ >> record.priority & 1) != 0 && header_notice(record) < told_after) {
+    told_after = header_notice(record);
+    flags |= ArrivalArgument::header_only | ArrivalArgument::check;
+  }
+  free_at_ = simulation.now() + octet_time() * wire_length(Octets{record.length}).count;
+  wire_octets_sent_ += wire_length(Octets{record.length}).count;
+  return schedule_arrival(simulation, frame, told_after, flags);
+}
+
+sim::TrueTime Link::transmit_rest(sim::Simulation& simulation, FrameIndex frame, const Frame& record, Octets remaining) {
+  ++other_events_;
+  free_at_ = simulation.now() + octet_time() * wire_length(remaining).count;
+  return schedule_arrival(simulation, frame, preamble_and_sfd + remaining, checks_ || record.marked ? ArrivalArgument::check : ArrivalArgument::preemptable);
+}
+
+sim::TrueTime Link::schedule_arrival(sim::Simulation& simulation, FrameIndex frame, Octets told_after, unsigned flags) {
+  const sim::TrueTime arrival = simulation.now() + octet_time() * told_after.count + delay();
+  simulation.schedule(source_, arrival, order_, static_cast<sim::EventKind>(NodeEvent::frame_arrived), ArrivalArgument::pack(frame, port(), flags));
+  return arrival;
+}
+
+/// The event of the arrival that will not be comes all the same: the receiver asks, and the link forgets it.
+void Link::cut(FrameIndex frame, sim::TrueTime arrival, sim::TrueTime free_at) {
+  withdrawn_.push_back({arrival, frame});
+  free_at_ = free_at;
+  wire_octets_sent_ += overhead_of_a_cut.count;
+}
+
+bool Link::take_withdrawn(sim::TrueTime now, FrameIndex frame) {
+  const auto found = std::find_if(withdrawn_.begin(), withdrawn_.end(), [&](const Withdrawn& w) { return w.time == now && w.frame == frame; });
+  if (found == withdrawn_.end()) return false;
+  withdrawn_.erase(found);
+  return true;
+}
+
+bool Link::passes_faults(sim::Simulation& simulation, FrameIndex& frame, std::uint16_t flags) {
+  const sim::TrueTime now = simulation.now();
+  const Frame& record = traffic_->frame(frame);
+  const Octets length{record.length};
+  const Octets octets = (flags & ArrivalArgument::header_only) != 0 ? header_notice(record) : preamble_and_sfd + length;
+  const sim::TrueTime last_bit = now - node_delay_;  // of what has come
+  const sim::TrueTime start = last_bit - (delay() - node_delay_) - octet_time() * octets.count;
+  if (fault_->went_down_within(start, last_bit)) {
+    lose(simulation, frame, DropReason::link_down);
+    return false;
+  }
+  if ((flags & ArrivalArgument::duplicate) != 0 || !fault_->is_impaired()) return true;
+  const LinkFault::Fate fate = fault_->fate_of(length, last_bit);
+  if (fate.lost) {
+    lose(simulation, frame, DropReason::link_loss);
+    return false;
+  }
+  if (fate.doubled) {
+    const FrameIndex twin = traffic_->duplicate(frame);
+    ++other_events_;
+    // The double is stored, so of a header it comes when the frame is complete.
+    const sim::TrueTime complete = now + octet_time() * (std::int64_t{preamble_and_sfd.count} + length.count - octets.count);
+    simulation.schedule(source_, complete, order_, static_cast<sim::EventKind>(NodeEvent::frame_arrived),
+                        ArrivalArgument::pack(twin, port(), static_cast<unsigned>(flags & ~ArrivalArgument::header_only) | ArrivalArgument::duplicate));
+  }
+  if (fate.damaged) {
+    frame = traffic_->own(frame);
+    traffic_->frame(frame).bad_fcs = true;
+  }
+  return true;
+}
+
+bool Link::set_up(sim::Simulation& simulation, bool up) {
+  if (fault_->is_up() == up) return false;
+  fault_->set_up(simulation.now(), up);
+  if (!up) fault_->break_passing(simulation.now(), [this](FrameIndex frame) -> Frame& { return traffic_->frame(frame); });
+  return true;
+}
+
+void Link::lose(sim::Simulation& simulation, FrameIndex frame, DropReason reason) {
+  ++frames_lost_;
+  traffic_->drop(frame, reason, sender(), simulation);
+}
+
+}  // namespace takt::models

@@ -1,0 +1,171 @@
+// One direction of a link: the medium, what is on it, and what becomes of that.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "models/ethernet/sizes.hpp"
+#include "models/ethernet/traffic.hpp"
+#include "models/fault/link_fault.hpp"
+#include "sim/simulation.hpp"
+
+namespace takt::models {
+
+/// Event kinds that a node understands.
+enum class NodeEvent : sim::EventKind {
+  frame_arrived = 0,  ///< the last bit is in and the node's fixed delay is over; argument: see ArrivalArgument
+  first_free = 16,    ///< kinds from here on belong to the node type
+};
+
+/// The argument of frame_arrived: which frame came in through which port of the node, and what else the node should know of it;
+/// nothing in the common case.
+struct ArrivalArgument {
+  enum Flag : std::uint16_t {
+    check = 1,        ///< ask the link whether the frame has come (Link::receive), and look at its condition
+    header_only = 2,  ///< only the header has come: the frame may be cut through
+    duplicate = 4,    ///< chance on the link has made it, and has no more say
+    preemptable = 8,  ///< the frame may have been cut on its way: ask the link whether it has come
+  };
+  FrameIndex frame;
+  std::uint16_t port = 0;
+  std::uint16_t flags = 0;
+  /// The link is to be asked.
+  bool is_uncertain() const { return (flags & (check | preemptable)) != 0; }
+  static constexpr std::uint64_t pack(FrameIndex frame, std::uint16_t port, unsigned flags = 0) {
+    return static_cast<std::uint64_t>(flags) << 48 | static_cast<std::uint64_t>(port) << 32 | frame.value;
+  }
+  static constexpr ArrivalArgument unpack(std::uint64_t argument) {
+    return {FrameIndex{static_cast<std::uint32_t>(argument)}, static_cast<std::uint16_t>(argument >> 32), static_cast<std::uint16_t>(argument >> 48)};
+  }
+};
+
+/// The far end of a link.
+struct LinkEnd {
+  sim::ComponentId node;
+  std::uint16_t port = 0;
+  /// From the last bit leaving the sender to the event at the node: propagation plus the node's fixed delay (forwarding delay of
+  /// a bridge, fixed receive latency of a host). Folding them saves an event for each frame and hop. At most 17 s.
+  sim::Duration delay;
+  sim::Duration node_delay;    ///< the node's share of it
+};
+
+class Link {
+ public:
+  /// `sender` is the port that sends; `traffic` outlives the link.
+  void connect(sim::ComponentId sender, Traffic& traffic, sim::Duration octet_time, LinkEnd far_end);
+  bool is_connected() const { return traffic_ != nullptr; }
+  sim::Duration octet_time() const { return sim::Duration::from_ps(octet_time_ps_); }
+  /// The sending port.
+  sim::ComponentId sender() const { return source_.id(); }
+
+  /// The receiver may cut frames of these priorities through: tell it when so many octets from the preamble on have come (so many
+  /// more if the frame has a VLAN tag or an R-TAG).
+  void notice_headers(std::uint8_t priorities, Octets header) {
+    noticed_priorities_ = priorities;
+    noticed_header_ = header;
+  }
+  /// The sender marks frames, changes their tags, or may pass on damaged ones: the receiver looks at each.
+  void check_arrivals() { checks_ = true; }
+  /// Something may go wrong; `path` names the direction in the random streams, e.g. "sw1 to sw2".
+  void expect_faults(const sim::Simulation& simulation, std::string_view path);
+  /// Precondition: expect_faults().
+  void add_impairment(const Impairment& impairment) { fault_->add(impairment); }
+  /// Nothing of all that: transmit() will do.
+  bool is_plain() const { return !checks_ && noticed_priorities_ == 0; }
+
+  // The sending port.
+  /// When the medium is free for the next frame: the gap after the last one is over.
+  sim::TrueTime free_at() const { return free_at_; }
+  /// The last bit of the frame under way leaves, or that of the last one has left.
+  sim::TrueTime last_bit() const { return free_at_ - octet_time() * inter_packet_gap.count; }
+
+  /// Puts a frame on the free medium. Preconditions: is_plain(); nobody cuts the frame.
+  void transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+    const std::int64_t octet = octet_time_ps_;
+    const std::int64_t until_last_bit = octet * (preamble_and_sfd.count + record.length);
+    const sim::TrueTime now = simulation.now();
+    free_at_ = now + sim::Duration::from_ps(until_last_bit + octet * inter_packet_gap.count);
+    wire_octets_sent_ += wire_length(Octets{record.length}).count;
+    simulation.schedule(source_, now + sim::Duration::from_ps(until_last_bit + static_cast<std::int64_t>(delay_ps_)), order_,
+                        static_cast<sim::EventKind>(NodeEvent::frame_arrived), ArrivalArgument::pack(frame, port()));
+  }
+  /// The same for any frame. When the receiver is told of it.
+  sim::TrueTime transmit_any(sim::Simulation& simulation, FrameIndex frame, const Frame& record, bool is_preemptable);
+  /// The same for what is left of a frame that was cut.
+  sim::TrueTime transmit_rest(sim::Simulation& simulation, FrameIndex frame, const Frame& record, Octets remaining);
+  /// The frame under way is cut, of which the receiver was to be told at `arrival`; the medium is free at `free_at`.
+  void cut(FrameIndex frame, sim::TrueTime arrival, sim::TrueTime free_at);
+  /// An event for the sending port itself.
+  void schedule_for_sender(sim::Simulation& simulation, sim::TrueTime time, sim::EventKind kind, std::uint64_t argument) {
+    ++other_events_;
+    simulation.schedule(source_, time, sim::Phase::arrival, sender(), kind, argument);
+  }
+
+  // The receiving node.
+  /// Asked at an arrival that is uncertain, at the present instant. False: the frame has not come
+  /// (it was cut and comes later, or it is lost and accounted for). Chance may damage it: then the index is that of a record of
+  /// its own.
+  bool receive(sim::Simulation& simulation, FrameIndex& frame, std::uint16_t flags) {
+    if (!withdrawn_.empty() && take_withdrawn(simulation.now(), frame)) return false;
+    return !fault_ || passes_faults(simulation, frame, flags);
+  }
+  /// When the frame of which only the header has come, at the present instant, will be here wholly.
+  sim::TrueTime complete_at(sim::TrueTime now, const Frame& frame) const {
+    return now + octet_time() * (std::int64_t{preamble_and_sfd.count} + frame.length - header_notice(frame).count);
+  }
+  /// The frame is being passed on although the node has it wholly at `complete` only.
+  void passed_on(sim::TrueTime now, FrameIndex frame, const Frame& record, sim::TrueTime complete) {
+    if (fault_) fault_->cut_through(frame, record, now, complete - node_delay_);
+  }
+
+  // Faults. Precondition: expect_faults().
+  /// True if that is a change. A link that goes down loses what is on it.
+  bool set_up(sim::Simulation& simulation, bool up);
+  bool is_up() const { return !fault_ || fault_->is_up(); }
+
+  /// Each frame is one event; the others are wake-ups of the sender and what faults, cuts and cut-through need.
+  std::uint64_t frames_sent() const { return source_.count() - other_events_; }
+  /// Octets that occupied the medium, preamble and inter-packet gap included.
+  std::uint64_t wire_octets_sent() const { return wire_octets_sent_; }
+  /// Frames that chance took, or that were on the link when it went down.
+  std::uint64_t frames_lost() const { return frames_lost_; }
+
+ private:
+  struct Withdrawn {  // an arrival that will not be, since its frame was cut
+    sim::TrueTime time;
+    FrameIndex frame;
+  };
+  sim::TrueTime schedule_arrival(sim::Simulation& simulation, FrameIndex frame, Octets after_preamble, unsigned flags);
+  bool take_withdrawn(sim::TrueTime now, FrameIndex frame);
+  bool passes_faults(sim::Simulation& simulation, FrameIndex& frame, std::uint16_t flags);
+  void lose(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
+  /// How many octets of a frame, preamble included, have come when the receiver is told of its header.
+  Octets header_notice(const Frame& frame) const {
+    return noticed_header_ + (frame.tagged ? vlan_tag : Octets{0}) + (frame.r_tagged ? r_tag : Octets{0});
+  }
+  std::uint16_t port() const { return static_cast<std::uint16_t>(port_); }
+  sim::Duration delay() const { return sim::Duration::from_ps(static_cast<std::int64_t>(delay_ps_)); }
+
+  // What every frame touches: the 48 octets that share a cache line with the sending port.
+  std::uint64_t order_ = 0;                  // of events for the receiver (sim::Event::order_of)
+  std::uint64_t delay_ps_ : 44 = 0;          // see LinkEnd::delay
+  std::uint64_t port_ : 16 = 0;
+  sim::TrueTime free_at_;
+  std::uint64_t wire_octets_sent_ = 0;
+  [[no_unique_address]] sim::EventSource source_;  // of the sending port
+  std::uint32_t octet_time_ps_ = 0;
+  // The rest.
+  Traffic* traffic_ = nullptr;
+  sim::Duration node_delay_;
+  std::uint64_t other_events_ = 0;
+  std::uint64_t frames_lost_ = 0;
+  std::unique_ptr<LinkFault> fault_;
+  std::vector<Withdrawn> withdrawn_;
+  Octets noticed_header_{0};
+  std::uint8_t noticed_priorities_ = 0;
+  bool checks_ = false;
+};
+
+}  // namespace takt::models

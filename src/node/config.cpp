@@ -195,7 +195,7 @@ std::optional<std::size_t> outermost(const std::vector<LoadedProgram>& programs)
 }
 
 std::optional<std::size_t> offered_in(const std::vector<LoadedProgram>& programs) {
-  const auto found = std::find_if(programs.begin(), programs.end(), [](const LoadedProgram& each) { return each.roles && each.roles->candidate; });
+  const auto found = std::find_if(programs.begin(), programs.end(), [](const LoadedProgram& each) { return each.roles && each.roles->offer; });
   return found == programs.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - programs.begin()));
 }
 

@@ -11,7 +11,7 @@
 #include "json/fields.hpp"
 #include "sim/time.hpp"
 #include "vocabulary/protocol.hpp"
-#include "wire/plug_endpoint.hpp"
+#include "wire/program_node.hpp"
 
 namespace takt::node {
 
@@ -133,19 +133,9 @@ const json::Enumeration& describe(json::Type<SourceKind>);
 const json::Object& describe(json::Type<Source>);
 const json::Object& describe(json::Type<Config>);
 
-/// What this node is in a group with roles.
-struct LoadedRoles {
-  std::shared_ptr<const wire::PlugFormat> format;
-  Duration announce_cycle;
-  std::optional<std::uint8_t> candidate;      ///< its number; the master has none
-  std::vector<handshake::SkillId> skills;     ///< of the candidate
-};
-
-/// A Program that the node is in.
-struct LoadedProgram {
+/// A Program that the node is in, and what it is there; but for the incarnation.
+struct LoadedProgram : wire::NodeSettings {
   Program program;
-  wire::EndpointSettings endpoint;     ///< but for the incarnation; of a candidate but for its index, too
-  std::optional<LoadedRoles> roles;
   std::optional<std::size_t> outer;    ///< in LoadedConfig::programs: this node is a slave there, and the master here
 };
 

@@ -7,12 +7,12 @@
 #include "node/application.hpp"
 #include "node/clock.hpp"
 #include "node/config.hpp"
-#include "node/group_member.hpp"
 #include "node/node_status.hpp"
 #include "node/socket.hpp"
 #include "node/statistics.hpp"
 #include "node/transition_log.hpp"
 #include "wire/nesting.hpp"
+#include "wire/program_node.hpp"
 
 namespace takt::node {
 
@@ -20,7 +20,7 @@ namespace takt::node {
 std::int64_t thread_cpu_ns();
 
 /// The node's loop drives it: gives it what has come, and wakes it by `next_time`.
-class HostedProgram final : private wire::PlugHost {
+class HostedProgram {
  public:
   /// What it shares with the node's other Programs; all outlive it.
   struct Node {
@@ -40,9 +40,9 @@ class HostedProgram final : private wire::PlugHost {
   program::StatusCode call(program::Method method);
   /// BadInvalidState where the node offers no skills.
   program::StatusCode plug(Plug what);
-  void finished() { member_.finished(*this); }
+  void finished() { carry_out(part_.finished(now())); }
   /// A message of any Program has come.
-  void receive(uadp::Octets message) { member_.receive(*this, message); }
+  void receive(uadp::Octets message) { carry_out(part_.receive(now(), message)); }
 
   /// When it has to be woken next.
   sim::LocalTime next_time() const;
@@ -51,35 +51,37 @@ class HostedProgram final : private wire::PlugHost {
   /// Its other alarms that have come due. What they set anew waits for the next turn of the loop.
   void wake_others(sim::LocalTime now);
 
-  bool knows(uadp::Octets message) const { return format_->decode(message) || (plug_format_ && plug_format_->decode(message)); }
-  const std::string& name() const { return program_.name; }
-  handshake::PublishedState state() const { return member_.state(); }
-  bool is_candidate() const { return member_.candidate() != nullptr; }
-  ProgramStatus status() const { return {program_, member_, cycles_, peers_}; }
+  bool knows(uadp::Octets message) const { return loaded_.endpoint.format->decode(message) || (loaded_.roles && loaded_.roles->format->decode(message)); }
+  const std::string& name() const { return loaded_.program.name; }
+  handshake::PublishedState state() const { return part_.state(); }
+  bool is_candidate() const { return part_.candidate() != nullptr; }
+  ProgramStatus status() const { return {loaded_.program, part_, cycles_, peers_}; }
 
  private:
-  sim::LocalTime now() const override { return node_.clock.now(); }
-  void set_alarm(std::size_t alarm, sim::LocalTime time) override { alarms_[alarm] = time; }
-  void publish(uadp::Octets network_message, const pubsub::Destination& destination) override;
-  void stepped(const handshake::Outputs& outputs, const handshake::Word& after) override;
-  void heard(std::size_t peer, const handshake::Word& word) override { peers_.heard(peer, word, now()); }
-  void process_data(const wire::ProcessDataMessage& message) override;
-  void fill(std::uint8_t data_set, std::span<std::byte> fields) override;
-  void role_bound(std::size_t role, const handshake::Binding& binding) override;
-  void role_taken(std::size_t role, const handshake::Binding& self) override;
-  void role_dropped(std::size_t role, const handshake::Binding& self) override;
+  /// In order. What an application does in between comes behind it.
+  void carry_out(wire::NodeOutputs& outputs);
+  void act(const wire::SetAlarm& alarm) { alarms_[alarm.alarm] = alarm.time; }
+  void act(const wire::Publish& message);
+  void act(const wire::Stepped& step);
+  void act(const wire::Heard& heard) { peers_.heard(heard.peer, heard.word, now()); }
+  void act(const wire::ProcessDataMessage& message);
+  void act(const wire::RoleBound& bound);
+  void act(const wire::RoleTaken& taken);
+  void act(const wire::RoleDropped& dropped);
 
+  sim::LocalTime now() const { return node_.clock.now(); }
   std::int64_t now_ns() const { return node_.clock.nanoseconds_at(now()); }
   /// When the alarm wakes the loop.
   sim::LocalTime due(std::size_t alarm) const;
 
-  Program program_;
+  LoadedProgram loaded_;
   Node node_;
   TransitionLog log_;
   Application* application_;
-  std::shared_ptr<const wire::ProgramFormat> format_;
-  std::shared_ptr<const wire::PlugFormat> plug_format_;  ///< null without roles
-  GroupMember member_;
+  wire::ProgramNode part_;              ///< in the Program
+  handshake::Side side_ = handshake::Side::Outer;
+  HostedProgram* other_ = nullptr;      ///< nested with this one
+  bool carries_out_ = false;
   std::vector<sim::LocalTime> alarms_;  ///< never(): not set
   CycleStatistics cycles_;
   std::int64_t cpu_at_last_cycle_ns_ = 0;

@@ -34,10 +34,10 @@ const std::string& participant_name(const ProgramStatus& status, std::size_t par
 
 json::Node peers_of(const ProgramStatus& status, sim::LocalTime now) {
   json::Node all = json::Node::array();
-  for (std::size_t p = 0; status.member.endpoint() != nullptr && p < status.peers.peers().size(); ++p) {
+  for (std::size_t p = 0; status.node.endpoint() != nullptr && p < status.peers.peers().size(); ++p) {
     const PeerStatistics& peer = status.peers.peers()[p];
     json::Node node = json::Node::object();
-    node.add("name", text(participant_name(status, status.member.endpoint()->participant().participant_of(p))));
+    node.add("name", text(participant_name(status, status.node.endpoint()->participant().participant_of(p))));
     node.add("state", peer.state ? text(handshake::name_of(*peer.state)) : json::Node());
     if (peer.state) node.add("silent_ns", number((now - peer.last_heard).ps() / 1000));
     node.add("incarnation", number(peer.incarnation));
@@ -49,7 +49,7 @@ json::Node peers_of(const ProgramStatus& status, sim::LocalTime now) {
 }
 
 json::Node statistics_of(const ProgramStatus& status, std::uint64_t send_failures) {
-  const wire::ProgramEndpoint* const endpoint = status.member.endpoint();
+  const wire::ProgramEndpoint* const endpoint = status.node.endpoint();
   const wire::EndpointCounts counts = endpoint == nullptr ? wire::EndpointCounts() : endpoint->counts();
   json::Node node = json::Node::object();
   node.add("late", of(status.cycles.late));
@@ -86,7 +86,7 @@ namespace {
 
 /// What the master knows: which node has which role, and who else is there.
 void add_roles(json::Node& node, const ProgramStatus& status) {
-  const handshake::Binder& binder = status.member.master()->binder();
+  const handshake::Binder& binder = *status.node.binder();
   json::Node& roles = node.add("roles", json::Node::array());
   std::vector<std::optional<std::size_t>> role_of(status.program.candidates.size());
   for (std::size_t r = 0; r < binder.roles(); ++r) {
@@ -109,7 +109,7 @@ void add_roles(json::Node& node, const ProgramStatus& status) {
 }
 
 void add_candidate(json::Node& node, const ProgramStatus& status) {
-  const handshake::Candidate& candidate = status.member.candidate()->candidate();
+  const handshake::Candidate& candidate = *status.node.candidate();
   node.add("bound_to", candidate.role() ? text(status.program.roles[*candidate.role()].name) : json::Node());
   node.add("announces", json::Node::of_bool(candidate.announces()));
   node.add("leaving", json::Node::of_bool(candidate.announcement().leaving));
@@ -117,15 +117,15 @@ void add_candidate(json::Node& node, const ProgramStatus& status) {
 }
 
 void add_program(json::Node& node, const ProgramStatus& status, const NodeStatus& of) {
-  const wire::ProgramEndpoint* const endpoint = status.member.endpoint();
+  const wire::ProgramEndpoint* const endpoint = status.node.endpoint();
   const bool is_master = endpoint != nullptr && endpoint->participant().config().role == handshake::Role::Master;
   const bool has_intents = status.program.variant == Variant::robust;
   node.add("program", text(status.program.name));
   node.add("variant", text(has_intents ? "robust" : "paper"));
-  node.add("role", text(is_master ? "master" : status.member.candidate() == nullptr ? "slave" : "candidate"));
-  if (status.member.master() != nullptr) add_roles(node, status);
-  if (status.member.candidate() != nullptr) add_candidate(node, status);
-  node.add("state", text(handshake::name_of(status.member.state())));
+  node.add("role", text(is_master ? "master" : status.node.candidate() == nullptr ? "slave" : "candidate"));
+  if (status.node.binder() != nullptr) add_roles(node, status);
+  if (status.node.candidate() != nullptr) add_candidate(node, status);
+  node.add("state", text(handshake::name_of(status.node.state())));
   if (endpoint != nullptr) {
     const auto& participant = endpoint->participant();
     node.add("incarnation", number(participant.config().incarnation));

@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "node/config.hpp"
-#include "node/group_member.hpp"
 #include "node/statistics.hpp"
+#include "wire/program_node.hpp"
 
 namespace takt::node {
 
 /// All parts are the node's own.
 struct ProgramStatus {
   const Program& program;
-  const GroupMember& member;
+  const wire::ProgramNode& node;
   const CycleStatistics& cycles;
   const PeerWatch& peers;
 };

@@ -86,15 +86,15 @@ void check_offers(const Config& config, std::span<const Program> programs, json:
   }
 }
 
-std::optional<LoadedRoles> roles_at(const Config& config, const Program& program, const wire::ProgramShape& shape) {
+std::optional<wire::RoleSettings> roles_at(const Config& config, const Program& program, const wire::ProgramShape& shape) {
   if (program.roles.empty()) return std::nullopt;
-  LoadedRoles roles;
+  wire::RoleSettings roles;
   roles.format = std::make_shared<const wire::PlugFormat>(vocabulary::plug_shape_of(shape, program.roles, program.candidates));
   roles.announce_cycle = program.announce_every.value_or(program.cycle * wire::cycles_of_announcement);
+  roles.restarts = program.on_replacement == OnReplacement::restart;
   if (config.node == program.master) return roles;
   const auto number = std::find(program.candidates.begin(), program.candidates.end(), config.node) - program.candidates.begin();
-  roles.candidate = static_cast<std::uint8_t>(number);
-  roles.skills = vocabulary::skill_ids_of(config.offers);
+  roles.offer = wire::Offer{static_cast<std::uint8_t>(number), 1, vocabulary::skill_ids_of(config.offers), !config.absent};
   return roles;
 }
 

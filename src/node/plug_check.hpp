@@ -13,7 +13,7 @@ void check_roles(const Program& program, json::Diagnostics& diagnostics);
 void check_offers(const Config& config, std::span<const Program> programs, json::Diagnostics& diagnostics);
 
 /// After these checks. Nothing for a Program with slaves. `shape` is the Program's.
-std::optional<LoadedRoles> roles_at(const Config& config, const Program& program, const wire::ProgramShape& shape);
+std::optional<wire::RoleSettings> roles_at(const Config& config, const Program& program, const wire::ProgramShape& shape);
 
 /// Whether the node may have this role.
 bool may_have(const Config& config, const Role& role);

@@ -12,7 +12,7 @@
 #include "scenario/figures/requirement_rules.hpp"
 #include "sim/check.hpp"
 #include "verify/roles_query.hpp"
-#include "wire/plug_endpoint.hpp"
+#include "wire/program_node.hpp"
 
 namespace takt::verify {
 namespace {

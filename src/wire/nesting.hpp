@@ -1,4 +1,4 @@
-// Joins two endpoints of one node: slave of an outer group, master of an inner one (handshake/coupling.hpp).
+// Joins two Programs of one node: slave of an outer group, master of an inner one (handshake/coupling.hpp).
 #pragma once
 
 #include "handshake/coupling.hpp"
@@ -6,27 +6,30 @@
 
 namespace takt::wire {
 
+class ProgramNode;
+
 class Nesting {
  public:
-  /// Both were made with `nested` in their Config. All references outlive the nesting, which outlives all use of the endpoints.
-  Nesting(ProgramEndpoint& outer, EndpointHost& outer_host, ProgramEndpoint& inner, EndpointHost& inner_host);
+  /// Both were made with `nested` in their Config. They outlive the nesting, which outlives all use of them. From now on a turn of either has the
+  /// outputs of both, each with its side.
+  Nesting(ProgramNode& outer, ProgramNode& inner);
   Nesting(const Nesting&) = delete;
   Nesting& operator=(const Nesting&) = delete;
 
-  // For the two endpoints:
+  // For the two:
+  NodeOutputs& outputs() { return outputs_; }
   /// One of them has taken a step.
-  void settle();
+  void settle(const Turn& turn);
   /// The local initialisation of one has ended.
-  void initialised(const ProgramEndpoint& endpoint, std::uint32_t run);
+  void initialised(const Turn& turn, handshake::Side side, std::uint32_t run);
   /// The node has lost its memory.
   void forget() { coupling_ = {}; }
 
  private:
   ProgramEndpoint* outer_;
-  EndpointHost* outer_host_;
   ProgramEndpoint* inner_;
-  EndpointHost* inner_host_;
   handshake::Coupling coupling_;
+  NodeOutputs outputs_;
   bool settling_ = false;  // the steps that it takes itself come back to it
 };
 

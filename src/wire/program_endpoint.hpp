@@ -1,42 +1,20 @@
-// One participant of a Program on a network: the handshake with its cycle, its time-outs and its messages, sans-IO.
-//
-// The simulated host and the real node own one each and differ only in the EndpointHost that they put behind it.
+// One participant of a Program on a network: the handshake with its cycle, its time-outs and its messages, sans-IO. A part of ProgramNode.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "handshake/participant.hpp"
-#include "pubsub/stack.hpp"
 #include "sim/time.hpp"
 #include "uadp/sequence_number.hpp"
+#include "wire/node_outputs.hpp"
 #include "wire/program_format.hpp"
 
 namespace takt::wire {
 
 class Nesting;
-
-/// What an endpoint asks of the machine it is on, and tells it. A message goes to the Destination with its WriterGroupId.
-class EndpointHost : public pubsub::PublishedData {
- public:
-  /// By the clock that all participants share.
-  virtual sim::LocalTime now() const = 0;
-  /// Calls ProgramEndpoint::wake at that time; replaces the alarm's earlier setting.
-  virtual void set_alarm(std::size_t alarm, sim::LocalTime time) = 0;
-  /// The participant has taken a step and this is its word now.
-  virtual void stepped(const handshake::Outputs& outputs, const handshake::Word& after) = 0;
-  /// Process data has come that the application may use.
-  virtual void process_data(const ProcessDataMessage& message) = 0;
-  /// A state of a peer has been taken.
-  virtual void heard(std::size_t peer, const handshake::Word& word) { static_cast<void>(peer), static_cast<void>(word); }
-  /// Puts the user's fields of an own data set, all zeros so far.
-  virtual void fill(std::uint8_t data_set, std::span<std::byte> fields) { static_cast<void>(data_set), static_cast<void>(fields); }
-  /// `paper` has no run; what goes with its process data instead. No participant reads it.
-  virtual std::uint32_t run_of_paper() const { return 0; }
-};
 
 struct EndpointSettings {
   handshake::Config handshake;
@@ -70,45 +48,40 @@ struct Arrivals {
   bool take(std::uint16_t sequence, std::uint32_t of_life, sim::LocalTime now, sim::Duration timeout);
 };
 
+/// What it does comes out of its turns.
 class ProgramEndpoint {
  public:
   explicit ProgramEndpoint(EndpointSettings settings);
 
   /// From now on it publishes, at the next instant of its cycle.
-  void start(EndpointHost& host);
+  void start(const Turn& turn);
   /// It loses its memory, as in a crash, and is another incarnation. Publishes again after `start`.
   void forget(std::uint32_t incarnation);
 
-  /// Its node is in another group, too (nesting.hpp).
-  void join(Nesting* nesting) { nesting_ = nesting; }
+  /// Its node is in another group, too (nesting.hpp); it is on this side.
+  void join(Nesting& nesting, handshake::Side side) { nesting_ = &nesting, side_ = side; }
 
   /// From now on only words of this incarnation are taken from the peer, or none. What was heard before is forgotten.
   void expect(std::size_t peer, std::optional<std::uint32_t> incarnation);
   /// The same for all peers: none.
   void expect_nobody();
 
-  /// A method call by a client or the user of this node; what came of it.
-  program::StatusCode call(EndpointHost& host, program::Method method);
-  /// The local process has ended by itself.
-  void finished(EndpointHost& host) { step(host, handshake::Input::finished()); }
+  /// Takes one step of the handshake.
+  handshake::Outputs step(const Turn& turn, const handshake::Input& input);
   /// Publishes an own data set now, if the participant is Running. False if it is not.
-  bool publish_data(EndpointHost& host, std::uint8_t data_set);
-  /// Of the message of an own data set that was published last.
-  std::uint16_t last_data_sequence(std::size_t data_set) const { return static_cast<std::uint16_t>(data_sequence_[data_set] - 1); }
+  bool publish_data(const Turn& turn, std::uint8_t data_set);
   /// A NetworkMessage has come; of whom and whether it is sound is found out here.
-  void receive(EndpointHost& host, uadp::Octets network_message);
+  void receive(const Turn& turn, uadp::Octets network_message);
   /// An alarm has come due.
-  void wake(EndpointHost& host, std::size_t alarm);
+  void wake(const Turn& turn, std::size_t alarm);
 
   /// The alarm at which it publishes.
   static constexpr std::size_t cycle_alarm = 0;
   /// The peer whose MessageReceiveTimeout an alarm is.
   std::optional<std::size_t> peer_of_alarm(std::size_t alarm) const {
-    return alarm < first_peer_alarm ? std::nullopt : std::optional(alarm - first_peer_alarm);
+    return alarm < first_peer_alarm || alarm >= alarm_count(participant_.peer_count()) ? std::nullopt : std::optional(alarm - first_peer_alarm);
   }
-
   static constexpr std::size_t alarm_count(std::size_t peers) { return first_peer_alarm + peers; }
-  std::size_t alarm_count() const { return alarm_count(participant_.peer_count()); }
 
   const EndpointSettings& settings() const { return settings_; }
   const handshake::Participant<64>& participant() const { return participant_; }
@@ -117,19 +90,16 @@ class ProgramEndpoint {
   std::uint64_t missed_cycles() const { return missed_cycles_; }
 
  private:
-  friend class Nesting;     // takes steps here that follow from the other group
-  friend class PlugMaster;  // and from bindings of roles
   static constexpr std::size_t initialised_alarm = 1;
   static constexpr std::size_t first_peer_alarm = 2;  // one for each peer: its MessageReceiveTimeout
 
-  handshake::Outputs step(EndpointHost& host, const handshake::Input& input);
-  void receive_state(EndpointHost& host, std::size_t peer, const StateMessage& message);
-  void receive_data(EndpointHost& host, std::size_t peer, const ProcessDataMessage& message);
+  void receive_state(const Turn& turn, std::size_t peer, const StateMessage& message);
+  void receive_data(const Turn& turn, std::size_t peer, const ProcessDataMessage& message);
   bool is_new(Arrivals& arrivals, std::uint16_t sequence, std::uint32_t life, sim::LocalTime now);
-  void publish_state(EndpointHost& host);
-  void publish_process_data(EndpointHost& host);
-  void cycle(EndpointHost& host);
-  void set_cycle_alarm(EndpointHost& host);
+  void publish_state(const Turn& turn);
+  void publish_process_data(const Turn& turn);
+  void cycle(const Turn& turn);
+  void set_cycle_alarm(const Turn& turn);
 
   EndpointSettings settings_;
   handshake::Participant<64> participant_;
@@ -143,7 +113,7 @@ class ProgramEndpoint {
   std::uint64_t missed_cycles_ = 0;
   EndpointCounts counts_;
   Nesting* nesting_ = nullptr;
-  std::array<std::byte, 1500> buffer_;
+  handshake::Side side_ = handshake::Side::Outer;
 };
 
 }  // namespace takt::wire

@@ -159,7 +159,8 @@ TEST(Plan, RolesHaveCandidates) {
     std::filesystem::remove(path);
     ASSERT_TRUE(loaded) << config << diagnostics.to_text();
     ASSERT_TRUE(loaded->programs[0].roles);
-    EXPECT_EQ(loaded->programs[0].roles->candidate, node.parts[0].candidate);
+    const auto& offer = loaded->programs[0].roles->offer;
+    EXPECT_EQ(offer ? std::optional(offer->number) : std::nullopt, node.parts[0].candidate);
     EXPECT_EQ(loaded->programs[0].program.on_replacement, node::OnReplacement::restart);
     EXPECT_EQ(loaded->programs[0].roles->announce_cycle, sim::Duration::from_ps(20'000'000'000));
     EXPECT_EQ(loaded->config.absent, node.parts[0].candidate.has_value());

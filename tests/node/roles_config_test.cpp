@@ -37,7 +37,7 @@ TEST(RolesConfig, OfTheMaster) {
   ASSERT_TRUE(load.loaded) << load.diagnostics.to_text();
   const LoadedProgram& loaded = load.loaded->programs[0];
   ASSERT_TRUE(loaded.roles);
-  EXPECT_EQ(loaded.roles->candidate, std::nullopt);
+  EXPECT_FALSE(loaded.roles->offer);
   EXPECT_EQ(loaded.roles->announce_cycle, Duration::from_ps(4'000'000'000));
   EXPECT_EQ(loaded.endpoint.handshake.role, handshake::Role::Master);
   EXPECT_EQ(loaded.endpoint.handshake.slaves, 2);
@@ -49,8 +49,9 @@ TEST(RolesConfig, OfACandidate) {
   const Load load(file("b", R"(, "offers": ["gripping", "painting"], "absent": true, "script": [{"at": "2s", "plug": "join"}, {"at": "3s", "plug": "leave", "program": "p"}, {"at": "4s", "call": "Halt"}])"));
   ASSERT_TRUE(load.loaded) << load.diagnostics.to_text();
   const LoadedProgram& loaded = load.loaded->programs[0];
-  EXPECT_EQ(loaded.roles->candidate, 1);
-  EXPECT_EQ(loaded.roles->skills, (std::vector<handshake::SkillId>{handshake::skill_id("gripping"), handshake::skill_id("painting")}));
+  ASSERT_TRUE(loaded.roles->offer);
+  EXPECT_EQ(loaded.roles->offer->number, 1);
+  EXPECT_EQ(loaded.roles->offer->skills, (std::vector<handshake::SkillId>{handshake::skill_id("gripping"), handshake::skill_id("painting")}));
   EXPECT_EQ(loaded.roles->announce_cycle, Duration::from_ps(10'000'000'000));
   EXPECT_EQ(offered_in(load.loaded->programs), 0u);
   ASSERT_EQ(load.loaded->script.size(), 3u);

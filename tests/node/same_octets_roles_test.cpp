@@ -11,11 +11,11 @@
 
 #include "models/network.hpp"
 #include "node/config.hpp"
-#include "node/group_member.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "sim/trace.hpp"
 #include "uadp/octets.hpp"
+#include "wire/program_node.hpp"
 
 namespace takt::node {
 namespace {
@@ -84,14 +84,18 @@ class Bench {
  public:
   explicit Bench(Said& said) : said_(said) {
     for (const char* const name : {"m", "a", "b", "c"}) stations_.push_back(std::make_unique<Station>(*this, name));
-    for (const auto& each : stations_) each->member->start(*each);
+    for (const auto& each : stations_) each->carry_out(each->member->start(now_));
   }
 
   void at(sim::Duration time, std::function<void()> what) { events_.push({sim::LocalTime() + time, count_++, std::move(what)}); }
-  void call(program::Method method) { EXPECT_EQ(stations_[0]->member->call(*stations_[0], method), program::StatusCode::Good); }
+  void call(program::Method method) {
+    wire::NodeOutputs& outputs = stations_[0]->member->call(now_, method);
+    EXPECT_EQ(outputs.status, program::StatusCode::Good);
+    stations_[0]->carry_out(outputs);
+  }
   void plug(std::size_t station, Plug what) {
-    wire::CandidateEndpoint& candidate = *stations_[station]->member->candidate();
-    what == Plug::join ? candidate.join(*stations_[station]) : candidate.leave(*stations_[station]);
+    wire::ProgramNode& candidate = *stations_[station]->member;
+    stations_[station]->carry_out(what == Plug::join ? candidate.join(now_) : candidate.leave(now_));
   }
   void run(sim::Duration until) {
     while (!events_.empty() && events_.top().time <= sim::LocalTime() + until) {
@@ -117,7 +121,7 @@ class Bench {
     std::function<void()> what;
     bool operator<(const Event& other) const { return std::pair(time, number) > std::pair(other.time, other.number); }
   };
-  struct Station final : wire::PlugHost {
+  struct Station {
     Station(Bench& bench_of, const std::string& name) : bench(bench_of) {
       const std::map<std::string, std::string> offers = {{"m", ""}, {"a", R"(, "offers": ["welding"])"}, {"b", R"(, "offers": ["welding"], "absent": true)"}, {"c", R"(, "offers": ["gripping"])"}};
       const std::string path = std::string(::testing::TempDir()) + "takt-node-same-roles.json";
@@ -126,34 +130,33 @@ class Bench {
       loaded = load_config(path, diagnostics);
       std::filesystem::remove(path);
       if (!loaded) throw std::runtime_error(diagnostics.to_text());
-      wire::EndpointSettings settings = loaded->programs[0].endpoint;
-      settings.handshake.incarnation = name == "m" ? 1 : 0;  // a candidate's life is one more
-      member = std::make_unique<GroupMember>(loaded->config, loaded->programs[0], settings);
+      wire::NodeSettings settings = loaded->programs[0];
+      settings.set_incarnation(name == "m" ? 1 : 0);  // a candidate's life is one more
+      member = std::make_unique<wire::ProgramNode>(settings);
       alarms.resize(member->alarm_count());
     }
-    sim::LocalTime now() const override { return bench.now_; }
-    void set_alarm(std::size_t alarm, sim::LocalTime time) override {
-      const std::uint64_t setting = ++alarms[alarm];
-      bench.at(time.since_start(), [this, alarm, setting] {
-        if (alarms[alarm] == setting) member->wake(*this, alarm);
+    void carry_out(wire::NodeOutputs& outputs) {
+      while (const auto output = outputs.next()) std::visit([this](const auto& what) { act(what); }, output->what);
+    }
+    void act(const wire::SetAlarm& set) {
+      const std::uint64_t setting = ++alarms[set.alarm];
+      bench.at(set.time.since_start(), [this, alarm = set.alarm, setting] {
+        if (alarms[alarm] == setting) carry_out(member->wake(bench.now_, alarm));
       });
     }
-    void publish(uadp::Octets octets, const pubsub::Destination&) override {
-      bench.said_.add(octets);
+    void act(const wire::Publish& message) {
+      bench.said_.add(message.octets);
       for (const auto& other : bench.stations_) {
         if (other.get() == this) continue;
-        bench.at(bench.now_.since_start() + 20_us, [to = other.get(), copy = std::vector<std::byte>(octets.begin(), octets.end())] { to->member->receive(*to, copy); });
+        bench.at(bench.now_.since_start() + 20_us, [to = other.get(), copy = std::vector<std::byte>(message.octets.begin(), message.octets.end())] { to->carry_out(to->member->receive(to->bench.now_, copy)); });
       }
     }
-    void stepped(const handshake::Outputs&, const handshake::Word&) override {}
-    void process_data(const wire::ProcessDataMessage&) override {}
-    void role_bound(std::size_t role, const handshake::Binding& binding) override { bench.bound.push_back(std::to_string(role) + (binding.bound() ? std::string(1, "abc"[binding.candidate]) : "-")); }
-    void role_taken(std::size_t, const handshake::Binding&) override {}
-    void role_dropped(std::size_t, const handshake::Binding&) override {}
+    void act(const wire::RoleBound& bound) { bench.bound.push_back(std::to_string(bound.role) + (bound.binding.bound() ? std::string(1, "abc"[bound.binding.candidate]) : "-")); }
+    void act(const auto&) {}
 
     Bench& bench;
     std::unique_ptr<LoadedConfig> loaded;
-    std::unique_ptr<GroupMember> member;
+    std::unique_ptr<wire::ProgramNode> member;
     std::vector<std::uint64_t> alarms;  ///< which setting of each is the valid one
   };
 

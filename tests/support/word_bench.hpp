@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "node/config.hpp"
-#include "node/group_member.hpp"
 #include "node/node_status.hpp"
 #include "node/statistics.hpp"
 #include "node/transition_log.hpp"
 #include "uadp/octets.hpp"
 #include "wire/nesting.hpp"
+#include "wire/program_node.hpp"
 
 namespace takt::test {
 
@@ -58,18 +58,21 @@ class WordBench {
     for (std::size_t i = configs.size(); i < group.nodes.size(); ++i) configs.push_back(load(group, i));
     for (const auto& each : configs) nodes_.push_back(std::make_unique<Node>(*this, *each, nodes_.size()));
     for (const auto& node : nodes_)
-      for (const auto& seat : node->seats) seat->member.start(*seat);
+      for (const auto& seat : node->seats) seat->carry_out(seat->member.start(now_));
   }
 
   std::size_t size() const { return nodes_.size(); }
   /// The programs in which a node is.
   std::size_t seats(std::size_t node) const { return nodes_[node]->seats.size(); }
-  node::GroupMember& member(std::size_t node, std::size_t seat = 0) { return nodes_[node]->seats[seat]->member; }
-  program::StatusCode call(std::size_t node, program::Method method, std::size_t seat = 0) { return member(node, seat).call(*nodes_[node]->seats[seat], method); }
-  void finished(std::size_t node, std::size_t seat = 0) { member(node, seat).finished(*nodes_[node]->seats[seat]); }
+  wire::ProgramNode& member(std::size_t node, std::size_t seat = 0) { return nodes_[node]->seats[seat]->member; }
+  program::StatusCode call(std::size_t node, program::Method method, std::size_t seat = 0) {
+    wire::NodeOutputs& outputs = member(node, seat).call(now_, method);
+    nodes_[node]->seats[seat]->carry_out(outputs);
+    return outputs.status;
+  }
+  void finished(std::size_t node, std::size_t seat = 0) { nodes_[node]->seats[seat]->carry_out(member(node, seat).finished(now_)); }
   void plug(std::size_t node, node::Plug what) {
-    wire::CandidateEndpoint* const candidate = member(node).candidate();
-    if (candidate != nullptr) what == node::Plug::join ? candidate->join(*nodes_[node]->seats[0]) : candidate->leave(*nodes_[node]->seats[0]);
+    if (member(node).candidate() != nullptr) nodes_[node]->seats[0]->carry_out(what == node::Plug::join ? member(node).join(now_) : member(node).leave(now_));
   }
 
   void run(sim::Duration duration) {
@@ -113,7 +116,7 @@ class WordBench {
     for (const auto& node : nodes_)
       for (const auto& seat : node->seats) {
         const std::vector<std::byte> exact(octets);  // of its own: sanitizers see what is read behind it
-        seat->member.receive(*seat, exact);
+        seat->carry_out(seat->member.receive(now_, exact));
       }
   }
 
@@ -143,44 +146,48 @@ class WordBench {
     std::function<void()> what;
     bool operator<(const Event& other) const { return std::pair(time, number) > std::pair(other.time, other.number); }
   };
-  struct Seat final : wire::PlugHost {
-    Seat(WordBench& of_bench, const node::LoadedConfig& loaded, const node::LoadedProgram& program, std::size_t node)
-        : bench(of_bench), of(program), number(node), member(loaded.config, program, settings(program, node)), peers(member.peer_count()), log(of_bench.sink_.get()),
+  struct Seat {
+    Seat(WordBench& of_bench, const node::LoadedProgram& program, std::size_t node)
+        : bench(of_bench), of(program), number(node), member(settings(program, node)), peers(member.peer_count()), log(of_bench.sink_.get()),
           alarms(member.alarm_count()) {}
-    static wire::EndpointSettings settings(const node::LoadedProgram& program, std::size_t node) {
-      wire::EndpointSettings settings = program.endpoint;
-      settings.handshake.incarnation = static_cast<std::uint32_t>(1000 + node);
+    static wire::NodeSettings settings(wire::NodeSettings settings, std::size_t node) {
+      settings.set_incarnation(static_cast<std::uint32_t>(1000 + node));
       return settings;
     }
+    void carry_out(wire::NodeOutputs& outputs) {
+      while (const auto output = outputs.next())
+        std::visit([&](const auto& what) { (output->side == side ? this : nested)->act(what); }, output->what);
+    }
     std::int64_t ns() const { return bench.now_.since_start().ps() / 1000; }
-    sim::LocalTime now() const override { return bench.now_; }
-    void set_alarm(std::size_t alarm, sim::LocalTime time) override {
-      const std::uint64_t setting = ++alarms[alarm];
-      bench.at(time, [this, alarm, setting] {
-        if (alarms[alarm] == setting) member.wake(*this, alarm);
+    void act(const wire::SetAlarm& set) {
+      const std::uint64_t setting = ++alarms[set.alarm];
+      bench.at(set.time, [this, alarm = set.alarm, setting] {
+        if (alarms[alarm] == setting) carry_out(member.wake(bench.now_, alarm));
       });
     }
-    void publish(uadp::Octets octets, const pubsub::Destination& destination) override {
-      const std::vector<std::byte> copy(octets.begin(), octets.end());
-      bench.streams_[{uadp::load_little_endian<std::uint16_t>(octets.data() + 2), destination.writer_group_id}] = copy;
+    void act(const wire::Publish& message) {
+      const std::vector<std::byte> copy(message.octets.begin(), message.octets.end());
+      bench.streams_[{uadp::load_little_endian<std::uint16_t>(copy.data() + 2), message.destination.writer_group_id}] = copy;
       for (const auto& other : bench.nodes_)
         if (other->number != number)
           for (const auto& seat : other->seats)
             if (seat->of.program.name == of.program.name)
-              bench.at(bench.now_ + sim::Duration::from_ps(20'000'000), [to = seat.get(), copy] { to->member.receive(*to, copy); });
-      if (destination.writer_group_id == wire::state_writer_group) peers.published(member.endpoint()->participant().word(), bench.now_);
+              bench.at(bench.now_ + sim::Duration::from_ps(20'000'000), [to = seat.get(), copy] { to->carry_out(to->member.receive(to->bench.now_, copy)); });
+      if (message.is_state()) peers.published(message.word, bench.now_);
     }
-    void stepped(const handshake::Outputs& outputs, const handshake::Word& after) override { log.stepped(ns(), outputs, after); }
-    void heard(std::size_t peer, const handshake::Word& word) override { peers.heard(peer, word, bench.now_); }
-    void process_data(const wire::ProcessDataMessage&) override {}
-    void role_bound(std::size_t role, const handshake::Binding&) override { peers.forget(role); }
-    void role_taken(std::size_t, const handshake::Binding&) override {}
-    void role_dropped(std::size_t, const handshake::Binding&) override { peers.forget(0); }
+    void act(const wire::Stepped& step) { log.stepped(ns(), step.outputs, step.after); }
+    void act(const wire::Heard& heard) { peers.heard(heard.peer, heard.word, bench.now_); }
+    void act(const wire::ProcessDataMessage&) {}
+    void act(const wire::RoleBound& bound) { peers.forget(bound.role); }
+    void act(const wire::RoleTaken&) {}
+    void act(const wire::RoleDropped&) { peers.forget(0); }
 
     WordBench& bench;
     const node::LoadedProgram& of;
     std::size_t number;
-    node::GroupMember member;
+    wire::ProgramNode member;
+    handshake::Side side = handshake::Side::Outer;
+    Seat* nested = nullptr;
     node::CycleStatistics cycles;
     node::PeerWatch peers;
     node::TransitionLog log;
@@ -188,9 +195,14 @@ class WordBench {
   };
   struct Node {
     Node(WordBench& bench, const node::LoadedConfig& of, std::size_t place) : loaded(of), number(place) {
-      for (const node::LoadedProgram& program : of.programs) seats.push_back(std::make_unique<Seat>(bench, of, program, place));
+      for (const node::LoadedProgram& program : of.programs) seats.push_back(std::make_unique<Seat>(bench, program, place));
       for (std::size_t i = 0; i < seats.size(); ++i)
-        if (const auto outer = of.programs[i].outer) nesting = std::make_unique<wire::Nesting>(seats[*outer]->member.plain(), *seats[*outer], seats[i]->member.plain(), *seats[i]);
+        if (const auto outer = of.programs[i].outer) {
+          seats[*outer]->nested = seats[i].get();
+          seats[i]->nested = seats[*outer].get();
+          seats[i]->side = handshake::Side::Inner;
+          nesting = std::make_unique<wire::Nesting>(seats[*outer]->member, seats[i]->member);
+        }
     }
     const node::LoadedConfig& loaded;
     std::size_t number;

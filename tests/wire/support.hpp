@@ -1,11 +1,11 @@
-// What the tests of wire/ share: a small Program and an endpoint's host that only remembers.
+// What the tests of wire/ share: a small Program, and a node in it that only remembers.
 #pragma once
 
 #include <map>
 #include <memory>
 #include <vector>
 
-#include "wire/program_endpoint.hpp"
+#include "wire/program_node.hpp"
 
 namespace takt::wire::test {
 
@@ -25,31 +25,48 @@ inline ProgramShape shape(Variant variant = Variant::Robust, std::size_t slaves 
   return made;
 }
 
-/// Remembers what an endpoint asks and says. Its time is set by hand.
-struct Remembering final : EndpointHost {
+/// A node in a Program, by hand: remembers what comes out of its turns. Its time is set by hand.
+struct Bench {
   struct Sent {
     std::vector<std::byte> octets;
     pubsub::Destination destination;
   };
+  explicit Bench(NodeSettings settings) : node(std::move(settings)) {}
+  explicit Bench(EndpointSettings settings) : node({std::move(settings), {}}) {}
+
+  void start() { carry_out(node.start(time)); }
+  program::StatusCode call(program::Method method) {
+    NodeOutputs& outputs = node.call(time, method);
+    carry_out(outputs);
+    return outputs.status;
+  }
+  void receive(uadp::Octets message) { carry_out(node.receive(time, message)); }
+  void wake(std::size_t alarm) { carry_out(node.wake(time, alarm)); }
+  void at(sim::Duration since_start) { time = sim::LocalTime() + since_start; }
+  sim::Duration alarm(std::size_t number) const { return alarms.at(number).since_start(); }
+  const handshake::Participant<64>& participant() const { return node.endpoint()->participant(); }
+  const EndpointCounts& counts() const { return node.endpoint()->counts(); }
+
+  void carry_out(NodeOutputs& outputs) {
+    while (const auto output = outputs.next()) std::visit([this](const auto& what) { act(what); }, output->what);
+  }
+  void act(const SetAlarm& set) { alarms[set.alarm] = set.time; }
+  void act(const Publish& message) {
+    if (!message.is_state() && !message.is_of_roles())
+      for (std::byte& octet : message.fields()) octet = fill_with;
+    sent.push_back({{message.octets.begin(), message.octets.end()}, message.destination});
+  }
+  void act(const Stepped& step) { changes.insert(changes.end(), step.outputs.changes().begin(), step.outputs.changes().end()); }
+  void act(const ProcessDataMessage& message) { data.push_back(message); }
+  void act(const auto&) {}
+
+  ProgramNode node;
   sim::LocalTime time;
   std::map<std::size_t, sim::LocalTime> alarms;
   std::vector<Sent> sent;
   std::vector<handshake::StateChange> changes;
   std::vector<ProcessDataMessage> data;
   std::byte fill_with{};
-
-  sim::LocalTime now() const override { return time; }
-  void set_alarm(std::size_t alarm, sim::LocalTime at) override { alarms[alarm] = at; }
-  void publish(uadp::Octets octets, const pubsub::Destination& destination) override {
-    sent.push_back({{octets.begin(), octets.end()}, destination});
-  }
-  void stepped(const handshake::Outputs& outputs, const handshake::Word&) override {
-    changes.insert(changes.end(), outputs.changes().begin(), outputs.changes().end());
-  }
-  void process_data(const ProcessDataMessage& message) override { data.push_back(message); }
-  void fill(std::uint8_t, std::span<std::byte> fields) override {
-    for (std::byte& octet : fields) octet = fill_with;
-  }
 };
 
 inline EndpointSettings settings(std::uint8_t index, std::shared_ptr<const ProgramFormat> format) {

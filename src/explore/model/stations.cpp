@@ -119,7 +119,7 @@ auto Stations::step(StationId id, std::uint64_t kind, Happens what, std::size_t 
   return {static_cast<StationId>(found), static_cast<std::uint32_t>(found >> 32)};
 }
 
-/// As PlugMaster does; received: `which` is the candidate who has sent it.
+/// As a ProgramNode does at the master; received: `which` is the candidate who has sent it.
 StationId Stations::stepped_master(StationId id, Happens what, std::size_t which, const Notice& notice, RoleEvents& events) {
   Master master = masters_[id];
   Binder binder = binders_[master.binder];
@@ -171,7 +171,7 @@ void Stations::settle(Participant& participant, Binder& binder, RoleEvents& even
   }
 }
 
-/// As CandidateEndpoint does.
+/// As a ProgramNode does at a candidate.
 StationId Stations::stepped_node(StationId id, Happens what, std::size_t which, const Notice& notice, RoleEvents& events) {
   Node node = nodes_[id];
   const Binding self{node.number, node.candidate.announcement().life};

@@ -1,5 +1,5 @@
 // The stations of a group with roles, as numbers: the master, which binds the roles, and the candidates. Each step is taken once by the very
-// handshake::Binder, Candidate and Participant, as wire/plug_endpoint.cpp drives them, and then remembered.
+// handshake::Binder, Candidate and Participant, as wire/program_node.cpp drives them, and then remembered.
 #pragma once
 
 #include <array>

@@ -4,86 +4,118 @@
 
 namespace takt::scenario {
 
-ProgramApplication::ProgramApplication(Settings settings, ProgramMonitor& monitor, std::uint32_t node)
+ProgramApplication::ProgramApplication(Settings settings, ProgramMonitor& monitor, PlugMonitor* roles, models::NodeIndex host)
     : state_stream_(settings.state_stream),
+      role_stream_(settings.role_stream),
       data_streams_(std::move(settings.data_streams)),
       replies_(std::move(settings.replies)),
       monitor_(&monitor),
-      endpoint_(std::move(settings.endpoint)),
-      node_(node),
-      heard_(endpoint_.participant().peer_count()) {}
+      roles_(roles),
+      host_(host),
+      node_(std::move(settings.node)),
+      heard_(node_.peer_count()) {}
 
-void ProgramApplication::start(models::HostServices& host) {
-  host_ = &host;
-  endpoint_.start(*this);
+std::unique_ptr<wire::Nesting> ProgramApplication::nest(ProgramApplication& outer, models::HostServices& outer_host, ProgramApplication& inner, models::HostServices& inner_host) {
+  outer.other_ = &inner;
+  outer.host_of_other_ = &inner_host;
+  inner.other_ = &outer;
+  inner.host_of_other_ = &outer_host;
+  inner.side_ = handshake::Side::Inner;
+  return std::make_unique<wire::Nesting>(outer.node_, inner.node_);
 }
 
 void ProgramApplication::crash() {
   if (has_crashed_) return;
   has_crashed_ = true;
-  const handshake::PublishedState before = state();
+  const auto participant = node_.participant();
+  const handshake::PublishedState before = node_.state();
+  const auto self = is_candidate() ? std::optional(node_.self()) : std::nullopt;
   if (replies_) replies_->forget();
-  endpoint_.forget(endpoint_.settings().handshake.incarnation + 1);
-  monitor_->on_crash(index(), before);
+  node_.crash();
+  if (!self)
+    monitor_->on_crash(*participant, before);
+  else if (participant)
+    roles_->on_dropped(*participant - 1, *self, true);
 }
 
+/// A candidate is back when it is bound.
 void ProgramApplication::restart(models::HostServices& host) {
   crash();
   has_crashed_ = false;
-  monitor_->on_back(index(), node_);
+  if (!is_candidate()) monitor_->on_back(*node_.participant(), host_.value);
   start(host);
 }
 
 void ProgramApplication::call(models::HostServices& host, program::Method method) {
-  host_ = &host;
-  monitor_->before_call();
-  monitor_->on_call(index(), method, endpoint_.call(*this, method));
+  const auto participant = node_.participant();
+  if (participant) monitor_->before_call();
+  wire::NodeOutputs& outputs = node_.call(host.now(), method);
+  carry_out(host, outputs);
+  if (participant) monitor_->on_call(*participant, method, outputs.status);
+}
+
+std::optional<handshake::PublishedState> ProgramApplication::state_of(std::uint32_t life) const {
+  return node_.participant() && node_.self().life == life ? std::optional(node_.state()) : std::nullopt;
 }
 
 void ProgramApplication::wake(models::HostServices& host, models::AlarmId alarm) {
-  host_ = &host;
-  if (alarm == endpoint_.alarm_count()) {
-    end_work();
+  if (alarm == work_alarm()) {
+    end_work(host);
     return;
   }
-  if (const auto peer = endpoint_.peer_of_alarm(alarm)) monitor_->on_silence(index(), endpoint_.participant().participant_of(*peer), heard_[*peer]);
-  endpoint_.wake(*this, alarm);
+  if (const auto* const endpoint = node_.endpoint())
+    if (const auto peer = endpoint->peer_of_alarm(alarm)) monitor_->on_silence(*node_.participant(), endpoint->participant().participant_of(*peer), heard_[*peer]);
+  carry_out(host, node_.wake(host.now(), alarm));
 }
 
-void ProgramApplication::receive(models::HostServices& host, models::StreamIndex, std::span<const std::byte> payload) {
-  host_ = &host;
-  endpoint_.receive(*this, payload);
+void ProgramApplication::carry_out(models::HostServices& host, wire::NodeOutputs& outputs) {
+  while (const auto output = outputs.next())
+    std::visit([&](const auto& what) { output->side == side_ ? act(host, what) : other_->act(*host_of_other_, what); }, output->what);
 }
 
-void ProgramApplication::publish(uadp::Octets network_message, const pubsub::Destination& destination) {
-  const bool is_state = destination.writer_group_id == wire::state_writer_group;
-  const std::size_t data_set = destination.writer_group_id - std::size_t{wire::first_data_writer_group};
-  if (!is_state) monitor_->on_published(data_set, endpoint_.last_data_sequence(data_set));
-  host_->send(is_state ? state_stream_ : data_streams_[data_set], network_message);
+void ProgramApplication::act(models::HostServices& host, const wire::Publish& message) {
+  if (message.is_state()) {
+    host.send(state_stream_, message.octets);
+  } else if (message.is_of_roles()) {
+    host.send(*role_stream_, message.octets);
+  } else if (const auto& stream = data_streams_[message.data_set()]) {
+    monitor_->on_published(message.data_set(), message.sequence);
+    if (node_.endpoint()->settings().handshake.variant == handshake::Variant::Paper) message.set_run(monitor_->sending_run(*node_.participant()));
+    host.send(*stream, message.octets);
+  }
 }
 
-void ProgramApplication::stepped(const handshake::Outputs& outputs, const handshake::Word& after) { monitor_->on_step(index(), outputs, after); }
-
-void ProgramApplication::process_data(const wire::ProcessDataMessage& message) {
-  monitor_->on_process_data(message.sender, index(), message.run);
-  monitor_->on_data_received(message.data_set, message.sequence, index());
-  if (replies_ && replies_->answers(message.data_set)) begin_work(replies_->take({message.data_set, message.sequence}));
+void ProgramApplication::act(models::HostServices&, const wire::Stepped& step) {
+  const std::size_t participant = *node_.participant();
+  is_candidate() ? roles_->on_step(participant - 1, node_.self(), step.outputs, step.after) : monitor_->on_step(participant, step.outputs, step.after);
 }
 
-void ProgramApplication::begin_work(const std::optional<sim::Duration>& work) {
-  if (work) host_->work(static_cast<models::AlarmId>(endpoint_.alarm_count()), *work);
+void ProgramApplication::act(models::HostServices& host, const wire::ProcessDataMessage& message) {
+  const std::size_t participant = *node_.participant();
+  is_candidate() ? roles_->on_process_data(participant - 1, node_.self(), message.sender, message.run) : monitor_->on_process_data(message.sender, participant, message.run);
+  monitor_->on_data_received(message.data_set, message.sequence, participant);
+  if (replies_ && replies_->answers(message.data_set)) begin_work(host, replies_->take({message.data_set, message.sequence}));
+}
+
+void ProgramApplication::begin_work(models::HostServices& host, const std::optional<sim::Duration>& work) {
+  if (work) host.work(static_cast<models::AlarmId>(work_alarm()), *work);
 }
 
 /// What was asked is answered, unless this participant has stopped in the meantime.
-void ProgramApplication::end_work() {
+void ProgramApplication::end_work(models::HostServices& host) {
   const ReplyWorker::Done done = replies_->done();
   const std::span<const ResolvedReply> replies = replies_->replies();
   for (std::size_t i = 0; i < replies.size(); ++i) {
     const ResolvedReply& reply = replies[i];
     if (reply.to != done.request.data_set || !replies_->is_own(reply)) continue;
-    if (endpoint_.publish_data(*this, reply.with)) monitor_->on_replied(i, endpoint_.last_data_sequence(reply.with), done.request.sequence);
+    wire::NodeOutputs& outputs = node_.publish_data(host.now(), reply.with);
+    while (const auto output = outputs.next()) {
+      const auto& message = std::get<wire::Publish>(output->what);
+      act(host, message);
+      monitor_->on_replied(i, message.sequence, done.request.sequence);
+    }
   }
-  begin_work(done.next);
+  begin_work(host, done.next);
 }
 
 }  // namespace takt::scenario

@@ -1,72 +1,81 @@
-// A participant of a Program on a simulated host: a wire::ProgramEndpoint behind the application interface of a host.
+// What a node is in a Program, on a simulated host: a wire::ProgramNode behind the application interface of a host.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "models/host/application.hpp"
-#include "scenario/programs/program_monitor.hpp"
+#include "scenario/programs/plug_monitor.hpp"
 #include "scenario/programs/reply_worker.hpp"
 #include "wire/nesting.hpp"
-#include "wire/program_endpoint.hpp"
+#include "wire/program_node.hpp"
 
 namespace takt::scenario {
 
-class ProgramApplication final : public models::Application, private wire::EndpointHost {
+class ProgramApplication final : public models::Application {
  public:
   struct Settings {
-    wire::EndpointSettings endpoint;
+    wire::NodeSettings node;
     models::StreamIndex state_stream;
-    std::vector<models::StreamIndex> data_streams;  ///< by data set of the Program
-    std::optional<ReplyWorker> replies = {};        ///< if there are replies
+    std::optional<models::StreamIndex> role_stream = {};               ///< with roles: of announcements; of the master: the table of bindings
+    std::vector<std::optional<models::StreamIndex>> data_streams = {}; ///< by data set of the Program, of the own ones
+    std::optional<ReplyWorker> replies = {};                           ///< if there are replies
   };
 
-  ProgramApplication(Settings settings, ProgramMonitor& monitor, std::uint32_t node);
+  /// `roles`: null without them. `host`: the node.
+  ProgramApplication(Settings settings, ProgramMonitor& monitor, PlugMonitor* roles, models::NodeIndex host);
 
-  /// Joins two participants on one host; both outlive what is returned, which outlives their use.
-  static std::unique_ptr<wire::Nesting> nest(ProgramApplication& outer, ProgramApplication& inner) {
-    wire::EndpointHost& outer_host = outer;
-    wire::EndpointHost& inner_host = inner;
-    return std::make_unique<wire::Nesting>(outer.endpoint_, outer_host, inner.endpoint_, inner_host);
-  }
+  /// Joins two Programs on one host; both outlive what is returned, which outlives their use.
+  static std::unique_ptr<wire::Nesting> nest(ProgramApplication& outer, models::HostServices& outer_host, ProgramApplication& inner, models::HostServices& inner_host);
 
   /// A method call by a client or the user of this node.
   void call(models::HostServices& host, program::Method method);
-  /// The host has crashed: the participant is gone, with its memory. It comes back with `restart`, as another incarnation.
+  /// A candidate for roles.
+  void join(models::HostServices& host) { carry_out(host, node_.join(host.now())); }
+  void leave(models::HostServices& host) { carry_out(host, node_.leave(host.now())); }
+  /// The host has crashed: what was here is gone, with its memory. It comes back with `restart`, in another life.
   void crash();
-  handshake::PublishedState state() const { return endpoint_.participant().state(); }
-  const wire::ProgramEndpoint& endpoint() const { return endpoint_; }
+  models::NodeIndex host() const { return host_; }
+  const wire::ProgramNode& node() const { return node_; }
+  /// Of a candidate's participant of this life, if it has one now.
+  std::optional<handshake::PublishedState> state_of(std::uint32_t life) const;
 
-  models::AlarmId alarm_count() const override { return static_cast<models::AlarmId>(endpoint_.alarm_count() + (replies_ ? 1 : 0)); }
-  void start(models::HostServices& host) override;
+  models::AlarmId alarm_count() const override { return static_cast<models::AlarmId>(work_alarm() + (replies_ ? 1 : 0)); }
+  void start(models::HostServices& host) override { carry_out(host, node_.start(host.now())); }
   void restart(models::HostServices& host) override;
-  void receive(models::HostServices& host, models::StreamIndex stream, std::span<const std::byte> payload) override;
+  void receive(models::HostServices& host, models::StreamIndex, std::span<const std::byte> payload) override { carry_out(host, node_.receive(host.now(), payload)); }
   void wake(models::HostServices& host, models::AlarmId alarm) override;
 
  private:
-  // As an endpoint's host, within a call of the simulated one.
-  sim::LocalTime now() const override { return host_->now(); }
-  void set_alarm(std::size_t alarm, sim::LocalTime time) override { host_->set_alarm(static_cast<models::AlarmId>(alarm), time); }
-  void publish(uadp::Octets network_message, const pubsub::Destination& destination) override;
-  void stepped(const handshake::Outputs& outputs, const handshake::Word& after) override;
-  void process_data(const wire::ProcessDataMessage& message) override;
-  void heard(std::size_t peer, const handshake::Word&) override { heard_[peer] = monitor_->now(); }
-  std::uint32_t run_of_paper() const override { return monitor_->sending_run(index()); }
+  void carry_out(models::HostServices& host, wire::NodeOutputs& outputs);
+  void act(models::HostServices& host, const wire::SetAlarm& alarm) { host.set_alarm(static_cast<models::AlarmId>(alarm.alarm), alarm.time); }
+  void act(models::HostServices& host, const wire::Publish& message);
+  void act(models::HostServices& host, const wire::ProcessDataMessage& message);
+  void act(models::HostServices&, const wire::Heard& heard) { heard_[heard.peer] = monitor_->now(); }
+  void act(models::HostServices&, const wire::Stepped& step);
+  void act(models::HostServices&, const wire::RoleBound& bound) { roles_->on_bound(bound.role, bound.binding); }
+  void act(models::HostServices&, const wire::RoleTaken&) {}  // the master says who is bound
+  void act(models::HostServices&, const wire::RoleDropped& dropped) { roles_->on_dropped(dropped.role, dropped.self, false); }
 
-  void begin_work(const std::optional<sim::Duration>& work);
-  void end_work();
-
-  std::uint8_t index() const { return endpoint_.settings().handshake.index; }
+  void begin_work(models::HostServices& host, const std::optional<sim::Duration>& work);
+  void end_work(models::HostServices& host);
+  std::size_t work_alarm() const { return node_.alarm_count(); }
+  bool is_candidate() const { return node_.candidate() != nullptr; }
 
   models::StreamIndex state_stream_;
-  std::vector<models::StreamIndex> data_streams_;
+  std::optional<models::StreamIndex> role_stream_;
+  std::vector<std::optional<models::StreamIndex>> data_streams_;
   std::optional<ReplyWorker> replies_;
   ProgramMonitor* monitor_;
-  wire::ProgramEndpoint endpoint_;
-  std::uint32_t node_;
-  std::vector<sim::TrueTime> heard_;              ///< by peer
-  models::HostServices* host_ = nullptr;
+  PlugMonitor* roles_;
+  models::NodeIndex host_;
+  wire::ProgramNode node_;
+  std::vector<sim::TrueTime> heard_;   ///< by peer; the beginning for one that was never heard
   bool has_crashed_ = false;
+  handshake::Side side_ = handshake::Side::Outer;
+  ProgramApplication* other_ = nullptr;          ///< nested with this one
+  models::HostServices* host_of_other_ = nullptr;
 };
 
 }  // namespace takt::scenario

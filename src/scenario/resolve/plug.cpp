@@ -10,7 +10,7 @@
 #include "scenario/resolve/known_names.hpp"
 #include "uadp/builtin_type.hpp"
 #include "vocabulary/protocol.hpp"
-#include "wire/plug_endpoint.hpp"
+#include "wire/program_node.hpp"
 
 namespace takt::scenario {
 namespace {

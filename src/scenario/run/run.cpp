@@ -36,38 +36,20 @@ class Run::Script final : public sim::Component {
   }
 
  private:
+  /// Nobody has the role: refused.
   void act(const ResolvedCall& call) {
     const LiveProgram& live = *run_->programs_[call.program];
-    if (live.roles) {
-      call_role(live, call);
-      return;
-    }
-    models::Process& process = *run_->programs_[call.program]->processes[call.participant];
-    process.call([&](models::Application& application, models::HostServices& host) {
-      static_cast<ProgramApplication&>(application).call(host, method_of(call.method));
-    });
-  }
-  /// With roles: on whoever has the role; nobody has it: refused.
-  static void call_role(const LiveProgram& live, const ResolvedCall& call) {
     const program::Method method = vocabulary::method_of(call.method);
-    std::size_t process = 0;
-    if (call.participant != 0) {
-      const handshake::Binding& binding = live.roles->binding(call.participant - std::size_t{1});
-      if (!binding.bound()) {
-        live.monitor->on_call(call.participant, method, program::StatusCode::BadInvalidState);
-        return;
-      }
-      process = binding.candidate + std::size_t{1};
-    }
-    live.processes[process]->call([&](models::Application& application, models::HostServices& host) { static_cast<PlugApplication&>(application).call(host, method); });
+    if (const LiveMember* const member = live.who_is(call.participant))
+      member->process->call([&](models::Application&, models::HostServices& host) { member->application->call(host, method); });
+    else
+      live.monitor->on_call(call.participant, method, program::StatusCode::BadInvalidState);
   }
   void act(const ResolvedPlug& change) {
     const LiveProgram& live = *run_->programs_[change.program];
     if (!change.joins && live.roles->has_role(change.candidate)) live.monitor->on_leave();
-    live.processes[change.candidate + std::size_t{1}]->call([&](models::Application& application, models::HostServices& host) {
-      auto& candidate = static_cast<CandidateApplication&>(application);
-      change.joins ? candidate.join(host) : candidate.leave(host);
-    });
+    const LiveMember& member = live.members[change.candidate + std::size_t{1}];
+    member.process->call([&](models::Application&, models::HostServices& host) { change.joins ? member.application->join(host) : member.application->leave(host); });
   }
   void act(const ResolvedGates& change) { run_->network_.request_gates(change.node, change.port, change.gates); }
   void act(const ResolvedLink& change) { run_->network_.set_link(change.link, change.up); }
@@ -117,12 +99,24 @@ void Run::watch_clocks() {
 
 Run::~Run() = default;
 
+auto Run::LiveProgram::who_is(std::size_t participant) const -> const LiveMember* {
+  if (!roles || participant == 0) return &members[participant];
+  const handshake::Binding& binding = roles->binding(participant - 1);
+  return binding.bound() ? &members[binding.candidate + std::size_t{1}] : nullptr;
+}
+
+auto Run::add_member(const ResolvedProgram& program, models::NodeIndex node, ProgramApplication::Settings settings, const LiveProgram& live) -> LiveMember {
+  auto application = std::make_unique<ProgramApplication>(std::move(settings), *live.monitor, live.roles.get(), node);
+  ProgramApplication* const raw = application.get();
+  return {&network_.add_process(node, program.name, std::move(application)), raw};
+}
+
 /// What the participant answers at once, instead of publishing it every cycle.
 void Run::add_replies(const ResolvedProgram& program, std::size_t participant, ProgramApplication::Settings& settings) const {
   const std::string path = resolved_->topology.nodes[program.participants[participant].value].name + "/" + program.name;
   settings.replies.emplace(program, static_cast<std::uint8_t>(participant), resolved_->scenario.seed, path);
-  settings.endpoint.on_demand.assign(program.process_data.size(), false);
-  for (const ResolvedReply& reply : program.replies) settings.endpoint.on_demand[reply.with] = true;
+  settings.node.endpoint.on_demand.assign(program.process_data.size(), false);
+  for (const ResolvedReply& reply : program.replies) settings.node.endpoint.on_demand[reply.with] = true;
 }
 
 wire::EndpointSettings Run::endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) const {
@@ -155,13 +149,11 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
   live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, format->shape().variant, program.participants.size(), instants_);
   for (std::size_t p = 0; p < program.participants.size(); ++p) {
     ProgramApplication::Settings settings;
-    settings.endpoint = endpoint_settings(program, p, format);
+    settings.node.endpoint = endpoint_settings(program, p, format);
     settings.state_stream = program.state_streams[p];
     for (const ResolvedProcessData& data : program.process_data) settings.data_streams.push_back(data.stream);
     if (!program.replies.empty()) add_replies(program, p, settings);
-    auto application = std::make_unique<ProgramApplication>(std::move(settings), *live->monitor, program.participants[p].value);
-    live->applications.push_back(application.get());
-    live->processes.push_back(&network_.add_process(program.participants[p], program.name, std::move(application)));
+    live->members.push_back(add_member(program, program.participants[p], std::move(settings), *live));
   }
   std::vector<std::uint32_t> nodes;
   for (const models::NodeIndex node : program.participants) nodes.push_back(node.value);
@@ -182,37 +174,38 @@ void Run::add_program_with_roles(std::uint32_t number, const ResolvedProgram& pr
   std::vector<std::uint32_t> nodes;
   for (const ResolvedCandidate& each : program.candidates) nodes.push_back(each.node.value);
   LiveProgram* const raw = live.get();
-  const auto state_of = [raw](const handshake::Binding& binding) { return binding.bound() ? raw->candidates[binding.candidate]->state_of(binding.life) : std::nullopt; };
+  const auto state_of = [raw](const handshake::Binding& binding) { return binding.bound() ? raw->members[binding.candidate + std::size_t{1}].application->state_of(binding.life) : std::nullopt; };
   live->roles = std::make_unique<PlugMonitor>(simulation_, number, *live->monitor, format->roles(), std::move(nodes), state_of);
   std::vector<std::uint32_t> at_first(program.participant_names.size());
   at_first[0] = program.participants[0].value;
   live->monitor->set_nodes(std::move(at_first));
   live->monitor->set_faults(faults_of(*resolved_, program));
 
-  wire::PlugSettings settings = wire::plug_settings(endpoint_settings(program, 0, program_format), format, program.announce_every);
-  PlugApplication::Streams streams{program.state_streams[0], program.table_stream, {}};
-  for (const ResolvedProcessData& data : program.process_data) streams.data.push_back(data.from == 0 ? std::optional(data.stream) : std::nullopt);
-  auto master = std::make_unique<PlugMasterApplication>(
-      settings, program.description->on_replacement == OnReplacement::restart, std::move(streams), *live->monitor, *live->roles, program.participants[0].value);
-  live->plug_master = master.get();
-  models::Process& master_process = network_.add_process(program.participants[0], program.name, std::move(master));
-  live->processes.push_back(&master_process);
+  ProgramApplication::Settings settings;
+  settings.node.endpoint = endpoint_settings(program, 0, program_format);
+  settings.node.roles = wire::RoleSettings{format, program.announce_every, program.description->on_replacement == OnReplacement::restart, {}};
+  settings.state_stream = program.state_streams[0];
+  settings.role_stream = program.table_stream;
+  for (const ResolvedProcessData& data : program.process_data) settings.data_streams.push_back(data.from == 0 ? std::optional(data.stream) : std::nullopt);
+  live->members.push_back(add_member(program, program.participants[0], settings, *live));
+  models::Process* const master = live->members[0].process;
 
+  settings.node.endpoint = endpoint_settings(program, 1, program_format);  // the index follows with the role
   for (std::uint8_t c = 0; c < program.candidates.size(); ++c) {
     const ResolvedCandidate& each = program.candidates[c];
-    settings.endpoint = endpoint_settings(program, 1, program_format);  // the index follows with the role
-    auto application = std::make_unique<CandidateApplication>(settings, c, vocabulary::skill_ids_of(each.skills), !each.is_absent,
-                                                              PlugApplication::Streams{each.state, each.announcements, each.data}, *live->monitor, *live->roles);
-    live->candidates.push_back(application.get());
-    models::Process& process = network_.add_process(each.node, program.name, std::move(application));
-    live->processes.push_back(&process);
-    network_.listen(each.node, program.state_streams[0], &process);
-    network_.listen(each.node, program.table_stream, &process);
+    settings.node.roles->offer = wire::Offer{c, 1, vocabulary::skill_ids_of(each.skills), !each.is_absent};
+    settings.state_stream = each.state;
+    settings.role_stream = each.announcements;
+    settings.data_streams = each.data;
+    live->members.push_back(add_member(program, each.node, settings, *live));
+    models::Process* const process = live->members.back().process;
+    network_.listen(each.node, program.state_streams[0], process);
+    network_.listen(each.node, program.table_stream, process);
     for (const ResolvedProcessData& data : program.process_data)
-      if (data.from == 0) network_.listen(each.node, data.stream, &process);
-    for (const models::StreamIndex stream : {each.state, each.announcements}) network_.listen(program.participants[0], stream, &master_process);
+      if (data.from == 0) network_.listen(each.node, data.stream, process);
+    for (const models::StreamIndex stream : {each.state, each.announcements}) network_.listen(program.participants[0], stream, master);
     for (const auto& stream : each.data)
-      if (stream) network_.listen(program.participants[0], *stream, &master_process);
+      if (stream) network_.listen(program.participants[0], *stream, master);
   }
   programs_.push_back(std::move(live));
 }
@@ -282,9 +275,12 @@ ThreadFigures Run::thread(std::size_t application, std::size_t thread, sim::Dura
 }
 
 void Run::nest_programs() {
-  for (std::size_t i = 0; i < programs_.size(); ++i)
-    if (const auto& outer = resolved_->programs[i].outer)
-      nestings_.push_back(ProgramApplication::nest(*programs_[outer->program]->applications[outer->participant], *programs_[i]->applications[0]));
+  for (std::size_t i = 0; i < programs_.size(); ++i) {
+    if (!resolved_->programs[i].outer) continue;
+    const LiveMember& outer = programs_[resolved_->programs[i].outer->program]->members[resolved_->programs[i].outer->participant];
+    const LiveMember& inner = programs_[i]->members[0];
+    nestings_.push_back(ProgramApplication::nest(*outer.application, *outer.process, *inner.application, *inner.process));
+  }
   for (const std::vector<std::uint32_t>& tree : trees_of(*resolved_)) {
     std::vector<handshake::TreeGroup> groups;
     for (const std::uint32_t number : tree) {
@@ -301,18 +297,9 @@ void Run::nest_programs() {
 }
 
 void Run::crash_programs(models::NodeIndex node) {
-  for (std::size_t i = 0; i < programs_.size(); ++i) {
-    if (programs_[i]->roles) {
-      const ResolvedProgram& program = resolved_->programs[i];
-      if (program.participants[0] == node) programs_[i]->plug_master->crash();
-      for (std::size_t c = 0; c < program.candidates.size(); ++c)
-        if (program.candidates[c].node == node) programs_[i]->candidates[c]->crash();
-      continue;
-    }
-    const std::vector<models::NodeIndex>& participants = resolved_->programs[i].participants;
-    for (std::size_t p = 0; p < participants.size(); ++p)
-      if (participants[p] == node) programs_[i]->applications[p]->crash();
-  }
+  for (const auto& program : programs_)
+    for (const LiveMember& member : program->members)
+      if (member.application->host() == node) member.application->crash();
   for (std::size_t a = 0; a < applications_.size(); ++a)
     if (resolved_->applications[a].node == node) applications_[a]->crash();
 }
@@ -320,10 +307,10 @@ void Run::crash_programs(models::NodeIndex node) {
 /// Hands the streams of the program to the processes of those that subscribe to them.
 void Run::connect_streams(const ResolvedProgram& program, const LiveProgram& live) {
   const auto connect = [&](std::size_t from, models::StreamIndex stream) {
-    if (from != 0) network_.listen(program.participants[0], stream, live.processes[0]);
+    if (from != 0) network_.listen(program.participants[0], stream, live.members[0].process);
     if (from != 0 && program.description->subscription == Subscription::star) return;
     for (std::size_t slave = 1; slave < program.participants.size(); ++slave)
-      if (slave != from) network_.listen(program.participants[slave], stream, live.processes[slave]);
+      if (slave != from) network_.listen(program.participants[slave], stream, live.members[slave].process);
   };
   for (std::size_t p = 0; p < program.participants.size(); ++p) connect(p, program.state_streams[p]);
   for (const ResolvedProcessData& data : program.process_data) connect(data.from, data.stream);

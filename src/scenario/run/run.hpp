@@ -6,7 +6,6 @@
 
 #include "models/network.hpp"
 #include "scenario/applications/topic_application.hpp"
-#include "scenario/programs/plug_application.hpp"
 #include "scenario/programs/program_application.hpp"
 #include "scenario/programs/program_monitor.hpp"
 #include "scenario/resolve/resolved.hpp"
@@ -38,8 +37,7 @@ class Run {
   void set_clock_sink(ClockSampleSink* sink) { clock_monitor_->set_sink(sink); }
   handshake::PublishedState state(std::size_t program, std::size_t participant) const {
     const LiveProgram& live = *programs_[program];
-    if (!live.roles) return live.applications[participant]->state();
-    return participant == 0 ? live.plug_master->state() : live.roles->state(participant - 1);
+    return live.roles && participant != 0 ? live.roles->state(participant - 1) : live.members[participant].application->node().state();
   }
   /// What a thread of an application has done so far.
   ThreadFigures thread(std::size_t application, std::size_t thread, sim::Duration from) const;
@@ -48,25 +46,30 @@ class Run {
   /// Null for a program without roles.
   const PlugMonitor* roles(std::size_t program) const { return programs_[program]->roles.get(); }
   /// Of the master of a program with roles.
-  const handshake::Binder& binder(std::size_t program) const { return programs_[program]->plug_master->binder(); }
+  const handshake::Binder& binder(std::size_t program) const { return *programs_[program]->members[0].application->node().binder(); }
 
   sim::TrueTime end() const { return sim::TrueTime() + resolved_->scenario.duration; }
   /// Goes on for at most about `max_events` events. True when the scenario's duration is over.
   bool advance(std::uint64_t max_events = ~0ULL) { return simulation_.run(end(), max_events); }
 
  private:
+  /// A node that is, or may be, a participant.
+  struct LiveMember {
+    models::Process* process = nullptr;
+    ProgramApplication* application = nullptr;
+  };
   struct LiveProgram {
     std::unique_ptr<ProgramMonitor> monitor;
-    std::vector<models::Process*> processes;              // by participant; with roles the master and the candidates
-    std::vector<ProgramApplication*> applications;        // none with roles
     std::unique_ptr<PlugMonitor> roles;                   // only with roles
-    PlugMasterApplication* plug_master = nullptr;
-    std::vector<CandidateApplication*> candidates;
+    std::vector<LiveMember> members;                      // by participant; with roles the master and the candidates
+    /// Who is that participant now; null if nobody.
+    const LiveMember* who_is(std::size_t participant) const;
   };
   class Script;
 
   void watch_clocks();
   void add_program(std::uint32_t number, const ResolvedProgram& program);
+  LiveMember add_member(const ResolvedProgram& program, models::NodeIndex node, ProgramApplication::Settings settings, const LiveProgram& live);
   void add_replies(const ResolvedProgram& program, std::size_t participant, ProgramApplication::Settings& settings) const;
   wire::EndpointSettings endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) const;
   void add_program_with_roles(std::uint32_t number, const ResolvedProgram& program);

@@ -1,0 +1,114 @@
+// What a node is in a Program, sans-IO: a participant, the master that binds roles, or a candidate for them. A turn goes in, its outputs come out.
+//
+// The simulated host and the real node own one each and differ only in how they carry the outputs out.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "handshake/binder.hpp"
+#include "wire/plug_format.hpp"
+#include "wire/program_endpoint.hpp"
+
+namespace takt::wire {
+
+/// How many announcements in a row may be missed.
+inline constexpr std::int64_t announcements_missed = 3;
+/// How many cycles there are from one announcement to the next, if nobody says otherwise.
+inline constexpr std::int64_t cycles_of_announcement = 10;
+
+/// What a candidate for roles offers.
+struct Offer {
+  std::uint8_t number = 0;                 ///< of the candidate
+  std::uint32_t life = 1;                  ///< the first one, never 0; a node that starts again begins with one that it never had
+  std::vector<handshake::SkillId> skills;
+  bool joins_at_start = true;
+};
+
+/// Of a Program whose roles are bound while it runs. Without them each participant has had its role from the beginning.
+struct RoleSettings {
+  std::shared_ptr<const PlugFormat> format;
+  sim::Duration announce_cycle;            ///< above 0; of announcements and of the table
+  bool restarts = false;                   ///< the group goes on by itself when a lost role is bound again
+  std::optional<Offer> offer;              ///< the master makes none
+
+  /// After that a node that has announced nothing is gone.
+  sim::Duration announce_timeout() const { return announce_cycle * announcements_missed + announce_cycle / 2; }
+};
+
+struct NodeSettings {
+  EndpointSettings endpoint;               ///< of a candidate but for index and incarnation, which come with its role
+  std::optional<RoleSettings> roles = {};
+
+  /// The node begins with this incarnation; so does the life of a candidate.
+  void set_incarnation(std::uint32_t incarnation);
+};
+
+class ProgramNode {
+ public:
+  explicit ProgramNode(NodeSettings settings);
+
+  NodeOutputs& start(sim::LocalTime now);
+  /// A method call by a client or the user of this node. A Start while a role has no node is refused with BadResourceUnavailable, any
+  /// method at a candidate without a role with BadInvalidState.
+  NodeOutputs& call(sim::LocalTime now, program::Method method);
+  /// The local process has ended by itself.
+  NodeOutputs& finished(sim::LocalTime now);
+  /// A NetworkMessage has come.
+  NodeOutputs& receive(sim::LocalTime now, uadp::Octets network_message);
+  /// An alarm has come due.
+  NodeOutputs& wake(sim::LocalTime now, std::size_t alarm);
+  /// Publishes an own data set, if the participant is Running.
+  NodeOutputs& publish_data(sim::LocalTime now, std::uint8_t data_set);
+  /// A candidate begins to announce itself, or asks to be let go.
+  NodeOutputs& join(sim::LocalTime now);
+  NodeOutputs& leave(sim::LocalTime now);
+  /// It loses its memory, as in a crash, and begins another life with `start`; a candidate announces itself if it did before.
+  void crash();
+
+  /// Of a cycle, of an initialisation, and one for each peer as those of its endpoint; behind them those of its role.
+  std::size_t alarm_count() const;
+  /// Peers that it has, or will have with a role.
+  std::size_t peer_count() const { return peers_; }
+  /// As which participant it takes part now, 0 for the master; nothing at a candidate without a role.
+  std::optional<std::size_t> participant() const;
+  /// Its state as a participant; a candidate without a role is Halted.
+  handshake::PublishedState state() const { return endpoint_ ? endpoint_->participant().state() : handshake::PublishedState::Halted; }
+  /// The participant; null without a role.
+  const ProgramEndpoint* endpoint() const { return endpoint_ ? &*endpoint_ : nullptr; }
+  /// At the master of roles; else null.
+  const handshake::Binder* binder() const { return binder_ ? &*binder_ : nullptr; }
+  /// At a candidate; else null.
+  const handshake::Candidate* candidate() const { return candidate_ ? &*candidate_ : nullptr; }
+  /// This life of this candidate.
+  handshake::Binding self() const { return {settings_.roles->offer->number, candidate_->announcement().life}; }
+
+ private:
+  friend class Nesting;
+  /// Joins another Program of its node; it is a participant without roles.
+  ProgramEndpoint& join(Nesting& nesting, handshake::Side side);
+
+  Turn turn(sim::LocalTime now);
+  std::size_t role_alarm() const { return ProgramEndpoint::alarm_count(peers_); }  // announcement or table; candidates' silence behind it
+  void begin();
+  bool take(const Turn& turn, const AnnouncementMessage& message);
+  bool take(const Turn& turn, const TableMessage& message);
+  void take_role();
+  void settle(const Turn& turn);
+  void publish_table(const Turn& turn);
+  void announce(const Turn& turn);
+  template <class Message>
+  void publish(const Turn& turn, const Message& message, std::uint16_t writer_group);
+
+  NodeSettings settings_;
+  std::size_t peers_ = 1;
+  std::optional<ProgramEndpoint> endpoint_;
+  std::optional<handshake::Binder> binder_;
+  std::optional<handshake::Candidate> candidate_;
+  std::vector<Arrivals> arrivals_;      ///< announcements by candidate; at a candidate the tables
+  std::uint16_t sequence_ = 0;          ///< of its tables or announcements
+  NodeOutputs outputs_;                 ///< without nesting
+  Nesting* nesting_ = nullptr;
+};
+
+}  // namespace takt::wire

@@ -4,7 +4,8 @@
 
 #include "analysis/gate_beginning.hpp"
 #include "json/quantity.hpp"
-#include "scenario/figures/requirement_rules.hpp"
+#include "results/run_result.hpp"
+#include "scenario/figures/requirement.hpp"
 
 namespace takt::analysis {
 namespace {
@@ -103,14 +104,13 @@ class Assessor {
 
 ClockPremise clock_premise(const scenario::Resolved& resolved, const BoundOptions& options) {
   ClockPremise premise{options.clock_error, Duration(), std::nullopt};
-  const auto& require = resolved.scenario.require;
-  for (std::size_t i = 0; i < require.size(); ++i) {
-    if (!require[i].sync || require[i].node) continue;
+  for (std::size_t i = 0; i < resolved.requirements.size(); ++i) {
+    const scenario::RequiredFigure& required = resolved.requirements[i];
+    if (required.kind != results::RequirementKind::sync || !required.subject.empty()) continue;
     // The weakest one is a consequence of each of the others, from whenever that holds.
-    const Duration from = scenario::counts_from(resolved.scenario, require[i]);
-    premise.after = premise.requirement ? std::min(premise.after, from) : from;
-    if (!premise.requirement || *require[i].sync > premise.error) {
-      premise.error = *require[i].sync;
+    premise.after = premise.requirement ? std::min(premise.after, required.from) : required.from;
+    if (!premise.requirement || *required.longest > premise.error) {
+      premise.error = *required.longest;
       premise.requirement = i;
     }
   }

@@ -14,7 +14,7 @@ namespace takt::analysis {
 struct ClockPremise {
   sim::Duration error;
   sim::Duration after;                       ///< since the start
-  std::optional<std::size_t> requirement;    ///< in Scenario::require; nothing: BoundOptions::clock_error
+  std::optional<std::size_t> requirement;    ///< in Resolved::requirements; nothing: BoundOptions::clock_error
 };
 ClockPremise clock_premise(const scenario::Resolved& resolved, const BoundOptions& options);
 

@@ -11,8 +11,8 @@
 #include "analysis/program_assessment.hpp"
 #include "analysis/program_reactions.hpp"
 #include "analysis/separated_flow.hpp"
+#include "results/run_result.hpp"
 #include "scenario/figures/requirement.hpp"
-#include "scenario/figures/requirement_rules.hpp"
 #include "sim/check.hpp"
 
 namespace takt::analysis {
@@ -210,49 +210,45 @@ class RequirementBounds {
   RequirementBounds(const scenario::Resolved& resolved, Bounds& bounds) : r_(resolved), bounds_(bounds) {}
 
   void make() {
-    for (std::size_t i = 0; i < r_.scenario.require.size(); ++i) {
-      const scenario::Requirement& requirement = r_.scenario.require[i];
-      if (requirement.reaction) add(i, "reaction", reaction(requirement));
-      if (requirement.success) add(i, "success", {{}, {}, "takt has no bound for how many activations of a thread are done in time", {}});
-      if (requirement.buffered) add(i, "buffered", {{}, {}, "takt has no bound for how many values a thread finds buffered", {}});
-      if (requirement.irregular) add(i, "irregular", {{}, {}, "takt has no bound for how regular the pulses of a signal are", {}});
-      if (requirement.figure) add(i, "figure", figure(requirement));
-      if (requirement.sync) add(i, "sync", {{}, {}, "synchronisation is simulated, not bounded; gates and publishing rest on it", {}});
-      if (!requirement.stream) continue;
-      const StreamBound* const stream = stream_named(*requirement.stream);
-      if (stream == nullptr) continue;
-      if (requirement.latency) add(i, "latency", {stream->latency, {}, stream->reason, stream->assumptions});
-      if (requirement.jitter) add(i, "jitter", {stream->latency ? std::optional(*stream->latency - stream->least) : std::nullopt, {}, stream->reason, stream->assumptions});
-      if (requirement.dropped) add(i, "dropped", dropped(*stream));
-      if (requirement.delivered) add(i, "delivered", {{}, {}, "a number of delivered frames is no worst case", {}});
-    }
+    for (const scenario::RequiredFigure& required : r_.requirements) bounds_.requirements.push_back(of(required));
   }
 
  private:
-  void add(std::size_t requirement, std::string what, RequirementBound bound) { bounds_.requirements.push_back({requirement, std::move(what), std::move(bound)}); }
-
-  const StreamBound* stream_named(const std::string& name) const {
-    const auto found = std::find_if(bounds_.streams.begin(), bounds_.streams.end(), [&](const StreamBound& s) { return s.name == name; });
-    return found == bounds_.streams.end() ? nullptr : &*found;
+  RequirementBound of(const scenario::RequiredFigure& required) const {
+    using enum results::RequirementKind;
+    constexpr std::pair<results::RequirementKind, const char*> unbounded[] = {
+        {success, "takt has no bound for how many activations of a thread are done in time"},
+        {buffered, "takt has no bound for how many values a thread finds buffered"},
+        {irregular, "takt has no bound for how regular the pulses of a signal are"},
+        {sync, "synchronisation is simulated, not bounded; gates and publishing rest on it"},
+        {delivered, "a number of delivered frames is no worst case"},
+    };
+    for (const auto& [kind, reason] : unbounded)
+      if (required.kind == kind) return {{}, {}, reason, {}};
+    if (required.kind == figure) return of_figure(required);
+    if (required.kind == reaction) return of_reaction(*scenario::reaction_of(required.figure));
+    const auto stream = std::ranges::find(bounds_.streams, required.subject, &StreamBound::name);
+    TAKT_CHECK(stream != bounds_.streams.end(), "a stream of a requirement is one");
+    if (required.kind == latency) return {stream->latency, {}, stream->reason, stream->assumptions};
+    if (required.kind == jitter) return {stream->latency ? std::optional(*stream->latency - stream->least) : std::nullopt, {}, stream->reason, stream->assumptions};
+    return of_losses(*stream);
   }
 
-  RequirementBound figure(const scenario::Requirement& requirement) const {
-    json::Diagnostics diagnostics;
-    const auto asked = scenario::read_figure_requirement(requirement, diagnostics);
-    TAKT_CHECK(asked, "a requirement that was resolved has a figure");
-    RequirementBound bound = bound_of_figure(r_, bounds_, asked->figure, scenario::counts_from(r_.scenario, requirement), [this](const scenario::Requirement& each) { return reaction(each); });
+  RequirementBound of_figure(const scenario::RequiredFigure& required) const {
+    const scenario::Figure& figure = required.figure;
+    RequirementBound bound = bound_of_figure(r_, bounds_, figure, required.from, [this](const scenario::AskedReaction& each) { return of_reaction(each); });
     bound.duration.reset();
-    if (asked->figure.is_time && asked->limit.is_upper() && bound.figure->greatest) bound.duration = Duration::from_ps(std::llround(*bound.figure->greatest * asked->figure.divisor));
+    if (required.longest && bound.figure->greatest) bound.duration = Duration::from_ps(std::llround(*bound.figure->greatest * figure.divisor));
     return bound;
   }
 
-  RequirementBound reaction(const scenario::Requirement& requirement) const {
+  RequirementBound of_reaction(const scenario::AskedReaction& asked) const {
     RequirementBound worst;
     bool is_known = false;
     worst.duration = Duration();
     for (const ReactionBound& bound : bounds_.reactions) {
-      if (bound.kind != *requirement.reaction || bound.of_tree != requirement.tree || (requirement.program && r_.programs[bound.program].name != *requirement.program)) continue;
-      if (!is_meant(bound, requirement.cause)) continue;
+      if (bound.kind != asked.kind || bound.of_tree != asked.of_tree || (asked.program && r_.programs[bound.program].name != *asked.program)) continue;
+      if (!is_meant(bound, asked.cause)) continue;
       is_known = true;
       worst.assumptions.add(bound.assumptions);
       if (!bound.bound && worst.reason.empty()) worst.reason = bound.reason;
@@ -271,7 +267,7 @@ class RequirementBounds {
     return std::find(causes.begin(), causes.end(), bound.cause) != causes.end();
   }
 
-  static RequirementBound dropped(const StreamBound& stream) {
+  static RequirementBound of_losses(const StreamBound& stream) {
     RequirementBound bound;
     bound.assumptions = stream.assumptions;
     if (stream.loses_nothing)

@@ -1,7 +1,7 @@
 // The bounds of a scenario: latency and backlog of every stream by hop, and of every reaction. Start here.
 //
 //   const analysis::Bounds bounds = analysis::bound(resolved);
-//   bounds.requirements[i].limit_bound     // what the scenario's requirement i can be at most, or why that is not known
+//   bounds.requirements[i].duration        // what resolved.requirements[i] can be at most, or why that is not known
 #pragma once
 
 #include <cstdint>
@@ -112,13 +112,7 @@ struct Bounds {
   std::vector<PassageBound> passages;         ///< by stream, node and port, in this order
   std::vector<std::vector<ParticipantBound>> participants;   ///< by program; none with roles
   std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset, then halts by cause; of the outermost one of a tree then those of the tree
-  /// One for each limit of each requirement of the scenario, in order: a requirement on a stream may have several.
-  struct Requirement {
-    std::size_t requirement = 0;              ///< in scenario.require
-    std::string what;                         ///< "reaction", "latency", "jitter", "dropped", "delivered", "sync", "success", "buffered", "irregular", "figure"
-    RequirementBound bound;
-  };
-  std::vector<Requirement> requirements;
+  std::vector<RequirementBound> requirements;  ///< by Resolved::requirements
   int rounds = 0;                             ///< until the fixed point
 };
 

@@ -164,37 +164,7 @@ class FigureBounder {
   Values values_;
 };
 
-const std::string* text_in(const Figure& figure, std::string_view key) {
-  for (const auto& [name, value] : figure.only)
-    if (name == key && value.kind == json::Kind::string) return &value.text;
-  return nullptr;
-}
-
-template <class E>
-std::optional<E> named(const std::string* text) {
-  if (text == nullptr) return std::nullopt;
-  for (const json::EnumName& name : describe(json::Type<E>{}).names)
-    if (name.name == *text) return static_cast<E>(name.value);
-  return std::nullopt;
-}
-
 }  // namespace
-
-std::optional<scenario::Requirement> reaction_of(const Figure& figure) {
-  const bool is_reaction = has_steps(figure, {"programs", "?", "reactions", "?", "duration_ps"}) || has_steps(figure, {"programs", "?", "tree_reactions", "?", "duration_ps"});
-  if (!is_reaction || figure.take == Take::count || figure.take == Take::sum) return std::nullopt;
-  scenario::Requirement asked;
-  asked.reaction = named<scenario::Reaction>(text_in(figure, "kind"));
-  if (!asked.reaction) return std::nullopt;
-  asked.cause = named<handshake::Cause>(text_in(figure, "cause"));
-  asked.tree = figure.steps[2] == "tree_reactions";
-  if (figure.steps[1] != "*") asked.program = figure.steps[1];
-  return asked;
-}
-
-std::optional<std::string> latency_of(const Figure& figure) {
-  return has_steps(figure, {"streams", "?", "latency_ps", "?"}) && figure.steps.back() != "stddev" ? std::optional(figure.steps[1]) : std::nullopt;
-}
 
 DeliveredFrames frames_delivered(const scenario::Resolved& resolved, const StreamBound& bound, Duration from) {
   const auto& streams = resolved.scenario.streams;
@@ -225,7 +195,7 @@ DeliveredFrames frames_delivered(const scenario::Resolved& resolved, const Strea
 }
 
 RequirementBound bound_of_figure(const scenario::Resolved& resolved, const Bounds& bounds, const Figure& figure, Duration from, const ReactionBoundOf& reaction) {
-  if (const std::optional<scenario::Requirement> asked = reaction_of(figure)) {
+  if (const std::optional<scenario::AskedReaction> asked = scenario::reaction_of(figure)) {
     RequirementBound bound = reaction(*asked);
     bound.figure = FigureRange{0.0, {}};
     if (bound.duration) bound.figure->greatest = number(*bound.duration) / figure.divisor;

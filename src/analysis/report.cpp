@@ -8,7 +8,6 @@
 #include "json/quantity.hpp"
 #include "json/record.hpp"
 #include "scenario/figures/requirement.hpp"
-#include "scenario/figures/requirement_rules.hpp"
 
 namespace takt::analysis {
 namespace {
@@ -30,25 +29,6 @@ std::vector<Assumption> all_assumptions(const Bounds& bounds) {
   for (const StreamBound& stream : bounds.streams) all.add(stream.assumptions);
   for (const ReactionBound& reaction : bounds.reactions) all.add(reaction.assumptions);
   return all.list();
-}
-
-std::string figure_text(const scenario::Requirement& requirement) {
-  json::Diagnostics diagnostics;
-  const auto asked = scenario::read_figure_requirement(requirement, diagnostics);
-  return asked ? fmt::format("figure {} {} {}", asked->name, scenario::text_of(asked->limit.relation), asked->limit.text) : "figure " + *requirement.figure;
-}
-
-std::string requirement_text(const scenario::Requirement& requirement, const std::string& what) {
-  if (what == "reaction") return fmt::format("reaction {}{}{} within {}", scenario::spelling(*requirement.reaction), requirement.cause ? fmt::format(" because of a {}", scenario::spelling(*requirement.cause)) : "", requirement.tree ? " of the tree" : "", text_of(requirement.within->time));
-  if (what == "latency") return fmt::format("stream {} latency {}", *requirement.stream, scenario::text_of(*requirement.latency));
-  if (what == "jitter") return fmt::format("stream {} jitter {}", *requirement.stream, scenario::text_of(*requirement.jitter));
-  if (what == "dropped") return fmt::format("stream {} drops at most {}", *requirement.stream, *requirement.dropped);
-  if (what == "delivered") return fmt::format("stream {} delivers at least {}", *requirement.stream, *requirement.delivered);
-  if (what == "success") return fmt::format("application {} done in at least {:g} %", *requirement.application, *requirement.success);
-  if (what == "buffered") return fmt::format("application {} values buffered, at least {:g} %", *requirement.application, *requirement.buffered);
-  if (what == "irregular") return fmt::format("signal {}: at most {:g} % of its pulses irregular", *requirement.signal, *requirement.irregular);
-  if (what == "figure") return figure_text(requirement);
-  return fmt::format("synchronised within {}", text_of(requirement.sync));
 }
 
 /// "0 to 2.5", "at least 3"; in the figure's unit.
@@ -103,9 +83,8 @@ std::string text_report(const scenario::Resolved& resolved, const Bounds& bounds
   std::string text = fmt::format("{}: bounds of {} streams and {} Programs\n\n", resolved.scenario.name, bounds.streams.size(), resolved.programs.size());
   text += streams_text(bounds, resolved, all) + reactions_text(bounds, resolved, all);
   if (!bounds.requirements.empty()) text += "\nRequirements and what they can be at most\n";
-  for (const Bounds::Requirement& requirement : bounds.requirements)
-    text += fmt::format("  {:<48} {}\n", requirement_text(resolved.scenario.require[requirement.requirement], requirement.what),
-                        requirement_answer(requirement.bound, bounds.ledger, scenario::counts_from(resolved.scenario, resolved.scenario.require[requirement.requirement])));
+  for (std::size_t i = 0; i < bounds.requirements.size(); ++i)
+    text += fmt::format("  {:<48} {}\n", resolved.requirements[i].text, requirement_answer(bounds.requirements[i], bounds.ledger, resolved.requirements[i].from));
   if (!all.empty()) text += "\nThese bounds rest on\n";
   for (std::size_t i = 0; i < all.size(); ++i) text += fmt::format("  [{}] {}: {} ({})\n", i + 1, name_of(all[i]), bounds.ledger[all[i]].text, standing_text(bounds.ledger[all[i]]));
   return text;
@@ -117,10 +96,10 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
   for (const StreamBound& stream : bounds.streams) report.streams.push_back({&stream, resolved.plan.nodes[stream.listener.value].name});
   for (const QueueBound& queue : bounds.queues) report.queues.push_back({&queue, resolved.plan.nodes[queue.node.value].name});
   for (const ReactionBound& reaction : bounds.reactions) report.reactions.push_back({&reaction, resolved.programs[reaction.program].name});
-  for (const Bounds::Requirement& requirement : bounds.requirements) {
-    const scenario::Requirement& asked = resolved.scenario.require[requirement.requirement];
-    std::string objection = bounds.ledger.objection(requirement.bound.assumptions, scenario::counts_from(resolved.scenario, asked));
-    report.requirements.push_back({requirement_text(asked, requirement.what), &requirement.bound, objection.empty() ? std::nullopt : std::optional(std::move(objection))});
+  for (std::size_t i = 0; i < bounds.requirements.size(); ++i) {
+    const scenario::RequiredFigure& asked = resolved.requirements[i];
+    std::string objection = bounds.ledger.objection(bounds.requirements[i].assumptions, asked.from);
+    report.requirements.push_back({asked.text, &bounds.requirements[i], objection.empty() ? std::nullopt : std::optional(std::move(objection))});
   }
   for (const Assumption assumption : all_assumptions(bounds)) report.assumptions.emplace_back(name_of(assumption), bounds.ledger[assumption]);
   return json::write(report);

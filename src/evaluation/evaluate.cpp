@@ -1,20 +1,15 @@
 #include "evaluation/evaluate.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "evaluation/collect_applications.hpp"
 #include "evaluation/collect_clocks.hpp"
 #include "evaluation/collect_ingress.hpp"
 #include "evaluation/collect_streams.hpp"
-#include "evaluation/judge_streams.hpp"
+#include "evaluation/judge.hpp"
 #include "results/result_json.hpp"
 #include "results/version.hpp"
-#include "scenario/figures/requirement.hpp"
-#include "scenario/figures/requirement_rules.hpp"
 #include "scenario/run/accounts.hpp"
 #include "scenario/topology/graph_figures.hpp"
 
@@ -151,171 +146,6 @@ std::vector<PortResult> ports_of(const scenario::Run& run, Duration simulated) {
   return results;
 }
 
-/// What a run shows from an instant on, in the ways in which requirements ask for it.
-struct Figures {
-  RunResult result;                                        // without verdicts
-  json::Node node = {};                          // as result.json has it, if a requirement asks for a figure
-  std::map<std::string_view, const StreamResult*> streams = {};  // by name, if a requirement is on a stream
-};
-
-/// Judges requirements, each by what began when it says.
-class Judge {
- public:
-  explicit Judge(RunResult& result) : result_(result) {}
-  /// What the next requirements are judged by.
-  void look_at(const Figures& figures) { figures_ = &figures; }
-
-  void reaction(const scenario::Requirement& requirement) {
-    RequirementResult verdict;
-    const std::string kind(scenario::spelling(*requirement.reaction));
-    verdict.kind = RequirementKind::reaction;
-    verdict.subject = requirement.program.value_or("");
-    verdict.reaction = kind;
-    verdict.of_tree = requirement.tree;
-    const std::string cause(requirement.cause ? scenario::spelling(*requirement.cause) : "");
-    verdict.text = "reaction " + kind + (requirement.cause ? " because of a " + cause : "") + (requirement.tree ? " of the tree" : "") + (requirement.program ? " of " + *requirement.program : "") + " within " + json_text(*requirement.within);
-    verdict.limit = *requirement.within;
-    std::size_t seen = 0;
-    std::size_t incomplete = 0;
-    for (const ProgramResult& program : figures_->result.programs) {
-      if (requirement.program && program.name != *requirement.program) continue;
-      for (const ReactionResult& one : requirement.tree ? program.tree_reactions : program.reactions) {
-        if (one.kind != kind || one.superseded || (requirement.cause && one.cause != cause)) continue;
-        ++seen;
-        // One that is not complete takes longer than it has been going on for.
-        const Duration lasted = one.completed ? *one.duration() : figures_->result.simulated - one.began.since_start();
-        if (!one.completed) ++incomplete;
-        if (one.completed || lasted > *verdict.limit) verdict.measured = std::max(verdict.measured.value_or(Duration()), lasted);
-      }
-    }
-    verdict.remark = incomplete > 0 ? fmt::format("{} of {} not complete at the end", incomplete, seen) : fmt::format("{} reaction{}", seen, seen == 1 ? "" : "s");
-    if (verdict.measured && *verdict.measured > *verdict.limit) {
-      verdict.verdict = Verdict::fail;
-    } else if (seen == 0) {
-      verdict.remark = "no such reaction";
-      verdict.verdict = missing();
-    } else if (incomplete == seen) {
-      verdict.verdict = missing();   // young as they are, none shows that there is an end to it
-    } else {
-      verdict.verdict = held();
-    }
-    add(std::move(verdict));
-  }
-
-  void stream(const scenario::Scenario& scenario, const scenario::Requirement& requirement) {
-    for (RequirementResult& verdict : judge_stream(scenario, requirement, *figures_->streams.at(*requirement.stream), result_.partial)) add(std::move(verdict));
-  }
-
-  void sync(const scenario::Requirement& requirement, Duration from, const scenario::ClockMonitor::Limit& seen) {
-    RequirementResult verdict;
-    verdict.kind = RequirementKind::sync;
-    verdict.subject = requirement.node.value_or("");
-    verdict.text = fmt::format("clock{} within {} of the grandmaster after {}", requirement.node ? " of " + *requirement.node : "s", json_text(*requirement.sync),
-                               json_text(from));
-    verdict.limit = *requirement.sync;
-    if (seen.samples == 0) {
-      verdict.remark = "not looked at";
-      verdict.verdict = missing();
-    } else {
-      verdict.measured = seen.greatest;
-      verdict.remark = fmt::format("{} samples", seen.samples);
-      verdict.verdict = seen.greatest <= *requirement.sync ? held() : Verdict::fail;
-    }
-    add(std::move(verdict));
-  }
-
-  void application(const scenario::Requirement& requirement) {
-    const auto found = std::find_if(figures_->result.applications.begin(), figures_->result.applications.end(), [&](const ApplicationResult& each) { return each.name == *requirement.application; });
-    for (const ThreadResult& thread : found->threads) {
-      if (requirement.thread && thread.name != *requirement.thread) continue;
-      const std::string name = found->name + "/" + thread.name;
-      if (requirement.success) percent_of(RequirementKind::success, name, "done in at least {:g} %", *requirement.success, thread.calls);
-      if (requirement.buffered && thread.values) percent_of(RequirementKind::buffered, name, "values buffered, at least {:g} %", *requirement.buffered, *thread.values);
-    }
-  }
-
-  void signal(const scenario::Requirement& requirement) {
-    const auto found = std::find_if(figures_->result.signals.begin(), figures_->result.signals.end(), [&](const SignalResult& each) { return each.name == *requirement.signal; });
-    RequirementResult verdict;
-    verdict.kind = RequirementKind::irregular;
-    verdict.subject = found->name;
-    verdict.text = fmt::format("signal {}: at most {:g} % of its pulses irregular", found->name, *requirement.irregular);
-    const std::optional<double> share = found->irregular_percent();
-    verdict.remark = share ? fmt::format("{:.2f} % of {} pulses", *share, found->pulses->count) : std::string("no pulse");
-    verdict.verdict = !share ? missing() : *share <= *requirement.irregular ? held() : Verdict::fail;
-    add(std::move(verdict));
-  }
-
-  /// Of a run that was interrupted nothing can be said: a mean may fall again.
-  void figure(const scenario::Requirement& requirement) {
-    json::Diagnostics diagnostics;
-    const auto asked = scenario::read_figure_requirement(requirement, diagnostics);
-    TAKT_CHECK(asked, "a requirement that was resolved has a figure");
-    const auto found = scenario::value_of(asked->figure, figures_->node);
-    const char* const bound = scenario::text_of(asked->limit.relation);
-    RequirementResult verdict;
-    verdict.kind = RequirementKind::figure;
-    verdict.figure = FigureResult{asked->name, asked->figure.unit, found, asked->limit.value, asked->limit.is_upper(), {}};
-    if (asked->limit.relation == scenario::Relation::equal) verdict.figure->within = asked->limit.within;
-    verdict.text = fmt::format("figure {} {} {}", asked->name, bound, asked->limit.text);
-    const std::optional<Duration> time = found && asked->figure.is_time ? std::optional(duration_of(*found, asked->figure)) : std::nullopt;
-    verdict.remark = (!found                            ? std::string("the run has no such figure")
-                      : time && !requirement.unit       ? "found " + json_text(*time)
-                                                        : "found " + scenario::text_of(*found, asked->figure.unit)) +
-                     fmt::format(", asked {} {}", bound, asked->limit.text);
-    if (asked->figure.is_time && asked->limit.is_upper()) {
-      verdict.measured = time;
-      verdict.limit = duration_of(asked->limit.value, asked->figure);
-    }
-    verdict.verdict = result_.partial ? Verdict::undecided : asked->limit.holds(found) ? Verdict::pass : Verdict::fail;
-    add(std::move(verdict));
-  }
-
-  /// Every Program keeps its invariants, whether or not a requirement says so.
-  void invariants(const ProgramResult& program) {
-    RequirementResult verdict;
-    verdict.kind = RequirementKind::invariants;
-    verdict.subject = program.name;
-    verdict.text = "program " + program.name + " keeps S1 to S5";
-    if (program.violations_allowed) verdict.text += " (reported only)";
-    verdict.remark = fmt::format("{} violation{}", program.violations.size(), program.violations.size() == 1 ? "" : "s");
-    verdict.verdict = program.violations.empty() ? held() : program.violations_allowed ? Verdict::pass : Verdict::fail;
-    add(std::move(verdict));
-  }
-
- private:
-  /// To the picosecond: what the division by the unit has made of a whole number of them, and of a mean the nearest.
-  static Duration duration_of(double value, const scenario::Figure& figure) { return Duration::from_ps(std::llround(value * figure.divisor)); }
-  static std::string json_text(Duration d) { return json::to_text(d); }
-  Verdict held() const { return result_.partial ? Verdict::undecided : Verdict::pass; }
-  Verdict missing() const { return result_.partial ? Verdict::undecided : Verdict::fail; }
-
-  void percent_of(RequirementKind kind, const std::string& thread, const char* what, double limit, const CriterionResult& criterion) {
-    RequirementResult verdict;
-    verdict.kind = kind;
-    verdict.subject = thread;
-    verdict.text = fmt::format("thread {} ", thread) + fmt::format(fmt::runtime(what), limit);
-    verdict.remark = criterion.percent ? fmt::format("{:.2f} % in {} tests", *criterion.percent, criterion.tests) : std::string("no test");
-    verdict.verdict = !criterion.percent ? missing() : *criterion.percent >= limit ? held() : Verdict::fail;
-    add(std::move(verdict));
-  }
-
-  void add(RequirementResult verdict) {
-    if (verdict.verdict == Verdict::fail)
-      result_.verdict = Verdict::fail;
-    else if (verdict.verdict == Verdict::undecided && result_.verdict == Verdict::pass)
-      result_.verdict = Verdict::undecided;
-    result_.requirements.push_back(std::move(verdict));
-  }
-
-  RunResult& result_;
-  const Figures* figures_ = nullptr;
-};
-
-bool asks_for_graph(const scenario::Requirement& requirement) {
-  return requirement.figure && (requirement.figure->starts_with("topology") || requirement.figure->starts_with("/topology"));
-}
-
 /// The figures of what began at `from` or later.
 RunResult collect(const scenario::Run& run, Duration from, bool partial) {
   const scenario::Scenario& scenario = run.resolved().scenario;
@@ -344,16 +174,15 @@ RunResult collect(const scenario::Run& run, Duration from, bool partial) {
 
 /// The figures of every instant from which a requirement counts.
 std::map<Duration, Figures> all_figures(const scenario::Run& run, bool partial) {
-  const scenario::Scenario& scenario = run.resolved().scenario;
   std::map<Duration, Figures> all;
   for (const Duration from : run.instants()) all.emplace(from, Figures{collect(run, from, partial)});
-  for (const scenario::Requirement& requirement : scenario.require) {
-    Figures& figures = all.at(scenario::counts_from(scenario, requirement));
-    if (requirement.stream && figures.streams.empty())
+  for (const scenario::RequiredFigure& required : run.resolved().requirements) {
+    Figures& figures = all.at(required.from);
+    if (figures.streams.empty())
       for (const StreamResult& each : figures.result.streams) figures.streams.emplace(each.name, &each);
-    if (!requirement.figure) continue;
+    if (required.kind != RequirementKind::figure) continue;
     if (figures.node.kind == json::Kind::null) figures.node = run_node(figures.result);
-    if (asks_for_graph(requirement) && figures.node.find("topology") == nullptr) figures.node.add("topology", scenario::topology_node(run.resolved()));
+    if (required.figure.steps.front() == "topology" && figures.node.find("topology") == nullptr) figures.node.add("topology", scenario::topology_node(run.resolved()));
   }
   return all;
 }
@@ -361,35 +190,12 @@ std::map<Duration, Figures> all_figures(const scenario::Run& run, bool partial) 
 }  // namespace
 
 RunResult evaluate(const scenario::Run& run, bool partial) {
-  const scenario::Scenario& scenario = run.resolved().scenario;
   const std::map<Duration, Figures> figures = all_figures(run, partial);
-  RunResult result = figures.at(scenario.warm_up).result;
-  Judge judge(result);
-  std::size_t next_limit = 0;  // of the clock monitor, in the order of the requirements
-  for (const scenario::Requirement& requirement : scenario.require) {
-    const std::size_t first = result.requirements.size();
-    const Duration from = scenario::counts_from(scenario, requirement);
-    judge.look_at(figures.at(from));
-    if (requirement.reaction)
-      judge.reaction(requirement);
-    else if (requirement.sync)
-      judge.sync(requirement, from, run.clocks()->limits()[next_limit++]);
-    else if (requirement.application)
-      judge.application(requirement);
-    else if (requirement.signal)
-      judge.signal(requirement);
-    else if (requirement.figure)
-      judge.figure(requirement);
-    else
-      judge.stream(scenario, requirement);
-    for (std::size_t i = first; i < result.requirements.size(); ++i) {
-      RequirementResult& made = result.requirements[i];
-      made.requirement = static_cast<std::size_t>(&requirement - scenario.require.data());
-      made.from = from;
-      if (from > Duration() && !requirement.sync) made.text += " after " + json::to_text(from);
-    }
-  }
-  for (const ProgramResult& program : result.programs) judge.invariants(program);
+  RunResult result = figures.at(run.resolved().scenario.warm_up).result;
+  for (const scenario::RequiredFigure& required : run.resolved().requirements) result.requirements.push_back(judge(run, required, figures.at(required.from), partial));
+  for (const ProgramResult& program : result.programs) result.requirements.push_back(judge_invariants(program, partial));
+  for (const RequirementResult& each : result.requirements)
+    if (each.verdict == Verdict::fail || result.verdict == Verdict::pass) result.verdict = each.verdict;
   result.nothing_required = result.requirements.empty() && !partial;
   return result;
 }

@@ -146,11 +146,9 @@ struct FigureResult {
 
 struct RequirementResult {
   RequirementKind kind{};
-  std::optional<std::size_t> requirement = {};  ///< in Scenario::require; none: a Program's invariants
-  std::string subject;                     ///< the stream, the Program or the node; empty: all Programs or all nodes
-  std::string reaction;                    ///< "start", "halt" ..., if it is one
-  bool of_tree = false;                    ///< of a Program and all that are nested in it
-  std::optional<std::uint64_t> count_limit;  ///< most dropped, fewest delivered
+  RequirementKind taken_as{};              ///< the same; of a limit on the figure of a greatest latency, or of a longest reaction, that of these
+  std::optional<std::size_t> requirement = {};  ///< in Resolved::requirements; none: a Program's invariants
+  std::string subject;                     ///< as RequiredFigure has it; the Program of invariants
   std::string text;
   Verdict verdict = Verdict::pass;
   std::optional<Duration> measured;

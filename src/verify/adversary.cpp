@@ -5,7 +5,6 @@
 
 #include "sim/random.hpp"
 #include "verify/critical.hpp"
-#include "verify/plain.hpp"
 #include "verify/probe.hpp"
 #include "verify/shortened.hpp"
 
@@ -67,10 +66,7 @@ class Searcher {
       ++search_.runs;
       cost_of_run_ = probes[i]->events + cost_of_a_node * resolved_.plan.nodes.size();
       if (i == 0)
-        for (const RequirementResult& requirement : probes[i]->requirements) {
-          search_.findings.emplace_back().requirement = requirement;
-          plain_.push_back(plain(resolved_.scenario, requirement));
-        }
+        for (const RequirementResult& requirement : probes[i]->requirements) search_.findings.emplace_back().requirement = requirement;
       note(*probes[i], scenarios[i], false, true);
     }
     for (Finding& finding : search_.findings) {
@@ -84,7 +80,7 @@ class Searcher {
     Duration longest;
     for (const Finding& finding : search_.findings)
       for (const std::optional<Duration>& time : {finding.requirement.limit, finding.simulated})
-        if (time && plain_[static_cast<std::size_t>(&finding - search_.findings.data())].kind == RequirementKind::reaction) longest = std::max(longest, *time * 2);
+        if (time && finding.requirement.taken_as == RequirementKind::reaction) longest = std::max(longest, *time * 2);
     shorter_ = shortened(resolved_.scenario, longest);
     is_shorter_ = shorter_.duration != resolved_.scenario.duration;
     if (!is_shorter_) return;
@@ -99,9 +95,9 @@ class Searcher {
     for (std::size_t i = 0; i < search_.findings.size() && i < probe.requirements.size(); ++i) {
       const RequirementResult& seen = probe.requirements[i];
       Finding& finding = search_.findings[i];
-      if (is_part && !counts_in_a_part(plain_[i].kind)) continue;
+      if (is_part && !counts_in_a_part(seen.taken_as)) continue;
       // How many frames come until the end depends on when the talker begins, and says nothing about the network.
-      const bool is_of_latency = seen.kind == RequirementKind::figure && !plain_[i].subject.empty();
+      const bool is_of_latency = seen.kind == RequirementKind::figure && !seen.subject.empty();
       if (!is_as_it_is && (seen.kind == RequirementKind::delivered || (seen.figure && !seen.figure->is_upper && !is_of_latency))) continue;
       // What was not complete at the end might have been so later.
       const bool failed = seen.verdict == results::Verdict::fail && (!is_part || seen.measured || seen.kind == RequirementKind::invariants) &&
@@ -162,7 +158,7 @@ class Searcher {
   }
 
   void run_in_full(std::size_t line) {
-    const RequirementKind kind = plain_[line].kind;
+    const RequirementKind kind = search_.findings[line].requirement.taken_as;
     if (!is_shorter_ || !best_ || search_.partial || (kind != RequirementKind::latency && kind != RequirementKind::jitter)) return;
     const Scenario full = scenario_of(resolved_.scenario, search_.freedoms, best_->second);
     const std::optional<Probe> seen = probe(full, bounds_, options_.interrupted);
@@ -310,7 +306,6 @@ class Searcher {
   CriticalInstants instants_;
   sim::RandomStream chance_;
   Search search_;
-  std::vector<RequirementResult> plain_;   // by finding
   Scenario shorter_;
   bool is_shorter_ = false;
   std::optional<std::pair<std::int64_t, Choice>> best_;   // of the search for the present requirement

@@ -9,7 +9,6 @@
 #include "explore/search/search.hpp"
 #include "json/quantity.hpp"
 #include "scenario/figures/requirement.hpp"
-#include "scenario/figures/requirement_rules.hpp"
 #include "sim/check.hpp"
 #include "verify/roles_query.hpp"
 #include "wire/program_node.hpp"
@@ -19,47 +18,28 @@ namespace {
 
 using results::RequirementKind;
 using results::RequirementResult;
+using scenario::RequiredFigure;
 using sim::Duration;
-
-/// As takt bound names it; nothing where it has no line for it.
-std::optional<std::string_view> bounded_as(RequirementKind kind) {
-  switch (kind) {
-    case RequirementKind::reaction: return "reaction";
-    case RequirementKind::latency: return "latency";
-    case RequirementKind::jitter: return "jitter";
-    case RequirementKind::dropped: return "dropped";
-    case RequirementKind::delivered: return "delivered";
-    case RequirementKind::sync: return "sync";
-    case RequirementKind::success: return "success";
-    case RequirementKind::buffered: return "buffered";
-    case RequirementKind::irregular: return "irregular";
-    case RequirementKind::figure: return "figure";
-    case RequirementKind::invariants: break;
-  }
-  return std::nullopt;
-}
 
 class Prover {
  public:
   Prover(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const ProofOptions& options) : resolved_(resolved), options_(options), bounds_(bounds) {}
 
   Proof of(const RequirementResult& requirement) {
-    if (requirement.kind == RequirementKind::invariants) return invariants(requirement);
+    if (!requirement.requirement) return invariants(requirement.subject);
+    const RequiredFigure& required = resolved_.requirements[*requirement.requirement];
+    const analysis::RequirementBound& bound = bounds_.requirements[*requirement.requirement];
     Proof proof;
-    const auto what = bounded_as(requirement.kind);
-    const auto bound = std::find_if(bounds_.requirements.begin(), bounds_.requirements.end(),
-                                    [&](const analysis::Bounds::Requirement& each) { return what && each.requirement == requirement.requirement && each.what == *what; });
-    TAKT_CHECK(bound != bounds_.requirements.end(), "whatever is required is bounded, or has a reason why not");
-    proof.from = scenario::counts_from(resolved_.scenario, resolved_.scenario.require[bound->requirement]);
-    proof.time = bound->bound.duration;
-    proof.reason = bound->bound.reason;
-    proof.assumptions = bound->bound.assumptions;
-    if (requirement.kind == RequirementKind::figure) return figure(requirement, bound->bound, std::move(proof));
-    if (requirement.kind == RequirementKind::delivered) return delivered(requirement, std::move(proof));
-    if (requirement.kind == RequirementKind::dropped)
-      judge_count(requirement, bound->bound.count, proof);
+    proof.from = required.from;
+    proof.time = bound.duration;
+    proof.reason = bound.reason;
+    proof.assumptions = bound.assumptions;
+    if (required.kind == RequirementKind::figure) return figure(required, bound, std::move(proof));
+    if (required.kind == RequirementKind::delivered) return delivered(required, std::move(proof));
+    if (required.kind == RequirementKind::dropped)
+      judge_count(required, bound.count, proof);
     else
-      judge_time(requirement, proof);
+      judge_time(required, proof);
     return proof;
   }
 
@@ -69,60 +49,57 @@ class Prover {
     return found == bounds_.streams.end() ? nullptr : &*found;
   }
 
-  void judge_time(const RequirementResult& requirement, Proof& proof) const {
-    if (!proof.time || !requirement.limit) return;
-    if (*proof.time > *requirement.limit) return;
-    const bool is_of_stream = requirement.kind == RequirementKind::latency || requirement.kind == RequirementKind::jitter;
-    if (is_of_stream && !scenario::requires_losses_separately(resolved_.scenario, requirement.subject, proof.from))
-      if (const analysis::StreamBound* const stream = stream_named(requirement.subject); stream == nullptr || !stream->loses_nothing) {
+  void judge_time(const RequiredFigure& required, Proof& proof) const {
+    if (!proof.time || *proof.time > *required.longest) return;
+    const bool is_of_stream = required.kind == RequirementKind::latency || required.kind == RequirementKind::jitter;
+    if (is_of_stream && !scenario::requires_losses_separately(resolved_, required.subject, proof.from))
+      if (const analysis::StreamBound* const stream = stream_named(required.subject); stream == nullptr || !stream->loses_nothing) {
         proof.reason = "frames may be lost, and no requirement \"dropped\" says how many" + (stream == nullptr ? std::string() : ": " + stream->loss_reason);
         return;
       }
-    if (requirement.least_limit && *requirement.least_limit > Duration()) {
-      const analysis::StreamBound* const stream = stream_named(requirement.subject);
-      if (requirement.kind != RequirementKind::latency || stream == nullptr || stream->least < *requirement.least_limit) {
-        proof.reason = "nothing shows that it is never less than " + json::to_text(*requirement.least_limit);
+    if (required.shortest && *required.shortest > Duration()) {
+      const analysis::StreamBound* const stream = stream_named(required.subject);
+      if (required.kind != RequirementKind::latency || stream == nullptr || stream->least < *required.shortest) {
+        proof.reason = "nothing shows that it is never less than " + json::to_text(*required.shortest);
         return;
       }
     }
     proof.holds = true;
   }
 
-  static void judge_count(const RequirementResult& requirement, std::optional<std::uint64_t> count, Proof& proof) {
+  static void judge_count(const RequiredFigure& required, std::optional<std::uint64_t> count, Proof& proof) {
     if (!count) return;
-    proof.holds = *count <= requirement.count_limit.value_or(0);
+    proof.holds = required.limit.holds(static_cast<double>(*count));
     if (!proof.holds) proof.reason = "up to " + std::to_string(*count) + " frames may be dropped";
   }
 
   /// Whatever has been produced so early that it must have come.
-  Proof delivered(const RequirementResult& requirement, Proof proof) const {
-    const analysis::StreamBound* const bound = stream_named(requirement.subject);
+  Proof delivered(const RequiredFigure& required, Proof proof) const {
+    const analysis::StreamBound* const bound = stream_named(required.subject);
     TAKT_CHECK(bound != nullptr, "a stream of a requirement is one");
     const analysis::DeliveredFrames frames = analysis::frames_delivered(resolved_, *bound, proof.from);
     proof.assumptions = bound->assumptions;
-    proof.holds = frames.least && *frames.least >= requirement.count_limit.value_or(0);
+    proof.holds = frames.least && required.limit.holds(static_cast<double>(*frames.least));
     proof.reason = proof.holds ? "" : frames.least.value_or(0) == 0 && !frames.reason.empty() ? frames.reason : "only " + std::to_string(frames.least.value_or(0)) + " frames must have come at the end";
     return proof;
   }
 
   /// What is known of the figure must lie within the limit.
-  Proof figure(const RequirementResult& requirement, const analysis::RequirementBound& bound, Proof proof) {
-    json::Diagnostics diagnostics;
-    const auto asked = scenario::read_figure_requirement(resolved_.scenario.require[*requirement.requirement], diagnostics);
-    TAKT_CHECK(asked && bound.figure, "a requirement that was resolved has a figure");
+  Proof figure(const RequiredFigure& asked, const analysis::RequirementBound& bound, Proof proof) {
+    TAKT_CHECK(bound.figure, "what is known of a figure is a range");
     analysis::FigureRange range = *bound.figure;
-    if (counts_violations(asked->figure)) range = violations(asked->figure.steps[1], proof);
-    const auto exceeds = [&](const std::optional<double>& end, bool is_asked) { return is_asked && end && !asked->limit.holds(end); };
-    const bool asks_least = asked->limit.relation != scenario::Relation::at_most;
-    const bool asks_greatest = asked->limit.relation != scenario::Relation::at_least;
-    proof.holds = (!asks_least || asked->limit.holds(range.least)) && (!asks_greatest || asked->limit.holds(range.greatest));
+    if (counts_violations(asked.figure)) range = violations(asked.figure.steps[1], proof);
+    const auto exceeds = [&](const std::optional<double>& end, bool is_asked) { return is_asked && end && !asked.limit.holds(end); };
+    const bool asks_least = asked.limit.relation != scenario::Relation::at_most;
+    const bool asks_greatest = asked.limit.relation != scenario::Relation::at_least;
+    proof.holds = (!asks_least || asked.limit.holds(range.least)) && (!asks_greatest || asked.limit.holds(range.greatest));
     if (proof.holds) {
       proof.reason.clear();
-      if (!proof.time && proof.remark.empty()) proof.remark = "between " + (range.least ? scenario::text_of(*range.least, asked->figure.unit) : "0") + " and " + (range.greatest ? scenario::text_of(*range.greatest, asked->figure.unit) : "any figure");
+      if (!proof.time && proof.remark.empty()) proof.remark = "between " + (range.least ? scenario::text_of(*range.least, asked.figure.unit) : "0") + " and " + (range.greatest ? scenario::text_of(*range.greatest, asked.figure.unit) : "any figure");
     } else if (exceeds(range.greatest, asks_greatest)) {
-      proof.reason = "it may be as much as " + scenario::text_of(*range.greatest, asked->figure.unit);
+      proof.reason = "it may be as much as " + scenario::text_of(*range.greatest, asked.figure.unit);
     } else if (exceeds(range.least, asks_least)) {
-      proof.reason = "it may be as little as " + scenario::text_of(*range.least, asked->figure.unit) + (bound.reason.empty() ? "" : ": " + bound.reason);
+      proof.reason = "it may be as little as " + scenario::text_of(*range.least, asked.figure.unit) + (bound.reason.empty() ? "" : ": " + bound.reason);
     }
     return proof;
   }
@@ -137,10 +114,7 @@ class Prover {
     proof.reason.clear();
     for (const scenario::ResolvedProgram& program : resolved_.programs) {
       if (of != "*" && program.name != of) continue;
-      RequirementResult asked;
-      asked.kind = RequirementKind::invariants;
-      asked.subject = program.name;
-      const Proof each = invariants(asked);
+      const Proof each = invariants(program.name);
       proof.assumptions.add(each.assumptions);
       if (!each.holds) range.greatest.reset();
       if (proof.reason.empty()) proof.reason = each.reason;
@@ -149,8 +123,8 @@ class Prover {
     return range;
   }
 
-  Proof invariants(const RequirementResult& requirement) {
-    const auto program = std::find_if(resolved_.programs.begin(), resolved_.programs.end(), [&](const scenario::ResolvedProgram& p) { return p.name == requirement.subject; });
+  Proof invariants(const std::string& name) {
+    const auto program = std::find_if(resolved_.programs.begin(), resolved_.programs.end(), [&](const scenario::ResolvedProgram& p) { return p.name == name; });
     const auto unknown = [](std::string why) { return Proof{{}, false, std::move(why), {}, {}, {}}; };
     if (program == resolved_.programs.end()) return unknown("no such Program");
     if (program->description->violations == scenario::Violations::reported) return {{}, true, {}, {}, {}, {}};

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <map>
-#include <string_view>
 
 #include "models/ethernet/sizes.hpp"
-#include "verify/plain.hpp"
+#include "scenario/figures/requirement.hpp"
 
 namespace takt::verify {
 
@@ -18,14 +17,14 @@ constexpr std::int64_t parts_of_range = 8;
 constexpr std::size_t most_values = 48;
 constexpr Duration just = Duration::from_ps(1000);   // more than a rounding, less than an octet
 
-/// As requirements spell it.
-std::string_view reaction_to(scenario::Method method) {
-  constexpr std::pair<scenario::Method, std::string_view> names[] = {{scenario::Method::start, "start"}, {scenario::Method::suspend, "suspend"},
-                                                                     {scenario::Method::resume, "resume"}, {scenario::Method::halt, "halt"},
-                                                                     {scenario::Method::reset, "reset"}};
-  for (const auto& [each, name] : names)
-    if (each == method) return name;
-  return {};
+scenario::Reaction reaction_to(scenario::Method method) {
+  using scenario::Method;
+  using scenario::Reaction;
+  constexpr std::pair<Method, Reaction> reactions[] = {
+      {Method::start, Reaction::start}, {Method::suspend, Reaction::suspend}, {Method::resume, Reaction::resume}, {Method::halt, Reaction::halt}};
+  for (const auto& [each, reaction] : reactions)
+    if (each == method) return reaction;
+  return Reaction::reset;
 }
 
 Duration modulo(Duration value, Duration range) {
@@ -101,15 +100,14 @@ Duration CriticalInstants::phase_of(std::size_t stream, const Choice& choice) co
   return phase;
 }
 
-std::vector<std::size_t> CriticalInstants::streams_of(const results::RequirementResult& asked) const {
+std::vector<std::size_t> CriticalInstants::streams_of(const results::RequirementResult& requirement) const {
   using Kind = results::RequirementKind;
-  const results::RequirementResult requirement = plain(resolved_->scenario, asked);
   std::vector<std::size_t> found;
-  if (requirement.kind == Kind::reaction || requirement.kind == Kind::invariants) {
+  if (requirement.taken_as == Kind::reaction || requirement.taken_as == Kind::invariants) {
     for (const scenario::ResolvedProgram& program : resolved_->programs)
       if (requirement.subject.empty() || program.name == requirement.subject)
         for (const models::StreamIndex stream : program.state_streams) found.push_back(stream.value);
-  } else if (requirement.kind != Kind::sync) {
+  } else if (requirement.taken_as != Kind::sync) {
     for (std::size_t s = 0; s < resolved_->plan.streams.size(); ++s)
       if (requirement.subject == "*" || resolved_->plan.streams[s].name == requirement.subject) found.push_back(s);
   }
@@ -140,7 +138,7 @@ std::vector<Duration> CriticalInstants::of(std::size_t f, const results::Require
   if (freedom.kind == Freedom::Kind::call) {
     const scenario::ScriptEntry& entry = resolved_->scenario.script[freedom.item];
     // A reaction to one method does not depend on when another one was called.
-    if (requirement.kind == results::RequirementKind::reaction && reaction_to(*entry.call) != requirement.reaction) return values;
+    if (requirement.kind == results::RequirementKind::reaction && scenario::reaction_of(resolved_->requirements[*requirement.requirement].figure)->kind != reaction_to(*entry.call)) return values;
     for (const scenario::ResolvedProgram& program : resolved_->programs) {
       if (entry.program && program.name != *entry.program) continue;
       for (const models::StreamIndex stream : program.state_streams) {

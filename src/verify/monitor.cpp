@@ -4,7 +4,6 @@
 
 #include "analysis/assessment.hpp"
 #include "json/quantity.hpp"
-#include "scenario/figures/requirement_rules.hpp"
 
 namespace takt::verify {
 namespace {
@@ -69,12 +68,11 @@ std::string contradiction_of_streams(const scenario::Resolved& resolved, const a
   return {};
 }
 
-std::string contradiction_of_requirements(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const results::RunResult& result) {
-  for (const analysis::Bounds::Requirement& each : bounds.requirements) {
-    const scenario::Requirement& requirement = resolved.scenario.require[each.requirement];
-    if (each.what != "reaction" || !each.bound.duration || !bounds.ledger.objection(each.bound.assumptions, scenario::counts_from(resolved.scenario, requirement)).empty()) continue;
-    for (const results::RequirementResult& seen : result.requirements)
-      if (seen.requirement == each.requirement && seen.measured && *seen.measured > *each.bound.duration) return exceeded(seen.text, *seen.measured, *each.bound.duration);
+std::string contradiction_of_requirements(const analysis::Bounds& bounds, const results::RunResult& result) {
+  for (const results::RequirementResult& seen : result.requirements) {
+    if (seen.kind != results::RequirementKind::reaction || !seen.measured || *seen.requirement >= bounds.requirements.size()) continue;   // nobody asked for bounds
+    const analysis::RequirementBound& bound = bounds.requirements[*seen.requirement];
+    if (bound.duration && *seen.measured > *bound.duration && bounds.ledger.objection(bound.assumptions, seen.from).empty()) return exceeded(seen.text, *seen.measured, *bound.duration);
   }
   return {};
 }
@@ -91,7 +89,7 @@ std::vector<Violation> violations_in(const scenario::Run& run, const results::Ru
 
 std::string contradiction_in(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const results::RunResult& result) {
   std::string found = contradiction_of_streams(resolved, bounds, result);
-  return found.empty() ? contradiction_of_requirements(resolved, bounds, result) : found;
+  return found.empty() ? contradiction_of_requirements(bounds, result) : found;
 }
 
 }  // namespace takt::verify

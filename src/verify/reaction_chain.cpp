@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <span>
 
-#include "scenario/figures/requirement_rules.hpp"
-
 namespace takt::verify {
 namespace {
 
@@ -131,17 +129,18 @@ struct Found {
   std::vector<std::size_t> programs;   // of whose participants the last one completed it
 };
 
-Found longest(const scenario::Run& run, const scenario::Requirement& requirement, Duration measured) {
+Found longest(const scenario::Run& run, const scenario::RequiredFigure& required, Duration measured) {
   Found found;
-  const TrueTime from = TrueTime() + scenario::counts_from(run.resolved().scenario, requirement);
+  const scenario::AskedReaction asked = *scenario::reaction_of(required.figure);
+  const TrueTime from = TrueTime() + required.from;
   const auto look = [&](std::span<const handshake::Reaction> reactions, const std::vector<std::size_t>& programs) {
     for (const handshake::Reaction& each : reactions)
-      if (found.reaction == nullptr && each.outcome == handshake::ReactionOutcome::Completed && handshake::name_of(each.kind) == scenario::spelling(*requirement.reaction) && each.began >= from &&
-          (!requirement.cause || each.cause == *requirement.cause) && each.completed - each.began == measured)
+      if (found.reaction == nullptr && each.outcome == handshake::ReactionOutcome::Completed && handshake::name_of(each.kind) == scenario::spelling(asked.kind) && each.began >= from &&
+          (!asked.cause || each.cause == *asked.cause) && each.completed - each.began == measured)
         found = {&each, programs};
   };
-  const auto is_meant = [&](std::size_t program) { return !requirement.program || run.resolved().programs[program].name == *requirement.program; };
-  if (requirement.tree) {
+  const auto is_meant = [&](std::size_t program) { return !asked.program || run.resolved().programs[program].name == *asked.program; };
+  if (asked.of_tree) {
     for (const auto& tree : run.trees())
       if (is_meant(tree->programs().front())) look(tree->reactions(), {tree->programs().begin(), tree->programs().end()});
     return found;
@@ -153,8 +152,8 @@ Found longest(const scenario::Run& run, const scenario::Requirement& requirement
 
 }  // namespace
 
-std::vector<SlackPart> reaction_parts(const scenario::Run& run, const FrameLog& log, const analysis::Bounds& bounds, const scenario::Requirement& requirement, Duration measured, Duration bound) {
-  const Found found = longest(run, requirement, measured);
+std::vector<SlackPart> reaction_parts(const scenario::Run& run, const FrameLog& log, const analysis::Bounds& bounds, const scenario::RequiredFigure& required, Duration measured, Duration bound) {
+  const Found found = longest(run, required, measured);
   if (found.reaction == nullptr) return {};
   std::vector<SlackPart> parts = Chain(run, log, bounds, *found.reaction).make(found.programs);
   Duration chain;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "scenario/figures/requirement_rules.hpp"
-
 namespace takt::verify {
 namespace {
 
@@ -14,7 +12,7 @@ using sim::Duration;
 bool depends_on_its_times(const Scenario& scenario) {
   const scenario::Clocks& clocks = scenario.clocks;
   if (clocks.gptp || clocks.all || !clocks.nodes.empty() || !scenario.faults.empty() || scenario.rerouting) return true;
-  if (std::any_of(scenario.require.begin(), scenario.require.end(), [&](const scenario::Requirement& each) { return scenario::counts_from(scenario, each) > Duration(); })) return true;
+  if (std::any_of(scenario.require.begin(), scenario.require.end(), [&](const scenario::Requirement& each) { return each.after.value_or(scenario.warm_up) > Duration(); })) return true;
   if (std::any_of(scenario.script.begin(), scenario.script.end(), [](const scenario::ScriptEntry& entry) { return !entry.call; })) return true;
   return std::any_of(scenario.streams.begin(), scenario.streams.end(), [](const scenario::Stream& stream) { return stream.trace.has_value(); });
 }

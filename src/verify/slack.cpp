@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <tuple>
 
-#include "analysis/figure_bound.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "sim/check.hpp"
 #include "verify/frame_log.hpp"
-#include "verify/plain.hpp"
 #include "verify/reaction_chain.hpp"
 
 namespace takt::verify {
@@ -113,22 +111,12 @@ std::vector<SlackPart> parts_of_latency(const LooseEnd& end, const analysis::Bou
   scenario::Run run(resolved);
   FrameLog log(run.network(), stream->index, sim::TrueTime() + end.requirement.from, {});
   if (!replay(run, log, interrupted) || !log.slowest()) return {};
-  const bool is_jitter = end.requirement.kind == RequirementKind::jitter;
+  const bool is_jitter = end.requirement.taken_as == RequirementKind::jitter;
   const Duration least = is_jitter ? log.fastest()->latency() : Duration();
   if (log.slowest()->latency() - least != end.measured) return {};   // of a frame that is under way at the end
   std::vector<SlackPart> parts = LatencyParts(resolved, bounds, *stream, log).make();
   if (is_jitter && !parts.empty()) parts.push_back({"the fastest frame", "the least that it can take", -stream->least, -least});
   return parts;
-}
-
-/// As scenario::Requirement says it, of a requirement on a figure too.
-scenario::Requirement reaction_asked(const scenario::Scenario& scenario, std::size_t requirement) {
-  const scenario::Requirement& asked = scenario.require[requirement];
-  if (asked.reaction) return asked;
-  json::Diagnostics diagnostics;
-  scenario::Requirement made = *analysis::reaction_of(scenario::read_figure_requirement(asked, diagnostics)->figure);
-  made.after = asked.after;
-  return made;
 }
 
 std::vector<SlackPart> parts_of_reaction(const LooseEnd& end, const analysis::Bounds& bounds, const scenario::Resolved& resolved, const std::function<bool()>& interrupted) {
@@ -139,23 +127,21 @@ std::vector<SlackPart> parts_of_reaction(const LooseEnd& end, const analysis::Bo
   scenario::Run run(resolved);
   FrameLog log(run.network(), {}, {}, std::move(words));
   if (!replay(run, log, interrupted)) return {};
-  return reaction_parts(run, log, bounds, reaction_asked(resolved.scenario, *end.requirement.requirement), end.measured, end.bound);
+  return reaction_parts(run, log, bounds, resolved.requirements[*end.requirement.requirement], end.measured, end.bound);
 }
 
 }  // namespace
 
 bool is_tight(RequirementKind kind, double tightness) { return tightness >= (kind == RequirementKind::reaction ? 0.9 : 0.85); }
 
-std::vector<SlackPart> slack_of(const LooseEnd& asked, const analysis::Bounds& bounds, const std::function<bool()>& interrupted) {
+std::vector<SlackPart> slack_of(const LooseEnd& end, const analysis::Bounds& bounds, const std::function<bool()>& interrupted) {
   json::Diagnostics diagnostics;
-  const results::RequirementResult requirement = plain(asked.worst, asked.requirement);
-  const LooseEnd end{requirement, asked.measured, asked.bound, asked.worst};
   const auto resolved = scenario::resolve(end.worst, diagnostics);
   if (!resolved) return {};
   std::vector<SlackPart> parts;
-  if (end.requirement.kind == RequirementKind::latency || end.requirement.kind == RequirementKind::jitter)
+  if (end.requirement.taken_as == RequirementKind::latency || end.requirement.taken_as == RequirementKind::jitter)
     parts = parts_of_latency(end, bounds, *resolved, interrupted);
-  else if (end.requirement.kind == RequirementKind::reaction)
+  else if (end.requirement.taken_as == RequirementKind::reaction)
     parts = parts_of_reaction(end, bounds, *resolved, interrupted);
   std::erase_if(parts, [](const SlackPart& part) { return part.bound == Duration() && part.run == Duration(); });
   if (parts.empty()) return parts;

@@ -176,8 +176,8 @@ TEST(Assessment, WhatTheScenarioContradictsIsWithdrawn) {
   EXPECT_FALSE(bounds.streams[0].latency);
   EXPECT_FALSE(bounds.streams[0].by_listener.at(0));
   EXPECT_FALSE(bounds.streams[0].loses_nothing);
-  EXPECT_FALSE(bounds.requirements.at(0).bound.duration);
-  EXPECT_FALSE(bounds.requirements.at(1).bound.count);
+  EXPECT_FALSE(bounds.requirements.at(0).duration);
+  EXPECT_FALSE(bounds.requirements.at(1).count);
   EXPECT_NE(bounds.streams[0].reason.find("gets another frequency"), std::string::npos) << bounds.streams[0].reason;
 }
 
@@ -288,7 +288,7 @@ TEST(Assessment, ReceiversTakeTime) {
   const Bounds bounds = bound(*resolved);
   EXPECT_EQ(bounds.streams[0].least, 2 * (158 * 8_ns + 50_ns) + 2_us);
   EXPECT_EQ(bounds.streams[0].latency, 2 * (158 * 8_ns + 50_ns) + 5_us);
-  EXPECT_EQ(bounds.requirements.at(0).bound.duration, 3_us);
+  EXPECT_EQ(bounds.requirements.at(0).duration, 3_us);
 }
 
 }  // namespace

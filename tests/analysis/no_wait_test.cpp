@@ -109,7 +109,7 @@ TEST(NoWait, TheOperatingSystemDoesNotAdd) {
     "streams": [{"name": "s", "from": "a", "to": "c", "payload": "100B", "every": "500us", "offset": "10us", "pcp": 6}], "gates": {"plan": "auto", "classes": [6]}, "require": [{"stream": "s", "jitter": "0us"}])");
   const Bounds bounds = bound(*resolved);
   EXPECT_EQ(stream(bounds, "s").latency, 9_us + 2 * (1'264_ns + 50_ns) + 1_us);
-  EXPECT_EQ(bounds.requirements[0].bound.duration, 0_us);
+  EXPECT_EQ(bounds.requirements[0].duration, 0_us);
 }
 
 std::string with_clocks(const std::string& margin) {

@@ -171,7 +171,7 @@ TEST(ReactionBound, HaltsHoldFromTheirCausesAtAllPhases) {
         for (const ReactionPart& part : of_cause->parts) sum += part.duration;
         EXPECT_EQ(sum, *of_cause->bound);
         // Without a cause a requirement is for what the faults can bring about, too.
-        EXPECT_GE(bounds.requirements.at(0).bound.duration, of_cause->bound) << fault;
+        EXPECT_GE(bounds.requirements.at(0).duration, of_cause->bound) << fault;
         scenario::Run run(*resolved);
         run.advance();
         int seen = 0;

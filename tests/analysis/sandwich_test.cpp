@@ -77,7 +77,7 @@ TEST(Sandwich, RobotArm) {
   EXPECT_EQ(bounds.streams[0].hops.size(), 2u);
   EXPECT_EQ(*bounds.streams[0].hops[0].delay, sim::Duration::from_ps(8'464'000));
   ASSERT_EQ(bounds.requirements.size(), 7u);
-  for (const Bounds::Requirement& requirement : bounds.requirements) EXPECT_TRUE(requirement.bound.duration || requirement.bound.count) << requirement.what;
+  for (const RequirementBound& requirement : bounds.requirements) EXPECT_TRUE(requirement.duration || requirement.count) << requirement.reason;
   EXPECT_NE(text_report(*resolved, bounds).find("reaction start within 12ms"), std::string::npos);
   EXPECT_NE(json_report(*resolved, bounds).find("\"bound_ps\""), std::string::npos);
 }

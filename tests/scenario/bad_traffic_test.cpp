@@ -110,8 +110,7 @@ const BadCase programs_cases[] = {
     {"ReactionWithoutAProgram", scenario_with(R"("require": [{"reaction": "start", "within": "1ms"}])"),
      R"(2:26: error at /require/0/reaction: a reaction without a program: found no programs, expected "programs")"},
     {"ReactionAndStream", with_requirement(R"({"reaction": "start", "within": "1ms", "stream": "p/state/a", "latency": "1ms"})"),
-     R"(2:33: error at /require/0/within: does not belong to this requirement: found "within", expected a requirement with "reaction"
-2:50: error at /require/0/stream: fields that exclude each other: found "stream" beside "reaction", expected exactly one of "reaction", "stream", "sync", "application", "signal" or "figure"
+     R"(2:50: error at /require/0/stream: fields that exclude each other: found "stream" beside "reaction", expected exactly one of "reaction", "stream", "sync", "application", "signal" or "figure"
 2:74: error at /require/0/latency: does not belong to this requirement: found "latency", expected a requirement with "stream")"},
     {"LimitOfTheOtherSubject", with_requirement(R"({"reaction": "start", "within": "1ms", "latency": "1ms"})"),
      R"(2:51: error at /require/0/latency: does not belong to this requirement: found "latency", expected a requirement with "stream")"},

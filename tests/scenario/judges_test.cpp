@@ -2,7 +2,7 @@
 #include "models/ethernet/sequence_ledger.hpp"
 #include "evaluation/evaluate.hpp"
 #include "results/result_json.hpp"
-#include "scenario/figures/requirement_rules.hpp"
+#include "scenario/figures/requirement.hpp"
 #include "support.hpp"
 
 namespace takt::scenario::test {
@@ -96,7 +96,7 @@ TEST(Latency, ALostFrameNeverArrives) {
 }
 
 TEST(Losses, WhoRequiresThemSeparately) {
-  const auto requires_them = [](const std::string& requirement) { return requires_losses_separately(sound(frames(requirement))->scenario, "s"); };
+  const auto requires_them = [](const std::string& requirement) { return requires_losses_separately(*sound(frames(requirement)), "s"); };
   EXPECT_FALSE(requires_them(R"({"stream": "s", "latency": "3us"})"));
   EXPECT_TRUE(requires_them(R"({"stream": "s", "dropped": 0})"));
   EXPECT_TRUE(requires_them(R"({"figure": "/streams/s/delivered", "at_least": 3})"));

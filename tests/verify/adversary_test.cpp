@@ -193,7 +193,7 @@ TEST(Adversary, ChoosesFrequenciesWithinTheirRange) {
   const auto one = with_seed("1");
   const auto two = with_seed("2");
   ASSERT_TRUE(one && two);
-  EXPECT_EQ(analysis::bound(*one).requirements[0].bound.duration, analysis::bound(*two).requirements[0].bound.duration);
+  EXPECT_EQ(analysis::bound(*one).requirements[0].duration, analysis::bound(*two).requirements[0].duration);
   const std::vector<Freedom> freedoms = freedoms_of(*one);
   const auto frequency = std::find_if(freedoms.begin(), freedoms.end(), [](const Freedom& each) { return each.name == "frequency of b, -100ppm to 100ppm"; });
   ASSERT_NE(frequency, freedoms.end());

@@ -96,7 +96,7 @@ TEST(Monitor, AReactionThatABoundExcludes) {
   Watched seen(cell("", R"(, "script": [{"at": "10ms", "program": "p", "call": "Start"}], "require": [{"reaction": "start", "within": "50ms"}])"));
   EXPECT_EQ(seen.contradiction(), "");
   ASSERT_TRUE(seen.result.requirements.at(0).measured);
-  seen.bounds.requirements.at(0).bound.duration = *seen.result.requirements[0].measured - 1_ns;
+  seen.bounds.requirements.at(0).duration = *seen.result.requirements[0].measured - 1_ns;
   EXPECT_TRUE(seen.contradiction().starts_with("reaction start within 50ms: a run took ")) << seen.contradiction();
 }
 

@@ -27,7 +27,7 @@ Replay replay(const std::string& text) {
   run.advance();
   Replay made;
   made.requirement = evaluation::evaluate(run, false).requirements.front();
-  made.bound = bounds.requirements.front().bound.duration.value_or(Duration());
+  made.bound = bounds.requirements.front().duration.value_or(Duration());
   made.parts = slack_of({made.requirement, *made.requirement.measured, made.bound, scenario->scenario}, bounds, {});
   Duration of_run;
   Duration of_bound;

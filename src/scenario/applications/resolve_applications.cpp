@@ -407,37 +407,4 @@ void resolve_applications(Resolved& resolved, StreamBuilder& builder, std::size_
   ApplicationResolver(resolved, builder, publishers, diagnostics).run();
 }
 
-void check_application_requirement(const Resolved& resolved, const Requirement& requirement, json::Diagnostics& diagnostics) {
-  if (requirement.signal) {
-    if (!requirement.irregular) diagnostics.error(requirement.where.place(), "missing key", {"\"signal\" without a limit", "\"irregular\""});
-    if (std::none_of(resolved.signals.begin(), resolved.signals.end(), [&](const ResolvedSignal& signal) { return signal.name == *requirement.signal; }))
-      diagnostics.error_unless(diagnostics.is_refused(resolved.scenario.where.at("applications")), requirement.where.at("signal"), "unknown signal", {json::quote(*requirement.signal), "the name of a signal", json::suggest(*requirement.signal, names_of(resolved.signals))});
-  }
-  if (!requirement.application) return;
-  if (!requirement.success && !requirement.buffered)
-    diagnostics.error(requirement.where.place(), "missing key", {"\"application\" without a limit", "\"success\" or \"buffered\""});
-  const auto application =
-      std::find_if(resolved.applications.begin(), resolved.applications.end(), [&](const ResolvedApplication& each) { return each.name == *requirement.application; });
-  if (application == resolved.applications.end()) {
-    const Scenario& scenario = resolved.scenario;
-    const bool is_unclear = !are_all_named(scenario.applications, scenario.where.at("applications"), diagnostics) || !are_all_named(scenario.gateways, scenario.where.at("gateways"), diagnostics) ||
-                            !are_all_named(scenario.persistence, scenario.where.at("persistence"), diagnostics);
-    diagnostics.error_unless(is_unclear, requirement.where.at("application"), "unknown application",
-                      {json::quote(*requirement.application), "the name of an application or gateway", json::suggest(*requirement.application, names_of(resolved.applications))});
-    return;
-  }
-  const auto concerned = [&](const ResolvedThread& thread) { return !requirement.buffered || !thread.publishes || (requirement.success && !requirement.thread); };
-  if (!requirement.thread) {
-    if (requirement.buffered && std::all_of(application->threads.begin(), application->threads.end(), [](const ResolvedThread& thread) { return thread.publishes; }))
-      diagnostics.error_unless(diagnostics.is_refused(application->where.at("threads")), requirement.where.at("buffered"), "nothing is buffered", {"no thread of " + json::quote(application->name) + " subscribes", "an application that subscribes"});
-    return;
-  }
-  const auto thread = std::find_if(application->threads.begin(), application->threads.end(), [&](const ResolvedThread& each) { return each.name == *requirement.thread; });
-  if (thread == application->threads.end())
-    diagnostics.error_unless(diagnostics.is_refused(application->where.at("threads")), requirement.where.at("thread"), "unknown thread",
-                      {json::quote(*requirement.thread), "a thread of " + json::quote(application->name), json::suggest(*requirement.thread, names_of(application->threads))});
-  else if (!concerned(*thread))
-    diagnostics.error(requirement.where.at("buffered"), "nothing is buffered", {json::quote(thread->name) + " publishes", "a thread that subscribes"});
-}
-
 }  // namespace takt::scenario

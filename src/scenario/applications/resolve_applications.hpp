@@ -8,7 +8,5 @@ namespace takt::scenario {
 
 /// Fills topics, applications and signals and adds their streams. `publishers` counts the PublisherIds that are taken.
 void resolve_applications(Resolved& resolved, StreamBuilder& builder, std::size_t& publishers, json::Diagnostics& diagnostics);
-/// A requirement of an application or a signal.
-void check_application_requirement(const Resolved& resolved, const Requirement& requirement, json::Diagnostics& diagnostics);
 
 }  // namespace takt::scenario

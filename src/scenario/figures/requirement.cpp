@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
-#include "json/quantity.hpp"
 #include "json/suggest.hpp"
 #include "models/ethernet/frame.hpp"
+#include "results/run_result.hpp"
 #include "scenario/figures/known_figures.hpp"
-#include "scenario/figures/requirement_rules.hpp"
-#include "scenario/resolve/known_names.hpp"
+#include "scenario/resolve/resolved.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -30,18 +29,49 @@ std::vector<std::string_view> names_of(const Resolved& resolved, std::string_vie
   return reasons;
 }
 
-/// "/streams/*/latency_ps/max (mean)": the pointer and what else says which values are meant.
-std::string name_of(const Requirement& requirement) {
-  std::string more;
-  const auto add = [&](const std::string& text) { more += (more.empty() ? "" : ", ") + text; };
-  if (requirement.take)
-    for (const json::EnumName& name : describe(json::Type<Take>{}).names)
-      if (name.value == static_cast<std::int64_t>(*requirement.take)) add(std::string(name.name));
-  for (const auto& [key, value] : requirement.only) add(key + " = " + (value.node.kind == json::Kind::string ? value.node.text : json::compact(value.node)));
-  return *requirement.figure + (more.empty() ? "" : " (" + more + ")");
+/// The value that the figure's "only" gives the member.
+template <class E>
+std::optional<E> value_in(const Figure& figure, std::string_view key) {
+  for (const auto& [name, value] : figure.only)
+    for (const json::EnumName& known : describe(json::Type<E>{}).names)
+      if (name == key && value.kind == json::Kind::string && known.name == value.text) return static_cast<E>(known.value);
+  return std::nullopt;
+}
+
+/// Whether the limit says how many frames of the stream may be lost, or must come.
+bool limits_losses(const RequiredFigure& required, const std::string& stream) {
+  const std::vector<std::string>& steps = required.figure.steps;
+  const Take take = required.figure.take;
+  const bool bounds_above = required.limit.relation != Relation::at_least;
+  if (steps.size() == 2 && steps[0] == "dropped") return bounds_above && steps[1] == "*";
+  if (steps.size() < 3 || steps[0] != "streams" || (steps[1] != stream && steps[1] != "*")) return false;
+  // Of all streams together, much of one may make up for little of another.
+  const bool is_of_each = steps[1] != "*" || take == Take::min;
+  if (steps[2] == "delivered") return is_of_each && required.limit.relation != Relation::at_most;
+  if (!bounds_above || take == Take::min || take == Take::mean || take == Take::count) return false;
+  return steps[2] == "lost" || (steps[2] == "dropped" && steps.size() == 4 && steps[3] == "*");
 }
 
 }  // namespace
+
+std::optional<AskedReaction> reaction_of(const Figure& figure) {
+  const std::vector<std::string>& steps = figure.steps;
+  if (steps.size() != 5 || steps[0] != "programs" || (steps[2] != "reactions" && steps[2] != "tree_reactions") || steps[4] != "duration_ps") return std::nullopt;
+  const std::optional<Reaction> kind = value_in<Reaction>(figure, "kind");
+  if (!kind || figure.take == Take::count || figure.take == Take::sum) return std::nullopt;
+  return AskedReaction{*kind, value_in<handshake::Cause>(figure, "cause"), steps[2] == "tree_reactions", steps[1] == "*" ? std::nullopt : std::optional(steps[1])};
+}
+
+std::optional<std::string> latency_of(const Figure& figure) {
+  const std::vector<std::string>& steps = figure.steps;
+  const bool is_latency = steps.size() == 4 && steps[0] == "streams" && steps[2] == "latency_ps" && steps[3] != "stddev";
+  return is_latency ? std::optional(steps[1]) : std::nullopt;
+}
+
+bool requires_losses_separately(const Resolved& resolved, const std::string& stream, std::optional<Duration> from) {
+  return std::any_of(resolved.requirements.begin(), resolved.requirements.end(),
+                     [&](const RequiredFigure& required) { return (!from || required.from <= *from) && limits_losses(required, stream); });
+}
 
 std::optional<UnknownName> unknown_name(const Figure& figure, const Resolved& resolved) {
   const Lookup lookup = look_up(figure.steps);
@@ -55,85 +85,6 @@ std::optional<UnknownName> unknown_name(const Figure& figure, const Resolved& re
       return UnknownName{std::string(kind), figure.steps[i], json::suggest(figure.steps[i], names)};
   }
   return std::nullopt;
-}
-
-std::optional<FigureRequirement> read_figure_requirement(const Requirement& requirement, json::Diagnostics& diagnostics) {
-  const auto figure =
-      read_figure({requirement.where, "figure", *requirement.figure, requirement.only, requirement.take, requirement.unit.value_or(""), false}, diagnostics);
-  const bool is_upper = requirement.at_most.has_value();
-  const std::optional<json::Any>& bound = is_upper ? requirement.at_most : requirement.equal ? requirement.equal : requirement.at_least;
-  if (!bound) {
-    diagnostics.error(requirement.where.place(), "missing key", {"\"figure\" without a limit", "\"at_most\", \"at_least\" or \"equal\""});
-    return std::nullopt;
-  }
-  if (requirement.within && !requirement.equal)
-    diagnostics.error(requirement.where.at("within"), "does not belong to this requirement", {"\"within\" without \"equal\"", "\"within\" beside \"equal\""});
-  if (!figure) return std::nullopt;
-  const json::Place place = requirement.where.at(is_upper ? "at_most" : requirement.equal ? "equal" : "at_least");
-  if (figure->is_time && !requirement.unit && bound->node.kind == json::Kind::number) {
-    diagnostics.error(place, "a time without a unit", {json::excerpt(bound->node), "a duration such as \"7ms\", or \"unit\" beside it"});
-    return std::nullopt;
-  }
-  auto limit = read_limit(*figure, is_upper ? Relation::at_most : requirement.equal ? Relation::equal : Relation::at_least, bound->node, place, diagnostics);
-  if (!limit) return std::nullopt;
-  if (requirement.within && requirement.equal) {
-    if (figure->is_time && !requirement.unit && !requirement.within->time) {
-      diagnostics.error(requirement.where.at("within"), "a time without a unit", {"a number", "a duration such as \"7ms\", or \"unit\" beside it"});
-      return std::nullopt;
-    }
-    if (!read_tolerance(*figure, *requirement.within, *limit, requirement.where.at("within"), diagnostics)) return std::nullopt;
-  }
-  return FigureRequirement{*figure, *limit, name_of(requirement)};
-}
-
-namespace {
-
-/// Whether the name may be that of something that was refused.
-bool may_be_refused(const UnknownName& unknown, const Resolved& resolved, const json::Diagnostics& diagnostics) {
-  if (!diagnostics.has_errors()) return false;
-  const Scenario& scenario = resolved.scenario;
-  const auto is_refused = [&](std::string_view list) { return diagnostics.is_refused(scenario.where.at(list)); };
-  if (unknown.kind == "stream") return StreamNames(resolved, diagnostics).may_be(unknown.name);
-  if (unknown.kind == "node") return !resolved.topology.has_all_nodes;
-  if (unknown.kind == "program")
-    return may_be_unread_program(scenario, diagnostics) || std::any_of(scenario.programs.begin(), scenario.programs.end(), [&](const Program& program) { return program.name == unknown.name; });
-  return (unknown.kind == "application" || unknown.kind == "signal") && (is_refused("applications") || is_refused("gateways") || is_refused("persistence"));
-}
-
-}  // namespace
-
-bool check_figure(const Resolved& resolved, const Requirement& requirement, json::Diagnostics& diagnostics) {
-  const auto refuse = [&](bool is_there, std::string_view key, const char* expected) {
-    if (is_there) diagnostics.error(requirement.where.at(key), "does not belong to this requirement", {json::quote(key), expected});
-  };
-  if (!requirement.figure) {
-    const char* const other = "a requirement with \"figure\"";
-    refuse(!requirement.only.empty(), "only", other);
-    refuse(requirement.take.has_value(), "take", other);
-    refuse(requirement.unit.has_value(), "unit", other);
-    refuse(requirement.at_most.has_value(), "at_most", other);
-    refuse(requirement.at_least.has_value(), "at_least", other);
-    refuse(requirement.equal.has_value(), "equal", other);
-    return true;
-  }
-  const auto asked = read_figure_requirement(requirement, diagnostics);
-  const char* const expected = "\"only\", \"take\", \"unit\", \"at_most\", \"at_least\" or \"equal\" beside \"figure\"";
-  for (const auto& [is_there, key] : {std::pair(requirement.program.has_value(), "program"),
-                                      std::pair(requirement.tree, "tree"), std::pair(requirement.latency.has_value(), "latency"),
-                                      std::pair(requirement.jitter.has_value(), "jitter"), std::pair(requirement.dropped.has_value(), "dropped"),
-                                      std::pair(requirement.delivered.has_value(), "delivered"), std::pair(requirement.node.has_value(), "node"),
-                                      std::pair(requirement.thread.has_value(), "thread"), std::pair(requirement.success.has_value(), "success"),
-                                      std::pair(requirement.buffered.has_value(), "buffered"), std::pair(requirement.irregular.has_value(), "irregular")})
-    refuse(is_there, key, expected);
-  if (!asked) return false;
-  const Duration from = counts_from(resolved.scenario, requirement);
-  const Lookup lookup = look_up(asked->figure.steps);
-  if (from > Duration() && std::any_of(lookup.figures.begin(), lookup.figures.end(), [](const KnownFigure* figure) { return figure->is_of_whole_run; }))
-    diagnostics.error(requirement.where.at("figure"), "counts from the start of the run only",
-                      {json::quote(*requirement.figure) + " from " + json::to_text(from) + " on" + (requirement.after ? "" : ", the scenario's \"warm_up\""), "\"after\": \"0s\" in this requirement"});
-  if (const auto unknown = unknown_name(asked->figure, resolved))
-    diagnostics.error_unless(may_be_refused(*unknown, resolved, diagnostics), requirement.where.at("figure"), "unknown " + unknown->kind, {json::quote(unknown->name), "the name of a " + unknown->kind, unknown->suggestion});
-  return false;
 }
 
 }  // namespace takt::scenario

@@ -79,11 +79,7 @@ class Nester {
   }
 
   void check(const Requirement& requirement) {
-    if (!requirement.tree) return;
-    if (!requirement.reaction) {
-      diagnostics_.error(requirement.where.at("tree"), "does not belong to this requirement", {"\"tree\"", "a requirement with \"reaction\""});
-      return;
-    }
+    if (!requirement.tree || !requirement.reaction) return;
     if (roots_.empty())
       for (const Program& program : r_.scenario.programs)
         if (program.within) roots_.insert(root_of(program).name);

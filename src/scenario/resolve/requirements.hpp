@@ -1,4 +1,4 @@
-// What must hold: that it belongs together, and speaks of what is there.
+// What must hold: the spellings of scenario files become limits on figures; what is said belongs together, and speaks of what is there.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace takt::scenario {
 
-/// Checks the requirements of the scenario; all else is resolved by then.
-void resolve_requirements(const Resolved& resolved, json::Diagnostics& diagnostics);
+/// Makes Resolved::requirements; all else is resolved by then.
+void resolve_requirements(Resolved& resolved, json::Diagnostics& diagnostics);
 
 /// The Program of that name; nothing and a diagnostic at `place` if there is none.
 const Program* find_program(const Scenario& scenario, const std::string& name, const json::Place& place, json::Diagnostics& diagnostics);

@@ -8,6 +8,7 @@
 #include "json/suggest.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "scenario/applications/resolve_applications.hpp"
+#include "scenario/figures/requirement.hpp"
 #include "scenario/idle/idle.hpp"
 #include "scenario/programs/program_shape.hpp"
 #include "scenario/resolve/clocks.hpp"

@@ -19,6 +19,7 @@
 namespace takt::scenario {
 
 struct ResolvedDds;  // applications/resolved_dds.hpp
+struct RequiredFigure;  // figures/requirement.hpp
 
 /// What a stream asks of the links: long-term averages, for check and for refusing overload.
 struct StreamDemand {
@@ -196,6 +197,7 @@ struct Resolved {
   std::vector<ResolvedAction> script;     ///< by time
   std::vector<PortDemand> ports;          ///< those that carry something
   std::optional<GatePlan> gates = {};     ///< if they were laid out
+  std::vector<RequiredFigure> requirements;  ///< in the order of scenario.require, an entry of which may ask for several
 };
 
 }  // namespace takt::scenario

@@ -3,28 +3,28 @@
 #include <algorithm>
 #include <set>
 
-#include "scenario/figures/requirement_rules.hpp"
+#include "results/run_result.hpp"
+#include "scenario/figures/requirement.hpp"
 
 namespace takt::scenario {
 
-std::vector<Duration> account_instants(const Scenario& scenario) {
-  std::set<Duration> instants = {scenario.warm_up};
-  for (const Requirement& requirement : scenario.require) instants.insert(counts_from(scenario, requirement));
+std::vector<Duration> account_instants(const Resolved& resolved) {
+  std::set<Duration> instants = {resolved.scenario.warm_up};
+  for (const RequiredFigure& required : resolved.requirements) instants.insert(required.from);
   return {instants.begin(), instants.end()};
 }
 
 void keep_accounts(const Resolved& resolved, models::Network& network) {
-  const Scenario& scenario = resolved.scenario;
   const auto streams = static_cast<std::uint32_t>(network.traffic().streams().size());
-  for (const Duration from : account_instants(scenario)) {
+  for (const Duration from : account_instants(resolved)) {
     if (from == Duration()) continue;  // every stream has that account
     // Figures may be of any stream.
     std::set<std::string_view> named;
-    bool of_all = from == scenario.warm_up;
-    for (const Requirement& requirement : scenario.require) {
-      if (counts_from(scenario, requirement) != from) continue;
-      of_all |= requirement.figure.has_value();
-      if (requirement.stream) named.insert(*requirement.stream);
+    bool of_all = from == resolved.scenario.warm_up;
+    for (const RequiredFigure& required : resolved.requirements) {
+      if (required.from != from) continue;
+      of_all |= required.kind == results::RequirementKind::figure;
+      named.insert(required.subject);
     }
     for (std::uint32_t s = 0; s < streams; ++s)
       if (of_all || named.contains(network.traffic().stream({s}).name)) network.keep_account({s}, sim::TrueTime() + from);

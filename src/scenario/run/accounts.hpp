@@ -9,7 +9,7 @@
 namespace takt::scenario {
 
 /// The instants from which requirements and the figures of the result count, ascending, each once; the scenario's warm_up is one of them.
-std::vector<Duration> account_instants(const Scenario& scenario);
+std::vector<Duration> account_instants(const Resolved& resolved);
 
 /// Has the network keep the accounts of streams that begin later than the run, and tell first copies from others where there are copies.
 void keep_accounts(const Resolved& resolved, models::Network& network);

@@ -8,11 +8,10 @@ namespace {
 constexpr sim::Duration near_enough = sim::Duration::from_ps(1'000'000);  // a servo calls itself locked while it still closes in
 }
 
-ClockMonitor::ClockMonitor(sim::Simulation& simulation, const models::Network& network, sim::Duration every, std::vector<Limit> limits,
-                           std::span<const sim::Duration> instants)
-    : simulation_(&simulation), network_(&network), every_(every), limits_(std::move(limits)), source_(simulation.add(*this)) {
+ClockMonitor::ClockMonitor(sim::Simulation& simulation, const models::Network& network, sim::Duration every, std::span<const sim::Duration> instants)
+    : simulation_(&simulation), network_(&network), every_(every), source_(simulation.add(*this)) {
   for (std::uint32_t n = 0; n < network.plan().nodes.size(); ++n)
-    if (network.station(models::NodeIndex{n}) != nullptr) figures_.push_back({models::NodeIndex{n}, {}, Accounts<ClockFigures::Offsets>(instants)});
+    if (network.station(models::NodeIndex{n}) != nullptr) figures_.push_back({models::NodeIndex{n}, {}, Accounts<ClockFigures::Offsets>(instants), Accounts<ClockFigures::Distances>(instants)});
 }
 
 void ClockMonitor::handle(sim::Simulation& simulation, const sim::Event&) {
@@ -26,13 +25,12 @@ void ClockMonitor::look_at(const models::gptp::Station& station, ClockFigures& f
   const models::NodeIndex grandmaster = station.grandmaster();
   const sim::Duration offset = sim::Duration::from_ps(network_->clock(figures.node).local_at(now).ps() - network_->clock(grandmaster).local_at(now).ps());
   if (sink_ != nullptr) sink_->sample(now, figures.node, grandmaster, offset);
-  for (Limit& limit : limits_) {
-    if (now < limit.after || (limit.node && *limit.node != figures.node)) continue;
-    ++limit.samples;
-    limit.greatest = std::max(limit.greatest, offset < sim::Duration() ? sim::Duration() - offset : offset);
-  }
+  const sim::Duration distance = offset < sim::Duration() ? sim::Duration() - offset : offset;
+  figures.distances.add(now, [&](ClockFigures::Distances& distances) {
+    ++distances.samples;
+    distances.greatest = std::max(distances.greatest, distance);
+  });
   if (!figures.locked) {
-    const sim::Duration distance = offset < sim::Duration() ? sim::Duration() - offset : offset;
     if (station.target().state() != models::gptp::TargetState::locked || distance > near_enough) return;
     figures.locked = now;
   }

@@ -26,6 +26,12 @@ struct ClockFigures {
     void add(sim::Duration offset);
   };
   Accounts<Offsets> offsets;
+  /// Of all looks, without sign.
+  struct Distances {
+    std::uint64_t samples = 0;
+    sim::Duration greatest;
+  };
+  Accounts<Distances> distances;
 };
 
 /// Takes the series of offsets, one call for each look and node.
@@ -38,23 +44,14 @@ class ClockSampleSink {
 /// Looks every so often, at instants of true time. It changes nothing in the network.
 class ClockMonitor final : public sim::Component {
  public:
-  /// A limit that a requirement sets: offsets count from `after` on, of one node or of all.
-  struct Limit {
-    sim::TrueTime after;
-    std::optional<models::NodeIndex> node;
-    sim::Duration greatest;                 ///< what was seen, without sign
-    std::uint64_t samples = 0;
-  };
-
   /// Figures are kept from each of the instants on.
-  ClockMonitor(sim::Simulation& simulation, const models::Network& network, sim::Duration every, std::vector<Limit> limits, std::span<const sim::Duration> instants);
+  ClockMonitor(sim::Simulation& simulation, const models::Network& network, sim::Duration every, std::span<const sim::Duration> instants);
 
   void start() { simulation_->schedule(source_, simulation_->now() + every_, sim::Phase::control, source_.id(), 0, 0); }
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
   void set_sink(ClockSampleSink* sink) { sink_ = sink; }
 
   const std::vector<ClockFigures>& figures() const { return figures_; }
-  const std::vector<Limit>& limits() const { return limits_; }
 
  private:
   void look_at(const models::gptp::Station& station, ClockFigures& figures);
@@ -62,7 +59,6 @@ class ClockMonitor final : public sim::Component {
   sim::Simulation* simulation_;
   const models::Network* network_;
   sim::Duration every_;
-  std::vector<Limit> limits_;
   std::vector<ClockFigures> figures_;       // of the nodes with gPTP
   sim::EventSource source_;
   ClockSampleSink* sink_ = nullptr;

@@ -8,7 +8,6 @@
 #include "scenario/applications/dds_port.hpp"
 #include "scenario/applications/gateway_bridge.hpp"
 #include "scenario/applications/opc_ua_port.hpp"
-#include "scenario/figures/requirement_rules.hpp"
 #include "scenario/programs/program_shape.hpp"
 #include "scenario/resolve/nesting.hpp"
 #include "scenario/run/accounts.hpp"
@@ -71,30 +70,19 @@ class Run::Script final : public sim::Component {
 };
 
 Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle)
-    : resolved_(&resolved), instants_(account_instants(resolved.scenario)), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan) {
+    : resolved_(&resolved), instants_(account_instants(resolved)), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan) {
   simulation_.set_tie_shuffle(tie_shuffle);
   for (std::uint32_t i = 0; i < resolved.programs.size(); ++i) add_program(i, resolved.programs[i]);
   nest_programs();
   application_monitor_ = std::make_unique<ApplicationMonitor>(simulation_, resolved.signals, instants_);
   for (std::uint32_t i = 0; i < resolved.applications.size(); ++i) add_application(i, resolved.applications[i]);
   script_ = std::make_unique<Script>(*this, simulation_);
-  watch_clocks();
+  if (resolved.scenario.clocks.gptp) {
+    clock_monitor_ = std::make_unique<ClockMonitor>(simulation_, network_, resolved.scenario.clocks.gptp->report_every, instants_);
+    clock_monitor_->start();
+  }
   keep_accounts(resolved, network_);
   network_.start();
-}
-
-void Run::watch_clocks() {
-  if (!resolved_->scenario.clocks.gptp) return;
-  std::vector<ClockMonitor::Limit> limits;
-  for (const Requirement& requirement : resolved_->scenario.require) {
-    if (!requirement.sync) continue;
-    ClockMonitor::Limit limit;
-    limit.after = sim::TrueTime() + counts_from(resolved_->scenario, requirement);
-    if (requirement.node) limit.node = models::NodeIndex{*resolved_->topology.find(*requirement.node)};
-    limits.push_back(limit);
-  }
-  clock_monitor_ = std::make_unique<ClockMonitor>(simulation_, network_, resolved_->scenario.clocks.gptp->report_every, std::move(limits), instants_);
-  clock_monitor_->start();
 }
 
 Run::~Run() = default;

@@ -67,7 +67,6 @@ class Run {
   };
   class Script;
 
-  void watch_clocks();
   void add_program(std::uint32_t number, const ResolvedProgram& program);
   LiveMember add_member(const ResolvedProgram& program, models::NodeIndex node, ProgramApplication::Settings settings, const LiveProgram& live);
   void add_replies(const ResolvedProgram& program, std::size_t participant, ProgramApplication::Settings& settings) const;

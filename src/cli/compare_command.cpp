@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/study_progress.hpp"
+#include "json/record.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "study/compare.hpp"
 
@@ -51,17 +52,18 @@ ExitStatus run(const CompareOptions& options) {
   how.jobs = options.jobs;
   how.interrupted = [&] { return interrupt.requested(); };
   how.progress = [&](const char* what, std::uint64_t done, std::uint64_t of) { progress.update(what, done, of); };
-  const study::Comparison comparison =
+  study::Comparison comparison =
       study::compare(study::plain_plan(*a, options.pairs, options.first_seed), study::plain_plan(*b, options.pairs, options.first_seed), how);
   if (!comparison.problem.empty()) {
     std::fprintf(stderr, "takt: %s\n", comparison.problem.c_str());
     return ExitStatus::internal_error;
   }
   if (comparison.interrupted) return ExitStatus::interrupted;
-  std::string names[2] = {options.a, options.b};
-  for (const std::string& option : options.overrides_of_a) names[0] += " " + option;
-  for (const std::string& option : options.overrides_of_b) names[1] += " " + option;
-  std::fputs((options.format == "json" ? study::json_of : study::text_of)(comparison, names[0], names[1]).c_str(), stdout);
+  comparison.a = options.a;
+  comparison.b = options.b;
+  for (const std::string& option : options.overrides_of_a) comparison.a += " " + option;
+  for (const std::string& option : options.overrides_of_b) comparison.b += " " + option;
+  std::fputs((options.format == "json" ? json::write(comparison) : study::text_of(comparison)).c_str(), stdout);
   return comparison.troubles.empty() ? ExitStatus::pass : ExitStatus::undecided;
 }
 

@@ -16,6 +16,7 @@
 #include "explore/report/report.hpp"
 #include "explore/report/schedule.hpp"
 #include "explore/search/search.hpp"
+#include "json/record.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "verify/roles_query.hpp"
@@ -248,7 +249,7 @@ ExitStatus run(const ExploreOptions& options) {
   if (subjects.empty()) return ExitStatus::bad_input;
   const InterruptGuard interrupt;
   ExitStatus status = ExitStatus::pass;
-  std::vector<std::string> pages;
+  json::Node pages = json::Node::array();
   for (const Subject& subject : subjects) {
     const double began = cpu_seconds();
     explore::SearchResult result;
@@ -261,7 +262,7 @@ ExitStatus run(const ExploreOptions& options) {
     }
     const double spent = cpu_seconds() - began;
     if (options.format == "json") {
-      pages.push_back(explore::json_report(options.scenario.empty() ? "" : subject.name, subject.query, result, spent));
+      pages.items.push_back(json::ShapeOf<explore::Exploration>::write({options.scenario.empty() ? "" : subject.name, subject.query, result, spent}));
     } else {
       if (subjects.size() > 1) std::printf("Program %s\n", subject.name.c_str());
       std::fputs(explore::text_report(subject.query, result, spent).c_str(), stdout);
@@ -271,10 +272,7 @@ ExitStatus run(const ExploreOptions& options) {
     if (result.interrupted) break;
   }
   // One document: an object for one Program, an array of such objects for a scenario with several.
-  std::string document;
-  for (const std::string& page : pages) document += (document.empty() ? "" : ",\n") + page;
-  if (subjects.size() > 1 && !pages.empty()) document = "[\n" + document + "\n]";
-  if (!document.empty()) std::puts(document.c_str());
+  if (!pages.items.empty()) std::fputs(json::pretty(subjects.size() > 1 ? pages : pages.items.front()).c_str(), stdout);
   return status;
 }
 

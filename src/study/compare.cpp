@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "json/record.hpp"
 #include "output/text_report.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "study/magnitude.hpp"
@@ -46,7 +47,9 @@ std::optional<Parting> parting_of(const Plan& a, const Plan& b, std::uint64_t se
   const auto left = scenario::resolve(std::move(*first), diagnostics);
   const auto right = scenario::resolve(std::move(*second), diagnostics);
   if (!left || !right) return std::nullopt;
-  return first_parting(*left, *right, options.interrupted);
+  auto parting = first_parting(*left, *right, options.interrupted);
+  if (parting) parting->seed = seed;
+  return parting;
 }
 
 std::string interval(const Summary& summary) {
@@ -64,22 +67,7 @@ std::string verdict_of(const ComparedMeasure& measure) {
   return d.mean > 0 ? "B is greater" : "B is less";
 }
 
-json::Node summary_node(const Summary& summary) {
-  json::Node node = json::Node::object();
-  node.add("count", json::Node::of_integer(static_cast<sim::int128>(summary.count)));
-  if (summary.count == 0) return node;
-  node.add("mean", json::Node::of_double(summary.mean));
-  node.add("min", json::Node::of_double(summary.min));
-  node.add("max", json::Node::of_double(summary.max));
-  if (summary.half_width) node.add("half_width_95", json::Node::of_double(*summary.half_width));
-  return node;
-}
-
-json::Node texts_node(const std::vector<std::string>& texts) {
-  json::Node node = json::Node::array();
-  for (const std::string& text : texts) node.items.push_back(json::Node::of_string(text));
-  return node;
-}
+bool has_values(const Summary& summary) { return summary.count > 0; }
 
 }  // namespace
 
@@ -123,22 +111,23 @@ Comparison compare(const Plan& a, const Plan& b, const RunOptions& options) {
                                 });
   if (comparison.interrupted || !comparison.problem.empty()) return comparison;
   comparison.pairs = pairs;
+  std::optional<std::uint64_t> parting_seed;
   for (std::uint32_t i = 0; i < pairs; ++i) {
     const bool are_done = outcomes[0][i].status == Status::done && outcomes[1][i].status == Status::done;
     const bool is_same = are_done && outcomes[0][i].digest == outcomes[1][i].digest;
     comparison.same_digest += is_same ? 1 : 0;
-    if (are_done && !is_same && !comparison.parting_seed) comparison.parting_seed = a.seed_of(i);
+    if (are_done && !is_same && !parting_seed) parting_seed = a.seed_of(i);
   }
   for (std::size_t m = 0; m < a.measures.size(); ++m) {
     ComparedMeasure measure = compared(a.measures[m], m, outcomes[0], outcomes[1]);
     if (measure.a.count + measure.b.count > 0) comparison.measures.push_back(std::move(measure));
   }
-  if (comparison.parting_seed) comparison.parting = parting_of(a, b, *comparison.parting_seed, options);
+  if (parting_seed) comparison.parting = parting_of(a, b, *parting_seed, options);
   return comparison;
 }
 
-std::string text_of(const Comparison& comparison, const std::string& a, const std::string& b) {
-  std::string text = fmt::format("A: {}\nB: {}\n{} pairs of runs with the same seeds, {} of them the same run\n", a, b, comparison.pairs, comparison.same_digest);
+std::string text_of(const Comparison& comparison) {
+  std::string text = fmt::format("A: {}\nB: {}\n{} pairs of runs with the same seeds, {} of them the same run\n", comparison.a, comparison.b, comparison.pairs, comparison.same_digest);
   text += fmt::format("\n{:<22} {:>26} {:>26} {:>26}\n", "mean, 95 % interval", "A", "B", "B - A");
   for (const ComparedMeasure& m : comparison.measures) {
     const std::string name = m.name + (m.unit.empty() ? "" : " " + m.unit);
@@ -150,7 +139,7 @@ std::string text_of(const Comparison& comparison, const std::string& a, const st
   for (const std::string& trouble : comparison.troubles) text += "without a result: " + trouble + "\n";
   if (!comparison.parting) return text;
   constexpr std::size_t most = 8;
-  text += fmt::format("\nWith seed {} the runs part at {}\n", *comparison.parting_seed, output::readable(comparison.parting->at.since_start()));
+  text += fmt::format("\nWith seed {} the runs part at {}\n", comparison.parting->seed, output::readable(comparison.parting->at.since_start()));
   for (const auto& [name, side] : {std::pair("A", &comparison.parting->only_a), std::pair("B", &comparison.parting->only_b)}) {
     for (std::size_t i = 0; i < std::min(most, side->size()); ++i) text += fmt::format("  only in {}: {}\n", name, (*side)[i]);
     if (side->size() > most) text += fmt::format("  only in {}: {} more\n", name, side->size() - most);
@@ -158,34 +147,54 @@ std::string text_of(const Comparison& comparison, const std::string& a, const st
   return text;
 }
 
-std::string json_of(const Comparison& comparison, const std::string& a, const std::string& b) {
-  json::Node root = json::Node::object();
-  root.add("a", json::Node::of_string(a));
-  root.add("b", json::Node::of_string(b));
-  root.add("pairs", json::Node::of_integer(comparison.pairs));
-  root.add("same_digest", json::Node::of_integer(comparison.same_digest));
-  json::Node measures = json::Node::object();
-  for (const ComparedMeasure& m : comparison.measures) {
-    json::Node node = json::Node::object();
-    node.add("unit", json::Node::of_string(m.unit));
-    node.add("a", summary_node(m.a));
-    node.add("b", summary_node(m.b));
-    node.add("difference", summary_node(m.difference));
-    node.add("unpaired", json::Node::of_integer(m.unpaired));
-    measures.add(m.name, std::move(node));
-  }
-  root.add("measures", std::move(measures));
-  root.add("troubles", texts_node(comparison.troubles));
-  json::Node parting;
-  if (comparison.parting) {
-    parting = json::Node::object();
-    parting.add("seed", json::Node::of_integer(static_cast<sim::int128>(*comparison.parting_seed)));
-    parting.add("at_ps", json::Node::of_integer(comparison.parting->at.ps()));
-    parting.add("only_a", texts_node(comparison.parting->only_a));
-    parting.add("only_b", texts_node(comparison.parting->only_b));
-  }
-  root.add("parting", std::move(parting));
-  return json::pretty(root);
+const json::Record& describe(json::Type<Summary>) {
+  static constexpr std::string_view any = "if any run has the figure";
+  static constexpr json::Output outputs[] = {
+      json::output<&Summary::count>("count", "How many runs, or pairs, have it."),
+      json::only_if<&has_values>(json::output<&Summary::mean>("mean", "Of them."), any),
+      json::only_if<&has_values>(json::output<&Summary::min>("min", "The least."), any),
+      json::only_if<&has_values>(json::output<&Summary::max>("max", "The greatest."), any),
+      json::output_if_any<&Summary::half_width>("half_width_95", "Half of the two-sided 95 % confidence interval of the mean.", "of two values or more"),
+  };
+  static constexpr json::Record record{"summary", "A figure over several runs, in its unit.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<ComparedMeasure>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&ComparedMeasure::unit>("unit", "Of all its figures; empty: a number."),
+      json::output<&ComparedMeasure::a>("a", "Of the runs of A."),
+      json::output<&ComparedMeasure::b>("b", "Of the runs of B."),
+      json::output<&ComparedMeasure::difference>("difference", "B less A, of each pair in which both have the figure."),
+      json::output<&ComparedMeasure::unpaired>("unpaired", "Pairs in which only one has it."),
+  };
+  static constexpr json::Record record{"measure", "A figure that is compared.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<Parting>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&Parting::seed>("seed", "The first whose runs differ."),
+      json::output<&Parting::at>("at_ps", "The first instant at which not the same happens in both."),
+      json::output<&Parting::only_a>("only_a", "What happens then in A only."),
+      json::output<&Parting::only_b>("only_b", "What happens then in B only."),
+  };
+  static constexpr json::Record record{"parting", "Where two runs part.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<Comparison>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&Comparison::a>("a", "The file, and what was set in it."),
+      json::output<&Comparison::b>("b", "The other one."),
+      json::output<&Comparison::pairs>("pairs", "Pairs of runs, each with one seed for both."),
+      json::output<&Comparison::same_digest>("same_digest", "Those that are the same run."),
+      json::outputs_by_name<&Comparison::measures, &ComparedMeasure::name>("measures", "Those that any run has.", {.keys = "measure"}),
+      json::output<&Comparison::troubles>("troubles", "Runs without a result, and why: the first ten."),
+      json::output<&Comparison::parting>("parting", "Null if no runs differ."),
+  };
+  static constexpr json::Record record{"comparison", "Is B better than A, and by how much?", outputs};
+  return record;
 }
 
 }  // namespace takt::study

@@ -22,12 +22,13 @@ struct ComparedMeasure {
 };
 
 struct Comparison {
+  std::string a;                                  ///< the files, and what was set in them
+  std::string b;
   std::uint32_t pairs = 0;
   std::uint32_t same_digest = 0;                  ///< pairs that are the same run
   std::vector<ComparedMeasure> measures;          ///< those that any run has
   std::vector<std::string> troubles;
-  std::optional<std::uint64_t> parting_seed;      ///< the first seed whose runs differ
-  std::optional<Parting> parting;
+  std::optional<Parting> parting;                 ///< of the first seed whose runs differ
   bool interrupted = false;
   std::string problem;
 };
@@ -39,7 +40,12 @@ Plan plain_plan(json::Document base, std::uint32_t replications, std::uint64_t f
 /// Both plans have the same measures, replications and seeds.
 Comparison compare(const Plan& a, const Plan& b, const RunOptions& options);
 
-std::string text_of(const Comparison& comparison, const std::string& a, const std::string& b);
-std::string json_of(const Comparison& comparison, const std::string& a, const std::string& b);
+std::string text_of(const Comparison& comparison);
+
+// What `takt compare --format json` holds.
+const json::Record& describe(json::Type<Comparison>);
+const json::Record& describe(json::Type<ComparedMeasure>);
+const json::Record& describe(json::Type<Parting>);
+const json::Record& describe(json::Type<Summary>);
 
 }  // namespace takt::study

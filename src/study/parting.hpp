@@ -15,6 +15,7 @@ struct Parting {
   sim::TrueTime at;
   std::vector<std::string> only_a;   ///< what happens then in the first run only: "frame 12 of axis leaves sw1 towards sw2"
   std::vector<std::string> only_b;
+  std::uint64_t seed = 0;            ///< of both runs
 };
 
 /// Runs both side by side until they differ in what is produced, sent or dropped, by names: nodes and streams of one may be missing in the other.

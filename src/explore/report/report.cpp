@@ -7,14 +7,9 @@
 namespace takt::explore {
 namespace {
 
-std::string variant_name(handshake::Variant variant) { return variant == handshake::Variant::Paper ? "paper" : "robust"; }
-
-std::string fault_list(const Query& query, const char* before, const char* between, const char* after) {
+std::string fault_list(const Query& query) {
   std::string text;
-  for (std::size_t f = 0; f < fault_count; ++f) {
-    const auto fault = static_cast<Fault>(f);
-    if (query.faults.contains(fault)) text += (text.empty() ? "" : between) + std::string(before) + std::string(name_of(fault)) + after;
-  }
+  for (const std::string_view fault : faults_of(query)) text += (text.empty() ? "" : ", ") + std::string(fault);
   return text;
 }
 
@@ -28,8 +23,6 @@ std::string padded(std::string text, std::size_t width) {
   if (text.size() < width) text.resize(width, ' ');
   return text;
 }
-
-const char* yes(bool value) { return value ? "true" : "false"; }
 
 std::string verdict_line(const SearchResult& result, std::size_t p) {
   std::string line = "  " + padded(std::string(property_names[p]), 20) + padded(std::string(name_of(result.verdicts[p])), 10);
@@ -47,8 +40,17 @@ std::string counter_example(const Query& query, const SearchResult& result, Prop
 
 }  // namespace
 
+std::string_view variant_of(const Query& query) { return query.variant == handshake::Variant::Paper ? "paper" : "robust"; }
+
+std::vector<std::string_view> faults_of(const Query& query) {
+  std::vector<std::string_view> names;
+  for (std::size_t f = 0; f < fault_count; ++f)
+    if (query.faults.contains(static_cast<Fault>(f))) names.push_back(name_of(static_cast<Fault>(f)));
+  return names;
+}
+
 std::string query_line(const Query& query) {
-  const std::string faults = fault_list(query, "", ", ", "");
+  const std::string faults = fault_list(query);
   const std::string network = query.network == Network::registers ? "" : ", channels of " + std::to_string(query.capacity);
   const std::string subscription = query.subscription == handshake::Subscription::Star ? "" : ", all-to-all";
   const std::string inner = !query.nested() ? "" : ", the last of them master of " + std::to_string(query.inner_slaves) + (query.inner_slaves == 1 ? " inner slave" : " inner slaves");
@@ -56,7 +58,7 @@ std::string query_line(const Query& query) {
   const std::string beginnings = query.beginnings == Beginnings::all ? "" : ", switched on";
   const std::string of = query.has_roles() ? " role" : " slave";
   const std::string candidates = !query.has_roles() ? "" : " for " + std::to_string(query.candidates) + (query.candidates == 1 ? " candidate" : " candidates") + (query.starts_again ? ", started again after a replacement" : "");
-  return variant_name(query.variant) + ", 1 master and " + std::to_string(query.slaves) + of + (query.slaves == 1 ? "" : "s") + candidates + inner + joining + subscription + network + beginnings +
+  return std::string(variant_of(query)) + ", 1 master and " + std::to_string(query.slaves) + of + (query.slaves == 1 ? "" : "s") + candidates + inner + joining + subscription + network + beginnings +
          "; in a run at most " +
          std::to_string(query.commands) + (query.has_roles() ? " calls, joins and leaves and " : " calls and ") +
          (faults.empty() ? "no fault" : std::to_string(query.fault_budget) + (query.fault_budget == 1 ? " fault of: " : " faults of: ") + faults);
@@ -76,44 +78,6 @@ std::string text_report(const Query& query, const SearchResult& result, double c
   const bool is_new = result.livelock && result.traces[index_of(Property::L1)] && result.traces[index_of(Property::L1)]->cycle == 0;
   if (is_new) text += counter_example(query, result, Property::L1, *result.livelock);
   return text;
-}
-
-std::string json_report(const std::string& program, const Query& query, const SearchResult& result, double cpu_s) {
-  const auto quoted = [](std::string_view text) { return "\"" + std::string(text) + "\""; };
-  const std::vector<std::pair<std::string, std::string>> members{
-      {"variant", quoted(variant_name(query.variant))},
-      {"slaves", std::to_string(query.slaves)},
-      {"subscription", quoted(query.subscription == handshake::Subscription::Star ? "star" : "all-to-all")},
-      {"nested", yes(query.nested())},
-      {"inner_slaves", std::to_string(query.inner_slaves)},
-      {"joining", yes(query.joining)},
-      {"candidates", std::to_string(query.candidates)},
-      {"network", quoted(query.network == Network::registers ? "registers" : "channels=" + std::to_string(query.capacity))},
-      {"beginnings", quoted(query.beginnings == Beginnings::all ? "all" : "switched-on")},
-      {"faults", "[" + fault_list(query, "\"", ", ", "\"") + "]"},
-      {"fault_budget", std::to_string(query.fault_budget)},
-      {"calls", std::to_string(query.commands)},
-      {"states", std::to_string(result.states)},
-      {"steps", std::to_string(result.transitions)},
-      {"quiescent", std::to_string(result.quiescent)},
-      {"depth", std::to_string(result.depth)},
-      {"cpu_s", fixed(cpu_s, 3)},
-      {"exhausted", yes(result.exhausted)},
-      {"interrupted", yes(result.interrupted)},
-      {"symmetry", yes(result.symmetry)},
-      {"octets", std::to_string(result.octets)},
-      {"octets_per_state", fixed(static_cast<double>(result.octets) / static_cast<double>(result.states), 1)}};
-  std::string text = "{";
-  if (!program.empty()) text += "\n  \"program\": " + quoted(program) + ",";
-  for (const auto& [key, value] : members) text += "\n  " + quoted(key) + ": " + value + ",";
-  text += "\n  \"properties\": {";
-  bool first = true;
-  for (std::size_t p = 0; p < property_count; ++p) {
-    if (result.verdicts[p] == Verdict::not_asked) continue;
-    text += (first ? "\n    " : ",\n    ") + quoted(property_names[p]) + ": " + quoted(name_of(result.verdicts[p]));
-    first = false;
-  }
-  return text + "\n  }\n}";
 }
 
 }  // namespace takt::explore

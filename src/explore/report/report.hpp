@@ -2,18 +2,31 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "explore/model/query.hpp"
 #include "explore/search/search.hpp"
+#include "json/type.hpp"
 
 namespace takt::explore {
 
+/// "robust" or "paper".
+std::string_view variant_of(const Query& query);
+/// Which may happen.
+std::vector<std::string_view> faults_of(const Query& query);
 /// The query in one line: who, which calls, which faults.
 std::string query_line(const Query& query);
 /// Sizes, verdicts and, for each violated property, its chart. `cpu_s` was measured by whoever asked.
 std::string text_report(const Query& query, const SearchResult& result, double cpu_s);
-/// One object: variant, slaves, faults, states, depth, cpu_s, exhausted, properties and some more figures.
-/// One object; without the member "program" if that is empty. A property that is not asked is left out.
-std::string json_report(const std::string& program, const Query& query, const SearchResult& result, double cpu_s);
+
+/// What `takt explore --format json` holds of a group.
+struct Exploration {
+  std::string program;           ///< of a scenario; else empty
+  Query query;
+  SearchResult result;
+  double cpu_s = 0;              ///< as for text_report()
+};
+const json::Record& describe(json::Type<Exploration>);
 
 }  // namespace takt::explore

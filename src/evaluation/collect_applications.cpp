@@ -16,7 +16,7 @@ std::optional<DurationSummary> summary_of(const scenario::DurationFigures& figur
   return DurationSummary{figures.count(), figures.least(), figures.mean(), figures.greatest(), sim::Duration::from_ps(static_cast<std::int64_t>(deviation_ps + 0.5))};
 }
 
-CriterionResult criterion_of(const scenario::WindowCounter::Figures& figures, sim::Duration window) {
+CriterionResult criterion_of(const plant::CriterionFigures& figures, sim::Duration window) {
   return {window, figures.tests, figures.expected, figures.counted, figures.beyond, figures.windows_below, figures.windows_above, figures.discarded, figures.percent()};
 }
 

@@ -58,6 +58,27 @@ TEST(Applications, SuccessIsTheLawAtTheInterval) {
   EXPECT_NEAR(*result.applications[0].threads[0].calls.percent, wanted, 0.62);
 }
 
+// A call belongs to the window of the activation that it answers, also where the scheduler looks when the next one has been answered already.
+TEST(Applications, ALateSchedulerMovesNothingIntoOtherWindows) {
+  const auto published = [](const std::string& scheduler) {
+    std::string text = pair(opc_ua, R"("every": "1ms", "response": "100us")", R"("every": "1ms", "offset": "500us", "response": "100us")");
+    for (const std::string on : {R"("on": "a", )", R"("on": "b", )"}) text.replace(text.find(on), on.size(), on + R"("scheduler": )" + scheduler + ", ");
+    return result_of(text);
+  };
+  const results::RunResult late = published(R"({"response": {"uniform": {"from": "0s", "to": "900us"}}, "tolerance": "1ms"})");
+  const results::RunResult in_time = published("{}");
+  for (std::size_t a = 0; a < 2; ++a) {
+    const results::CriterionResult& calls = late.applications[a].threads[0].calls;
+    EXPECT_EQ(calls.tests, in_time.applications[a].threads[0].calls.tests);
+    EXPECT_EQ(*calls.percent, 100.0);
+    EXPECT_EQ(calls.windows_below + calls.windows_above + calls.discarded, 0u);
+  }
+  // Each look is later than the tolerance: the scheduler itself was not let run.
+  const results::CriterionResult none = published(R"({"response": "2ms", "tolerance": "1ms"})").applications[0].threads[0].calls;
+  EXPECT_EQ(none.tests, 0u);
+  EXPECT_EQ(none.discarded, 100u);
+}
+
 TEST(Applications, ABufferKeepsTheNewest) {
   // Ten values come between two calls; two of them find room.
   const results::RunResult result = result_of(pair(opc_ua, R"("every": "1ms", "response": "1us")", R"("every": "10ms", "buffer": 2)"));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "node/applications/activity.hpp"
 #include "node/applications/deadlines.hpp"
 #include "node/applications/tasks.hpp"
 #include "node/applications/thread_group.hpp"
@@ -51,7 +52,30 @@ struct ApplicationHost::Task {
   std::optional<std::uint64_t> tests;
   ActivityLog log;
   ThreadStatistics statistics;  ///< the thread's own until it has ended
-  std::optional<WindowCheck> check;
+  std::optional<plant::Criterion> calls;   ///< since the scheduler runs, and so the next
+  std::optional<plant::Criterion> values;  ///< of those that take
+
+  /// The least multiple of the interval that is not shorter.
+  std::int64_t window_of(const Scheduler& scheduler) const { return (ns_of(scheduler.window) + ns_of(every) - 1) / ns_of(every) * ns_of(every); }
+
+  void begin_tests(const Scheduler& scheduler, std::int64_t now) {
+    const std::int64_t length = window_of(scheduler);
+    const auto expected = static_cast<std::uint64_t>(length / ns_of(every));
+    calls.emplace(plant::Criterion::Settings{length, ns_of(offset), expected, now + ns_of(scheduler.after), tests ? tests : scheduler.tests, ns_of(scheduler.tolerance)});
+    calls->begin(now);
+    if (statistics.role == "subscribe" || statistics.role == "receive") values = calls;
+  }
+
+  void look(std::int64_t now) {
+    const auto window = calls->open();
+    if (!window || now < window->to) return;
+    const ActivityLog::Sum sum = log.take(window->from, window->to);
+    calls->add(window->from, sum.calls);
+    calls->look(now);
+    if (!values) return;
+    values->add(window->from, sum.values);
+    values->look(now);
+  }
 };
 
 /// An application or gateway with its scheduler.
@@ -178,7 +202,7 @@ void ApplicationHost::run_task(Task& task) {
     deadlines.awake(now);
     const CallResult result = task.work->call(now);
     // A call that ends when the next activation is due already is that one's delay, not this one's failure.
-    task.log.add(deadlines.number(), result.buffered);
+    task.log.add(deadlines.due(), result.buffered);
     ++statistics.calls;
     statistics.sent += result.sent;
     statistics.timed_out += result.timed_out;
@@ -191,28 +215,18 @@ void ApplicationHost::run_task(Task& task) {
 
 void ApplicationHost::run_scheduler(Watched& watched) {
   const DeadlineClock clock(loaded_.config.clock);
-  for (const auto& task : watched.tasks) {
-    WindowCheck::Settings settings;
-    settings.window = ns_of(watched.scheduler.window);
-    settings.every = ns_of(task->every);
-    settings.offset = ns_of(task->offset);
-    settings.begin = clock.now() + ns_of(watched.scheduler.after);
-    settings.tolerance = ns_of(watched.scheduler.tolerance);
-    settings.most_tests = task->tests ? task->tests : watched.scheduler.tests;
-    settings.has_values = task->statistics.role == "subscribe" || task->statistics.role == "receive";
-    task->check.emplace(settings);
-  }
+  for (const auto& task : watched.tasks) task->begin_tests(watched.scheduler, clock.now());
   while (!is_over_.load(std::memory_order_relaxed)) {
     std::optional<std::int64_t> next;
     for (const auto& task : watched.tasks)
-      if (const auto end = task->check->next()) next = next ? std::min(*next, *end) : *end;
+      if (const auto window = task->calls->open()) next = next ? std::min(*next, window->to) : window->to;
     if (!next) return;
     const std::int64_t now = clock.now();
     if (now < *next) {
       clock.wait_until(std::min(*next, now + longest_sleep_ns));
       continue;
     }
-    for (const auto& task : watched.tasks) task->check->look(now, task->log);
+    for (const auto& task : watched.tasks) task->look(now);
   }
 }
 
@@ -248,10 +262,10 @@ std::vector<ApplicationStatistics> ApplicationHost::statistics() const {
     for (const auto& task : watched->tasks) {
       ThreadStatistics& thread = one.threads.emplace_back(task->statistics);
       thread.lost = task->work->lost();
-      if (!task->check) continue;
-      thread.window_ns = task->check->window();
-      thread.call_windows = task->check->calls();
-      thread.value_windows = task->check->values();
+      if (!task->calls) continue;
+      thread.window_ns = task->window_of(watched->scheduler);
+      thread.call_windows = task->calls->figures();
+      if (task->values) thread.value_windows = task->values->figures();
     }
   }
   return all;

@@ -4,14 +4,15 @@
 #include <atomic>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gateway/channel.hpp"
-#include "node/applications/activity.hpp"
 #include "node/applications/config.hpp"
 #include "node/applications/topic_end.hpp"
 #include "node/statistics.hpp"
+#include "plant/criterion.hpp"
 
 namespace takt::node {
 
@@ -30,8 +31,8 @@ struct ThreadStatistics {
   std::uint64_t taken = 0;      ///< samples that came; those that no activation took any more are taken at the end
   std::uint64_t lost = 0;       ///< of OPC UA: numbers that were jumped over
   Distribution late;            ///< from an activation to waking up
-  WindowFigures call_windows;   ///< criterion 1
-  WindowFigures value_windows;  ///< criterion 2, of those that take
+  plant::CriterionFigures call_windows;   ///< criterion 1
+  plant::CriterionFigures value_windows;  ///< criterion 2, of those that take
 };
 
 struct ApplicationStatistics {

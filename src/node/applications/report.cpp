@@ -22,7 +22,7 @@ json::Node of(const Distribution& distribution) {
   return node;
 }
 
-json::Node of(const WindowFigures& figures) {
+json::Node of(const plant::CriterionFigures& figures) {
   json::Node node = json::Node::object();
   node.add("tests", number(figures.tests));
   node.add("expected", number(figures.expected));
@@ -69,7 +69,7 @@ json::Node of(const gateway::ChannelFigures& figures) {
   return node;
 }
 
-std::string percent_of(const WindowFigures& figures) {
+std::string percent_of(const plant::CriterionFigures& figures) {
   const auto percent = figures.percent();
   return percent ? fmt::format("{:.1f} %", *percent) : "-";
 }

@@ -67,7 +67,7 @@ const json::Object& describe(json::Type<Scheduler>) {
       optional<&Scheduler::after>("after", "No test begins before.", {.max = longest_step}),
       optional<&Scheduler::tests>("tests", "Most tests of each thread; no limit if absent.", {.min = 1, .max = 1'000'000'000}),
       optional<&Scheduler::response>("response", "How late it looks at the end of each window; not at all if absent."),
-      optional<&Scheduler::tolerance>("tolerance", "A test whose window is longer or shorter by more than this is discarded.", {.max = 3600_s}),
+      optional<&Scheduler::tolerance>("tolerance", "A test at whose end it looks later than this is discarded.", {.max = 3600_s}),
   };
   static constexpr json::Object table =
       json::object<Scheduler>("scheduler", "The thread that compares what the threads of its application have done with what was expected.", fields, {.shorthand = "window"});

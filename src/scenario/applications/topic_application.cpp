@@ -13,8 +13,8 @@ namespace {
 
 constexpr models::AlarmId threads_alarm = 0;   // those of participants follow
 
-WindowCounter::Settings window_of(const ResolvedThread& thread, const ResolvedApplication& application, sim::Duration length, std::uint64_t expected, sim::Duration from) {
-  return {length, thread.offset, expected, sim::LocalTime() + std::max(application.scheduler->after, from), thread.tests, application.scheduler->tolerance};
+plant::Criterion::Settings window_of(const ResolvedThread& thread, const ResolvedApplication& application, sim::Duration length, std::uint64_t expected, sim::Duration from) {
+  return {length.ps(), thread.offset.ps(), expected, std::max(application.scheduler->after, from).ps(), thread.tests, application.scheduler->tolerance.ps()};
 }
 
 }  // namespace
@@ -154,7 +154,7 @@ void TopicApplication::call(models::HostServices& host, std::uint32_t thread, si
   Live& live = threads_[thread];
   const sim::LocalTime due = live.activations.last_due();
   live.seen.add(due, [&](Live::Seen& seen) { seen.figures.response.add(response); });
-  for (Live::Windows& each : live.windows) each.calls.add(now);
+  for (Live::Windows& each : live.windows) each.calls.add(due);
   monitor_->on_call(number_, thread, live.activations.done());
   if (live.writer)
     publish(host, live, now, due);
@@ -211,7 +211,7 @@ void TopicApplication::take(models::HostServices& host, std::uint32_t thread, si
     seen.figures.buffered += kept;
     seen.figures.overwritten += count - kept;
   });
-  for (Live::Windows& each : live.windows) each.values->add(now, kept);
+  for (Live::Windows& each : live.windows) each.values->add(due, kept);
   monitor_->on_values(number_, thread, count);
   if (live.settings->signal) monitor_->set_signal(*live.settings->signal, !live.layout->first_is_zero(live.sample));
 }

@@ -18,7 +18,7 @@ struct ThreadFigures {
   std::uint64_t activations = 0;
   std::uint64_t done = 0;
   DurationFigures response;               ///< of the calls that took place, on the clock of the host
-  WindowCounter::Figures calls;           ///< criterion 1
+  plant::CriterionFigures calls;          ///< criterion 1
   std::uint64_t published = 0;            ///< samples that the protocol took, at once or when there was room
   std::uint64_t refused = 0;              ///< samples that the protocol could not take
   std::uint64_t timed_out = 0;            ///< samples that waited for room for too long, and were not published
@@ -26,7 +26,7 @@ struct ThreadFigures {
   std::uint64_t buffered = 0;             ///< of them, those that the buffer held
   std::uint64_t overwritten = 0;          ///< of them, those that newer ones displaced
   std::uint64_t lost = 0;                 ///< on the way
-  std::optional<WindowCounter::Figures> values;  ///< criterion 2, of a subscription
+  std::optional<plant::CriterionFigures> values;  ///< criterion 2, of a subscription
 };
 
 class DdsNode;

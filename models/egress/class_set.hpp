@@ -11,6 +11,8 @@ namespace takt::models {
 /// Bit q for class q.
 using ClassSet = std::uint8_t;
 
+inline constexpr ClassSet every_class = 0xFF;
+
 constexpr bool contains(ClassSet set, TrafficClass q) { return (set >> q & 1u) != 0; }
 constexpr ClassSet only(TrafficClass q) { return static_cast<ClassSet>(1u << q); }
 constexpr ClassSet with(ClassSet set, TrafficClass q) { return static_cast<ClassSet>(set | 1u << q); }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "models/egress/transmission_selection.hpp"
-
 namespace takt::models {
 namespace {
 
@@ -31,17 +29,17 @@ void EgressPort::connect(sim::Simulation& simulation, Shared& shared, const Port
   if (config.cut_through != 0) link_.check_arrivals();
 }
 
-inline void EgressPort::find_way() {
+inline void EgressPort::find_path() {
   if (extras_ && !shaping_ && queues_.empty() && extras_->merge && !extras_->merge->rest() && link_.is_plain() && !extras_->expects_headers)
-    way_ = Way::merging;
+    path_ = Path::merging;
   else
-    way_ = !queues_.empty() || extras_ ? Way::detour : !shaping_ ? Way::straight : only_gates_ != nullptr ? Way::gated : Way::detour;
+    path_ = !queues_.empty() || extras_ ? Path::general : !shaping_ ? Path::plain : only_gates_ != nullptr ? Path::gated : Path::general;
 }
 
 /// To be called when the port gets other features.
 void EgressPort::find_gates() {
   only_gates_ = shaping_ && !extras_ && shaping_->has_only_gates() ? &shaping_->gates() : nullptr;
-  find_way();
+  find_path();
 }
 
 PortShaping& EgressPort::make_shaping() {
@@ -91,15 +89,15 @@ void EgressPort::take_last(sim::Simulation& simulation, FrameIndex frame, const 
     return;
   }
   if (simulation.now() >= link_.free_at()) {
-    if (way_ == Way::straight) {
+    if (path_ == Path::plain) {
       start(simulation, frame, record);
       return;
     }
-    if (way_ == Way::gated) {
+    if (path_ == Path::gated) {
       pass_gate(simulation, frame);
       return;
     }
-    if (way_ == Way::merging) {
+    if (path_ == Path::merging) {
       start_with_extras(simulation, frame, class_of(frame));
       return;
     }
@@ -112,11 +110,11 @@ void EgressPort::take_last(sim::Simulation& simulation, FrameIndex frame, const 
 void EgressPort::settle(sim::Simulation& simulation) {
   settling_ = false;
   // The common case: one frame, nothing waits, the medium is free.
-  if (has_arrival_ && way_ != Way::detour && more_arrivals_.empty() && simulation.now() >= link_.free_at()) [[likely]] {
+  if (has_arrival_ && path_ != Path::general && more_arrivals_.empty() && simulation.now() >= link_.free_at()) [[likely]] {
     has_arrival_ = false;
-    if (way_ == Way::straight)
+    if (path_ == Path::plain)
       start(simulation, arrival_.frame);
-    else if (way_ == Way::gated)
+    else if (path_ == Path::gated)
       pass_gate(simulation, arrival_.frame);
     else
       start_with_extras(simulation, arrival_.frame, class_of(arrival_.frame));
@@ -137,7 +135,7 @@ void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame) {
     return;
   }
   admit(simulation, frame);
-  way_ = Way::detour;
+  path_ = Path::general;
   promised_ = clock_->true_after(answer.ask_again, now);
   wake_at(simulation, promised_);
 }
@@ -181,7 +179,7 @@ inline void EgressPort::settle_waiting(sim::Simulation& simulation) {
         sending_ = q;
       }
       start(simulation, frame);
-      find_way();
+      find_path();
       ready = link_.free_at();
     }
   }
@@ -193,13 +191,13 @@ void EgressPort::settle_many(sim::Simulation& simulation) {
     if (has_arrival_ && queues_.empty() && shaping_) {
       has_arrival_ = false;
       settle_one(simulation, arrival_.frame);
-      find_way();
+      find_path();
       return;
     }
     if (has_arrival_ && !shaping_ && simulation.now() < link_.free_at()) {
       has_arrival_ = false;
       admit(simulation, arrival_.frame);
-      find_way();
+      path_ = Path::general;
       if (!queues_.empty()) wake_at(simulation, link_.free_at());
       return;
     }
@@ -211,7 +209,7 @@ void EgressPort::settle_many(sim::Simulation& simulation) {
   settle_all_classes(simulation);
 }
 
-/// Whatever has come and waits.
+/// The general path: whatever has come at this instant and waits. One frame starts, if it may, and the others wait.
 void EgressPort::settle_all_classes(sim::Simulation& simulation) {
   if (extras_ && !extras_->headers.empty() && settle_headers(simulation)) return;
   promised_ = sim::TrueTime::never();
@@ -224,26 +222,10 @@ void EgressPort::settle_all_classes(sim::Simulation& simulation) {
   }
   sort_by_rank(more_arrivals_);
   const sim::TrueTime now = simulation.now();
-  if (!shaping_ && !extras_) {  // only the classes count
-    if (now >= link_.free_at()) {
-      int greatest = queues_.empty() ? -1 : highest_class(queues_.waiting());
-      std::size_t first = more_arrivals_.size();  // none of this instant, but the head of a queue
-      for (std::size_t i = 0; i < more_arrivals_.size(); ++i) {
-        const int q = class_of(more_arrivals_[i].frame);
-        if (q <= greatest) continue;
-        greatest = q;
-        first = i;
-      }
-      if (first < more_arrivals_.size()) {
-        start(simulation, more_arrivals_[first].frame);
-        more_arrivals_.erase(more_arrivals_.begin() + static_cast<std::ptrdiff_t>(first));
-      } else if (greatest >= 0) {
-        start(simulation, pop(simulation, static_cast<TrafficClass>(greatest)));
-      }
-    }
-    for (const Arrival& arrival : more_arrivals_) admit(simulation, arrival.frame);
-    more_arrivals_.clear();
-    find_way();
+  if (!shaping_ && !extras_) {  // only the classes count: worth a path of its own, since such ports are most of all
+    if (now >= link_.free_at()) start_highest(simulation);
+    admit_arrivals(simulation);
+    find_path();
     if (!queues_.empty()) wake_at(simulation, link_.free_at());
     return;
   }
@@ -251,84 +233,103 @@ void EgressPort::settle_all_classes(sim::Simulation& simulation) {
     std::erase_if(more_arrivals_, [&](const Arrival& arrival) { return !passes_max_sdu(simulation, arrival.frame); });
     for (const Arrival& arrival : more_arrivals_) shaping_->frame_waits(now, class_of(arrival.frame));
   }
-
-  // Selection looks at the head of each class; a frame that has just come is the head of a class that had none.
-  Heads heads;
-  std::array<First, traffic_class_count> firsts;
+  MacMerge* const merge = extras_ ? extras_->merge.get() : nullptr;
   sim::TrueTime next = link_.free_at();
-  if (now >= link_.free_at()) {
-    const ClassSet candidates = find_heads(heads, firsts);
-    const Choice choice = choose(now, candidates, heads);
-    next = choice.selection.ask_again;
-    if (choice.selection.found) {
-      if (choice.rest)
+  if (now >= next) {
+    const Selection selection = select_at_free_medium(now);
+    next = selection.ask_again;
+    if (selection.found) {
+      if (selection.is_rest)
         resume(simulation);
       else
-        start_first(simulation, firsts[choice.selection.traffic_class], choice.selection.traffic_class);
+        start_first(simulation, selection);
       // An express frame that waits for its gate or its credit may want to cut what has just started.
-      next = extras_ && extras_->merge && extras_->merge->under_way() ? look_while_busy(simulation, candidates, heads) : when_to_look(now);
+      next = merge == nullptr ? link_.free_at() : merge->under_way() ? look_while_busy(simulation) : when_to_look(now);
     }
-  } else if (extras_ && extras_->merge) {
+    admit_arrivals(simulation);
+  } else {
     // A frame that finds no room is no reason to cut another one.
-    for (const Arrival& arrival : more_arrivals_) admit(simulation, arrival.frame);
-    more_arrivals_.clear();
-    const ClassSet candidates = find_heads(heads, firsts);
-    next = look_while_busy(simulation, candidates, heads);
+    admit_arrivals(simulation);
+    if (merge != nullptr) next = look_while_busy(simulation);
   }
-  for (const Arrival& arrival : more_arrivals_) admit(simulation, arrival.frame);
-  more_arrivals_.clear();
-  find_way();
-  if (!queues_.empty() || (extras_ && extras_->merge)) wake_at(simulation, next);
+  find_path();
+  if (!queues_.empty() || merge != nullptr) wake_at(simulation, next);
 }
 
-/// The head of each class that has one: of its queue, or the first of this instant. In a timed class the one with the earliest time.
-ClassSet EgressPort::find_heads(Heads& heads, std::array<First, traffic_class_count>& firsts) const {
+inline void EgressPort::start_highest(sim::Simulation& simulation) {
+  int greatest = queues_.empty() ? -1 : highest_class(queues_.waiting());
+  std::size_t first = more_arrivals_.size();  // none of this instant, but the head of a queue
+  for (std::size_t i = 0; i < more_arrivals_.size(); ++i) {
+    const int q = class_of(more_arrivals_[i].frame);
+    if (q <= greatest) continue;
+    greatest = q;
+    first = i;
+  }
+  if (first < more_arrivals_.size()) {
+    start(simulation, more_arrivals_[first].frame);
+    more_arrivals_.erase(more_arrivals_.begin() + static_cast<std::ptrdiff_t>(first));
+  } else if (greatest >= 0) {
+    start(simulation, pop(simulation, static_cast<TrafficClass>(greatest)));
+  }
+}
+
+inline void EgressPort::admit_arrivals(sim::Simulation& simulation) {
+  for (const Arrival& arrival : more_arrivals_) admit(simulation, arrival.frame);
+  more_arrivals_.clear();
+}
+
+/// The classes that have a frame, in their queue or among those of this instant.
+ClassSet EgressPort::candidates() const {
   ClassSet candidates = queues_.waiting();
-  for (ClassSet waiting = candidates; waiting != 0; waiting = without(waiting, highest_class(waiting))) {
-    const TrafficClass q = highest_class(waiting);
-    const FrameIndex frame = queues_.head(q, shared_->entries);
-    firsts[q] = {frame, First::in_queue};
-    heads[q] = {shared_->traffic->frame(frame).length, eligible_of(frame)};
-  }
-  for (std::uint32_t i = 0; i < more_arrivals_.size(); ++i) {
-    const FrameIndex frame = more_arrivals_[i].frame;
-    const TrafficClass q = class_of(frame);
-    const sim::LocalTime eligible = eligible_of(frame);
-    if (contains(candidates, q) && !(shaping_ && shaping_->is_timed(q) && eligible < heads[q].eligible)) continue;
-    candidates = with(candidates, q);
-    firsts[q] = {frame, i};
-    heads[q] = {shared_->traffic->frame(frame).length, eligible};
-  }
+  for (const Arrival& arrival : more_arrivals_) candidates = with(candidates, class_of(arrival.frame));
   return candidates;
 }
 
-Selection EgressPort::select(sim::TrueTime now, ClassSet candidates, const Heads& heads, sim::Duration delay) {
-  return shaping_ ? shaping_->select(now, candidates, heads, delay) : select_transmission(candidates);
+/// The first frame of a class: the head of its queue, or of those of this instant. In a timed class the one with the earliest time.
+EgressPort::First EgressPort::first_of(TrafficClass q) const {
+  First first;
+  if (queues_.frames(q) > 0) first.frame = queues_.head(q, shared_->entries);
+  const bool is_timed = shaping_ && shaping_->is_timed(q);
+  for (std::uint32_t i = 0; i < more_arrivals_.size(); ++i) {
+    const FrameIndex frame = more_arrivals_[i].frame;
+    if (class_of(frame) != q || (!first.frame.is_none() && !(is_timed && eligible_of(frame) < eligible_of(first.frame)))) continue;
+    first = {frame, i};
+  }
+  return first;
 }
 
-/// At a free medium: express frames come first; then the rest of a frame that was cut, before any other preemptable one.
-EgressPort::Choice EgressPort::choose(sim::TrueTime now, ClassSet candidates, const Heads& heads) {
-  if (!extras_ || !extras_->merge) return {select(now, candidates, heads)};
-  const MacMerge& merge = *extras_->merge;
-  const Selection express = select(now, candidates & static_cast<ClassSet>(~merge.preemptable()), heads);
-  if (express.found) return {express};
-  const std::optional<MacMerge::Rest>& rest = merge.rest();
-  Selection other;
-  if (const ClassSet preemptable = candidates & merge.preemptable(); rest || preemptable != 0) {
-    if (const HoldRequest hold = hold_request(now); hold.hold) {
-      other.ask_again = hold.until == sim::LocalTime::never() ? sim::TrueTime::never() : clock_->true_at(hold.until);
-    } else if (rest) {
-      other.traffic_class = rest->traffic_class;
-      const sim::TrueTime ready = shaping_ ? shaping_->rest_ready_time(now, rest->traffic_class, rest->remaining.count) : now;
-      other.found = ready == now;
-      other.ask_again = ready;
-    } else {
-      other = select(now, preemptable, heads);
-    }
+/// Of these classes the most urgent one that may start, now or `delay` later. No lower one is blocked by a higher one that may not (IEEE
+/// 802.1Q 8.6.8).
+EgressPort::Selection EgressPort::select(sim::TrueTime now, ClassSet classes, sim::Duration delay) {
+  Selection selection;
+  for (ClassSet left = candidates() & classes; left != 0 && !selection.found; left = without(left, selection.traffic_class)) {
+    selection.traffic_class = highest_class(left);
+    selection.first = first_of(selection.traffic_class);
+    const FrameIndex frame = selection.first.frame;
+    const sim::TrueTime ready = shaping_ ? shaping_->ready_time(now, selection.traffic_class, {shared_->traffic->frame(frame).length, eligible_of(frame)}, delay) : now;
+    selection.found = ready == now;
+    if (!selection.found) selection.ask_again = std::min(selection.ask_again, ready);
   }
-  if (other.found) return {other, rest.has_value()};
-  other.ask_again = std::min(other.ask_again, express.ask_again);
-  return {other};
+  return selection;
+}
+
+/// Express frames come first; then the rest of a frame that was cut, before any other preemptable one.
+EgressPort::Selection EgressPort::select_at_free_medium(sim::TrueTime now) {
+  if (!extras_ || !extras_->merge) return select(now, every_class);
+  const MacMerge& merge = *extras_->merge;
+  const Selection express = select(now, static_cast<ClassSet>(~merge.preemptable()));
+  if (express.found) return express;
+  Selection other;
+  if (merge.rest() || (candidates() & merge.preemptable()) != 0) {
+    if (const HoldRequest hold = hold_request(now); hold.hold)
+      other.ask_again = hold.until == sim::LocalTime::never() ? sim::TrueTime::never() : clock_->true_at(hold.until);
+    else if (merge.rest())
+      other = select_rest(now, *merge.rest());
+    else
+      other = select(now, merge.preemptable());
+  }
+  if (!other.found) other.ask_again = std::min(other.ask_again, express.ask_again);
+  return other;
 }
 
 /// When to look again after a frame has started: at its end, or at a port that preempts when the MAC will be asked to hold.
@@ -344,14 +345,14 @@ sim::TrueTime EgressPort::when_to_look(sim::TrueTime now) {
   return next;
 }
 
-void EgressPort::start_first(sim::Simulation& simulation, const First& first, TrafficClass q) {
-  const auto is_of_class = [&](const Arrival& arrival) { return class_of(arrival.frame) == q; };
-  if (first.arrival == First::in_queue)
+void EgressPort::start_first(sim::Simulation& simulation, const Selection& selection) {
+  const TrafficClass q = selection.traffic_class;
+  if (selection.first.is_in_queue())
     pop(simulation, q);
   else
-    more_arrivals_.erase(more_arrivals_.begin() + first.arrival);
-  const bool is_last = queues_.frames(q) == 0 && std::none_of(more_arrivals_.begin(), more_arrivals_.end(), is_of_class);
-  start_selected(simulation, first.frame, q, is_last);
+    more_arrivals_.erase(more_arrivals_.begin() + selection.first.arrival);
+  const bool is_last = shaping_ && !contains(candidates(), q);
+  start_selected(simulation, selection.first.frame, q, is_last);
 }
 
 FrameIndex EgressPort::pop(sim::Simulation& simulation, TrafficClass q) {

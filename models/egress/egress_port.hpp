@@ -47,10 +47,10 @@ class alignas(64) EgressPort final : public sim::Component {
   /// `rank` (the ingress port in a bridge, the talker in a host), so that it does not matter which was handed over first.
   void offer(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank);
 
-  /// The same as the last act of an event handler: spares the detour if nothing else happens at this instant. `record` is that of
+  /// The same as the last act of an event handler: spares the settling if nothing else happens at this instant. `record` is that of
   /// the frame.
   void offer_last(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
-    if (simulation.instant_is_surely_complete() && simulation.now() >= link_.free_at() && way_ == Way::straight) [[likely]]
+    if (simulation.instant_is_surely_complete() && simulation.now() >= link_.free_at() && path_ == Path::plain) [[likely]]
       start(simulation, frame, record);
     else
       take_last(simulation, frame, record, rank);
@@ -115,11 +115,11 @@ class alignas(64) EgressPort final : public sim::Component {
     std::uint32_t rank = 0;
   };
   /// What happens to a frame that comes alone to a free medium.
-  enum class Way : std::uint8_t {
-    straight,  ///< it starts
+  enum class Path : std::uint8_t {
+    plain,     ///< it starts
     gated,     ///< it starts when its gate lets it; nothing else has a say, and nothing waits
     merging,   ///< it starts; it may be cut later, or is express; nothing else has a say, nothing waits
-    detour,    ///< frames wait already, or there is more to consider
+    general,   ///< frames wait already, or there is more to consider
   };
   /// What few ports have besides shaping.
   struct Extras {
@@ -138,13 +138,16 @@ class alignas(64) EgressPort final : public sim::Component {
   /// The first frame of a class: in its queue, or among those of this instant.
   struct First {
     FrameIndex frame;
-    std::uint32_t arrival = in_queue;
-    static constexpr std::uint32_t in_queue = 0xFFFF'FFFF;
+    std::uint32_t arrival = 0xFFFF'FFFF;
+    bool is_in_queue() const { return arrival == 0xFFFF'FFFF; }
   };
-  /// What transmission selection says: a class, the rest of a frame that was cut, or when to ask again.
-  struct Choice {
-    Selection selection;
-    bool rest = false;
+  /// What transmission selection says: a frame that may start now, or the rest of one that was cut, or when to ask again.
+  struct Selection {
+    bool found = false;
+    bool is_rest = false;
+    TrafficClass traffic_class = 0;
+    First first = {};
+    sim::TrueTime ask_again = sim::TrueTime::never();
   };
 
   void settle_many(sim::Simulation& simulation);
@@ -152,22 +155,24 @@ class alignas(64) EgressPort final : public sim::Component {
   void settle_one(sim::Simulation& simulation, FrameIndex frame);
   void settle_waiting(sim::Simulation& simulation);
   void pass_gate(sim::Simulation& simulation, FrameIndex frame);
-  void find_way();
+  void find_path();
   void find_gates();
   void settle_later(sim::Simulation& simulation) {
     if (settling_) return;
     settling_ = true;
     simulation.settle_later(*this);
   }
-  ClassSet find_heads(Heads& heads, std::array<First, traffic_class_count>& firsts) const;
-  Selection select(sim::TrueTime now, ClassSet candidates, const Heads& heads, sim::Duration delay = {});
-  Choice choose(sim::TrueTime now, ClassSet candidates, const Heads& heads);
-  sim::TrueTime look_while_busy(sim::Simulation& simulation, ClassSet candidates, const Heads& heads);
+  ClassSet candidates() const;
+  First first_of(TrafficClass q) const;
+  Selection select(sim::TrueTime now, ClassSet classes, sim::Duration delay = {});
+  Selection select_at_free_medium(sim::TrueTime now);
+  Selection select_rest(sim::TrueTime now, const MacMerge::Rest& rest);
+  sim::TrueTime look_while_busy(sim::Simulation& simulation);
   sim::TrueTime when_to_look(sim::TrueTime now);
   void take_stored(sim::Simulation& simulation, std::uint64_t argument);
   bool settle_headers(sim::Simulation& simulation);
   bool may_cut_through(sim::Simulation& simulation, const Extras::HeaderArrival& header);
-  void start_first(sim::Simulation& simulation, const First& first, TrafficClass q);
+  void start_first(sim::Simulation& simulation, const Selection& selection);
   void start_selected(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, bool queue_is_empty);
   void start_with_extras(sim::Simulation& simulation, FrameIndex frame, TrafficClass q);
   void resume(sim::Simulation& simulation);
@@ -178,6 +183,8 @@ class alignas(64) EgressPort final : public sim::Component {
   void start(sim::Simulation& simulation, FrameIndex frame) { start(simulation, frame, shared_->traffic->frame(frame)); }
   [[gnu::noinline]] void start_announced(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   void take_last(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank);
+  void start_highest(sim::Simulation& simulation);
+  void admit_arrivals(sim::Simulation& simulation);
   void admit(sim::Simulation& simulation, FrameIndex frame);
   void give_up(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
   void wake_at(sim::Simulation& simulation, sim::TrueTime time);
@@ -198,11 +205,11 @@ class alignas(64) EgressPort final : public sim::Component {
   // One cache line holds all that a frame touches at a port that is free.
   bool settling_ = false;
   bool has_arrival_ = false;
-  Way way_ = Way::straight;
+  Path path_ = Path::plain;
   TrafficClass sending_ = 0;                 // the class of the frame under way, if there is shaping
   Link link_;
   // Touched when frames wait.
-  Arrival arrival_;
+  Arrival arrival_;                          // the first of this instant
   Shared* shared_ = nullptr;
   sim::TrueTime wake_at_ = sim::TrueTime::never();
   const PortConfig* config_ = nullptr;
@@ -214,7 +221,7 @@ class alignas(64) EgressPort final : public sim::Component {
   std::uint64_t frames_dropped_ = 0;
   Link* incoming_ = nullptr;
   PortQueues queues_;
-  std::vector<Arrival> more_arrivals_;
+  std::vector<Arrival> more_arrivals_;       // the others
 };
 
 }  // namespace takt::models

@@ -20,6 +20,11 @@ void EgressPort::start_with_extras(sim::Simulation& simulation, FrameIndex frame
     trace->record({now, static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, TransmissionDetail{record.length, q}.pack()});
 }
 
+EgressPort::Selection EgressPort::select_rest(sim::TrueTime now, const MacMerge::Rest& rest) {
+  const sim::TrueTime ready = shaping_ ? shaping_->rest_ready_time(now, rest.traffic_class, rest.remaining.count) : now;
+  return {.found = ready == now, .is_rest = true, .traffic_class = rest.traffic_class, .ask_again = ready};
+}
+
 HoldRequest EgressPort::hold_request(sim::TrueTime now) {
   if (!shaping_) return {};
   return extras_->merge->hold_request(shaping_->gates(), clock_->local_at(now));
@@ -27,7 +32,7 @@ HoldRequest EgressPort::hold_request(sim::TrueTime now) {
 
 /// While the medium is busy at a port that preempts: cuts the frame under way if an express frame may start, or if the MAC is
 /// asked to hold. Says when to look again.
-sim::TrueTime EgressPort::look_while_busy(sim::Simulation& simulation, ClassSet candidates, const Heads& heads) {
+sim::TrueTime EgressPort::look_while_busy(sim::Simulation& simulation) {
   MacMerge& merge = *extras_->merge;
   const sim::TrueTime now = simulation.now();
   if (!merge.under_way()) return when_to_look(now);
@@ -37,7 +42,7 @@ sim::TrueTime EgressPort::look_while_busy(sim::Simulation& simulation, ClassSet 
   sim::TrueTime next = link_.free_at();
   bool wanted = hold.hold;
   if (!wanted) {
-    const Selection express = select(now, candidates & static_cast<ClassSet>(~merge.preemptable()), heads, earliest->free_at - now);
+    const Selection express = select(now, static_cast<ClassSet>(~merge.preemptable()), earliest->free_at - now);
     wanted = express.found;
     next = std::min({next, express.ask_again, when_to_look(now)});
   }

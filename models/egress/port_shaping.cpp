@@ -37,18 +37,6 @@ ConfigChange PortShaping::request_gates(sim::TrueTime now, const GateConfig& gat
   return gates_.request_change(local, admin);
 }
 
-Selection PortShaping::select(sim::TrueTime now, ClassSet candidates, const Heads& heads, sim::Duration delay) {
-  Selection selection;
-  while (candidates != 0) {
-    const TrafficClass q = highest_class(candidates);
-    const sim::TrueTime ready = ready_time(now, q, heads[q], delay);
-    if (ready == now) return {true, q, sim::TrueTime::never()};
-    selection.ask_again = std::min(selection.ask_again, ready);
-    candidates = without(candidates, q);
-  }
-  return selection;
-}
-
 /// `now` if the gate lets the frame pass, otherwise the earliest instant at which it is worth asking again.
 [[gnu::always_inline]] inline sim::TrueTime PortShaping::gate_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t length, sim::Duration delay) {
   if (!has_gates_) return now;

@@ -12,7 +12,6 @@
 #include "models/egress/credit_based_shaper.hpp"
 #include "models/egress/gate_schedule.hpp"
 #include "models/egress/shaping_config.hpp"
-#include "models/egress/transmission_selection.hpp"
 #include "models/ethernet/sizes.hpp"
 
 namespace takt::models {
@@ -22,8 +21,6 @@ struct Head {
   std::uint32_t length = 0;   ///< DA to FCS; of a frame that was cut what is left of it
   sim::LocalTime eligible;    ///< counts in timed classes
 };
-/// By class; only those of candidate classes count.
-using Heads = std::array<Head, traffic_class_count>;
 
 class PortShaping {
  public:
@@ -33,63 +30,43 @@ class PortShaping {
   /// Management sets ConfigChange at `now`.
   ConfigChange request_gates(sim::TrueTime now, const GateConfig& gates);
 
-  /// The most urgent of `candidates` whose gate is open for long enough and whose credit is not negative; otherwise the instant
-  /// at which one of them may become ready.
+  /// `now` if the class with that first frame may send: its gate is open for long enough, and its credit not negative. Otherwise
+  /// the instant at which to ask again.
   ///
   /// A frame may start if its last bit leaves before or when the gate closes: preamble and SFD count, the gap after it does not.
   /// `delay`: the medium becomes free only so much later; a frame must end before its gate closes all the same.
-  Selection select(sim::TrueTime now, ClassSet candidates, const Heads& heads, sim::Duration delay = {});
-
-  /// The same for one class with that first frame: `now` if it may start, otherwise when to ask again.
   sim::TrueTime ready_time(sim::TrueTime now, TrafficClass q, const Head& head, sim::Duration delay = {});
   /// For the rest of a frame that was cut: its gate must let it end, its credit does not matter.
   sim::TrueTime rest_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t remaining);
   /// No shaper has a say in this class: when its gate lets a frame pass the frame may start.
   bool is_gated_only(TrafficClass q) const { return shapers_[q] == nullptr; }
 
+  // What the credit of a class should know.
   /// A frame of the class waits, or stands at the port to be selected.
   void frame_waits(sim::TrueTime now, TrafficClass q) {
-    if (Shaper* const shaper = shapers_[q].get()) {
-      follow_gate(*shaper, q, now);
-      shaper->credit.frame_enqueued(now);
-    }
+    if (CreditBasedShaper* const credit = credit_of(q, now)) credit->frame_enqueued(now);
   }
   /// The frame that waited was dropped, and no other waits.
   void none_waits(sim::TrueTime now, TrafficClass q) {
-    if (Shaper* const shaper = shapers_[q].get()) {
-      follow_gate(*shaper, q, now);
-      shaper->credit.queue_emptied(now);
-    }
+    if (CreditBasedShaper* const credit = credit_of(q, now)) credit->queue_emptied(now);
   }
   /// A frame of the class starts; `queue_is_empty`: none of the class is left.
   void started(sim::TrueTime now, TrafficClass q, std::uint32_t length, bool queue_is_empty) {
-    if (Shaper* const shaper = shapers_[q].get()) {
-      follow_gate(*shaper, q, now);
-      shaper->credit.transmission_started(now, occupancy(length), queue_is_empty);
-    }
+    if (CreditBasedShaper* const credit = credit_of(q, now)) credit->transmission_started(now, occupancy(length), queue_is_empty);
   }
-
   /// The frame under way is cut; the medium is free at `free_at`.
   void cut(sim::TrueTime now, TrafficClass q, sim::TrueTime free_at) {
-    if (Shaper* const shaper = shapers_[q].get()) {
-      follow_gate(*shaper, q, now);
-      shaper->credit.transmission_cut(now, free_at);
-    }
+    if (CreditBasedShaper* const credit = credit_of(q, now)) credit->transmission_cut(now, free_at);
   }
   /// What is left of it goes on.
   void resumed(sim::TrueTime now, TrafficClass q, std::uint32_t remaining) {
-    if (Shaper* const shaper = shapers_[q].get()) {
-      follow_gate(*shaper, q, now);
-      shaper->credit.transmission_resumed(now, occupancy(remaining));
-    }
+    if (CreditBasedShaper* const credit = credit_of(q, now)) credit->transmission_resumed(now, occupancy(remaining));
   }
 
   /// A broken gate: from now on it is open, or closed, whatever the list says; nothing: it works again.
   void force_gate(sim::TrueTime now, TrafficClass q, std::optional<bool> open);
 
   bool is_timed(TrafficClass q) const { return contains(config_->timed, q); }
-  bool has_timed() const { return config_->timed != 0; }
-
   /// Nothing but gates, none of them stuck.
   bool has_only_gates() const {
     return has_gates_ && !limits_sdu_ && config_->timed == 0 && (forced_open_ | forced_closed_) == 0 &&
@@ -128,6 +105,13 @@ class PortShaping {
   sim::Duration occupancy(std::uint32_t length) const { return octet_time_ * wire_length(Octets{length}).count; }
   sim::TrueTime gate_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t length, sim::Duration delay);
   void follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now);
+  /// Null without a shaper; its gate has been followed.
+  CreditBasedShaper* credit_of(TrafficClass q, sim::TrueTime now) {
+    Shaper* const shaper = shapers_[q].get();
+    if (shaper == nullptr) return nullptr;
+    follow_gate(*shaper, q, now);
+    return &shaper->credit;
+  }
   sim::LocalTime pending_change(Shaper& shaper, sim::LocalTime at);
   void set_slope(Shaper& shaper, TrafficClass q, sim::TrueTime now);
 

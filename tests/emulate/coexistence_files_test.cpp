@@ -20,7 +20,7 @@ TEST(CoexistenceFiles, EveryNodeHasASoundFileWithItsOwnPart) {
     for (const std::string& name : nodes_of(study))
       for (const int interval : {10, 5, 2, 1}) {
         std::ofstream(path) << node_file(study, name, interval, 7, {"lo", 4840, 3}, "/tmp/a path that is longer than what a diagnostic would quote, so it must be there in full.json");
-        node::json::Diagnostics diagnostics;
+        json::Diagnostics diagnostics;
         const auto loaded = node::load_applications(path.string(), diagnostics);
         ASSERT_TRUE(loaded) << name << "\n" << diagnostics.to_text();
         const std::size_t gateways = name == "gateway" ? 1 : 0;

@@ -214,7 +214,7 @@ class WordBench {
     const std::filesystem::path path = std::filesystem::temp_directory_path() / ("takt-word-bench-" + std::to_string(::getpid()) + ".json");
     std::ofstream(path) << R"({"node": ")" << group.nodes[node].first << R"(", "transport": {"kind": "ethernet", "interface": "eth0"}, "programs": [)" << group.programs << "]"
                         << group.nodes[node].second << "}";
-    node::json::Diagnostics diagnostics;
+    json::Diagnostics diagnostics;
     std::shared_ptr<node::LoadedConfig> loaded = node::load_config(path.string(), diagnostics);
     std::filesystem::remove(path);
     if (!loaded) throw std::runtime_error(diagnostics.to_text());

@@ -108,15 +108,11 @@ void add_roles(const scenario::Resolved& r, const scenario::ResolvedProgram& pro
   const Ps cycle = program.description->cycle.ps();
   const auto add = [&](models::NodeIndex node, models::StreamIndex stream) { add_published(r, node, stream, cycle, messages_in_a_cycle, options, graph); };
   graph.assumptions.add(Assumption::program_publishes);
-  add(program.participants[0], program.state_streams[0]);
-  add(program.participants[0], program.table_stream);
-  for (const scenario::ResolvedProcessData& data : program.process_data)
-    if (data.from == 0) add(program.participants[0], data.stream);
-  for (const scenario::ResolvedCandidate& candidate : program.candidates) {
-    add(candidate.node, candidate.announcements);
-    add(candidate.node, candidate.state);
-    for (const auto& stream : candidate.data)
-      if (stream) add(candidate.node, *stream);
+  for (const scenario::ResolvedMember& each : program.members) {
+    add(each.node, *each.roles);
+    add(each.node, each.state);
+    for (const auto& stream : each.data)
+      if (stream) add(each.node, *stream);
   }
 }
 
@@ -124,7 +120,7 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
   if (program.has_roles()) return add_roles(r, program, options, graph);
   const auto trains_before = static_cast<std::uint32_t>(graph.flows.size());   // no two Programs begin at the same flow
   const auto add = [&](std::uint8_t participant, models::StreamIndex stream, std::int64_t frames) {
-    const models::NodeIndex node = program.participants[participant];
+    const models::NodeIndex node = program.members[participant].node;
     add_published(r, node, stream, program.description->cycle.ps(), frames, options, graph);
     const ClockQuality clock = clock_quality(r, node, options);
     const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
@@ -135,10 +131,10 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
   };
   const bool on_change = program.description->publish == scenario::Publish::on_change;
   if (on_change) graph.assumptions.add(Assumption::program_publishes);
-  for (std::uint8_t p = 0; p < program.participants.size(); ++p) add(p, program.state_streams[p], on_change ? messages_in_a_cycle : 1);
+  for (std::uint8_t p = 0; p < program.members.size(); ++p) add(p, program.members[p].state, on_change ? messages_in_a_cycle : 1);
   for (std::size_t d = 0; d < program.process_data.size(); ++d) {
     const scenario::ResolvedProcessData& data = program.process_data[d];
-    add(data.from, data.stream, 1);
+    add(data.from, program.stream_of(d), 1);
     const auto reply = std::find_if(program.replies.begin(), program.replies.end(), [&](const scenario::ResolvedReply& answer) { return answer.with == d; });
     if (reply == program.replies.end()) continue;
     // A reply follows its request, whose latency is not known here. But who replies works at one message after the other.

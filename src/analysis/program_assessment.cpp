@@ -18,8 +18,7 @@ struct Event {
 };
 
 bool takes_part(const scenario::ResolvedProgram& program, models::NodeIndex node) {
-  return std::find(program.participants.begin(), program.participants.end(), node) != program.participants.end() ||
-         std::any_of(program.candidates.begin(), program.candidates.end(), [&](const scenario::ResolvedCandidate& candidate) { return candidate.node == node; });
+  return std::ranges::any_of(program.members, [&](const scenario::ResolvedMember& each) { return each.node == node; });
 }
 
 /// A call or fault of one group of a tree moves the others.
@@ -82,14 +81,14 @@ void assess_programs(const scenario::Resolved& resolved, Bounds& bounds) {
   bounds.ledger.discharge(Assumption::program_publishes, "calls and faults that are further apart than the group takes to come to rest");
   for (std::size_t p = 0; p < resolved.programs.size(); ++p) {
     const scenario::ResolvedProgram& program = resolved.programs[p];
-    for (const models::StreamIndex stream : program.state_streams)
-      if (const StreamBound& state = bounds.streams[stream.value]; !state.loses_nothing) bounds.ledger.leave_open(Assumption::no_loss, state.name + ": " + state.loss_reason);
+    for (const scenario::ResolvedMember& each : program.participants())
+      if (const StreamBound& state = bounds.streams[each.state.value]; !state.loses_nothing) bounds.ledger.leave_open(Assumption::no_loss, state.name + ": " + state.loss_reason);
     if (program.has_roles() && !resolved.script.empty()) {
       bounds.ledger.leave_open(Assumption::program_publishes, "who has a role in " + program.name + " is settled while it runs");
       continue;
     }
     if (program.description->publish != scenario::Publish::on_change) continue;
-    const bool may_lose = std::any_of(program.state_streams.begin(), program.state_streams.end(), [&](models::StreamIndex stream) { return !bounds.streams[stream.value].loses_nothing; });
+    const bool may_lose = std::ranges::any_of(program.participants(), [&](const scenario::ResolvedMember& each) { return !bounds.streams[each.state.value].loses_nothing; });
     if (may_lose) bounds.ledger.leave_open(Assumption::program_publishes, "lost messages may halt " + program.name + " at any time");
     std::optional<Duration> rest = time_to_rest(resolved, bounds, p);
     if (rest) *rest += program.description->cycle;

@@ -45,22 +45,22 @@ class GroupMaker {
       : r_(r), program_(program), options_(options), bounds_(bounds) {}
 
   ProgramGroup make() {
-    const std::size_t n = program_.participants.size();
+    const std::size_t n = program_.members.size();
     made_.group.notify = MaxPlusMatrix(n, n);
     for (std::size_t p = 0; p < n; ++p) {
-      made_.group.names.push_back(r_.topology.nodes[program_.participants[p].value].name);
+      made_.group.names.push_back(r_.topology.nodes[program_.members[p].node.value].name);
       made_.group.initialise.push_back(MaxPlus(sum(stretched(p, program_.description->initialisation.ps()), wake_up(p))));
       made_.participants.push_back({duration_of(publish_wait(p)), duration_of(made_.group.initialise.back().ps())});
       add_notifications(p);
       made_.time_out = std::max(made_.time_out, sum(stretched(p, program_.receive_timeout.ps()), wake_up(p)));
     }
-    for (const models::StreamIndex stream : program_.state_streams)
-      for (const auto& latency : bounds_.streams[stream.value].by_listener) made_.last_word = latency ? std::max(made_.last_word, latency->ps()) : unbounded_ps;
+    for (const scenario::ResolvedMember& each : program_.members)
+      for (const auto& latency : bounds_.streams[each.state.value].by_listener) made_.last_word = latency ? std::max(made_.last_word, latency->ps()) : unbounded_ps;
     made_.notices_faults = program_.description->variant == scenario::Variant::robust;
     if (program_.description->publish == scenario::Publish::on_change) made_.assumptions.add(Assumption::program_publishes);
     made_.of_faults = made_.assumptions;
-    for (const models::StreamIndex stream : program_.state_streams) {
-      const StreamBound& state = bounds_.streams[stream.value];
+    for (const scenario::ResolvedMember& each : program_.members) {
+      const StreamBound& state = bounds_.streams[each.state.value];
       if (state.loses_nothing) continue;
       made_.assumptions.add(Assumption::no_loss);
       // Whom a crash or a cut keeps words from finds that out by its own time-out.
@@ -71,9 +71,9 @@ class GroupMaker {
   }
 
  private:
-  Ps wake_up(std::size_t p) const { return r_.plan.os_latencies[r_.plan.nodes[program_.participants[p].value].os_latency].wake_up.greatest().ps(); }
+  Ps wake_up(std::size_t p) const { return r_.plan.os_latencies[r_.plan.nodes[program_.members[p].node.value].os_latency].wake_up.greatest().ps(); }
   Ps stretched(std::size_t p, Ps local) const {
-    const ClockQuality clock = clock_quality(r_, program_.participants[p], options_);
+    const ClockQuality clock = clock_quality(r_, program_.members[p].node, options_);
     return sum(scaled_up(local, 1'000'000'000'000 + clock.rate_ppt, 1'000'000'000'000), 2 * clock.error);
   }
   Ps publish_wait(std::size_t p) const {
@@ -82,11 +82,11 @@ class GroupMaker {
   }
 
   void add_notifications(std::size_t from) {
-    const StreamBound& stream = bounds_.streams[program_.state_streams[from].value];
+    const StreamBound& stream = bounds_.streams[program_.members[from].state.value];
     const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
     for (std::size_t l = 0; l < plan.listeners.size(); ++l) {
-      const auto to = static_cast<std::size_t>(std::find(program_.participants.begin(), program_.participants.end(), plan.listeners[l]) - program_.participants.begin());
-      if (to == program_.participants.size()) continue;
+      const auto to = static_cast<std::size_t>(std::ranges::find(program_.members, plan.listeners[l], &scenario::ResolvedMember::node) - program_.members.begin());
+      if (to == program_.members.size()) continue;
       const Ps latency = stream.by_listener[l] ? stream.by_listener[l]->ps() : unbounded_ps;
       made_.group.notify(to, from) = MaxPlus(sum(publish_wait(from), latency));
       // A node that is back publishes at the next instant of its cycle, whether or not it publishes on change as well.

@@ -127,7 +127,7 @@ void Recording::write_states() {
       timeline_->change_state(track, sim::TrueTime(), "nobody");
       for (const scenario::BindingRecord& record : run_->roles(p)->history())
         if (record.role == role)
-          timeline_->change_state(track, record.time, record.candidate ? run_->resolved().topology.nodes[program.candidates[*record.candidate].node.value].name : "nobody");
+          timeline_->change_state(track, record.time, record.candidate ? run_->resolved().topology.nodes[program.candidates()[*record.candidate].node.value].name : "nobody");
     }
   }
 }

@@ -424,7 +424,7 @@ class Emulation {
   std::vector<std::string> nodes_with(std::size_t program, std::size_t role) const {
     std::vector<std::string> names;
     for (const scenario::BindingRecord& record : simulation_->roles(program)->history())
-      if (record.role == role) names.push_back(record.candidate ? resolved_.topology.nodes[resolved_.programs[program].candidates[*record.candidate].node.value].name : std::string());
+      if (record.role == role) names.push_back(record.candidate ? resolved_.topology.nodes[resolved_.programs[program].candidates()[*record.candidate].node.value].name : std::string());
     return names;
   }
 

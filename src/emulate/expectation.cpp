@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t settled_cycles = 10;
 
 const std::string& name_of(const scenario::Resolved& resolved, std::uint32_t program, std::size_t candidate) {
-  return resolved.topology.nodes[resolved.programs[program].candidates[candidate].node.value].name;
+  return resolved.topology.nodes[resolved.programs[program].candidates()[candidate].node.value].name;
 }
 
 GroupState state_of(const scenario::Run& run, std::uint32_t program) {
@@ -56,7 +56,7 @@ std::vector<std::uint8_t> order_of(const scenario::Run& run, std::uint32_t progr
   };
   for (const scenario::BindingRecord& record : run.roles(program)->history())
     if (record.candidate) add(*record.candidate);
-  for (std::size_t c = 0; c < run.resolved().programs[program].candidates.size(); ++c) add(static_cast<std::uint8_t>(c));
+  for (std::size_t c = 0; c < run.resolved().programs[program].candidates().size(); ++c) add(static_cast<std::uint8_t>(c));
   return order;
 }
 
@@ -88,7 +88,7 @@ std::optional<GroupState> group_of_status(const std::string& status, const scena
   const auto document = json::parse(status, "status", diagnostics);
   if (!document) return std::nullopt;
   const json::Node* const roles = items_of(document->root(), "roles", program.description->roles.size());
-  const json::Node* const candidates = items_of(document->root(), "candidates", program.candidates.size());
+  const json::Node* const candidates = items_of(document->root(), "candidates", program.candidates().size());
   const auto own = state_of_status(status);
   if (roles == nullptr || candidates == nullptr || !own) return std::nullopt;
   GroupState state;

@@ -95,8 +95,8 @@ bool LogReader::take_binding(const Part& part, const json::Node& event) {
   step.participant = static_cast<std::uint8_t>(*role + 1);
   step.bound = handshake::Binding();
   const std::string node = text_of(event, "to");
-  for (std::size_t c = 0; c < program.candidates.size(); ++c)
-    if (resolved_.topology.nodes[program.candidates[c].node.value].name == node) step.bound = {static_cast<std::uint8_t>(c), number_of<std::uint32_t>(event, "life")};
+  for (std::size_t c = 0; c < program.candidates().size(); ++c)
+    if (resolved_.topology.nodes[program.candidates()[c].node.value].name == node) step.bound = {static_cast<std::uint8_t>(c), number_of<std::uint32_t>(event, "life")};
   steps_.push_back(step);
   return step.bound->bound() == !node.empty();
 }

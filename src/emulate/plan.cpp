@@ -86,17 +86,17 @@ class Planner {
     file.add("publisher_id", json::Node::of_integer(program.first_publisher_id));
     if (program.has_roles()) {
       json::Node& candidates = file.add("candidates", json::Node::array());
-      for (const scenario::ResolvedCandidate& each : program.candidates) candidates.items.push_back(json::Node::of_string(name_of(each)));
+      for (const scenario::ResolvedMember& each : program.candidates()) candidates.items.push_back(json::Node::of_string(name_of(each)));
     }
     files_[number] = std::move(file);
-    for (std::size_t p = 0; p < program.participants.size(); ++p) add_part(number, static_cast<std::uint8_t>(p));
-    for (std::size_t c = 0; c < program.candidates.size(); ++c) add_candidate(number, static_cast<std::uint8_t>(c));
+    for (std::size_t p = 0; p < program.participants().size(); ++p) add_part(number, static_cast<std::uint8_t>(p));
+    for (std::size_t c = 0; c < program.candidates().size(); ++c) add_candidate(number, static_cast<std::uint8_t>(c));
   }
 
-  const std::string& name_of(const scenario::ResolvedCandidate& candidate) const { return resolved_.topology.nodes[candidate.node.value].name; }
+  const std::string& name_of(const scenario::ResolvedMember& candidate) const { return resolved_.topology.nodes[candidate.node.value].name; }
 
   void add_candidate(std::uint32_t number, std::uint8_t candidate) {
-    const scenario::ResolvedCandidate& resolved = resolved_.programs[number].candidates[candidate];
+    const scenario::ResolvedMember& resolved = resolved_.programs[number].candidates()[candidate];
     PlannedNode node;
     node.parts = {{number, 0, candidate}};
     node.host = resolved.node.value;
@@ -115,7 +115,7 @@ class Planner {
     if (node == plan_.nodes.end()) {
       node = plan_.nodes.insert(node, PlannedNode());
       node->name = name;
-      node->host = program.participants[participant].value;
+      node->host = program.members[participant].node.value;
     }
     node->parts.insert(is_inner ? node->parts.end() : node->parts.begin(), {number, participant});
   }
@@ -123,12 +123,12 @@ class Planner {
   void write_file(PlannedNode& node) {
     const scenario::ResolvedProgram& first = resolved_.programs[node.parts.front().program];
     const auto candidate = node.parts.front().candidate;
-    const std::string& name = candidate ? name_of(first.candidates[*candidate]) : first.participant_names[node.parts.front().participant];
+    const std::string& name = candidate ? name_of(first.candidates()[*candidate]) : first.participant_names[node.parts.front().participant];
     json::Node file = json::Node::object();
     file.add("node", json::Node::of_string(name));
     if (candidate) {
       json::Node& offers = file.add("offers", json::Node::array());
-      for (const std::string& skill : first.candidates[*candidate].skills) offers.items.push_back(json::Node::of_string(skill));
+      for (const std::string& skill : first.candidates()[*candidate].skills) offers.items.push_back(json::Node::of_string(skill));
       file.add("absent", json::Node::of_string(std::string_view(absent_mark).substr(1, std::string_view(absent_mark).size() - 2)));
     }
     json::Node programs = json::Node::array();

@@ -44,7 +44,7 @@ class Merger {
     const auto change = group.observers[role].on_bound(*step.bound, known == group.lives.end() ? std::nullopt : std::optional(known->second));
     if (change.gone) crash(step, *change.gone);
     if (!change.is_another) return;
-    const auto& candidates = resolved_.programs[step.program].candidates;
+    const auto& candidates = resolved_.programs[step.program].candidates();
     result_.histories[step.program][role].nodes.push_back(step.bound->bound() ? resolved_.topology.nodes[candidates[step.bound->candidate].node.value].name : std::string());
   }
 

@@ -112,7 +112,7 @@ ProgramResult result_of(const scenario::Run& run, std::size_t index, TrueTime fr
   if (const scenario::PlugMonitor* const roles = run.roles(index))
     for (const scenario::BindingRecord& record : roles->history())
       result.bindings.push_back({record.time, program.participant_names[record.role + std::size_t{1}],
-                                 record.candidate ? run.resolved().topology.nodes[program.candidates[*record.candidate].node.value].name : ""});
+                                 record.candidate ? run.resolved().topology.nodes[program.candidates()[*record.candidate].node.value].name : ""});
   result.violations_allowed = program.description->violations == scenario::Violations::reported;
   add_timeline(monitor, run.simulation().now(), result);
   const scenario::ProgramMonitor::Counts& counts = monitor.counts(from.since_start());

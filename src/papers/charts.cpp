@@ -67,8 +67,8 @@ std::string sequence_of(const scenario::Run& run, const MessageLog& log, const E
   drawn.title = excerpt.title;
   const std::int64_t zero = excerpt.from.ps();
   drawn.label = [zero](std::int64_t time) { return "+" + microseconds(time - zero); };
-  for (std::size_t p = 0; p < program.participants.size(); ++p) {
-    drawn.participants.push_back(run.resolved().topology.nodes[program.participants[p].value].name);
+  for (std::size_t p = 0; p < program.members.size(); ++p) {
+    drawn.participants.push_back(run.resolved().topology.nodes[program.members[p].node.value].name);
     drawn.states.push_back(text_of(state_at(monitor, p, excerpt.from - sim::Duration::from_ps(1))));
   }
   std::string before = excerpt.call + ": ";   // stands with what it causes
@@ -95,7 +95,7 @@ std::string sequence_of(const scenario::Run& run, const MessageLog& log, const E
     }
   }
   if (excerpt.side == 0)
-    for (std::size_t from = 0; from < program.participants.size(); ++from) {
+    for (std::size_t from = 0; from < program.members.size(); ++from) {
       const auto first = std::find_if(log.messages().begin(), log.messages().end(),
                                       [&](const LoggedMessage& m) { return !m.is_state && m.from == from && m.sent > end; });
       if (first != log.messages().end()) drawn.messages.push_back({first->sent.ps(), first->received.ps(), first->from, first->to, "(8) process data"});

@@ -4,11 +4,11 @@ namespace takt::papers {
 
 MessageLog::MessageLog(const scenario::Run& run, std::size_t program) {
   const scenario::ResolvedProgram& resolved = run.resolved().programs[program];
-  for (std::size_t p = 0; p < resolved.participants.size(); ++p) {
-    participants_[resolved.participants[p].value] = p;
-    streams_[resolved.state_streams[p].value] = {p, true};
+  for (std::size_t p = 0; p < resolved.members.size(); ++p) {
+    participants_[resolved.members[p].node.value] = p;
+    streams_[resolved.members[p].state.value] = {p, true};
   }
-  for (const scenario::ResolvedProcessData& data : resolved.process_data) streams_[data.stream.value] = {data.from, false};
+  for (std::size_t d = 0; d < resolved.process_data.size(); ++d) streams_[resolved.stream_of(d).value] = {resolved.process_data[d].from, false};
 }
 
 void MessageLog::record(const sim::TraceRecord& record) {

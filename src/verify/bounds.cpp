@@ -130,7 +130,7 @@ class Prover {
     if (program->description->violations == scenario::Violations::reported) return {{}, true, {}, {}, {}, {}};
     if (!program->nested.empty()) return unknown("takt explore looks at single groups, not at nodes that join two");
     if (program->has_roles()) return invariants_of(*program);
-    const std::size_t slaves = program->participants.size() - 1;
+    const std::size_t slaves = program->members.size() - 1;
     if (slaves > explore::most_slaves) return unknown("at most " + std::to_string(explore::most_slaves) + " slaves can be explored");
     if (program->description->subscription != scenario::Subscription::star) return unknown("takt explore --subscription all-to-all looks at it");
     return invariants_of(*program);
@@ -140,7 +140,7 @@ class Prover {
   Proof invariants_of(const scenario::ResolvedProgram& program) {
     explore::Query query;
     query.variant = program.description->variant == scenario::Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
-    query.slaves = static_cast<std::uint8_t>(program.participants.size() - 1);
+    query.slaves = static_cast<std::uint8_t>(program.members.size() - 1);
     analysis::EventsInARow row = analysis::events_in_a_row(resolved_, bounds_, static_cast<std::size_t>(&program - resolved_.programs.data()));
     if (program.has_roles()) {
       if (const auto wrong = set_roles(program, query)) return {{}, false, *wrong, {}, {}, {}};
@@ -179,8 +179,7 @@ class Prover {
   bool is_lost_with_its_ends(const scenario::ResolvedProgram& program, const analysis::StreamBound& state) const {
     return state.loses_by_faults_only && resolved_.plan.impairments.empty() && std::all_of(resolved_.script.begin(), resolved_.script.end(), [&](const scenario::ResolvedAction& action) {
       const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what);
-      const bool is_participant = node != nullptr && (std::find(program.participants.begin(), program.participants.end(), node->node) != program.participants.end() ||
-                                                      std::any_of(program.candidates.begin(), program.candidates.end(), [&](const scenario::ResolvedCandidate& each) { return each.node == node->node; }));
+      const bool is_participant = node != nullptr && std::ranges::any_of(program.members, [&](const scenario::ResolvedMember& each) { return each.node == node->node; });
       return is_participant || (node == nullptr && !std::holds_alternative<scenario::ResolvedLink>(action.what));
     });
   }
@@ -193,13 +192,9 @@ class Prover {
   /// What a Program publishes, and after which time its silence is noticed. The table has no time-out: it goes with the master's state.
   static std::vector<Cyclic> messages_of(const scenario::ResolvedProgram& program) {
     std::vector<Cyclic> messages;
-    for (const models::StreamIndex stream : program.state_streams) messages.push_back({stream, program.description->cycle, program.receive_timeout});
-    if (!program.has_roles()) return messages;
-    const Duration announce_timeout = program.announce_every * wire::announcements_missed + program.announce_every / 2;
-    messages.push_back({program.table_stream, program.announce_every, announce_timeout});
-    for (const scenario::ResolvedCandidate& candidate : program.candidates) {
-      messages.push_back({candidate.announcements, program.announce_every, announce_timeout});
-      messages.push_back({candidate.state, program.description->cycle, program.receive_timeout});
+    for (const scenario::ResolvedMember& each : program.members) {
+      messages.push_back({each.state, program.description->cycle, program.receive_timeout});
+      if (each.roles) messages.push_back({*each.roles, program.announce_every, wire::announce_timeout(program.announce_every)});
     }
     return messages;
   }

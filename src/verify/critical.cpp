@@ -45,10 +45,10 @@ CriticalInstants::CriticalInstants(const Resolved& resolved, std::span<const Fre
   }
   for (const scenario::ResolvedProgram& program : resolved.programs) {
     if (program.has_roles()) continue;   // its members have no phases of their own
-    for (std::size_t p = 0; p < program.state_streams.size(); ++p)
-      timings_[program.state_streams[p].value] = {program.phases[p], program.description->cycle, {}};
-    for (const scenario::ResolvedProcessData& data : program.process_data)
-      timings_[data.stream.value] = {program.phases[data.from], program.description->cycle, {}};
+    for (std::size_t p = 0; p < program.members.size(); ++p)
+      timings_[program.members[p].state.value] = {program.phases[p], program.description->cycle, {}};
+    for (std::size_t d = 0; d < program.process_data.size(); ++d)
+      timings_[program.stream_of(d).value] = {program.phases[program.process_data[d].from], program.description->cycle, {}};
   }
   for (std::size_t f = 0; f < freedoms_.size(); ++f)
     for (const std::size_t stream : streams_moved_by(f)) timings_[stream].freedoms.push_back(f);
@@ -63,9 +63,10 @@ std::vector<std::size_t> CriticalInstants::streams_moved_by(std::size_t f) const
       if (resolved_->plan.streams[s].name == resolved_->scenario.streams[freedom.item].name) found.push_back(s);
   } else if (freedom.kind == Freedom::Kind::publisher) {
     const scenario::ResolvedProgram& program = resolved_->programs[freedom.item];
-    found.push_back(program.state_streams[freedom.participant].value);
-    for (const scenario::ResolvedProcessData& data : program.process_data)
-      if (data.from == freedom.participant) found.push_back(data.stream.value);
+    const scenario::ResolvedMember& member = program.members[freedom.participant];
+    found.push_back(member.state.value);
+    for (const auto& data : member.data)
+      if (data) found.push_back(data->value);
   }
   return found;
 }
@@ -106,7 +107,7 @@ std::vector<std::size_t> CriticalInstants::streams_of(const results::Requirement
   if (requirement.taken_as == Kind::reaction || requirement.taken_as == Kind::invariants) {
     for (const scenario::ResolvedProgram& program : resolved_->programs)
       if (requirement.subject.empty() || program.name == requirement.subject)
-        for (const models::StreamIndex stream : program.state_streams) found.push_back(stream.value);
+        for (const scenario::ResolvedMember& each : program.participants()) found.push_back(each.state.value);
   } else if (requirement.taken_as != Kind::sync) {
     for (std::size_t s = 0; s < resolved_->plan.streams.size(); ++s)
       if (requirement.subject == "*" || resolved_->plan.streams[s].name == requirement.subject) found.push_back(s);
@@ -141,10 +142,10 @@ std::vector<Duration> CriticalInstants::of(std::size_t f, const results::Require
     if (requirement.kind == results::RequirementKind::reaction && scenario::reaction_of(resolved_->requirements[*requirement.requirement].figure)->kind != reaction_to(*entry.call)) return values;
     for (const scenario::ResolvedProgram& program : resolved_->programs) {
       if (entry.program && program.name != *entry.program) continue;
-      for (const models::StreamIndex stream : program.state_streams) {
-        const Duration to_publishing = modulo(phase_of(stream.value, choice) - entry.at, program.description->cycle);
+      for (const scenario::ResolvedMember& each : program.participants()) {
+        const Duration to_publishing = modulo(phase_of(each.state.value, choice) - entry.at, program.description->cycle);
         // Just behind a publication whose timer was quick, or slow.
-        const sim::Distribution& wake_up = resolved_->plan.os_latencies[resolved_->plan.nodes[resolved_->plan.streams[stream.value].talker.value].os_latency].wake_up;
+        const sim::Distribution& wake_up = resolved_->plan.os_latencies[resolved_->plan.nodes[each.node.value].os_latency].wake_up;
         for (const Duration moved : {to_publishing, to_publishing + just, to_publishing + wake_up.least() + just, to_publishing + wake_up.greatest() + just})
           if (moved < freedom.range) add(moved);
       }

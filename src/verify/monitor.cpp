@@ -33,9 +33,9 @@ std::uint64_t words_lost(const scenario::Run& run, models::StreamIndex stream, c
 
 void look_at_words(const scenario::Run& run, const results::RunResult& result, std::vector<Violation>& found) {
   for (const scenario::ResolvedProgram& program : run.resolved().programs)
-    for (const models::StreamIndex stream : program.state_streams) {
-      const results::StreamResult& state = result.streams[stream.value];
-      if (const std::uint64_t lost = words_lost(run, stream, state); lost > 0)
+    for (const scenario::ResolvedMember& each : program.participants()) {
+      const results::StreamResult& state = result.streams[each.state.value];
+      if (const std::uint64_t lost = words_lost(run, each.state, state); lost > 0)
         found.push_back({Assumption::no_loss, std::to_string(lost) + " of " + state.name + " were lost" + with_seed(result)});
     }
 }

@@ -54,7 +54,7 @@ class Chain {
   };
 
   const std::string& name_of(const Participant& who) const { return resolved_.programs[who.program].participant_names[who.number]; }
-  models::NodeIndex node_of(const Participant& who) const { return resolved_.programs[who.program].participants[who.number]; }
+  models::NodeIndex node_of(const Participant& who) const { return resolved_.programs[who.program].members[who.number].node; }
 
   std::optional<Participant> last_of(const std::vector<std::size_t>& programs) const {
     for (const std::size_t p : programs)
@@ -79,10 +79,10 @@ class Chain {
     for (auto arrival = first; arrival != log_.arrivals().end() && arrival->at == time; ++arrival) {
       if (arrival->listener != node_of(who)) continue;
       for (std::size_t p = 0; p < resolved_.programs.size(); ++p) {
-        const std::vector<models::StreamIndex>& streams = resolved_.programs[p].state_streams;
-        const auto stream = std::find(streams.begin(), streams.end(), arrival->stream);
-        if (resolved_.programs[p].has_roles() || stream == streams.end()) continue;
-        const Participant from{p, static_cast<std::size_t>(stream - streams.begin())};
+        const std::vector<scenario::ResolvedMember>& members = resolved_.programs[p].members;
+        const auto member = std::ranges::find(members, arrival->stream, &scenario::ResolvedMember::state);
+        if (resolved_.programs[p].has_roles() || member == members.end()) continue;
+        const Participant from{p, static_cast<std::size_t>(member - members.begin())};
         const std::optional<TrueTime> changed = last_change(from, arrival->produced, true);
         if (changed && is_news(*arrival, *changed) && (!latest || *changed > latest->changed)) latest = Word{from, arrival->stream, *changed, arrival->produced};
       }

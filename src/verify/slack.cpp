@@ -123,7 +123,7 @@ std::vector<SlackPart> parts_of_reaction(const LooseEnd& end, const analysis::Bo
   if (!end.requirement.requirement) return {};
   std::vector<bool> words(resolved.plan.streams.size());
   for (const scenario::ResolvedProgram& program : resolved.programs)
-    for (const models::StreamIndex stream : program.state_streams) words[stream.value] = true;
+    for (const scenario::ResolvedMember& each : program.participants()) words[each.state.value] = true;
   scenario::Run run(resolved);
   FrameLog log(run.network(), {}, {}, std::move(words));
   if (!replay(run, log, interrupted)) return {};

@@ -156,14 +156,14 @@ NodeOutputs& ProgramNode::leave(sim::LocalTime now) {
 
 /// False for one that comes too late.
 bool ProgramNode::take(const Turn& turn, const AnnouncementMessage& message) {
-  const sim::Duration timeout = settings_.roles->announce_timeout();
+  const sim::Duration timeout = announce_timeout(settings_.roles->announce_cycle);
   if (!arrivals_[message.candidate].take(message.sequence, message.announcement.life, turn.now, timeout)) return false;
   if (binder_->announced(message.candidate, message.announcement)) turn.out.add(Side::Outer, SetAlarm{role_alarm() + 1 + message.candidate, turn.now + timeout});
   return true;
 }
 
 bool ProgramNode::take(const Turn& turn, const TableMessage& message) {
-  if (!arrivals_.front().take(message.sequence, message.incarnation, turn.now, settings_.roles->announce_timeout())) return false;
+  if (!arrivals_.front().take(message.sequence, message.incarnation, turn.now, announce_timeout(settings_.roles->announce_cycle))) return false;
   const Binding before = self();
   const auto role = candidate_->role();
   const Candidate::Change change = candidate_->table(std::span(message.bindings).first(settings_.roles->format->roles()), message.used_lives[before.candidate]);

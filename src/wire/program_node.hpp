@@ -14,6 +14,8 @@ namespace takt::wire {
 
 /// How many announcements in a row may be missed.
 inline constexpr std::int64_t announcements_missed = 3;
+/// After that a node that has announced nothing is gone.
+constexpr sim::Duration announce_timeout(sim::Duration announce_cycle) { return announce_cycle * announcements_missed + announce_cycle / 2; }
 /// How many cycles there are from one announcement to the next, if nobody says otherwise.
 inline constexpr std::int64_t cycles_of_announcement = 10;
 
@@ -31,9 +33,6 @@ struct RoleSettings {
   sim::Duration announce_cycle;            ///< above 0; of announcements and of the table
   bool restarts = false;                   ///< the group goes on by itself when a lost role is bound again
   std::optional<Offer> offer;              ///< the master makes none
-
-  /// After that a node that has announced nothing is gone.
-  sim::Duration announce_timeout() const { return announce_cycle * announcements_missed + announce_cycle / 2; }
 };
 
 struct NodeSettings {

@@ -105,19 +105,19 @@ class Extraction {
     for (const ResolvedProgram& program : r_.programs) {
       const Program& description = *program.description;
       if (program.has_roles()) continue;   // its streams keep the reason that all have first
-      for (std::uint8_t p = 0; p < program.participants.size(); ++p) {
-        const models::OsLatency& os = os_of(program.participants[p]);
+      for (std::uint8_t p = 0; p < program.members.size(); ++p) {
+        const models::OsLatency& os = os_of(program.members[p].node);
         Timing timing = after(program.phases[p], os.wake_up.least() + os.transmit.least(), os.wake_up.greatest() + os.transmit.greatest(), description.cycle, trains_++);
         if (description.publish != Publish::cyclic) timing.unknown = "\"publish\": \"on-change\", at no known time";
         else if (!promises_phase(description, program.participant_names[p]))
           timing.unknown = "no \"offset\" or \"phases\" that promises when " + json::quote(program.participant_names[p]) + " publishes";
-        set(program.state_streams[p], timing);
+        set(program.members[p].state, timing);
         for (std::size_t d = 0; d < program.process_data.size(); ++d) {
           if (program.process_data[d].from != p) continue;
           const bool is_reply = std::any_of(program.replies.begin(), program.replies.end(), [&](const ResolvedReply& reply) { return reply.with == d; });
           Timing data = timing;
           if (is_reply) data.unknown = "an answer, published when its question has been worked at";
-          set(program.process_data[d].stream, std::move(data));
+          set(program.stream_of(d), std::move(data));
         }
       }
     }

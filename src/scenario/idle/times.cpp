@@ -65,7 +65,7 @@ void tell_idle_script(const Usage& usage, json::Diagnostics& diagnostics) {
     for (std::size_t i = 0; i < host->offers.size(); ++i)
       if (!needed.contains(host->offers[i])) warn_once(diagnostics, host->where.at("offers", i), "a skill that no role needs", {json::quote(host->offers[i]), "the \"skill\" of a role of a program"});
     const auto replies = [&](const ResolvedProgram& program) {
-      return !program.replies.empty() && std::any_of(program.participants.begin(), program.participants.end(), [&](models::NodeIndex each) { return r.topology.nodes[each.value].name == node.name; });
+      return !program.replies.empty() && std::ranges::any_of(program.members, [&](const ResolvedMember& each) { return r.topology.nodes[each.node.value].name == node.name; });
     };
     if (host->processing && std::none_of(r.programs.begin(), r.programs.end(), replies))
       warn_once(diagnostics, host->where.at("processing"), "a time of processing without replies", {json::quote(node.name) + " is in no program with \"replies\"", "\"replies\""});

@@ -24,14 +24,11 @@ class ProgramFaults {
 
  private:
   void find_streams() {
-    states_ = program_.has_roles() ? std::vector{program_.state_streams[0]} : program_.state_streams;
-    for (const ResolvedCandidate& each : program_.candidates) states_.push_back(each.state);
-    std::vector<models::StreamIndex> all = states_;
-    for (const ResolvedProcessData& each : program_.process_data)
-      if (!program_.has_roles() || each.from == 0) all.push_back(each.stream);
-    if (program_.has_roles()) all.push_back(program_.table_stream);
-    for (const ResolvedCandidate& each : program_.candidates) {
-      all.push_back(each.announcements);
+    std::vector<models::StreamIndex> all;
+    for (const ResolvedMember& each : program_.members) {
+      states_.push_back(each.state);
+      all.push_back(each.state);
+      if (each.roles) all.push_back(*each.roles);
       for (const auto& data : each.data)
         if (data) all.push_back(*data);
     }

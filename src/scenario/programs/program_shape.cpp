@@ -18,4 +18,14 @@ wire::ProgramShape shape_of(const ResolvedProgram& program) {
   return shape;
 }
 
+ProgramFormats formats_of(const ResolvedProgram& program, const Topology& topology) {
+  const wire::ProgramShape shape = shape_of(program);
+  ProgramFormats formats{std::make_shared<const wire::ProgramFormat>(shape), nullptr};
+  if (!program.has_roles()) return formats;
+  std::vector<std::string> candidates;
+  for (const ResolvedMember& each : program.candidates()) candidates.push_back(topology.nodes[each.node.value].name);
+  formats.roles = std::make_shared<const wire::PlugFormat>(vocabulary::plug_shape_of(shape, program.description->roles, std::move(candidates)));
+  return formats;
+}
+
 }  // namespace takt::scenario

@@ -1,11 +1,20 @@
 // What a Program of a scenario is on the network.
 #pragma once
 
+#include <memory>
+
 #include "scenario/resolve/resolved.hpp"
-#include "wire/program_shape.hpp"
+#include "wire/plug_format.hpp"
 
 namespace takt::scenario {
 
 wire::ProgramShape shape_of(const ResolvedProgram& program);
+
+/// The messages of a program; those of roles only if it has some.
+struct ProgramFormats {
+  std::shared_ptr<const wire::ProgramFormat> program;
+  std::shared_ptr<const wire::PlugFormat> roles;
+};
+ProgramFormats formats_of(const ResolvedProgram& program, const Topology& topology);
 
 }  // namespace takt::scenario

@@ -5,40 +5,23 @@
 #include <set>
 
 #include "json/suggest.hpp"
-#include "models/ethernet/sizes.hpp"
-#include "scenario/programs/program_shape.hpp"
 #include "scenario/resolve/known_names.hpp"
-#include "uadp/builtin_type.hpp"
-#include "vocabulary/protocol.hpp"
 #include "wire/program_node.hpp"
 
 namespace takt::scenario {
 namespace {
 
-constexpr std::size_t most_publishers = 0xFFFF;  // PublisherIds are UInt16
-
 class RoleResolver {
  public:
-  RoleResolver(Resolved& resolved, StreamBuilder& builder, ResolvedProgram program, json::Diagnostics& diagnostics)
-      : r_(resolved), builder_(builder), program_(std::move(program)), description_(*program_.description), diagnostics_(diagnostics) {}
+  RoleResolver(const Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program, json::Diagnostics& diagnostics)
+      : r_(resolved), builder_(builder), program_(program), description_(*program_.description), diagnostics_(diagnostics) {}
 
-  void run(std::size_t& publishers) {
-    const std::size_t errors_before = diagnostics_.errors();
+  void run() {
     const auto master = builder_.host(description_.master, description_.where.at("master"));
     check();
-    if (master) find_candidates(*master);
-    if (diagnostics_.errors() != errors_before) return;
-    program_.participants = {models::NodeIndex{*master}};
-    const std::size_t wanted = program_.participant_names.size() + program_.candidates.size();
-    if (publishers + wanted > most_publishers) {
-      diagnostics_.error(description_.where.place(), "too many participants of all programs together",
-                         {std::to_string(publishers + wanted) + " with this program", "at most " + std::to_string(most_publishers)});
-      return;
-    }
-    program_.first_publisher_id = static_cast<std::uint16_t>(publishers + 1);
-    publishers += wanted;
-    add_streams();
-    if (diagnostics_.errors() == errors_before) r_.programs.push_back(std::move(program_));
+    if (!master) return;
+    program_.members.push_back({.node = models::NodeIndex{*master}});
+    find_candidates(*master);
   }
 
  private:
@@ -102,16 +85,13 @@ class RoleResolver {
         if (listed.contains(node.name)) refuse_idle(node.name);
         continue;
       }
-      ResolvedCandidate candidate;
-      candidate.node = models::NodeIndex{n};
-      candidate.skills = host->offers;
       offered.insert(host->offers.begin(), host->offers.end());
-      program_.candidates.push_back(std::move(candidate));
+      program_.members.push_back({.node = models::NodeIndex{n}, .skills = host->offers});
     }
     for (const Role& role : description_.roles)
       if (!offered.contains(role.skill) && (role.where.is_known() || !diagnostics_.has_errors())) refuse_skill(role, offered);
-    if (program_.candidates.size() > handshake::most_candidates)
-      diagnostics_.error(description_.where.at("roles"), "too many candidates", {std::to_string(program_.candidates.size()), "at most 64; \"candidates\" names some"});
+    if (program_.candidates().size() > handshake::most_candidates)
+      diagnostics_.error(description_.where.at("roles"), "too many candidates", {std::to_string(program_.candidates().size()), "at most 64; \"candidates\" names some"});
     note_absent();
   }
 
@@ -135,95 +115,27 @@ class RoleResolver {
 
   void note_absent() {
     std::vector<std::string_view> names;
-    for (const ResolvedCandidate& each : program_.candidates) names.push_back(name_of(each));
+    for (const ResolvedMember& each : program_.candidates()) names.push_back(r_.topology.nodes[each.node.value].name);
     for (std::size_t i = 0; i < description_.absent.size(); ++i) {
       const auto found = std::find(names.begin(), names.end(), description_.absent[i]);
       if (found == names.end())
         diagnostics_.error_unless(offers_are_unclear() || roles_are_unclear() || diagnostics_.is_refused(description_.where.at("candidates")), description_.where.at("absent", i), "not a candidate of the program",
                            {json::quote(description_.absent[i]), "a host that offers a skill it needs", json::suggest(description_.absent[i], names)});
       else
-        program_.candidates[static_cast<std::size_t>(found - names.begin())].is_absent = true;
+        program_.members[1 + static_cast<std::size_t>(found - names.begin())].is_absent = true;
     }
   }
 
-  const std::string& name_of(const ResolvedCandidate& candidate) const { return r_.topology.nodes[candidate.node.value].name; }
-
-  void add_streams() {
-    const json::Source& where = description_.where;
-    const Octets state{wire::state_octets(handshake::Variant::Robust)};
-    program_.state_streams = {from_master("state/" + description_.master, state, description_.cycle, where)};
-    const Octets table{wire::table_octets(description_.roles.size(), program_.candidates.size())};
-    program_.table_stream = from_master("bindings", table, program_.announce_every, where);
-    for (ResolvedCandidate& each : program_.candidates) {
-      each.announcements = to_master(each, "announce/" + name_of(each), Octets{wire::announcement_octets}, program_.announce_every, where);
-      each.state = to_master(each, "state/" + name_of(each), state, description_.cycle, where);
-    }
-    for (const ProcessData& data : description_.process_data) add(data);
-  }
-
-  void add(const ProcessData& data) {
-    ResolvedProcessData made;
-    made.name = data.name;
-    const auto from = std::find(program_.participant_names.begin(), program_.participant_names.end(), data.from);
-    made.from = static_cast<std::uint8_t>(from - program_.participant_names.begin());
-    for (const auto& [name, field] : data.fields) made.field_octets += static_cast<std::uint32_t>(uadp::fixed_octets(vocabulary::built_in_type_of(field.type))) * field.count;
-    const Octets octets{wire::process_data_octets(made.field_octets)};
-    if (made.from == 0) made.stream = from_master(data.name, octets, description_.cycle, data.where);
-    for (ResolvedCandidate& each : program_.candidates) {
-      each.data.emplace_back();
-      if (made.from == 0) continue;
-      const std::string& skill = description_.roles[made.from - std::size_t{1}].skill;
-      if (std::find(each.skills.begin(), each.skills.end(), skill) != each.skills.end())
-        each.data.back() = to_master(each, data.name + "/" + name_of(each), octets, description_.cycle, data.where);
-    }
-    program_.process_data.push_back(std::move(made));
-  }
-
-  models::StreamIndex from_master(const std::string& what, Octets payload, Duration every, const json::Source& where) {
-    NewStream wanted = stream(what, payload, where);
-    wanted.from = program_.participants[0].value;
-    for (const ResolvedCandidate& each : program_.candidates) wanted.to.push_back({each.node.value, description_.where.at("roles")});
-    return add_stream(wanted, every);
-  }
-  models::StreamIndex to_master(const ResolvedCandidate& candidate, const std::string& what, Octets payload, Duration every, const json::Source& where) {
-    NewStream wanted = stream(what, payload, where);
-    wanted.from = candidate.node.value;
-    wanted.to.push_back({program_.participants[0].value, description_.where.at("master")});
-    return add_stream(wanted, every);
-  }
-  NewStream stream(const std::string& what, Octets payload, const json::Source& where) const {
-    NewStream wanted;
-    wanted.name = program_.name + "/" + what;
-    wanted.where = where;
-    wanted.priority = description_.pcp;
-    wanted.vlan = description_.vlan;
-    wanted.payload = payload;
-    wanted.of_program = true;
-    wanted.ether_type = wire::uadp_ether_type;
-    return wanted;
-  }
-  models::StreamIndex add_stream(const NewStream& wanted, Duration every) {
-    const auto index = builder_.add(wanted);
-    if (!index) return {};
-    const models::StreamPlan& plan = r_.plan.streams[index->value];
-    StreamDemand& demand = r_.streams[index->value].demand;
-    demand.frames_per_second = 1e12 / static_cast<double>(every.ps());
-    demand.wire_bits_per_second = demand.frames_per_second * 8.0 * models::wire_length(models::frame_length(plan.headers + wanted.payload, true)).count;
-    return *index;
-  }
-
-  Resolved& r_;
+  const Resolved& r_;
   StreamBuilder& builder_;
-  ResolvedProgram program_;
+  ResolvedProgram& program_;
   const Program& description_;
   json::Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
-void resolve_roles(Resolved& resolved, StreamBuilder& builder, ResolvedProgram program, std::size_t& publishers, json::Diagnostics& diagnostics) {
-  RoleResolver(resolved, builder, std::move(program), diagnostics).run(publishers);
-}
+void resolve_roles(const Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program, json::Diagnostics& diagnostics) { RoleResolver(resolved, builder, program, diagnostics).run(); }
 
 void refuse_without_roles(const Program& program, json::Diagnostics& diagnostics) {
   const auto refuse = [&](bool is_there, std::string_view key) {
@@ -238,7 +150,7 @@ void refuse_without_roles(const Program& program, json::Diagnostics& diagnostics
 void check_candidates(const Resolved& resolved, json::Diagnostics& diagnostics) {
   std::map<std::uint32_t, const ResolvedProgram*> taken;
   for (const ResolvedProgram& program : resolved.programs) {
-    for (const ResolvedCandidate& each : program.candidates) {
+    for (const ResolvedMember& each : program.candidates()) {
       const auto [other, is_new] = taken.emplace(each.node.value, &program);
       if (is_new) continue;
       diagnostics.error(program.description->where.at("roles"), "a node that offers its skills to two programs",
@@ -253,8 +165,8 @@ void resolve_plug_action(Resolved& resolved, const ScriptEntry& entry, json::Dia
   std::vector<std::string_view> names;
   for (std::uint32_t p = 0; p < resolved.programs.size(); ++p) {
     const ResolvedProgram& program = resolved.programs[p];
-    for (std::size_t c = 0; c < program.candidates.size(); ++c) {
-      names.push_back(resolved.topology.nodes[program.candidates[c].node.value].name);
+    for (std::size_t c = 0; c < program.candidates().size(); ++c) {
+      names.push_back(resolved.topology.nodes[program.candidates()[c].node.value].name);
       if (names.back() != name) continue;
       resolved.script.push_back({sim::TrueTime() + entry.at, ResolvedPlug{p, static_cast<std::uint8_t>(c), entry.join.has_value()}});
       return;

@@ -1,4 +1,4 @@
-// Programs with roles: who may have which role, and the streams between the master and all that may.
+// Programs with roles: who may have which role.
 #pragma once
 
 #include "json/diagnostics.hpp"
@@ -7,8 +7,8 @@
 
 namespace takt::scenario {
 
-/// Adds the program to the resolved ones, or reports why it cannot be. `publishers`: PublisherIds that are taken so far.
-void resolve_roles(Resolved& resolved, StreamBuilder& builder, ResolvedProgram program, std::size_t& publishers, json::Diagnostics& diagnostics);
+/// Finds the members of the program, or reports why it cannot be.
+void resolve_roles(const Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program, json::Diagnostics& diagnostics);
 /// Keys that a program with slaves has no use for.
 void refuse_without_roles(const Program& program, json::Diagnostics& diagnostics);
 /// After all programs have been resolved: a node offers its skills to one program.

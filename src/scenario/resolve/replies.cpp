@@ -83,8 +83,8 @@ void resolve_replies(const Topology& topology, ResolvedProgram& program) {
   if (program.description->replies.empty()) return;
   json::Diagnostics reported;   // by check_replies and check_processing
   program.replies = Replies(*program.description, reported).run();
-  for (const models::NodeIndex node : program.participants)
-    program.processing.push_back(processing_of(std::get<HostNode>(topology.nodes[node.value].description), reported));
+  for (const ResolvedMember& each : program.members)
+    program.processing.push_back(processing_of(std::get<HostNode>(topology.nodes[each.node.value].description), reported));
 }
 
 }  // namespace takt::scenario

@@ -10,7 +10,6 @@
 #include "scenario/applications/resolve_applications.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "scenario/idle/idle.hpp"
-#include "scenario/programs/program_shape.hpp"
 #include "scenario/resolve/clocks.hpp"
 #include "scenario/resolve/demand.hpp"
 #include "scenario/resolve/egress.hpp"
@@ -22,12 +21,12 @@
 #include "scenario/resolve/os_profiles.hpp"
 #include "scenario/resolve/plug.hpp"
 #include "scenario/resolve/policing.hpp"
+#include "scenario/resolve/program_streams.hpp"
 #include "scenario/resolve/replies.hpp"
 #include "scenario/resolve/requirements.hpp"
 #include "scenario/resolve/stream_builder.hpp"
 #include "scenario/resolve/trace_file.hpp"
 #include "scenario/resolve/windows.hpp"
-#include "vocabulary/protocol.hpp"
 #include "wire/program_format.hpp"
 
 namespace takt::scenario {
@@ -244,15 +243,32 @@ class Resolver {
       if (!program.replies.empty())
         diagnostics_.error(program.where.at("replies"), "replies in a program with roles", {"\"replies\" beside \"roles\"", "\"slaves\", whose replies are measured"});
       resolved.phases.assign(program.roles.size() + 1, program.offset.value_or(Duration()));
-      resolve_roles(r_, *builder_, std::move(resolved), publishers_, diagnostics_);
+      resolve_roles(r_, *builder_, resolved, diagnostics_);
+    } else {
+      add_slaves(program, resolved, check_phase);
+    }
+    if (diagnostics_.errors() != errors_before) return;
+    const std::size_t wanted = resolved.participant_names.size() + resolved.candidates().size();
+    if (publishers_ + wanted > most_publishers) {
+      diagnostics_.error(program.where.place(), "too many participants of all programs together",
+                         {std::to_string(publishers_ + wanted) + " with this program", "at most " + std::to_string(most_publishers)});
       return;
     }
+    resolved.first_publisher_id = static_cast<std::uint16_t>(publishers_ + 1);
+    publishers_ += wanted;
+    if (!lay_program_streams(r_, *builder_, resolved)) return;
+    resolve_replies(r_.topology, resolved);
+    r_.programs.push_back(std::move(resolved));
+  }
+
+  /// Without roles: all are participants from the beginning.
+  void add_slaves(const Program& program, ResolvedProgram& resolved, const auto& check_phase) {
     refuse_without_roles(program, diagnostics_);
     std::set<std::string_view> seen;
     const auto add_participant = [&](const std::string& name, const json::Place& place) {
       if (!seen.insert(name).second)
         diagnostics_.error(place, "a host twice in one program", {json::quote(name), "each participant on a host of its own"});
-      if (const auto host = builder_->host(name, place)) resolved.participants.push_back(models::NodeIndex{*host});
+      if (const auto host = builder_->host(name, place)) resolved.members.push_back({.node = models::NodeIndex{*host}});
       resolved.participant_names.push_back(name);
     };
     add_participant(program.master, program.where.at("master"));
@@ -265,28 +281,6 @@ class Resolver {
     }
     check_process_data(program);
     check_replies(program, diagnostics_);
-    if (publishers_ + resolved.participants.size() > most_publishers)
-      diagnostics_.error(program.where.place(), "too many participants of all programs together",
-                         {std::to_string(publishers_ + resolved.participants.size()) + " with this program", "at most " + std::to_string(most_publishers)});
-    if (diagnostics_.errors() != errors_before) return;
-    resolved.first_publisher_id = static_cast<std::uint16_t>(publishers_ + 1);
-    publishers_ += resolved.participants.size();
-
-    const Octets state_octets{wire::state_octets(variant_of(program.variant))};
-    for (std::uint8_t p = 0; p < resolved.participants.size(); ++p) {
-      const auto stream = add_program_stream(program, resolved, p, "state", state_octets, program.where);
-      if (!stream) return;
-      resolved.state_streams.push_back(*stream);
-    }
-    for (const ProcessData& data : program.process_data) add_process_data(program, data, resolved);
-    resolve_replies(r_.topology, resolved);
-    r_.programs.push_back(std::move(resolved));
-  }
-
-  static std::uint32_t field_octets_of(const ProcessData& data) {
-    std::uint32_t octets = 0;
-    for (const auto& [name, field] : data.fields) octets += static_cast<std::uint32_t>(uadp::fixed_octets(built_in_type_of(field.type))) * field.count;
-    return octets;
   }
 
   /// What is wrong with data sets, whatever else is wrong with their program.
@@ -304,45 +298,6 @@ class Resolver {
       if (msdu > models::maximum_msdu)
         diagnostics_.error(data.where.at("fields"), "more than one frame", {std::to_string(msdu.count) + " octets after the EtherType", "at most 1500 with all headers"});
     }
-  }
-
-  void add_process_data(const Program& program, const ProcessData& data, ResolvedProgram& resolved) {
-    ResolvedProcessData made;
-    made.name = data.name;
-    const auto participant = participant_of(program, data.from, data.where.at("from"));
-    made.from = *participant;   // check_process_data has found it
-    made.field_octets = field_octets_of(data);
-    for (const auto& [name, field] : data.fields) made.values += field.count;
-    const auto stream = add_program_stream(program, resolved, *participant, data.name,
-                                           Octets{wire::process_data_octets(made.field_octets)}, data.where);
-    if (!stream) return;
-    made.stream = *stream;
-    resolved.process_data.push_back(std::move(made));
-  }
-
-  /// A stream of a program: from the master to all slaves; from a slave to the master, or to all others.
-  std::optional<models::StreamIndex> add_program_stream(const Program& program, const ResolvedProgram& resolved, std::uint8_t from,
-                                                        const std::string& what, Octets payload, const json::Source& where) {
-    NewStream wanted;
-    wanted.name = program.name + "/" + what + (what == "state" ? "/" + r_.topology.nodes[resolved.participants[from].value].name : "");
-    wanted.where = where;
-    wanted.from = resolved.participants[from].value;
-    if (from != 0) wanted.to.push_back({resolved.participants[0].value, program.where.at("master")});
-    if (from == 0 || program.subscription == Subscription::all_to_all)
-      for (std::size_t i = 1; i < resolved.participants.size(); ++i)
-        if (i != from) wanted.to.push_back({resolved.participants[i].value, program.where.at("slaves", i - 1)});
-    wanted.priority = program.pcp;
-    wanted.vlan = program.vlan;
-    wanted.payload = payload;
-    wanted.of_program = true;
-    wanted.ether_type = wire::uadp_ether_type;
-    const auto index = builder_->add(wanted);
-    if (!index) return std::nullopt;
-    const models::StreamPlan& plan = r_.plan.streams[index->value];
-    StreamDemand& demand = r_.streams[index->value].demand;
-    demand.frames_per_second = 1e12 / static_cast<double>(program.cycle.ps());
-    demand.wire_bits_per_second = demand.frames_per_second * 8.0 * models::wire_length(models::frame_length(plan.headers + payload, true)).count;
-    return index;
   }
 
   /// Whether the name may be that of a participant that was refused: a node, or a role that could not be read.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -41,7 +42,6 @@ struct ResolvedProcessData {
   std::uint8_t from = 0;             ///< participant
   std::uint32_t field_octets = 0;
   std::uint32_t values = 0;          ///< single ones, in all fields
-  models::StreamIndex stream;
 };
 
 /// Data sets of one program: `with` is published when `to` has come and was worked at.
@@ -55,32 +55,35 @@ struct ResolvedProcessing {
   sim::Distribution per_field = sim::Distribution::constant({});
 };
 
-/// A node that may have a role of a program.
-struct ResolvedCandidate {
+/// A node that is a participant of a program from the beginning, or may become one: a candidate for its roles.
+struct ResolvedMember {
   models::NodeIndex node;
-  std::vector<std::string> skills;                      ///< that it offers
-  bool is_absent = false;                               ///< at the beginning
-  models::StreamIndex announcements;
-  models::StreamIndex state;
-  std::vector<std::optional<models::StreamIndex>> data; ///< by data set, of those that a role it may have sends
+  std::vector<std::string> skills = {};                 ///< that a candidate offers
+  bool is_absent = false;                               ///< a candidate, at the beginning
+  models::StreamIndex state = {};
+  std::optional<models::StreamIndex> roles = {};        ///< with roles: the bindings that the master tells, what a candidate announces
+  std::vector<std::optional<models::StreamIndex>> data = {};   ///< by data set, of those that it sends, or a role that it may have
 };
 
 struct ResolvedProgram {
   std::string name;
   const Program* description = nullptr;
-  std::vector<models::NodeIndex> participants;          ///< 0 the master, then the slaves; with roles the master only
-  std::vector<std::string> participant_names;           ///< nodes, or roles
-  std::vector<models::StreamIndex> state_streams;       ///< of each participant
+  std::vector<ResolvedMember> members;                  ///< 0 the master, then the slaves, or with roles the candidates
+  std::vector<std::string> participant_names;           ///< the master, then the slaves, or the roles
   std::vector<ResolvedProcessData> process_data;
   std::vector<ResolvedReply> replies;                   ///< as in the description
   std::vector<ResolvedProcessing> processing;           ///< by participant; empty without replies
   std::vector<Duration> phases;                         ///< of publishing, by participant
   Duration receive_timeout;
   std::uint16_t first_publisher_id = 1;                 ///< of the master
-  std::vector<ResolvedCandidate> candidates = {};       ///< of its roles
-  models::StreamIndex table_stream = {};                ///< with roles: the bindings
-  Duration announce_every = {};
+  Duration announce_every = {};                         ///< with roles
+  /// Roles are bound while it runs; without them each slave is a role that is bound from the beginning.
   bool has_roles() const { return !description->roles.empty(); }
+  /// Of the members those that are so from the beginning; and the others.
+  std::span<const ResolvedMember> participants() const { return std::span(members).first(has_roles() ? 1 : members.size()); }
+  std::span<const ResolvedMember> candidates() const { return std::span(members).subspan(participants().size()); }
+  /// The only stream of a data set that one of participants() sends.
+  models::StreamIndex stream_of(std::size_t data_set) const { return *members[process_data[data_set].from].data[data_set]; }
   /// Nested: its master is a slave of this program.
   struct Outer {
     std::uint32_t program = 0;                          ///< in Resolved::programs

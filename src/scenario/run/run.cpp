@@ -16,8 +16,45 @@
 
 namespace takt::scenario {
 namespace {
+
 constexpr std::uint32_t script_action = 120;  // kind of digest record
+
+wire::EndpointSettings endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) {
+  const Program& description = *program.description;
+  wire::EndpointSettings endpoint;
+  endpoint.handshake.variant = format->shape().variant;
+  endpoint.handshake.role = participant == 0 ? handshake::Role::Master : handshake::Role::Slave;
+  endpoint.handshake.index = static_cast<std::uint8_t>(participant);
+  endpoint.handshake.slaves = static_cast<std::uint8_t>(program.participant_names.size() - 1);
+  endpoint.handshake.incarnation = 1;
+  endpoint.handshake.subscription = description.subscription == Subscription::star ? handshake::Subscription::Star : handshake::Subscription::AllToAll;
+  endpoint.handshake.nested = program.nested.contains(static_cast<std::uint8_t>(participant));
+  endpoint.format = std::move(format);
+  endpoint.cycle = description.cycle;
+  endpoint.offset = program.phases[participant];
+  endpoint.receive_timeout = program.receive_timeout;
+  endpoint.initialisation = description.initialisation;
+  endpoint.publish_on_change = description.publish == Publish::on_change;
+  endpoint.priority = description.pcp;
+  return endpoint;
 }
+
+/// What is no participant from the beginning gets index and incarnation with its role.
+wire::NodeSettings node_settings(const ResolvedProgram& program, std::size_t m, const ProgramFormats& formats) {
+  const ResolvedMember& member = program.members[m];
+  const bool is_candidate = m >= program.participants().size();
+  wire::NodeSettings node{endpoint_settings(program, is_candidate ? 1 : m, formats.program)};
+  if (!program.replies.empty()) {   // what it answers at once, instead of publishing it every cycle
+    node.endpoint.on_demand.assign(program.process_data.size(), false);
+    for (const ResolvedReply& reply : program.replies) node.endpoint.on_demand[reply.with] = true;
+  }
+  if (!program.has_roles()) return node;
+  node.roles = wire::RoleSettings{formats.roles, program.announce_every, program.description->on_replacement == OnReplacement::restart, {}};
+  if (is_candidate) node.roles->offer = wire::Offer{static_cast<std::uint8_t>(m - 1), 1, vocabulary::skill_ids_of(member.skills), !member.is_absent};
+  return node;
+}
+
+}  // namespace
 
 /// Calls the methods that the scenario's script asks for, before anything else of their instant.
 class Run::Script final : public sim::Component {
@@ -93,108 +130,33 @@ auto Run::LiveProgram::who_is(std::size_t participant) const -> const LiveMember
   return binding.bound() ? &members[binding.candidate + std::size_t{1}] : nullptr;
 }
 
-auto Run::add_member(const ResolvedProgram& program, models::NodeIndex node, ProgramApplication::Settings settings, const LiveProgram& live) -> LiveMember {
-  auto application = std::make_unique<ProgramApplication>(std::move(settings), *live.monitor, live.roles.get(), node);
-  ProgramApplication* const raw = application.get();
-  return {&network_.add_process(node, program.name, std::move(application)), raw};
-}
-
-/// What the participant answers at once, instead of publishing it every cycle.
-void Run::add_replies(const ResolvedProgram& program, std::size_t participant, ProgramApplication::Settings& settings) const {
-  const std::string path = resolved_->topology.nodes[program.participants[participant].value].name + "/" + program.name;
-  settings.replies.emplace(program, static_cast<std::uint8_t>(participant), resolved_->scenario.seed, path);
-  settings.node.endpoint.on_demand.assign(program.process_data.size(), false);
-  for (const ResolvedReply& reply : program.replies) settings.node.endpoint.on_demand[reply.with] = true;
-}
-
-wire::EndpointSettings Run::endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) const {
-  const Program& description = *program.description;
-  wire::EndpointSettings endpoint;
-  endpoint.handshake.variant = format->shape().variant;
-  endpoint.handshake.role = participant == 0 ? handshake::Role::Master : handshake::Role::Slave;
-  endpoint.handshake.index = static_cast<std::uint8_t>(participant);
-  endpoint.handshake.slaves = static_cast<std::uint8_t>(program.participant_names.size() - 1);
-  endpoint.handshake.incarnation = 1;
-  endpoint.handshake.subscription = description.subscription == Subscription::star ? handshake::Subscription::Star : handshake::Subscription::AllToAll;
-  endpoint.handshake.nested = program.nested.contains(static_cast<std::uint8_t>(participant));
-  endpoint.format = std::move(format);
-  endpoint.cycle = description.cycle;
-  endpoint.offset = program.phases[participant];
-  endpoint.receive_timeout = program.receive_timeout;
-  endpoint.initialisation = description.initialisation;
-  endpoint.publish_on_change = description.publish == Publish::on_change;
-  endpoint.priority = description.pcp;
-  return endpoint;
-}
-
 void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
-  if (program.has_roles()) {
-    add_program_with_roles(number, program);
-    return;
-  }
   auto live = std::make_unique<LiveProgram>();
-  const auto format = std::make_shared<const wire::ProgramFormat>(shape_of(program));
-  live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, format->shape().variant, program.participants.size(), instants_);
-  for (std::size_t p = 0; p < program.participants.size(); ++p) {
-    ProgramApplication::Settings settings;
-    settings.node.endpoint = endpoint_settings(program, p, format);
-    settings.state_stream = program.state_streams[p];
-    for (const ResolvedProcessData& data : program.process_data) settings.data_streams.push_back(data.stream);
-    if (!program.replies.empty()) add_replies(program, p, settings);
-    live->members.push_back(add_member(program, program.participants[p], std::move(settings), *live));
-  }
-  std::vector<std::uint32_t> nodes;
-  for (const models::NodeIndex node : program.participants) nodes.push_back(node.value);
+  const ProgramFormats formats = formats_of(program, resolved_->topology);
+  live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, formats.program->shape().variant, program.participant_names.size(), instants_);
+  std::vector<std::uint32_t> nodes(program.participant_names.size());
+  for (std::size_t p = 0; p < program.participants().size(); ++p) nodes[p] = program.members[p].node.value;
   live->monitor->set_nodes(std::move(nodes));
   live->monitor->set_faults(faults_of(*resolved_, program));
   if (!program.replies.empty()) live->monitor->set_round_trips(program);
-  connect_streams(program, *live);
-  programs_.push_back(std::move(live));
-}
-
-void Run::add_program_with_roles(std::uint32_t number, const ResolvedProgram& program) {
-  auto live = std::make_unique<LiveProgram>();
-  std::vector<std::string> names;
-  for (const ResolvedCandidate& each : program.candidates) names.push_back(resolved_->topology.nodes[each.node.value].name);
-  const auto format = std::make_shared<const wire::PlugFormat>(vocabulary::plug_shape_of(shape_of(program), program.description->roles, std::move(names)));
-  const auto program_format = std::make_shared<const wire::ProgramFormat>(format->shape().program);
-  live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, handshake::Variant::Robust, program.participant_names.size(), instants_);
-  std::vector<std::uint32_t> nodes;
-  for (const ResolvedCandidate& each : program.candidates) nodes.push_back(each.node.value);
-  LiveProgram* const raw = live.get();
-  const auto state_of = [raw](const handshake::Binding& binding) { return binding.bound() ? raw->members[binding.candidate + std::size_t{1}].application->state_of(binding.life) : std::nullopt; };
-  live->roles = std::make_unique<PlugMonitor>(simulation_, number, *live->monitor, format->roles(), std::move(nodes), state_of);
-  std::vector<std::uint32_t> at_first(program.participant_names.size());
-  at_first[0] = program.participants[0].value;
-  live->monitor->set_nodes(std::move(at_first));
-  live->monitor->set_faults(faults_of(*resolved_, program));
-
-  ProgramApplication::Settings settings;
-  settings.node.endpoint = endpoint_settings(program, 0, program_format);
-  settings.node.roles = wire::RoleSettings{format, program.announce_every, program.description->on_replacement == OnReplacement::restart, {}};
-  settings.state_stream = program.state_streams[0];
-  settings.role_stream = program.table_stream;
-  for (const ResolvedProcessData& data : program.process_data) settings.data_streams.push_back(data.from == 0 ? std::optional(data.stream) : std::nullopt);
-  live->members.push_back(add_member(program, program.participants[0], settings, *live));
-  models::Process* const master = live->members[0].process;
-
-  settings.node.endpoint = endpoint_settings(program, 1, program_format);  // the index follows with the role
-  for (std::uint8_t c = 0; c < program.candidates.size(); ++c) {
-    const ResolvedCandidate& each = program.candidates[c];
-    settings.node.roles->offer = wire::Offer{c, 1, vocabulary::skill_ids_of(each.skills), !each.is_absent};
-    settings.state_stream = each.state;
-    settings.role_stream = each.announcements;
-    settings.data_streams = each.data;
-    live->members.push_back(add_member(program, each.node, settings, *live));
-    models::Process* const process = live->members.back().process;
-    network_.listen(each.node, program.state_streams[0], process);
-    network_.listen(each.node, program.table_stream, process);
-    for (const ResolvedProcessData& data : program.process_data)
-      if (data.from == 0) network_.listen(each.node, data.stream, process);
-    for (const models::StreamIndex stream : {each.state, each.announcements}) network_.listen(program.participants[0], stream, master);
-    for (const auto& stream : each.data)
-      if (stream) network_.listen(program.participants[0], *stream, master);
+  if (program.has_roles()) {
+    std::vector<std::uint32_t> candidates;
+    for (const ResolvedMember& each : program.candidates()) candidates.push_back(each.node.value);
+    const auto state_of = [raw = live.get()](const handshake::Binding& binding) {
+      return binding.bound() ? raw->members[binding.candidate + std::size_t{1}].application->state_of(binding.life) : std::nullopt;
+    };
+    live->roles = std::make_unique<PlugMonitor>(simulation_, number, *live->monitor, formats.roles->roles(), std::move(candidates), state_of);
   }
+  for (std::size_t m = 0; m < program.members.size(); ++m) {
+    const ResolvedMember& member = program.members[m];
+    ProgramApplication::Settings settings{node_settings(program, m, formats), member.state, member.roles, member.data, {}};
+    const std::string path = resolved_->topology.nodes[member.node.value].name + "/" + program.name;
+    if (!program.replies.empty()) settings.replies.emplace(program, static_cast<std::uint8_t>(m), resolved_->scenario.seed, path);
+    auto application = std::make_unique<ProgramApplication>(std::move(settings), *live->monitor, live->roles.get(), member.node);
+    ProgramApplication* const raw = application.get();
+    live->members.push_back({&network_.add_process(member.node, program.name, std::move(application)), raw});
+  }
+  connect_streams(program, *live);
   programs_.push_back(std::move(live));
 }
 
@@ -272,7 +234,7 @@ void Run::nest_programs() {
   for (const std::vector<std::uint32_t>& tree : trees_of(*resolved_)) {
     std::vector<handshake::TreeGroup> groups;
     for (const std::uint32_t number : tree) {
-      handshake::TreeGroup group{resolved_->programs[number].participants.size(), 0, 0};
+      handshake::TreeGroup group{resolved_->programs[number].members.size(), 0, 0};
       if (const auto& outer = resolved_->programs[number].outer) {
         group.outer = static_cast<std::size_t>(std::find(tree.begin(), tree.end(), outer->program) - tree.begin());
         group.outer_index = outer->participant;
@@ -292,16 +254,20 @@ void Run::crash_programs(models::NodeIndex node) {
     if (resolved_->applications[a].node == node) applications_[a]->crash();
 }
 
-/// Hands the streams of the program to the processes of those that subscribe to them.
+/// Hands the streams of the program to the processes of those that subscribe to them: all others, or in a star the master, and all others to the master's.
 void Run::connect_streams(const ResolvedProgram& program, const LiveProgram& live) {
-  const auto connect = [&](std::size_t from, models::StreamIndex stream) {
-    if (from != 0) network_.listen(program.participants[0], stream, live.members[0].process);
-    if (from != 0 && program.description->subscription == Subscription::star) return;
-    for (std::size_t slave = 1; slave < program.participants.size(); ++slave)
-      if (slave != from) network_.listen(program.participants[slave], stream, live.members[slave].process);
-  };
-  for (std::size_t p = 0; p < program.participants.size(); ++p) connect(p, program.state_streams[p]);
-  for (const ResolvedProcessData& data : program.process_data) connect(data.from, data.stream);
+  for (std::size_t from = 0; from < program.members.size(); ++from) {
+    const ResolvedMember& sender = program.members[from];
+    const bool is_heard_by_all = from == 0 || program.description->subscription == Subscription::all_to_all;
+    for (std::size_t to = 0; to < (is_heard_by_all ? program.members.size() : 1); ++to) {
+      if (to == from) continue;
+      const auto connect = [&](models::StreamIndex stream) { network_.listen(program.members[to].node, stream, live.members[to].process); };
+      connect(sender.state);
+      if (sender.roles) connect(*sender.roles);
+      for (const auto& data : sender.data)
+        if (data) connect(*data);
+    }
+  }
 }
 
 }  // namespace takt::scenario

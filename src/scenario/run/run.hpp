@@ -68,10 +68,6 @@ class Run {
   class Script;
 
   void add_program(std::uint32_t number, const ResolvedProgram& program);
-  LiveMember add_member(const ResolvedProgram& program, models::NodeIndex node, ProgramApplication::Settings settings, const LiveProgram& live);
-  void add_replies(const ResolvedProgram& program, std::size_t participant, ProgramApplication::Settings& settings) const;
-  wire::EndpointSettings endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) const;
-  void add_program_with_roles(std::uint32_t number, const ResolvedProgram& program);
   void nest_programs();
   void add_ports(std::uint32_t number, const ResolvedApplication& application, TopicApplication::Settings& settings) const;
   void add_application(std::uint32_t number, const ResolvedApplication& application);

@@ -1,0 +1,91 @@
+#include "scenario/resolve/program_streams.hpp"
+
+#include <algorithm>
+
+#include "models/ethernet/sizes.hpp"
+#include "uadp/builtin_type.hpp"
+#include "vocabulary/protocol.hpp"
+#include "wire/plug_format.hpp"
+
+namespace takt::scenario {
+namespace {
+
+class ProgramStreams {
+ public:
+  ProgramStreams(Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program) : r_(resolved), builder_(builder), program_(program), description_(*program.description) {}
+
+  bool lay() {
+    const Octets state{wire::state_octets(vocabulary::variant_of(description_.variant))};
+    const Octets table{wire::table_octets(description_.roles.size(), program_.candidates().size())};
+    for (std::size_t m = 0; m < program_.members.size(); ++m) {
+      ResolvedMember& member = program_.members[m];
+      if (m != 0 && program_.has_roles()) member.roles = add(m, "announce/" + name_of(member), Octets{wire::announcement_octets}, program_.announce_every, description_.where);
+      member.state = add(m, "state/" + name_of(member), state, description_.cycle, description_.where);
+      if (m == 0 && program_.has_roles()) member.roles = add(m, "bindings", table, program_.announce_every, description_.where);
+      if (has_failed_) return false;
+    }
+    for (const ProcessData& data : description_.process_data) add(data);
+    return !has_failed_;
+  }
+
+ private:
+  void add(const ProcessData& data) {
+    ResolvedProcessData made;
+    made.name = data.name;
+    made.from = static_cast<std::uint8_t>(std::ranges::find(program_.participant_names, data.from) - program_.participant_names.begin());
+    made.field_octets = field_octets_of(data);
+    for (const auto& [name, field] : data.fields) made.values += field.count;
+    const bool is_of_role = program_.has_roles() && made.from != 0;
+    for (std::size_t m = 0; m < program_.members.size(); ++m) {
+      ResolvedMember& member = program_.members[m];
+      member.data.emplace_back();
+      const bool sends = is_of_role ? std::ranges::find(member.skills, description_.roles[made.from - std::size_t{1}].skill) != member.skills.end() : m == made.from;
+      if (sends) member.data.back() = add(m, data.name + (is_of_role ? "/" + name_of(member) : ""), Octets{wire::process_data_octets(made.field_octets)}, description_.cycle, data.where);
+    }
+    program_.process_data.push_back(std::move(made));
+  }
+
+  /// From the master to all others; from another to the master, or to all.
+  models::StreamIndex add(std::size_t from, const std::string& what, Octets payload, Duration every, const json::Source& where) {
+    NewStream wanted;
+    wanted.name = program_.name + "/" + what;
+    wanted.where = where;
+    wanted.from = program_.members[from].node.value;
+    if (from != 0) wanted.to.push_back({program_.members[0].node.value, description_.where.at("master")});
+    if (from == 0 || description_.subscription == Subscription::all_to_all)
+      for (std::size_t m = 1; m < program_.members.size(); ++m)
+        if (m != from) wanted.to.push_back({program_.members[m].node.value, program_.has_roles() ? description_.where.at("roles") : description_.where.at("slaves", m - 1)});
+    wanted.priority = description_.pcp;
+    wanted.vlan = description_.vlan;
+    wanted.payload = payload;
+    wanted.of_program = true;
+    wanted.ether_type = wire::uadp_ether_type;
+    const auto index = builder_.add(wanted);
+    has_failed_ = has_failed_ || !index;
+    if (!index) return {};
+    StreamDemand& demand = r_.streams[index->value].demand;
+    demand.frames_per_second = 1e12 / static_cast<double>(every.ps());
+    demand.wire_bits_per_second = demand.frames_per_second * 8.0 * models::wire_length(models::frame_length(r_.plan.streams[index->value].headers + payload, true)).count;
+    return *index;
+  }
+
+  const std::string& name_of(const ResolvedMember& member) const { return r_.topology.nodes[member.node.value].name; }
+
+  Resolved& r_;
+  StreamBuilder& builder_;
+  ResolvedProgram& program_;
+  const Program& description_;
+  bool has_failed_ = false;
+};
+
+}  // namespace
+
+std::uint32_t field_octets_of(const ProcessData& data) {
+  std::uint32_t octets = 0;
+  for (const auto& [name, field] : data.fields) octets += static_cast<std::uint32_t>(uadp::fixed_octets(vocabulary::built_in_type_of(field.type))) * field.count;
+  return octets;
+}
+
+bool lay_program_streams(Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program) { return ProgramStreams(resolved, builder, program).lay(); }
+
+}  // namespace takt::scenario

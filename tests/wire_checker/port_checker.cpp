@@ -77,8 +77,8 @@ void PortChecker::tell_credit(TrafficClass q) {
 void PortChecker::check_start(const Item& item, TrafficClass q, std::uint32_t octets) {
   if (now_ < free_at_) fail(item, "starts " + std::to_string(free_at_ - now_) + " ps before the medium is free: frames overlap or the gap is too short");
   if (!up_) fail(item, "starts on a link that is down");
-  if (fit(q, now_, duration_of(octets)) != now_) fail(item, gate_open(q, gates_) ? "does not end before its gate closes" : "starts while its gate is closed");
-  if (is_preemptable(q) && hold_at(now_).asked) fail(item, "is preemptable and starts while the MAC holds");
+  if (fit(q, now_, duration_of(octets), gates_) != now_) fail(item, gate_open(q, gates_) ? "does not end before its gate closes" : "starts while its gate is closed");
+  if (is_preemptable(q) && hold_at(now_, gates_).asked) fail(item, "is preemptable and starts while the MAC holds");
 }
 
 void PortChecker::check_nobody_is_passed_over(const Item& item, TrafficClass q) {
@@ -223,7 +223,7 @@ void PortChecker::resumed(const SeenFrame& seen, models::TransmissionDetail deta
 void PortChecker::end() {
   drop_pending();
   if (cut_wants_reason_) {
-    bool express_waits = hold_at(now_).asked || !up_;
+    bool express_waits = hold_at(now_, gates_).asked || !up_;
     for (TrafficClass q = 0; q < traffic_class_count; ++q) express_waits = express_waits || (!is_preemptable(q) && !queues_[q].empty());
     if (!express_waits) fail("a frame is cut although no express frame waits and the MAC does not hold");
     cut_wants_reason_ = false;

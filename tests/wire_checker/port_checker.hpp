@@ -101,11 +101,17 @@ class PortChecker {
 
   // port_outlook.cpp
   bool gate_open(models::TrafficClass q, const ListMachine& gates) const;
-  Ps fit(models::TrafficClass q, Ps from, Ps duration) const;
-  CreditAccount credit_at(models::TrafficClass q, Ps time) const;
+  Ps fit(models::TrafficClass q, Ps from, Ps duration, ListMachine gates) const;
+  void follow(models::TrafficClass q, CreditAccount& credit, ListMachine& gates, Ps time) const;
+  /// How a class fares from now on, as far as somebody has looked.
+  struct Outlook {
+    std::optional<CreditAccount> credit;
+    ListMachine gates;
+  };
   Ps ready_time(models::TrafficClass q, Ps from, Ps eligible, Ps duration) const;
+  Ps ready_time(models::TrafficClass q, Ps from, Ps eligible, Ps duration, Outlook& outlook) const;
   bool is_ready(models::TrafficClass q, const Item& item) const;
-  HoldState hold_at(Ps time) const;
+  HoldState hold_at(Ps time, ListMachine gates) const;
   Ps idle_due(Ps from) const;
   Ps cut_due() const;
   std::optional<std::uint32_t> cut_after(Ps time) const;

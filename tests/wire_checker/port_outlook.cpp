@@ -11,10 +11,9 @@ using models::traffic_class_count;
 bool PortChecker::gate_open(TrafficClass q, const ListMachine& gates) const { return forced_[q].value_or(gates.is_open(q)); }
 
 /// The earliest instant at or after `from` at which gate q is open for so long; never if the lists show none.
-Ps PortChecker::fit(TrafficClass q, Ps from, Ps duration) const {
+Ps PortChecker::fit(TrafficClass q, Ps from, Ps duration, ListMachine gates) const {
   if (forced_[q]) return *forced_[q] ? from : never;
   if (!has_gates_) return from;
-  ListMachine gates = gates_;
   gates.run_to(from);
   const Ps horizon = gates.horizon();
   for (;;) {
@@ -32,13 +31,12 @@ Ps PortChecker::fit(TrafficClass q, Ps from, Ps duration) const {
   }
 }
 
-CreditAccount PortChecker::credit_at(TrafficClass q, Ps time) const {
-  CreditAccount credit = *credits_[q];
-  ListMachine gates = gates_;
+/// Takes an account and its list on to `time`.
+void PortChecker::follow(TrafficClass q, CreditAccount& credit, ListMachine& gates, Ps time) const {
   for (;;) {
     const Ps next = std::min(gates.next_event(), time);
     credit.flow(next, gate_open(q, gates));
-    if (next == time) return credit;
+    if (next == time) return;
     gates.run_to(next);
     credit.follow_list(gates.oper());
   }
@@ -46,11 +44,19 @@ CreditAccount PortChecker::credit_at(TrafficClass q, Ps time) const {
 
 /// The earliest instant at or after `from` at which a frame of that duration may start in class q, preemption aside.
 Ps PortChecker::ready_time(TrafficClass q, Ps from, Ps eligible, Ps duration) const {
+  Outlook outlook{credits_[q], gates_};
+  return ready_time(q, from, eligible, duration, outlook);
+}
+
+/// The same; `outlook` comes along, for whoever asks again for later. Where the gate is open for a little in each cycle, a slow account
+/// needs thousands of cycles, so they are gone through once.
+Ps PortChecker::ready_time(TrafficClass q, Ps from, Ps eligible, Ps duration, Outlook& outlook) const {
   Ps time = is_timed(q) ? std::max(from, eligible) : from;
   for (int attempt = 0; attempt < 1000; ++attempt) {
-    time = fit(q, time, duration);
-    if (time == never || !credits_[q]) return time;
-    const Ps growth = credit_at(q, time).growth_needed();
+    time = fit(q, time, duration, outlook.gates);
+    if (time == never || !outlook.credit) return time;
+    follow(q, *outlook.credit, outlook.gates, time);
+    const Ps growth = outlook.credit->growth_needed();
     if (growth == 0) return time;
     if (growth > never - time) return never;
     time += growth;
@@ -60,15 +66,14 @@ Ps PortChecker::ready_time(TrafficClass q, Ps from, Ps eligible, Ps duration) co
 
 bool PortChecker::is_ready(TrafficClass q, const Item& item) const {
   if (ready_time(q, now_, item.eligible, duration_of(item.length)) != now_) return false;
-  return !is_preemptable(q) || (!rest_ && !hold_at(now_).asked);
+  return !is_preemptable(q) || (!rest_ && !hold_at(now_, gates_).asked);
 }
 
 /// Whether the MAC is asked to hold at `time`, and until when that stays so. A release that comes in advance of the whole time of a hold
 /// leaves nothing of it.
-PortChecker::HoldState PortChecker::hold_at(Ps time) const {
+PortChecker::HoldState PortChecker::hold_at(Ps time, ListMachine gates) const {
   if (!may_hold_ || !config_.preemption) return {};
   const Ps release_advance = config_.preemption->release_advance.ps();
-  ListMachine gates = gates_;
   gates.run_to(std::max(time, gates.now()));
   const Ps horizon = gates.horizon() + hold_advance_;
   Ps asked_from = gates.holds() ? long_ago : never;
@@ -92,10 +97,11 @@ PortChecker::HoldState PortChecker::hold_at(Ps time) const {
 Ps PortChecker::idle_due(Ps from) const {
   const auto beyond_hold = [&](TrafficClass q, Ps eligible, Ps duration, bool is_rest) {
     Ps time = from;
+    Outlook outlook{credits_[q], gates_};
     for (int attempt = 0; attempt < 1000; ++attempt) {
-      time = is_rest ? fit(q, time, duration) : ready_time(q, time, eligible, duration);
+      time = is_rest ? fit(q, time, duration, outlook.gates) : ready_time(q, time, eligible, duration, outlook);
       if (time == never) return never;
-      const HoldState hold = hold_at(time);
+      const HoldState hold = hold_at(time, outlook.gates);
       if (!hold.asked) return time;
       if (hold.until == never) return never;
       time = hold.until;
@@ -132,7 +138,7 @@ Ps PortChecker::cut_due() const {
   const auto consider = [&](Ps time) {
     if (time < last_bit_ && cut_after(time)) due = std::min(due, time);
   };
-  if (const HoldState hold = hold_at(now_); hold.asked || hold.until != never) consider(hold.asked ? now_ : hold.until);
+  if (const HoldState hold = hold_at(now_, gates_); hold.asked || hold.until != never) consider(hold.asked ? now_ : hold.until);
   for (TrafficClass q = 0; q < traffic_class_count; ++q) {
     if (is_preemptable(q) || queues_[q].empty()) continue;
     const Item& head = queues_[q].front();

@@ -20,7 +20,6 @@ namespace {
 
 using sim::Duration;
 
-std::optional<Duration> duration_of(Ps ps) { return is_bounded(ps) ? std::optional(Duration::from_ps(ps)) : std::nullopt; }
 
 std::uint64_t bits_of(Ps work, const GraphPort& port) { return static_cast<std::uint64_t>(8 * ((work + port.octet_time - 1) / port.octet_time)); }
 

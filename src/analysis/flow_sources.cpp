@@ -11,7 +11,6 @@
 namespace takt::analysis {
 namespace {
 
-constexpr std::int64_t one = 1'000'000'000'000;
 /// Messages of one kind in a cycle of a participant that publishes on change: the cyclic one, and Assumption::program_publishes.
 constexpr std::int64_t messages_in_a_cycle = 5;
 
@@ -25,8 +24,8 @@ Overloaded(Cases...) -> Overloaded<Cases...>;
 ArrivalPattern at_any_time() { return {1, 1, 0, unbounded_ps}; }
 
 /// A length of a clock's time in true time, at least and at most.
-Ps shortest(Ps local, const ClockQuality& clock) { return scaled_down(local, one, one + clock.fastest_ppt); }
-Ps longest(Ps local, const ClockQuality& clock) { return scaled_up(local, one, one + clock.slowest_ppt); }
+Ps shortest(Ps local, const ClockQuality& clock) { return scaled_down(local, one_ppt, one_ppt + clock.fastest_ppt); }
+Ps longest(Ps local, const ClockQuality& clock) { return scaled_up(local, one_ppt, one_ppt + clock.slowest_ppt); }
 
 ArrivalPattern pattern_of(const models::TalkerPlan& talker, const ClockQuality& clock) {
   const auto periodic = [&](Ps period, Ps jitter) {

@@ -10,12 +10,12 @@ namespace {
 constexpr std::size_t most_frames = 20'000;
 /// Hyperperiods that are followed: frames of the second one are held against those of the third, the first and the last one are there for their neighbours.
 constexpr Ps rounds = 4;
-constexpr int most_steps = 1'000;
+constexpr int most_sequence_steps = 1'000;
 /// Clusters of so many frames are looked at in every order that may be.
 constexpr std::size_t most_in_any_order = 5;
 constexpr Ps never_before = -unbounded_ps;
 
-struct Arrival {
+struct SequencedArrival {
   Ps earliest = 0;
   Ps latest = 0;
   std::size_t flow = 0;
@@ -145,7 +145,7 @@ class Sequence {
         arrivals_.push_back({at, at + flow.width, f, turn, 0, 0});
       }
     }
-    std::sort(arrivals_.begin(), arrivals_.end(), [&](const Arrival& a, const Arrival& b) {
+    std::sort(arrivals_.begin(), arrivals_.end(), [&](const SequencedArrival& a, const SequencedArrival& b) {
       return std::tuple(a.latest, flows_[a.flow].rank, a.flow) < std::tuple(b.latest, flows_[b.flow].rank, b.flow);
     });
     return true;
@@ -163,7 +163,7 @@ class Sequence {
     return flow.first - (leader->first - into);
   }
 
-  bool is_of_one_train(const Arrival& before, const Arrival& behind) const {
+  bool is_of_one_train(const SequencedArrival& before, const SequencedArrival& behind) const {
     const SequencedFlow& a = flows_[before.flow];
     const SequencedFlow& b = flows_[behind.flow];
     return a.train && a.train == b.train && a.period == b.period && std::tuple(before.turn, a.rank) < std::tuple(behind.turn, b.rank);
@@ -173,7 +173,7 @@ class Sequence {
   void find_clusters() {
     for (std::size_t j = 0; j < arrivals_.size(); ++j) {
       clusters_.push_back(j);
-      const auto first = std::lower_bound(arrivals_.begin(), arrivals_.begin() + static_cast<std::ptrdiff_t>(j), arrivals_[j].earliest, [](const Arrival& a, Ps time) { return a.latest < time; });
+      const auto first = std::lower_bound(arrivals_.begin(), arrivals_.begin() + static_cast<std::ptrdiff_t>(j), arrivals_[j].earliest, [](const SequencedArrival& a, Ps time) { return a.latest < time; });
       for (auto i = static_cast<std::size_t>(first - arrivals_.begin()); i < j; ++i) {
         if (is_of_one_train(arrivals_[i], arrivals_[j])) continue;
         while (clusters_.back() > i) clusters_.pop_back();
@@ -183,7 +183,7 @@ class Sequence {
     }
   }
   std::size_t end_of(std::size_t cluster) const { return cluster + 1 < clusters_.size() ? clusters_[cluster + 1] : arrivals_.size(); }
-  Ps round_of(const Arrival& arrival) const { return arrival.turn / (hyperperiod_ / flows_[arrival.flow].period); }
+  Ps round_of(const SequencedArrival& arrival) const { return arrival.turn / (hyperperiod_ / flows_[arrival.flow].period); }
 
   /// A cluster that goes on over a whole hyperperiod, of which only a part is there.
   bool has_endless_cluster() const {
@@ -196,7 +196,7 @@ class Sequence {
   /// `need` of the port's time after `from`, and what others take.
   Ps start(Ps from, Ps need, Ps last_bit) const {
     Ps time = 0;
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < most_sequence_steps; ++step) {
       const Ps at = starts_.surely(from, others_ ? sum(need, others_(time)) : need, last_bit);
       if (!is_bounded(at)) return unbounded_ps;
       if (!others_ || at - from <= time) return at;
@@ -209,7 +209,7 @@ class Sequence {
     Ps works = 0;
     Ps last_bit = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      Arrival& arrival = arrivals_[i];
+      SequencedArrival& arrival = arrivals_[i];
       works = sum(works, flows_[arrival.flow].work);
       last_bit = std::max(last_bit, flows_[arrival.flow].last_bit);
       arrival.first_start = starts_.perhaps(arrival.earliest, flows_[arrival.flow].last_bit);
@@ -242,7 +242,7 @@ class Sequence {
       if (!may_be) continue;
       Ps before = before_;
       for (std::size_t i = 0; i < order.size(); ++i) {
-        Arrival& arrival = arrivals_[order[i]];
+        SequencedArrival& arrival = arrivals_[order[i]];
         Ps latest = arrival.latest;
         for (std::size_t behind = i + 1; behind < order.size(); ++behind) latest = std::min(latest, arrivals_[order[behind]].latest);
         const Ps started = start(std::max(latest, before), 0, flows_[arrival.flow].last_bit);
@@ -254,7 +254,7 @@ class Sequence {
   }
 
   /// Only the frames of a round with all of its neighbours count.
-  void note_wait(const Arrival& arrival, bool is_alone) {
+  void note_wait(const SequencedArrival& arrival, bool is_alone) {
     if (bound_.flows.empty()) bound_.flows.assign(flows_.size(), {0, unbounded_ps, never_before});
     if (round_of(arrival) != rounds - 2) return;
     SequencedTimes& times = bound_.flows[arrival.flow];
@@ -273,14 +273,14 @@ class Sequence {
   bool repeats() const {
     std::vector<std::vector<Ps>> starts(flows_.size());
     for (std::size_t f = 0; f < flows_.size(); ++f) starts[f].assign(static_cast<std::size_t>(rounds * (hyperperiod_ / flows_[f].period)), 0);
-    for (const Arrival& arrival : arrivals_) starts[arrival.flow][static_cast<std::size_t>(arrival.turn)] = arrival.started;
-    for (const Arrival& arrival : arrivals_)
+    for (const SequencedArrival& arrival : arrivals_) starts[arrival.flow][static_cast<std::size_t>(arrival.turn)] = arrival.started;
+    for (const SequencedArrival& arrival : arrivals_)
       if (round_of(arrival) == rounds - 2 && starts[arrival.flow][static_cast<std::size_t>(arrival.turn - hyperperiod_ / flows_[arrival.flow].period)] + hyperperiod_ != arrival.started) return false;
     return true;
   }
 
   void take_times() {
-    for (const Arrival& arrival : arrivals_) {
+    for (const SequencedArrival& arrival : arrivals_) {
       if (round_of(arrival) != rounds - 2) continue;
       SequencedTimes& times = bound_.flows[arrival.flow];
       times.earliest = std::min(times.earliest, arrival.first_start - arrival.earliest);
@@ -291,7 +291,7 @@ class Sequence {
   /// A frame is there from its arrival to the end of the gap behind it.
   void count_backlog() {
     std::vector<std::tuple<Ps, bool, Ps>> changes;
-    for (const Arrival& arrival : arrivals_) {
+    for (const SequencedArrival& arrival : arrivals_) {
       const Ps work = flows_[arrival.flow].work;
       changes.emplace_back(arrival.earliest, true, work);
       changes.emplace_back(arrival.started + work, false, work);   // before what comes at that instant
@@ -313,7 +313,7 @@ class Sequence {
   const OthersWork& others_;
   Ps cycle_;
   Ps hyperperiod_ = 1;
-  std::vector<Arrival> arrivals_;          // by latest arrival
+  std::vector<SequencedArrival> arrivals_;          // by latest arrival
   std::vector<std::size_t> clusters_;      // where each begins
   bool is_ordered_ = true;                 // each cluster is one frame
   Ps before_ = never_before;               // all clusters so far are done

@@ -10,12 +10,6 @@ namespace takt::analysis {
 using sim::Duration;
 using sim::LocalTime;
 
-namespace {
-
-constexpr std::int64_t one = 1'000'000'000'000;
-
-}  // namespace
-
 const ClockQuality& GateBeginning::quality_of(models::NodeIndex node) {
   if (node.value >= r_.plan.gptp.size() || !r_.plan.gptp[node.value]) return other_ = clock_quality(r_, node, options_);
   if (!of_gptp_) of_gptp_ = clock_quality(r_, node, options_);
@@ -27,8 +21,8 @@ Duration GateBeginning::latest(models::NodeIndex node, LocalTime base_time, Dura
   if (!plan.clock) return models::first_cycle_from(LocalTime() + from, base_time, cycle).since_start();
   const ClockQuality& clock = quality_of(node);
   // What the clock shows when the list is read. One that gPTP sets right may have been set already, or not yet.
-  LocalTime earliest = LocalTime() + plan.clock->initial_offset + Duration::from_ps(scaled_down(from.ps(), one + clock.slowest_ppt, one));
-  LocalTime last = LocalTime() + plan.clock->initial_offset + Duration::from_ps(scaled_up(from.ps(), one + clock.fastest_ppt, one));
+  LocalTime earliest = LocalTime() + plan.clock->initial_offset + Duration::from_ps(scaled_down(from.ps(), one_ppt + clock.slowest_ppt, one_ppt));
+  LocalTime last = LocalTime() + plan.clock->initial_offset + Duration::from_ps(scaled_up(from.ps(), one_ppt + clock.fastest_ppt, one_ppt));
   if (clock.is_synchronised) {
     last = std::max(last, LocalTime() + from + Duration::from_ps(clock.error));
     // The clock shows the instant no later than its error after it, from when on it holds: that is an assumption of its own.
@@ -36,7 +30,7 @@ Duration GateBeginning::latest(models::NodeIndex node, LocalTime base_time, Dura
   }
   const Duration wait = earliest == last ? models::first_cycle_from(last, base_time, cycle) - last
                                          : std::max(base_time - earliest, base_time < last ? cycle : Duration());
-  return from + Duration::from_ps(scaled_up(wait.ps(), one, one + clock.slowest_ppt));
+  return from + Duration::from_ps(scaled_up(wait.ps(), one_ppt, one_ppt + clock.slowest_ppt));
 }
 
 Duration GateBeginning::latest_of_all() {

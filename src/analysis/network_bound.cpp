@@ -14,7 +14,6 @@ namespace {
 
 /// More rounds than any sound network needs; what still grows then is taken for unbounded.
 constexpr int most_rounds = 5000;
-constexpr std::int64_t one = 1'000'000'000'000;
 
 class FixedPoint {
  public:
@@ -264,8 +263,8 @@ class FixedPoint {
     hop.worst_left = sum(hop.worst, hop.delay);
     if (!hop.leaves || !produced) return;
     const std::int64_t rate_ppt = graph_.models[graph_.hops[h].port].clock.rate_ppt;
-    hop.worst_left = std::min(hop.worst_left, scaled_up(std::max<Ps>(0, hop.leaves->first + hop.leaves->width - produced->first), one + rate_ppt, one));
-    hop.best_left = std::max(hop.best_left, scaled_down(std::max<Ps>(0, hop.leaves->first - produced->first - produced->width), one - rate_ppt, one));
+    hop.worst_left = std::min(hop.worst_left, scaled_up(std::max<Ps>(0, hop.leaves->first + hop.leaves->width - produced->first), one_ppt + rate_ppt, one_ppt));
+    hop.best_left = std::max(hop.best_left, scaled_down(std::max<Ps>(0, hop.leaves->first - produced->first - produced->width), one_ppt - rate_ppt, one_ppt));
   }
   /// The schedule of the port says more than how long frames may be there.
   bool takes_up_jitter(std::uint32_t h) const {
@@ -284,14 +283,14 @@ class FixedPoint {
     }
     // Clocks may drift a little on the way.
     const std::int64_t rate_ppt = std::max(graph_.models[hop.port].clock.rate_ppt, flow.produced->rate_ppt);
-    const Ps drift = scaled_up(worst, rate_ppt, one);
+    const Ps drift = scaled_up(worst, rate_ppt, one_ppt);
     Ps first = flow.produced->first + best - drift;
     Ps last = sum(flow.produced->first + flow.produced->width, worst, drift);
     if (hop.parents.size() == 1 && !is_held(hop) && !hop.headers_come_first && result_.hops[hop.parents.front()].leaves) {
       const ArrivalPhase& leaves = *result_.hops[hop.parents.front()].leaves;
       const Ps on_the_way = sum(graph_.ports[graph_.hops[hop.parents.front()].port].propagation, r_.plan.nodes[graph_.ports[hop.port].node.value].forwarding_delay.ps());
-      const Ps scheduled_first = leaves.first + scaled_down(on_the_way, one - rate_ppt, one);
-      const Ps scheduled_last = sum(leaves.first + leaves.width, scaled_up(on_the_way, one + rate_ppt, one));
+      const Ps scheduled_first = leaves.first + scaled_down(on_the_way, one_ppt - rate_ppt, one_ppt);
+      const Ps scheduled_last = sum(leaves.first + leaves.width, scaled_up(on_the_way, one_ppt + rate_ppt, one_ppt));
       // Both hold; while delays are still looked for they may not yet fit together.
       const bool fit_together = std::max(first, scheduled_first) <= std::min(last, scheduled_last);
       first = fit_together ? std::max(first, scheduled_first) : scheduled_first;
@@ -326,12 +325,12 @@ class FixedPoint {
 
   /// What a bucket that fills by that clock lets through, in true time.
   static ArrivalPattern by_clock(ArrivalPattern pattern, const ClockQuality& clock) {
-    if (is_bounded(pattern.period)) pattern.period = std::max<Ps>(1, scaled_down(pattern.period, one, one + clock.fastest_ppt));
-    pattern.jitter = sum(scaled_up(pattern.jitter, one, one + clock.slowest_ppt), 2 * clock.error);
+    if (is_bounded(pattern.period)) pattern.period = std::max<Ps>(1, scaled_down(pattern.period, one_ppt, one_ppt + clock.fastest_ppt));
+    pattern.jitter = sum(scaled_up(pattern.jitter, one_ppt, one_ppt + clock.slowest_ppt), 2 * clock.error);
     return pattern;
   }
   /// The rate of a bucket that fills by that clock, at least.
-  static std::int64_t slowest_rate(const AtsHold& hold, const ClockQuality& clock) { return scaled_down(hold.rate, one + clock.slowest_ppt, one); }
+  static std::int64_t slowest_rate(const AtsHold& hold, const ClockQuality& clock) { return scaled_down(hold.rate, one_ppt + clock.slowest_ppt, one_ppt); }
 
   /// The delay at the port before, with what the scheduler of this hop holds the frame after it.
   Ps delay_with_hold(const Hop& hop, std::uint32_t parent) const {
@@ -445,7 +444,7 @@ class FixedPoint {
     if (hop.policing.meter) {
       const TokenMeter& meter = *hop.policing.meter;
       FrameArrivals arrivals = arrivals_at_scheduler(hop, parent, false).delayed(2 * clock.error);
-      if (!conforms(arrivals, std::int64_t{8} * graph_.hops[parent].frame.count, meter.burst_bits, scaled_down(meter.rate, one + clock.slowest_ppt, one))) return true;
+      if (!conforms(arrivals, std::int64_t{8} * graph_.hops[parent].frame.count, meter.burst_bits, scaled_down(meter.rate, one_ppt + clock.slowest_ppt, one_ppt))) return true;
     }
     if (hop.ats && is_bounded(hop.ats->longest_residence)) {
       const Ps longest = is_held(hop) ? delay_with_unlimited_hold(hop, parent) : unbounded_ps;

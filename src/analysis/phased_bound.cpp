@@ -9,11 +9,10 @@ namespace {
 using Flow = PhasedTraffic::Flow;
 using Role = PhasedTraffic::Role;
 
-constexpr std::int64_t one = 1'000'000'000'000;
 constexpr std::int64_t most_turns = 2'000;         // of a flow, until all phases repeat
 constexpr std::size_t most_jumps = 50;
 constexpr std::int64_t most_looks = 1'000'000;     // at a flow
-constexpr int most_steps = 1'000;
+constexpr int most_phase_steps = 1'000;
 
 Ps floor_of(Ps a, Ps b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 Ps ceiling_of(Ps a, Ps b) { return -floor_of(-a, b); }
@@ -41,13 +40,13 @@ class PhasedWaits {
         if (!wait) return std::nullopt;
         longest = std::max(longest, *wait);
       }
-      waits[f] = scaled_up(longest, one + t_.rate_ppt, one);
+      waits[f] = scaled_up(longest, one_ppt + t_.rate_ppt, one_ppt);
     }
     return waits;
   }
 
  private:
-  Ps slow(Ps length) const { return scaled_up(length, one + t_.rate_ppt, one); }
+  Ps slow(Ps length) const { return scaled_up(length, one_ppt + t_.rate_ppt, one_ppt); }
 
   /// What of the phases is worth keeping: those of a hyperperiod that ends soon. False if nothing is to be said.
   bool prepare() {
@@ -191,7 +190,7 @@ class PhasedWaits {
         const Ps blocked = blocking(begin.first, begin.last + (until - x));
         Ps started = begin.last;
         for (int step = 0;; ++step) {
-          if (step == most_steps || looks_ > most_looks) return std::nullopt;
+          if (step == most_phase_steps || looks_ > most_looks) return std::nullopt;
           const Ps length = slow(started - begin.last);
           const Ps next = sum(begin.last, slow(sum(blocked, own, work(Role::before, begin.last, started + (until - x), length, length))));
           if (!is_bounded(next)) return std::nullopt;

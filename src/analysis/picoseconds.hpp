@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "sim/time.hpp"
 
@@ -12,10 +13,14 @@ namespace takt::analysis {
 /// Picoseconds. Not sim::Duration, whose sums wrap around: a bound that grows without end stops here.
 using Ps = std::int64_t;
 
+/// Rates of clocks and links are factors in parts of this, as in 1 + 10^-12 * rate_ppt.
+inline constexpr std::int64_t one_ppt = 1'000'000'000'000;
+
 /// No bound. Every Ps at or above counts as unbounded; half the range, so that two of them can be added.
 inline constexpr Ps unbounded_ps = std::numeric_limits<Ps>::max() / 4;
 
 constexpr bool is_bounded(Ps value) { return value < unbounded_ps; }
+constexpr std::optional<sim::Duration> duration_of(Ps value) { return is_bounded(value) ? std::optional(sim::Duration::from_ps(value)) : std::nullopt; }
 constexpr Ps sum(Ps a, Ps b) { return is_bounded(a) && is_bounded(b) && is_bounded(a + b) ? a + b : unbounded_ps; }
 template <class... More>
 constexpr Ps sum(Ps a, Ps b, More... more) { return sum(sum(a, b), more...); }

@@ -20,8 +20,6 @@ namespace takt::analysis {
 /// Where the search for a fixed point gives up: delays beyond this are as good as unbounded.
 inline constexpr Ps longest_search_ps = 100'000'000'000'000;   // 100 s
 inline constexpr int most_steps = 100'000;
-/// Rates are in parts of so many.
-inline constexpr std::int64_t one_ppt = 1'000'000'000'000;
 
 class PortAnalysis {
  public:

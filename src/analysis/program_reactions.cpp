@@ -22,7 +22,6 @@ constexpr const char* paper_notices_nothing = "the handshake paper notices neith
 
 Spread spread_of(Reaction kind) { return kind == Reaction::suspend ? Spread::after_barriers : Spread::at_once; }
 
-std::optional<Duration> duration_of(Ps ps) { return is_bounded(ps) ? std::optional(Duration::from_ps(ps)) : std::nullopt; }
 
 /// One Program, and what its notifications rest on.
 struct ProgramGroup {

@@ -35,7 +35,7 @@ std::string reason_of_reaction(const ReportedReaction& reaction) { return reacti
 const std::vector<ReactionPart>& parts_of(const ReportedReaction& reaction) { return reaction.bound->parts; }
 std::vector<std::string> assumptions_of_reaction(const ReportedReaction& reaction) { return names_of(reaction.bound->assumptions); }
 
-std::optional<Duration> duration_of(const ReportedRequirement& requirement) { return requirement.bound->duration; }
+std::optional<Duration> duration_of_requirement(const ReportedRequirement& requirement) { return requirement.bound->duration; }
 std::optional<std::uint64_t> count_of(const ReportedRequirement& requirement) { return requirement.bound->count; }
 std::optional<FigureRange> range_of(const ReportedRequirement& requirement) { return requirement.bound->figure; }
 std::string reason_of_requirement(const ReportedRequirement& requirement) { return requirement.bound->reason; }
@@ -139,7 +139,7 @@ const json::Record& describe(json::Type<ReportedReaction>) {
 const json::Record& describe(json::Type<ReportedRequirement>) {
   static constexpr json::Output outputs[] = {
       json::output<&ReportedRequirement::text>("text", "What is asked."),
-      json::output<&duration_of>("bound_ps", "What it can be at most; null where it is no time, or not bounded."),
+      json::output<&duration_of_requirement>("bound_ps", "What it can be at most; null where it is no time, or not bounded."),
       json::output<&count_of>("bound_count", "The same of a number of frames; null where it is none."),
       json::output_if_any<&range_of>("range", "What the figure can be.", "of a limit on a figure"),
       json::output<&reason_of_requirement>("reason", reason_help),

@@ -6,10 +6,10 @@
 namespace takt::analysis {
 namespace {
 
-constexpr std::size_t most_frames = 2'000;
-constexpr std::size_t most_looks = 200'000;
+constexpr std::size_t most_scheduled_frames = 2'000;
+constexpr std::size_t most_intervals = 200'000;
 
-struct Arrival {
+struct ScheduledArrival {
   Ps earliest = 0;
   Ps latest = 0;
   Ps work = 0;
@@ -34,25 +34,25 @@ std::optional<std::vector<Ps>> longest_waits(const std::vector<ScheduledFlow>& f
   const std::optional<Ps> all = hyperperiod(periods, cycle);
   if (!all || flows.empty() || !is_bounded(busy)) return std::nullopt;
   // The frames of one hyperperiod, and before them those of a busy period; earlier ones may still come late.
-  std::vector<Arrival> arrivals;
+  std::vector<ScheduledArrival> arrivals;
   for (std::size_t f = 0; f < flows.size(); ++f) {
     const ScheduledFlow& flow = flows[f];
     const Ps begin = -busy - flow.width - flow.period;
     const Ps first = flow.first % flow.period;
-    if ((*all + flow.width - begin) / flow.period > static_cast<Ps>(most_frames)) return std::nullopt;
+    if ((*all + flow.width - begin) / flow.period > static_cast<Ps>(most_scheduled_frames)) return std::nullopt;
     for (Ps at = first + (begin / flow.period - 1) * flow.period; at < *all + flow.width; at += flow.period) arrivals.push_back({at, at + flow.width, flow.work, f});
-    if (arrivals.size() > most_frames) return std::nullopt;
+    if (arrivals.size() > most_scheduled_frames) return std::nullopt;
   }
-  std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) { return a.earliest < b.earliest; });
+  std::sort(arrivals.begin(), arrivals.end(), [](const ScheduledArrival& a, const ScheduledArrival& b) { return a.earliest < b.earliest; });
   std::vector<Ps> latest;
-  for (const Arrival& arrival : arrivals) latest.push_back(arrival.latest);
+  for (const ScheduledArrival& arrival : arrivals) latest.push_back(arrival.latest);
   std::sort(latest.begin(), latest.end());
   std::vector<Ps> waits(flows.size(), 0);
   std::size_t looks = 0;
-  for (const Arrival& mine : arrivals) {
+  for (const ScheduledArrival& mine : arrivals) {
     if (mine.earliest < 0 || mine.earliest >= *all) continue;
     std::vector<Ps> instants{mine.earliest};
-    for (const Arrival& other : arrivals) {
+    for (const ScheduledArrival& other : arrivals) {
       if (other.earliest > mine.earliest && other.earliest <= mine.latest) instants.push_back(other.earliest);
       for (const Ps jump : others.jumps)
         if (other.latest + jump > mine.earliest && other.latest + jump <= mine.latest) instants.push_back(other.latest + jump);
@@ -64,16 +64,16 @@ std::optional<std::vector<Ps>> longest_waits(const std::vector<ScheduledFlow>& f
           for (const Ps x : {at, at + 1})
             if (x > mine.earliest && x <= mine.latest) instants.push_back(x);
       }
-      if (instants.size() > most_frames) return std::nullopt;
+      if (instants.size() > most_scheduled_frames) return std::nullopt;
     }
     for (const Ps x : instants) {
       std::vector<Ps> begins;
       for (const Ps jump : others.jumps) begins.push_back(x - jump);
       for (auto y = std::lower_bound(latest.begin(), latest.end(), x - busy); y != latest.end() && *y <= x; ++y) begins.push_back(*y);
       for (const Ps y : begins) {
-        if (++looks > most_looks) return std::nullopt;
+        if (++looks > most_intervals) return std::nullopt;
         Ps before = -mine.work;   // it is among those that count
-        for (const Arrival& other : arrivals) {
+        for (const ScheduledArrival& other : arrivals) {
           if (other.earliest > x) break;
           if (other.latest >= y) before = sum(before, other.work);
         }

@@ -9,32 +9,32 @@
 namespace takt::chart {
 namespace {
 
-constexpr double width = 760;
-constexpr double height = 420;
-constexpr double left = 80;
-constexpr double top = 40;
-constexpr double bottom = height - 55;
+constexpr double plot_width = 760;
+constexpr double plot_height = 420;
+constexpr double plot_left = 80;
+constexpr double plot_top = 40;
+constexpr double plot_bottom = plot_height - 55;
 
 void draw_axes(Svg& svg, const HistogramTexts& texts, const Axis& x, const Axis& y, double right) {
-  svg.text({left, 24}, texts.title, {.size = 15, .bold = true});
+  svg.text({plot_left, 24}, texts.title, {.size = 15, .bold = true});
   for (const Tick& tick : x.ticks()) {
-    svg.line({x.at(tick.value), top}, {x.at(tick.value), bottom}, {.colour = "#eee"});
-    svg.text({x.at(tick.value), bottom + 18}, tick.text, {.size = 11, .anchor = Anchor::middle});
+    svg.line({x.at(tick.value), plot_top}, {x.at(tick.value), plot_bottom}, {.colour = "#eee"});
+    svg.text({x.at(tick.value), plot_bottom + 18}, tick.text, {.size = 11, .anchor = Anchor::middle});
   }
   for (const Tick& tick : y.ticks()) {
-    svg.line({left, y.at(tick.value)}, {right, y.at(tick.value)}, {.colour = "#eee"});
-    svg.text({left - 8, y.at(tick.value) + 4}, tick.text, {.size = 11, .anchor = Anchor::end});
+    svg.line({plot_left, y.at(tick.value)}, {right, y.at(tick.value)}, {.colour = "#eee"});
+    svg.text({plot_left - 8, y.at(tick.value) + 4}, tick.text, {.size = 11, .anchor = Anchor::end});
   }
-  svg.line({left, bottom}, {right, bottom});
-  svg.line({left, top}, {left, bottom});
-  svg.text({(left + right) / 2, height - 14}, texts.x_label, {.anchor = Anchor::middle});
-  svg.text({20, (top + bottom) / 2}, texts.y_label, {.anchor = Anchor::middle, .upright = true});
+  svg.line({plot_left, plot_bottom}, {right, plot_bottom});
+  svg.line({plot_left, plot_top}, {plot_left, plot_bottom});
+  svg.text({(plot_left + right) / 2, plot_height - 14}, texts.x_label, {.anchor = Anchor::middle});
+  svg.text({20, (plot_top + plot_bottom) / 2}, texts.y_label, {.anchor = Anchor::middle, .upright = true});
 }
 
 }  // namespace
 
 std::string histogram(const HistogramTexts& texts, const std::vector<Bar>& bars, double x_least, double x_greatest) {
-  constexpr double right = width - 25;
+  constexpr double right = plot_width - 25;
   double least = HUGE_VAL;
   double greatest = 1;
   for (const Bar& bar : bars) {
@@ -42,14 +42,14 @@ std::string histogram(const HistogramTexts& texts, const std::vector<Bar>& bars,
     greatest = std::max(greatest, bar.height);
   }
   least = std::pow(10, std::floor(std::log10(std::min(least, greatest))));
-  const Axis x(Scale::linear, x_least, x_greatest, left, right);
-  const Axis y(Scale::logarithmic, least / 2, greatest * 2, bottom, top);
-  Svg svg(width, height);
+  const Axis x(Scale::linear, x_least, x_greatest, plot_left, right);
+  const Axis y(Scale::logarithmic, least / 2, greatest * 2, plot_bottom, plot_top);
+  Svg svg(plot_width, plot_height);
   draw_axes(svg, texts, x, y, right);
   for (const Bar& bar : bars) {
     const double from = x.at(bar.from);
     const double to = x.at(bar.to);
-    svg.rectangle({from, y.at(bar.height)}, std::max(0.5, to - from), bottom - y.at(bar.height), ink(0));
+    svg.rectangle({from, y.at(bar.height)}, std::max(0.5, to - from), plot_bottom - y.at(bar.height), ink(0));
   }
   return svg.document();
 }

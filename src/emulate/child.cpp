@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 namespace takt::emulate {
 namespace {
@@ -115,6 +116,11 @@ std::string run_command(const std::vector<std::string>& command) {
   std::string text;
   for (const std::string& each : command) text += (text.empty() ? "" : " ") + each;
   return text + ": " + (said.empty() ? status ? "status " + std::to_string(*status) : "no end" : said);
+}
+
+std::string own_executable() {
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error).string();
 }
 
 }  // namespace takt::emulate

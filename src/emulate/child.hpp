@@ -38,4 +38,7 @@ class Child {
 /// Runs a command to its end, at most half a minute. "" if it succeeded, otherwise what it said.
 std::string run_command(const std::vector<std::string>& command);
 
+/// The file that runs now; "" if the system does not tell.
+std::string own_executable();
+
 }  // namespace takt::emulate

@@ -23,14 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int settling_ms = 3'500;  // of the files, and for the last thread to start
-constexpr int start_timeout_ms = 60'000;
+constexpr int discovery_timeout_ms = 60'000;
 constexpr int window_ms = 10;
-constexpr int stop_timeout_ms = 10'000;
-
-std::string own_executable() {
-  std::error_code error;
-  return fs::read_symlink("/proc/self/exe", error).string();
-}
+constexpr int end_timeout_ms = 10'000;
 
 /// Namespaces of the nodes around a bridge, with addresses, for Cyclone DDS wants them; or loopback.
 class Ground {
@@ -79,7 +74,7 @@ class Ground {
     constexpr int step_ms = 50;
     const timespec step = {0, step_ms * 1'000'000L};
     std::string problem;
-    for (int waited = 0; waited < start_timeout_ms; waited += step_ms) {
+    for (int waited = 0; waited < discovery_timeout_ms; waited += step_ms) {
       // 3: forwarding, all of them.
       problem = run_command({"ip", "netns", "exec", network_namespace, "sh", "-c", "test \"$(cat /sys/class/net/p*/brport/state | sort -u)\" = 3"});
       if (problem.empty()) return {};
@@ -171,7 +166,7 @@ class Measurement {
     };
     for (Running& node : nodes)
       for (int waited = 0; !has_told(node); waited += window_ms) {
-        if (waited >= start_timeout_ms) return fail(node, "does not start");
+        if (waited >= discovery_timeout_ms) return fail(node, "does not start");
         if (!wait(nodes, window_ms)) return false;
       }
     return true;
@@ -196,7 +191,7 @@ class Measurement {
   bool stop(std::vector<Running>& nodes) {
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) node->child->send(SIGTERM);
     for (Running& node : nodes)
-      if (node.child->wait(stop_timeout_ms) != 0) return fail(node, "did not end well");
+      if (node.child->wait(end_timeout_ms) != 0) return fail(node, "did not end well");
     return true;
   }
 

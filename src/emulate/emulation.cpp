@@ -46,11 +46,6 @@ void sleep_until(std::int64_t ns) {
   ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr);
 }
 
-std::string own_executable() {
-  std::error_code error;
-  return fs::read_symlink("/proc/self/exe", error).string();
-}
-
 /// One node and what it does.
 struct LiveNode {
   const PlannedNode* plan = nullptr;

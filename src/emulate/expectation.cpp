@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "emulate/log_reader.hpp"
 #include "json/document.hpp"
 #include "scenario/run/run.hpp"
 
@@ -60,12 +61,6 @@ std::vector<std::uint8_t> order_of(const scenario::Run& run, std::uint32_t progr
   return order;
 }
 
-std::optional<handshake::PublishedState> state_from(std::string_view name) {
-  const auto& names = handshake::published_state_names;
-  const auto found = std::find(names.begin(), names.end(), name);
-  return found == names.end() ? std::nullopt : std::optional(handshake::published_state_at(static_cast<std::size_t>(found - names.begin())));
-}
-
 const json::Node* items_of(const json::Node& object, std::string_view key, std::size_t count) {
   const json::Node* const node = object.find(key);
   return node == nullptr || node->items.size() != count ? nullptr : node;
@@ -103,7 +98,7 @@ std::optional<handshake::PublishedState> state_of_status(const std::string& stat
   json::Diagnostics diagnostics;
   const auto document = json::parse(status, "status", diagnostics);
   const json::Node* const state = document ? document->root().find("state") : nullptr;
-  return state == nullptr ? std::nullopt : state_from(state->text);
+  return state == nullptr ? std::nullopt : published_state_from(state->text);
 }
 
 std::string difference(const GroupState& expected, const GroupState& found, const scenario::Resolved& resolved, std::uint32_t program) {

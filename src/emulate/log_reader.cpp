@@ -21,12 +21,6 @@ Integer number_of(const json::Node& object, std::string_view key) {
   return node == nullptr ? Integer{0} : static_cast<Integer>(json::integer_of(*node).value_or(0));
 }
 
-std::optional<PublishedState> state_from(std::string_view name) {
-  for (std::size_t i = 0; i < handshake::published_state_count; ++i)
-    if (handshake::published_state_names[i] == name) return handshake::published_state_at(i);
-  return std::nullopt;
-}
-
 std::optional<handshake::IntentKind> intent_from(std::string_view name) {
   for (std::size_t i = 0; i < handshake::intent_kind_count; ++i)
     if (const auto kind = static_cast<handshake::IntentKind>(i); handshake::name_of(kind) == name) return kind;
@@ -41,6 +35,12 @@ std::optional<std::uint8_t> role_from(const scenario::ResolvedProgram& program, 
 }
 
 }  // namespace
+
+std::optional<PublishedState> published_state_from(std::string_view name) {
+  const auto& names = handshake::published_state_names;
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? std::nullopt : std::optional(handshake::published_state_at(static_cast<std::size_t>(found - names.begin())));
+}
 
 LogReader::LogReader(const scenario::Resolved& resolved, const PlannedNode& node) : resolved_(resolved) {
   for (const PlannedNode::Part& part : node.parts) parts_.push_back({resolved.programs[part.program].name, part});
@@ -75,8 +75,8 @@ bool LogReader::take(const std::string& line) {
   step.intent_run = number_of<std::uint32_t>(event, "intent_run");
   if (kind == "intent" && !(step.raised = intent_from(text_of(event, "kind")))) return false;
   if (kind == "transition") {
-    const auto from = state_from(text_of(event, "from"));
-    const auto to = state_from(text_of(event, "to"));
+    const auto from = published_state_from(text_of(event, "from"));
+    const auto to = published_state_from(text_of(event, "to"));
     if (!from || !to || event.find("number") == nullptr) return false;
     step.change = handshake::StateChange{number_of<std::uint8_t>(event, "number"), *from, *to};
     part->state = *to;

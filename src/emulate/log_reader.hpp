@@ -63,6 +63,8 @@ class LogReader {
   std::vector<LoggedStep> steps_;
 };
 
+/// The state of this name; nothing if there is none.
+std::optional<handshake::PublishedState> published_state_from(std::string_view name);
 /// The changes of state by Program.
 std::vector<History> histories_of(const std::vector<LoggedStep>& steps, std::size_t programs);
 

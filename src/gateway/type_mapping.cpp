@@ -13,7 +13,6 @@ namespace {
 
 using uadp::BuiltInType;
 
-bool is_text(BuiltInType type) { return type == BuiltInType::String || type == BuiltInType::XmlElement; }
 bool has_room(std::uint32_t room, std::size_t count) { return room == 0 || count <= room; }
 
 /// A sequence, an array or a field with so many elements is what both sides agreed on.

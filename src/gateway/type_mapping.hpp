@@ -20,6 +20,9 @@
 
 namespace takt::gateway {
 
+/// Whether values are strings, with their length before them.
+constexpr bool is_text(uadp::BuiltInType type) { return type == uadp::BuiltInType::String || type == uadp::BuiltInType::XmlElement; }
+
 using uadp::Octets;
 
 /// A field of a DataSet, as its DataSetMetaData describes it. `array_length` and `max_string_length` 0: any.

@@ -7,7 +7,6 @@ namespace {
 
 using uadp::BuiltInType;
 
-bool is_text(BuiltInType type) { return type == BuiltInType::String || type == BuiltInType::XmlElement; }
 
 /// More may come than there is room for. 0 stands for any number, which a value shows.
 bool may_be_too_long(std::uint32_t given, std::uint32_t room) { return given != 0 && room != 0 && given > room; }

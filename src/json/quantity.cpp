@@ -36,7 +36,6 @@ constexpr sim::int128 max_int64 = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t most_digits = 38;  // 10^38 < 2^127
 constexpr std::size_t longest_text = 100;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 sim::uint128 power_of_ten(std::size_t exponent) {
   sim::uint128 power = 1;

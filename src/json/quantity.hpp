@@ -16,6 +16,8 @@
 
 namespace takt::json {
 
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 /// A probability in parts per 10^18, 0 to 1. Exact for every decimal that people write, down to bit error rates.
 struct Probability {
   static constexpr std::int64_t certain = 1'000'000'000'000'000'000;

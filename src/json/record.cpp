@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "json/reference.hpp"
 #include "sim/check.hpp"
 
 namespace takt::json {
@@ -166,15 +167,6 @@ std::string type_of(const Shape& shape, std::string_view keys) {
   else if (shape.kind == Shape::Kind::map) words = fmt::format("{} for each {}", type_of(*shape.item, {}), keys.empty() ? "name" : keys);
   else words = shape.kind == Shape::Kind::truth ? "true or false" : shape.kind == Shape::Kind::text ? "text" : std::string(schema_type(shape.kind));
   return shape.may_be_null ? words + " or null" : words;
-}
-
-std::string in_cell(std::string_view words) {
-  std::string escaped;
-  for (const char c : words) {
-    if (c == '|') escaped += '\\';
-    escaped += c;
-  }
-  return escaped;
 }
 
 std::string section_of(const Record& record) {

@@ -32,15 +32,6 @@ std::string link_to(std::string_view definition) {
 }
 
 /// A cell ends at a bar, wherever it stands.
-std::string in_cell(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '|') escaped += '\\';
-    escaped += c;
-  }
-  return escaped;
-}
-
 /// What a schema says of a value: what may stand there, and what that means.
 struct Value {
   std::string type;
@@ -187,6 +178,15 @@ std::string body_of(const Node& schema) {
 }
 
 }  // namespace
+
+std::string in_cell(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
 
 std::string reference(const Node& schema, std::string_view opening) {
   std::string text = fmt::format("# {}\n\n{}\n\n{}", text_of(schema, "title"), opening, body_of(schema));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "json/quantity.hpp"
 #include "json/utf8.hpp"
 
 namespace takt::json {
@@ -11,7 +12,6 @@ namespace takt::json {
 namespace {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_hex(char c) { return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
 /// Of numbers and of words without quotes, right or wrong. Octets beyond ASCII count as letters.
 bool is_word(char c) {

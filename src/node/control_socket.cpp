@@ -20,7 +20,6 @@ constexpr std::size_t most_octets_of_request = 256;
 constexpr std::size_t most_octets_of_answer = std::size_t{64} << 10;
 constexpr int answer_timeout_ms = 5000;
 
-std::string what_failed(const std::string& what) { return what + ": " + std::strerror(errno); }
 
 bool address_of(const std::string& path, sockaddr_un& address, std::string& problem) {
   address = {};

@@ -23,7 +23,6 @@ using MacAddress = std::array<std::uint8_t, 6>;
 constexpr std::size_t addresses_octets = 12;
 constexpr std::uint16_t vlan_ether_type = 0x8100;
 
-std::string what_failed(const std::string& what) { return what + ": " + std::strerror(errno); }
 
 bool parse_mac(const std::string& text, MacAddress& address) {
   std::array<unsigned, 6> octets{};

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <utility>
 
 namespace takt::node {
@@ -14,5 +16,7 @@ FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept {
 FileDescriptor::~FileDescriptor() {
   if (number_ >= 0) ::close(number_);
 }
+
+std::string what_failed(const std::string& what) { return what + ": " + std::strerror(errno); }
 
 }  // namespace takt::node

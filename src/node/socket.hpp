@@ -40,6 +40,8 @@ class Socket : public pubsub::PublishedData, public pubsub::SubscribedData {
   std::int64_t launch_ns_ = 0;
 };
 
+/// "what: ", and what the operating system has against it (errno).
+std::string what_failed(const std::string& what);
 /// Null, and `problem` says why, if the machine does not give what the transport needs.
 std::unique_ptr<Socket> open_socket(const UdpTransport& transport, std::string& problem);
 std::unique_ptr<Socket> open_socket(const EthernetTransport& transport, std::string& problem);

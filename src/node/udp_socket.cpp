@@ -16,7 +16,6 @@
 namespace takt::node {
 namespace {
 
-std::string what_failed(const std::string& what) { return what + ": " + std::strerror(errno); }
 
 template <class T>
 bool set_option(int fd, int level, int name, const T& value) {

@@ -11,7 +11,7 @@ namespace {
 
 using scenario::Resolved;
 
-constexpr std::size_t most_rows = 40;
+constexpr std::size_t rows_of_page = 40;
 
 std::string path_text(const Resolved& r, const scenario::Path& path) {
   std::string text;
@@ -30,7 +30,7 @@ std::string counted(std::size_t n, std::string_view what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : what.ends_with("ch") ? "es" : "s");
 }
 
-std::string more(std::size_t all) { return all > most_rows ? fmt::format("  ... {} more\n", all - most_rows) : std::string(); }
+std::string more(std::size_t all) { return all > rows_of_page ? fmt::format("  ... {} more\n", all - rows_of_page) : std::string(); }
 
 }  // namespace
 
@@ -43,7 +43,7 @@ std::string check_report(const Resolved& r) {
                                 counted(r.scenario.require.size(), "requirement"), readable(r.scenario.duration));
 
   out += "\nNodes\n";
-  for (std::size_t n = 0; n < std::min(most_rows, r.topology.nodes.size()); ++n) {
+  for (std::size_t n = 0; n < std::min(rows_of_page, r.topology.nodes.size()); ++n) {
     const scenario::TopologyNode& node = r.topology.nodes[n];
     std::string what;
     if (const auto* host = std::get_if<scenario::HostNode>(&node.description))
@@ -59,10 +59,10 @@ std::string check_report(const Resolved& r) {
     out += fmt::format("  {:<20} {:<36} ports{}\n", node.name, what, neighbours);
   }
   out += more(r.topology.nodes.size());
-  out += feature_pages(r, most_rows);
+  out += feature_pages(r, rows_of_page);
 
   if (!r.streams.empty()) out += "\nStreams and their paths\n";
-  for (std::size_t s = 0; s < std::min(most_rows, r.streams.size()); ++s) {
+  for (std::size_t s = 0; s < std::min(rows_of_page, r.streams.size()); ++s) {
     const models::StreamPlan& plan = r.plan.streams[r.streams[s].index.value];
     const std::string tag = plan.priority ? fmt::format("PCP {} VLAN {}", *plan.priority, plan.vlan) : std::string("untagged");
     out += fmt::format("  {:<32} {:<16} {:>10.1f} frames/s {:>9.3f} Mb/s\n", plan.name, tag, r.streams[s].demand.frames_per_second,
@@ -76,7 +76,7 @@ std::string check_report(const Resolved& r) {
   std::vector<const scenario::PortDemand*> ports;
   for (const scenario::PortDemand& port : r.ports) ports.push_back(&port);
   std::stable_sort(ports.begin(), ports.end(), [](const auto* a, const auto* b) { return a->share() > b->share(); });
-  for (std::size_t i = 0; i < std::min(most_rows, ports.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(rows_of_page, ports.size()); ++i) {
     const scenario::PortDemand& port = *ports[i];
     std::string queues;
     for (std::size_t q = port.class_bits_per_second.size(); q-- > 0;)

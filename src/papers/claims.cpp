@@ -9,7 +9,6 @@
 namespace takt::papers {
 namespace {
 
-double milliseconds(sim::Duration d) { return static_cast<double>(d.ps()) * 1e-9; }
 
 /// The plant of Table I with other data and another cycle.
 struct Case {

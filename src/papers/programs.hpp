@@ -17,6 +17,8 @@
 
 namespace takt::papers {
 
+inline double milliseconds(sim::Duration d) { return static_cast<double>(d.ps()) * 1e-9; }
+
 struct ProgramsOptions {
   std::string scenarios = "scenarios/papers/programs";   ///< the folder of the scenarios
   bool is_short = false;                                 ///< three minutes of simulated time instead of an hour, and fewer rounds

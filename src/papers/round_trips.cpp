@@ -26,7 +26,6 @@ constexpr Tolerances of_calibration = {0.005, 0.05, 0.10};
 constexpr const char* full_length = "3610s";
 constexpr const char* short_length = "190s";
 
-double milliseconds(sim::Duration d) { return static_cast<double>(d.ps()) * 1e-9; }
 
 bool is_calibrated(int values) { return values == table_1.front().values || values == table_1.back().values; }
 

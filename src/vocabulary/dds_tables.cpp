@@ -1,5 +1,6 @@
 // The words of quality of service of DDS. See json/fields.hpp.
 #include "vocabulary/dds.hpp"
+#include "vocabulary/limits.hpp"
 
 namespace takt::vocabulary {
 namespace {
@@ -8,7 +9,6 @@ using json::name;
 using json::optional;
 using namespace sim::literals;
 
-constexpr Duration longest_step = 24 * 3600_s;
 constexpr std::uint32_t most_samples = 1'000'000;
 
 }  // namespace

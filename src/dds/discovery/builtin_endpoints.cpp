@@ -5,16 +5,6 @@
 namespace takt::dds {
 namespace {
 
-/// The entity id of the writer that a submessage is from, or, if it comes from a reader, is for.
-std::optional<EntityId> writer_of(const Submessage& submessage) {
-  return std::visit(
-      [](const auto& each) -> std::optional<EntityId> {
-        if constexpr (requires { each.writer; }) return each.writer;
-        else return std::nullopt;
-      },
-      submessage);
-}
-
 InstanceKey key_of_payload(const BuiltinTopic& topic, Octets payload) {
   Guid about;
   ParticipantMessageData message;
@@ -36,6 +26,15 @@ MatchedWriter builtin_writer_of(const ParticipantData& participant, const Builti
 }
 
 }  // namespace
+
+std::optional<EntityId> writer_of(const Submessage& submessage) {
+  return std::visit(
+      [](const auto& each) -> std::optional<EntityId> {
+        if constexpr (requires { each.writer; }) return each.writer;
+        else return std::nullopt;
+      },
+      submessage);
+}
 
 std::vector<Locator> usable(const std::vector<Locator>& locators) {
   std::vector<Locator> list;

@@ -59,6 +59,8 @@ struct BuiltinUse {
   bool reads = true;
 };
 
+/// The entity id of the writer that a submessage is from, or, if it comes from a reader, is for.
+std::optional<EntityId> writer_of(const Submessage& submessage);
 /// Where built-in endpoints of a participant are reached.
 MatchedReader builtin_reader_of(const ParticipantData& participant, const BuiltinTopic& topic);
 /// Those that can be used: UDP over IPv4.

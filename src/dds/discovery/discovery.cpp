@@ -31,15 +31,6 @@ const KindRow& row_of(DiscoveryKind kind) {
   return rows[static_cast<std::size_t>(kind)];
 }
 
-std::optional<EntityId> writer_of(const Submessage& submessage) {
-  return std::visit(
-      [](const auto& each) -> std::optional<EntityId> {
-        if constexpr (requires { each.writer; }) return each.writer;
-        else return std::nullopt;
-      },
-      submessage);
-}
-
 }  // namespace
 
 Discovery::Discovery(const Settings& settings, const ParticipantData& self)

@@ -15,7 +15,6 @@ using program::Method;
 
 namespace {
 
-std::size_t at(Side side) { return static_cast<std::size_t>(side); }
 
 /// Nodes, registers, the observer and the budgets.
 Shape shape_of(const TreeShape& tree) {

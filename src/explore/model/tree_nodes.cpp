@@ -12,7 +12,6 @@ using handshake::Word;
 
 namespace {
 
-std::size_t at(Side side) { return static_cast<std::size_t>(side); }
 
 template <class Value>
 const auto& participant(const Value& value, Side side) {

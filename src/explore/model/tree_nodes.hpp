@@ -18,6 +18,8 @@ namespace takt::explore {
 
 using NodeId = std::uint32_t;
 
+constexpr std::size_t at(handshake::Side side) { return static_cast<std::size_t>(side); }
+
 /// What happens to one of a node's participants.
 struct TreeStimulus {
   handshake::Side side = handshake::Side::Outer;

@@ -3,14 +3,16 @@
 #include <algorithm>
 
 namespace takt::explore {
-namespace {
-
-constexpr std::size_t margin = 6;
 
 std::string padded(std::string text, std::size_t width) {
   if (text.size() < width) text.resize(width, ' ');
   return text;
 }
+
+namespace {
+
+constexpr std::size_t margin = 6;
+
 std::string trimmed(std::string line) {
   line.erase(line.find_last_not_of(' ') + 1);
   return line + "\n";

@@ -37,6 +37,9 @@ struct Chart {
 
 std::string drawn(const Chart& chart);
 
+/// Filled up with blanks to a width; what is longer stays.
+std::string padded(std::string text, std::size_t width);
+
 /// Who takes part in an action, by name; what an action does not have is not looked at.
 struct Happening {
   ActionKind kind = ActionKind::send;

@@ -19,11 +19,6 @@ std::string fixed(double value, int digits) {
   return text.data();
 }
 
-std::string padded(std::string text, std::size_t width) {
-  if (text.size() < width) text.resize(width, ' ');
-  return text;
-}
-
 std::string verdict_line(const SearchResult& result, std::size_t p) {
   std::string line = "  " + padded(std::string(property_names[p]), 20) + padded(std::string(name_of(result.verdicts[p])), 10);
   if (result.traces[p]) line += "after " + std::to_string(result.traces[p]->actions.size()) + " steps from \"" + result.beginnings[result.traces[p]->beginning].name + "\"; ";

@@ -7,9 +7,9 @@ namespace {
 std::string name(std::size_t station) { return station == 0 ? "master" : "candidate " + std::to_string(station); }
 std::string role_name(std::size_t role) { return "role " + std::to_string(role + 1); }
 
-struct Words {
+struct RolesWords {
   static constexpr std::size_t width = 20;
-  explicit Words(const Query& query) : model(query) {}
+  explicit RolesWords(const Query& query) : model(query) {}
   RolesModel model;
 
   std::vector<std::string> names() const {
@@ -67,6 +67,6 @@ struct Words {
 
 }  // namespace
 
-Chart chart_of_roles(const Query& query, const Beginning& beginning, const Trace& trace) { return chart_with<Words>(query, beginning, trace); }
+Chart chart_of_roles(const Query& query, const Beginning& beginning, const Trace& trace) { return chart_with<RolesWords>(query, beginning, trace); }
 
 }  // namespace takt::explore

@@ -4,9 +4,9 @@
 namespace takt::explore {
 namespace {
 
-struct Words {
+struct TreeWords {
   static constexpr std::size_t width = 15;
-  explicit Words(const Query& query) : model(query), tree(model.tree()) {}
+  explicit TreeWords(const Query& query) : model(query), tree(model.tree()) {}
   TreeModel model;
   const TreeShape& tree;
 
@@ -61,6 +61,6 @@ struct Words {
 
 }  // namespace
 
-Chart chart_of_tree(const Query& query, const Beginning& beginning, const Trace& trace) { return chart_with<Words>(query, beginning, trace); }
+Chart chart_of_tree(const Query& query, const Beginning& beginning, const Trace& trace) { return chart_with<TreeWords>(query, beginning, trace); }
 
 }  // namespace takt::explore

@@ -1,14 +1,15 @@
 // The words of node files with applications, besides those of src/vocabulary.
 #include "node/applications/config.hpp"
+#include "vocabulary/limits.hpp"
 
 namespace takt::node {
 namespace {
 
 using json::optional;
 using json::required;
+using vocabulary::longest_step;
 using namespace sim::literals;  // NOLINT: units in limits
 
-constexpr Duration longest_step = 24 * 3600_s;
 constexpr std::uint32_t most_samples = 65'536;
 
 }  // namespace

@@ -87,7 +87,7 @@ void compare_tables(const ByColumn& runs, Reproduction& made) {
 }
 
 /// What section 4.2 says about the tables, of ours.
-void check_claims(Reproduction& made) {
+void check_claims_of_tables(Reproduction& made) {
   const auto success = [&](int table, std::size_t column) { return made.success[static_cast<std::size_t>(table - 1)][column]; };
   bool falls = true;
   for (const PublishedTable& table : tables)
@@ -165,7 +165,7 @@ bool reproduce_criteria(const Options& options, Reproduction& made, json::Diagno
     made.speed.push_back({first.scenario, first.simulated_seconds, first.cpu_seconds, first.events, first.digest});
   }
   compare_tables(runs, made);
-  check_claims(made);
+  check_claims_of_tables(made);
   compare_buffering(runs, unloaded, made);
   made.figures.push_back({"criterion-1", success_chart(made)});
   made.figures.push_back({"fig-4", buffering_chart(made)});

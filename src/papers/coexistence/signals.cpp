@@ -18,7 +18,7 @@ constexpr double correct_length = 0.1;
 
 std::string irregularity(const SignalStatistics& s) { return fmt::format("{:.1f} % irregular", 100 * s.irregular); }
 
-void check_claims(Reproduction& made) {
+void check_claims_of_figures(Reproduction& made) {
   const auto at = [&](std::size_t i) -> const SignalStatistics& { return made.signals[i].statistics; };
   const SignalStatistics& slow = at(0);
   const bool has_all = static_cast<double>(slow.pulses) >= 0.99 * (slow.expected - 2);
@@ -54,7 +54,7 @@ bool reproduce_signals(const Options& options, Reproduction& made, json::Diagnos
     made.speed.push_back({figures.scenario, figures.simulated_seconds, figures.cpu_seconds, figures.events, figures.digest});
     ++figure;
   }
-  check_claims(made);
+  check_claims_of_figures(made);
   return true;
 }
 

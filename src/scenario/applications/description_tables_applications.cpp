@@ -1,13 +1,14 @@
 // The vocabulary of topics, applications and gateways. See scenario/description/tables.cpp.
 #include "scenario/applications/description_applications.hpp"
+#include "vocabulary/limits.hpp"
 
 namespace takt::scenario {
 namespace {
 
 using json::optional;
 using json::required;
+using vocabulary::longest_step;
 
-constexpr Duration longest_step = 24 * 3600_s;
 constexpr std::uint32_t most_samples = 65'536;
 
 }  // namespace

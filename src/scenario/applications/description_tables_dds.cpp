@@ -1,17 +1,14 @@
 // The vocabulary of DDS in scenario files. See scenario/description/tables.cpp.
 #include "scenario/applications/description_dds.hpp"
+#include "vocabulary/limits.hpp"
 
 namespace takt::scenario {
-namespace {
 
 using json::name;
 using json::optional;
 using json::required;
+using vocabulary::longest_step;
 using namespace sim::literals;
-
-constexpr Duration longest_step = 24 * 3600_s;
-
-}  // namespace
 
 const json::Enumeration& describe(json::Type<Publication>) {
   static constexpr json::EnumName names[] = {

@@ -16,12 +16,13 @@
 #include "scenario/resolve/known_names.hpp"
 #include "scenario/resolve/os_profiles.hpp"
 #include "vocabulary/keys.hpp"
+#include "vocabulary/limits.hpp"
 #include "vocabulary/qos_of_thread.hpp"
 
 namespace takt::scenario {
 namespace {
 
-constexpr std::size_t most_publishers = 0xFFFF;  // PublisherIds are UInt16
+using vocabulary::most_publishers;
 constexpr std::uint32_t all_that_came = 65'536;   // a gateway has a buffer of its own
 constexpr std::uint32_t unknown_topic = 0xFFFF'FFFF;
 constexpr Duration shortest_interval = 10_us;     // the table refuses shorter ones

@@ -1,6 +1,7 @@
 // The vocabulary of scenario files: for each struct of description.hpp the table of its fields. Decoding, the resolved copy
 // and the JSON Schema are all made from these tables. Networks have a file of their own.
 #include "scenario/description/description.hpp"
+#include "vocabulary/limits.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -8,12 +9,11 @@ namespace {
 using json::name;
 using json::optional;
 using json::required;
+using vocabulary::longest;
+using vocabulary::longest_step;
+using vocabulary::most_names;
 
-constexpr Duration longest = Duration::from_ps(8'640'000'000'000'000'000);  // 100 days; the clock ends at 106
-// What is added to an instant of the run, so that no sum passes the end of the clock; random gaps may be 44 times their mean.
-constexpr Duration longest_step = 24 * 3600_s;
-constexpr Duration longest_mean_gap = 3600_s;
-constexpr std::size_t most_names = 100'000;
+constexpr Duration longest_mean_gap = 3600_s;  // random gaps may be 44 times their mean
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // The vocabulary of clocks and gPTP. See description_tables.cpp.
 #include "scenario/description/clocks.hpp"
+#include "vocabulary/limits.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -7,12 +8,12 @@ namespace {
 using json::name;
 using json::optional;
 using json::required;
+using vocabulary::most_names;
 using sim::FrequencyOffset;
 using namespace sim::literals;  // NOLINT: units in limits
 
 constexpr FrequencyOffset most_offset{1'000'000'000};     // 1000 ppm
 constexpr FrequencyOffset least_offset{-1'000'000'000};
-constexpr std::size_t most_names = 100'000;
 
 }  // namespace
 

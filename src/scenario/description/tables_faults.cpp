@@ -1,23 +1,20 @@
 // The vocabulary of faults. See description_tables.cpp.
 #include "scenario/description/faults.hpp"
+#include "vocabulary/limits.hpp"
 
 namespace takt::scenario {
-namespace {
 
 using json::name;
 using json::optional;
 using json::required;
+using vocabulary::longest;
 using namespace sim::literals;  // NOLINT: units in limits
-
-constexpr sim::Duration longest_run = sim::Duration::from_ps(8'640'000'000'000'000'000);  // 100 days; the clock ends at 106
-
-}  // namespace
 
 const json::Object& describe(json::Type<LinkDown>) {
   static constexpr json::Field fields[] = {
       required<&LinkDown::link>("link", "The two ends of the link, as \"node\" or \"node:port\".", {.min_items = 2, .max_items = 2}),
-      required<&LinkDown::at>("at", "When it goes down. What is on it or waits for it is lost.", {.max = longest_run}),
-      optional<&LinkDown::lasts>("for", "When it comes back after that; never if absent.", {.min = 1_ns, .max = longest_run}),
+      required<&LinkDown::at>("at", "When it goes down. What is on it or waits for it is lost.", {.max = longest}),
+      optional<&LinkDown::lasts>("for", "When it comes back after that; never if absent.", {.min = 1_ns, .max = longest}),
   };
   static constexpr json::Object table = json::object<LinkDown>("link-down", "A link goes down.", fields);
   return table;
@@ -43,8 +40,8 @@ const json::Object& describe(json::Type<FrameErrors>) {
       optional<&FrameErrors::corruption>("corruption", "Share of the frames that are damaged: dropped where they are stored, passed on where they are cut through.", {.min = 0.0, .max = 1.0}),
       optional<&FrameErrors::bit_error_rate>("bit_error_rate", "Share of the bits that are damaged, independently.", {.min = 0.0, .max = 1.0}),
       optional<&FrameErrors::duplication>("duplication", "Share of the frames that come twice.", {.min = 0.0, .max = 1.0}),
-      optional<&FrameErrors::at>("at", "From when on.", {.max = longest_run}),
-      optional<&FrameErrors::lasts>("for", "For how long; to the end if absent.", {.min = 1_ns, .max = longest_run}),
+      optional<&FrameErrors::at>("at", "From when on.", {.max = longest}),
+      optional<&FrameErrors::lasts>("for", "For how long; to the end if absent.", {.min = 1_ns, .max = longest}),
   };
   static constexpr std::string_view losses[] = {"loss", "burst_loss"};
   static constexpr std::string_view damages[] = {"corruption", "bit_error_rate"};
@@ -56,8 +53,8 @@ const json::Object& describe(json::Type<FrameErrors>) {
 const json::Object& describe(json::Type<Crash>) {
   static constexpr json::Field fields[] = {
       required<&Crash::node>("node", "The host or switch."),
-      required<&Crash::at>("at", "When it fails: its links go down, its queues are lost, its programs lose their memory.", {.max = longest_run}),
-      optional<&Crash::lasts>("for", "When it starts again after that; never if absent.", {.min = 1_ns, .max = longest_run}),
+      required<&Crash::at>("at", "When it fails: its links go down, its queues are lost, its programs lose their memory.", {.max = longest}),
+      optional<&Crash::lasts>("for", "When it starts again after that; never if absent.", {.min = 1_ns, .max = longest}),
   };
   static constexpr json::Object table = json::object<Crash>("crash", "A node crashes and starts again.", fields);
   return table;
@@ -66,9 +63,9 @@ const json::Object& describe(json::Type<Crash>) {
 const json::Object& describe(json::Type<Babble>) {
   static constexpr json::Field fields[] = {
       required<&Babble::stream>("stream", "The stream whose talker goes wild. Its frames count as sent."),
-      required<&Babble::at>("at", "When it begins.", {.max = longest_run}),
-      optional<&Babble::lasts>("for", "For how long; to the end if absent.", {.min = 1_ns, .max = longest_run}),
-      optional<&Babble::every>("every", "A frame more each time that this is over; as fast as its link goes if absent.", {.min = 1_ns, .max = longest_run}),
+      required<&Babble::at>("at", "When it begins.", {.max = longest}),
+      optional<&Babble::lasts>("for", "For how long; to the end if absent.", {.min = 1_ns, .max = longest}),
+      optional<&Babble::every>("every", "A frame more each time that this is over; as fast as its link goes if absent.", {.min = 1_ns, .max = longest}),
   };
   static constexpr json::Object table = json::object<Babble>("babble", "A babbling talker.", fields);
   return table;
@@ -89,8 +86,8 @@ const json::Object& describe(json::Type<StuckGate>) {
       optional<&StuckGate::to>("to", "Only the port to this neighbour; all ports of the node if absent."),
       required<&StuckGate::traffic_class>("class", "The traffic class whose gate does not move.", {.max = 7}),
       required<&StuckGate::state>("state", "How it stays."),
-      required<&StuckGate::at>("at", "From when on.", {.max = longest_run}),
-      optional<&StuckGate::lasts>("for", "For how long; to the end if absent.", {.min = 1_ns, .max = longest_run}),
+      required<&StuckGate::at>("at", "From when on.", {.max = longest}),
+      optional<&StuckGate::lasts>("for", "For how long; to the end if absent.", {.min = 1_ns, .max = longest}),
   };
   static constexpr json::Object table = json::object<StuckGate>("stuck-gate", "A transmission gate that does not follow its list.", fields);
   return table;
@@ -99,7 +96,7 @@ const json::Object& describe(json::Type<StuckGate>) {
 const json::Object& describe(json::Type<ClockFault>) {
   static constexpr json::Field fields[] = {
       required<&ClockFault::node>("node", "The node, which has a clock of its own."),
-      required<&ClockFault::at>("at", "When.", {.max = longest_run}),
+      required<&ClockFault::at>("at", "When.", {.max = longest}),
       optional<&ClockFault::step>("step", "The clock jumps by this.", {.min = -(3600_s), .max = 3600_s}),
       optional<&ClockFault::offset>("offset", "The frequency offset of the oscillator from then on.", {.min = sim::FrequencyOffset{-1'000'000'000}, .max = sim::FrequencyOffset{1'000'000'000}}),
   };
@@ -118,7 +115,7 @@ const json::Tagged& describe(json::Type<Fault>) {
 const json::Object& describe(json::Type<Rerouting>) {
   static constexpr json::Field fields[] = {
       required<&Rerouting::delay>("delay", "So long after a link or a node has gone down or come back, the switches forward along the shortest paths that are left.",
-                                  {.max = longest_run}),
+                                  {.max = longest}),
   };
   static constexpr json::Object table = json::object<Rerouting>("rerouting", "Static backup paths for what faults take away.", fields, {.shorthand = "delay"});
   return table;

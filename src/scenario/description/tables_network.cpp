@@ -1,19 +1,15 @@
 // The vocabulary of networks: nodes, ports, links, generators. See description_tables.cpp.
 #include "models/egress/cyclic_schedule.hpp"
 #include "scenario/description/description.hpp"
+#include "vocabulary/limits.hpp"
 
 namespace takt::scenario {
-namespace {
 
 using json::name;
 using json::optional;
 using json::required;
-
-// What is added to an instant of the run, so that no sum passes the end of the clock.
-constexpr Duration longest_step = 24 * 3600_s;
-constexpr std::size_t most_names = 100'000;
-
-}  // namespace
+using vocabulary::longest_step;
+using vocabulary::most_names;
 
 const json::Object& describe(json::Type<Latency::Uniform>) {
   static constexpr json::Field fields[] = {

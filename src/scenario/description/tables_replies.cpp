@@ -1,15 +1,12 @@
 // The vocabulary of replies: process data that answers process data, and how long a host works before it does. See description_tables.cpp.
 #include "scenario/description/description.hpp"
+#include "vocabulary/limits.hpp"
 
 namespace takt::scenario {
-namespace {
 
 using json::optional;
 using json::required;
-
-constexpr Duration longest_step = 24 * 3600_s;
-
-}  // namespace
+using vocabulary::longest_step;
 
 const json::Object& describe(json::Type<LatencyTail>) {
   static constexpr json::Field fields[] = {

@@ -1,13 +1,13 @@
 // The vocabulary of requirements. See tables.cpp.
 #include "scenario/description/description.hpp"
+#include "vocabulary/limits.hpp"
 
 namespace takt::scenario {
 namespace {
 
 using json::name;
 using json::optional;
-
-constexpr Duration longest = Duration::from_ps(8'640'000'000'000'000'000);  // 100 days; the clock ends at 106
+using vocabulary::longest;
 
 void decode_tolerance(const json::Node& node, Tolerance& value, json::Reader& reader) {
   value = {reader.source(node), {}, 0};

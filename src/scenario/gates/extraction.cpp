@@ -13,7 +13,6 @@ namespace takt::scenario {
 namespace {
 
 constexpr Octets longest_frame{1522};
-constexpr models::Priority priority_of_gptp = 7;
 
 /// When a stream's frames are at its talker's port, or why nobody knows.
 struct Timing {

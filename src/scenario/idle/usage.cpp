@@ -5,11 +5,11 @@
 #include <tuple>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/resolve/stream_at_port.hpp"
 
 namespace takt::scenario {
 namespace {
 
-constexpr models::Priority priority_of_gptp = 7;
 
 const std::vector<Egress>& egress_of(const TopologyNode& node) {
   return std::visit([](const auto& n) -> const std::vector<Egress>& { return n.egress; }, node.description);

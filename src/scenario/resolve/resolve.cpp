@@ -27,12 +27,13 @@
 #include "scenario/resolve/stream_builder.hpp"
 #include "scenario/resolve/trace_file.hpp"
 #include "scenario/resolve/windows.hpp"
+#include "vocabulary/limits.hpp"
 #include "wire/program_format.hpp"
 
 namespace takt::scenario {
 namespace {
 
-constexpr std::size_t most_publishers = 0xFFFF;  // PublisherIds are UInt16
+using vocabulary::most_publishers;
 
 class Resolver {
  public:

@@ -14,6 +14,9 @@
 
 namespace takt::scenario {
 
+/// gPTP frames are untagged; stations put them into the class of this priority.
+inline constexpr models::Priority priority_of_gptp = 7;
+
 /// The frames of a stream, or of one member of a redundant stream, at an egress port.
 struct StreamAtPort {
   models::StreamIndex stream;

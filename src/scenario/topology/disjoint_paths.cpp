@@ -17,7 +17,7 @@ using Properties =
     boost::property<boost::edge_capacity_t, std::int64_t,
                     boost::property<boost::edge_residual_capacity_t, std::int64_t,
                                     boost::property<boost::edge_reverse_t, Traits::edge_descriptor, boost::property<boost::edge_weight_t, Cost>>>>;
-using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property, Properties>;
+using DirectedGraph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property, Properties>;
 
 /// Each switch is two vertices, where paths come in and where they go out, with the number of paths that may cross it between.
 class FlowNetwork {
@@ -121,7 +121,7 @@ class FlowNetwork {
   std::int64_t residual_of(const Link& link) const { return residual(link.edge); }
   std::int64_t residual(Traits::edge_descriptor edge) const { return boost::get(boost::edge_residual_capacity, graph_, edge); }
 
-  Graph graph_;
+  DirectedGraph graph_;
   std::vector<Link> links_;
   std::uint32_t from_;
   std::size_t flow_ = 0;

@@ -12,15 +12,15 @@ namespace takt::scenario {
 namespace {
 
 using EdgeNumber = boost::property<boost::edge_index_t, std::size_t>;
-using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, boost::no_property, EdgeNumber>;
+using SwitchGraph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, boost::no_property, EdgeNumber>;
 
 /// The switches and the links between them.
-Graph switches_of(const Topology& topology) {
+SwitchGraph switches_of(const Topology& topology) {
   std::vector<std::size_t> number(topology.nodes.size(), 0);
   std::size_t count = 0;
   for (std::size_t i = 0; i < topology.nodes.size(); ++i)
     if (!topology.nodes[i].is_host()) number[i] = count++;
-  Graph graph(count);
+  SwitchGraph graph(count);
   for (std::uint32_t a = 0; a < topology.nodes.size(); ++a)
     for (const Neighbour& neighbour : topology.neighbours[a])
       if (neighbour.node > a && !topology.nodes[a].is_host() && !topology.nodes[neighbour.node].is_host())
@@ -29,7 +29,7 @@ Graph switches_of(const Topology& topology) {
 }
 
 /// Links on the longest shortest path; nothing if the graph is in parts or empty.
-std::optional<std::size_t> diameter_of(const Graph& graph) {
+std::optional<std::size_t> diameter_of(const SwitchGraph& graph) {
   const std::size_t n = boost::num_vertices(graph);
   std::size_t diameter = 0;
   for (std::size_t from = 0; from < n; ++from) {
@@ -44,7 +44,7 @@ std::optional<std::size_t> diameter_of(const Graph& graph) {
 }
 
 /// Links that are a biconnected component of their own.
-std::size_t bridges_of(const Graph& graph) {
+std::size_t bridges_of(const SwitchGraph& graph) {
   std::vector<std::size_t> component(boost::num_edges(graph));
   const auto by_edge = boost::make_iterator_property_map(component.begin(), boost::get(boost::edge_index, graph));
   const std::size_t count = boost::biconnected_components(graph, by_edge);
@@ -90,7 +90,7 @@ const json::Record& describe(json::Type<GraphFigures>) {
 }
 
 GraphFigures graph_figures_of(const Resolved& resolved) {
-  const Graph graph = switches_of(resolved.topology);
+  const SwitchGraph graph = switches_of(resolved.topology);
   return {boost::num_vertices(graph), boost::num_edges(graph), diameter_of(graph), bridges_of(graph), disjoint_paths_of(resolved)};
 }
 

@@ -14,6 +14,13 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
                                                 -Wno-error=stringop-overread -Wno-error=free-nonheap-object>
                                                 $<$<AND:$<CONFIG:Release>,$<VERSION_GREATER_EQUAL:${CMAKE_CXX_COMPILER_VERSION},12>>:-Wno-error=dangling-pointer -Wno-error=use-after-free>)
 endif()
+# Of sources that are compiled together (takt_unity below) one may name a variable as another names a constant, and GCC takes classes of a .cpp
+# file for classes of a header, whose members should not be of types without linkage.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(takt_options INTERFACE $<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-shadow -Wshadow=local -Wno-subobject-linkage>)
+else()
+  target_compile_options(takt_options INTERFACE $<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-shadow>)
+endif()
 if(TAKT_SANITIZE)
   target_compile_options(takt_options INTERFACE -fsanitize=${TAKT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(takt_options INTERFACE -fsanitize=${TAKT_SANITIZE})
@@ -26,22 +33,42 @@ endif()
 # Where installed headers are (cmake/install.cmake).
 set(TAKT_INCLUDE_FOLDER include/takt)
 
-# takt_library(NAME SOURCES a.cpp ... QUICKLY b.cpp ... LINKS other ...): one layer of the house; it links only what the layer may use.
-# QUICKLY are sources whose speed nobody notices (descriptions, commands, reports): they are compiled with -O1. Headers are included from the repository's root ("sim/time.hpp") or from src/ ("handshake/participant.hpp").
+# Compiles the sources of the target several at a time: most of what they take is the headers.
+function(takt_unity target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
+endfunction()
+
+# takt_library(NAME [SINGLY] SOURCES a.cpp ... QUICKLY b.cpp ... LINKS other ...): one layer of the house; it links only what the layer may use.
+# QUICKLY are sources whose speed nobody notices (descriptions, commands, reports): they are compiled with -O1. Several sources are compiled at a
+# time (TAKT_UNITY), since most of what they take is the headers; SINGLY not, where what the optimiser sees at a time decides about the speed. Headers are included from the repository's root ("sim/time.hpp") or from src/ ("handshake/participant.hpp").
 function(takt_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;QUICKLY;LINKS;PRIVATE_LINKS" ${ARGN})
-  set_source_files_properties(${ARG_QUICKLY} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
-  if(ARG_SOURCES OR ARG_QUICKLY)
-    add_library(${name} STATIC ${ARG_SOURCES} ${ARG_QUICKLY})
-    target_link_libraries(${name} PUBLIC ${ARG_LINKS} PRIVATE takt_options ${ARG_PRIVATE_LINKS})
-    target_include_directories(${name} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR};${PROJECT_SOURCE_DIR}/src>" $<INSTALL_INTERFACE:${TAKT_INCLUDE_FOLDER}>)
-    target_compile_features(${name} PUBLIC cxx_std_20)
-  else()
+  cmake_parse_arguments(ARG "SINGLY" "" "SOURCES;QUICKLY;LINKS;PRIVATE_LINKS" ${ARGN})
+  set(folders "${PROJECT_SOURCE_DIR};${PROJECT_SOURCE_DIR}/src")
+  if(NOT ARG_SOURCES AND NOT ARG_QUICKLY)
     add_library(${name} INTERFACE)
-    target_link_libraries(${name} INTERFACE ${ARG_LINKS})
-    target_include_directories(${name} INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR};${PROJECT_SOURCE_DIR}/src>" $<INSTALL_INTERFACE:${TAKT_INCLUDE_FOLDER}>)
-    target_compile_features(${name} INTERFACE cxx_std_20)
+    set(reach INTERFACE)
+  else()
+    set(reach PUBLIC)
+    set(quick)
+    if(ARG_QUICKLY)
+      add_library(${name}_quickly OBJECT ${ARG_QUICKLY})
+      target_link_libraries(${name}_quickly PRIVATE takt_options ${ARG_LINKS} ${ARG_PRIVATE_LINKS})
+      target_include_directories(${name}_quickly PRIVATE "${folders}")
+      target_compile_options(${name}_quickly PRIVATE $<$<CONFIG:Release>:-O1>)
+      if(TAKT_UNITY AND NOT ARG_SINGLY)
+        takt_unity(${name}_quickly)
+      endif()
+      set(quick $<TARGET_OBJECTS:${name}_quickly>)
+    endif()
+    add_library(${name} STATIC ${ARG_SOURCES} ${quick})
+    target_link_libraries(${name} PRIVATE takt_options ${ARG_PRIVATE_LINKS})
+    if(TAKT_UNITY AND NOT ARG_SINGLY)
+      takt_unity(${name})
+    endif()
   endif()
+  target_link_libraries(${name} ${reach} ${ARG_LINKS})
+  target_include_directories(${name} ${reach} "$<BUILD_INTERFACE:${folders}>" $<INSTALL_INTERFACE:${TAKT_INCLUDE_FOLDER}>)
+  target_compile_features(${name} ${reach} cxx_std_20)
 endfunction()
 
 # takt_test(NAME SOURCES a_test.cpp ... LINKS takt_sim ...): one GoogleTest binary, run by ctest as one test.

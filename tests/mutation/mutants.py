@@ -4,8 +4,8 @@
 usage: mutants.py --build FOLDER --table FILE.json [--below src/FOLDER] [--programs NAME...] [--sample N] [--only NAME] [--jobs N] [--print]
 
 Each edit of a row of the table replaces a piece of text that occurs exactly once in its file, which is named from src/ (or from --below) on. Only the
-changed file is compiled (of a header, all of its folder that include it), as the build compiles it but with -O1; the object goes before the
-library that holds the right one. A row with a "program" is linked with that test and shown to the tests that "killed_by" names, as a
+changed file is compiled (of a header, all of its folder that include it), and the sources that the build compiles with it, as the build does but
+with -O1; the object goes before the library that holds the right one. A row with a "program" is linked with that test and shown to the tests that "killed_by" names, as a
 --gtest_filter: one of them must fail. All others are shown to --programs, one after the other, until one kills them: a probe prints
 "killed NAME" as its last line, of a GoogleTest program it is the first test that fails; that must be "killed_by".
 
@@ -16,6 +16,7 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
@@ -39,12 +40,19 @@ class Build:
     def __init__(self, folder, ninja):
         self.folder = folder.resolve()
         self.ninja = ninja
-        self.objects = {}
+        self.objects = {}   # by source
+        self.unities = {}   # the sources of each object that is made of several
         for target in self.asked("targets", "all").splitlines():
             output = target.split(":")[0]
-            if output.endswith(".cpp.o") and "/CMakeFiles/" in output and output.startswith("src/"):
+            if "/CMakeFiles/" not in output or not output.startswith("src/"):
+                continue
+            if output.endswith(".cpp.o"):
                 before, after = output.split("/CMakeFiles/")
                 self.objects[f"{before}/{after.split('/', 1)[1][:-2]}"] = output
+            elif output.endswith("_cxx.cxx.o"):
+                text = (self.folder / output[:-2]).read_text(encoding="utf-8")
+                self.unities[output] = [str(pathlib.Path(name).relative_to(ROOT)) for name in re.findall(r'#include "(/[^"]+)"', text)]
+                self.objects.update(dict.fromkeys(self.unities[output], output))
 
     def asked(self, tool, *arguments):
         status, out, err = run([self.ninja, "-C", self.folder, "-t", tool, *arguments], self.folder)
@@ -57,16 +65,22 @@ class Build:
         words = [word for word in words if word not in (":", "&&")]
         return words[1:] if pathlib.Path(words[0]).name == "ccache" else words
 
-    def compiled(self, unit, source, before, made):
-        """`unit`: as the build names it; `source`: what is compiled instead, with the headers of the folder `before` first."""
+    def compiled(self, output, changed, folder, made):
+        """`output`: the object as the build names it; made of the `changed` sources and headers below `folder` where there are such."""
+        units = self.unities.get(output) or [unit for unit, each in self.objects.items() if each == output]
+        sources = [folder / unit if unit in changed else ROOT / unit for unit in units]
+        source = sources[0]
+        if output in self.unities:
+            source = made.with_suffix(".cpp")
+            source.write_text("".join(f'#include "{each}"\n' for each in sources), encoding="utf-8")
         words = []
-        given = iter(self.command(self.objects[unit]))
+        given = iter(self.command(output))
         for word in given:
             if word in ("-o", "-c", "-MT", "-MF"):
                 next(given)
             elif word != "-MD":
                 words.append(word)
-        status, _, err = run([words[0], "-I", before, *words[1:], "-O1", "-w", "-o", made, "-c", source], self.folder)
+        status, _, err = run([words[0], "-I", folder / "src", *words[1:], "-O1", "-w", "-o", made, "-c", source], self.folder)
         return "" if status == 0 else err[:2000] or "no end"
 
     def linked(self, program, objects, made):
@@ -112,9 +126,9 @@ def compiled(build, changed, folder):
             include = f'"{pathlib.PurePath(name).relative_to("src")}"'
             units |= {str(each.relative_to(ROOT)) for each in (ROOT / name).parent.glob("*.cpp") if include in each.read_text(encoding="utf-8")}
     made = []
-    for unit in sorted(units):
+    for output in sorted({build.objects[unit] for unit in units}):
         made.append(folder / f"{len(made)}.o")
-        mistake = build.compiled(unit, folder / unit if unit in changed else ROOT / unit, folder / "src", made[-1])
+        mistake = build.compiled(output, changed, folder, made[-1])
         if mistake:
             return [], mistake
     return made, ""

@@ -89,7 +89,6 @@ class Network final : private LinkLocalSender {
   void connect(const LinkPlan::End& from, const LinkPlan::End& to, const LinkPlan& link);
   void transmission_starts(sim::Simulation& simulation, sim::ComponentId port, FrameIndex frame) override;
   void make_clocks();
-  void follow_clocks();
   void set_up_gptp();
   const LocalClock& clock_of(NodeIndex node) const { return clock(node); }
   void add_streams();

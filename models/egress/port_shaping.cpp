@@ -148,12 +148,4 @@ void PortShaping::set_slope(Shaper& shaper, TrafficClass q, sim::TrueTime now) {
   shaper.credit.set_idle_slope(now, operational_idle_slope(config.idle_slope, share.open, share.cycle, rate_of(octet_time_)));
 }
 
-std::int64_t PortShaping::credit_bits(sim::TrueTime now, TrafficClass q) {
-  Shaper& shaper = *shapers_[q];
-  follow_gate(shaper, q, now);
-  const sim::int128 units = shaper.credit.credit(now).units;
-  const sim::int128 bit = shaper.credit.units_per_bit();
-  return static_cast<std::int64_t>(units >= 0 ? units / bit : -((-units + bit - 1) / bit));
-}
-
 }  // namespace takt::models

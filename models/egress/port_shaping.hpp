@@ -91,8 +91,6 @@ class PortShaping {
   std::uint64_t transmission_overrun(TrafficClass q) const { return transmission_overrun_[q]; }
   /// The frame under way ends at `last_bit`: counts it if the gates that are now in force close before.
   void check_overrun(sim::TrueTime now, TrafficClass q, sim::TrueTime last_bit);
-  /// Credit of a class in bits, rounded down; for displays. Precondition: the class has a shaper.
-  std::int64_t credit_bits(sim::TrueTime now, TrafficClass q);
 
  private:
   struct Shaper {

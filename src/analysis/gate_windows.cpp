@@ -24,7 +24,7 @@ GateCycle::GateCycle(const models::GateConfig& gates) {
 }
 
 bool GateCycle::is_open_at(TrafficClass q, Ps time) const {
-  return std::any_of(windows_[q].begin(), windows_[q].end(), [&](const GateWindow& w) {
+  return std::any_of(windows_[q].begin(), windows_[q].end(), [&](const GateOpening& w) {
     return (w.from <= time && time < w.until) || (w.from <= time + cycle_ && time + cycle_ < w.until);
   });
 }
@@ -32,7 +32,7 @@ bool GateCycle::is_open_at(TrafficClass q, Ps time) const {
 /// Precondition: q is open at `time`, within the cycle.
 Ps GateCycle::close_after(TrafficClass q, Ps time) const {
   if (is_always_open(q)) return unbounded_ps;
-  for (const GateWindow& w : windows_[q]) {
+  for (const GateOpening& w : windows_[q]) {
     if (w.from <= time && time < w.until) return w.until;
     if (w.from <= time + cycle_ && time + cycle_ < w.until) return w.until - cycle_;
   }
@@ -40,30 +40,30 @@ Ps GateCycle::close_after(TrafficClass q, Ps time) const {
 }
 
 bool GateCycle::overlap(TrafficClass a, TrafficClass b) const {
-  return std::any_of(windows_[a].begin(), windows_[a].end(), [&](const GateWindow& w) { return is_open_at(b, w.from % cycle_); }) ||
-         std::any_of(windows_[b].begin(), windows_[b].end(), [&](const GateWindow& w) { return is_open_at(a, w.from % cycle_); });
+  return std::any_of(windows_[a].begin(), windows_[a].end(), [&](const GateOpening& w) { return is_open_at(b, w.from % cycle_); }) ||
+         std::any_of(windows_[b].begin(), windows_[b].end(), [&](const GateOpening& w) { return is_open_at(a, w.from % cycle_); });
 }
 
 Ps GateCycle::overhang(TrafficClass q, TrafficClass other, Ps frame, Ps gap) const {
   Ps longest = gap;
-  for (const GateWindow& window : windows_[q]) {
+  for (const GateOpening& window : windows_[q]) {
     const Ps from = window.from % cycle_;
     if (is_open_at(other, from)) longest = std::max(longest, std::min(frame, sum(close_after(other, from) - from, gap)));
   }
   return longest;
 }
 
-Ps GateCycle::overhang_at(const GateWindow& window, TrafficClass other, Ps frame, Ps gap) const {
+Ps GateCycle::overhang_at(const GateOpening& window, TrafficClass other, Ps frame, Ps gap) const {
   const Ps from = window.from % cycle_;
   if (is_open_at(other, from)) return std::min(frame, sum(close_after(other, from) - from, gap));
   Ps closed_for = gap;
-  for (const GateWindow& before : windows_[other]) closed_for = std::min(closed_for, ((from - before.until) % cycle_ + cycle_) % cycle_);
+  for (const GateOpening& before : windows_[other]) closed_for = std::min(closed_for, ((from - before.until) % cycle_ + cycle_) % cycle_);
   return gap - closed_for;
 }
 
 PhasedSupply::PhasedSupply(const GateCycle& gates, TrafficClass q, Ps base, Ps lost_at_start, Ps lost_at_end) : cycle_(gates.cycle()), base_(base) {
-  for (const GateWindow& window : gates.windows(q))
-    if (const GateWindow left{window.from + lost_at_start, window.until - lost_at_end}; left.from <= left.until) {
+  for (const GateOpening& window : gates.windows(q))
+    if (const GateOpening left{window.from + lost_at_start, window.until - lost_at_end}; left.from <= left.until) {
       windows_.push_back(left);
       usable_ += left.until - left.from;
     }
@@ -71,7 +71,7 @@ PhasedSupply::PhasedSupply(const GateCycle& gates, TrafficClass q, Ps base, Ps l
 
 std::vector<Ps> PhasedSupply::ends() const {
   std::vector<Ps> all;
-  for (const GateWindow& window : windows_) all.push_back(base_ + window.until);
+  for (const GateOpening& window : windows_) all.push_back(base_ + window.until);
   return all;
 }
 
@@ -83,7 +83,7 @@ Ps PhasedSupply::time_from(Ps from, Ps need) const {
   if (at < 0) at += cycle_;
   // A window may reach over the end of the cycle in which it began: look from the cycle before on.
   for (Ps start = -cycle_;; start += cycle_)
-    for (const GateWindow& window : windows_) {
+    for (const GateOpening& window : windows_) {
       const Ps begin = std::max(at, start + window.from);
       const Ps end = start + window.until;
       if (begin > end) continue;
@@ -99,7 +99,7 @@ PeriodicSupply::PeriodicSupply(const GateCycle& gates, TrafficClass q, Ps lost_a
   Ps more_of_last = 0;
   Ps room_of_last = -1;
   Ps packed_of_last = 0;
-  for (const GateWindow& window : gates.windows(q)) {
+  for (const GateOpening& window : gates.windows(q)) {
     const Ps from = window.from + lost_at_start;
     const Ps until = window.until - lost_at_end;
     if (from > until) continue;

@@ -11,7 +11,7 @@
 namespace takt::analysis {
 
 /// Windows of one class in one cycle of a gate list, by the node's own clock.
-struct GateWindow {
+struct GateOpening {
   Ps from = 0;
   Ps until = 0;     ///< may lie beyond the end of the cycle, in which it began
 };
@@ -27,14 +27,14 @@ class GateCycle {
   Ps base() const { return base_; }
   bool is_always_open(models::TrafficClass q) const { return open_[q] == cycle_; }
   Ps open(models::TrafficClass q) const { return open_[q]; }
-  const std::vector<GateWindow>& windows(models::TrafficClass q) const { return windows_[q]; }
+  const std::vector<GateOpening>& windows(models::TrafficClass q) const { return windows_[q]; }
   /// Whether both gates are open at one time.
   bool overlap(models::TrafficClass a, models::TrafficClass b) const;
   /// How long a frame of class `other`, begun before a window of q opens, may run into it: at most `frame`, since it must end before its own gate closes,
   /// and `gap` in any case, the inter-packet gap of a frame that ends at the close.
   Ps overhang(models::TrafficClass q, models::TrafficClass other, Ps frame, Ps gap) const;
   /// The same for one window, to the ps: nothing if the gate of `other` has been closed for a gap.
-  Ps overhang_at(const GateWindow& window, models::TrafficClass other, Ps frame, Ps gap) const;
+  Ps overhang_at(const GateOpening& window, models::TrafficClass other, Ps frame, Ps gap) const;
 
  private:
   bool is_open_at(models::TrafficClass q, Ps time) const;
@@ -43,7 +43,7 @@ class GateCycle {
   Ps cycle_ = 0;
   Ps base_ = 0;
   std::array<Ps, models::traffic_class_count> open_{};
-  std::array<std::vector<GateWindow>, models::traffic_class_count> windows_;
+  std::array<std::vector<GateOpening>, models::traffic_class_count> windows_;
 };
 
 /// Stretches of usable time at known phases.
@@ -60,7 +60,7 @@ class PhasedSupply {
   Ps cycle_ = 0;
   Ps base_ = 0;
   Ps usable_ = 0;
-  std::vector<GateWindow> windows_;
+  std::vector<GateOpening> windows_;
 };
 
 /// What a class certainly sends in a window in which frames wait all the time, in which frames that together last so long end: at least that less the longest frame.

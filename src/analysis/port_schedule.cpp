@@ -25,7 +25,7 @@ SequenceWindows PortAnalysis::windows_of(const GateCycle& gates, TrafficClass q)
   made.base = gates.base();
   made.error = model_.clock.error;
   made.is_always_open = gates.is_always_open(q);
-  for (const GateWindow& window : gates.windows(q)) {
+  for (const GateOpening& window : gates.windows(q)) {
     Ps taken = holds_ ? overhang(gates, q) : 0;   // before a hold the gates of preemptable classes only count as closed
     for (TrafficClass other = 0; other < traffic_class_count; ++other) {
       if (other == q || demands_[other].is_empty()) continue;

@@ -27,11 +27,11 @@ std::vector<Ps> PortAnalysis::delays_in_windows(TrafficClass q) const {
   std::vector<Ps> longest(flows.size(), 0);
   for (const GateCycle& gates : gates_) {
     if (gates.is_always_open(q)) return {};
-    const std::vector<GateWindow>& all = gates.windows(q);
+    const std::vector<GateOpening>& all = gates.windows(q);
     const Ps lost = overhang(gates, q) + error;
     PackedWindows made{{}, std::max(blocking(q), gap_), gap_};   // the gap behind a higher class whose window has just closed counts too
     for (std::size_t w = 0; w < all.size(); ++w) {
-      const GateWindow& window = all[w];
+      const GateOpening& window = all[w];
       const Ps next = w + 1 < all.size() ? all[w + 1].from : all.front().from + gates.cycle();
       made.windows.push_back({at_least(window.until - error - window.from - lost), at_most(window.until - window.from + 2 * error), at_most(next - window.from), at_most(next + lost - window.until + error)});
     }

@@ -7,7 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/load.hpp"
 #include "output/text_report.hpp"
-#include "synthesis/check.hpp"
+#include "schedule_check/check.hpp"
 
 namespace takt::cli {
 
@@ -27,7 +27,7 @@ void add_check_command(Command app, ExitStatus& status) {
       return;
     }
     if (resolved->gates) {
-      const std::vector<std::string> wrong = synthesis::check(resolved->gates->problem, resolved->gates->schedule);
+      const std::vector<std::string> wrong = schedule_check::check(resolved->gates->problem, resolved->gates->schedule);
       for (const std::string& each : wrong) std::fprintf(stderr, "takt: the gates are laid out wrongly: %s\n", each.c_str());
       if (!wrong.empty()) {
         status = ExitStatus::internal_error;

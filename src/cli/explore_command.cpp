@@ -86,8 +86,8 @@ std::string not_in_trees(const explore::Query& query, const ExploreOptions& opti
   refuse(options.nested && !options.scenario.empty(), "--nested goes with --slaves N; the Programs of a scenario are explored one by one");
   refuse(options.inner_slaves.has_value() && !options.nested, "--inner-slaves says the size of the inner group of --nested");
   if (!query.is_tree()) return wrong;
-  refuse(query.variant != handshake::Variant::Robust, "paper knows neither nested groups nor joining slaves");
-  refuse(query.subscription != handshake::Subscription::Star, "nested groups and joining slaves are explored in stars");
+  refuse(query.variant != handshake::Variant::robust, "paper knows neither nested groups nor joining slaves");
+  refuse(query.subscription != handshake::Subscription::star, "nested groups and joining slaves are explored in stars");
   refuse(query.network != explore::Network::registers, "nested groups and joining slaves are explored on registers");
   refuse(query.faults.contains(explore::Fault::duplicate) || query.faults.contains(explore::Fault::reorder),
          "nested groups and joining slaves are explored with loss, crash, restart, timeout and forge");
@@ -104,9 +104,9 @@ std::string not_with_roles(const explore::Query& query, const ExploreOptions& op
   };
   refuse(options.starts_again && !query.has_roles(), "--starts-again says what happens when the node of a role was replaced: give --candidates, too");
   if (!query.has_roles()) return wrong;
-  refuse(query.variant != handshake::Variant::Robust, "paper knows no roles");
+  refuse(query.variant != handshake::Variant::robust, "paper knows no roles");
   refuse(query.is_tree(), "roles are explored in single groups, and candidates join by themselves");
-  refuse(query.subscription != handshake::Subscription::Star, "roles are explored in stars");
+  refuse(query.subscription != handshake::Subscription::star, "roles are explored in stars");
   refuse(query.network != explore::Network::registers, "roles are explored on registers");
   refuse(query.faults.contains(explore::Fault::duplicate) || query.faults.contains(explore::Fault::reorder) || query.faults.contains(explore::Fault::forge),
          "roles are explored with loss, crash, restart and timeout");
@@ -126,14 +126,14 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
       if (each == explore::fault_names[f]) query.faults.insert(static_cast<explore::Fault>(f));
   const auto variant_of = [&](handshake::Variant otherwise) {
     if (!options.variant) return otherwise;
-    return *options.variant == "paper" ? handshake::Variant::Paper : handshake::Variant::Robust;
+    return *options.variant == "paper" ? handshake::Variant::paper : handshake::Variant::robust;
   };
   set_network(options.network, query);
   if (options.beginnings == "switched-on") query.beginnings = explore::Beginnings::switched_on;
   const auto add = [&](std::string name, std::size_t slaves, handshake::Variant variant, bool all_to_all) {
     query.slaves = static_cast<std::uint8_t>(slaves);
     if (options.subscription) all_to_all = *options.subscription == "all-to-all";
-    query.subscription = all_to_all ? handshake::Subscription::AllToAll : handshake::Subscription::Star;
+    query.subscription = all_to_all ? handshake::Subscription::all_to_all : handshake::Subscription::star;
     const std::size_t most = all_to_all ? explore::most_slaves_all_to_all : explore::most_slaves;
     if (slaves > most) {
       std::fprintf(stderr, "takt: %s has %zu slaves%s; at most %zu can be explored: give --slaves N to explore a smaller group with its variant\n", name.c_str(), slaves,
@@ -146,7 +146,7 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
     if (options.starts_again) query.starts_again = true;
     const unsigned nodes = query.has_roles() ? query.slaves + query.candidates - 1U : query.nested() ? query.slaves + query.inner_slaves : query.slaves;
     query.commands = options.calls.value_or(usual_calls(nodes));
-    if (query.variant == handshake::Variant::Paper && query.faults.contains(explore::Fault::forge)) {
+    if (query.variant == handshake::Variant::paper && query.faults.contains(explore::Fault::forge)) {
       std::fprintf(stderr, "takt: %s: forge is explored with robust; a word of paper is a state and nothing more, and whoever forges it is believed\n", name.c_str());
       return false;
     }
@@ -164,7 +164,7 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
       std::fputs("takt: explore needs a scenario or --slaves N\n", stderr);
       return {};
     }
-    return add("group", *options.slaves, handshake::Variant::Robust, false) ? subjects : std::vector<Subject>{};
+    return add("group", *options.slaves, handshake::Variant::robust, false) ? subjects : std::vector<Subject>{};
   }
   json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(options.scenario, {}, diagnostics);
@@ -184,8 +184,7 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
         return {};
       }
     }
-    const handshake::Variant variant = program.variant == scenario::Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
-    if (!add(program.name, slaves, variant, program.subscription == scenario::Subscription::all_to_all)) return {};
+    if (!add(program.name, slaves, program.variant, program.subscription == scenario::Subscription::all_to_all)) return {};
   }
   if (subjects.empty()) std::fputs("takt: the scenario has no Programs to explore\n", stderr);
   return subjects;
@@ -216,7 +215,7 @@ bool replays(const std::string& text, const explore::Replay& replayed, explore::
 /// Writes the scenario of one counter-example and says whether it does the same. False if the file cannot be written.
 bool write_finding(const Subject& subject, const explore::SearchResult& result, explore::Property property, const explore::Trace& trace, const std::string& folder) {
   const explore::Replay replayed = explore::replay(subject.query, result.beginnings[trace.beginning], trace);
-  const std::string name = subject.name + (trace.cycle != 0 ? "-chase-" : "-") + std::string(explore::name_of(property));
+  const std::string name = subject.name + (trace.cycle != 0 ? "-livelock-" : "-") + std::string(explore::name_of(property));
   const explore::ScenarioText text = explore::scenario_of(subject.query, replayed, property, name);
   const std::string path = folder + "/" + name + ".json";
   std::ofstream file(path + ".tmp", std::ios::binary);
@@ -239,7 +238,7 @@ bool write_findings(const Subject& subject, const explore::SearchResult& result,
   std::filesystem::create_directories(folder, error);
   for (std::size_t p = 0; p < explore::property_count; ++p) {
     const auto property = static_cast<explore::Property>(p);
-    if (result[property] == explore::Verdict::violated && result.traces[p] && !write_finding(subject, result, property, *result.traces[p], folder)) return false;
+    if (result[property] == explore::PropertyVerdict::violated && result.traces[p] && !write_finding(subject, result, property, *result.traces[p], folder)) return false;
   }
   return !result.livelock || write_finding(subject, result, explore::Property::L1, *result.livelock, folder);
 }

@@ -59,10 +59,10 @@ std::string write_witnesses(const std::string& folder, const scenario::Resolved&
 
 ExitStatus status_of(const verify::Verification& verification) {
   switch (verification.verdict()) {
-    case verify::Verdict::pass: return ExitStatus::pass;
-    case verify::Verdict::refuted: return ExitStatus::requirement_failed;
-    case verify::Verdict::contradiction: return ExitStatus::internal_error;
-    case verify::Verdict::undecided: break;
+    case verify::Conclusion::pass: return ExitStatus::pass;
+    case verify::Conclusion::refuted: return ExitStatus::requirement_failed;
+    case verify::Conclusion::contradiction: return ExitStatus::internal_error;
+    case verify::Conclusion::undecided: break;
   }
   return verification.partial ? ExitStatus::interrupted : ExitStatus::undecided;
 }

@@ -73,7 +73,7 @@ class Checker {
       }
       groups.push_back(group);
     }
-    trees_.push_back({tree, handshake::Observer(variant_of(resolved_.programs[tree.front()].description->variant), handshake::GroupTree(std::move(groups)))});
+    trees_.push_back({tree, handshake::Observer(resolved_.programs[tree.front()].description->variant, handshake::GroupTree(std::move(groups)))});
     for (std::size_t g = 0; g < tree.size(); ++g) {
       watched_[tree[g]].observer = &trees_.back().observer;
       watched_[tree[g]].group = g;

@@ -161,7 +161,7 @@ class Planner {
       for (std::uint32_t part = 0; part < plan_.nodes[n].parts.size(); ++part) {
         const PlannedNode::Part& each = plan_.nodes[n].parts[part];
         if (each.program != call.program || each.candidate || each.participant != (is_of_role ? 0 : call.participant)) continue;
-        plan_.actions.push_back({at, CallAction{n, part, method_of(call.method), is_of_role ? std::optional(static_cast<std::uint8_t>(call.participant - 1)) : std::nullopt}});
+        plan_.actions.push_back({at, CallAction{n, part, call.method, is_of_role ? std::optional(static_cast<std::uint8_t>(call.participant - 1)) : std::nullopt}});
       }
   }
   void add(sim::Duration at, const scenario::ResolvedPlug& change) {

@@ -43,8 +43,8 @@ ReactionResult result_of(const handshake::Reaction& reaction, std::string initia
   one.initiator = std::move(initiator);
   one.cause = std::string(scenario::spelling(reaction.cause));
   one.began = reaction.began;
-  if (reaction.outcome == handshake::ReactionOutcome::Completed) one.completed = reaction.completed;
-  one.superseded = reaction.outcome == handshake::ReactionOutcome::Superseded;
+  if (reaction.outcome == handshake::ReactionOutcome::completed) one.completed = reaction.completed;
+  one.superseded = reaction.outcome == handshake::ReactionOutcome::superseded;
   return one;
 }
 

@@ -133,21 +133,21 @@ void Candidate::leave() {
 auto Candidate::table(std::span<const Binding> bindings, std::uint32_t used_life) -> Change {
   if (role_) {
     const Binding& mine = bindings[*role_];
-    if (mine.candidate == number_ && mine.life == announcement_.life) return Change::None;
+    if (mine.candidate == number_ && mine.life == announcement_.life) return Change::none;
     role_.reset();
     announcement_.life = next_life(announcement_.life);
     if (announcement_.leaving) joined_ = false;
     announcement_.leaving = false;
-    return Change::Released;
+    return Change::released;
   }
   if (used_life != 0 && !is_later_life(announcement_.life, used_life)) announcement_.life = next_life(used_life);
-  if (!joined_) return Change::None;
+  if (!joined_) return Change::none;
   for (std::size_t role = 0; role < bindings.size(); ++role) {
     if (bindings[role].candidate != number_ || bindings[role].life != announcement_.life) continue;
     role_ = static_cast<std::uint8_t>(role);
-    return Change::Bound;
+    return Change::bound;
   }
-  return Change::None;
+  return Change::none;
 }
 
 }  // namespace takt::handshake

@@ -126,7 +126,7 @@ class Binder {
 /// A node that offers its skills, as a value: what it announces, and which role it has.
 class Candidate {
  public:
-  enum class Change : std::uint8_t { None, Bound, Released };
+  enum class Change : std::uint8_t { none, bound, released };
 
   /// `life`: the first one; a restarted node begins with another.
   Candidate(std::uint8_t number, std::uint32_t life, std::span<const SkillId> skills);

@@ -38,8 +38,8 @@ std::optional<Input> input_towards(PublishedState from, PublishedState to) {
 bool in_step(PublishedState outer, PublishedState inner) { return steps_match[index_of(outer)][index_of(inner)]; }
 
 auto Coupling::next(const GroupView& outer, const GroupView& inner) -> std::optional<Step> {
-  if (inner.state != inner_state_) leader_ = Side::Inner;
-  if (outer.state != outer_state_) leader_ = Side::Outer;
+  if (inner.state != inner_state_) leader_ = Side::inner;
+  if (outer.state != outer_state_) leader_ = Side::outer;
   outer_state_ = outer.state;
   inner_state_ = inner.state;
 
@@ -49,12 +49,12 @@ auto Coupling::next(const GroupView& outer, const GroupView& inner) -> std::opti
   const bool starts = outer.intent.kind == IntentKind::Start && (outer.intent.run != started_for_ || overruled);
   if (starts && (outer.state == init || outer.state == ready)) {
     if (inner.may_start) started_for_ = outer.intent.run;
-    step = Step{Side::Inner, Input::command(inner.may_start ? Method::Start : Method::Halt)};
+    step = Step{Side::inner, Input::command(inner.may_start ? Method::Start : Method::Halt)};
   } else {
     step = pass_barriers(outer, inner);
     if (!step) step = follow(outer, inner);
   }
-  if (step && step->input.kind != Input::Kind::Initialised && step->input.kind != Input::Kind::Released) step->input.coupled = true;
+  if (step && step->input.kind != Input::Kind::initialised && step->input.kind != Input::Kind::released) step->input.coupled = true;
   return step;
 }
 
@@ -67,33 +67,33 @@ auto Coupling::pass_barriers(const GroupView& outer, const GroupView& inner) con
   if (outer_starts && inner_starts) {
     const bool initialised = (outer.state == ready || outer_initialised_ == outer.intent.run) &&
                              (inner.state == ready || inner_initialised_ == inner.intent.run);
-    if (outer_waits && initialised && inner.peers_ready) return Step{Side::Outer, Input::initialised(outer.intent.run)};
-    if (outer.may_run && inner_waits && !inner.initialised) return Step{Side::Inner, Input::initialised(inner.intent.run)};
+    if (outer_waits && initialised && inner.peers_ready) return Step{Side::outer, Input::initialised(outer.intent.run)};
+    if (outer.may_run && inner_waits && !inner.initialised) return Step{Side::inner, Input::initialised(inner.intent.run)};
     return std::nullopt;
   }
-  if (outer.may_run && inner.state == running) return Step{Side::Outer, Input::released(outer.run)};
+  if (outer.may_run && inner.state == running) return Step{Side::outer, Input::released(outer.run)};
   // One group has finished while the other one was within its barrier.
-  if (outer.may_run && inner.state == ready) return Step{Side::Outer, Input::finished()};
+  if (outer.may_run && inner.state == ready) return Step{Side::outer, Input::finished()};
   if (outer.state == ready && !outer_starts && inner_starts) {
     // A reset of the former run that has overruled the start finds inner participants that are in neither run: only a halt remains.
     const bool can_follow = inner.run == inner.intent.run || inner.peers_ready;
-    return Step{Side::Inner, can_follow ? Input::finished() : Input::command(Method::Halt)};
+    return Step{Side::inner, can_follow ? Input::finished() : Input::command(Method::Halt)};
   }
   return std::nullopt;
 }
 
 auto Coupling::follow(const GroupView& outer, const GroupView& inner) const -> std::optional<Step> {
   if (in_step(outer.state, inner.state) && (outer.state == inner.state || outer.state == ready)) return std::nullopt;
-  if (outer.state == halted) return Step{Side::Inner, Input::command(Method::Halt)};
-  if (inner.state == halted) return Step{Side::Outer, Input::command(Method::Halt)};
+  if (outer.state == halted) return Step{Side::inner, Input::command(Method::Halt)};
+  if (inner.state == halted) return Step{Side::outer, Input::command(Method::Halt)};
   // Ready is final for a run, so it leads wherever it is; between Running and Suspended the later change does.
-  const Side leader = outer.state == ready ? Side::Outer : inner.state == ready ? Side::Inner : leader_;
-  const GroupView& from = leader == Side::Outer ? inner : outer;
-  const GroupView& to = leader == Side::Outer ? outer : inner;
-  const Side follower = leader == Side::Outer ? Side::Inner : Side::Outer;
+  const Side leader = outer.state == ready ? Side::outer : inner.state == ready ? Side::inner : leader_;
+  const GroupView& from = leader == Side::outer ? inner : outer;
+  const GroupView& to = leader == Side::outer ? outer : inner;
+  const Side follower = leader == Side::outer ? Side::inner : Side::outer;
   const std::optional<Input> input = input_towards(from.state, to.state);
-  if (!input) return Step{Side::Inner, Input::command(Method::Halt)};  // never seen: whatever it is, halted is safe
-  const bool is_suspend = input->kind == Input::Kind::Command && input->method == Method::Suspend;
+  if (!input) return Step{Side::inner, Input::command(Method::Halt)};  // never seen: whatever it is, halted is safe
+  const bool is_suspend = input->kind == Input::Kind::command && input->method == Method::Suspend;
   if (is_suspend && !from.may_suspend) return std::nullopt;  // not before the barrier is over
   return Step{follower, *input};
 }

@@ -21,7 +21,7 @@
 namespace takt::handshake {
 
 /// The two participants of a node in nested groups.
-enum class Side : std::uint8_t { Outer, Inner };
+enum class Side : std::uint8_t { outer, inner };
 
 /// What the coupling looks at.
 struct GroupView {
@@ -44,14 +44,14 @@ GroupView view_of(const Participant<MaxPeers>& participant) {
 class Coupling {
  public:
   struct Step {
-    Side side = Side::Outer;
+    Side side = Side::outer;
     Input input;
   };
   /// More steps than that never follow from one input.
   static constexpr std::size_t most_steps = 6;
 
   /// The local initialisation that this side's participant asked for has ended. Goes here instead of to the participant.
-  void initialised(Side side, std::uint32_t run) { (side == Side::Outer ? outer_initialised_ : inner_initialised_) = run; }
+  void initialised(Side side, std::uint32_t run) { (side == Side::outer ? outer_initialised_ : inner_initialised_) = run; }
   /// What to tell one of the two now; nothing if both are in step. Ask again after each step of either.
   std::optional<Step> next(const GroupView& outer, const GroupView& inner);
 
@@ -67,7 +67,7 @@ class Coupling {
   std::uint32_t inner_initialised_ = 0;
   PublishedState outer_state_ = PublishedState::Halted;  ///< as seen last
   PublishedState inner_state_ = PublishedState::Halted;
-  Side leader_ = Side::Outer;            ///< whose state changed last
+  Side leader_ = Side::outer;            ///< whose state changed last
 };
 
 /// True for a pair of the table above; so it is after each step of the node.

@@ -34,20 +34,20 @@ namespace takt::handshake {
 enum class Invariant : std::uint8_t { S1, S2, S3, S4, S5 };
 
 enum class Finding : std::uint8_t {
-  RunningBeforeAllReady,      ///< S1
-  ReadyBeforeInnerGroup,      ///< S1 of the tree
-  MasterBeforeSlaves,         ///< S2
-  DataOfOneNotRunning,        ///< S3: the sender was not Running when it sent
-  DataToOneNotRunning,        ///< S3
-  DataOfAnotherRun,           ///< S3
-  RunningWithoutInit,         ///< S4
-  NoSuchTransition,           ///< S5: not in the table
-  StateJumped,                ///< S5: the change does not begin where the last one ended
+  running_before_all_ready,      ///< S1
+  ready_before_inner_group,      ///< S1 of the tree
+  master_before_slaves,         ///< S2
+  data_of_one_not_running,        ///< S3: the sender was not Running when it sent
+  data_to_one_not_running,        ///< S3
+  data_of_another_run,           ///< S3
+  running_without_init,         ///< S4
+  no_such_transition,           ///< S5: not in the table
+  state_jumped,                ///< S5: the change does not begin where the last one ended
 };
 
 struct Violation {
   Invariant invariant = Invariant::S1;
-  Finding finding = Finding::RunningBeforeAllReady;
+  Finding finding = Finding::running_before_all_ready;
   std::uint8_t participant = 0;  ///< who did it, of its group; for S3 the receiver
   std::uint16_t group = 0;       ///< of the tree
   bool of_tree = false;          ///< S1 and S2 of the whole tree; else of the group alone

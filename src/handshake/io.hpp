@@ -18,9 +18,9 @@ using PeerSet = std::uint64_t;
 
 /// One input of a step; made by the named functions.
 struct Input {
-  enum class Kind : std::uint8_t { Command, Received, Initialised, Finished, PeerSilent, Released, PeerReplaced, PeerLeft };
+  enum class Kind : std::uint8_t { command, received, initialised, finished, peer_silent, released, peer_replaced, peer_left };
 
-  Kind kind = Kind::Finished;
+  Kind kind = Kind::finished;
   program::Method method = program::Method::Halt;  ///< Command
   std::uint8_t peer = 0;                           ///< Received, PeerSilent: index of the peer, not of the participant
   std::uint16_t sequence = 0;                      ///< Received: sequence number of the message, wraps
@@ -31,7 +31,7 @@ struct Input {
   /// A client or the user calls a method here.
   static constexpr Input command(program::Method method) {
     Input input;
-    input.kind = Kind::Command;
+    input.kind = Kind::command;
     input.method = method;
     return input;
   }
@@ -39,7 +39,7 @@ struct Input {
   /// number again is taken again, which changes nothing.
   static constexpr Input received(std::size_t peer, const Word& word, std::uint16_t sequence) {
     Input input;
-    input.kind = Kind::Received;
+    input.kind = Kind::received;
     input.peer = static_cast<std::uint8_t>(peer);
     input.sequence = sequence;
     input.word = word;
@@ -49,7 +49,7 @@ struct Input {
   /// Outputs::initialisation_run. One that has been overtaken by a halt or by a newer start changes nothing.
   static constexpr Input initialised(std::uint32_t run) {
     Input input;
-    input.kind = Kind::Initialised;
+    input.kind = Kind::initialised;
     input.run = run;
     return input;
   }
@@ -58,21 +58,21 @@ struct Input {
   /// The MessageReceiveTimeout of a peer has expired since it was last armed (Outputs::arm_timeout).
   static constexpr Input peer_silent(std::size_t peer) {
     Input input;
-    input.kind = Kind::PeerSilent;
+    input.kind = Kind::peer_silent;
     input.peer = static_cast<std::uint8_t>(peer);
     return input;
   }
   /// The inner group of a nested slave is Running, so the slave may be so too, in this run.
   static constexpr Input released(std::uint32_t run) {
     Input input;
-    input.kind = Kind::Released;
+    input.kind = Kind::released;
     input.run = run;
     return input;
   }
   /// The node behind a peer is gone: the group halts. At the master.
   static constexpr Input peer_left(std::size_t peer) {
     Input input;
-    input.kind = Kind::PeerLeft;
+    input.kind = Kind::peer_left;
     input.peer = static_cast<std::uint8_t>(peer);
     return input;
   }
@@ -80,7 +80,7 @@ struct Input {
   /// it changes nothing.
   static constexpr Input peer_replaced(std::size_t peer) {
     Input input;
-    input.kind = Kind::PeerReplaced;
+    input.kind = Kind::peer_replaced;
     input.peer = static_cast<std::uint8_t>(peer);
     return input;
   }
@@ -98,12 +98,12 @@ struct StateChange {
 
 /// Why a step has raised an intent that nobody asked for by a command here.
 enum class Alarm : std::uint8_t {
-  None,
-  PeerSilent,     ///< a peer's MessageReceiveTimeout expired
-  PeerLeft,       ///< a peer's node has left the group, or has begun another life
-  PeerRestarted,  ///< a peer's incarnation changed
-  Mismatch,       ///< an intent that cannot be followed from here, so somebody's history is not mine
-  OtherGroup,     ///< the group that this one is nested in, or that is nested in it, has done the same
+  none,
+  peer_silent,     ///< a peer's MessageReceiveTimeout expired
+  peer_left,       ///< a peer's node has left the group, or has begun another life
+  peer_restarted,  ///< a peer's incarnation changed
+  mismatch,       ///< an intent that cannot be followed from here, so somebody's history is not mine
+  other_group,     ///< the group that this one is nested in, or that is nested in it, has done the same
 };
 
 /// What the host has to do after a step, in the order of the fields.
@@ -114,7 +114,7 @@ struct Outputs {
   bool ignored = false;  ///< Received: stale or invalid. Process data of the same message must not be used either
   bool raised = false;   ///< a new intent was raised here: its kind in `raised_kind` (`paper`: the command's)
   IntentKind raised_kind = IntentKind::Halt;
-  Alarm alarm = Alarm::None;
+  Alarm alarm = Alarm::none;
   bool publish = false;               ///< word() differs from before the step
   bool process_stopped = false;       ///< Running was left: stop the process and its data
   bool process_started = false;       ///< Running was entered

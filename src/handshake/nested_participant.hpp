@@ -15,7 +15,7 @@ namespace takt::handshake {
 /// What both participants ask for after one input, in the order in which they took their steps.
 struct NestedOutputs {
   struct One {
-    Side side = Side::Outer;
+    Side side = Side::outer;
     Outputs outputs;
     Word after;  ///< of that side
   };
@@ -29,13 +29,13 @@ class NestedParticipant {
  public:
   /// The outer role is Slave, the inner one Master; `nested` is set in both here.
   NestedParticipant(Config outer, Config inner) : outer_(nested(outer)), inner_(nested(inner)) {
-    TAKT_CHECK(outer.role == Role::Slave && inner.role == Role::Master, "a slave of one group is the master of the other");
+    TAKT_CHECK(outer.role == Role::slave && inner.role == Role::master, "a slave of one group is the master of the other");
   }
 
   /// An input of one side. Outputs::begin_initialisation of each side asks for an initialisation of its own.
   NestedOutputs step(Side side, const Input& input) {
     NestedOutputs outputs;
-    if (input.kind == Input::Kind::Initialised)
+    if (input.kind == Input::Kind::initialised)
       coupling_.initialised(side, input.run);
     else
       take(side, input, outputs);
@@ -66,8 +66,8 @@ class NestedParticipant {
     TAKT_CHECK(outputs.count < outputs.steps.size(), "few steps follow from one input");
     NestedOutputs::One& one = outputs.steps[outputs.count++];
     one.side = side;
-    one.outputs = side == Side::Outer ? outer_.step(input) : inner_.step(input);
-    one.after = side == Side::Outer ? outer_.word() : inner_.word();
+    one.outputs = side == Side::outer ? outer_.step(input) : inner_.step(input);
+    one.after = side == Side::outer ? outer_.word() : inner_.word();
   }
 
   Participant<MaxOuterPeers> outer_;

@@ -20,17 +20,17 @@ void Observer::on_step(std::size_t participant, const Outputs& outputs, const Wo
 void Observer::on_transition(std::size_t participant, StateChange change, const Word& after) {
   TAKT_CHECK(participant < seen_.size(), "a transition is one of a participant");
   Seen& seen = seen_[participant];
-  if (change.from != seen.state) report(Invariant::S5, Finding::StateJumped, participant);
-  if (!is_transition(change)) report(Invariant::S5, Finding::NoSuchTransition, participant);
+  if (change.from != seen.state) report(Invariant::S5, Finding::state_jumped, participant);
+  if (!is_transition(change)) report(Invariant::S5, Finding::no_such_transition, participant);
   seen.state = change.to;
-  if (variant_ == Variant::Robust) seen.run = after.run;
+  if (variant_ == Variant::robust) seen.run = after.run;
   else if (history_.begins_round(change)) seen.run = ++rounds_;
   history_.on_transition(tree_, participant, change, after.run, [&](Invariant invariant, Finding finding, bool of_tree) { report(invariant, finding, participant, of_tree); });
 }
 
 void Observer::on_word(std::size_t participant, const Word& after) {
   TAKT_CHECK(participant < seen_.size(), "a word is one of a participant");
-  if (variant_ == Variant::Paper) return;
+  if (variant_ == Variant::paper) return;
   seen_[participant].run = after.run;
   if (after.state != PublishedState::Ready) return;
   history_.on_ready(tree_, participant, after.run, [&](Invariant invariant, Finding finding, bool of_tree) { report(invariant, finding, participant, of_tree); });
@@ -46,17 +46,17 @@ std::uint32_t Observer::sending_run(std::size_t participant) const {
   TAKT_CHECK(participant < seen_.size(), "only a participant sends");
   const Seen& seen = seen_[participant];
   if (seen.state != PublishedState::Running) return 0;
-  return variant_ == Variant::Robust ? seen.run : rounds_;
+  return variant_ == Variant::robust ? seen.run : rounds_;
 }
 
 void Observer::on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in) {
   TAKT_CHECK(from < seen_.size() && to < seen_.size() && from != to, "process data goes from one to another");
   if (sent_in == 0) {
-    report(Invariant::S3, Finding::DataOfOneNotRunning, to);
+    report(Invariant::S3, Finding::data_of_one_not_running, to);
   } else if (seen_[to].state != PublishedState::Running) {
-    report(Invariant::S3, Finding::DataToOneNotRunning, to);
-  } else if (variant_ == Variant::Robust ? seen_[to].run != sent_in : seen_[to].run > sent_in) {
-    report(Invariant::S3, Finding::DataOfAnotherRun, to);
+    report(Invariant::S3, Finding::data_to_one_not_running, to);
+  } else if (variant_ == Variant::robust ? seen_[to].run != sent_in : seen_[to].run > sent_in) {
+    report(Invariant::S3, Finding::data_of_another_run, to);
   }
 }
 

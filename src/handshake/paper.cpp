@@ -90,7 +90,7 @@ void Participant<MaxPeers>::paper_command(Method method, Outputs& outputs) {
 
 template <std::size_t MaxPeers>
 void Participant<MaxPeers>::paper_received(const Input& input, Outputs& outputs) {
-  if (!is_valid(input.word, Variant::Paper, config_.slaves)) {
+  if (!is_valid(input.word, Variant::paper, config_.slaves)) {
     outputs.ignored = true;
     return;
   }

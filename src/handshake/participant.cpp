@@ -7,16 +7,16 @@ namespace takt::handshake {
 template <std::size_t MaxPeers>
 Participant<MaxPeers>::Participant(const Config& config) : config_(config) {
   TAKT_CHECK(config.slaves >= 1, "a group has at least one slave");
-  TAKT_CHECK((config.role == Role::Master) == (config.index == 0), "the master is participant 0, a slave is not");
+  TAKT_CHECK((config.role == Role::master) == (config.index == 0), "the master is participant 0, a slave is not");
   TAKT_CHECK(config.index <= config.slaves, "a participant's index is within its group");
-  TAKT_CHECK(!config.nested || config.variant == Variant::Robust, "the states alone cannot join two groups");
+  TAKT_CHECK(!config.nested || config.variant == Variant::robust, "the states alone cannot join two groups");
   TAKT_CHECK(peer_count() <= MaxPeers, "a participant has room for all its peers");
 }
 
 template <std::size_t MaxPeers>
 Outputs Participant<MaxPeers>::step(const Input& input) {
   // Nearly all steps are these, once a cycle for each peer.
-  if (input.kind == Input::Kind::Received && config_.variant == Variant::Robust && machine_.state() != program::State::Ready &&
+  if (input.kind == Input::Kind::received && config_.variant == Variant::robust && machine_.state() != program::State::Ready &&
       !machine_.initialising() && robust_says_nothing_new(input)) {
     peers_[input.peer].sequence = input.sequence;
     Outputs outputs;
@@ -29,46 +29,46 @@ Outputs Participant<MaxPeers>::step(const Input& input) {
 /// A step with all that may come of it.
 template <std::size_t MaxPeers>
 Outputs Participant<MaxPeers>::take(const Input& input) {
-  const bool robust = config_.variant == Variant::Robust;
+  const bool robust = config_.variant == Variant::robust;
   Outputs outputs;
   // What word() tells besides the intent, which says itself that it has changed.
   const PublishedState state_before = state();
   const std::uint32_t run_before = run_;
   switch (input.kind) {
-    case Input::Kind::Command:
+    case Input::Kind::command:
       // A nested group is started through the group that it is nested in.
       if (config_.nested && is_master() && input.method == program::Method::Start && !input.coupled)
         outputs.status = program::StatusCode::BadInvalidState;
       else
         robust ? robust_command(input.method, outputs) : paper_command(input.method, outputs);
       break;
-    case Input::Kind::Received:
+    case Input::Kind::received:
       TAKT_CHECK(input.peer < peer_count(), "a word comes from a peer");
       robust ? robust_received(input, outputs) : paper_received(input, outputs);
       break;
-    case Input::Kind::Initialised: initialised(input.run, outputs); break;
-    case Input::Kind::Finished: finished(input.coupled, outputs); break;
-    case Input::Kind::Released:
+    case Input::Kind::initialised: initialised(input.run, outputs); break;
+    case Input::Kind::finished: finished(input.coupled, outputs); break;
+    case Input::Kind::released:
       if (config_.nested && input.run == run_ && may_run()) move_to(PublishedState::Running, outputs);
       break;
-    case Input::Kind::PeerLeft:
+    case Input::Kind::peer_left:
       TAKT_CHECK(is_master() && input.peer < peer_count() && robust, "the master's peers leave");
-      if (state() != PublishedState::Halted) raise_alarm(Alarm::PeerLeft, intent_.number, outputs);
+      if (state() != PublishedState::Halted) raise_alarm(Alarm::peer_left, intent_.number, outputs);
       break;
-    case Input::Kind::PeerReplaced:
+    case Input::Kind::peer_replaced:
       TAKT_CHECK(is_master() && input.peer < peer_count(), "the master's peers are replaced");
       if (machine_.at_rest()) {
         peers_[input.peer] = {};
         sort_peer(input.peer);
       }
       break;
-    case Input::Kind::PeerSilent:
+    case Input::Kind::peer_silent:
       TAKT_CHECK(input.peer < peer_count(), "only a peer falls silent");
       if (robust) robust_silent(input.peer, outputs);
       break;
   }
   outputs.publish = outputs.publish || state() != state_before || run_ != run_before;
-  if (input.coupled && outputs.raised) outputs.alarm = Alarm::OtherGroup;
+  if (input.coupled && outputs.raised) outputs.alarm = Alarm::other_group;
   TAKT_CHECK(is_valid(word(), config_.variant, config_.slaves), "a participant is what its intent says");
   return outputs;
 }
@@ -92,7 +92,7 @@ void Participant<MaxPeers>::initialised(std::uint32_t run, Outputs& outputs) {
   if ((!machine_.initialising() && !joins) || run != intent_.run) return;
   if (is_master()) {
     initialised_ = true;
-    config_.variant == Variant::Robust ? robust_barrier(outputs) : paper_barrier(outputs);
+    config_.variant == Variant::robust ? robust_barrier(outputs) : paper_barrier(outputs);
   } else {
     run_ = intent_.run;
     move_to(PublishedState::Ready, outputs);
@@ -105,7 +105,7 @@ void Participant<MaxPeers>::finished(bool coupled, Outputs& outputs) {
   const bool in_barrier = coupled && config_.nested && intent_.kind == IntentKind::Start && state() != PublishedState::Halted &&
                           (is_master() ? run_ == intent_.run || peers_ready() : may_run());
   if (machine_.state() != program::State::Running && !in_barrier) return;
-  if (config_.variant == Variant::Robust) {
+  if (config_.variant == Variant::robust) {
     if (in_barrier) run_ = intent_.run;
     raise(IntentKind::Finish, intent_.number, outputs);
   } else {
@@ -123,7 +123,7 @@ bool Participant<MaxPeers>::may_run() const {
 
 template <std::size_t MaxPeers>
 Word Participant<MaxPeers>::word() const {
-  if (config_.variant == Variant::Paper) return Word{0, state(), Intent{}, 0};
+  if (config_.variant == Variant::paper) return Word{0, state(), Intent{}, 0};
   return Word{config_.incarnation, state(), intent_, run_};
 }
 
@@ -172,7 +172,7 @@ void Participant<MaxPeers>::enter_init(Outputs& outputs) {
   outputs.begin_initialisation = true;
   outputs.initialisation_run = intent_.run;
   // Whoever has not been heard for long gets a full time-out from the moment at which it begins to matter.
-  if (config_.variant == Variant::Robust) outputs.arm_timeout = all_peers();
+  if (config_.variant == Variant::robust) outputs.arm_timeout = all_peers();
 }
 
 template <std::size_t MaxPeers>

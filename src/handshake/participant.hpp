@@ -17,17 +17,17 @@
 
 namespace takt::handshake {
 
-enum class Role : std::uint8_t { Master, Slave };
+enum class Role : std::uint8_t { master, slave };
 /// Who hears whom: the master all slaves and a slave the master, or everybody all others.
-enum class Subscription : std::uint8_t { Star, AllToAll };
+enum class Subscription : std::uint8_t { star, all_to_all };
 
 struct Config {
-  Variant variant = Variant::Robust;
-  Role role = Role::Master;
+  Variant variant = Variant::robust;
+  Role role = Role::master;
   std::uint8_t index = 0;         ///< among the participants: 0 the master, 1..slaves
   std::uint8_t slaves = 1;        ///< of the group, at least 1
   std::uint32_t incarnation = 0;  ///< another one after each restart; `paper` does not publish it
-  Subscription subscription = Subscription::Star;  ///< the same for all of the group
+  Subscription subscription = Subscription::star;  ///< the same for all of the group
   /// Joined to another group on this node, in which it has the other role (coupling.hpp). `robust` only.
   bool nested = false;
   constexpr bool operator==(const Config&) const = default;
@@ -54,7 +54,7 @@ class Participant {
   /// What it publishes now.
   Word word() const;
 
-  std::size_t peer_count() const { return is_master() || config_.subscription == Subscription::AllToAll ? config_.slaves : 1; }
+  std::size_t peer_count() const { return is_master() || config_.subscription == Subscription::all_to_all ? config_.slaves : 1; }
   /// The participant that a peer index stands for, and back: they are in the same order. Peer 0 of a slave is the master.
   std::size_t participant_of(std::size_t peer) const { return peer < config_.index ? peer : peer + 1; }
   std::size_t peer_of(std::size_t participant) const { return participant < config_.index ? participant : participant - 1; }
@@ -104,9 +104,9 @@ class Participant {
     bool sequence_known = false;  ///< false after silence: then any sequence number is the first
     bool operator==(const Peer&) const = default;
   };
-  enum class Freshness : std::uint8_t { Stale, Fresh, Restarted };
+  enum class Freshness : std::uint8_t { stale, fresh, restarted };
 
-  bool is_master() const { return config_.role == Role::Master; }
+  bool is_master() const { return config_.role == Role::master; }
   PeerSet all_peers() const { return ~PeerSet{0} >> (64 - peer_count()); }
 
   // participant.cpp: shared by both variants

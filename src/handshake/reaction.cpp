@@ -12,8 +12,8 @@ constexpr Cause cause_of(Alarm alarm) {
   constexpr std::array<Cause, 6> causes{Cause::command, Cause::silence, Cause::leave, Cause::restart, Cause::mismatch, Cause::nested};
   return causes[static_cast<std::size_t>(alarm)];
 }
-static_assert(cause_of(Alarm::PeerSilent) == Cause::silence && cause_of(Alarm::PeerLeft) == Cause::leave && cause_of(Alarm::PeerRestarted) == Cause::restart &&
-              cause_of(Alarm::Mismatch) == Cause::mismatch && cause_of(Alarm::OtherGroup) == Cause::nested);
+static_assert(cause_of(Alarm::peer_silent) == Cause::silence && cause_of(Alarm::peer_left) == Cause::leave && cause_of(Alarm::peer_restarted) == Cause::restart &&
+              cause_of(Alarm::mismatch) == Cause::mismatch && cause_of(Alarm::other_group) == Cause::nested);
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void ReactionTracker::on_step(std::size_t participant, const Outputs& outputs, c
       reaction.cause = fault_->cause;
       reaction.began = fault_->since;
     }
-    if (reaction.kind == IntentKind::Halt && outputs.alarm != Alarm::None) fault_ = Origin{reaction.cause, reaction.began};
+    if (reaction.kind == IntentKind::Halt && outputs.alarm != Alarm::none) fault_ = Origin{reaction.cause, reaction.began};
     if (reaction.kind == IntentKind::Start && !origin.by_itself) fault_.reset();
     begin(reaction, after.intent);
   }
@@ -43,7 +43,7 @@ void ReactionTracker::on_step(std::size_t participant, const Outputs& outputs, c
 
 /// The second who notices a fault begins no reaction of its own.
 bool ReactionTracker::joins_fault(const Outputs& outputs, const Intent& intent) {
-  if (outputs.alarm == Alarm::None || outputs.raised_kind != IntentKind::Halt) return false;
+  if (outputs.alarm == Alarm::none || outputs.raised_kind != IntentKind::Halt) return false;
   const auto fault = std::find_if(open_.begin(), open_.end(), [&](const Open& each) {
     return reactions_[each.reaction].kind == IntentKind::Halt && reactions_[each.reaction].cause != Cause::command;
   });
@@ -64,7 +64,7 @@ void ReactionTracker::on_crash(std::size_t participant, sim::TrueTime at) {
   if (std::any_of(open_.begin(), open_.end(), is_this)) return;
   fault_ = Origin{Cause::crash, at};
   open_.push_back({reactions_.size(), {}, true});
-  reactions_.push_back({IntentKind::Halt, static_cast<std::uint16_t>(participant), Cause::crash, ReactionOutcome::Pending, at});
+  reactions_.push_back({IntentKind::Halt, static_cast<std::uint16_t>(participant), Cause::crash, ReactionOutcome::pending, at});
 }
 
 void ReactionTracker::on_leave(std::size_t participant, sim::TrueTime at) {
@@ -88,7 +88,7 @@ void ReactionTracker::begin(const Reaction& reaction, const Intent& intent) {
   reactions_.push_back(reaction);
   open_.push_back({position, intent});
   if (!supersede(position, intent)) return;
-  reactions_[position].outcome = ReactionOutcome::Superseded;
+  reactions_[position].outcome = ReactionOutcome::superseded;
   std::erase_if(open_, [&](const Open& each) { return each.reaction == position; });
 }
 
@@ -100,7 +100,7 @@ bool ReactionTracker::supersede(std::size_t position, const Intent& intent) {
       superseded = true;
       return false;
     }
-    reactions_[other.reaction].outcome = ReactionOutcome::Superseded;
+    reactions_[other.reaction].outcome = ReactionOutcome::superseded;
     return true;
   });
   return superseded;
@@ -124,7 +124,7 @@ void ReactionTracker::complete_those_reached(sim::TrueTime at) {
   std::erase_if(open_, [&](const Open& each) {
     Reaction& reaction = reactions_[each.reaction];
     if (!is_reached(reaction.kind)) return false;
-    reaction.outcome = ReactionOutcome::Completed;
+    reaction.outcome = ReactionOutcome::completed;
     reaction.completed = at;
     return true;
   });
@@ -132,7 +132,7 @@ void ReactionTracker::complete_those_reached(sim::TrueTime at) {
 
 void TreeReactions::on_step(std::size_t number, const Outputs& outputs, sim::TrueTime at, const Origin& origin) {
   Outputs seen = outputs;
-  if (outputs.alarm == Alarm::OtherGroup) seen.raised = false;
+  if (outputs.alarm == Alarm::other_group) seen.raised = false;
   tracker_.on_step(number, seen, Word{}, at, origin);  // without an intent: numbers of different groups cannot be compared
 }
 

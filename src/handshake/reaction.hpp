@@ -18,16 +18,16 @@
 namespace takt::handshake {
 
 enum class ReactionOutcome : std::uint8_t {
-  Pending,
-  Completed,
-  Superseded,  ///< something with another goal came before it was complete
+  pending,
+  completed,
+  superseded,  ///< something with another goal came before it was complete
 };
 
 struct Reaction {
   IntentKind kind = IntentKind::Halt;
   std::uint16_t initiator = 0;  ///< participant: who was called, who has crashed, or who was first to notice
   Cause cause = Cause::command;
-  ReactionOutcome outcome = ReactionOutcome::Pending;
+  ReactionOutcome outcome = ReactionOutcome::pending;
   sim::TrueTime began;          ///< the instant of the cause
   sim::TrueTime completed = sim::TrueTime::never();  ///< never() unless Completed
 };

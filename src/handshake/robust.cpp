@@ -91,9 +91,9 @@ bool Participant<MaxPeers>::robust_may_suspend() const {
 template <std::size_t MaxPeers>
 void Participant<MaxPeers>::robust_received(const Input& input, Outputs& outputs) {
   const Word& word = input.word;
-  const bool is_sound = is_valid(word, Variant::Robust, config_.slaves);
-  const Freshness freshness = is_sound ? note_word(peers_[input.peer], word, input.sequence) : Freshness::Stale;
-  if (freshness == Freshness::Stale) {
+  const bool is_sound = is_valid(word, Variant::robust, config_.slaves);
+  const Freshness freshness = is_sound ? note_word(peers_[input.peer], word, input.sequence) : Freshness::stale;
+  if (freshness == Freshness::stale) {
     outputs.ignored = true;
     return;
   }
@@ -102,12 +102,12 @@ void Participant<MaxPeers>::robust_received(const Input& input, Outputs& outputs
   const bool is_greater = supersedes(word.intent, input.peer);
   const bool is_current = is_greater || word.intent == intent_;
   const std::uint32_t above = is_greater ? word.intent.number : intent_.number;
-  if (freshness == Freshness::Restarted && state() != halted) {
-    raise_alarm(Alarm::PeerRestarted, above, outputs);
+  if (freshness == Freshness::restarted && state() != halted) {
+    raise_alarm(Alarm::peer_restarted, above, outputs);
   } else if (is_current && counted_without_me(input.peer, word)) {
-    raise_alarm(Alarm::Mismatch, above, outputs);
+    raise_alarm(Alarm::mismatch, above, outputs);
   } else if (is_current && ran_without_me(word)) {
-    raise_alarm(Alarm::Mismatch, above, outputs);
+    raise_alarm(Alarm::mismatch, above, outputs);
   } else if (is_greater) {
     adopt(word.intent, outputs);
   }
@@ -117,14 +117,14 @@ void Participant<MaxPeers>::robust_received(const Input& input, Outputs& outputs
 /// Remembers a word unless it is older than what is known.
 template <std::size_t MaxPeers>
 auto Participant<MaxPeers>::note_word(Peer& peer, const Word& word, std::uint16_t sequence) -> Freshness {
-  Freshness freshness = Freshness::Fresh;
+  Freshness freshness = Freshness::fresh;
   if (peer.heard && word.incarnation == peer.incarnation) {
     const auto ahead = static_cast<std::int16_t>(static_cast<std::uint16_t>(sequence - peer.sequence));
-    if (peer.sequence_known && ahead < 0) return Freshness::Stale;
+    if (peer.sequence_known && ahead < 0) return Freshness::stale;
   } else if (peer.heard) {
     // A late word of a former incarnation looks the same. It costs a halt; to tell them apart would take an order of
     // incarnations, and whoever got that wrong would be ignored for ever.
-    freshness = Freshness::Restarted;
+    freshness = Freshness::restarted;
   }
   peer.incarnation = word.incarnation;
   peer.run = word.run;
@@ -161,7 +161,7 @@ void Participant<MaxPeers>::adopt(const Intent& intent, Outputs& outputs) {
   // Only the master starts, so a start that it does not know is one of its former life.
   const bool former_start = is_master() && intent.kind == IntentKind::Start;
   if (!target || another_run || former_start) {
-    raise_alarm(Alarm::Mismatch, intent.number, outputs);
+    raise_alarm(Alarm::mismatch, intent.number, outputs);
     return;
   }
   intent_ = intent;
@@ -196,7 +196,7 @@ void Participant<MaxPeers>::raise_alarm(Alarm alarm, std::uint32_t above, Output
 template <std::size_t MaxPeers>
 void Participant<MaxPeers>::robust_silent(std::size_t peer, Outputs& outputs) {
   peers_[peer].sequence_known = false;
-  if (state() != halted) raise_alarm(Alarm::PeerSilent, intent_.number, outputs);
+  if (state() != halted) raise_alarm(Alarm::peer_silent, intent_.number, outputs);
 }
 
 /// The start barrier of one run: slaves Ready, master Ready, slaves Running, master Running.

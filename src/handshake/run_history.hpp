@@ -23,7 +23,7 @@ class RunHistory {
  public:
   using Set = typename Storage::Set;
 
-  RunHistory(Variant variant, const GroupTree& tree) : is_paper_(variant == Variant::Paper), passed_init_(tree.participants()), ready_now_(tree.participants()) {
+  RunHistory(Variant variant, const GroupTree& tree) : is_paper_(variant == Variant::paper), passed_init_(tree.participants()), ready_now_(tree.participants()) {
     TAKT_CHECK(!is_paper_ || tree.groups() == 1, "only robust is nested");
     if (!is_paper_) return;
     for (std::size_t i = 0; i < tree.participants(); ++i) runs_.insert(runs_.end(), Run{static_cast<std::uint32_t>(i), 0, 0, Set(tree.participants()), Set(tree.participants())});
@@ -60,7 +60,7 @@ class RunHistory {
     if (now.of_tree == 0) return;  // in a run of its group alone; there Running is forbidden
     for (std::size_t inner = 1; inner < tree.groups(); ++inner)
       if (tree.outer_number(tree.number_of(inner, 0)) == participant && !in_tree_run(tree, now.of_tree, inner, 1, &Run::ready))
-        found(Invariant::S1, Finding::ReadyBeforeInnerGroup, true);
+        found(Invariant::S1, Finding::ready_before_inner_group, true);
   }
   /// An inner group was started in this run for that run of the group outside.
   void on_started(const GroupTree& tree, std::size_t inner_master, std::uint32_t run, std::uint32_t outer_run) {
@@ -129,9 +129,9 @@ class RunHistory {
       run_of(tree, group, run).running.insert(participant);
     const Run& now = is_paper_ ? runs_[participant] : run_of(tree, group, run);
     const bool is_master = tree.index_of(participant) == 0;
-    if (!contains_group(tree, now.ready, group, 0)) found(Invariant::S1, Finding::RunningBeforeAllReady, false);
-    if (is_master && !contains_group(tree, now.running, group, 1)) found(Invariant::S2, Finding::MasterBeforeSlaves, false);
-    if (!passed_init_.contains(participant)) found(Invariant::S4, Finding::RunningWithoutInit, false);
+    if (!contains_group(tree, now.ready, group, 0)) found(Invariant::S1, Finding::running_before_all_ready, false);
+    if (is_master && !contains_group(tree, now.running, group, 1)) found(Invariant::S2, Finding::master_before_slaves, false);
+    if (!passed_init_.contains(participant)) found(Invariant::S4, Finding::running_without_init, false);
     if (tree.groups() > 1) on_running_in_tree(tree, participant, now.of_tree, found);
   }
   template <class Found>
@@ -143,8 +143,8 @@ class RunHistory {
       if (!tree.is_below(group, participant)) continue;
       are_running = are_running && in_tree_run(tree, run, group, group == tree.group_of(participant) ? 1 : 0, &Run::running);
     }
-    if (!are_ready) found(Invariant::S1, Finding::RunningBeforeAllReady, true);
-    if (!are_running) found(Invariant::S2, Finding::MasterBeforeSlaves, true);
+    if (!are_ready) found(Invariant::S1, Finding::running_before_all_ready, true);
+    if (!are_running) found(Invariant::S2, Finding::master_before_slaves, true);
   }
 
   /// All of a group from this index on are in the set.

@@ -49,7 +49,7 @@ constexpr PublishedState published_state(const program::Machine& machine) {
 }
 
 /// Two handshakes: that of the paper, and one that agrees on intents (participant.hpp).
-enum class Variant : std::uint8_t { Paper, Robust };
+enum class Variant : std::uint8_t { paper, robust };
 
 struct Word {
   std::uint32_t incarnation = 0;                 ///< of the sender; another one after each restart, none used twice
@@ -73,7 +73,7 @@ constexpr PublishedState goal_of(IntentKind kind) {
 /// intent does so at once, so the intent says in which states and runs its holder can be (README.md, "Words").
 constexpr bool is_valid(const Word& word, Variant variant, std::size_t slaves) {
   if (!published_state_from_number(static_cast<std::uint32_t>(word.state))) return false;
-  if (variant == Variant::Paper) return true;
+  if (variant == Variant::paper) return true;
   const Intent& intent = word.intent;
   if (index_of(intent.kind) >= intent_kind_count || intent.origin > slaves) return false;
   if (intent.number == 0) return intent == Intent{} && word.state == PublishedState::Halted && word.run == 0;

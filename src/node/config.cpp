@@ -160,9 +160,9 @@ class Checker {
     if (!program && !entry.program)
       diagnostics_.error(entry.where.place(), "a call without a program", {"several programs of this node that are not nested", "\"program\""});
     if (!program) return;
-    if (*entry.call == Method::start && loaded_.programs[*program].outer)
+    if (*entry.call == Method::Start && loaded_.programs[*program].outer)
       diagnostics_.error(entry.where.at("program"), "Start of a nested program", {json::quote(loaded_.programs[*program].program.name), "the outermost program, which starts it"});
-    loaded_.script.push_back({entry.at, *program, method_of(*entry.call)});
+    loaded_.script.push_back({entry.at, *program, *entry.call});
   }
 
   void check_plug(const ScriptEntry& entry) {

@@ -31,7 +31,7 @@ HostedProgram::HostedProgram(const LoadedProgram& loaded, const Node& node, Tran
 std::unique_ptr<wire::Nesting> HostedProgram::nest(HostedProgram& outer, HostedProgram& inner) {
   outer.other_ = &inner;
   inner.other_ = &outer;
-  inner.side_ = handshake::Side::Inner;
+  inner.side_ = handshake::Side::inner;
   return std::make_unique<wire::Nesting>(outer.part_, inner.part_);
 }
 
@@ -56,7 +56,7 @@ program::StatusCode HostedProgram::plug(Plug what) {
 }
 
 void HostedProgram::carry_out(wire::NodeOutputs& outputs) {
-  bool& is_busy = side_ == handshake::Side::Inner ? other_->carries_out_ : carries_out_;
+  bool& is_busy = side_ == handshake::Side::inner ? other_->carries_out_ : carries_out_;
   if (is_busy) return;  // who is at it takes these, too
   is_busy = true;
   while (const auto output = outputs.next())

@@ -79,7 +79,7 @@ class HostedProgram {
   TransitionLog log_;
   Application* application_;
   wire::ProgramNode part_;              ///< in the Program
-  handshake::Side side_ = handshake::Side::Outer;
+  handshake::Side side_ = handshake::Side::outer;
   HostedProgram* other_ = nullptr;      ///< nested with this one
   bool carries_out_ = false;
   std::vector<sim::LocalTime> alarms_;  ///< never(): not set

@@ -118,7 +118,7 @@ void add_candidate(json::Node& node, const ProgramStatus& status) {
 
 void add_program(json::Node& node, const ProgramStatus& status, const NodeStatus& of) {
   const wire::ProgramEndpoint* const endpoint = status.node.endpoint();
-  const bool is_master = endpoint != nullptr && endpoint->participant().config().role == handshake::Role::Master;
+  const bool is_master = endpoint != nullptr && endpoint->participant().config().role == handshake::Role::master;
   const bool has_intents = status.program.variant == Variant::robust;
   node.add("program", text(status.program.name));
   node.add("variant", text(has_intents ? "robust" : "paper"));

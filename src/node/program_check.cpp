@@ -118,7 +118,7 @@ wire::ProgramShape checked_shape(const Program& program, std::uint16_t first_pub
   check_times(program, diagnostics);
   wire::ProgramShape shape;
   shape.name = program.name;
-  shape.variant = variant_of(program.variant);
+  shape.variant = program.variant;
   shape.participants = participants_of(program);
   shape.first_publisher_id = first_publisher_id;
   std::set<std::string_view> names = {"state"};
@@ -137,11 +137,11 @@ wire::ProgramShape checked_shape(const Program& program, std::uint16_t first_pub
 
 wire::EndpointSettings endpoint_settings(const Program& program, std::uint8_t index, std::uint8_t priority) {
   wire::EndpointSettings settings;
-  settings.handshake.variant = variant_of(program.variant);
+  settings.handshake.variant = program.variant;
   settings.handshake.index = index;
-  settings.handshake.role = index == 0 ? handshake::Role::Master : handshake::Role::Slave;
+  settings.handshake.role = index == 0 ? handshake::Role::master : handshake::Role::slave;
   settings.handshake.slaves = static_cast<std::uint8_t>(program.slaves.size() + program.roles.size());
-  settings.handshake.subscription = subscription_of(program.subscription);
+  settings.handshake.subscription = program.subscription;
   settings.cycle = program.cycle;
   settings.offset = program.offset;
   settings.receive_timeout = program.receive_timeout.value_or(program.cycle * 10);

@@ -9,12 +9,12 @@ namespace {
 
 std::string_view name_of(handshake::Alarm alarm) {
   switch (alarm) {
-    case handshake::Alarm::None: return "command";
-    case handshake::Alarm::PeerSilent: return "silent peer";
-    case handshake::Alarm::PeerRestarted: return "restarted peer";
-    case handshake::Alarm::PeerLeft: return "peer left";
-    case handshake::Alarm::Mismatch: return "mismatch";
-    case handshake::Alarm::OtherGroup: return "nested group";
+    case handshake::Alarm::none: return "command";
+    case handshake::Alarm::peer_silent: return "silent peer";
+    case handshake::Alarm::peer_restarted: return "restarted peer";
+    case handshake::Alarm::peer_left: return "peer left";
+    case handshake::Alarm::mismatch: return "mismatch";
+    case handshake::Alarm::other_group: return "nested group";
   }
   return "?";
 }

@@ -105,7 +105,7 @@ std::string windows_page(const Resolved& r, std::size_t most_rows) {
   for (std::size_t s = 0; s < problem.streams.size(); ++s) {
     const scenario::ScheduledStream& stream = problem.streams[s];
     for (std::size_t h = 0; h < stream.hops.size(); ++h) {
-      const scenario::GateWindow& window = r.gates->schedule.windows[s][h];
+      const scenario::StreamWindow& window = r.gates->schedule.windows[s][h];
       const sim::Duration whole = stream.period * (window.open / stream.period);
       page.add(stream.name, fmt::format("{}: {} to {} of each {}", problem.ports[stream.hops[h].port].name, readable(window.open - whole), readable(window.close - whole), readable(stream.period)));
     }

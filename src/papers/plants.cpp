@@ -80,10 +80,10 @@ class Builder {
       at += step;
     };
     for (int round = 0; round < rounds; ++round) {
-      call(scenario::Method::start, false);
-      call(scenario::Method::suspend, round % 2 == 1);
-      call(scenario::Method::resume, round % 4 >= 2);
-      call(scenario::Method::halt, round % 2 == 0);
+      call(scenario::Method::Start, false);
+      call(scenario::Method::Suspend, round % 2 == 1);
+      call(scenario::Method::Resume, round % 4 >= 2);
+      call(scenario::Method::Halt, round % 2 == 0);
     }
     scenario_.duration = at;
     scenario_.programs.push_back(program_);

@@ -8,7 +8,7 @@
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "sim/check.hpp"
-#include "verify/freedom.hpp"
+#include "verify/free_variable.hpp"
 #include "verify/shortened.hpp"
 
 namespace takt::property {
@@ -79,11 +79,11 @@ class Builder {
 }  // namespace
 
 Scenario scenario_of(const scenario::Resolved& resolved, const Space& space, const Trial& trial) {
-  const std::vector<verify::Freedom> freedoms = space.phases ? verify::freedoms_of(resolved) : std::vector<verify::Freedom>{};
+  const std::vector<verify::FreeVariable> variables = space.phases ? verify::free_variables_of(resolved) : std::vector<verify::FreeVariable>{};
   verify::Choice choice{resolved.scenario.seed + trial.seed, {}};
-  for (std::size_t f = 0; f < freedoms.size(); ++f) choice.values.push_back(part_of(freedoms[f].range, f < trial.phases.size() ? trial.phases[f] : 0));
+  for (std::size_t f = 0; f < variables.size(); ++f) choice.values.push_back(part_of(variables[f].range, f < trial.phases.size() ? trial.phases[f] : 0));
   const Duration outage = space.longest * (space.link_downs || space.crashes ? 3 : 0);
-  Builder builder(resolved, space, verify::scenario_of(space.shorten ? verify::shortened(resolved.scenario, outage) : resolved.scenario, freedoms, choice));
+  Builder builder(resolved, space, verify::scenario_of(space.shorten ? verify::shortened(resolved.scenario, outage) : resolved.scenario, variables, choice));
   for (const Trouble& trouble : trial.troubles) builder.add(trouble);
   return builder.take();
 }

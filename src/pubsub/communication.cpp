@@ -47,9 +47,9 @@ void Communication::poll(sim::LocalTime now) {
 
 void Communication::received(uadp::Octets network_message, sim::LocalTime now) {
   uadp::NetworkMessage message;
-  const uadp::Verdict verdict = decode(network_message, message);
+  const uadp::DecodeStatus verdict = decode(network_message, message);
   verdicts_.count(verdict);
-  if (verdict != uadp::Verdict::ok) return;
+  if (verdict != uadp::DecodeStatus::ok) return;
   bool wanted = false;
   for (Subscriber* each : subscribers_) wanted = each->received(message, now) || wanted;
   if (!wanted) ++unwanted_;

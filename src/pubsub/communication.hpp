@@ -34,7 +34,7 @@ class Communication {
   void advance(sim::LocalTime now);
 
   /// NetworkMessages by what the decoder said.
-  const uadp::VerdictCounts& verdicts() const { return verdicts_; }
+  const uadp::DecodeStatusCounts& verdicts() const { return verdicts_; }
   /// Sound NetworkMessages that no Subscriber wanted.
   std::uint64_t unwanted() const { return unwanted_; }
 
@@ -44,7 +44,7 @@ class Communication {
   PubSubComponent component_;
   std::vector<Publisher*> publishers_;
   std::vector<Subscriber*> subscribers_;
-  uadp::VerdictCounts verdicts_;
+  uadp::DecodeStatusCounts verdicts_;
   std::uint64_t unwanted_ = 0;
 };
 

@@ -41,7 +41,7 @@ void DataSetReader::tell(PubSubState before) {
 
 std::optional<std::size_t> DataSetReader::take(uadp::Octets octets, sim::LocalTime now) {
   uadp::DataSetMessage message;
-  if (decode(octets, message) != uadp::Verdict::ok) {
+  if (decode(octets, message) != uadp::DecodeStatus::ok) {
     ++counts_.mismatched;
     return std::nullopt;
   }

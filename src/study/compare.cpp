@@ -39,7 +39,7 @@ ComparedMeasure compared(const PlannedMeasure& measure, std::size_t m, const std
   return result;
 }
 
-std::optional<Parting> parting_of(const Plan& a, const Plan& b, std::uint64_t seed, const RunOptions& options) {
+std::optional<Divergence> divergence_of(const Plan& a, const Plan& b, std::uint64_t seed, const RunOptions& options) {
   json::Diagnostics diagnostics;
   auto first = scenario_of(a, {}, seed, diagnostics);
   auto second = scenario_of(b, {}, seed, diagnostics);
@@ -47,9 +47,9 @@ std::optional<Parting> parting_of(const Plan& a, const Plan& b, std::uint64_t se
   const auto left = scenario::resolve(std::move(*first), diagnostics);
   const auto right = scenario::resolve(std::move(*second), diagnostics);
   if (!left || !right) return std::nullopt;
-  auto parting = first_parting(*left, *right, options.interrupted);
-  if (parting) parting->seed = seed;
-  return parting;
+  auto divergence = first_divergence(*left, *right, options.interrupted);
+  if (divergence) divergence->seed = seed;
+  return divergence;
 }
 
 std::string interval(const Summary& summary) {
@@ -111,18 +111,18 @@ Comparison compare(const Plan& a, const Plan& b, const RunOptions& options) {
                                 });
   if (comparison.interrupted || !comparison.problem.empty()) return comparison;
   comparison.pairs = pairs;
-  std::optional<std::uint64_t> parting_seed;
+  std::optional<std::uint64_t> differing_seed;
   for (std::uint32_t i = 0; i < pairs; ++i) {
     const bool are_done = outcomes[0][i].status == Status::done && outcomes[1][i].status == Status::done;
     const bool is_same = are_done && outcomes[0][i].digest == outcomes[1][i].digest;
     comparison.same_digest += is_same ? 1 : 0;
-    if (are_done && !is_same && !parting_seed) parting_seed = a.seed_of(i);
+    if (are_done && !is_same && !differing_seed) differing_seed = a.seed_of(i);
   }
   for (std::size_t m = 0; m < a.measures.size(); ++m) {
     ComparedMeasure measure = compared(a.measures[m], m, outcomes[0], outcomes[1]);
     if (measure.a.count + measure.b.count > 0) comparison.measures.push_back(std::move(measure));
   }
-  if (parting_seed) comparison.parting = parting_of(a, b, *parting_seed, options);
+  if (differing_seed) comparison.divergence = divergence_of(a, b, *differing_seed, options);
   return comparison;
 }
 
@@ -137,10 +137,10 @@ std::string text_of(const Comparison& comparison) {
     text += m.unpaired > 0 ? fmt::format("{}in {} pairs only one run has it\n", verdict.empty() ? "  " : "; ", m.unpaired) : "\n";
   }
   for (const std::string& trouble : comparison.troubles) text += "without a result: " + trouble + "\n";
-  if (!comparison.parting) return text;
+  if (!comparison.divergence) return text;
   constexpr std::size_t most = 8;
-  text += fmt::format("\nWith seed {} the runs part at {}\n", comparison.parting->seed, output::readable(comparison.parting->at.since_start()));
-  for (const auto& [name, side] : {std::pair("A", &comparison.parting->only_a), std::pair("B", &comparison.parting->only_b)}) {
+  text += fmt::format("\nWith seed {} the runs diverge at {}\n", comparison.divergence->seed, output::readable(comparison.divergence->at.since_start()));
+  for (const auto& [name, side] : {std::pair("A", &comparison.divergence->only_a), std::pair("B", &comparison.divergence->only_b)}) {
     for (std::size_t i = 0; i < std::min(most, side->size()); ++i) text += fmt::format("  only in {}: {}\n", name, (*side)[i]);
     if (side->size() > most) text += fmt::format("  only in {}: {} more\n", name, side->size() - most);
   }
@@ -172,14 +172,14 @@ const json::Record& describe(json::Type<ComparedMeasure>) {
   return record;
 }
 
-const json::Record& describe(json::Type<Parting>) {
+const json::Record& describe(json::Type<Divergence>) {
   static constexpr json::Output outputs[] = {
-      json::output<&Parting::seed>("seed", "The first whose runs differ."),
-      json::output<&Parting::at>("at_ps", "The first instant at which not the same happens in both."),
-      json::output<&Parting::only_a>("only_a", "What happens then in A only."),
-      json::output<&Parting::only_b>("only_b", "What happens then in B only."),
+      json::output<&Divergence::seed>("seed", "The first whose runs differ."),
+      json::output<&Divergence::at>("at_ps", "The first instant at which not the same happens in both."),
+      json::output<&Divergence::only_a>("only_a", "What happens then in A only."),
+      json::output<&Divergence::only_b>("only_b", "What happens then in B only."),
   };
-  static constexpr json::Record record{"parting", "Where two runs part.", outputs};
+  static constexpr json::Record record{"divergence", "Where two runs diverge.", outputs};
   return record;
 }
 
@@ -191,7 +191,7 @@ const json::Record& describe(json::Type<Comparison>) {
       json::output<&Comparison::same_digest>("same_digest", "Those that are the same run."),
       json::outputs_by_name<&Comparison::measures, &ComparedMeasure::name>("measures", "Those that any run has.", {.keys = "measure"}),
       json::output<&Comparison::troubles>("troubles", "Runs without a result, and why: the first ten."),
-      json::output<&Comparison::parting>("parting", "Null if no runs differ."),
+      json::output<&Comparison::divergence>("divergence", "Null if no runs differ."),
   };
   static constexpr json::Record record{"comparison", "Is B better than A, and by how much?", outputs};
   return record;

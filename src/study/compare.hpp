@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "study/parting.hpp"
+#include "study/divergence.hpp"
 #include "study/plan.hpp"
 #include "study/runner.hpp"
 #include "study/statistics.hpp"
@@ -28,7 +28,7 @@ struct Comparison {
   std::uint32_t same_digest = 0;                  ///< pairs that are the same run
   std::vector<ComparedMeasure> measures;          ///< those that any run has
   std::vector<std::string> troubles;
-  std::optional<Parting> parting;                 ///< of the first seed whose runs differ
+  std::optional<Divergence> divergence;                 ///< of the first seed whose runs differ
   bool interrupted = false;
   std::string problem;
 };
@@ -45,7 +45,7 @@ std::string text_of(const Comparison& comparison);
 // What `takt compare --format json` holds.
 const json::Record& describe(json::Type<Comparison>);
 const json::Record& describe(json::Type<ComparedMeasure>);
-const json::Record& describe(json::Type<Parting>);
+const json::Record& describe(json::Type<Divergence>);
 const json::Record& describe(json::Type<Summary>);
 
 }  // namespace takt::study

@@ -41,7 +41,7 @@ double incomplete_beta(double a, double b, double x) {
 }  // namespace
 
 double student_cdf(double t, double degrees) {
-  TAKT_CHECK(degrees > 0, "degrees of freedom are positive");
+  TAKT_CHECK(degrees > 0, "degrees of variable are positive");
   const double tail = 0.5 * incomplete_beta(degrees / 2, 0.5, degrees / (degrees + t * t));
   return t > 0 ? 1 - tail : tail;
 }

@@ -22,7 +22,7 @@ constexpr double confidence = 0.95;
 /// `level` 0: without an interval, which costs more than all the rest. Two passes, so that a small variance of great values keeps its digits.
 Summary summary_of(std::span<const double> values, double level = confidence);
 
-/// P(T <= t) of Student's distribution with so many degrees of freedom (a real number above 0).
+/// P(T <= t) of Student's distribution with so many degrees of variable (a real number above 0).
 double student_cdf(double t, double degrees);
 /// The t with P(T <= t) = p, for 0 < p < 1; accurate to about 1e-12 of its value.
 double student_quantile(double p, double degrees);

@@ -17,25 +17,25 @@ bool is_contradictory(const DataSetMessageHeader& header) {
 
 }  // namespace
 
-Verdict decode(Octets octets, DataSetMessage& message) {
+DecodeStatus decode(Octets octets, DataSetMessage& message) {
   message = {};
   Reader reader(octets);
   DataSetMessageHeader& header = message.header;
   const unsigned first = reader.get<std::uint8_t>();
-  if (reader.failed()) return Verdict::truncated;
+  if (reader.failed()) return DecodeStatus::truncated;
   header.valid = has(first, flags::valid);
   if (!header.valid) {
     message.body = reader.rest();
     message.body_offset = reader.position();
-    return Verdict::ok;
+    return DecodeStatus::ok;
   }
   const unsigned encoding = first >> flags::field_encoding_shift & flags::field_encoding_mask;
-  if (encoding > static_cast<unsigned>(FieldEncoding::DataValue)) return Verdict::reserved;
+  if (encoding > static_cast<unsigned>(FieldEncoding::DataValue)) return DecodeStatus::reserved;
   header.encoding = static_cast<FieldEncoding>(encoding);
   const unsigned second = has(first, flags::data_set_flags_2) ? reader.get<std::uint8_t>() : 0U;
   const unsigned type = second & flags::data_set_message_type_mask;
-  if (type > static_cast<unsigned>(DataSetMessageType::KeepAlive)) return Verdict::reserved;
-  if (has(second, flags::data_set_flags_2_reserved)) return Verdict::reserved;
+  if (type > static_cast<unsigned>(DataSetMessageType::KeepAlive)) return DecodeStatus::reserved;
+  if (has(second, flags::data_set_flags_2_reserved)) return DecodeStatus::reserved;
   header.type = static_cast<DataSetMessageType>(type);
   if (has(first, flags::sequence_number)) header.sequence_number = reader.get<std::uint16_t>();
   if (has(second, flags::data_set_timestamp)) header.timestamp = get_value<DateTime>(reader);
@@ -43,10 +43,10 @@ Verdict decode(Octets octets, DataSetMessage& message) {
   if (has(first, flags::status)) header.status = reader.get<std::uint16_t>();
   if (has(first, flags::major_version)) header.major_version = reader.get<std::uint32_t>();
   if (has(first, flags::minor_version)) header.minor_version = reader.get<std::uint32_t>();
-  if (reader.failed()) return Verdict::truncated;
+  if (reader.failed()) return DecodeStatus::truncated;
   message.body = reader.rest();
   message.body_offset = reader.position();
-  return is_contradictory(header) ? Verdict::malformed : Verdict::ok;
+  return is_contradictory(header) ? DecodeStatus::malformed : DecodeStatus::ok;
 }
 
 FieldReader::FieldReader(const DataSetMessage& message)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "uadp/variant.hpp"
-#include "uadp/verdict.hpp"
+#include "uadp/decode_status.hpp"
 
 namespace takt::uadp {
 
@@ -31,7 +31,7 @@ struct DataSetMessage {
 };
 
 /// Reads the header. Of a message that is not valid nothing but the first octet is looked at.
-Verdict decode(Octets octets, DataSetMessage& message);
+DecodeStatus decode(Octets octets, DataSetMessage& message);
 
 /// A field of a message that is encoded as Variants or DataValues.
 struct Field {

@@ -19,14 +19,14 @@ PublisherId get_publisher_id(Reader& reader, PublisherIdType type) {
   return PublisherId::string(get_value<std::string_view>(reader));
 }
 
-Verdict get_group_header(Reader& reader, GroupHeader& group) {
+DecodeStatus get_group_header(Reader& reader, GroupHeader& group) {
   const unsigned octet = reader.get<std::uint8_t>();
-  if (has(octet, flags::group_reserved)) return Verdict::reserved;
+  if (has(octet, flags::group_reserved)) return DecodeStatus::reserved;
   if (has(octet, flags::writer_group_id)) group.writer_group_id = reader.get<std::uint16_t>();
   if (has(octet, flags::group_version)) group.group_version = reader.get<std::uint32_t>();
   if (has(octet, flags::network_message_number)) group.network_message_number = reader.get<std::uint16_t>();
   if (has(octet, flags::group_sequence_number)) group.sequence_number = reader.get<std::uint16_t>();
-  return Verdict::ok;
+  return DecodeStatus::ok;
 }
 
 SecurityHeader get_security_header(Reader& reader) {
@@ -38,23 +38,23 @@ SecurityHeader get_security_header(Reader& reader) {
   return security;
 }
 
-Verdict get_promoted_fields(Reader& reader, std::optional<Octets>& fields) {
+DecodeStatus get_promoted_fields(Reader& reader, std::optional<Octets>& fields) {
   fields = reader.take(reader.get<std::uint16_t>());
   Reader inside(*fields);
   while (inside.left() != 0) get_variant(inside);
-  return inside.failed() ? Verdict::malformed : Verdict::ok;
+  return inside.failed() ? DecodeStatus::malformed : DecodeStatus::ok;
 }
 
 /// Sizes of DataSetMessages, which must be within the payload (OPC 10000-14, 7.2.4.5.3).
-Verdict get_payload(Reader& reader, NetworkMessage& message) {
+DecodeStatus get_payload(Reader& reader, NetworkMessage& message) {
   if (message.count() > 1) message.sizes = reader.take(2 * message.count());
-  if (reader.failed()) return Verdict::truncated;
+  if (reader.failed()) return DecodeStatus::truncated;
   message.payload_offset = reader.position();
   message.payload = reader.rest();
   std::size_t sum = 0;
   for (std::size_t i = 0; i < message.sizes.size(); i += 2)
     sum += load_little_endian<std::uint16_t>(message.sizes.data() + i);
-  return sum > message.payload.size() ? Verdict::truncated : Verdict::ok;
+  return sum > message.payload.size() ? DecodeStatus::truncated : DecodeStatus::ok;
 }
 
 struct FlagOctets {
@@ -63,61 +63,61 @@ struct FlagOctets {
   unsigned extended_2 = 0;
 };
 
-Verdict get_flags(Reader& reader, FlagOctets& octets) {
+DecodeStatus get_flags(Reader& reader, FlagOctets& octets) {
   octets.first = reader.get<std::uint8_t>();
-  if (!reader.failed() && (octets.first & flags::version_mask) != flags::version) return Verdict::version;
+  if (!reader.failed() && (octets.first & flags::version_mask) != flags::version) return DecodeStatus::version;
   if (has(octets.first, flags::extended_1)) octets.extended_1 = reader.get<std::uint8_t>();
   if (has(octets.extended_1, flags::extended_2)) octets.extended_2 = reader.get<std::uint8_t>();
-  if (reader.failed()) return Verdict::truncated;
+  if (reader.failed()) return DecodeStatus::truncated;
   const unsigned id_type = octets.extended_1 & flags::publisher_id_type_mask;
-  if (id_type > static_cast<unsigned>(PublisherIdType::String)) return Verdict::reserved;
-  if (id_type != 0 && !has(octets.first, flags::publisher_id)) return Verdict::malformed;
-  if (has(octets.extended_2, flags::extended_2_reserved)) return Verdict::reserved;
+  if (id_type > static_cast<unsigned>(PublisherIdType::String)) return DecodeStatus::reserved;
+  if (id_type != 0 && !has(octets.first, flags::publisher_id)) return DecodeStatus::malformed;
+  if (has(octets.extended_2, flags::extended_2_reserved)) return DecodeStatus::reserved;
   const unsigned type = octets.extended_2 >> flags::message_type_shift & flags::message_type_mask;
-  return type > static_cast<unsigned>(NetworkMessageType::DiscoveryAnnouncement) ? Verdict::reserved : Verdict::ok;
+  return type > static_cast<unsigned>(NetworkMessageType::DiscoveryAnnouncement) ? DecodeStatus::reserved : DecodeStatus::ok;
 }
 
 /// Refusals of whole kinds of messages; asked once the PublisherId is known.
-Verdict kind_of(const FlagOctets& octets, NetworkMessageType type) {
-  if (type != NetworkMessageType::DataSetMessages) return Verdict::discovery;
-  if (has(octets.extended_2, flags::action_header)) return Verdict::action;
-  return has(octets.extended_2, flags::chunk) ? Verdict::chunked : Verdict::ok;
+DecodeStatus kind_of(const FlagOctets& octets, NetworkMessageType type) {
+  if (type != NetworkMessageType::DataSetMessages) return DecodeStatus::discovery;
+  if (has(octets.extended_2, flags::action_header)) return DecodeStatus::action;
+  return has(octets.extended_2, flags::chunk) ? DecodeStatus::chunked : DecodeStatus::ok;
 }
 
 }  // namespace
 
-Verdict decode(Octets octets, NetworkMessage& message) {
+DecodeStatus decode(Octets octets, NetworkMessage& message) {
   message = {};
   Reader reader(octets);
   FlagOctets flag;
-  if (const Verdict verdict = get_flags(reader, flag); verdict != Verdict::ok) return verdict;
+  if (const DecodeStatus verdict = get_flags(reader, flag); verdict != DecodeStatus::ok) return verdict;
   message.type = static_cast<NetworkMessageType>(flag.extended_2 >> flags::message_type_shift & flags::message_type_mask);
   NetworkMessageHeader& header = message.header;
   if (has(flag.first, flags::publisher_id)) {
     const unsigned type = flag.extended_1 & flags::publisher_id_type_mask;
     header.publisher_id = get_publisher_id(reader, static_cast<PublisherIdType>(type));
   }
-  if (reader.failed()) return Verdict::truncated;
-  if (const Verdict verdict = kind_of(flag, message.type); verdict != Verdict::ok) return verdict;
+  if (reader.failed()) return DecodeStatus::truncated;
+  if (const DecodeStatus verdict = kind_of(flag, message.type); verdict != DecodeStatus::ok) return verdict;
   if (has(flag.extended_1, flags::data_set_class_id)) header.data_set_class_id = get_value<Guid>(reader);
   if (has(flag.first, flags::group_header)) {
-    const Verdict verdict = get_group_header(reader, header.group.emplace());
-    if (verdict != Verdict::ok) return verdict;
+    const DecodeStatus verdict = get_group_header(reader, header.group.emplace());
+    if (verdict != DecodeStatus::ok) return verdict;
   }
   if (has(flag.first, flags::payload_header)) {
     const std::size_t count = reader.get<std::uint8_t>();
-    if (!reader.failed() && count == 0) return Verdict::malformed;
+    if (!reader.failed() && count == 0) return DecodeStatus::malformed;
     message.writer_ids = reader.take(2 * count);
   }
   if (has(flag.extended_1, flags::timestamp)) header.timestamp = get_value<DateTime>(reader);
   if (has(flag.extended_1, flags::picoseconds)) header.picoseconds = reader.get<std::uint16_t>();
   if (has(flag.extended_2, flags::promoted_fields) && !reader.failed()) {
-    const Verdict verdict = get_promoted_fields(reader, header.promoted_fields);
-    if (verdict != Verdict::ok) return verdict;
+    const DecodeStatus verdict = get_promoted_fields(reader, header.promoted_fields);
+    if (verdict != DecodeStatus::ok) return verdict;
   }
   if (has(flag.extended_1, flags::security)) message.security = get_security_header(reader);
-  if (reader.failed()) return Verdict::truncated;
-  if (message.security) return Verdict::secured;
+  if (reader.failed()) return DecodeStatus::truncated;
+  if (message.security) return DecodeStatus::secured;
   return get_payload(reader, message);
 }
 

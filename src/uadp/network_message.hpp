@@ -8,7 +8,7 @@
 
 #include "uadp/publisher_id.hpp"
 #include "uadp/value.hpp"
-#include "uadp/verdict.hpp"
+#include "uadp/decode_status.hpp"
 
 namespace takt::uadp {
 
@@ -63,6 +63,6 @@ struct NetworkMessage {
 
 /// Reads the headers and finds the DataSetMessages; `message` is meaningful as far as the verdict lets it be: with
 /// `secured`, `chunked`, `discovery` and `action` the PublisherId is.
-Verdict decode(Octets octets, NetworkMessage& message);
+DecodeStatus decode(Octets octets, NetworkMessage& message);
 
 }  // namespace takt::uadp

@@ -28,8 +28,8 @@ bool counts_in_a_part(RequirementKind kind) {
 class Searcher {
  public:
   Searcher(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const SearchOptions& options)
-      : resolved_(resolved), bounds_(bounds), options_(options), instants_(resolved, freedoms_of(resolved)), chance_(resolved.scenario.seed, "adversary", "search") {
-    search_.freedoms = freedoms_of(resolved);
+      : resolved_(resolved), bounds_(bounds), options_(options), instants_(resolved, free_variables_of(resolved)), chance_(resolved.scenario.seed, "adversary", "search") {
+    search_.variables = free_variables_of(resolved);
   }
 
   Search run() {
@@ -51,14 +51,14 @@ class Searcher {
 
  private:
   bool interrupted() const { return options_.interrupted && options_.interrupted(); }
-  Choice as_it_is() const { return {resolved_.scenario.seed, std::vector<Duration>(search_.freedoms.size())}; }
+  Choice as_it_is() const { return {resolved_.scenario.seed, std::vector<Duration>(search_.variables.size())}; }
 
   bool run_as_it_is() {
     std::vector<Scenario> scenarios;
     for (unsigned s = 0; s < std::max(1u, options_.seeds); ++s) {
       Choice choice = as_it_is();
       choice.seed += s;
-      scenarios.push_back(scenario_of(resolved_.scenario, search_.freedoms, choice));
+      scenarios.push_back(scenario_of(resolved_.scenario, search_.variables, choice));
     }
     const auto probes = probe_all(scenarios, bounds_, options_.jobs, options_.interrupted);
     for (std::size_t i = 0; i < probes.size(); ++i) {
@@ -134,7 +134,7 @@ class Searcher {
       std::size_t many = std::min(choices.size() - from, most_in_a_batch);
       many = std::min<std::size_t>(many, std::max<std::uint64_t>(1, (limit_ - spent_) / std::max<std::uint64_t>(1, cost_of_run_)));
       std::vector<Scenario> scenarios;
-      for (std::size_t i = 0; i < many; ++i) scenarios.push_back(scenario_of(shorter_, search_.freedoms, choices[from + i]));
+      for (std::size_t i = 0; i < many; ++i) scenarios.push_back(scenario_of(shorter_, search_.variables, choices[from + i]));
       const auto probes = probe_all(scenarios, bounds_, options_.jobs, options_.interrupted);
       for (std::size_t i = 0; i < many; ++i) {
         if (!probes[i]) {  // interrupted
@@ -160,7 +160,7 @@ class Searcher {
   void run_in_full(std::size_t line) {
     const RequirementKind kind = search_.findings[line].requirement.taken_as;
     if (!is_shorter_ || !best_ || search_.partial || (kind != RequirementKind::latency && kind != RequirementKind::jitter)) return;
-    const Scenario full = scenario_of(resolved_.scenario, search_.freedoms, best_->second);
+    const Scenario full = scenario_of(resolved_.scenario, search_.variables, best_->second);
     const std::optional<Probe> seen = probe(full, bounds_, options_.interrupted);
     if (!seen) return;
     ++search_.runs;
@@ -169,7 +169,7 @@ class Searcher {
 
   void look_for(std::size_t line) {
     const RequirementResult requirement = search_.findings[line].requirement;
-    if (search_.freedoms.empty()) {
+    if (search_.variables.empty()) {
       try_seeds(line);
       return;
     }
@@ -195,7 +195,7 @@ class Searcher {
     std::vector<std::vector<Duration>> values;
     const std::uint64_t affordable_runs = (limit_ - std::min(limit_, spent_)) / std::max<std::uint64_t>(1, cost_of_run_);
     std::uint64_t combinations = 1;
-    for (std::size_t f = 0; f < search_.freedoms.size(); ++f) {
+    for (std::size_t f = 0; f < search_.variables.size(); ++f) {
       values.push_back(instants_.of(f, requirement, start));
       combinations *= values.back().size();
       if (combinations > affordable_runs) return false;
@@ -218,20 +218,20 @@ class Searcher {
 
   /// Everybody meets the first of the requirement's streams where they share a port for the first time, and operating systems are as slow as can be.
   Choice meeting(const RequirementResult& requirement, Choice choice) const {
-    for (std::size_t f = 0; f < search_.freedoms.size(); ++f) {
+    for (std::size_t f = 0; f < search_.variables.size(); ++f) {
       const std::vector<Duration> values = instants_.of(f, requirement, choice);
-      choice.values[f] = search_.freedoms[f].is_latency() && values.size() > 1 ? slowest(search_.freedoms[f]) : values.size() > 1 && !is_about_chance(search_.freedoms[f]) ? values[1] : values[0];
+      choice.values[f] = search_.variables[f].is_latency() && values.size() > 1 ? slowest(search_.variables[f]) : values.size() > 1 && !is_about_chance(search_.variables[f]) ? values[1] : values[0];
     }
     return choice;
   }
 
   /// Where no value is likely to be worse than another.
-  static bool is_about_chance(const Freedom& freedom) { return freedom.kind == Freedom::Kind::losses || freedom.kind == Freedom::Kind::frequency; }
+  static bool is_about_chance(const FreeVariable& variable) { return variable.kind == FreeVariable::Kind::losses || variable.kind == FreeVariable::Kind::frequency; }
 
   /// Frames are lost by choice, and more of them than the scenario's requirements leave room for.
   bool loses_too_much(const Choice& choice, const Probe& probe) const {
     bool loses = false;
-    for (std::size_t f = 0; f < search_.freedoms.size(); ++f) loses = loses || (search_.freedoms[f].kind == Freedom::Kind::losses && choice.values[f] != Duration());
+    for (std::size_t f = 0; f < search_.variables.size(); ++f) loses = loses || (search_.variables[f].kind == FreeVariable::Kind::losses && choice.values[f] != Duration());
     return loses && std::any_of(probe.requirements.begin(), probe.requirements.end(), [](const RequirementResult& each) {
              const bool is_of_losses = each.kind == RequirementKind::dropped || each.kind == RequirementKind::delivered ||
                                        (each.figure && (each.figure->name == "lost" || each.figure->name == "dropped" || each.figure->name.ends_with("/lost")));
@@ -240,13 +240,13 @@ class Searcher {
   }
 
   /// A timer is at its worst if it is late after it was early; the ways to the network and from it are at their worst whenever they are slow.
-  static Duration slowest(const Freedom& latency) { return latency.latency == Freedom::Latency::wake_up ? either_end : always_greatest; }
+  static Duration slowest(const FreeVariable& latency) { return latency.latency == FreeVariable::Latency::wake_up ? either_end : always_greatest; }
 
   Choice anywhere() {
     Choice choice = as_it_is();
     choice.seed = resolved_.scenario.seed + chance_.below(1u << 16);
-    for (std::size_t f = 0; f < search_.freedoms.size(); ++f)
-      choice.values[f] = Duration::from_ps(static_cast<std::int64_t>(chance_.below(static_cast<std::uint64_t>(search_.freedoms[f].range.ps()))));
+    for (std::size_t f = 0; f < search_.variables.size(); ++f)
+      choice.values[f] = Duration::from_ps(static_cast<std::int64_t>(chance_.below(static_cast<std::uint64_t>(search_.variables[f].range.ps()))));
     return choice;
   }
 
@@ -256,7 +256,7 @@ class Searcher {
     std::int64_t best = here.front();
     for (bool better = true; better && affordable();) {
       better = false;
-      for (std::size_t f = 0; f < search_.freedoms.size() && affordable(); ++f) {
+      for (std::size_t f = 0; f < search_.variables.size() && affordable(); ++f) {
         std::vector<Choice> steps;
         for (const Duration value : instants_.of(f, requirement, at)) {
           if (value == at.values[f]) continue;
@@ -269,14 +269,14 @@ class Searcher {
     refine(line, at);
   }
 
-  /// Small steps around a place, one freedom after the other, halved again and again.
+  /// Small steps around a place, one variable after the other, halved again and again.
   void refine(std::size_t line, Choice at) {
     std::vector<std::int64_t> here = try_all({at}, line);
     if (here.empty()) return;
     std::int64_t best = here.front();
     for (std::int64_t divisor = 16; divisor <= 4096 && affordable(); divisor *= 4) {
-      for (std::size_t f = 0; f < search_.freedoms.size() && affordable(); ++f) {
-        const Duration range = search_.freedoms[f].range;
+      for (std::size_t f = 0; f < search_.variables.size() && affordable(); ++f) {
+        const Duration range = search_.variables[f].range;
         const Duration step = range / divisor;
         if (step == Duration()) continue;
         std::vector<Choice> steps(2, at);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "results/run_result.hpp"
-#include "verify/freedom.hpp"
+#include "verify/free_variable.hpp"
 #include "verify/monitor.hpp"
 
 namespace takt::verify {
@@ -47,7 +47,7 @@ struct Contradiction {
 };
 
 struct Search {
-  std::vector<Freedom> freedoms;
+  std::vector<FreeVariable> variables;
   std::vector<Finding> findings;
   std::uint64_t runs = 0;                   ///< in all
   std::vector<Violation> violations;        ///< the first of each assumption
@@ -56,7 +56,7 @@ struct Search {
 };
 
 /// First the scenario as it is, with several seeds; then, for each requirement in turn, combinations of critical instants: all of them if they
-/// are few, otherwise uphill one freedom after the other, from the scenario as it is, from where all meet, and from random places. Each
+/// are few, otherwise uphill one variable after the other, from the scenario as it is, from where all meet, and from random places. Each
 /// run counts for all requirements. Where waiting may be left out (shortened.hpp), it is; the worst choice for a latency or jitter is then
 /// run in full length, since chance has its say in every frame.
 Search search(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const SearchOptions& options);

@@ -139,7 +139,7 @@ class Prover {
   /// Explores what the scenario can bring about: from any state in which the group rests, as many calls and faults as come before it rests again.
   Proof invariants_of(const scenario::ResolvedProgram& program) {
     explore::Query query;
-    query.variant = program.description->variant == scenario::Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper;
+    query.variant = program.description->variant == scenario::Variant::robust ? handshake::Variant::robust : handshake::Variant::paper;
     query.slaves = static_cast<std::uint8_t>(program.members.size() - 1);
     analysis::EventsInARow row = analysis::events_in_a_row(resolved_, bounds_, static_cast<std::size_t>(&program - resolved_.programs.data()));
     if (program.has_roles()) {
@@ -221,7 +221,7 @@ class Prover {
     const explore::SearchResult result = explore::explore(query, [&](const auto&...) { return !options_.interrupted || !options_.interrupted(); });
     Proof proof;
     for (const explore::Property property : {explore::Property::S1, explore::Property::S2, explore::Property::S3, explore::Property::S4, explore::Property::S5})
-      if (result[property] == explore::Verdict::violated)
+      if (result[property] == explore::PropertyVerdict::violated)
         proof.reason = "takt explore finds a run that violates " + std::string(explore::name_of(property)) + ", though perhaps not with this script";
     if (!proof.reason.empty()) return proof;
     if (!result.exhausted) {

@@ -21,7 +21,7 @@ scenario::Reaction reaction_to(scenario::Method method) {
   using scenario::Method;
   using scenario::Reaction;
   constexpr std::pair<Method, Reaction> reactions[] = {
-      {Method::start, Reaction::start}, {Method::suspend, Reaction::suspend}, {Method::resume, Reaction::resume}, {Method::halt, Reaction::halt}};
+      {Method::Start, Reaction::start}, {Method::Suspend, Reaction::suspend}, {Method::Resume, Reaction::resume}, {Method::Halt, Reaction::halt}};
   for (const auto& [each, reaction] : reactions)
     if (each == method) return reaction;
   return Reaction::reset;
@@ -34,8 +34,8 @@ Duration modulo(Duration value, Duration range) {
 
 }  // namespace
 
-CriticalInstants::CriticalInstants(const Resolved& resolved, std::span<const Freedom> freedoms)
-    : resolved_(&resolved), freedoms_(freedoms.begin(), freedoms.end()), timings_(resolved.plan.streams.size()) {
+CriticalInstants::CriticalInstants(const Resolved& resolved, std::span<const FreeVariable> variables)
+    : resolved_(&resolved), variables_(variables.begin(), variables.end()), timings_(resolved.plan.streams.size()) {
   std::map<std::string_view, std::size_t> by_name;
   for (std::size_t s = 0; s < resolved.plan.streams.size(); ++s) by_name.emplace(resolved.plan.streams[s].name, s);
   for (const scenario::Stream& stream : resolved.scenario.streams) {
@@ -50,20 +50,20 @@ CriticalInstants::CriticalInstants(const Resolved& resolved, std::span<const Fre
     for (std::size_t d = 0; d < program.process_data.size(); ++d)
       timings_[program.stream_of(d).value] = {program.phases[program.process_data[d].from], program.description->cycle, {}};
   }
-  for (std::size_t f = 0; f < freedoms_.size(); ++f)
-    for (const std::size_t stream : streams_moved_by(f)) timings_[stream].freedoms.push_back(f);
+  for (std::size_t f = 0; f < variables_.size(); ++f)
+    for (const std::size_t stream : streams_moved_by(f)) timings_[stream].variables.push_back(f);
   for (std::size_t s = 0; s < timings_.size(); ++s) visits_.push_back(visits_of(s));
 }
 
 std::vector<std::size_t> CriticalInstants::streams_moved_by(std::size_t f) const {
-  const Freedom& freedom = freedoms_[f];
+  const FreeVariable& variable = variables_[f];
   std::vector<std::size_t> found;
-  if (freedom.kind == Freedom::Kind::talker || freedom.kind == Freedom::Kind::jitter) {
+  if (variable.kind == FreeVariable::Kind::talker || variable.kind == FreeVariable::Kind::jitter) {
     for (std::size_t s = 0; s < resolved_->plan.streams.size(); ++s)
-      if (resolved_->plan.streams[s].name == resolved_->scenario.streams[freedom.item].name) found.push_back(s);
-  } else if (freedom.kind == Freedom::Kind::publisher) {
-    const scenario::ResolvedProgram& program = resolved_->programs[freedom.item];
-    const scenario::ResolvedMember& member = program.members[freedom.participant];
+      if (resolved_->plan.streams[s].name == resolved_->scenario.streams[variable.item].name) found.push_back(s);
+  } else if (variable.kind == FreeVariable::Kind::publisher) {
+    const scenario::ResolvedProgram& program = resolved_->programs[variable.item];
+    const scenario::ResolvedMember& member = program.members[variable.participant];
     found.push_back(member.state.value);
     for (const auto& data : member.data)
       if (data) found.push_back(data->value);
@@ -96,8 +96,8 @@ std::vector<CriticalInstants::Visit> CriticalInstants::visits_of(std::size_t str
 Duration CriticalInstants::phase_of(std::size_t stream, const Choice& choice) const {
   const Timing& timing = timings_[stream];
   Duration phase = timing.phase;
-  for (const std::size_t f : timing.freedoms)
-    if (choice.values[f] != Duration()) phase = freedoms_[f].kind == Freedom::Kind::jitter ? phase + choice.values[f] : choice.values[f];
+  for (const std::size_t f : timing.variables)
+    if (choice.values[f] != Duration()) phase = variables_[f].kind == FreeVariable::Kind::jitter ? phase + choice.values[f] : choice.values[f];
   return phase;
 }
 
@@ -116,28 +116,28 @@ std::vector<std::size_t> CriticalInstants::streams_of(const results::Requirement
 }
 
 /// Who sends or hears the streams of the requirement. Others disturb them by when they send, which is free already.
-bool CriticalInstants::matters(const Freedom& latency, const results::RequirementResult& requirement) const {
+bool CriticalInstants::matters(const FreeVariable& latency, const results::RequirementResult& requirement) const {
   const std::vector<std::size_t> streams = streams_of(requirement);
-  if (latency.kind == Freedom::Kind::generator_latency || streams.empty()) return true;
+  if (latency.kind == FreeVariable::Kind::generator_latency || streams.empty()) return true;
   const auto node = resolved_->topology.find(resolved_->scenario.network.nodes[latency.item].first);
   return std::any_of(streams.begin(), streams.end(), [&](std::size_t stream) {
     const models::StreamPlan& plan = resolved_->plan.streams[stream];
-    if (latency.latency != Freedom::Latency::receive) return plan.talker.value == *node;
+    if (latency.latency != FreeVariable::Latency::receive) return plan.talker.value == *node;
     return std::find(plan.listeners.begin(), plan.listeners.end(), models::NodeIndex{*node}) != plan.listeners.end();
   });
 }
 
 std::vector<Duration> CriticalInstants::of(std::size_t f, const results::RequirementResult& requirement, const Choice& choice) const {
-  const Freedom& freedom = freedoms_[f];
+  const FreeVariable& variable = variables_[f];
   std::vector<Duration> values{choice.values[f]};
-  const auto add = [&](Duration value) { values.push_back(modulo(value, freedom.range)); };
-  if (freedom.is_latency()) {
-    if (matters(freedom, requirement)) values = {by_chance, always_least, always_greatest, either_end};
+  const auto add = [&](Duration value) { values.push_back(modulo(value, variable.range)); };
+  if (variable.is_latency()) {
+    if (matters(variable, requirement)) values = {by_chance, always_least, always_greatest, either_end};
     return values;
   }
-  if (freedom.kind == Freedom::Kind::frequency) return {by_chance, always_least, always_greatest};
-  if (freedom.kind == Freedom::Kind::call) {
-    const scenario::ScriptEntry& entry = resolved_->scenario.script[freedom.item];
+  if (variable.kind == FreeVariable::Kind::frequency) return {by_chance, always_least, always_greatest};
+  if (variable.kind == FreeVariable::Kind::call) {
+    const scenario::ScriptEntry& entry = resolved_->scenario.script[variable.item];
     // A reaction to one method does not depend on when another one was called.
     if (requirement.kind == results::RequirementKind::reaction && scenario::reaction_of(resolved_->requirements[*requirement.requirement].figure)->kind != reaction_to(*entry.call)) return values;
     for (const scenario::ResolvedProgram& program : resolved_->programs) {
@@ -147,7 +147,7 @@ std::vector<Duration> CriticalInstants::of(std::size_t f, const results::Require
         // Just behind a publication whose timer was quick, or slow.
         const sim::Distribution& wake_up = resolved_->plan.os_latencies[resolved_->plan.nodes[each.node.value].os_latency].wake_up;
         for (const Duration moved : {to_publishing, to_publishing + just, to_publishing + wake_up.least() + just, to_publishing + wake_up.greatest() + just})
-          if (moved < freedom.range) add(moved);
+          if (moved < variable.range) add(moved);
       }
     }
   }
@@ -160,9 +160,9 @@ std::vector<Duration> CriticalInstants::of(std::size_t f, const results::Require
         if (theirs.port == visit.port && values.size() < most_values)
           for (const Duration apart : {Duration(), shift}) {
             const Duration instant = phase_of(other, choice) + theirs.after - visit.after + apart;
-            if (freedom.kind != Freedom::Kind::jitter)
+            if (variable.kind != FreeVariable::Kind::jitter)
               add(instant);
-            else if (const Duration late = modulo(instant - (phase_of(moved, choice) - choice.values[f]), timings_[moved].period); late < freedom.range)
+            else if (const Duration late = modulo(instant - (phase_of(moved, choice) - choice.values[f]), timings_[moved].period); late < variable.range)
               add(late);
           }
   };
@@ -172,8 +172,8 @@ std::vector<Duration> CriticalInstants::of(std::size_t f, const results::Require
     else
       for (std::size_t other = 0; other < timings_.size(); ++other) meet(moved, other, just);
   }
-  for (std::int64_t part = 0; part < parts_of_range; ++part) add(freedom.range * part / parts_of_range);
-  if (freedom.kind == Freedom::Kind::jitter) add(freedom.range - Duration::from_ps(1));
+  for (std::int64_t part = 0; part < parts_of_range; ++part) add(variable.range * part / parts_of_range);
+  if (variable.kind == FreeVariable::Kind::jitter) add(variable.range - Duration::from_ps(1));
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;

@@ -135,7 +135,7 @@ Found longest(const scenario::Run& run, const scenario::RequiredFigure& required
   const TrueTime from = TrueTime() + required.from;
   const auto look = [&](std::span<const handshake::Reaction> reactions, const std::vector<std::size_t>& programs) {
     for (const handshake::Reaction& each : reactions)
-      if (found.reaction == nullptr && each.outcome == handshake::ReactionOutcome::Completed && handshake::name_of(each.kind) == scenario::spelling(asked.kind) && each.began >= from &&
+      if (found.reaction == nullptr && each.outcome == handshake::ReactionOutcome::completed && handshake::name_of(each.kind) == scenario::spelling(asked.kind) && each.began >= from &&
           (!asked.cause || each.cause == *asked.cause) && each.completed - each.began == measured)
         found = {&each, programs};
   };

@@ -53,8 +53,8 @@ std::string line_text(const Line& line, const std::string& file) {
   if (line.requirement.limit)
     out += fmt::format("             simulated {} <= adversarial {} <= bound {}; limit {}{}\n", figure(line.simulated), figure(line.adversarial), figure(line.bound),
                        figure(line.requirement.limit), line.tightness() ? fmt::format("; tightness {:.0f} %", 100 * *line.tightness()) : "");
-  if (!line.reason.empty() && line.verdict != Verdict::pass) out += fmt::format("             {}\n", line.reason);
-  if (!line.remark.empty() && line.verdict == Verdict::pass) out += fmt::format("             {}\n", line.remark);
+  if (!line.reason.empty() && line.verdict != Conclusion::pass) out += fmt::format("             {}\n", line.reason);
+  if (!line.remark.empty() && line.verdict == Conclusion::pass) out += fmt::format("             {}\n", line.remark);
   out += slack_text(line);
   if (!file.empty()) out += fmt::format("             replay: takt run {}\n", file);
   return out;
@@ -69,7 +69,7 @@ std::string verdict_text(const Verification& verification) {
 std::string conditions_text(const Verification& verification) {
   analysis::Assumptions needed;
   for (const Line& line : verification.lines)
-    if (line.verdict == Verdict::pass) needed.add(line.assumptions);
+    if (line.verdict == Conclusion::pass) needed.add(line.assumptions);
   std::string out;
   for (const analysis::Assumption assumption : needed.list())
     if (verification.ledger[assumption].standing == analysis::Standing::condition) out += "  - " + verification.ledger[assumption].text + "\n";
@@ -82,25 +82,25 @@ std::string contradiction_text(const Contradiction& contradiction, const Witness
   return out;
 }
 
-std::string freedom_text(const Freedom& freedom) {
-  if (freedom.is_latency()) return fmt::format("  {} from {} to {}\n", freedom.name, figure(freedom.least), figure(freedom.greatest));
-  if (freedom.kind == Freedom::Kind::frequency) return "  " + freedom.name + "\n";
-  return fmt::format("  {} within {}\n", freedom.name, figure(freedom.range));
+std::string variable_text(const FreeVariable& variable) {
+  if (variable.is_latency()) return fmt::format("  {} from {} to {}\n", variable.name, figure(variable.least), figure(variable.greatest));
+  if (variable.kind == FreeVariable::Kind::frequency) return "  " + variable.name + "\n";
+  return fmt::format("  {} within {}\n", variable.name, figure(variable.range));
 }
 
 }  // namespace
 
 std::string text_report(const std::string& scenario, const Verification& verification, const std::vector<std::string>& files, const Witnesses& witnesses) {
   std::string out = fmt::format("{}: {} of {} requirements proved, {} runs{}\n\n", scenario,
-                                std::count_if(verification.lines.begin(), verification.lines.end(), [](const Line& line) { return line.verdict == Verdict::pass; }),
+                                std::count_if(verification.lines.begin(), verification.lines.end(), [](const Line& line) { return line.verdict == Conclusion::pass; }),
                                 verification.lines.size(), verification.runs, verification.partial ? ", interrupted" : "");
   for (std::size_t i = 0; i < verification.lines.size(); ++i) out += line_text(verification.lines[i], files[i]);
-  if (!verification.freedoms.empty()) {
-    out += fmt::format("\nFree, hence searched for the worst ({}):\n", verification.freedoms.size());
+  if (!verification.variables.empty()) {
+    out += fmt::format("\nFree, hence searched for the worst ({}):\n", verification.variables.size());
     constexpr std::size_t most = 12;
-    for (std::size_t i = 0; i < std::min(most, verification.freedoms.size()); ++i)
-      out += freedom_text(verification.freedoms[i]);
-    if (verification.freedoms.size() > most) out += fmt::format("  and {} more\n", verification.freedoms.size() - most);
+    for (std::size_t i = 0; i < std::min(most, verification.variables.size()); ++i)
+      out += variable_text(verification.variables[i]);
+    if (verification.variables.size() > most) out += fmt::format("  and {} more\n", verification.variables.size() - most);
   }
   out += conditions_text(verification);
   if (verification.contradiction) out += contradiction_text(*verification.contradiction, witnesses);
@@ -109,9 +109,9 @@ std::string text_report(const std::string& scenario, const Verification& verific
 
 std::string json_report(const std::string& scenario, const Verification& verification, const std::vector<std::string>& files, const Witnesses& witnesses) {
   Report report{scenario, verdict_text(verification), verification.runs, verification.partial, {}, {}, {}, {}};
-  for (const Freedom& freedom : verification.freedoms) {
-    const Duration range = freedom.is_latency() ? freedom.greatest - freedom.least : freedom.range;
-    report.free.push_back({freedom.name, freedom.kind == Freedom::Kind::frequency ? std::nullopt : std::optional(range)});
+  for (const FreeVariable& variable : verification.variables) {
+    const Duration range = variable.is_latency() ? variable.greatest - variable.least : variable.range;
+    report.free.push_back({variable.name, variable.kind == FreeVariable::Kind::frequency ? std::nullopt : std::optional(range)});
   }
   analysis::Assumptions needed;
   for (std::size_t i = 0; i < verification.lines.size(); ++i) {

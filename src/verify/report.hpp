@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "verify/sandwich.hpp"
+#include "verify/verification.hpp"
 
 namespace takt::verify {
 

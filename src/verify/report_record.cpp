@@ -30,12 +30,12 @@ std::string witness_bound(const ReportedContradiction& contradiction) { return c
 
 }  // namespace
 
-const json::Record& describe(json::Type<ReportedFreedom>) {
+const json::Record& describe(json::Type<ReportedVariable>) {
   static constexpr json::Output outputs[] = {
-      json::output<&ReportedFreedom::what>("what", "What the search chooses."),
-      json::output<&ReportedFreedom::range>("range_ps", "Within what; null where it is no time."),
+      json::output<&ReportedVariable::what>("what", "What the search chooses."),
+      json::output<&ReportedVariable::range>("range_ps", "Within what; null where it is no time."),
   };
-  static constexpr json::Record record{"freedom", "Something that the scenario leaves open.", outputs};
+  static constexpr json::Record record{"variable", "Something that the scenario leaves open.", outputs};
   return record;
 }
 
@@ -67,7 +67,7 @@ const json::Record& describe(json::Type<ReportedLine>) {
       json::output<&assumptions>("assumptions", "Names of what the bound or proof rests on."),
       json::output<&ReportedLine::file>("file", "The scenario that replays the worst run; null: not written."),
   };
-  static constexpr json::Record record{"requirement", "The sandwich of a requirement.", outputs};
+  static constexpr json::Record record{"requirement", "The three figures of a requirement and the limit.", outputs};
   return record;
 }
 

@@ -10,7 +10,7 @@
 
 namespace takt::verify {
 
-struct ReportedFreedom {
+struct ReportedVariable {
   std::string what;
   std::optional<sim::Duration> range;
 };
@@ -35,13 +35,13 @@ struct Report {
   std::string verdict;
   std::uint64_t runs = 0;
   bool partial = false;
-  std::vector<ReportedFreedom> free;
+  std::vector<ReportedVariable> free;
   std::vector<ReportedLine> requirements;
   std::vector<ReportedAssumption> assumptions;
   std::optional<ReportedContradiction> contradiction;
 };
 
-const json::Record& describe(json::Type<ReportedFreedom>);
+const json::Record& describe(json::Type<ReportedVariable>);
 const json::Record& describe(json::Type<SlackPart>);
 const json::Record& describe(json::Type<ReportedLine>);
 const json::Record& describe(json::Type<ReportedAssumption>);

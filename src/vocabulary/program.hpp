@@ -4,15 +4,27 @@
 #include <cstdint>
 #include <string>
 
+#include "handshake/participant.hpp"
 #include "json/fields.hpp"
+#include "program/method.hpp"
+
+// Words of files for values of protocol code: a description is looked for in the namespace of what it describes.
+namespace takt::handshake {
+const json::Enumeration& describe(json::Type<Variant>);
+const json::Enumeration& describe(json::Type<Subscription>);
+}  // namespace takt::handshake
+namespace takt::program {
+const json::Enumeration& describe(json::Type<Method>);
+}  // namespace takt::program
 
 namespace takt::vocabulary {
 
-enum class Variant : std::uint8_t { robust, paper };
+using handshake::Subscription;
+using handshake::Variant;
+using program::Method;
+
 enum class Publish : std::uint8_t { cyclic, on_change };
-enum class Subscription : std::uint8_t { star, all_to_all };
 enum class DataType : std::uint8_t { boolean, sbyte, byte, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
-enum class Method : std::uint8_t { start, suspend, resume, halt, reset };
 
 struct DataField {
   DataType type = DataType::float64;
@@ -29,11 +41,8 @@ struct ProcessData {
   bool operator==(const ProcessData&) const = default;
 };
 
-const json::Enumeration& describe(json::Type<Variant>);
 const json::Enumeration& describe(json::Type<Publish>);
-const json::Enumeration& describe(json::Type<Subscription>);
 const json::Enumeration& describe(json::Type<DataType>);
-const json::Enumeration& describe(json::Type<Method>);
 const json::Object& describe(json::Type<DataField>);
 const json::Object& describe(json::Type<ProcessData>);
 

@@ -1,14 +1,9 @@
 // The tables of the words that all files of Programs share. Decoding, resolved copies and schemas come from them.
 #include "vocabulary/program.hpp"
 
-namespace takt::vocabulary {
-namespace {
+namespace takt::handshake {
 
 using json::name;
-using json::optional;
-using json::required;
-
-}  // namespace
 
 const json::Enumeration& describe(json::Type<Variant>) {
   static constexpr json::EnumName names[] = {
@@ -19,21 +14,50 @@ const json::Enumeration& describe(json::Type<Variant>) {
   return table;
 }
 
-const json::Enumeration& describe(json::Type<Publish>) {
-  static constexpr json::EnumName names[] = {
-      name(Publish::cyclic, "cyclic", "once a cycle"),
-      name(Publish::on_change, "on-change", "once a cycle, and at once when the state changes"),
-  };
-  static constexpr json::Enumeration table = json::enumeration<Publish>("a publishing rule", names);
-  return table;
-}
-
 const json::Enumeration& describe(json::Type<Subscription>) {
   static constexpr json::EnumName names[] = {
       name(Subscription::star, "star", "the master hears all slaves, a slave the master"),
       name(Subscription::all_to_all, "all-to-all", "everybody hears everybody"),
   };
   static constexpr json::Enumeration table = json::enumeration<Subscription>("a subscription", names);
+  return table;
+}
+
+}  // namespace takt::handshake
+
+namespace takt::program {
+
+using json::name;
+
+const json::Enumeration& describe(json::Type<Method>) {
+  static constexpr json::EnumName names[] = {
+      name(Method::Start, "Start", "at the master (paper: anywhere)"),
+      name(Method::Suspend, "Suspend", "anywhere"),
+      name(Method::Resume, "Resume", "anywhere"),
+      name(Method::Halt, "Halt", "anywhere"),
+      name(Method::Reset, "Reset", "anywhere"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Method>("a Program control method", names);
+  return table;
+}
+
+}  // namespace takt::program
+
+namespace takt::vocabulary {
+namespace {
+
+using json::name;
+using json::optional;
+using json::required;
+
+}  // namespace
+
+const json::Enumeration& describe(json::Type<Publish>) {
+  static constexpr json::EnumName names[] = {
+      name(Publish::cyclic, "cyclic", "once a cycle"),
+      name(Publish::on_change, "on-change", "once a cycle, and at once when the state changes"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Publish>("a publishing rule", names);
   return table;
 }
 
@@ -64,18 +88,6 @@ const json::Object& describe(json::Type<ProcessData>) {
       required<&ProcessData::fields>("fields", "The fields of the data set.", {.min_items = 1, .max_items = 256}),
   };
   static constexpr json::Object table = json::object<ProcessData>("process_data", "A data set that is published every cycle while both ends are Running.", fields);
-  return table;
-}
-
-const json::Enumeration& describe(json::Type<Method>) {
-  static constexpr json::EnumName names[] = {
-      name(Method::start, "Start", "at the master (paper: anywhere)"),
-      name(Method::suspend, "Suspend", "anywhere"),
-      name(Method::resume, "Resume", "anywhere"),
-      name(Method::halt, "Halt", "anywhere"),
-      name(Method::reset, "Reset", "anywhere"),
-  };
-  static constexpr json::Enumeration table = json::enumeration<Method>("a Program control method", names);
   return table;
 }
 

@@ -13,19 +13,7 @@ constexpr std::array<BuiltInType, 11> built_in_types = {
     BuiltInType::UInt32,  BuiltInType::Int64, BuiltInType::UInt64, BuiltInType::Float, BuiltInType::Double};
 static_assert(built_in_types.size() == static_cast<std::size_t>(DataType::float64) + 1);
 
-constexpr std::array<program::Method, 5> methods = {program::Method::Start, program::Method::Suspend, program::Method::Resume, program::Method::Halt,
-                                                    program::Method::Reset};
-static_assert(methods.size() == static_cast<std::size_t>(Method::reset) + 1);
-
 }  // namespace
-
-handshake::Variant variant_of(Variant variant) { return variant == Variant::robust ? handshake::Variant::Robust : handshake::Variant::Paper; }
-
-handshake::Subscription subscription_of(Subscription subscription) {
-  return subscription == Subscription::star ? handshake::Subscription::Star : handshake::Subscription::AllToAll;
-}
-
-program::Method method_of(Method method) { return methods[static_cast<std::size_t>(method)]; }
 
 BuiltInType built_in_type_of(DataType type) { return built_in_types[static_cast<std::size_t>(type)]; }
 

@@ -7,7 +7,6 @@
 
 #include "handshake/binder.hpp"
 #include "handshake/participant.hpp"
-#include "program/method.hpp"
 #include "vocabulary/plug.hpp"
 #include "vocabulary/program.hpp"
 #include "wire/plug_format.hpp"
@@ -15,9 +14,6 @@
 
 namespace takt::vocabulary {
 
-handshake::Variant variant_of(Variant variant);
-handshake::Subscription subscription_of(Subscription subscription);
-program::Method method_of(Method method);
 uadp::BuiltInType built_in_type_of(DataType type);
 
 /// `from` is the participant that `data.from` names.

@@ -6,9 +6,9 @@ namespace takt::wire {
 
 using handshake::Side;
 
-Nesting::Nesting(ProgramNode& outer, ProgramNode& inner) : outer_(&outer.join(*this, Side::Outer)), inner_(&inner.join(*this, Side::Inner)) {
+Nesting::Nesting(ProgramNode& outer, ProgramNode& inner) : outer_(&outer.join(*this, Side::outer)), inner_(&inner.join(*this, Side::inner)) {
   TAKT_CHECK(outer_->settings().handshake.nested && inner_->settings().handshake.nested, "both participants wait for each other");
-  TAKT_CHECK(outer_->settings().handshake.role == handshake::Role::Slave && inner_->settings().handshake.role == handshake::Role::Master,
+  TAKT_CHECK(outer_->settings().handshake.role == handshake::Role::slave && inner_->settings().handshake.role == handshake::Role::master,
              "a slave of the outer group is the master of the inner one");
 }
 
@@ -16,7 +16,7 @@ void Nesting::settle(const Turn& turn) {
   if (settling_) return;
   settling_ = true;
   while (const auto next = coupling_.next(view_of(outer_->participant()), view_of(inner_->participant())))
-    (next->side == Side::Outer ? outer_ : inner_)->step(turn, next->input);
+    (next->side == Side::outer ? outer_ : inner_)->step(turn, next->input);
   settling_ = false;
 }
 

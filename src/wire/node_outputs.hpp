@@ -78,7 +78,7 @@ class NodeOutputs {
  public:
   struct Entry {
     Output what;
-    handshake::Side side = handshake::Side::Outer;  ///< which of two nested Programs of the node it is for (nesting.hpp)
+    handshake::Side side = handshake::Side::outer;  ///< which of two nested Programs of the node it is for (nesting.hpp)
   };
 
   /// Of a call; Good for every other turn.

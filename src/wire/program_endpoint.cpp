@@ -104,7 +104,7 @@ void ProgramEndpoint::receive_state(const Turn& turn, std::size_t peer, const St
 }
 
 void ProgramEndpoint::receive_data(const Turn& turn, std::size_t peer, const ProcessDataMessage& message) {
-  const bool has_runs = settings_.handshake.variant == handshake::Variant::Robust;
+  const bool has_runs = settings_.handshake.variant == handshake::Variant::robust;
   const bool counts = has_runs ? participant_.process_data_counts(peer, message.run) : participant_.process_data_counts(peer);
   if (!counts) {
     ++counts_.not_running;
@@ -154,7 +154,7 @@ void ProgramEndpoint::publish_state(const Turn& turn) {
 /// `paper` has no run.
 bool ProgramEndpoint::publish_data(const Turn& turn, std::uint8_t data_set) {
   if (participant_.state() != handshake::PublishedState::Running) return false;
-  const bool has_runs = settings_.handshake.variant == handshake::Variant::Robust;
+  const bool has_runs = settings_.handshake.variant == handshake::Variant::robust;
   const ProcessDataMessage message{settings_.handshake.index, data_set, data_sequence_[data_set]++, has_runs ? participant_.run() : 0, {}};
   const std::span<std::byte> target = turn.out.message();
   const std::size_t octets = settings_.format->encode(message, target).size();

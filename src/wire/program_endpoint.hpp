@@ -113,7 +113,7 @@ class ProgramEndpoint {
   std::uint64_t missed_cycles_ = 0;
   EndpointCounts counts_;
   Nesting* nesting_ = nullptr;
-  handshake::Side side_ = handshake::Side::Outer;
+  handshake::Side side_ = handshake::Side::outer;
 };
 
 }  // namespace takt::wire

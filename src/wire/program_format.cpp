@@ -22,7 +22,7 @@ bool has_no_value(uadp::Octets message) { return uadp::Status{std::uint32_t{uadp
 
 uadp::RawLayout state_fields(Variant variant) {
   std::vector<RawField> fields = {{BuiltInType::Int32}};
-  if (variant == Variant::Robust) {
+  if (variant == Variant::robust) {
     fields.insert(fields.end(), 4, {BuiltInType::UInt32});
     fields.insert(fields.end(), 2, {BuiltInType::Byte});
   }
@@ -65,7 +65,7 @@ uadp::Octets ProgramFormat::encode(const StateMessage& message, std::span<std::b
   layout.set_header(target, 0, message.sequence);
   uadp::Writer writer(target.subspan(fields_at));
   writer.put(static_cast<std::int32_t>(message.word.state));
-  if (shape_.variant == Variant::Robust) {
+  if (shape_.variant == Variant::robust) {
     writer.put(message.word.incarnation);
     writer.put(message.word.run);
     writer.put(message.word.intent.number);
@@ -110,7 +110,7 @@ std::optional<ProgramMessage> ProgramFormat::decode_state(std::uint8_t sender, u
   const auto state = handshake::published_state_from_number(reader.get<std::uint32_t>());
   if (!state) return std::nullopt;
   message.word.state = *state;
-  if (shape_.variant == Variant::Paper) return message;
+  if (shape_.variant == Variant::paper) return message;
   message.word.incarnation = reader.get<std::uint32_t>();
   message.word.run = reader.get<std::uint32_t>();
   message.word.intent.number = reader.get<std::uint32_t>();

@@ -26,7 +26,7 @@ inline constexpr std::uint32_t fields_at = 20;
 
 /// Octets of a state message.
 constexpr std::uint32_t state_octets(handshake::Variant variant) {
-  return fields_at + (variant == handshake::Variant::Paper ? 4 : 22);
+  return fields_at + (variant == handshake::Variant::paper ? 4 : 22);
 }
 /// Octets of a message of process data, whose run stands before the user's fields.
 constexpr std::uint32_t process_data_octets(std::uint32_t user_octets) { return fields_at + 4 + user_octets; }

@@ -35,7 +35,7 @@ void ProgramNode::begin() {
   if (settings_.roles && settings_.roles->offer) {
     const Offer& offer = *settings_.roles->offer;
     TAKT_CHECK(offer.life != 0, "0 is no life");
-    TAKT_CHECK(settings_.endpoint.handshake.subscription == handshake::Subscription::Star, "a role hears the master only");
+    TAKT_CHECK(settings_.endpoint.handshake.subscription == handshake::Subscription::star, "a role hears the master only");
     endpoint_.reset();
     candidate_.emplace(offer.number, offer.life, offer.skills);
     arrivals_.resize(1);
@@ -77,7 +77,7 @@ std::optional<std::size_t> ProgramNode::participant() const { return endpoint_ ?
 NodeOutputs& ProgramNode::start(sim::LocalTime now) {
   const Turn turn = this->turn(now);
   if (endpoint_) endpoint_->start(turn);
-  if (settings_.roles) turn.out.add(Side::Outer, SetAlarm{role_alarm(), now});
+  if (settings_.roles) turn.out.add(Side::outer, SetAlarm{role_alarm(), now});
   return turn.out;
 }
 
@@ -127,7 +127,7 @@ NodeOutputs& ProgramNode::wake(sim::LocalTime now, std::size_t alarm) {
   const Turn turn = this->turn(now);
   if (alarm == role_alarm()) {
     candidate_ ? announce(turn) : publish_table(turn);
-    turn.out.add(Side::Outer, SetAlarm{alarm, now + settings_.roles->announce_cycle});
+    turn.out.add(Side::outer, SetAlarm{alarm, now + settings_.roles->announce_cycle});
     return turn.out;
   }
   if (alarm > role_alarm()) {
@@ -158,7 +158,7 @@ NodeOutputs& ProgramNode::leave(sim::LocalTime now) {
 bool ProgramNode::take(const Turn& turn, const AnnouncementMessage& message) {
   const sim::Duration timeout = announce_timeout(settings_.roles->announce_cycle);
   if (!arrivals_[message.candidate].take(message.sequence, message.announcement.life, turn.now, timeout)) return false;
-  if (binder_->announced(message.candidate, message.announcement)) turn.out.add(Side::Outer, SetAlarm{role_alarm() + 1 + message.candidate, turn.now + timeout});
+  if (binder_->announced(message.candidate, message.announcement)) turn.out.add(Side::outer, SetAlarm{role_alarm() + 1 + message.candidate, turn.now + timeout});
   return true;
 }
 
@@ -167,13 +167,13 @@ bool ProgramNode::take(const Turn& turn, const TableMessage& message) {
   const Binding before = self();
   const auto role = candidate_->role();
   const Candidate::Change change = candidate_->table(std::span(message.bindings).first(settings_.roles->format->roles()), message.used_lives[before.candidate]);
-  if (change == Candidate::Change::Released) {
+  if (change == Candidate::Change::released) {
     endpoint_.reset();
-    turn.out.add(Side::Outer, RoleDropped{*role, before});
+    turn.out.add(Side::outer, RoleDropped{*role, before});
   }
-  if (change == Candidate::Change::Bound) {
+  if (change == Candidate::Change::bound) {
     take_role();
-    turn.out.add(Side::Outer, RoleTaken{*candidate_->role(), before});
+    turn.out.add(Side::outer, RoleTaken{*candidate_->role(), before});
     endpoint_->start(turn);
   }
   if (self() != before) announce(turn);
@@ -182,7 +182,7 @@ bool ProgramNode::take(const Turn& turn, const TableMessage& message) {
 
 void ProgramNode::take_role() {
   EndpointSettings settings = settings_.endpoint;
-  settings.handshake.role = handshake::Role::Slave;
+  settings.handshake.role = handshake::Role::slave;
   settings.handshake.index = static_cast<std::uint8_t>(*candidate_->role() + 1);
   settings.handshake.incarnation = candidate_->incarnation();
   endpoint_.emplace(std::move(settings));
@@ -193,10 +193,10 @@ void ProgramNode::settle(const Turn& turn) {
   if (!binder_) return;
   bool changed = false;
   while (const auto input = binder_->next(master_view_of(endpoint_->participant()))) {
-    if (input->kind == Input::Kind::PeerReplaced) {
+    if (input->kind == Input::Kind::peer_replaced) {
       const Binding& binding = binder_->binding(input->peer);
       endpoint_->expect(input->peer, binding.bound() ? std::optional(handshake::incarnation_of(binding.candidate, binding.life)) : std::nullopt);
-      turn.out.add(Side::Outer, RoleBound{input->peer, binding});
+      turn.out.add(Side::outer, RoleBound{input->peer, binding});
       changed = true;
     }
     endpoint_->step(turn, *input);
@@ -221,7 +221,7 @@ template <class Message>
 void ProgramNode::publish(const Turn& turn, const Message& message, std::uint16_t writer_group) {
   const std::span<std::byte> target = turn.out.message();
   const std::size_t octets = settings_.roles->format->encode(message, target).size();
-  turn.out.add(Side::Outer, Publish{target.first(octets), {writer_group, settings_.endpoint.priority}, message.sequence});
+  turn.out.add(Side::outer, Publish{target.first(octets), {writer_group, settings_.endpoint.priority}, message.sequence});
 }
 
 }  // namespace takt::wire

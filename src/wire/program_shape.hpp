@@ -25,7 +25,7 @@ struct DataSetShape {
 
 struct ProgramShape {
   std::string name;
-  handshake::Variant variant = handshake::Variant::Robust;
+  handshake::Variant variant = handshake::Variant::robust;
   std::vector<std::string> participants;  ///< names, the master first; 2 to 65
   std::vector<DataSetShape> data_sets;
   std::uint16_t first_publisher_id = 1;   ///< of the master; participant i has i more

@@ -125,7 +125,7 @@ TEST(ReactionBound, HoldsInTheSimulatorAtAllPhases) {
           scenario::Run run(*resolved);
           run.advance();
           for (const handshake::Reaction& reaction : run.monitor(0).reactions()) {
-            if (reaction.outcome != handshake::ReactionOutcome::Completed) continue;
+            if (reaction.outcome != handshake::ReactionOutcome::completed) continue;
             for (std::size_t k = 0; k < bounds.size(); ++k)
               if (handshake::name_of(reaction.kind) == std::string_view(scenario::spelling(bounds[k].kind))) slowest[k] = std::max(slowest[k], reaction.completed - reaction.began);
           }
@@ -178,7 +178,7 @@ TEST(ReactionBound, HaltsHoldFromTheirCausesAtAllPhases) {
         for (const handshake::Reaction& reaction : run.monitor(0).reactions()) {
           if (reaction.cause != cause || reaction.kind != handshake::IntentKind::Halt) continue;
           ++seen;
-          ASSERT_EQ(reaction.outcome, handshake::ReactionOutcome::Completed) << fault;
+          ASSERT_EQ(reaction.outcome, handshake::ReactionOutcome::completed) << fault;
           EXPECT_LE(reaction.completed - reaction.began, *of_cause->bound) << fault << " at " << phase;
           tightest[cause] = std::max(tightest[cause], static_cast<double>((reaction.completed - reaction.began).ps()) / static_cast<double>(of_cause->bound->ps()));
         }
@@ -211,8 +211,8 @@ TEST(ReactionBound, HoldsForNestedGroupsAtAllPhases) {
       const auto seen = reaction.of_tree ? run.trees().front()->reactions() : run.monitor(reaction.program).reactions();
       for (std::size_t i = 0; i < seen.size(); ++i) {
         // Nothing is said of what comes before the last call is over.
-        const bool is_alone = i == 0 || (seen[i - 1].outcome == handshake::ReactionOutcome::Completed && seen[i - 1].completed <= seen[i].began);
-        if (!is_alone || seen[i].outcome != handshake::ReactionOutcome::Completed || handshake::name_of(seen[i].kind) != std::string_view(scenario::spelling(reaction.kind))) continue;
+        const bool is_alone = i == 0 || (seen[i - 1].outcome == handshake::ReactionOutcome::completed && seen[i - 1].completed <= seen[i].began);
+        if (!is_alone || seen[i].outcome != handshake::ReactionOutcome::completed || handshake::name_of(seen[i].kind) != std::string_view(scenario::spelling(reaction.kind))) continue;
         auto& [longest, limit] = slowest[{reaction.program, reaction.kind, reaction.of_tree}];
         longest = std::max(longest, seen[i].completed - seen[i].began);
         limit = *reaction.bound;

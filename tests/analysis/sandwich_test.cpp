@@ -21,7 +21,7 @@ std::span<const handshake::Reaction> seen_by(const scenario::Run& run, const Rea
   return {};
 }
 
-TEST(Sandwich, NothingExceedsItsBound) {
+TEST(Verification, NothingExceedsItsBound) {
   std::size_t reactions = 0;
   std::size_t trees = 0;
   std::size_t faults = 0;
@@ -48,7 +48,7 @@ TEST(Sandwich, NothingExceedsItsBound) {
         const bool is_call = seen.cause == handshake::Cause::nested || seen.cause == handshake::Cause::mismatch;
         if ((is_call ? handshake::Cause::command : seen.cause) != reaction.cause) continue;
         faults += reaction.cause != handshake::Cause::command;
-        if (handshake::name_of(seen.kind) != std::string_view(scenario::spelling(reaction.kind)) || seen.outcome != handshake::ReactionOutcome::Completed) continue;
+        if (handshake::name_of(seen.kind) != std::string_view(scenario::spelling(reaction.kind)) || seen.outcome != handshake::ReactionOutcome::completed) continue;
         if (!reaction.bound && !resolved->programs[reaction.program].replies.empty()) {
           EXPECT_NE(reaction.reason, "") << name;   // replies may come without a least gap
           continue;
@@ -67,7 +67,7 @@ TEST(Sandwich, NothingExceedsItsBound) {
 }
 
 // The figures of the first page of the documentation.
-TEST(Sandwich, RobotArm) {
+TEST(Verification, RobotArm) {
   const auto resolved = scenario::test::shipped("robot-arm");
   const Bounds bounds = bound(*resolved);
   EXPECT_EQ(bounds.streams[0].name, "camera");

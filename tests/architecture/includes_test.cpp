@@ -1,4 +1,4 @@
-// Dependencies point one way (ARCHITECTURE.md, "The house"): who may include whom, heavy headers, and what the deterministic
+// Dependencies point one way (ARCHITECTURE.md, "The map"): who may include whom, heavy headers, and what the deterministic
 // layers must not use.
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ const Prefixes models = {"models/"};
 const Prefixes protocol = {"wire/", "uadp/", "pubsub/", "program/", "handshake/", "dds/", "gateway/"};
 const Prefixes scenario = {"scenario/"};
 const Prefixes json = {"json/"};
-const Prefixes questions = {"analysis/", "explore/", "synthesis/", "verify/"};
+const Prefixes questions = {"analysis/", "explore/", "schedule_check/", "verify/"};
 const Prefixes results = {"results/"};
 const Prefixes evaluation = {"evaluation/"};
 const Prefixes output = {"output/"};
@@ -31,7 +31,6 @@ const Prefixes emulate = {"emulate/"};
 const Prefixes vocabulary = {"vocabulary/"};
 const Prefixes plant = {"plant/"};
 const Prefixes papers = {"papers/"};
-const Prefixes storage = {"storage/"};
 
 Prefixes all_of(std::initializer_list<Prefixes> parts) {
   Prefixes sum;
@@ -51,8 +50,7 @@ const std::vector<Layer>& layers() {
     for (const std::string& folder : protocol) list.push_back({"src/" + folder, all_of({base, protocol})});
     list.push_back({"src/vocabulary/", all_of({base, protocol, vocabulary, json})});
     list.push_back({"src/plant/", all_of({base, plant})});
-    list.push_back({"src/storage/", all_of({base, protocol, storage})});
-    list.push_back({"src/node/", all_of({base, protocol, vocabulary, plant, storage, node, json})});
+    list.push_back({"src/node/", all_of({base, protocol, vocabulary, plant, node, json})});
     list.push_back({"src/json/", all_of({base, json})});
     list.push_back({"src/results/", all_of({base, json, results})});
     const Prefixes below = all_of({kernel, models, protocol, vocabulary, plant, json, results, scenario});
@@ -92,7 +90,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, output, cli, node, emulate, vocabulary, plant, chart, papers, study, storage, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, output, cli, node, emulate, vocabulary, plant, chart, papers, study, {"property/"}});
   return roots;
 }
 

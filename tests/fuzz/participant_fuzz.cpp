@@ -55,7 +55,7 @@ class Target {
     while (const auto datagram = participant_.next_datagram()) {
       dds::MessageDecoder decoder(datagram->octets);
       while (decoder.next()) continue;
-      TAKT_CHECK(decoder.verdict() == dds::Verdict::ok && decoder.skipped() == 0, "what is said is sound");
+      TAKT_CHECK(decoder.verdict() == dds::MessageStatus::ok && decoder.skipped() == 0, "what is said is sound");
     }
     while (participant_.next_event()) continue;
   }

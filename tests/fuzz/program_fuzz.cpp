@@ -42,8 +42,8 @@ void check(const wire::ProgramFormat& format, uadp::Octets octets) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const wire::ProgramFormat robust = format_of(handshake::Variant::Robust);
-  static const wire::ProgramFormat paper = format_of(handshake::Variant::Paper);
+  static const wire::ProgramFormat robust = format_of(handshake::Variant::robust);
+  static const wire::ProgramFormat paper = format_of(handshake::Variant::paper);
   const std::vector<std::byte> exact(reinterpret_cast<const std::byte*>(data), reinterpret_cast<const std::byte*>(data) + size);
   check(robust, exact);
   check(paper, exact);

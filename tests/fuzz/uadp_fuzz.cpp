@@ -28,7 +28,7 @@ void put_again(uadp::NetworkMessageEncoder& encoder, const uadp::DataSetMessage&
 bool is_sound(const uadp::NetworkMessage& message) {
   for (std::size_t i = 0; i < message.count(); ++i) {
     uadp::DataSetMessage each;
-    if (decode(message.data_set_message(i), each) != uadp::Verdict::ok || !is_well_formed(each)) return false;
+    if (decode(message.data_set_message(i), each) != uadp::DecodeStatus::ok || !is_well_formed(each)) return false;
   }
   return true;
 }
@@ -71,11 +71,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const uadp::Octets octets = std::as_bytes(std::span(data, size));
   feed_subscriber(octets);
   uadp::NetworkMessage message;
-  if (decode(octets, message) != uadp::Verdict::ok || !is_sound(message)) return 0;
+  if (decode(octets, message) != uadp::DecodeStatus::ok || !is_sound(message)) return 0;
   const std::vector<std::byte> once = canonical(message);
   if (once.empty()) return 0;
   uadp::NetworkMessage again;
-  TAKT_CHECK(decode(once, again) == uadp::Verdict::ok && is_sound(again), "what was understood is sound when written again");
+  TAKT_CHECK(decode(once, again) == uadp::DecodeStatus::ok && is_sound(again), "what was understood is sound when written again");
   TAKT_CHECK(canonical(again) == once, "the canonical form is its own canonical form");
   return 0;
 }

@@ -167,7 +167,7 @@ TEST(Interoperability, AStockSubscriberReceivesWhatTheGatewayPublishes) {
     while (channel.waiting() == 0) receiving.poll(now());
     const auto value = channel.pull(now());
     ASSERT_TRUE(value);
-    ASSERT_EQ(writer->write(value->octets), node::WriteOutcome::sent);
+    ASSERT_EQ(writer->write(value->octets), node::SendOutcome::sent);
   }
   for (std::uint32_t n = 1; n <= samples; ++n) {
     const std::string line = stock.line();
@@ -264,7 +264,7 @@ TEST(Interoperability, SamplesOfManyFragmentsReachAStockSubscriber) {
   std::vector<std::byte> payload;
   for (std::uint32_t n = 1; n <= blobs; ++n) {
     ASSERT_EQ(mapping.to_cdr(fields_of(blob_of(n)), payload), MappingError::none);
-    ASSERT_EQ(writer->write(payload), node::WriteOutcome::sent);
+    ASSERT_EQ(writer->write(payload), node::SendOutcome::sent);
     std::uint32_t sum = 0;
     const Blob blob = blob_of(n);
     for (const std::byte each : std::get<1>(blob)) sum = 31 * sum + std::to_integer<std::uint32_t>(each);

@@ -206,10 +206,10 @@ class Checks {
     for (std::size_t i = 0; i < std::min(found.lines.size(), result_->requirements.size()); ++i) {
       const verify::Line& line = found.lines[i];
       const results::RequirementResult& run = result_->requirements[i];
-      expect(line.verdict != verify::Verdict::contradiction, [&] { return run.text + ": a contradiction"; });
-      if (run.verdict == results::Verdict::fail) expect(line.verdict == verify::Verdict::refuted, [&] { return run.text + ": a run fails it, verify says " + verify::name_of(line.verdict); });
+      expect(line.verdict != verify::Conclusion::contradiction, [&] { return run.text + ": a contradiction"; });
+      if (run.verdict == results::Verdict::fail) expect(line.verdict == verify::Conclusion::refuted, [&] { return run.text + ": a run fails it, verify says " + verify::name_of(line.verdict); });
       if (run.measured && line.simulated) expect(*run.measured <= *line.simulated || run.kind == results::RequirementKind::sync, [&] { return run.text + ": a run measured " + took(*run.measured) + ", verify at most " + took(*line.simulated); });
-      if (line.verdict == verify::Verdict::refuted) replay(i, line);
+      if (line.verdict == verify::Conclusion::refuted) replay(i, line);
     }
   }
 

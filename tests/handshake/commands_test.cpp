@@ -81,19 +81,19 @@ void check(Variant variant, std::size_t at, const Expected& expected) {
   }
 }
 
-TEST(Commands, PaperMaster) { check(Variant::Paper, 0, paper_both); }
-TEST(Commands, PaperSlave) { check(Variant::Paper, 1, paper_both); }
-TEST(Commands, RobustMaster) { check(Variant::Robust, 0, robust_master); }
-TEST(Commands, RobustSlave) { check(Variant::Robust, 1, robust_slave); }
+TEST(Commands, PaperMaster) { check(Variant::paper, 0, paper_both); }
+TEST(Commands, PaperSlave) { check(Variant::paper, 1, paper_both); }
+TEST(Commands, RobustMaster) { check(Variant::robust, 0, robust_master); }
+TEST(Commands, RobustSlave) { check(Variant::robust, 1, robust_slave); }
 
 TEST(Commands, RobustStartIsRefusedInTheBarrier) {
-  Group group(Variant::Robust, 1);
+  Group group(Variant::robust, 1);
   group.to_barrier();
   EXPECT_EQ(group.call(0, Method::Start).status, StatusCode::BadInvalidState);
 }
 
 TEST(Commands, RobustSlaveSuspendsOnlyAfterTheBarrier) {
-  Group group(Variant::Robust, 2);
+  Group group(Variant::robust, 2);
   group.to_barrier();
   EXPECT_EQ(group.call(1, Method::Suspend).status, StatusCode::BadInvalidState);
   group.rounds(2);

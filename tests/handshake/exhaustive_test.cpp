@@ -39,11 +39,11 @@ struct State {
   Budget left;
 
   Config config(std::size_t i, std::uint32_t incarnation) const {
-    return {Variant::Robust, i == 0 ? Role::Master : Role::Slave, static_cast<std::uint8_t>(i),
+    return {Variant::robust, i == 0 ? Role::master : Role::slave, static_cast<std::uint8_t>(i),
             static_cast<std::uint8_t>(up.size()), incarnation};
   }
   State(std::size_t slaves, Budget budget)
-      : up(slaves), down(slaves), observer(Variant::Robust, slaves + 1), left(budget) {
+      : up(slaves), down(slaves), observer(Variant::robust, slaves + 1), left(budget) {
     for (std::size_t i = 0; i <= slaves; ++i) members.emplace_back(config(i, 1));
   }
 

@@ -149,11 +149,11 @@ TEST_P(Figures, HaltDuringTheStart) {
 }
 
 std::string name(const testing::TestParamInfo<std::tuple<Variant, int>>& info) {
-  return std::string(std::get<0>(info.param) == Variant::Paper ? "paper" : "robust") +
+  return std::string(std::get<0>(info.param) == Variant::paper ? "paper" : "robust") +
          std::to_string(std::get<1>(info.param));
 }
 INSTANTIATE_TEST_SUITE_P(Groups, Figures,
-                         testing::Combine(testing::Values(Variant::Paper, Variant::Robust), testing::Range(1, 9)),
+                         testing::Combine(testing::Values(Variant::paper, Variant::robust), testing::Range(1, 9)),
                          name);
 
 }  // namespace

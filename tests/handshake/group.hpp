@@ -25,7 +25,7 @@ class Group {
  public:
   using Member = Participant<64>;
 
-  explicit Group(Variant variant, std::size_t slaves, Subscription subscription = Subscription::Star)
+  explicit Group(Variant variant, std::size_t slaves, Subscription subscription = Subscription::star)
       : observer(variant, slaves + 1), reactions(slaves + 1), variant_(variant), subscription_(subscription), pending_(slaves + 1),
         sequence_(slaves + 1), incarnation_(slaves + 1, 1) {
     for (std::size_t i = 0; i <= slaves; ++i) members_.emplace_back(config(i));
@@ -34,7 +34,7 @@ class Group {
   std::size_t size() const { return members_.size(); }
   const Member& operator[](std::size_t i) const { return members_[i]; }
   Config config(std::size_t i) const {
-    return {variant_, i == 0 ? Role::Master : Role::Slave, static_cast<std::uint8_t>(i),
+    return {variant_, i == 0 ? Role::master : Role::slave, static_cast<std::uint8_t>(i),
             static_cast<std::uint8_t>(pending_.size() - 1), incarnation_[i], subscription_};
   }
 

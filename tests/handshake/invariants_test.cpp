@@ -39,7 +39,7 @@ class Puppet {
 using Violations = std::vector<Violation>;
 
 class Planted : public testing::TestWithParam<Variant> {};
-INSTANTIATE_TEST_SUITE_P(Variants, Planted, testing::Values(Variant::Paper, Variant::Robust));
+INSTANTIATE_TEST_SUITE_P(Variants, Planted, testing::Values(Variant::paper, Variant::robust));
 
 TEST_P(Planted, ACleanRunHasNoViolation) {
   Puppet puppet(GetParam(), 3);
@@ -60,11 +60,11 @@ TEST_P(Planted, S1OneIsRunningBeforeAllWereReady) {
   puppet.make_ready(0, 1);
   puppet.make_ready(1, 1);
   puppet.move(1, running, 1);
-  EXPECT_EQ(puppet.violations(), (Violations{{Invariant::S1, Finding::RunningBeforeAllReady, 1}}));
+  EXPECT_EQ(puppet.violations(), (Violations{{Invariant::S1, Finding::running_before_all_ready, 1}}));
 }
 
 TEST(Observer, S1RobustReadyInAnotherRunDoesNotCount) {
-  Puppet puppet(Variant::Robust, 2);
+  Puppet puppet(Variant::robust, 2);
   puppet.make_ready(0, 1);
   puppet.make_ready(1, 1);
   puppet.move(0, halted, 0);
@@ -72,24 +72,24 @@ TEST(Observer, S1RobustReadyInAnotherRunDoesNotCount) {
   puppet.move(1, running, 1);
   EXPECT_EQ(puppet.violations(), Violations{}) << "in its own run all have been Ready";
   puppet.move(0, running, 2);
-  EXPECT_EQ(puppet.violations(), (Violations{{Invariant::S1, Finding::RunningBeforeAllReady, 0},
-                                             {Invariant::S2, Finding::MasterBeforeSlaves, 0}}));
+  EXPECT_EQ(puppet.violations(), (Violations{{Invariant::S1, Finding::running_before_all_ready, 0},
+                                             {Invariant::S2, Finding::master_before_slaves, 0}}));
 }
 
 TEST(Observer, S1PaperReadyBeforeTheRoundBeganDoesNotCount) {
-  Puppet puppet(Variant::Paper, 2);
+  Puppet puppet(Variant::paper, 2);
   puppet.make_ready(0, 0);
   puppet.make_ready(1, 0);
   puppet.move(1, halted, 0);
   puppet.move(0, halted, 0);
   puppet.make_ready(0, 0);
   puppet.move(0, running, 0);
-  EXPECT_EQ(puppet.violations(), (Violations{{Invariant::S1, Finding::RunningBeforeAllReady, 0},
-                                             {Invariant::S2, Finding::MasterBeforeSlaves, 0}}));
+  EXPECT_EQ(puppet.violations(), (Violations{{Invariant::S1, Finding::running_before_all_ready, 0},
+                                             {Invariant::S2, Finding::master_before_slaves, 0}}));
 }
 
 TEST(Observer, PaperOneWhoIsReadyAlreadyCountsAndOneWhoHaltsLaterIsNoViolation) {
-  Puppet puppet(Variant::Paper, 2);
+  Puppet puppet(Variant::paper, 2);
   puppet.make_ready(1, 0);  // started from outside, before the master
   puppet.make_ready(0, 0);
   puppet.move(0, halted, 0);
@@ -102,7 +102,7 @@ TEST_P(Planted, S2TheMasterIsRunningBeforeASlave) {
   for (const std::size_t i : {1U, 2U, 0U}) puppet.make_ready(i, 1);
   puppet.move(1, running, 1);
   puppet.move(0, running, 1);
-  EXPECT_EQ(puppet.violations(), (Violations{{Invariant::S2, Finding::MasterBeforeSlaves, 0}}));
+  EXPECT_EQ(puppet.violations(), (Violations{{Invariant::S2, Finding::master_before_slaves, 0}}));
 }
 
 TEST_P(Planted, S3ProcessData) {
@@ -120,9 +120,9 @@ TEST_P(Planted, S3ProcessData) {
   for (const std::size_t i : {1U, 0U}) puppet.move(i, running, 6);
   puppet.observer.on_process_data(1, 0, sent);  // of the run before
   puppet.observer.on_process_data(1, 0, puppet.observer.sending_run(1));
-  EXPECT_EQ(puppet.violations(), (Violations{{Invariant::S3, Finding::DataToOneNotRunning, 0},
-                                             {Invariant::S3, Finding::DataOfOneNotRunning, 1},
-                                             {Invariant::S3, Finding::DataOfAnotherRun, 0}}));
+  EXPECT_EQ(puppet.violations(), (Violations{{Invariant::S3, Finding::data_to_one_not_running, 0},
+                                             {Invariant::S3, Finding::data_of_one_not_running, 1},
+                                             {Invariant::S3, Finding::data_of_another_run, 0}}));
 }
 
 TEST_P(Planted, S4RunningWithoutInit) {
@@ -132,7 +132,7 @@ TEST_P(Planted, S4RunningWithoutInit) {
   puppet.move(1, running, 1);
   EXPECT_EQ(puppet.violations(), Violations{});
   puppet.move(0, running, 1);
-  EXPECT_EQ(puppet.violations(), (Violations{{Invariant::S4, Finding::RunningWithoutInit, 0}}));
+  EXPECT_EQ(puppet.violations(), (Violations{{Invariant::S4, Finding::running_without_init, 0}}));
 }
 
 TEST_P(Planted, S4INITOfAFormerLifeDoesNotCount) {
@@ -154,8 +154,8 @@ TEST_P(Planted, S5NoSuchTransitionAndJumps) {
     observer.on_transition(1, change, {1, change.to, {}, 1});
     return observer.violations().empty() ? Violation{} : observer.violations()[0];
   };
-  const Violation none{Invariant::S5, Finding::NoSuchTransition, 1};
-  const Violation jump{Invariant::S5, Finding::StateJumped, 1};
+  const Violation none{Invariant::S5, Finding::no_such_transition, 1};
+  const Violation jump{Invariant::S5, Finding::state_jumped, 1};
   EXPECT_EQ(first({2, halted, running}), none);
   EXPECT_EQ(first({0, halted, ready}), none);
   EXPECT_EQ(first({1, halted, init}), none);
@@ -166,7 +166,7 @@ TEST_P(Planted, S5NoSuchTransitionAndJumps) {
 }
 
 TEST(Observer, RobustOneWhoStaysReadyJoinsTheNewRunByItsWord) {
-  Puppet puppet(Variant::Robust, 2);
+  Puppet puppet(Variant::robust, 2);
   puppet.make_ready(0, 1);
   puppet.make_ready(1, 1);
   puppet.observer.on_word(1, Word{1, ready, {}, 2});
@@ -177,8 +177,8 @@ TEST(Observer, RobustOneWhoStaysReadyJoinsTheNewRunByItsWord) {
 }
 
 TEST(Observer, IsAValue) {
-  Puppet one(Variant::Robust, 65);
-  Puppet other(Variant::Robust, 65);
+  Puppet one(Variant::robust, 65);
+  Puppet other(Variant::robust, 65);
   EXPECT_TRUE(one.observer == other.observer);
   one.make_ready(64, 1);
   EXPECT_FALSE(one.observer == other.observer);

@@ -54,7 +54,7 @@ TEST(Nested, ThreeLevelsStartAndAreInOneRun) {
   EXPECT_TRUE(tree.agreed()) << tree.describe();
   EXPECT_TRUE(tree.observer.violations().empty()) << tree.describe();
   ASSERT_EQ(tree.reactions.reactions().size(), 1u);
-  EXPECT_EQ(tree.reactions.reactions()[0].outcome, ReactionOutcome::Completed);
+  EXPECT_EQ(tree.reactions.reactions()[0].outcome, ReactionOutcome::completed);
 }
 
 TEST(Nested, AnInnerGroupIsNotStartedFromOutside) {
@@ -115,7 +115,7 @@ TEST_P(FromAnywhere, WhoeverRestartsHaltsTheWholeTree) {
 TEST(Nested, SilenceInsideHaltsOutsideAndTheOtherWayRound) {
   for (const auto& [group, who, peer] : {std::tuple{2u, 0u, 1u}, std::tuple{2u, 2u, 0u}, std::tuple{0u, 0u, 1u}, std::tuple{0u, 2u, 0u}}) {
     Tree tree = started();
-    EXPECT_EQ(tree.step(group, who, Input::peer_silent(peer)).alarm, Alarm::PeerSilent);
+    EXPECT_EQ(tree.step(group, who, Input::peer_silent(peer)).alarm, Alarm::peer_silent);
     tree.rounds(4);
     EXPECT_TRUE(tree.all_in(Halted)) << tree.describe();
   }
@@ -252,13 +252,13 @@ TEST(Nested, ANodeIsNotReadyBeforeItHasInitialisedBothItsSides) {
 }
 
 TEST(Nested, TheValueIsCopiedComparedAndHashed) {
-  const Config outer{Variant::Robust, Role::Slave, 1, 1, 1, Subscription::Star, false};
-  const Config inner{Variant::Robust, Role::Master, 0, 1, 1, Subscription::Star, false};
+  const Config outer{Variant::robust, Role::slave, 1, 1, 1, Subscription::star, false};
+  const Config inner{Variant::robust, Role::master, 0, 1, 1, Subscription::star, false};
   NestedParticipant<4, 4> a(outer, inner);
   NestedParticipant<4, 4> b = a;
   EXPECT_EQ(a, b);
   EXPECT_EQ(a.hash(), b.hash());
-  b.step(Side::Outer, Input::received(0, {1, HaltedInit, {1, IntentKind::Start, 0, run_of(1, 1)}, 0}, 1));
+  b.step(Side::outer, Input::received(0, {1, HaltedInit, {1, IntentKind::Start, 0, run_of(1, 1)}, 0}, 1));
   EXPECT_EQ(b.inner().state(), HaltedInit);
   EXPECT_NE(a, b);
   EXPECT_NE(a.hash(), b.hash());

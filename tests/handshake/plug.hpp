@@ -34,7 +34,7 @@ class PlugGroup {
   using Member = Participant<4>;
 
   PlugGroup(std::vector<SkillId> roles, std::vector<std::vector<SkillId>> offers, bool restarts = false)
-      : observer(Variant::Robust, roles.size() + 1), roles_(std::move(roles)), offers_(std::move(offers)), restarts_(restarts),
+      : observer(Variant::robust, roles.size() + 1), roles_(std::move(roles)), offers_(std::move(offers)), restarts_(restarts),
         master_(config(0, 1)), binder_(roles_, offers_.size(), restarts), members_(offers_.size()), role_observers_(roles_.size()),
         sequence_(offers_.size() + 1), heard_announcement_(offers_.size()), announced_(offers_.size()), heard_table_(offers_.size()), pending_(offers_.size() + 1) {
     for (std::uint8_t c = 0; c < offers_.size(); ++c) candidates_.emplace_back(c, 1, offers_[c]);
@@ -197,8 +197,8 @@ class PlugGroup {
   };
 
   Config config(std::size_t index, std::uint32_t incarnation) const {
-    return {Variant::Robust, index == 0 ? Role::Master : Role::Slave, static_cast<std::uint8_t>(index), static_cast<std::uint8_t>(roles_.size()),
-            incarnation,     Subscription::Star,                       false};
+    return {Variant::robust, index == 0 ? Role::master : Role::slave, static_cast<std::uint8_t>(index), static_cast<std::uint8_t>(roles_.size()),
+            incarnation,     Subscription::star,                       false};
   }
 
   void deliver_to_master(const PlugMessage& message) {
@@ -223,8 +223,8 @@ class PlugGroup {
     if (message.kind == PlugMessage::Kind::Table) {
       if (!heard_table_[c].take(message.word.incarnation, message.sequence)) return;
       const Candidate::Change change = candidates_[c].table(message.table, message.used_life);
-      if (change == Candidate::Change::Released) drop_member(c);
-      if (change == Candidate::Change::Bound) {
+      if (change == Candidate::Change::released) drop_member(c);
+      if (change == Candidate::Change::bound) {
         members_[c].emplace(config(*candidates_[c].role() + std::size_t{1}, candidates_[c].incarnation()));
         pending_[c + 1].reset();
       }
@@ -260,7 +260,7 @@ class PlugGroup {
   void settle() {
     while (const auto input = binder_.next(master_view_of(master_))) {
       step_master(*input);
-      if (input->kind != Input::Kind::PeerReplaced) continue;
+      if (input->kind != Input::Kind::peer_replaced) continue;
       const Binding& bound = binder_.binding(input->peer);
       const PublishedState before = bound.bound() && members_[bound.candidate] ? members_[bound.candidate]->state() : PublishedState::Halted;
       if (role_observers_[input->peer].on_bound(bound, before).is_new) observer.on_restart(input->peer + std::size_t{1});
@@ -280,7 +280,7 @@ class PlugGroup {
     for (int step = 0; step < 16; ++step) {
       const auto input = binder.next({PublishedState::Halted, false, ~PeerSet{0}});
       if (!input) return false;
-      if (input->kind == Input::Kind::Command) return true;
+      if (input->kind == Input::Kind::command) return true;
     }
     return false;
   }

@@ -22,7 +22,7 @@ void expect(const Reaction& reaction, IntentKind kind, std::uint8_t initiator, R
 }
 
 class Reactions : public testing::TestWithParam<Variant> {};
-INSTANTIATE_TEST_SUITE_P(Variants, Reactions, testing::Values(Variant::Paper, Variant::Robust));
+INSTANTIATE_TEST_SUITE_P(Variants, Reactions, testing::Values(Variant::paper, Variant::robust));
 
 TEST_P(Reactions, FromTheCommandToTheLastToFollow) {
   Group group(GetParam(), 2);
@@ -45,9 +45,9 @@ TEST_P(Reactions, FromTheCommandToTheLastToFollow) {
   group.call(2, Method::Halt);
   group.rounds(2);
   ASSERT_EQ(group.reactions.reactions().size(), 3U) << "a refused call is no reaction";
-  expect(group.reactions.reactions()[0], IntentKind::Start, 0, ReactionOutcome::Completed, 10, at(12));
-  expect(group.reactions.reactions()[1], IntentKind::Suspend, 1, ReactionOutcome::Completed, 20, at(25));
-  expect(group.reactions.reactions()[2], IntentKind::Halt, 2, ReactionOutcome::Completed, 30, at(30));
+  expect(group.reactions.reactions()[0], IntentKind::Start, 0, ReactionOutcome::completed, 10, at(12));
+  expect(group.reactions.reactions()[1], IntentKind::Suspend, 1, ReactionOutcome::completed, 20, at(25));
+  expect(group.reactions.reactions()[2], IntentKind::Halt, 2, ReactionOutcome::completed, 30, at(30));
 }
 
 TEST_P(Reactions, AHaltSupersedesAStart) {
@@ -60,12 +60,12 @@ TEST_P(Reactions, AHaltSupersedesAStart) {
   group.call(1, Method::Halt);
   group.rounds(2);
   ASSERT_EQ(group.reactions.reactions().size(), 2U);
-  expect(group.reactions.reactions()[0], IntentKind::Start, 0, ReactionOutcome::Superseded, 1, TrueTime::never());
-  expect(group.reactions.reactions()[1], IntentKind::Halt, 1, ReactionOutcome::Completed, 2, at(2));
+  expect(group.reactions.reactions()[0], IntentKind::Start, 0, ReactionOutcome::superseded, 1, TrueTime::never());
+  expect(group.reactions.reactions()[1], IntentKind::Halt, 1, ReactionOutcome::completed, 2, at(2));
 }
 
 TEST(Reaction, TwoHaltsAtOnceBothComplete) {
-  Group group = started(Variant::Robust, 2);
+  Group group = started(Variant::robust, 2);
   group.now = at(5);
   group.call(1, Method::Halt);
   group.now = at(6);
@@ -73,12 +73,12 @@ TEST(Reaction, TwoHaltsAtOnceBothComplete) {
   group.now = at(9);
   group.rounds(2);
   ASSERT_EQ(group.reactions.reactions().size(), 3U);
-  expect(group.reactions.reactions()[1], IntentKind::Halt, 1, ReactionOutcome::Completed, 5, at(9));
-  expect(group.reactions.reactions()[2], IntentKind::Halt, 2, ReactionOutcome::Completed, 6, at(9));
+  expect(group.reactions.reactions()[1], IntentKind::Halt, 1, ReactionOutcome::completed, 5, at(9));
+  expect(group.reactions.reactions()[2], IntentKind::Halt, 2, ReactionOutcome::completed, 6, at(9));
 }
 
 TEST(Reaction, TheLesserIntentIsSupersededWhicheverBeganFirst) {
-  Group group = started(Variant::Robust, 2);
+  Group group = started(Variant::robust, 2);
   group.call(0, Method::Suspend);
   group.rounds(2);
   group.now = at(5);
@@ -89,12 +89,12 @@ TEST(Reaction, TheLesserIntentIsSupersededWhicheverBeganFirst) {
   group.rounds(2);
   const auto reactions = group.reactions.reactions();
   ASSERT_EQ(reactions.size(), 4U);
-  expect(reactions[2], IntentKind::Reset, 1, ReactionOutcome::Completed, 5, at(9));
-  expect(reactions[3], IntentKind::Resume, 2, ReactionOutcome::Superseded, 6, TrueTime::never());
+  expect(reactions[2], IntentKind::Reset, 1, ReactionOutcome::completed, 5, at(9));
+  expect(reactions[3], IntentKind::Resume, 2, ReactionOutcome::superseded, 6, TrueTime::never());
 }
 
 TEST(Reaction, FinishAndAlarmsAreReactionsToo) {
-  Group group = started(Variant::Robust, 1);
+  Group group = started(Variant::robust, 1);
   group.now = at(5);
   group.step(1, Input::finished());
   group.round();
@@ -103,14 +103,14 @@ TEST(Reaction, FinishAndAlarmsAreReactionsToo) {
   group.round();
   const auto reactions = group.reactions.reactions();
   ASSERT_EQ(reactions.size(), 3U);
-  expect(reactions[1], IntentKind::Finish, 1, ReactionOutcome::Completed, 5, at(5));
-  expect(reactions[2], IntentKind::Halt, 0, ReactionOutcome::Completed, 7, at(7));
+  expect(reactions[1], IntentKind::Finish, 1, ReactionOutcome::completed, 5, at(5));
+  expect(reactions[2], IntentKind::Halt, 0, ReactionOutcome::completed, 7, at(7));
   EXPECT_EQ(reactions[2].cause, Cause::silence);
 }
 
 // A crash at 5 us: the reaction begins there, whoever notices it, and is over when all who live have halted.
 TEST(Reaction, FromTheCrashToTheLastWhoLives) {
-  Group group = started(Variant::Robust, 3);
+  Group group = started(Variant::robust, 3);
   group.reactions.on_crash(3, at(5));
   group.now = at(15);
   group.step(0, Input::peer_silent(2));
@@ -119,12 +119,12 @@ TEST(Reaction, FromTheCrashToTheLastWhoLives) {
   group.step(2, Input::peer_silent(0));   // who notices it second begins nothing
   const auto reactions = group.reactions.reactions();
   ASSERT_EQ(reactions.size(), 2U);
-  expect(reactions[1], IntentKind::Halt, 3, ReactionOutcome::Completed, 5, at(16));
+  expect(reactions[1], IntentKind::Halt, 3, ReactionOutcome::completed, 5, at(16));
   EXPECT_EQ(reactions[1].cause, Cause::crash);
 }
 
 TEST(Reaction, ACommandDoesNotSupersedeTheHaltThatACrashAsksFor) {
-  Group group = started(Variant::Robust, 2);
+  Group group = started(Variant::robust, 2);
   group.reactions.on_crash(2, at(5));
   group.now = at(6);
   group.call(0, Method::Suspend);
@@ -134,12 +134,12 @@ TEST(Reaction, ACommandDoesNotSupersedeTheHaltThatACrashAsksFor) {
   group.tell(0, 1);
   const auto reactions = group.reactions.reactions();
   ASSERT_EQ(reactions.size(), 3U);
-  expect(reactions[1], IntentKind::Halt, 2, ReactionOutcome::Completed, 5, at(15));
-  expect(reactions[2], IntentKind::Suspend, 0, ReactionOutcome::Completed, 6, at(6));
+  expect(reactions[1], IntentKind::Halt, 2, ReactionOutcome::completed, 5, at(15));
+  expect(reactions[2], IntentKind::Suspend, 0, ReactionOutcome::completed, 6, at(6));
 }
 
 TEST(Reaction, ACrashInHaltedAsksForNothing) {
-  Group group(Variant::Robust, 2);
+  Group group(Variant::robust, 2);
   group.reactions.on_crash(1, at(5));
   EXPECT_TRUE(group.reactions.reactions().empty());
   // Started without it, the master finds it silent: from its own INIT, which is when the silence began to matter.
@@ -148,7 +148,7 @@ TEST(Reaction, ACrashInHaltedAsksForNothing) {
   group.now = at(30);
   Outputs outputs;
   outputs.raised = true;
-  outputs.alarm = Alarm::PeerSilent;
+  outputs.alarm = Alarm::peer_silent;
   group.reactions.on_step(0, outputs, Word{}, at(30), {Cause::crash, at(5)});
   const auto reactions = group.reactions.reactions();
   ASSERT_EQ(reactions.size(), 2U);
@@ -167,25 +167,25 @@ TEST(Reaction, AStartByItselfIsOfTheLastFault) {
     outputs.add({1, from, to});
     tracker.on_step(who, outputs, Word{}, when, origin);
   };
-  step(0, IntentKind::Start, Alarm::None, PublishedState::Halted, PublishedState::Running, at(1));
-  step(1, IntentKind::Start, Alarm::None, PublishedState::Halted, PublishedState::Running, at(2));
+  step(0, IntentKind::Start, Alarm::none, PublishedState::Halted, PublishedState::Running, at(1));
+  step(1, IntentKind::Start, Alarm::none, PublishedState::Halted, PublishedState::Running, at(2));
   tracker.on_crash(1, at(5));
-  step(0, IntentKind::Halt, Alarm::PeerSilent, PublishedState::Running, PublishedState::Halted, at(15));
+  step(0, IntentKind::Halt, Alarm::peer_silent, PublishedState::Running, PublishedState::Halted, at(15));
   tracker.on_restart(1, at(16));
-  step(0, IntentKind::Start, Alarm::None, PublishedState::Halted, PublishedState::Running, at(17), {Cause::command, TrueTime::never(), true});
-  step(1, IntentKind::Start, Alarm::None, PublishedState::Halted, PublishedState::Running, at(19));
+  step(0, IntentKind::Start, Alarm::none, PublishedState::Halted, PublishedState::Running, at(17), {Cause::command, TrueTime::never(), true});
+  step(1, IntentKind::Start, Alarm::none, PublishedState::Halted, PublishedState::Running, at(19));
   ASSERT_EQ(tracker.reactions().size(), 3U);
-  expect(tracker.reactions()[1], IntentKind::Halt, 1, ReactionOutcome::Completed, 5, at(15));
-  expect(tracker.reactions()[2], IntentKind::Start, 0, ReactionOutcome::Completed, 5, at(19));
+  expect(tracker.reactions()[1], IntentKind::Halt, 1, ReactionOutcome::completed, 5, at(15));
+  expect(tracker.reactions()[2], IntentKind::Start, 0, ReactionOutcome::completed, 5, at(19));
   EXPECT_EQ(tracker.reactions()[2].cause, Cause::crash);
 }
 
 TEST(Reaction, WithoutTheLastFollowerItStaysPending) {
-  Group group = started(Variant::Robust, 2);
+  Group group = started(Variant::robust, 2);
   group.call(0, Method::Suspend);
   group.tell(0, 1);
   ASSERT_EQ(group.reactions.reactions().size(), 2U);
-  EXPECT_EQ(group.reactions.reactions()[1].outcome, ReactionOutcome::Pending);
+  EXPECT_EQ(group.reactions.reactions()[1].outcome, ReactionOutcome::pending);
   EXPECT_EQ(group.reactions.reactions()[1].completed, TrueTime::never());
 }
 

@@ -62,7 +62,7 @@ TEST(Intent, RunsOfTwoIncarnationsDiffer) {
 }
 
 TEST(Robust, ConcurrentSuspendAndResetEndReady) {
-  Group group = started(Variant::Robust, 3);
+  Group group = started(Variant::robust, 3);
   group.call(0, Method::Suspend);
   group.rounds(2);
   group.call(1, Method::Resume);
@@ -74,7 +74,7 @@ TEST(Robust, ConcurrentSuspendAndResetEndReady) {
 }
 
 TEST(Robust, SuspendAndResumeThatCrossSettle) {
-  Group group = started(Variant::Robust, 1);
+  Group group = started(Variant::robust, 1);
   group.call(0, Method::Suspend);
   group.round();
   ASSERT_TRUE(group.all_in(PublishedState::Suspended));
@@ -91,7 +91,7 @@ TEST(Robust, SuspendAndResumeThatCrossSettle) {
 }
 
 TEST(Robust, AHaltSticksAgainstALaterResume) {
-  Group group = started(Variant::Robust, 2);
+  Group group = started(Variant::robust, 2);
   group.call(1, Method::Suspend);
   group.rounds(2);
   group.call(2, Method::Halt);    // number 3
@@ -99,16 +99,16 @@ TEST(Robust, AHaltSticksAgainstALaterResume) {
   group.call(1, Method::Suspend);  // number 4: greater than the halt
   const Outputs outputs = group.tell(1, 0);
   EXPECT_EQ(group[0].state(), PublishedState::Suspended);
-  EXPECT_EQ(outputs.alarm, Alarm::None);
+  EXPECT_EQ(outputs.alarm, Alarm::none);
   const Outputs at_two = group.tell(0, 2);
-  EXPECT_EQ(at_two.alarm, Alarm::Mismatch) << "the halted one raises the halt again";
+  EXPECT_EQ(at_two.alarm, Alarm::mismatch) << "the halted one raises the halt again";
   group.rounds(2);
   EXPECT_TRUE(group.all_in(PublishedState::Halted)) << group.describe();
   EXPECT_TRUE(group.agreed());
 }
 
 TEST(Robust, StartAfterAResetTakesTheBarrierAgain) {
-  Group group = started(Variant::Robust, 2);
+  Group group = started(Variant::robust, 2);
   const std::uint32_t first = group[0].run();
   group.call(0, Method::Suspend);
   group.rounds(2);
@@ -133,7 +133,7 @@ TEST(Robust, StartAfterAResetTakesTheBarrierAgain) {
 
 TEST(Robust, FinishEndsTheRunForAll) {
   for (std::size_t by = 0; by < 3; ++by) {
-    Group group = started(Variant::Robust, 2);
+    Group group = started(Variant::robust, 2);
     const Outputs outputs = group.step(by, Input::finished());
     EXPECT_TRUE(outputs.process_stopped);
     EXPECT_EQ(outputs.raised_kind, IntentKind::Finish);
@@ -149,7 +149,7 @@ TEST(Robust, FinishEndsTheRunForAll) {
 }
 
 TEST(Robust, FinishDuringTheBarrierEndsReady) {
-  Group group(Variant::Robust, 2);
+  Group group(Variant::robust, 2);
   group.to_barrier();
   group.step(1, Input::finished());
   group.rounds(2);
@@ -158,7 +158,7 @@ TEST(Robust, FinishDuringTheBarrierEndsReady) {
 }
 
 TEST(Robust, FinishAndSuspendThatMeetEndReady) {
-  Group group = started(Variant::Robust, 2);
+  Group group = started(Variant::robust, 2);
   group.call(1, Method::Suspend);
   group.step(2, Input::finished());
   group.rounds(3);
@@ -166,7 +166,7 @@ TEST(Robust, FinishAndSuspendThatMeetEndReady) {
 }
 
 TEST(Robust, OlderWordsOfAnIncarnationAreIgnored) {
-  Group group = started(Variant::Robust, 1);
+  Group group = started(Variant::robust, 1);
   const Message old = group.message(1, 0);
   group.call(1, Method::Suspend);
   group.tell(1, 0);
@@ -177,7 +177,7 @@ TEST(Robust, OlderWordsOfAnIncarnationAreIgnored) {
 }
 
 TEST(Robust, SequenceNumbersWrap) {
-  Participant<4> slave({Variant::Robust, Role::Slave, 1, 1, 1});
+  Participant<4> slave({Variant::robust, Role::slave, 1, 1, 1});
   const Word word{7, PublishedState::Halted, {}, 0};
   for (const std::uint16_t sequence : std::initializer_list<std::uint16_t>{0xFFFE, 0xFFFF, 0, 1})
     EXPECT_FALSE(slave.step(Input::received(0, word, sequence)).ignored) << sequence;
@@ -189,11 +189,11 @@ TEST(Robust, SequenceNumbersWrap) {
 
 TEST(Robust, ARestartedPeerHaltsTheGroup) {
   for (std::size_t who = 0; who < 3; ++who) {
-    Group group = started(Variant::Robust, 2);
+    Group group = started(Variant::robust, 2);
     group.restart(who);
     const std::size_t other = who == 0 ? 1 : 0;
     const Outputs outputs = group.tell(who, other);
-    EXPECT_EQ(outputs.alarm, Alarm::PeerRestarted);
+    EXPECT_EQ(outputs.alarm, Alarm::peer_restarted);
     EXPECT_TRUE(outputs.process_stopped);
     group.rounds(2);
     EXPECT_TRUE(group.all_in(PublishedState::Halted)) << group.describe();
@@ -208,7 +208,7 @@ TEST(Robust, ARestartedPeerHaltsTheGroup) {
 // Found by the random schedules: who takes the incarnation heard last for the newest, and ignores the one before,
 // ignores the living one for ever if a late word of the dead one comes in between.
 TEST(Robust, ALateWordOfAFormerIncarnationDoesNotShutOutTheNewOne) {
-  Group group(Variant::Robust, 1);
+  Group group(Variant::robust, 1);
   const Message late = group.message(1, 0);
   group.restart(1);
   group.tell(1, 0);
@@ -217,17 +217,17 @@ TEST(Robust, ALateWordOfAFormerIncarnationDoesNotShutOutTheNewOne) {
   group.call(0, Method::Start);
   group.rounds(4);
   EXPECT_TRUE(group.all_in(PublishedState::Running)) << group.describe();
-  EXPECT_EQ(group.deliver(late).alarm, Alarm::PeerRestarted) << "and while Running it costs a halt";
+  EXPECT_EQ(group.deliver(late).alarm, Alarm::peer_restarted) << "and while Running it costs a halt";
   group.rounds(3);
   EXPECT_TRUE(group.agreed()) << group.describe();
 }
 
 // The hole in "a restarted master can adopt its own old start from a slave and wait for ever", mended at both ends.
 TEST(Robust, ARestartedMasterDoesNotAdoptItsOldStart) {
-  Group group = started(Variant::Robust, 2);
+  Group group = started(Variant::robust, 2);
   group.restart(0);
   const Outputs outputs = group.tell(1, 0);
-  EXPECT_EQ(outputs.alarm, Alarm::Mismatch);
+  EXPECT_EQ(outputs.alarm, Alarm::mismatch);
   EXPECT_EQ(group[0].intent().kind, IntentKind::Halt);
   group.rounds(2);
   EXPECT_TRUE(group.all_in(PublishedState::Halted)) << group.describe();
@@ -235,20 +235,20 @@ TEST(Robust, ARestartedMasterDoesNotAdoptItsOldStart) {
 
 // Nor while its slaves are still on their way: who has been restarted starts when it is called, and not before.
 TEST(Robust, ARestartedMasterDoesNotAdoptAStartThatItsSlavesHaveNotFinished) {
-  Group group(Variant::Robust, 2);
+  Group group(Variant::robust, 2);
   group.call(0, Method::Start);
   group.tell_all(0);
   ASSERT_EQ(group[1].state(), PublishedState::HaltedInit);
   group.restart(0);
   const Outputs outputs = group.tell(1, 0);
-  EXPECT_EQ(outputs.alarm, Alarm::Mismatch);
+  EXPECT_EQ(outputs.alarm, Alarm::mismatch);
   EXPECT_EQ(group[0].state(), PublishedState::Halted);
   EXPECT_EQ(group[0].intent().kind, IntentKind::Halt);
 }
 
 // Words of the run before must not carry a restarted master, which gives the same number again, through the barrier.
 TEST(Robust, StaleWordsDoNotCountInTheRunOfANewIncarnation) {
-  Group group(Variant::Robust, 1);
+  Group group(Variant::robust, 1);
   group.call(0, Method::Start);
   group.round();
   group.initialised(1);
@@ -267,23 +267,23 @@ TEST(Robust, StaleWordsDoNotCountInTheRunOfANewIncarnation) {
 // A slave that was restarted within a run must not slip in behind the barrier, even if nobody hears its new
 // incarnation.
 TEST(Robust, ARestartedSlaveDoesNotJoinARunThatIsPastTheBarrier) {
-  Group group = started(Variant::Robust, 2);
+  Group group = started(Variant::robust, 2);
   group.restart(1);
   const Outputs outputs = group.tell(0, 1);
-  EXPECT_EQ(outputs.alarm, Alarm::Mismatch);
+  EXPECT_EQ(outputs.alarm, Alarm::mismatch);
   EXPECT_EQ(outputs.change_count, 0);
   EXPECT_EQ(group[1].intent().kind, IntentKind::Halt);
 }
 
 TEST(Robust, AnIntentOfAnotherRunIsAMismatch) {
   for (const IntentKind kind : {IntentKind::Resume, IntentKind::Suspend, IntentKind::Finish, IntentKind::Reset}) {
-    Group group = started(Variant::Robust, 1);
+    Group group = started(Variant::robust, 1);
     Word word = group[0].word();
     word.state = goal_of(kind);
     word.run = word.run + 1;
     word.intent = {word.intent.number + 1, kind, 0, word.run};
     const Outputs outputs = group.step(1, Input::received(0, word, 1000));
-    EXPECT_EQ(outputs.alarm, Alarm::Mismatch) << name_of(kind);
+    EXPECT_EQ(outputs.alarm, Alarm::mismatch) << name_of(kind);
     EXPECT_EQ(group[1].state(), PublishedState::Halted);
     EXPECT_EQ(group[1].intent().number, word.intent.number + 1);
   }
@@ -291,21 +291,21 @@ TEST(Robust, AnIntentOfAnotherRunIsAMismatch) {
 
 TEST(Robust, ASilentPeerHaltsWhoeverIsNotHalted) {
   for (std::size_t who = 0; who < 3; ++who) {
-    Group group = started(Variant::Robust, 2);
+    Group group = started(Variant::robust, 2);
     const std::size_t peer = who == 0 ? 1 : 0;
     const Outputs outputs = group.step(who, Input::peer_silent(peer));
-    EXPECT_EQ(outputs.alarm, Alarm::PeerSilent);
+    EXPECT_EQ(outputs.alarm, Alarm::peer_silent);
     group.rounds(2);
     EXPECT_TRUE(group.all_in(PublishedState::Halted)) << group.describe();
     EXPECT_FALSE(group.step(who, Input::peer_silent(peer)).publish) << "in Halted silence means nothing";
   }
-  Group group(Variant::Robust, 2);
+  Group group(Variant::robust, 2);
   EXPECT_EQ(group.call(0, Method::Start).arm_timeout, 3U) << "time-outs begin to matter with INIT";
-  EXPECT_EQ(group.step(0, Input::peer_silent(1)).alarm, Alarm::PeerSilent);
+  EXPECT_EQ(group.step(0, Input::peer_silent(1)).alarm, Alarm::peer_silent);
 }
 
 TEST(Robust, AnOvertakenInitialisationDoesNotCount) {
-  Group group(Variant::Robust, 1);
+  Group group(Variant::robust, 1);
   group.call(0, Method::Start);
   const Outputs first = group.tell(0, 1);
   group.call(0, Method::Halt);
@@ -320,7 +320,7 @@ TEST(Robust, AnOvertakenInitialisationDoesNotCount) {
 }
 
 TEST(Robust, ProcessDataCarryingItsRunCountsInThatRunOnly) {
-  Group group = started(Variant::Robust, 1);
+  Group group = started(Variant::robust, 1);
   const std::uint32_t run = group[0].run();
   EXPECT_TRUE(group[1].process_data_counts(0, run));
   EXPECT_FALSE(group[1].process_data_counts(0, run + 1));
@@ -329,7 +329,7 @@ TEST(Robust, ProcessDataCarryingItsRunCountsInThatRunOnly) {
 }
 
 TEST(Robust, HostileWordsDoNoHarm) {
-  Group group = started(Variant::Robust, 1);
+  Group group = started(Variant::robust, 1);
   Word word = group[1].word();
   word.state = static_cast<PublishedState>(99);
   EXPECT_TRUE(group.step(0, Input::received(0, word, 30000)).ignored);
@@ -362,7 +362,7 @@ TEST(Robust, NoNumberIsTheLast) {
   for (const std::uint32_t number : {0xFFFFFFFFU, 0xFFFFFFFEU, 0x40000001U, 0x40000002U, 0x80000000U, 0xC0000001U, 0xC0000002U}) {
     for (const std::size_t victim : {0, 1, 2}) {
       for (const bool is_running : {false, true}) {
-        Group group = is_running ? started(Variant::Robust, 2) : Group(Variant::Robust, 2);
+        Group group = is_running ? started(Variant::robust, 2) : Group(Variant::robust, 2);
         if (!is_running) group.call(0, Method::Start), group.call(0, Method::Halt), group.rounds(4);
         Message forged = group.message(victim == 0 ? 1 : 0, victim);
         forged.word.state = PublishedState::Halted;
@@ -383,26 +383,26 @@ TEST(Robust, NoNumberIsTheLast) {
 
 TEST(Robust, ProgramErrorsAreChecked) {
   using Small = Participant<4>;
-  EXPECT_THROW(Small({Variant::Robust, Role::Master, 0, 5, 1}), sim::InvariantBroken);
-  EXPECT_THROW(Small({Variant::Robust, Role::Master, 1, 2, 1}), sim::InvariantBroken);
-  EXPECT_THROW(Small({Variant::Robust, Role::Slave, 3, 2, 1}), sim::InvariantBroken);
-  EXPECT_THROW(Small({Variant::Robust, Role::Master, 0, 0, 1}), sim::InvariantBroken);
-  Small master({Variant::Robust, Role::Master, 0, 4, 1});
+  EXPECT_THROW(Small({Variant::robust, Role::master, 0, 5, 1}), sim::InvariantBroken);
+  EXPECT_THROW(Small({Variant::robust, Role::master, 1, 2, 1}), sim::InvariantBroken);
+  EXPECT_THROW(Small({Variant::robust, Role::slave, 3, 2, 1}), sim::InvariantBroken);
+  EXPECT_THROW(Small({Variant::robust, Role::master, 0, 0, 1}), sim::InvariantBroken);
+  Small master({Variant::robust, Role::master, 0, 4, 1});
   EXPECT_THROW(master.step(Input::peer_silent(4)), sim::InvariantBroken);
   EXPECT_THROW(master.step(Input::received(4, Word{}, 0)), sim::InvariantBroken);
 }
 
 TEST(Participant, SixtyFourSlavesStart) {
-  Group group = started(Variant::Robust, 64);
+  Group group = started(Variant::robust, 64);
   EXPECT_EQ(group[0].peer_count(), 64U);
   EXPECT_EQ(group[64].participant_of(0), 0U);
   EXPECT_EQ(group[0].participant_of(group[0].peer_of(64)), 64U);
-  started(Variant::Paper, 64);
+  started(Variant::paper, 64);
 }
 
 TEST(Participant, EqualValuesHaveEqualHashes) {
-  Group one = started(Variant::Robust, 3);
-  Group other = started(Variant::Robust, 3);
+  Group one = started(Variant::robust, 3);
+  Group other = started(Variant::robust, 3);
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_TRUE(one[i] == other[i]);
     EXPECT_EQ(one[i].hash(), other[i].hash());
@@ -418,7 +418,7 @@ TEST(Participant, EqualValuesHaveEqualHashes) {
 TEST(Participant, RenamedDoesTheSameUnderOtherNames) {
   const std::array<std::uint8_t, 4> to{0, 3, 1, 2};
   const std::array<std::uint8_t, 4> back{0, 2, 3, 1};
-  for (const Variant variant : {Variant::Robust, Variant::Paper}) {
+  for (const Variant variant : {Variant::robust, Variant::paper}) {
     Group one = started(variant, 3);
     Group other = started(variant, 3);
     one.call(1, Method::Suspend);
@@ -439,7 +439,7 @@ TEST(Participant, RenamedDoesTheSameUnderOtherNames) {
 }
 
 TEST(Participant, NoStepDependsOnTheLastTransition) {
-  Group group = started(Variant::Robust, 1);
+  Group group = started(Variant::robust, 1);
   auto forgetful = group[0];
   forgetful.forget_last_transition();
   EXPECT_EQ(forgetful.machine().last_transition(), 0);

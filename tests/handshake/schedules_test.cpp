@@ -45,7 +45,7 @@ std::vector<Action> make_schedule(std::uint64_t seed, std::size_t participants, 
 /// A group with a network that keeps words under way, and delivers them in any order.
 class World {
  public:
-  explicit World(Variant variant, std::size_t slaves, Subscription subscription = Subscription::Star) : group(variant, slaves, subscription) {}
+  explicit World(Variant variant, std::size_t slaves, Subscription subscription = Subscription::star) : group(variant, slaves, subscription) {}
 
   void act(const Action& action) {
     const std::size_t who = action.a % group.size();
@@ -84,8 +84,8 @@ class World {
 /// What is wrong with a schedule; empty if nothing.
 enum class Begin : std::uint8_t { New, Running };
 std::string run(const std::vector<Action>& schedule, std::size_t slaves, Begin begin, bool* ran = nullptr,
-                Subscription subscription = Subscription::Star) {
-  World world(Variant::Robust, slaves, subscription);
+                Subscription subscription = Subscription::star) {
+  World world(Variant::robust, slaves, subscription);
   if (begin == Begin::Running) {
     world.call(0, 0);
     world.group.rounds(4);
@@ -154,7 +154,7 @@ TEST_P(Schedules, AllToAllNothingBreaksEither) {
   for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
     const std::vector<Action> schedule = make_schedule(seed, slaves + 1, 60 + seed % 300 * slaves);
     bool ran = false;
-    const std::string wrong = run(schedule, slaves, seed % 2 == 0 ? Begin::New : Begin::Running, &ran, Subscription::AllToAll);
+    const std::string wrong = run(schedule, slaves, seed % 2 == 0 ? Begin::New : Begin::Running, &ran, Subscription::all_to_all);
     that_ran += ran ? 1 : 0;
     ASSERT_TRUE(wrong.empty()) << "seed " << seed << ", " << slaves << " slaves: " << wrong << print(schedule, act_names);
   }
@@ -167,7 +167,7 @@ TEST_P(Schedules, PaperKeepsS4AndS5) {
   const auto slaves = static_cast<std::size_t>(GetParam());
   bool broke_s1 = false;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
-    World world(Variant::Paper, slaves);
+    World world(Variant::paper, slaves);
     for (const Action& action : make_schedule(seed, slaves + 1, 60 + seed % 300 * slaves)) world.act(action);
     for (const Violation& violation : world.group.observer.violations()) {
       EXPECT_NE(violation.invariant, Invariant::S4) << "seed " << seed;

@@ -28,16 +28,16 @@ class Tree {
   using Plain = Participant<4>;
   using Nested = NestedParticipant<4, 4>;
 
-  explicit Tree(std::vector<TreeGroup> groups) : observer(Variant::Robust, GroupTree(std::move(groups))), reactions(shape().participants()) {
+  explicit Tree(std::vector<TreeGroup> groups) : observer(Variant::robust, GroupTree(std::move(groups))), reactions(shape().participants()) {
     places_.resize(shape().participants());
     for (std::size_t g = 0; g < shape().groups(); ++g)
       for (std::size_t p = 0; p < shape().size(g); ++p) {
         Place& place = places_[shape().number_of(g, p)];
-        place = {g, p, 0, Side::Outer};
+        place = {g, p, 0, Side::outer};
         if (g != 0 && p == 0) {  // the node is there already, as a slave of the outer group
           const TreeGroup& group = shape().group(g);
           place.node = at(group.outer, group.outer_index).node;
-          place.side = Side::Inner;
+          place.side = Side::inner;
           inner_group_[place.node] = g;
           continue;
         }
@@ -63,7 +63,7 @@ class Tree {
     const Place& place = at(group, i);
     if (const auto* plain = std::get_if<Plain>(&nodes_[place.node])) return *plain;
     const Nested& nested = std::get<Nested>(nodes_[place.node]);
-    return place.side == Side::Outer ? nested.outer() : nested.inner();
+    return place.side == Side::outer ? nested.outer() : nested.inner();
   }
 
   /// One step; what the participant itself has put out, not what followed on the other side of its node.
@@ -78,9 +78,9 @@ class Tree {
     const NestedOutputs all = nested.step(place.side, input);
     const Place& outside = places_[node_place_[place.node]];
     for (const NestedOutputs::One& one : all.all())
-      note(one.side == Side::Outer ? shape().number_of(outside.group, outside.index) : shape().number_of(inner_group_[place.node], 0), one.outputs,
+      note(one.side == Side::outer ? shape().number_of(outside.group, outside.index) : shape().number_of(inner_group_[place.node], 0), one.outputs,
            one.after);
-    return input.kind == Input::Kind::Initialised ? Outputs{} : all.steps[0].outputs;
+    return input.kind == Input::Kind::initialised ? Outputs{} : all.steps[0].outputs;
   }
   program::StatusCode call(std::size_t group, std::size_t i, program::Method method) { return step(group, i, Input::command(method)).status; }
 
@@ -164,7 +164,7 @@ class Tree {
     std::size_t group = 0;
     std::size_t index = 0;
     std::size_t node = 0;
-    Side side = Side::Outer;
+    Side side = Side::outer;
   };
   struct Pending {
     bool under_way = false;
@@ -172,8 +172,8 @@ class Tree {
   };
   const Place& at(std::size_t group, std::size_t i) const { return places_[shape().number_of(group, i)]; }
   Config config(std::size_t group, std::size_t i, std::uint32_t incarnation) const {
-    return {Variant::Robust, i == 0 ? Role::Master : Role::Slave, static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(size(group) - 1),
-            incarnation,     Subscription::Star,                 false};
+    return {Variant::robust, i == 0 ? Role::master : Role::slave, static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(size(group) - 1),
+            incarnation,     Subscription::star,                 false};
   }
   void make(std::size_t node) {
     const Place& place = places_[node_place_[node]];

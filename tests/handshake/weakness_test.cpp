@@ -16,7 +16,7 @@ bool found(const Group& group, Invariant invariant) {
 
 // The master resumes and at once suspends again; its two words and the slave's answers chase each other for ever.
 TEST(PaperWeakness, SuspendAndResumeThatCrossChaseEachOther) {
-  Group group = started(Variant::Paper, 1);
+  Group group = started(Variant::paper, 1);
   group.call(0, Method::Suspend);
   group.round();
   ASSERT_TRUE(group.all_in(PublishedState::Suspended));
@@ -41,7 +41,7 @@ TEST(PaperWeakness, SuspendAndResumeThatCrossChaseEachOther) {
 
 // Fig. 6b: the slave resets and is Ready; the master follows, and its Ready looks to the slave like Fig. 3 (4).
 TEST(PaperWeakness, ReadyAfterAResetLooksLikeReadyBeforeAStart) {
-  Group group = started(Variant::Paper, 1);
+  Group group = started(Variant::paper, 1);
   group.call(0, Method::Suspend);
   group.round();
   group.call(1, Method::Reset);
@@ -55,7 +55,7 @@ TEST(PaperWeakness, ReadyAfterAResetLooksLikeReadyBeforeAStart) {
 }
 
 TEST(PaperWeakness, AfterAResetOneRunsBeforeAllAreReady) {
-  Group group = started(Variant::Paper, 2);
+  Group group = started(Variant::paper, 2);
   group.call(0, Method::Suspend);
   group.round();
   group.call(1, Method::Reset);
@@ -68,7 +68,7 @@ TEST(PaperWeakness, AfterAResetOneRunsBeforeAllAreReady) {
 
 // The method Start in Ready is Part 10's transition 2: the master does not wait for anybody.
 TEST(PaperWeakness, StartAfterAResetRunsTheMasterFirst) {
-  Group group = started(Variant::Paper, 2);
+  Group group = started(Variant::paper, 2);
   group.call(0, Method::Suspend);
   group.round();
   group.call(0, Method::Reset);
@@ -81,7 +81,7 @@ TEST(PaperWeakness, StartAfterAResetRunsTheMasterFirst) {
 // States are sampled: halted and started again between two samples, slave 2 never hears of the halt. "In order to
 // restart a program, the initialisation phase must be repeated" (III.B), but slave 2 runs without.
 TEST(PaperWeakness, AMissedHaltLeavesAStaleReady) {
-  Group group(Variant::Paper, 2);
+  Group group(Variant::paper, 2);
   group.call(0, Method::Start);
   group.tell_all(0);
   for (std::size_t i = 0; i < 3; ++i) group.initialised(i);
@@ -105,7 +105,7 @@ TEST(PaperWeakness, AMissedHaltLeavesAStaleReady) {
 
 // The Ready that the master heard in the first start counts in the second one, while the slaves are still in INIT.
 TEST(PaperWeakness, AStaleReadyOpensTheBarrier) {
-  Group group(Variant::Paper, 2);
+  Group group(Variant::paper, 2);
   group.call(0, Method::Start);
   group.tell_all(0);
   for (std::size_t i = 0; i < 3; ++i) group.initialised(i);
@@ -127,7 +127,7 @@ TEST(PaperWeakness, AStaleReadyOpensTheBarrier) {
 // A slave that is halted before its INIT was ever heard looks as if nothing had happened, and the master waits for
 // ever.
 TEST(PaperWeakness, AHaltBetweenTwoSamplesIsNotHeard) {
-  Group group(Variant::Paper, 1);
+  Group group(Variant::paper, 1);
   group.tell(1, 0);
   group.call(0, Method::Start);
   group.tell(0, 1);
@@ -138,13 +138,13 @@ TEST(PaperWeakness, AHaltBetweenTwoSamplesIsNotHeard) {
 }
 
 TEST(PaperWeakness, SilenceIsNotNoticed) {
-  Group group = started(Variant::Paper, 1);
+  Group group = started(Variant::paper, 1);
   EXPECT_EQ(group.step(0, Input::peer_silent(0)).change_count, 0);
   EXPECT_EQ(group[0].state(), PublishedState::Running);
 }
 
 TEST(PaperWeakness, AFinishIsNotFollowed) {
-  Group group = started(Variant::Paper, 1);
+  Group group = started(Variant::paper, 1);
   group.step(1, Input::finished());
   group.rounds(3);
   EXPECT_EQ(group[0].state(), PublishedState::Running);
@@ -154,7 +154,7 @@ TEST(PaperWeakness, AFinishIsNotFollowed) {
 // Not a weakness but the paper's own way: everybody is started from outside, in any order.
 TEST(Paper, EverybodyMayBeStartedFromOutside) {
   for (std::size_t first = 0; first < 3; ++first) {
-    Group group(Variant::Paper, 2);
+    Group group(Variant::paper, 2);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t who = (first + i) % 3;
       group.tell_all(0);

@@ -33,7 +33,7 @@ TEST(Config, OfASlave) {
   ASSERT_TRUE(load.loaded) << load.diagnostics.to_text();
   const wire::EndpointSettings& endpoint = load.loaded->programs[0].endpoint;
   EXPECT_EQ(endpoint.handshake.index, 2);
-  EXPECT_EQ(endpoint.handshake.role, handshake::Role::Slave);
+  EXPECT_EQ(endpoint.handshake.role, handshake::Role::slave);
   EXPECT_EQ(endpoint.handshake.slaves, 2);
   EXPECT_EQ(endpoint.receive_timeout, Duration::from_ps(10'000'000'000));
   EXPECT_EQ(endpoint.format->longest(), wire::process_data_octets(25));

@@ -39,7 +39,7 @@ TEST(RolesConfig, OfTheMaster) {
   ASSERT_TRUE(loaded.roles);
   EXPECT_FALSE(loaded.roles->offer);
   EXPECT_EQ(loaded.roles->announce_cycle, Duration::from_ps(4'000'000'000));
-  EXPECT_EQ(loaded.endpoint.handshake.role, handshake::Role::Master);
+  EXPECT_EQ(loaded.endpoint.handshake.role, handshake::Role::master);
   EXPECT_EQ(loaded.endpoint.handshake.slaves, 2);
   EXPECT_EQ(loaded.roles->format->candidates(), 3u);
   EXPECT_EQ(offered_in(load.loaded->programs), std::nullopt);

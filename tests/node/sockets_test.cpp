@@ -58,7 +58,7 @@ TEST(Sockets, CarryDataSets) {
     sent.set({2.5 + i, {i, i, i}, "another"});
   }
   EXPECT_EQ(here->send_failures(), 0u);
-  EXPECT_EQ(receiving.verdicts()[uadp::Verdict::ok], 3u);
+  EXPECT_EQ(receiving.verdicts()[uadp::DecodeStatus::ok], 3u);
 }
 
 TEST(Sockets, SayWhatIsInTheWayOfLaunchTimes) {

@@ -47,56 +47,56 @@ constexpr const char* server = R"("server": {"servers": {"s": {"rate": 10, "late
 
 std::string table(const std::string& figures) { return std::string(R"({"source": "source", "reference": "r", "templates": {)") + cable + ", " + server + "}, " + figures + "}"; }
 
-Verdict verdict_of(const std::string& figure) {
+Agreement verdict_of(const std::string& figure) {
   Tables tables(table(R"("figures": [{"what": "w", )" + figure + "}]"));
   const auto made = tables.validate();
   EXPECT_TRUE(made) << tables.problem();
-  return made ? made->figures.at(0).verdict : Verdict::missed;
+  return made ? made->figures.at(0).verdict : Agreement::missed;
 }
 
 TEST(Judge, EqualWithinAndOneSided) {
   const std::string of = R"("scenario": "cable", "figure": "latency.s.max", )";
-  EXPECT_EQ(verdict_of(of + R"("published": 12.37)"), Verdict::met);
-  EXPECT_EQ(verdict_of(of + R"("published": 12.371)"), Verdict::missed);
-  EXPECT_EQ(verdict_of(of + R"("published": 12.371, "within": 0.001)"), Verdict::met);
-  EXPECT_EQ(verdict_of(of + R"("published": 12.371, "within": 0.0009)"), Verdict::missed);
-  EXPECT_EQ(verdict_of(of + R"("published": 13, "percent": 5)"), Verdict::met);      // 0.63 of 0.65
-  EXPECT_EQ(verdict_of(of + R"("published": 13, "percent": 4)"), Verdict::missed);
-  EXPECT_EQ(verdict_of(of + R"("published": 12, "must_be": "at_least")"), Verdict::met);
-  EXPECT_EQ(verdict_of(of + R"("published": 12, "must_be": "at_most")"), Verdict::missed);
-  EXPECT_EQ(verdict_of(of + R"("published": 13, "must_be": "at_most")"), Verdict::met);
-  EXPECT_EQ(verdict_of(of + R"("published": 13, "must_be": "at_least")"), Verdict::missed);
-  EXPECT_EQ(verdict_of(of + R"("published": 13, "must_be": "at_least", "percent": 5)"), Verdict::met);
-  EXPECT_EQ(verdict_of(of + R"("published": 12.32, "shift": 0.05)"), Verdict::met);
-  EXPECT_EQ(verdict_of(of + R"("published": 12370, "unit": "ns")"), Verdict::met);
+  EXPECT_EQ(verdict_of(of + R"("published": 12.37)"), Agreement::met);
+  EXPECT_EQ(verdict_of(of + R"("published": 12.371)"), Agreement::missed);
+  EXPECT_EQ(verdict_of(of + R"("published": 12.371, "within": 0.001)"), Agreement::met);
+  EXPECT_EQ(verdict_of(of + R"("published": 12.371, "within": 0.0009)"), Agreement::missed);
+  EXPECT_EQ(verdict_of(of + R"("published": 13, "percent": 5)"), Agreement::met);      // 0.63 of 0.65
+  EXPECT_EQ(verdict_of(of + R"("published": 13, "percent": 4)"), Agreement::missed);
+  EXPECT_EQ(verdict_of(of + R"("published": 12, "must_be": "at_least")"), Agreement::met);
+  EXPECT_EQ(verdict_of(of + R"("published": 12, "must_be": "at_most")"), Agreement::missed);
+  EXPECT_EQ(verdict_of(of + R"("published": 13, "must_be": "at_most")"), Agreement::met);
+  EXPECT_EQ(verdict_of(of + R"("published": 13, "must_be": "at_least")"), Agreement::missed);
+  EXPECT_EQ(verdict_of(of + R"("published": 13, "must_be": "at_least", "percent": 5)"), Agreement::met);
+  EXPECT_EQ(verdict_of(of + R"("published": 12.32, "shift": 0.05)"), Agreement::met);
+  EXPECT_EQ(verdict_of(of + R"("published": 12370, "unit": "ns")"), Agreement::met);
 }
 
 TEST(Judge, WhatIsKnownToDifferAndWhatWasFitted) {
   const std::string of = R"("scenario": "cable", "figure": "latency.s.max", )";
-  EXPECT_EQ(verdict_of(of + R"("published": 13, "differs": "why")"), Verdict::differs);
-  EXPECT_EQ(verdict_of(of + R"("published": 12.37, "differs": "why")"), Verdict::met_after_all);
-  EXPECT_EQ(verdict_of(of + R"("published": 12.37, "differs": "")"), Verdict::met);
-  EXPECT_EQ(verdict_of(of + R"("published": 12.37, "is_calibrated": true)"), Verdict::calibrated);
-  EXPECT_EQ(verdict_of(of + R"("published": 13, "is_calibrated": true)"), Verdict::missed);
+  EXPECT_EQ(verdict_of(of + R"("published": 13, "differs": "why")"), Agreement::differs);
+  EXPECT_EQ(verdict_of(of + R"("published": 12.37, "differs": "why")"), Agreement::met_after_all);
+  EXPECT_EQ(verdict_of(of + R"("published": 12.37, "differs": "")"), Agreement::met);
+  EXPECT_EQ(verdict_of(of + R"("published": 12.37, "is_calibrated": true)"), Agreement::calibrated);
+  EXPECT_EQ(verdict_of(of + R"("published": 13, "is_calibrated": true)"), Agreement::missed);
 }
 
 TEST(Judge, BoundsAndTheWorstRun) {
-  EXPECT_EQ(verdict_of(R"("scenario": "cable", "bound": "s", "published": 12.37)"), Verdict::met);
-  EXPECT_EQ(verdict_of(R"("scenario": "cable", "fastest": "s", "published": 12.37)"), Verdict::met);
-  EXPECT_EQ(verdict_of(R"("scenario": "cable", "worst": "s", "published": 12.37)"), Verdict::met);
+  EXPECT_EQ(verdict_of(R"("scenario": "cable", "bound": "s", "published": 12.37)"), Agreement::met);
+  EXPECT_EQ(verdict_of(R"("scenario": "cable", "fastest": "s", "published": 12.37)"), Agreement::met);
+  EXPECT_EQ(verdict_of(R"("scenario": "cable", "worst": "s", "published": 12.37)"), Agreement::met);
   // Random gaps have no bound: that is no answer unless the source has none either.
   const std::string unbounded = R"("scenario": "cable", "set": {"/streams/0": {"name": "s", "from": "a", "to": "b", "payload": "100B", "exponential": "1ms"}}, "bound": "s", )";
-  EXPECT_EQ(verdict_of(unbounded + R"("published": 12.37, "must_be": "at_least")"), Verdict::missed);
-  EXPECT_EQ(verdict_of(unbounded + R"("published": 12.37, "must_be": "at_least", "may_be_unbounded": true)"), Verdict::met);
-  EXPECT_EQ(verdict_of(unbounded + R"("published": "unbounded")"), Verdict::met);
-  EXPECT_EQ(verdict_of(R"("scenario": "cable", "bound": "s", "published": "unbounded")"), Verdict::missed);
+  EXPECT_EQ(verdict_of(unbounded + R"("published": 12.37, "must_be": "at_least")"), Agreement::missed);
+  EXPECT_EQ(verdict_of(unbounded + R"("published": 12.37, "must_be": "at_least", "may_be_unbounded": true)"), Agreement::met);
+  EXPECT_EQ(verdict_of(unbounded + R"("published": "unbounded")"), Agreement::met);
+  EXPECT_EQ(verdict_of(R"("scenario": "cable", "bound": "s", "published": "unbounded")"), Agreement::missed);
 }
 
 TEST(Judge, NetworksOfServersAreExact) {
-  EXPECT_EQ(verdict_of(R"("scenario": "server", "flow": "f", "unit": "", "published": "15")"), Verdict::met);
-  EXPECT_EQ(verdict_of(R"("scenario": "server", "flow": "f", "unit": "", "published": ["14", "15"])"), Verdict::met);
-  EXPECT_EQ(verdict_of(R"("scenario": "server", "flow": "f", "unit": "", "published": "150000001/10000000")"), Verdict::missed);
-  EXPECT_EQ(verdict_of(R"("scenario": "server", "flow": "f", "of": "backlog", "unit": "", "published": "150")"), Verdict::met);   // 50 + 10 * 10
+  EXPECT_EQ(verdict_of(R"("scenario": "server", "flow": "f", "unit": "", "published": "15")"), Agreement::met);
+  EXPECT_EQ(verdict_of(R"("scenario": "server", "flow": "f", "unit": "", "published": ["14", "15"])"), Agreement::met);
+  EXPECT_EQ(verdict_of(R"("scenario": "server", "flow": "f", "unit": "", "published": "150000001/10000000")"), Agreement::missed);
+  EXPECT_EQ(verdict_of(R"("scenario": "server", "flow": "f", "of": "backlog", "unit": "", "published": "150")"), Agreement::met);   // 50 + 10 * 10
 }
 
 constexpr const char* family = R"("families": [{"columns": ["octets", "delay", "known"], "factors": {"octets": {"100": {}, "200": {"/streams/0/payload": "200B"}}},
@@ -112,7 +112,7 @@ TEST(Tables, FamiliesBecomeFigures) {
   EXPECT_EQ(made->figures[0].what, "100 octets");
   EXPECT_EQ(made->figures[1].what, "100 octets again");
   EXPECT_EQ(made->figures[2].takt, "20.37");
-  EXPECT_EQ(made->count(Verdict::met), 3u);
+  EXPECT_EQ(made->count(Agreement::met), 3u);
   EXPECT_TRUE(made->holds());
   EXPECT_NE(markdown_report(*made).find("| 200 octets | 20.37 us | 20.37 us | 0 | equal | met |  |"), std::string::npos);
   EXPECT_EQ(tables.validate(true)->figures.size(), 2u);

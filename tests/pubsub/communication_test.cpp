@@ -30,7 +30,7 @@ TEST(Communications, ADoubleFromAMasterToASlave) {
   sent.set(2.5);
   pair.run_until(at(5_ms + 1_us));
   EXPECT_EQ(taken.get(), 2.5);
-  EXPECT_EQ(pair.slave.verdicts()[uadp::Verdict::ok], 3u);
+  EXPECT_EQ(pair.slave.verdicts()[uadp::DecodeStatus::ok], 3u);
 }
 
 TEST(Communications, TwoDataSetsOfADefaultGroupShareAMessage) {
@@ -49,7 +49,7 @@ TEST(Communications, TwoDataSetsOfADefaultGroupShareAMessage) {
   pair.run_until(at(1_ms + 1_us));
   EXPECT_EQ(taken_state.get(), 13);
   EXPECT_EQ(taken_axes.get(), (std::array<double, 3>{1, 2, 3}));
-  EXPECT_EQ(pair.slave.verdicts()[uadp::Verdict::ok], 1u) << "one NetworkMessage";
+  EXPECT_EQ(pair.slave.verdicts()[uadp::DecodeStatus::ok], 1u) << "one NetworkMessage";
 }
 
 TEST(Communications, SeveralGroupsHaveTheirOwnRhythmAndOrder) {
@@ -129,7 +129,7 @@ TEST(Communications, ForeignAndDamagedMessagesAreCounted) {
   pair.slave.received(stack.messages.at(0), at(1_ms));
   EXPECT_EQ(pair.slave.unwanted(), 1u);
   pair.slave.received(uadp::Octets(stack.messages.at(0)).first(3), at(1_ms));
-  EXPECT_EQ(pair.slave.verdicts()[uadp::Verdict::truncated], 1u);
+  EXPECT_EQ(pair.slave.verdicts()[uadp::DecodeStatus::truncated], 1u);
   EXPECT_EQ(taken.get(), 7.0);
 }
 
@@ -181,7 +181,7 @@ TEST(Communications, MoreThanOneMessageHolds) {
   for (const auto& octets : stack.messages) {
     EXPECT_LE(octets.size(), 250u);
     uadp::NetworkMessage message;
-    ASSERT_EQ(decode(octets, message), uadp::Verdict::ok);
+    ASSERT_EQ(decode(octets, message), uadp::DecodeStatus::ok);
     EXPECT_EQ(message.header.group->network_message_number, ++number);
   }
   EXPECT_EQ(publisher.groups()[0]->too_long(), 1u);

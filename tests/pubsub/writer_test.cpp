@@ -38,9 +38,9 @@ struct WriterFixture {
     std::vector<Sent> sent;
     for (const auto& octets : stack.messages) {
       uadp::NetworkMessage message;
-      EXPECT_EQ(decode(octets, message), uadp::Verdict::ok);
+      EXPECT_EQ(decode(octets, message), uadp::DecodeStatus::ok);
       uadp::DataSetMessage each;
-      EXPECT_EQ(decode(message.data_set_message(0), each), uadp::Verdict::ok);
+      EXPECT_EQ(decode(message.data_set_message(0), each), uadp::DecodeStatus::ok);
       EXPECT_TRUE(is_well_formed(each));
       sent.push_back({each.header.type, each.header.sequence_number.value(), uadp::FieldReader(each).count()});
     }
@@ -112,10 +112,10 @@ TEST(Writers, TimestampsCountFromTheEpoch) {
   WriterFixture fixture(group, settings);
   fixture.step();
   uadp::NetworkMessage message;
-  ASSERT_EQ(decode(fixture.stack.messages.at(0), message), uadp::Verdict::ok);
+  ASSERT_EQ(decode(fixture.stack.messages.at(0), message), uadp::DecodeStatus::ok);
   EXPECT_EQ(message.header.timestamp, uadp::DateTime{134397081908386086});
   uadp::DataSetMessage each;
-  ASSERT_EQ(decode(message.data_set_message(0), each), uadp::Verdict::ok);
+  ASSERT_EQ(decode(message.data_set_message(0), each), uadp::DecodeStatus::ok);
   EXPECT_EQ(each.header.timestamp, uadp::DateTime{134397081908386086});
   EXPECT_EQ(each.header.minor_version, 5u);
   EXPECT_FALSE(each.header.major_version);

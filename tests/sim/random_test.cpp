@@ -96,7 +96,7 @@ TEST(RandomStream, BelowStaysBelow) {
   EXPECT_THROW(static_cast<void>(stream.below(0)), InvariantBroken);
 }
 
-// Chi-square over 7 values, 6 degrees of freedom: 22.46 is exceeded with probability 0.001; the seed is pinned.
+// Chi-square over 7 values, 6 degrees of variable: 22.46 is exceeded with probability 0.001; the seed is pinned.
 TEST(RandomStream, BelowIsUniform) {
   RandomStream stream(4, "dice", "test");
   constexpr int n = 700'000;

@@ -30,7 +30,7 @@ TEST(Statistics, OneValueHasNoInterval) {
 // The textbook formula sum(x^2) - n mean^2 would lose all digits here.
 TEST(Statistics, GreatValuesKeepTheirVariance) { EXPECT_NEAR(summary_of(std::array<double, 3>{1e12 + 1, 1e12 + 2, 1e12 + 3}).variance, 1, 1e-9); }
 
-// One and two degrees of freedom have closed forms: tan(pi (p - 1/2)) and (2p - 1) / sqrt(2 p (1 - p)).
+// One and two degrees of variable have closed forms: tan(pi (p - 1/2)) and (2p - 1) / sqrt(2 p (1 - p)).
 TEST(Student, ClosedForms) {
   for (const double p : {0.6, 0.9, 0.975, 0.995, 0.9995}) {
     EXPECT_NEAR(student_quantile(p, 1) / std::tan(M_PI * (p - 0.5)), 1, 1e-11) << p;

@@ -250,7 +250,7 @@ class StudyTest(unittest.TestCase):
         code, out, err = takt("compare", scenario, scenario, "--set-b", "programs.0.cycle=400us", "--pairs", 3)
         self.assertEqual(code, 0, err)
         self.assertIn("0 of them the same run", out)
-        self.assertIn("the runs part at", out)
+        self.assertIn("the runs diverge at", out)
         self.assertRegex(out, r"reaction\.start\.max .*B is greater")
         self.assertEqual(takt("compare", scenario, scenario, "--set-b", "nonsense=1")[0], 2)
         study = self.study()

@@ -186,7 +186,7 @@ class WordBench {
     const node::LoadedProgram& of;
     std::size_t number;
     wire::ProgramNode member;
-    handshake::Side side = handshake::Side::Outer;
+    handshake::Side side = handshake::Side::outer;
     Seat* nested = nullptr;
     node::CycleStatistics cycles;
     node::PeerWatch peers;
@@ -200,7 +200,7 @@ class WordBench {
         if (const auto outer = of.programs[i].outer) {
           seats[*outer]->nested = seats[i].get();
           seats[i]->nested = seats[*outer].get();
-          seats[i]->side = handshake::Side::Inner;
+          seats[i]->side = handshake::Side::inner;
           nesting = std::make_unique<wire::Nesting>(seats[*outer]->member, seats[i]->member);
         }
     }

@@ -38,7 +38,7 @@ TEST(Allocation, NoneByTheCodec) {
     encoder.end();
   }
   NetworkMessage message;
-  const Verdict verdict = decode(encoder.finish(), message);
+  const DecodeStatus verdict = decode(encoder.finish(), message);
   std::size_t fields = 0;
   for (std::size_t i = 0; i < message.count(); ++i) {
     DataSetMessage each;
@@ -47,7 +47,7 @@ TEST(Allocation, NoneByTheCodec) {
     while (reader.next()) ++fields;
   }
   const std::uint64_t after = allocations;
-  EXPECT_EQ(verdict, Verdict::ok);
+  EXPECT_EQ(verdict, DecodeStatus::ok);
   EXPECT_EQ(fields, 4u);
   EXPECT_EQ(after, before);
 }

@@ -69,7 +69,7 @@ std::string encoded_again(const NetworkMessage& message, std::vector<std::byte>&
                                                      : NetworkMessageEncoder(buffer, message.header);
   for (std::size_t i = 0; i < message.count(); ++i) {
     DataSetMessage each;
-    EXPECT_EQ(decode(message.data_set_message(i), each), Verdict::ok);
+    EXPECT_EQ(decode(message.data_set_message(i), each), DecodeStatus::ok);
     encoder.begin(each.header);
     put_fields(encoder, each);
     encoder.end();
@@ -84,7 +84,7 @@ TEST(Golden, EveryFrameMeansWhatItsJsonSays) {
     SCOPED_TRACE(frame.name);
     const std::vector<std::byte> octets = octets_of(frame.hex);
     NetworkMessage message;
-    ASSERT_EQ(decode(octets, message), Verdict::ok);
+    ASSERT_EQ(decode(octets, message), DecodeStatus::ok);
     EXPECT_EQ(to_json(message, frame.message), comparable(frame.message));
   }
 }
@@ -92,7 +92,7 @@ TEST(Golden, EveryFrameMeansWhatItsJsonSays) {
 // The recorded vectors hold one message of version 2, which its producer decodes as if it were 1.
 TEST(Golden, AnotherVersionIsRefused) {
   NetworkMessage message;
-  EXPECT_EQ(decode(octets_of("f201ba0801640001010001010006feffffff"), message), Verdict::version);
+  EXPECT_EQ(decode(octets_of("f201ba0801640001010001010006feffffff"), message), DecodeStatus::version);
 }
 
 TEST(Golden, EveryFrameEncodesBackToItsOctets) {
@@ -101,7 +101,7 @@ TEST(Golden, EveryFrameEncodesBackToItsOctets) {
     SCOPED_TRACE(frame.name);
     const std::vector<std::byte> octets = octets_of(frame.hex);
     NetworkMessage message;
-    ASSERT_EQ(decode(octets, message), Verdict::ok);
+    ASSERT_EQ(decode(octets, message), DecodeStatus::ok);
     const std::size_t size = octets.size() - frame.trailing();
     EXPECT_EQ(encoded_again(message, buffer), frame.hex.substr(0, 2 * size));
     std::vector<std::byte> small(size - 1);
@@ -117,9 +117,9 @@ TEST(Golden, EveryFrameCutAnywhereIsHarmless) {
     for (std::size_t length = 0; length < octets.size() - frame.trailing(); ++length) {
       const std::vector<std::byte> cut(octets.begin(), octets.begin() + static_cast<std::ptrdiff_t>(length));
       NetworkMessage message;
-      if (decode(cut, message) != Verdict::ok) continue;
+      if (decode(cut, message) != DecodeStatus::ok) continue;
       DataSetMessage last;
-      if (decode(message.data_set_message(message.count() - 1), last) != Verdict::ok) continue;
+      if (decode(message.data_set_message(message.count() - 1), last) != DecodeStatus::ok) continue;
       const bool has_count = last.header.valid && last.header.encoding != FieldEncoding::RawData && !last.body.empty();
       if (has_count && message.sizes.empty()) {
         EXPECT_FALSE(is_well_formed(last)) << frame.name << " cut at " << length;

@@ -124,9 +124,9 @@ TEST(DeltaFrame, NamesTheFieldsThatChanged) {
   EXPECT_EQ(hex_of(written), packed("51 07 01 2100 89 01 0400 0100 0100 0b 0000000000000440"));
 
   NetworkMessage decoded;
-  ASSERT_EQ(decode(written, decoded), Verdict::ok);
+  ASSERT_EQ(decode(written, decoded), DecodeStatus::ok);
   DataSetMessage delta;
-  ASSERT_EQ(decode(decoded.data_set_message(0), delta), Verdict::ok);
+  ASSERT_EQ(decode(decoded.data_set_message(0), delta), DecodeStatus::ok);
   FieldReader fields(delta);
   const auto field = fields.next();
   ASSERT_TRUE(field);
@@ -192,7 +192,7 @@ TEST(DataSetMessages, PromotedFieldsAndClassId) {
   const Octets written = encoder.finish();
   EXPECT_EQ(hex_of(written), packed("c1 c8 02 00000000000000000000000000000000 01 0100 0700 0300 05 0500 01 0100 01 01"));
   NetworkMessage decoded;
-  ASSERT_EQ(decode(written, decoded), Verdict::ok);
+  ASSERT_EQ(decode(written, decoded), DecodeStatus::ok);
   Reader fields(decoded.header.promoted_fields.value());
   EXPECT_EQ(get_variant(fields).get<std::uint16_t>(), 5);
 }

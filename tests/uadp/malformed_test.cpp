@@ -8,46 +8,46 @@
 namespace takt::uadp {
 namespace {
 
-Verdict verdict_of(const std::string& hex) {
+DecodeStatus verdict_of(const std::string& hex) {
   const std::vector<std::byte> octets = octets_of(hex);
   NetworkMessage message;
   return decode(octets, message);
 }
 
 TEST(Malformed, NetworkMessages) {
-  EXPECT_EQ(verdict_of(""), Verdict::truncated);
-  EXPECT_EQ(verdict_of("00"), Verdict::version);
-  EXPECT_EQ(verdict_of("02"), Verdict::version);
-  EXPECT_EQ(verdict_of("01"), Verdict::ok) << "no PublisherId, no header, an empty payload";
-  EXPECT_EQ(verdict_of("9105"), Verdict::reserved) << "type 5 of PublisherId";
-  EXPECT_EQ(verdict_of("8101"), Verdict::malformed) << "a type without a PublisherId";
-  EXPECT_EQ(verdict_of("2110"), Verdict::reserved) << "bit 4 of GroupFlags";
-  EXPECT_EQ(verdict_of("2101"), Verdict::truncated) << "no WriterGroupId";
-  EXPECT_EQ(verdict_of("4100"), Verdict::malformed) << "no DataSetMessage";
-  EXPECT_EQ(verdict_of("41020100"), Verdict::truncated);
-  EXPECT_EQ(verdict_of("4102010002000100020001"), Verdict::truncated) << "sizes 1 + 2, one octet is there";
-  EXPECT_EQ(verdict_of("41020100020001000200010101"), Verdict::ok);
-  EXPECT_EQ(verdict_of("818040"), Verdict::reserved) << "bit 6 of ExtendedFlags2";
-  EXPECT_EQ(verdict_of("81800c"), Verdict::reserved) << "message type 3";
-  EXPECT_EQ(verdict_of("81800203000101"), Verdict::truncated) << "three octets of promoted fields, two are there";
-  EXPECT_EQ(verdict_of("8180020200" "01ff"), Verdict::ok);
-  EXPECT_EQ(verdict_of("8180020200" "3f00"), Verdict::malformed) << "no type 63";
-  EXPECT_EQ(verdict_of("9104ffffff7f"), Verdict::truncated) << "a PublisherId of 2 GiB";
-  EXPECT_EQ(verdict_of("9104feffffff"), Verdict::truncated) << "a length of -2";
+  EXPECT_EQ(verdict_of(""), DecodeStatus::truncated);
+  EXPECT_EQ(verdict_of("00"), DecodeStatus::version);
+  EXPECT_EQ(verdict_of("02"), DecodeStatus::version);
+  EXPECT_EQ(verdict_of("01"), DecodeStatus::ok) << "no PublisherId, no header, an empty payload";
+  EXPECT_EQ(verdict_of("9105"), DecodeStatus::reserved) << "type 5 of PublisherId";
+  EXPECT_EQ(verdict_of("8101"), DecodeStatus::malformed) << "a type without a PublisherId";
+  EXPECT_EQ(verdict_of("2110"), DecodeStatus::reserved) << "bit 4 of GroupFlags";
+  EXPECT_EQ(verdict_of("2101"), DecodeStatus::truncated) << "no WriterGroupId";
+  EXPECT_EQ(verdict_of("4100"), DecodeStatus::malformed) << "no DataSetMessage";
+  EXPECT_EQ(verdict_of("41020100"), DecodeStatus::truncated);
+  EXPECT_EQ(verdict_of("4102010002000100020001"), DecodeStatus::truncated) << "sizes 1 + 2, one octet is there";
+  EXPECT_EQ(verdict_of("41020100020001000200010101"), DecodeStatus::ok);
+  EXPECT_EQ(verdict_of("818040"), DecodeStatus::reserved) << "bit 6 of ExtendedFlags2";
+  EXPECT_EQ(verdict_of("81800c"), DecodeStatus::reserved) << "message type 3";
+  EXPECT_EQ(verdict_of("81800203000101"), DecodeStatus::truncated) << "three octets of promoted fields, two are there";
+  EXPECT_EQ(verdict_of("8180020200" "01ff"), DecodeStatus::ok);
+  EXPECT_EQ(verdict_of("8180020200" "3f00"), DecodeStatus::malformed) << "no type 63";
+  EXPECT_EQ(verdict_of("9104ffffff7f"), DecodeStatus::truncated) << "a PublisherId of 2 GiB";
+  EXPECT_EQ(verdict_of("9104feffffff"), DecodeStatus::truncated) << "a length of -2";
 }
 
 TEST(Malformed, WhatIsNotSupportedIsToldByName) {
   NetworkMessage message;
   const std::vector<std::byte> secured = octets_of("b131640009010000010000000000000000010500000008deadbeef4d000000");
-  EXPECT_EQ(decode(secured, message), Verdict::secured);
+  EXPECT_EQ(decode(secured, message), DecodeStatus::secured);
   EXPECT_EQ(message.header.publisher_id, PublisherId::uint16(100));
   ASSERT_TRUE(message.security);
   EXPECT_EQ(message.security->token_id, 5u);
   EXPECT_EQ(message.security->nonce.size(), 8u);
-  EXPECT_EQ(verdict_of("9191046400" "00"), Verdict::discovery);
-  EXPECT_EQ(verdict_of("9191086400" "00"), Verdict::discovery);
-  EXPECT_EQ(verdict_of("d18101640001"), Verdict::chunked);
-  EXPECT_EQ(verdict_of("d18120640001"), Verdict::action);
+  EXPECT_EQ(verdict_of("9191046400" "00"), DecodeStatus::discovery);
+  EXPECT_EQ(verdict_of("9191086400" "00"), DecodeStatus::discovery);
+  EXPECT_EQ(verdict_of("d18101640001"), DecodeStatus::chunked);
+  EXPECT_EQ(verdict_of("d18120640001"), DecodeStatus::action);
 }
 
 TEST(Malformed, DataSetMessages) {
@@ -56,22 +56,22 @@ TEST(Malformed, DataSetMessages) {
     DataSetMessage message;
     return decode(octets, message);
   };
-  EXPECT_EQ(verdict(""), Verdict::truncated);
-  EXPECT_EQ(verdict("00"), Verdict::ok) << "not valid: nothing else counts";
-  EXPECT_EQ(verdict("06"), Verdict::ok);
-  EXPECT_EQ(verdict("07"), Verdict::reserved) << "field encoding 3";
-  EXPECT_EQ(verdict("8104"), Verdict::reserved) << "message type 4";
-  EXPECT_EQ(verdict("8140"), Verdict::reserved) << "bit 6 of DataSetFlags2";
-  EXPECT_EQ(verdict("0901"), Verdict::truncated) << "half a sequence number";
-  EXPECT_EQ(verdict("8301"), Verdict::malformed) << "a delta frame of RawData";
-  EXPECT_EQ(verdict("8502"), Verdict::malformed) << "an event of DataValues";
+  EXPECT_EQ(verdict(""), DecodeStatus::truncated);
+  EXPECT_EQ(verdict("00"), DecodeStatus::ok) << "not valid: nothing else counts";
+  EXPECT_EQ(verdict("06"), DecodeStatus::ok);
+  EXPECT_EQ(verdict("07"), DecodeStatus::reserved) << "field encoding 3";
+  EXPECT_EQ(verdict("8104"), DecodeStatus::reserved) << "message type 4";
+  EXPECT_EQ(verdict("8140"), DecodeStatus::reserved) << "bit 6 of DataSetFlags2";
+  EXPECT_EQ(verdict("0901"), DecodeStatus::truncated) << "half a sequence number";
+  EXPECT_EQ(verdict("8301"), DecodeStatus::malformed) << "a delta frame of RawData";
+  EXPECT_EQ(verdict("8502"), DecodeStatus::malformed) << "an event of DataValues";
 }
 
 TEST(Malformed, Bodies) {
   const auto well_formed = [](const std::string& hex) {
     const std::vector<std::byte> octets = octets_of(hex);
     DataSetMessage message;
-    EXPECT_EQ(decode(octets, message), Verdict::ok);
+    EXPECT_EQ(decode(octets, message), DecodeStatus::ok);
     return is_well_formed(message);
   };
   EXPECT_TRUE(well_formed("01010006" "01000000"));
@@ -95,11 +95,11 @@ TEST(Malformed, Bodies) {
 /// Reads all that there is to read.
 std::size_t read_all(Octets octets) {
   NetworkMessage message;
-  if (decode(octets, message) != Verdict::ok) return 0;
+  if (decode(octets, message) != DecodeStatus::ok) return 0;
   std::size_t fields = 0;
   for (std::size_t i = 0; i < message.count(); ++i) {
     DataSetMessage each;
-    if (decode(message.data_set_message(i), each) != Verdict::ok) continue;
+    if (decode(message.data_set_message(i), each) != DecodeStatus::ok) continue;
     FieldReader reader(each);
     while (const auto field = reader.next()) {
       ++fields;
@@ -136,13 +136,13 @@ TEST(Malformed, DamageIsHarmless) {
 }
 
 TEST(Verdicts, AreCounted) {
-  VerdictCounts counts;
-  counts.count(Verdict::ok);
-  counts.count(Verdict::secured);
-  counts.count(Verdict::secured);
-  EXPECT_EQ(counts[Verdict::secured], 2u);
+  DecodeStatusCounts counts;
+  counts.count(DecodeStatus::ok);
+  counts.count(DecodeStatus::secured);
+  counts.count(DecodeStatus::secured);
+  EXPECT_EQ(counts[DecodeStatus::secured], 2u);
   EXPECT_EQ(counts.dropped(), 2u);
-  EXPECT_EQ(name_of(Verdict::action), "action");
+  EXPECT_EQ(name_of(DecodeStatus::action), "action");
 }
 
 }  // namespace

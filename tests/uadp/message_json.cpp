@@ -182,7 +182,7 @@ json to_json(const NetworkMessage& message, const json& expected) {
   std::size_t used = 0;
   for (std::size_t i = 0; i < message.count(); ++i) {
     DataSetMessage each;
-    if (decode(message.data_set_message(i), each) != Verdict::ok) throw std::runtime_error("a DataSetMessage is refused");
+    if (decode(message.data_set_message(i), each) != DecodeStatus::ok) throw std::runtime_error("a DataSetMessage is refused");
     std::size_t octets = 0;
     messages.push_back(to_json(each, expected.at("dataSetMessages").at(i), octets));
     if (const auto id = message.writer_id(i)) messages.back()["dataSetWriterId"] = *id;

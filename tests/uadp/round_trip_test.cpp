@@ -85,7 +85,7 @@ std::vector<std::byte> again(const NetworkMessage& message) {
   NetworkMessageEncoder encoder = message.writer_ids ? NetworkMessageEncoder(buffer, message.header, ids) : NetworkMessageEncoder(buffer, message.header);
   for (std::size_t i = 0; i < message.count(); ++i) {
     DataSetMessage each;
-    EXPECT_EQ(decode(message.data_set_message(i), each), Verdict::ok);
+    EXPECT_EQ(decode(message.data_set_message(i), each), DecodeStatus::ok);
     encoder.begin(each.header);
     if (each.header.encoding == FieldEncoding::RawData) {
       encoder.body(each.body);
@@ -131,7 +131,7 @@ TEST(RoundTrip, OfEveryNetworkMessageHeader) {
           const std::vector<std::byte> octets = copy(encoder.finish());
           ASSERT_FALSE(octets.empty());
           NetworkMessage decoded;
-          ASSERT_EQ(decode(octets, decoded), Verdict::ok) << flags << " " << parts << " " << messages;
+          ASSERT_EQ(decode(octets, decoded), DecodeStatus::ok) << flags << " " << parts << " " << messages;
           EXPECT_EQ(decoded.header.publisher_id, header.publisher_id);
           EXPECT_EQ(decoded.header.group, header.group);
           EXPECT_EQ(decoded.header.timestamp, header.timestamp);
@@ -142,7 +142,7 @@ TEST(RoundTrip, OfEveryNetworkMessageHeader) {
           ASSERT_EQ(decoded.count(), std::max<std::size_t>(messages, 1));
           for (std::size_t i = 0; i < decoded.count(); ++i) {
             DataSetMessage each;
-            ASSERT_EQ(decode(decoded.data_set_message(i), each), Verdict::ok);
+            ASSERT_EQ(decode(decoded.data_set_message(i), each), DecodeStatus::ok);
             expect_fields(each);
           }
           EXPECT_EQ(again(decoded), octets);
@@ -172,9 +172,9 @@ TEST(RoundTrip, OfEveryDataSetMessage) {
         const std::vector<std::byte> octets = copy(encoder.finish());
         ASSERT_FALSE(octets.empty());
         NetworkMessage decoded;
-        ASSERT_EQ(decode(octets, decoded), Verdict::ok);
+        ASSERT_EQ(decode(octets, decoded), DecodeStatus::ok);
         DataSetMessage message;
-        ASSERT_EQ(decode(decoded.data_set_message(0), message), Verdict::ok);
+        ASSERT_EQ(decode(decoded.data_set_message(0), message), DecodeStatus::ok);
         EXPECT_EQ(message.header, wanted);
         expect_fields(message);
         EXPECT_EQ(again(decoded), octets);

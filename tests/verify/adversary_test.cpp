@@ -41,8 +41,8 @@ TEST(Adversary, MeetsAFrameThatHasJustBegun) {
 TEST(Adversary, LeavesAloneWhatThePlantPromises) {
   const auto scenario = resolved(two_talkers(R"(, "offset": "500us")"));
   const Search found = search(*scenario, analysis::bound(*scenario), {});
-  ASSERT_EQ(found.freedoms.size(), 1u);
-  EXPECT_EQ(found.freedoms[0].name, "phase of urgent");
+  ASSERT_EQ(found.variables.size(), 1u);
+  EXPECT_EQ(found.variables[0].name, "phase of urgent");
   EXPECT_EQ(found.findings[0].worst.scenario.streams[1].offset, 500_us);
   // The other one moves instead, and meets it.
   EXPECT_EQ(*found.findings[0].worst.measured, *found.findings[0].simulated + 1470 * 8_ns - 1_ns);
@@ -57,15 +57,15 @@ TEST(Adversary, ChoosesLatenciesAndInstantsOfFaults) {
     "faults": [{"kind": "link-down", "link": ["a", "b"], "at": "5ms", "for": "2ms"}, {"kind": "crash", "node": "b", "at": "7500us", "for": "1ms"}],
     "require": [{"stream": "frames", "latency": "1ms"}, {"stream": "frames", "dropped": 9}]})");
   ASSERT_TRUE(scenario);
-  const std::vector<Freedom> freedoms = freedoms_of(*scenario);
-  ASSERT_EQ(freedoms.size(), 3u);
-  EXPECT_EQ(freedoms[0].name, "instant of fault 1");
-  EXPECT_EQ(freedoms[0].range, 500_us);   // until the crash
-  EXPECT_EQ(freedoms[1].name, "instant of fault 2");
-  EXPECT_EQ(freedoms[1].range, 1_ms);     // a period
-  EXPECT_EQ(freedoms[2].name, "transmit latency of a");
-  EXPECT_EQ(freedoms[2].least, 1_us);
-  EXPECT_EQ(freedoms[2].greatest, 9_us);
+  const std::vector<FreeVariable> variables = free_variables_of(*scenario);
+  ASSERT_EQ(variables.size(), 3u);
+  EXPECT_EQ(variables[0].name, "instant of fault 1");
+  EXPECT_EQ(variables[0].range, 500_us);   // until the crash
+  EXPECT_EQ(variables[1].name, "instant of fault 2");
+  EXPECT_EQ(variables[1].range, 1_ms);     // a period
+  EXPECT_EQ(variables[2].name, "transmit latency of a");
+  EXPECT_EQ(variables[2].least, 1_us);
+  EXPECT_EQ(variables[2].greatest, 9_us);
   const Search found = search(*scenario, analysis::bound(*scenario), {});
   // 9 us, 154 octets of 8 ns, the cable of 10 m.
   EXPECT_EQ(*found.findings[0].worst.measured, 9_us + 154 * 8_ns + 50_ns);
@@ -143,9 +143,9 @@ TEST(Adversary, ChoosesProductionJitterWithinItsSupport) {
                 {"name": "bulk", "from": "c", "to": "b", "payload": "1400B", "pcp": 0, "every": "1ms", "offset": "0us"}],
     "require": [{"stream": "urgent", "latency": "1ms"}]})");
   ASSERT_TRUE(scenario);
-  const std::vector<Freedom> freedoms = freedoms_of(*scenario);
-  ASSERT_EQ(freedoms.size(), 1u);
-  EXPECT_EQ(freedoms[0].name, "jitter of urgent");
+  const std::vector<FreeVariable> variables = free_variables_of(*scenario);
+  ASSERT_EQ(variables.size(), 1u);
+  EXPECT_EQ(variables[0].name, "jitter of urgent");
   const analysis::Bounds bounds = analysis::bound(*scenario);
   const Search found = search(*scenario, bounds, {});
   // The whole long frame but 1 ns, and no more than the bound has.
@@ -166,8 +166,8 @@ TEST(Adversary, ChoosesLossesWithinWhatIsRequired) {
     "require": [{"reaction": "halt", "within": "5ms"})";
   const auto scenario = resolved(text + "]}");
   ASSERT_TRUE(scenario);
-  const std::vector<Freedom> freedoms = freedoms_of(*scenario);
-  EXPECT_TRUE(std::any_of(freedoms.begin(), freedoms.end(), [](const Freedom& each) { return each.name == "losses by fault 1" && each.range == 10_ms; }));
+  const std::vector<FreeVariable> variables = free_variables_of(*scenario);
+  EXPECT_TRUE(std::any_of(variables.begin(), variables.end(), [](const FreeVariable& each) { return each.name == "losses by fault 1" && each.range == 10_ms; }));
   const Search found = search(*scenario, analysis::bound(*scenario), {});
   EXPECT_GT(*found.findings[0].worst.measured, *found.findings[0].simulated + 900_us);   // the word that tells it is lost, and comes a cycle later
   EXPECT_EQ(probe(found.findings[0].worst.scenario, {}, {})->requirements[0].measured, found.findings[0].worst.measured);
@@ -194,12 +194,12 @@ TEST(Adversary, ChoosesFrequenciesWithinTheirRange) {
   const auto two = with_seed("2");
   ASSERT_TRUE(one && two);
   EXPECT_EQ(analysis::bound(*one).requirements[0].duration, analysis::bound(*two).requirements[0].duration);
-  const std::vector<Freedom> freedoms = freedoms_of(*one);
-  const auto frequency = std::find_if(freedoms.begin(), freedoms.end(), [](const Freedom& each) { return each.name == "frequency of b, -100ppm to 100ppm"; });
-  ASSERT_NE(frequency, freedoms.end());
-  Choice choice{1, std::vector<Duration>(freedoms.size())};
-  choice.values[static_cast<std::size_t>(frequency - freedoms.begin())] = always_greatest;
-  const scenario::Scenario made = scenario_of(one->scenario, freedoms, choice);
+  const std::vector<FreeVariable> variables = free_variables_of(*one);
+  const auto frequency = std::find_if(variables.begin(), variables.end(), [](const FreeVariable& each) { return each.name == "frequency of b, -100ppm to 100ppm"; });
+  ASSERT_NE(frequency, variables.end());
+  Choice choice{1, std::vector<Duration>(variables.size())};
+  choice.values[static_cast<std::size_t>(frequency - variables.begin())] = always_greatest;
+  const scenario::Scenario made = scenario_of(one->scenario, variables, choice);
   ASSERT_EQ(made.clocks.nodes.size(), 1u);
   EXPECT_EQ(made.clocks.nodes[0].second.offset.fixed, sim::FrequencyOffset{100'000'000});
   EXPECT_TRUE(probe(made, {}, {}));

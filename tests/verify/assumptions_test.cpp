@@ -8,7 +8,7 @@
 #include "verify/monitor.hpp"
 #include "verify/report.hpp"
 #include "tests/verify/support.hpp"
-#include "verify/sandwich.hpp"
+#include "verify/verification.hpp"
 
 namespace takt::verify {
 namespace {
@@ -45,7 +45,7 @@ TEST(Assumptions, BoundsCoverWaysThatReroutingLays) {
   const Verification found = verify(*resolved, options);
   ASSERT_FALSE(found.contradiction) << found.contradiction->text;
   ASSERT_EQ(found.lines.size(), 1u);
-  EXPECT_EQ(found.lines[0].verdict, Verdict::refuted);
+  EXPECT_EQ(found.lines[0].verdict, Conclusion::refuted);
   ASSERT_TRUE(found.lines[0].bound);
   EXPECT_GT(*found.lines[0].adversarial, 30_us);
   EXPECT_GE(*found.lines[0].bound, *found.lines[0].adversarial);
@@ -57,10 +57,10 @@ TEST(Assumptions, BoundsCoverWaysThatReroutingLays) {
 TEST(Assumptions, LatencyIsNotProvedWhereFramesMayBeLost) {
   const std::string cut = R"(, "faults": [{"kind": "link-down", "link": ["a", "sw"], "at": "10ms", "for": "100us"}], "require": [{"stream": "urgent", "latency": "1ms")";
   const Verification alone = verify(*small_network(cut + "}]", {}, R"(, "offset": "0us")"), small());
-  EXPECT_EQ(alone.lines[0].verdict, Verdict::refuted);
+  EXPECT_EQ(alone.lines[0].verdict, Conclusion::refuted);
   EXPECT_NE(alone.lines[0].reason.find("frames may be lost"), std::string::npos) << alone.lines[0].reason;
   const Verification apart = verify(*small_network(cut + R"(}, {"stream": "urgent", "dropped": 5}])", {}, R"(, "offset": "500us")"), small());
-  EXPECT_EQ(apart.lines[0].verdict, Verdict::pass) << apart.lines[0].reason;
+  EXPECT_EQ(apart.lines[0].verdict, Conclusion::pass) << apart.lines[0].reason;
 }
 
 TEST(Assumptions, ClocksAreNotGoodFromTheStart) {
@@ -68,7 +68,7 @@ TEST(Assumptions, ClocksAreNotGoodFromTheStart) {
   EXPECT_FALSE(found.contradiction);
   for (const Line& line : found.lines) {
     EXPECT_FALSE(line.bound) << line.requirement.text;
-    EXPECT_NE(line.verdict, Verdict::pass) << line.requirement.text;
+    EXPECT_NE(line.verdict, Conclusion::pass) << line.requirement.text;
   }
   EXPECT_EQ(found.ledger[Assumption::clock_error].holds_from, 5_s);
 }
@@ -94,13 +94,13 @@ TEST(Assumptions, WhatIsUnderWayAtTheEndContradictsNothing) {
 TEST(Assumptions, WhatRestsOnARefutedPremiseIsUndecided) {
   const Verification found = verify(*finding("premise-refuted.json", {"/duration=6s"}), small());
   ASSERT_EQ(found.lines.size(), 3u);
-  EXPECT_EQ(found.lines[2].verdict, Verdict::refuted);
+  EXPECT_EQ(found.lines[2].verdict, Conclusion::refuted);
   EXPECT_EQ(found.ledger[Assumption::clock_error].standing, Standing::violated);
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(found.lines[i].verdict, Verdict::undecided);
+    EXPECT_EQ(found.lines[i].verdict, Conclusion::undecided);
     EXPECT_TRUE(found.lines[i].reason.starts_with("rests on \"clocks within 490ns from 5s on\", which is refuted: ")) << found.lines[i].reason;
   }
-  EXPECT_EQ(found.verdict(), Verdict::refuted);
+  EXPECT_EQ(found.verdict(), Conclusion::refuted);
 }
 
 TEST(Assumptions, AreAssessedFromTheScenario) {
@@ -165,7 +165,7 @@ TEST(Assumptions, ARunAboveABoundIsAContradiction) {
 
   Verification verification;
   verification.contradiction = Contradiction{"urgent: too slow", resolved->scenario};
-  EXPECT_EQ(verification.verdict(), Verdict::contradiction);
+  EXPECT_EQ(verification.verdict(), Conclusion::contradiction);
   const std::string page = text_report("small", verification, {}, {"run.json", "bound.json"});
   EXPECT_NE(page.find("CONTRADICTION: urgent: too slow"), std::string::npos);
   EXPECT_TRUE(page.ends_with("small: contradiction\n")) << page;

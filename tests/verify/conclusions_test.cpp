@@ -1,7 +1,7 @@
 // What follows from runs and proofs, with each of them made by hand: no scenario of takt shows a proof that is wrong.
 #include <gtest/gtest.h>
 
-#include "verify/sandwich.hpp"
+#include "verify/verification.hpp"
 
 namespace takt::verify {
 namespace {
@@ -36,18 +36,18 @@ struct Case {
 
 TEST(Conclusions, PassWithAProofThatStands) {
   const Verification found = Case(8_us, 9_us).concluded();
-  EXPECT_EQ(found.lines[0].verdict, Verdict::pass);
+  EXPECT_EQ(found.lines[0].verdict, Conclusion::pass);
   EXPECT_EQ(found.lines[0].bound, 9_us);
-  EXPECT_EQ(found.verdict(), Verdict::pass);
+  EXPECT_EQ(found.verdict(), Conclusion::pass);
   EXPECT_NEAR(*found.lines[0].tightness(), 8.0 / 9, 1e-9);
 }
 
 TEST(Conclusions, UndecidedWithoutOne) {
   const Verification beyond = Case(8_us, 11_us).concluded();
-  EXPECT_EQ(beyond.lines[0].verdict, Verdict::undecided);
+  EXPECT_EQ(beyond.lines[0].verdict, Conclusion::undecided);
   EXPECT_EQ(beyond.lines[0].reason, "no run that was found exceeds the limit, but the bound does");
-  EXPECT_EQ(beyond.verdict(), Verdict::undecided);
-  EXPECT_EQ(Case(8_us, {}).concluded().lines[0].verdict, Verdict::undecided);
+  EXPECT_EQ(beyond.verdict(), Conclusion::undecided);
+  EXPECT_EQ(Case(8_us, {}).concluded().lines[0].verdict, Conclusion::undecided);
 }
 
 // Open, violated by the scenario, from later on than the requirement counts, or violated in a run: no bound is shown, nothing is proved.
@@ -60,7 +60,7 @@ TEST(Conclusions, UndecidedWithAProofThatDoesNotStand) {
   const char* const reasons[] = {"which is not proved: nobody knows", "which is refuted: the scenario", "which is so from 5ms on", "which is refuted: a run"};
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Verification found = cases[i].concluded();
-    EXPECT_EQ(found.lines[0].verdict, Verdict::undecided) << i;
+    EXPECT_EQ(found.lines[0].verdict, Conclusion::undecided) << i;
     EXPECT_FALSE(found.lines[0].bound) << i;
     EXPECT_NE(found.lines[0].reason.find(reasons[i]), std::string::npos) << found.lines[0].reason;
     EXPECT_FALSE(found.contradiction) << i;
@@ -70,10 +70,10 @@ TEST(Conclusions, UndecidedWithAProofThatDoesNotStand) {
 
 TEST(Conclusions, RefutedByARun) {
   const Verification found = Case(12_us, 13_us).concluded();
-  EXPECT_EQ(found.lines[0].verdict, Verdict::refuted);
+  EXPECT_EQ(found.lines[0].verdict, Conclusion::refuted);
   EXPECT_EQ(found.lines[0].reason, "a run exceeds the limit");
   EXPECT_FALSE(found.contradiction);
-  EXPECT_EQ(found.verdict(), Verdict::refuted);
+  EXPECT_EQ(found.verdict(), Conclusion::refuted);
 }
 
 // The proof stands, and a run fails: one of them is wrong.
@@ -83,16 +83,16 @@ TEST(Conclusions, AProofThatARunFailsIsAContradiction) {
   ASSERT_TRUE(found.contradiction);
   EXPECT_EQ(found.contradiction->text, "stream s latency at most 10us: a run fails what is proved");
   EXPECT_EQ(found.contradiction->run.name, "worst");
-  EXPECT_EQ(found.verdict(), Verdict::contradiction);
+  EXPECT_EQ(found.verdict(), Conclusion::contradiction);
   wrong.ledger.leave_open(Assumption::no_disturbance, "nobody knows");
   EXPECT_FALSE(wrong.concluded().contradiction);
-  EXPECT_EQ(wrong.concluded().verdict(), Verdict::refuted);
+  EXPECT_EQ(wrong.concluded().verdict(), Conclusion::refuted);
 }
 
 // It fails since nothing came, of which no bound says anything.
 TEST(Conclusions, WantOfAFrameIsNoContradiction) {
   const Verification found = Case({}, 9_us).concluded();
-  EXPECT_EQ(found.lines[0].verdict, Verdict::refuted);
+  EXPECT_EQ(found.lines[0].verdict, Conclusion::refuted);
   EXPECT_FALSE(found.contradiction);
 }
 
@@ -103,16 +103,16 @@ TEST(Conclusions, TheWorstLineIsTheVerdict) {
     all.proofs.push_back(other.proofs[0]);
   };
   add(Case(8_us, 9_us));
-  EXPECT_EQ(all.concluded().verdict(), Verdict::pass);
+  EXPECT_EQ(all.concluded().verdict(), Conclusion::pass);
   all.found.partial = true;
-  EXPECT_EQ(all.concluded().verdict(), Verdict::undecided) << "interrupted";
+  EXPECT_EQ(all.concluded().verdict(), Conclusion::undecided) << "interrupted";
   all.found.partial = false;
   add(Case(8_us, 11_us));
-  EXPECT_EQ(all.concluded().verdict(), Verdict::undecided);
+  EXPECT_EQ(all.concluded().verdict(), Conclusion::undecided);
   add(Case(12_us, 13_us));
-  EXPECT_EQ(all.concluded().verdict(), Verdict::refuted);
+  EXPECT_EQ(all.concluded().verdict(), Conclusion::refuted);
   add(Case(12_us, 9_us));
-  EXPECT_EQ(all.concluded().verdict(), Verdict::contradiction);
+  EXPECT_EQ(all.concluded().verdict(), Conclusion::contradiction);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include "analysis/bounds.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "tests/verify/support.hpp"
-#include "verify/sandwich.hpp"
+#include "verify/verification.hpp"
 
 namespace takt::verify {
 namespace {
@@ -22,7 +22,7 @@ Verification verified(const std::string& requirements, const std::string& more =
   return verify(*scenario, small());
 }
 
-void expect_verdicts(const Verification& found, const std::vector<Verdict>& expected) {
+void expect_verdicts(const Verification& found, const std::vector<Conclusion>& expected) {
   ASSERT_EQ(found.lines.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(found.lines[i].verdict, expected[i]) << found.lines[i].requirement.text << ": " << found.lines[i].reason;
   EXPECT_FALSE(found.contradiction) << found.contradiction->text;
@@ -32,7 +32,7 @@ void expect_verdicts(const Verification& found, const std::vector<Verdict>& expe
 TEST(Figures, LatenciesHaveTheBoundOfTheStream) {
   const Verification found = verified(R"({"stream": "urgent", "latency": "20us"}, {"figure": "latency.urgent.max", "at_most": "20us"}, {"figure": "/streams/urgent/latency_ps/p99", "at_most": "20us"},
     {"figure": "latency.urgent.max", "at_most": "14us"}, {"figure": "latency.max", "at_most": "1ms"}, {"figure": "latency.mean", "at_most": "1ms", "after": "5ms"})");
-  expect_verdicts(found, {Verdict::pass, Verdict::pass, Verdict::pass, Verdict::refuted, Verdict::pass, Verdict::pass});
+  expect_verdicts(found, {Conclusion::pass, Conclusion::pass, Conclusion::pass, Conclusion::refuted, Conclusion::pass, Conclusion::pass});
   EXPECT_EQ(found.lines[1].bound, found.lines[0].bound);
   EXPECT_EQ(found.lines[1].adversarial, found.lines[0].adversarial);   // searched as well as the latency is
 }
@@ -43,27 +43,27 @@ TEST(Figures, AreBoundedFromBelow) {
   const std::string least = std::to_string(latency.lines[0].simulated->ps());
   const std::string more = std::to_string(latency.lines[0].simulated->ps() + 1);
   expect_verdicts(verified(R"({"figure": "latency.urgent.min", "at_least": ")" + least + R"(ps"}, {"figure": "latency.urgent.min", "at_least": ")" + more + R"(ps"},
-    {"figure": "latency.urgent.mean", "equal": "15us", "within": "15us"})"), {Verdict::pass, Verdict::refuted, Verdict::pass});
+    {"figure": "latency.urgent.mean", "equal": "15us", "within": "15us"})"), {Conclusion::pass, Conclusion::refuted, Conclusion::pass});
 }
 
 // 20 frames of each in 20 ms, of which the last comes early enough: 20, not 21; and none more than 21.
 TEST(Figures, DeliveredAndLostFrames) {
   const Verification found = verified(R"({"figure": "delivered", "at_least": 40}, {"figure": "/streams/urgent/delivered", "at_least": 20}, {"figure": "/streams/urgent/delivered", "at_least": 21},
     {"figure": "/streams/urgent/delivered", "at_most": 21}, {"figure": "lost", "at_most": 0}, {"figure": "dropped", "at_most": 0}, {"figure": "/streams/bulk/dropped/queue_frames", "at_most": 0})");
-  expect_verdicts(found, {Verdict::pass, Verdict::pass, Verdict::refuted, Verdict::pass, Verdict::pass, Verdict::pass, Verdict::pass});
-  EXPECT_EQ(found.verdict(), Verdict::refuted);
+  expect_verdicts(found, {Conclusion::pass, Conclusion::pass, Conclusion::refuted, Conclusion::pass, Conclusion::pass, Conclusion::pass, Conclusion::pass});
+  EXPECT_EQ(found.verdict(), Conclusion::refuted);
 }
 
 // One frame waits at the switch's port while the other is sent.
 TEST(Figures, QueuesAndTheGraph) {
   expect_verdicts(verified(R"({"figure": "queue", "at_most": 2}, {"figure": "topology.switches", "equal": 1}, {"figure": "topology.links", "at_least": 1})"),
-                  {Verdict::pass, Verdict::pass, Verdict::refuted});
+                  {Conclusion::pass, Conclusion::pass, Conclusion::refuted});
 }
 
 // What takt cannot bound says so, and leaves the others alone.
 TEST(Figures, WithoutABoundHaveThatAsTheReason) {
   const Verification found = verified(R"({"figure": "events", "at_least": 1}, {"figure": "utilisation", "at_most": 1}, {"stream": "urgent", "latency": "20us"})");
-  expect_verdicts(found, {Verdict::undecided, Verdict::undecided, Verdict::pass});
+  expect_verdicts(found, {Conclusion::undecided, Conclusion::undecided, Conclusion::pass});
   EXPECT_EQ(found.lines[0].reason, "takt has no bound for how many events a run has");
   EXPECT_EQ(found.lines[1].reason, "takt has no bound for this figure of ports");
 }
@@ -72,7 +72,7 @@ TEST(Figures, WithoutABoundHaveThatAsTheReason) {
 TEST(Figures, LossesTakeTheBoundsAway) {
   const Verification found = verified(R"({"figure": "/streams/urgent/delivered", "at_least": 10}, {"figure": "lost", "at_most": 3}, {"figure": "latency.urgent.max", "at_most": "20us"})",
                                       R"("faults": [{"kind": "link-down", "link": ["a", "sw"], "at": "5ms", "for": "2ms"}], )");
-  expect_verdicts(found, {Verdict::undecided, Verdict::undecided, Verdict::pass});
+  expect_verdicts(found, {Conclusion::undecided, Conclusion::undecided, Conclusion::pass});
   EXPECT_NE(found.lines[1].reason.find("goes down"), std::string::npos) << found.lines[1].reason;
 }
 
@@ -87,7 +87,7 @@ TEST(Figures, OfPrograms) {
                 {"figure": "reaction.halt.count", "at_least": 1}]})", "test", {}, diagnostics);
   ASSERT_TRUE(resolved) << diagnostics.to_text();
   const Verification found = verify(*resolved, small());
-  expect_verdicts(found, {Verdict::pass, Verdict::pass, Verdict::refuted, Verdict::pass, Verdict::undecided, Verdict::pass});
+  expect_verdicts(found, {Conclusion::pass, Conclusion::pass, Conclusion::refuted, Conclusion::pass, Conclusion::undecided, Conclusion::pass});
   EXPECT_EQ(found.lines[1].bound, found.lines[0].bound);
   EXPECT_EQ(found.lines[1].adversarial, found.lines[0].adversarial);
   EXPECT_EQ(found.lines[4].reason, "takt has no bound for this figure of Programs");

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "scenario/resolve/resolve.hpp"
-#include "verify/sandwich.hpp"
+#include "verify/verification.hpp"
 
 namespace takt::verify {
 

@@ -58,16 +58,16 @@ TEST(ProgramFormat, OctetsOfARobustState) {
   expected.insert(expected.end(), fields.begin(), fields.end());
   EXPECT_EQ(numbers(format.encode(sample(), buffer)), expected);
   EXPECT_EQ(expected.size(), 42u);
-  EXPECT_EQ(state_octets(handshake::Variant::Robust), 42u);
+  EXPECT_EQ(state_octets(handshake::Variant::robust), 42u);
 }
 
 TEST(ProgramFormat, OctetsOfAStateOfPaper) {
-  const ProgramFormat format(shape(handshake::Variant::Paper));
+  const ProgramFormat format(shape(handshake::Variant::paper));
   Buffer buffer;
   std::vector<unsigned> expected = head(format.group_version(), 0x0102, 1, 0xBEEF);
   expected.insert(expected.end(), {14, 0, 0, 0});
   EXPECT_EQ(numbers(format.encode(sample(), buffer)), expected);
-  EXPECT_EQ(expected.size(), state_octets(handshake::Variant::Paper));
+  EXPECT_EQ(expected.size(), state_octets(handshake::Variant::paper));
 }
 
 TEST(ProgramFormat, OctetsOfProcessData) {
@@ -86,12 +86,12 @@ TEST(ProgramFormat, TheGeneralDecoderAgrees) {
   const ProgramFormat format(shape());
   Buffer buffer;
   uadp::NetworkMessage message;
-  ASSERT_EQ(uadp::decode(format.encode(sound(), buffer), message), uadp::Verdict::ok);
+  ASSERT_EQ(uadp::decode(format.encode(sound(), buffer), message), uadp::DecodeStatus::ok);
   EXPECT_EQ(message.header.publisher_id, uadp::PublisherId::uint16(0x0102));
   EXPECT_EQ(message.header.group, (uadp::GroupHeader{std::uint16_t{1}, format.group_version(), std::uint16_t{1}, std::uint16_t{0xBEEF}}));
   EXPECT_EQ(message.payload_offset, 15u);
   uadp::DataSetMessage data_set;
-  ASSERT_EQ(uadp::decode(message.payload, data_set), uadp::Verdict::ok);
+  ASSERT_EQ(uadp::decode(message.payload, data_set), uadp::DecodeStatus::ok);
   EXPECT_EQ(data_set.header.encoding, uadp::FieldEncoding::RawData);
   EXPECT_EQ(data_set.header.sequence_number, std::uint16_t{0xBEEF});
   EXPECT_EQ(message.payload_offset + data_set.body_offset, fields_at);
@@ -113,7 +113,7 @@ TEST(ProgramFormat, EveryStateAndIntentMakesTheRoundTrip) {
         if (message.word.state == handshake::PublishedState::Halted || message.word.state == handshake::PublishedState::HaltedInit) message.word.run = 0;
         if (message.word.intent.kind == handshake::IntentKind::Halt) message.word.intent.run = 0;
         const auto decoded = format.decode(format.encode(message, buffer));
-        ASSERT_EQ(decoded.has_value(), handshake::is_valid(message.word, handshake::Variant::Robust, 2));
+        ASSERT_EQ(decoded.has_value(), handshake::is_valid(message.word, handshake::Variant::robust, 2));
         if (!decoded) continue;
         ++taken;
         EXPECT_EQ(std::get<StateMessage>(*decoded), message);
@@ -124,7 +124,7 @@ TEST(ProgramFormat, EveryStateAndIntentMakesTheRoundTrip) {
 }
 
 TEST(ProgramFormat, PaperKeepsTheStateAlone) {
-  const ProgramFormat format(shape(handshake::Variant::Paper));
+  const ProgramFormat format(shape(handshake::Variant::paper));
   Buffer buffer;
   const auto decoded = format.decode(format.encode(sound(), buffer));
   ASSERT_TRUE(decoded);
@@ -198,7 +198,7 @@ TEST(ProgramFormat, BadMessagesAreNone) {
 TEST(ProgramFormat, AnOriginOutsideTheGroupIsNone) {
   ProgramShape two;
   two.name = "cell";
-  two.variant = handshake::Variant::Robust;
+  two.variant = handshake::Variant::robust;
   two.participants = {"plc", "left"};
   two.first_publisher_id = 0x0102 - 1;
   const ProgramFormat format(two);
@@ -245,7 +245,7 @@ TEST(ProgramFormat, GarbageIsBounded) {
     if (!message) continue;
     ++taken;
     const auto* const state = std::get_if<StateMessage>(&*message);
-    EXPECT_TRUE(state == nullptr || handshake::is_valid(state->word, handshake::Variant::Robust, 2));
+    EXPECT_TRUE(state == nullptr || handshake::is_valid(state->word, handshake::Variant::robust, 2));
   }
   EXPECT_GT(taken, 0u);
 }

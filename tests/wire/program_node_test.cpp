@@ -71,7 +71,7 @@ TEST_F(Endpoint, DropsWhatIsNotForIt) {
   EXPECT_EQ(slave.counts().unsubscribed, 2u);
   EXPECT_EQ(slave.counts().taken, 0u);
   EndpointSettings hears_all = settings(1, format);
-  hears_all.handshake.subscription = handshake::Subscription::AllToAll;
+  hears_all.handshake.subscription = handshake::Subscription::all_to_all;
   Bench other(hears_all);
   other.receive(state(2, 0));
   EXPECT_EQ(other.counts().taken, 1u);
@@ -124,7 +124,7 @@ TEST_F(Endpoint, ForgetsInACrash) {
 
 /// Two endpoints, each message of one handed to the other at once.
 struct Pair : ::testing::Test {
-  std::shared_ptr<const ProgramFormat> format = std::make_shared<const ProgramFormat>(shape(Variant::Robust, 1));
+  std::shared_ptr<const ProgramFormat> format = std::make_shared<const ProgramFormat>(shape(Variant::robust, 1));
   Bench master{settings(0, format)};
   Bench slave{settings(1, format)};
 

@@ -25,7 +25,7 @@ TEST(ProgramShape, WhateverDiffersShows) {
   };
   add([](ProgramShape&) {});
   add([](ProgramShape& s) { s.name = "q"; });
-  add([](ProgramShape& s) { s.variant = handshake::Variant::Paper; });
+  add([](ProgramShape& s) { s.variant = handshake::Variant::paper; });
   add([](ProgramShape& s) { s.participants[1] = "other"; });
   add([](ProgramShape& s) { s.participants.emplace_back("more"); });
   add([](ProgramShape& s) { s.data_sets[0].name = "other"; });

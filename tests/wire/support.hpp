@@ -14,7 +14,7 @@ using handshake::PublishedState;
 using handshake::Variant;
 
 /// A master and `slaves` slaves; the master sends a Double and a UInt16, slave 1 a Byte.
-inline ProgramShape shape(Variant variant = Variant::Robust, std::size_t slaves = 2) {
+inline ProgramShape shape(Variant variant = Variant::robust, std::size_t slaves = 2) {
   ProgramShape made;
   made.name = "p";
   made.variant = variant;
@@ -72,7 +72,7 @@ struct Bench {
 inline EndpointSettings settings(std::uint8_t index, std::shared_ptr<const ProgramFormat> format) {
   EndpointSettings made;
   made.handshake.variant = format->shape().variant;
-  made.handshake.role = index == 0 ? handshake::Role::Master : handshake::Role::Slave;
+  made.handshake.role = index == 0 ? handshake::Role::master : handshake::Role::slave;
   made.handshake.index = index;
   made.handshake.slaves = static_cast<std::uint8_t>(format->participants() - 1);
   made.handshake.incarnation = 7;

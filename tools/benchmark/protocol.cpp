@@ -91,7 +91,7 @@ int run_uadp(long rounds) {
 
 handshake::Config config(std::size_t index, std::size_t slaves) {
   handshake::Config made;
-  made.role = index == 0 ? handshake::Role::Master : handshake::Role::Slave;
+  made.role = index == 0 ? handshake::Role::master : handshake::Role::slave;
   made.index = static_cast<std::uint8_t>(index);
   made.slaves = static_cast<std::uint8_t>(slaves);
   made.incarnation = 7;

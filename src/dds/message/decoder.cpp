@@ -16,13 +16,13 @@ constexpr std::size_t header_size = 20;
 
 bool has(unsigned octet, unsigned flag) { return (octet & flag) != 0; }
 /// What the reader met so far.
-Verdict verdict_of(const Reader& reader) { return reader.failed() ? Verdict::truncated : Verdict::ok; }
+MessageStatus verdict_of(const Reader& reader) { return reader.failed() ? MessageStatus::truncated : MessageStatus::ok; }
 bool is_number(SequenceNumber number) { return number >= first_sequence_number && number <= greatest_sequence_number; }
 
 /// Inline QoS; what is not known is passed over, unless it must be understood.
-Verdict get_inline_qos(Reader& reader, InlineQos& qos) {
+MessageStatus get_inline_qos(Reader& reader, InlineQos& qos) {
   ParameterReader list(reader);
-  Verdict verdict = Verdict::ok;
+  MessageStatus verdict = MessageStatus::ok;
   while (const auto parameter = list.next()) {
     if (parameter->is(ParameterId::status_info) && parameter->value.size() >= 4) {
       qos.status_info = load<std::uint32_t>(parameter->value.data(), ByteOrder::big);
@@ -35,10 +35,10 @@ Verdict get_inline_qos(Reader& reader, InlineQos& qos) {
       const SequenceNumber number = get_sequence_number(info);
       if (is_number(number)) qos.original_writer = {writer, number};
     } else if (parameter->must_be_understood()) {
-      verdict = Verdict::unknown;
+      verdict = MessageStatus::unknown;
     }
   }
-  return reader.failed() ? Verdict::malformed : verdict;
+  return reader.failed() ? MessageStatus::malformed : verdict;
 }
 
 /// Begins DATA and DATA_FRAG: what stands before the inline QoS.
@@ -54,47 +54,47 @@ std::size_t get_sample_header(Reader& reader, Sample& sample) {
 }
 
 /// A later minor version may put more before the inline QoS.
-Verdict pass_to(Reader& reader, std::size_t position) {
-  if (reader.failed()) return Verdict::truncated;
-  if (position < reader.position()) return Verdict::malformed;
+MessageStatus pass_to(Reader& reader, std::size_t position) {
+  if (reader.failed()) return MessageStatus::truncated;
+  if (position < reader.position()) return MessageStatus::malformed;
   reader.take(position - reader.position());
   return verdict_of(reader);
 }
 
-Verdict get_data(Reader& reader, unsigned flag, Data& data) {
+MessageStatus get_data(Reader& reader, unsigned flag, Data& data) {
   const std::size_t inline_qos_at = get_sample_header(reader, data);
-  if (const Verdict verdict = pass_to(reader, inline_qos_at); verdict != Verdict::ok) return verdict;
-  if (!is_number(data.sequence_number) || (has(flag, flags::data_data) && has(flag, flags::data_key))) return Verdict::malformed;
+  if (const MessageStatus verdict = pass_to(reader, inline_qos_at); verdict != MessageStatus::ok) return verdict;
+  if (!is_number(data.sequence_number) || (has(flag, flags::data_data) && has(flag, flags::data_key))) return MessageStatus::malformed;
   if (has(flag, flags::data_inline_qos)) {
-    if (const Verdict verdict = get_inline_qos(reader, data.inline_qos); verdict != Verdict::ok) return verdict;
+    if (const MessageStatus verdict = get_inline_qos(reader, data.inline_qos); verdict != MessageStatus::ok) return verdict;
   }
-  if (has(flag, flags::data_not_standard)) return Verdict::unknown;
+  if (has(flag, flags::data_not_standard)) return MessageStatus::unknown;
   data.payload_kind = has(flag, flags::data_data) ? PayloadKind::data : has(flag, flags::data_key) ? PayloadKind::key : PayloadKind::none;
-  if (data.payload_kind == PayloadKind::none) return Verdict::ok;
+  if (data.payload_kind == PayloadKind::none) return MessageStatus::ok;
   data.payload = reader.rest();
-  return data.payload.size() < 4 ? Verdict::malformed : Verdict::ok;
+  return data.payload.size() < 4 ? MessageStatus::malformed : MessageStatus::ok;
 }
 
-Verdict get_data_frag(Reader& reader, unsigned flag, DataFrag& data) {
+MessageStatus get_data_frag(Reader& reader, unsigned flag, DataFrag& data) {
   const std::size_t inline_qos_at = get_sample_header(reader, data);
   data.first_fragment = {reader.get<std::uint32_t>()};
   data.fragment_count = reader.get<std::uint16_t>();
   data.fragment_size = reader.get<std::uint16_t>();
   data.sample_size = reader.get<std::uint32_t>();
-  if (const Verdict verdict = pass_to(reader, inline_qos_at); verdict != Verdict::ok) return verdict;
-  if (!is_number(data.sequence_number) || data.first_fragment.value == 0 || data.fragment_count == 0 || data.fragment_size == 0) return Verdict::malformed;
+  if (const MessageStatus verdict = pass_to(reader, inline_qos_at); verdict != MessageStatus::ok) return verdict;
+  if (!is_number(data.sequence_number) || data.first_fragment.value == 0 || data.fragment_count == 0 || data.fragment_size == 0) return MessageStatus::malformed;
   const std::uint64_t last = std::uint64_t{data.first_fragment.value} + data.fragment_count - 1;
-  if (last > fragment_count(data.sample_size, data.fragment_size)) return Verdict::malformed;
+  if (last > fragment_count(data.sample_size, data.fragment_size)) return MessageStatus::malformed;
   if (has(flag, flags::frag_inline_qos)) {
-    if (const Verdict verdict = get_inline_qos(reader, data.inline_qos); verdict != Verdict::ok) return verdict;
+    if (const MessageStatus verdict = get_inline_qos(reader, data.inline_qos); verdict != MessageStatus::ok) return verdict;
   }
-  if (has(flag, flags::frag_not_standard)) return Verdict::unknown;
+  if (has(flag, flags::frag_not_standard)) return MessageStatus::unknown;
   data.payload_kind = has(flag, flags::frag_key) ? PayloadKind::key : PayloadKind::data;
   data.payload = reader.take(range_of(data.first_fragment, data.fragment_count, data.fragment_size, data.sample_size).size);
   return verdict_of(reader);
 }
 
-Verdict get_heartbeat(Reader& reader, unsigned flag, Heartbeat& heartbeat) {
+MessageStatus get_heartbeat(Reader& reader, unsigned flag, Heartbeat& heartbeat) {
   heartbeat.reader = get_entity_id(reader);
   heartbeat.writer = get_entity_id(reader);
   heartbeat.first = get_sequence_number(reader);
@@ -102,75 +102,75 @@ Verdict get_heartbeat(Reader& reader, unsigned flag, Heartbeat& heartbeat) {
   heartbeat.count = reader.get<std::uint32_t>();
   heartbeat.is_final = has(flag, flags::final_);
   heartbeat.is_liveliness = has(flag, flags::liveliness);
-  if (reader.failed()) return Verdict::truncated;
+  if (reader.failed()) return MessageStatus::truncated;
   const bool is_sound = is_number(heartbeat.first) && heartbeat.last <= greatest_sequence_number && heartbeat.last >= heartbeat.first.previous();
-  return is_sound ? Verdict::ok : Verdict::malformed;
+  return is_sound ? MessageStatus::ok : MessageStatus::malformed;
 }
 
-Verdict get_heartbeat_frag(Reader& reader, unsigned, HeartbeatFrag& heartbeat) {
+MessageStatus get_heartbeat_frag(Reader& reader, unsigned, HeartbeatFrag& heartbeat) {
   heartbeat.reader = get_entity_id(reader);
   heartbeat.writer = get_entity_id(reader);
   heartbeat.sequence_number = get_sequence_number(reader);
   heartbeat.last_fragment = {reader.get<std::uint32_t>()};
   heartbeat.count = reader.get<std::uint32_t>();
-  if (reader.failed()) return Verdict::truncated;
-  return is_number(heartbeat.sequence_number) && heartbeat.last_fragment.value != 0 ? Verdict::ok : Verdict::malformed;
+  if (reader.failed()) return MessageStatus::truncated;
+  return is_number(heartbeat.sequence_number) && heartbeat.last_fragment.value != 0 ? MessageStatus::ok : MessageStatus::malformed;
 }
 
 /// numBits and the bitmap behind a base.
 template <class N>
-Verdict get_set(Reader& reader, N base, NumberSet<N>& set) {
+MessageStatus get_set(Reader& reader, N base, NumberSet<N>& set) {
   const auto bits = reader.get<std::uint32_t>();
-  if (reader.failed()) return Verdict::truncated;
-  if (bits > NumberSet<N>::most_bits) return Verdict::malformed;
+  if (reader.failed()) return MessageStatus::truncated;
+  if (bits > NumberSet<N>::most_bits) return MessageStatus::malformed;
   std::array<std::uint32_t, 8> words{};
   for (std::size_t i = 0; i < (bits + 31) / 32; ++i) words[i] = reader.get<std::uint32_t>();
   set = NumberSet<N>(base, bits, words);
   return verdict_of(reader);
 }
 
-Verdict get_sequence_number_set(Reader& reader, SequenceNumberSet& set) {
+MessageStatus get_sequence_number_set(Reader& reader, SequenceNumberSet& set) {
   const SequenceNumber base = get_sequence_number(reader);
-  if (const Verdict verdict = get_set(reader, base, set); verdict != Verdict::ok) return verdict;
+  if (const MessageStatus verdict = get_set(reader, base, set); verdict != MessageStatus::ok) return verdict;
   // Base 0 without bits is how some say "I have nothing".
-  return is_number(base) || (base.value == 0 && set.bit_count() == 0) ? Verdict::ok : Verdict::malformed;
+  return is_number(base) || (base.value == 0 && set.bit_count() == 0) ? MessageStatus::ok : MessageStatus::malformed;
 }
 
-Verdict get_ack_nack(Reader& reader, unsigned flag, AckNack& ack) {
+MessageStatus get_ack_nack(Reader& reader, unsigned flag, AckNack& ack) {
   ack.reader = get_entity_id(reader);
   ack.writer = get_entity_id(reader);
-  if (const Verdict verdict = get_sequence_number_set(reader, ack.missing); verdict != Verdict::ok) return verdict;
+  if (const MessageStatus verdict = get_sequence_number_set(reader, ack.missing); verdict != MessageStatus::ok) return verdict;
   ack.count = reader.get<std::uint32_t>();
   ack.is_final = has(flag, flags::final_);
   return verdict_of(reader);
 }
 
-Verdict get_nack_frag(Reader& reader, unsigned, NackFrag& nack) {
+MessageStatus get_nack_frag(Reader& reader, unsigned, NackFrag& nack) {
   nack.reader = get_entity_id(reader);
   nack.writer = get_entity_id(reader);
   nack.sequence_number = get_sequence_number(reader);
   const FragmentNumber base{reader.get<std::uint32_t>()};
-  if (const Verdict verdict = get_set(reader, base, nack.missing); verdict != Verdict::ok) return verdict;
+  if (const MessageStatus verdict = get_set(reader, base, nack.missing); verdict != MessageStatus::ok) return verdict;
   nack.count = reader.get<std::uint32_t>();
-  if (reader.failed()) return Verdict::truncated;
+  if (reader.failed()) return MessageStatus::truncated;
   const bool is_sound = is_number(nack.sequence_number) && base.value != 0 && base.value <= 0xFFFF'FFFFU - FragmentNumberSet::most_bits;
-  return is_sound ? Verdict::ok : Verdict::malformed;
+  return is_sound ? MessageStatus::ok : MessageStatus::malformed;
 }
 
-Verdict get_gap(Reader& reader, unsigned, Gap& gap) {
+MessageStatus get_gap(Reader& reader, unsigned, Gap& gap) {
   gap.reader = get_entity_id(reader);
   gap.writer = get_entity_id(reader);
   gap.start = get_sequence_number(reader);
-  if (const Verdict verdict = get_sequence_number_set(reader, gap.list); verdict != Verdict::ok) return verdict;
-  return is_number(gap.start) && gap.list.base() >= gap.start ? Verdict::ok : Verdict::malformed;
+  if (const MessageStatus verdict = get_sequence_number_set(reader, gap.list); verdict != MessageStatus::ok) return verdict;
+  return is_number(gap.start) && gap.list.base() >= gap.start ? MessageStatus::ok : MessageStatus::malformed;
 }
 
-Verdict get_info_timestamp(Reader& reader, unsigned flag, InfoTimestamp& info) {
+MessageStatus get_info_timestamp(Reader& reader, unsigned flag, InfoTimestamp& info) {
   if (!has(flag, flags::timestamp_invalid)) info.time = get_time(reader);
   return verdict_of(reader);
 }
 
-Verdict get_info_source(Reader& reader, unsigned, InfoSource& info) {
+MessageStatus get_info_source(Reader& reader, unsigned, InfoSource& info) {
   reader.get<std::uint32_t>();  // unused
   info.version = get_protocol_version(reader);
   info.vendor = get_vendor_id(reader);
@@ -178,25 +178,25 @@ Verdict get_info_source(Reader& reader, unsigned, InfoSource& info) {
   return verdict_of(reader);
 }
 
-Verdict get_info_destination(Reader& reader, unsigned, InfoDestination& info) {
+MessageStatus get_info_destination(Reader& reader, unsigned, InfoDestination& info) {
   info.prefix = get_guid_prefix(reader);
   return verdict_of(reader);
 }
 
-Verdict get_locators(Reader& reader, std::vector<Locator>& locators) {
+MessageStatus get_locators(Reader& reader, std::vector<Locator>& locators) {
   const auto count = reader.get<std::uint32_t>();
-  if (reader.failed() || count > reader.left() / locator_size) return Verdict::truncated;
+  if (reader.failed() || count > reader.left() / locator_size) return MessageStatus::truncated;
   for (std::uint32_t i = 0; i < count; ++i) locators.push_back(get_locator(reader));
-  return Verdict::ok;
+  return MessageStatus::ok;
 }
 
-Verdict get_info_reply(Reader& reader, unsigned flag, InfoReply& info) {
-  if (const Verdict verdict = get_locators(reader, info.unicast); verdict != Verdict::ok) return verdict;
-  return has(flag, flags::multicast_reply) ? get_locators(reader, info.multicast.emplace()) : Verdict::ok;
+MessageStatus get_info_reply(Reader& reader, unsigned flag, InfoReply& info) {
+  if (const MessageStatus verdict = get_locators(reader, info.unicast); verdict != MessageStatus::ok) return verdict;
+  return has(flag, flags::multicast_reply) ? get_locators(reader, info.multicast.emplace()) : MessageStatus::ok;
 }
 
 /// The older form for UDP over IPv4 (8.3.7.8): told as the newer one.
-Verdict get_info_reply_ip4(Reader& reader, unsigned flag, InfoReply& info) {
+MessageStatus get_info_reply_ip4(Reader& reader, unsigned flag, InfoReply& info) {
   const auto get = [&] {
     const auto ip = reader.get<std::uint32_t>();
     return Locator::udp_v4(ip, reader.get<std::uint32_t>());
@@ -206,17 +206,17 @@ Verdict get_info_reply_ip4(Reader& reader, unsigned flag, InfoReply& info) {
   return verdict_of(reader);
 }
 
-Verdict get_pad(Reader&, unsigned, Pad&) { return Verdict::ok; }
+MessageStatus get_pad(Reader&, unsigned, Pad&) { return MessageStatus::ok; }
 
-template <class T, Verdict (*Get)(Reader&, unsigned, T&)>
-Verdict get_as(Reader& reader, unsigned flag, Submessage& submessage) {
+template <class T, MessageStatus (*Get)(Reader&, unsigned, T&)>
+MessageStatus get_as(Reader& reader, unsigned flag, Submessage& submessage) {
   return Get(reader, flag, submessage.emplace<T>());
 }
 
 struct Kind {
   SubmessageKind kind;
   std::string_view name;
-  Verdict (*get)(Reader&, unsigned, Submessage&);
+  MessageStatus (*get)(Reader&, unsigned, Submessage&);
 };
 
 constexpr std::array<Kind, 13> kinds{{
@@ -249,11 +249,11 @@ bool may_be_empty(unsigned id) { return id == static_cast<unsigned>(SubmessageKi
 
 MessageDecoder::MessageDecoder(Octets message) {
   if (message.size() < magic.size() || !std::equal(magic.begin(), magic.end(), message.begin())) {
-    verdict_ = message.size() < magic.size() ? Verdict::truncated : Verdict::not_rtps;
+    verdict_ = message.size() < magic.size() ? MessageStatus::truncated : MessageStatus::not_rtps;
     return;
   }
   if (message.size() < header_size) {
-    verdict_ = Verdict::truncated;
+    verdict_ = MessageStatus::truncated;
     return;
   }
   Reader reader(message.subspan(magic.size()), ByteOrder::big);
@@ -261,14 +261,14 @@ MessageDecoder::MessageDecoder(Octets message) {
   header_.vendor = get_vendor_id(reader);
   header_.prefix = get_guid_prefix(reader);
   if (header_.version.major != 2) {
-    verdict_ = Verdict::version;
+    verdict_ = MessageStatus::version;
     return;
   }
   interpretation_ = {header_.version, header_.vendor, header_.prefix, {}, {}, {}};
   rest_ = reader.rest();
 }
 
-bool MessageDecoder::stop(Verdict verdict) {
+bool MessageDecoder::stop(MessageStatus verdict) {
   verdict_ = verdict;
   rest_ = {};
   return false;
@@ -276,30 +276,30 @@ bool MessageDecoder::stop(Verdict verdict) {
 
 bool MessageDecoder::next() {
   while (!rest_.empty()) {
-    if (rest_.size() < 4) return stop(Verdict::truncated);
+    if (rest_.size() < 4) return stop(MessageStatus::truncated);
     const auto id = std::to_integer<unsigned>(rest_[0]);
     const auto flag = std::to_integer<unsigned>(rest_[1]);
     const ByteOrder order = has(flag, flags::little_endian) ? ByteOrder::little : ByteOrder::big;
     std::size_t length = load<std::uint16_t>(rest_.data() + 2, order);
-    if (is_security(id)) return stop(Verdict::secured);
+    if (is_security(id)) return stop(MessageStatus::secured);
     if (length == 0 && !may_be_empty(id)) length = rest_.size() - 4;
-    if (length > rest_.size() - 4) return stop(Verdict::truncated);
+    if (length > rest_.size() - 4) return stop(MessageStatus::truncated);
     const Octets content = rest_.subspan(4, length);
     size_ = 4 + length;
     rest_ = rest_.subspan(size_);
-    if (size_ % 4 != 0 && !rest_.empty()) return stop(Verdict::malformed);
+    if (size_ % 4 != 0 && !rest_.empty()) return stop(MessageStatus::malformed);
     const Kind* const kind = find_kind(id);
     if (kind == nullptr) {
       ++skipped_;
       continue;
     }
     Reader reader(content, order);
-    const Verdict verdict = kind->get(reader, flag, submessage_);
-    if (verdict == Verdict::unknown) {
+    const MessageStatus verdict = kind->get(reader, flag, submessage_);
+    if (verdict == MessageStatus::unknown) {
       ++skipped_;
       continue;
     }
-    if (verdict != Verdict::ok) return stop(verdict);
+    if (verdict != MessageStatus::ok) return stop(verdict);
     kind_ = kind->kind;
     interpret();
     return true;

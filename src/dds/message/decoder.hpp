@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "dds/message/submessage.hpp"
-#include "dds/message/verdict.hpp"
+#include "dds/message/message_status.hpp"
 
 namespace takt::dds {
 
@@ -27,7 +27,7 @@ class MessageDecoder {
   bool next();
 
   /// `ok` as long as nothing is wrong. Before the first next(): of the header.
-  Verdict verdict() const { return verdict_; }
+  MessageStatus verdict() const { return verdict_; }
   /// Submessages of unknown kinds that were passed over.
   std::uint64_t skipped() const { return skipped_; }
   const MessageHeader& header() const { return header_; }
@@ -38,7 +38,7 @@ class MessageDecoder {
   const Interpretation& interpretation() const { return interpretation_; }
 
  private:
-  bool stop(Verdict verdict);
+  bool stop(MessageStatus verdict);
   void interpret();
 
   Octets rest_;
@@ -48,7 +48,7 @@ class MessageDecoder {
   SubmessageKind kind_ = SubmessageKind::pad;
   std::size_t size_ = 0;
   std::uint64_t skipped_ = 0;
-  Verdict verdict_ = Verdict::ok;
+  MessageStatus verdict_ = MessageStatus::ok;
 };
 
 /// "DATA", "HEARTBEAT" ... as the standard writes them; "unknown" for what it does not know.

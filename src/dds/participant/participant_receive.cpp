@@ -38,7 +38,7 @@ void Participant::to_writer(const Submessage& submessage, const GuidPrefix& sour
 void Participant::receive(Octets message, const Locator&, sim::LocalTime now) {
   // What was sent to a group comes back; one's own readers have had it.
   const MessageDecoder head(message);
-  if (head.verdict() == Verdict::ok && head.header().prefix == config_.prefix) return;
+  if (head.verdict() == MessageStatus::ok && head.header().prefix == config_.prefix) return;
   Figures& figures = outbox_.figures();
   ++figures.messages_received;
   figures.octets_received += message.size();

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "dds/message/submessage.hpp"
-#include "dds/message/verdict.hpp"
+#include "dds/message/message_status.hpp"
 
 namespace takt::dds {
 
@@ -25,7 +25,7 @@ struct Figures {
   std::uint64_t octets_sent = 0;      ///< of RTPS messages
   std::uint64_t octets_received = 0;
   std::uint64_t resent = 0;           ///< samples or fragments sent again because a reader asked
-  VerdictCounts verdicts;             ///< of messages received
+  MessageStatusCounts verdicts;             ///< of messages received
 };
 
 }  // namespace takt::dds

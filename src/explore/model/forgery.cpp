@@ -67,7 +67,7 @@ class Forger {
   }
   /// With another incarnation the sequence number says nothing: the true one's next word is a first one again.
   void add(Word word) {
-    if (!handshake::is_valid(word, Variant::Robust, slaves_)) return;
+    if (!handshake::is_valid(word, Variant::robust, slaves_)) return;
     letters_.push_back({word, false});
     letters_.push_back({word, true});
     word.incarnation = stranger;

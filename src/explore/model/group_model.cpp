@@ -18,10 +18,10 @@ using program::Method;
 GroupModel::GroupModel(const Query& query)
     : query_(query), wiring_(query), shape_(query, wiring_.size()), renamings_(query.slaves, query.symmetry), members_(query_, renamings_),
       contents_(members_, renamings_), group_(query.slaves + 1U) {
-  const bool is_star = query.subscription == handshake::Subscription::Star;
+  const bool is_star = query.subscription == handshake::Subscription::star;
   TAKT_CHECK(query.slaves >= 1 && query.slaves <= (is_star ? most_slaves : most_slaves_all_to_all), "a group to explore is small");
   TAKT_CHECK(query.commands <= most_commands && query.fault_budget <= most_faults, "budgets are small");
-  TAKT_CHECK(query.variant == Variant::Robust || !query.faults.contains(Fault::forge), "the words of paper say too little to forge much");
+  TAKT_CHECK(query.variant == Variant::robust || !query.faults.contains(Fault::forge), "the words of paper say too little to forge much");
   TAKT_CHECK(query.capacity >= 1 && query.capacity <= most_capacity, "channels are short");
   for (std::size_t c = 0; c < wiring_.size(); ++c)
     for (std::size_t r = 0; r < renamings_.size(); ++r)
@@ -103,7 +103,7 @@ bool GroupModel::halted_for_all(const State& state) {
   for (std::size_t c = 0; c < wiring_.size(); ++c) {
     const WordId word = members_[state.member(wiring_.sender(c))].word;
     const MemberId receiver = state.member(wiring_.receiver(c));
-    if (members_.step(receiver, {Input::Kind::Received, wiring_.peer(c), word, false}).member != receiver) return false;
+    if (members_.step(receiver, {Input::Kind::received, wiring_.peer(c), word, false}).member != receiver) return false;
   }
   return true;
 }
@@ -140,7 +140,7 @@ bool GroupModel::fault(const State& state, Action action, Next& next) {
 bool GroupModel::initialised(const State& state, std::size_t participant, Next& next) {
   if (members_[state.member(participant)].state != PublishedState::HaltedInit || is_down(state, participant)) return false;
   next = {state, {}};
-  return step(participant, {Input::Kind::Initialised}, next);
+  return step(participant, {Input::Kind::initialised}, next);
 }
 
 bool GroupModel::call(const State& state, std::size_t participant, std::size_t method, Next& next) {
@@ -148,7 +148,7 @@ bool GroupModel::call(const State& state, std::size_t participant, std::size_t m
   next = {state, {}};
   end_round(state, next);
   next.state.set_commands_left(state.commands_left() - 1);
-  step(participant, {Input::Kind::Command, static_cast<std::uint8_t>(method)}, next);
+  step(participant, {Input::Kind::command, static_cast<std::uint8_t>(method)}, next);
   return true;
 }
 
@@ -158,13 +158,13 @@ bool GroupModel::finish(const State& state, std::size_t participant, Next& next)
   next = {state, {}};
   end_round(state, next);
   next.state.set_commands_left(state.commands_left() - 1);
-  step(participant, {Input::Kind::Finished}, next);
+  step(participant, {Input::Kind::finished}, next);
   return true;
 }
 
 /// `paper`: what was asked before the group came to rest does not count any more.
 void GroupModel::end_round(const State& state, Next& next) {
-  if (query_.variant != Variant::Paper || !at_rest(state)) return;
+  if (query_.variant != Variant::paper || !at_rest(state)) return;
   SmallObserver observer = observers_[state.observer()];
   observer.at_rest();
   next.state.set_observer(intern_observer(observer));
@@ -193,7 +193,7 @@ bool GroupModel::restart(const State& state, std::size_t participant, Next& next
   const std::uint32_t incarnation = members_.incarnation(state.member(participant));
   next = {state, {}};
   // `paper` does not publish incarnations, so its lives need not be told apart.
-  next.state.set_member(participant, members_.fresh(participant, query_.variant == Variant::Paper ? incarnation : incarnation + 1));
+  next.state.set_member(participant, members_.fresh(participant, query_.variant == Variant::paper ? incarnation : incarnation + 1));
   SmallObserver observer = observers_[state.observer()];
   observer.on_restart(participant);
   next.state.set_observer(intern_observer(observer));
@@ -205,7 +205,7 @@ bool GroupModel::expire(const State& state, std::size_t participant, std::size_t
   const bool is_deaf = peer_is_down && ((members_[state.member(participant)].deaf >> peer) & 1U) != 0;
   if ((is_down(state, other) != peer_is_down && !is_deaf) || is_down(state, participant)) return false;
   next = {state, {}};
-  bool changed = step(participant, {Input::Kind::PeerSilent, static_cast<std::uint8_t>(peer)}, next);
+  bool changed = step(participant, {Input::Kind::peer_silent, static_cast<std::uint8_t>(peer)}, next);
   // Silence means that nothing of the peer is under way any more.
   if (is_down(state, other)) changed = forget_channel(wiring_.channel(other, participant), next) || changed;
   return changed || next.properties.bits != 0;
@@ -233,7 +233,7 @@ void GroupModel::watch(std::size_t participant, std::uint16_t effect, Next& next
   }
   next.state.set_observer(static_cast<std::uint32_t>(found));
   next.properties.bits |= static_cast<std::uint32_t>(found >> 32) | seen.properties.bits;
-  if (query_.variant == Variant::Paper && seen.begins_round()) outdate(participant, next);
+  if (query_.variant == Variant::paper && seen.begins_round()) outdate(participant, next);
 }
 
 std::uint32_t GroupModel::intern_observer(const SmallObserver& observer) {
@@ -283,7 +283,7 @@ bool GroupModel::settled(const State& state) const {
     if (word.state != first.state || !(word.intent == first.intent)) return false;
   }
   if (state.promised() && first.state != PublishedState::Running) return false;
-  if (query_.variant == Variant::Robust) return first.state == handshake::goal_of(first.intent.kind);
+  if (query_.variant == Variant::robust) return first.state == handshake::goal_of(first.intent.kind);
   return first.state != PublishedState::HaltedInit && observers_[state.observer()].asked(first.state);
 }
 

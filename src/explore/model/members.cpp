@@ -31,7 +31,7 @@ Members::Members(const Query& query, const Renamings& renamings) : query_(query)
 }
 
 handshake::Config Members::config(std::size_t index, std::uint32_t incarnation) const {
-  return {query_.variant, index == 0 ? handshake::Role::Master : handshake::Role::Slave, static_cast<std::uint8_t>(index),
+  return {query_.variant, index == 0 ? handshake::Role::master : handshake::Role::slave, static_cast<std::uint8_t>(index),
           query_.slaves, incarnation, query_.subscription};
 }
 
@@ -87,7 +87,7 @@ Stepped Members::step_value(MemberId member, const Stimulus& stimulus) {
   after.forget_last_transition();
   Effect effect = effect_of(before.word(), after.word(), outputs);
   effect.properties.bits |= judged(input, outputs, before.state(), after).bits;
-  effect.raised = outputs.raised && query_.variant == Variant::Paper;  // `robust` says it in the words
+  effect.raised = outputs.raised && query_.variant == Variant::paper;  // `robust` says it in the words
   if (effect.raised) effect.kind = outputs.raised_kind;
   Stepped stepped;
   stepped.member = intern(after);
@@ -100,14 +100,14 @@ Stepped Members::step_value(MemberId member, const Stimulus& stimulus) {
 
 Input input_of(Input::Kind kind, std::size_t what, const Letter& letter, bool overtaken, std::uint32_t run) {
   switch (kind) {
-    case Input::Kind::Command: return Input::command(program::methods[what].method);
-    case Input::Kind::Received: return Input::received(what, letter.word, letter.ahead ? sequence_ahead : overtaken ? overtaken_sequence : usual_sequence);
-    case Input::Kind::Initialised: return Input::initialised(run);
-    case Input::Kind::Finished: return Input::finished();
-    case Input::Kind::PeerSilent: return Input::peer_silent(what);
-    case Input::Kind::Released:
-    case Input::Kind::PeerReplaced:
-    case Input::Kind::PeerLeft: break;  // of the node itself, and of changing members
+    case Input::Kind::command: return Input::command(program::methods[what].method);
+    case Input::Kind::received: return Input::received(what, letter.word, letter.ahead ? sequence_ahead : overtaken ? overtaken_sequence : usual_sequence);
+    case Input::Kind::initialised: return Input::initialised(run);
+    case Input::Kind::finished: return Input::finished();
+    case Input::Kind::peer_silent: return Input::peer_silent(what);
+    case Input::Kind::released:
+    case Input::Kind::peer_replaced:
+    case Input::Kind::peer_left: break;  // of the node itself, and of changing members
   }
   return Input::finished();
 }
@@ -115,7 +115,7 @@ Input input_of(Input::Kind kind, std::size_t what, const Letter& letter, bool ov
 Stimulus Members::renamed_stimulus(const Stimulus& stimulus, std::size_t participant, std::size_t renaming) const {
   Stimulus result = stimulus;
   const std::array<std::uint8_t, most_participants>& to = (*renamings_)[renaming].to;
-  const bool has_peer = stimulus.kind == Input::Kind::Received || stimulus.kind == Input::Kind::PeerSilent;
+  const bool has_peer = stimulus.kind == Input::Kind::received || stimulus.kind == Input::Kind::peer_silent;
   if (has_peer) {
     const std::uint8_t other = to[peer_participant(participant, stimulus.what)];
     result.what = static_cast<std::uint8_t>(other < to[participant] ? other : other - 1);
@@ -139,17 +139,17 @@ Effect effect_of(const Word& before, const Word& after, const Outputs& outputs) 
 
 PropertySet judged(const Input& input, const Outputs& outputs, PublishedState before, const Participant& after) {
   PropertySet seen;
-  if (input.kind == Input::Kind::PeerSilent) {
+  if (input.kind == Input::Kind::peer_silent) {
     if (before != PublishedState::Halted) seen.insert(Property::silence);
     if (after.state() != PublishedState::Halted) seen.insert(Property::F1);
   }
-  const bool robust = after.config().variant == Variant::Robust;
+  const bool robust = after.config().variant == Variant::robust;
   if (robust && data_counts(input, outputs, after) && input.word.run != after.run()) seen.insert(Property::S3);
   return seen;
 }
 
 bool data_counts(const Input& input, const Outputs& outputs, const Participant& after) {
-  return input.kind == Input::Kind::Received && !outputs.ignored && input.word.state == PublishedState::Running && after.process_data_counts(input.peer);
+  return input.kind == Input::Kind::received && !outputs.ignored && input.word.state == PublishedState::Running && after.process_data_counts(input.peer);
 }
 
 MemberId Members::intern(const Participant& value) {

@@ -23,7 +23,7 @@ inline constexpr WordId no_word = 0;
 
 /// What happens to a participant.
 struct Stimulus {
-  handshake::Input::Kind kind = handshake::Input::Kind::Finished;
+  handshake::Input::Kind kind = handshake::Input::Kind::finished;
   std::uint8_t what = 0;      ///< method or peer
   WordId word = no_word;
   bool overtaken = false;     ///< the word is older than the last one that was accepted

@@ -44,7 +44,7 @@ bool GroupModel::hear(const State& state, std::size_t channel, std::size_t posit
   next.state.set_content(channel, contents_.intern(content));
   if (is_down(state, receiver)) return true;
   bool data_counts = false;
-  step(receiver, {Input::Kind::Received, wiring_.peer(channel), message.word, message.overtaken}, next, data_counts);
+  step(receiver, {Input::Kind::received, wiring_.peer(channel), message.word, message.overtaken}, next, data_counts);
   if (data_counts && message.outdated) next.properties.insert(Property::S3);
   return true;
 }

@@ -48,7 +48,7 @@ bool GroupModel::sample(const State& state, std::size_t channel, Next& next) {
   const std::size_t receiver = wiring_.receiver(channel);
   if (word == no_word || is_down(state, receiver)) return false;
   const MemberId before = state.member(receiver);
-  const Stepped stepped = members_.step(before, {Input::Kind::Received, wiring_.peer(channel), word, false});
+  const Stepped stepped = members_.step(before, {Input::Kind::received, wiring_.peer(channel), word, false});
   const bool overtakes = state.late() == Late::newer_sent && state.late_channel() == channel;
   const bool is_stale = stepped.data_counts && state.outdated(channel);
   if (stepped.member == before && stepped.effect == 0 && !overtakes && !is_stale) return false;
@@ -67,7 +67,7 @@ bool GroupModel::sample_late(const State& state, Next& next) {
   const std::size_t receiver = wiring_.receiver(channel);
   if (!is_down(state, receiver)) {
     bool data_counts = false;
-    step(receiver, {Input::Kind::Received, wiring_.peer(channel), state.late_word(), state.late() == Late::overtaken}, next, data_counts);
+    step(receiver, {Input::Kind::received, wiring_.peer(channel), state.late_word(), state.late() == Late::overtaken}, next, data_counts);
     if (data_counts && state.outdated(State::late_data)) next.properties.insert(Property::S3);
   }
   next.state.clear_late();

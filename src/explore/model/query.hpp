@@ -47,9 +47,9 @@ inline constexpr std::size_t most_explored_roles = 2;
 inline constexpr std::size_t most_explored_candidates = 3;
 
 struct Query {
-  handshake::Variant variant = handshake::Variant::Robust;
+  handshake::Variant variant = handshake::Variant::robust;
   std::uint8_t slaves = 1;           ///< 1 to most_slaves, with all-to-all subscription to most_slaves_all_to_all
-  handshake::Subscription subscription = handshake::Subscription::Star;
+  handshake::Subscription subscription = handshake::Subscription::star;
   Network network = Network::registers;
   std::uint8_t capacity = 2;         ///< `channels`: messages in flight in each of them, 1 to most_capacity
   Beginnings beginnings = Beginnings::all;

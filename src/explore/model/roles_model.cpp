@@ -10,7 +10,7 @@ using program::Method;
 
 RolesModel::RolesModel(const Query& query) : query_(query), stations_(query), group_(query.slaves + 1U) {
   TAKT_CHECK(query.slaves >= 1 && query.slaves <= most_explored_roles && query.candidates >= 1 && query.candidates <= most_explored_candidates, "a group to explore is small");
-  TAKT_CHECK(query.variant == handshake::Variant::Robust && query.subscription == handshake::Subscription::Star && query.network == Network::registers && !query.is_tree(),
+  TAKT_CHECK(query.variant == handshake::Variant::robust && query.subscription == handshake::Subscription::star && query.network == Network::registers && !query.is_tree(),
              "roles are explored with robust in stars on registers");
   TAKT_CHECK(!query.faults.contains(Fault::duplicate) && !query.faults.contains(Fault::reorder) && !query.faults.contains(Fault::forge), "no delayed copies and no strangers with roles");
   shape_.wide = true;
@@ -58,7 +58,7 @@ State RolesModel::switched_on() {
   State state(shape_);
   state.set_member(0, stations_.master(1, false));
   for (std::size_t c = 0; c < query_.candidates; ++c) state.set_member(c + 1, stations_.candidate(c, 1, false, false));
-  state.set_observer(observers_.intern({SmallObserver(handshake::Variant::Robust, group_), {}}));
+  state.set_observer(observers_.intern({SmallObserver(handshake::Variant::robust, group_), {}}));
   return state;
 }
 

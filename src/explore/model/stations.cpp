@@ -87,8 +87,8 @@ Stations::Stations(const Query& query) : query_(query) {
 }
 
 handshake::Config Stations::config(std::size_t index, std::uint32_t incarnation) const {
-  return {handshake::Variant::Robust, index == 0 ? handshake::Role::Master : handshake::Role::Slave, static_cast<std::uint8_t>(index), query_.slaves, incarnation,
-          handshake::Subscription::Star, false};
+  return {handshake::Variant::robust, index == 0 ? handshake::Role::master : handshake::Role::slave, static_cast<std::uint8_t>(index), query_.slaves, incarnation,
+          handshake::Subscription::star, false};
 }
 
 StationId Stations::master(std::uint32_t incarnation, bool down) {
@@ -157,7 +157,7 @@ StationId Stations::stepped_master(StationId id, Happens what, std::size_t which
 /// Roles change hands in Halted only, nobody has two, and whoever has one offers its skill.
 void Stations::settle(Participant& participant, Binder& binder, RoleEvents& events) const {
   while (const auto input = binder.next(handshake::master_view_of(participant))) {
-    if (input->kind == Input::Kind::PeerReplaced) {
+    if (input->kind == Input::Kind::peer_replaced) {
       RoleEvent event;
       event.kind = RoleEvent::Kind::bound;
       event.participant = static_cast<std::uint8_t>(input->peer + 1);
@@ -182,7 +182,7 @@ StationId Stations::stepped_node(StationId id, Happens what, std::size_t which, 
     node.candidate.leave();
   } else if (is_table) {
     const auto change = node.candidate.table(std::span(notice.bindings).first(query_.slaves), notice.used_lives[node.number]);
-    if (change == Candidate::Change::Released && node.member) {
+    if (change == Candidate::Change::released && node.member) {
       RoleEvent event;
       event.kind = RoleEvent::Kind::dropped;
       event.participant = node.member->config().index;
@@ -190,7 +190,7 @@ StationId Stations::stepped_node(StationId id, Happens what, std::size_t which, 
       events.each.push_back(event);
       node.member.reset();
     }
-    if (change == Candidate::Change::Bound) node.member.emplace(config(*node.candidate.role() + 1U, node.candidate.incarnation()));
+    if (change == Candidate::Change::bound) node.member.emplace(config(*node.candidate.role() + 1U, node.candidate.incarnation()));
   } else if (node.member) {
     const Input input = what == Happens::received        ? Input::received(0, notice.word, usual_sequence)
                         : what == Happens::master_silent ? Input::peer_silent(0)

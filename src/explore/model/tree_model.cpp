@@ -31,7 +31,7 @@ Shape shape_of(const TreeShape& tree) {
 }  // namespace
 
 TreeModel::TreeModel(const Query& query) : query_(query), tree_(query), shape_(shape_of(tree_)), nodes_(tree_) {
-  TAKT_CHECK(query.variant == handshake::Variant::Robust && query.subscription == handshake::Subscription::Star && query.network == Network::registers,
+  TAKT_CHECK(query.variant == handshake::Variant::robust && query.subscription == handshake::Subscription::star && query.network == Network::registers,
              "trees are explored with robust in stars on registers");
   TAKT_CHECK(!query.faults.contains(Fault::duplicate) && !query.faults.contains(Fault::reorder), "no delayed copies in trees");
   list_actions();
@@ -71,7 +71,7 @@ State TreeModel::switched_on() {
   State state(shape_);
   for (std::size_t node = 0; node < tree_.nodes(); ++node)
     state.set_member(node, node == tree_.joining_node() ? nodes_.down(node, 0) : nodes_.fresh(node, 1));
-  state.set_observer(observers_.intern(SmallObserver(handshake::Variant::Robust, tree_.tree())));
+  state.set_observer(observers_.intern(SmallObserver(handshake::Variant::robust, tree_.tree())));
   return state;
 }
 
@@ -106,7 +106,7 @@ bool TreeModel::halted_for_all(const State& state) {
     const WordId word = word_of(state, ends.sender);
     if (state.content(c) != word || is_deaf(state, ends.receiver, ends.peer)) return false;
     const NodeId node = state.member(tree_.node_of(ends.receiver));
-    if (nodes_.step(node, {tree_.side_of(ends.receiver), Input::Kind::Received, ends.peer, word}).node != node) return false;
+    if (nodes_.step(node, {tree_.side_of(ends.receiver), Input::Kind::received, ends.peer, word}).node != node) return false;
   }
   return true;
 }
@@ -133,7 +133,7 @@ bool TreeModel::change(const State& state, Action action, Next& next) {
     case ActionKind::initialised:
       if (state_of(state, action.who) != PublishedState::HaltedInit || is_down(state, action.who)) return false;
       next = {state, {}};
-      return step(action.who, {Side::Outer, Input::Kind::Initialised, 0, no_word}, next);
+      return step(action.who, {Side::outer, Input::Kind::initialised, 0, no_word}, next);
     case ActionKind::silence: return expire(state, action, true, next);
     case ActionKind::call:
     case ActionKind::finish: return call(state, action, next);
@@ -155,7 +155,7 @@ bool TreeModel::sample(const State& state, std::size_t channel, Next& next) {
   const auto word = static_cast<WordId>(state.content(channel));
   if (word == no_word || is_down(state, ends.receiver)) return false;
   next = {state, {}};
-  return step(ends.receiver, {Side::Outer, Input::Kind::Received, ends.peer, word}, next);
+  return step(ends.receiver, {Side::outer, Input::Kind::received, ends.peer, word}, next);
 }
 
 bool TreeModel::call(const State& state, Action action, Next& next) {
@@ -166,7 +166,7 @@ bool TreeModel::call(const State& state, Action action, Next& next) {
   if (!accepted) return false;
   next = {state, {}};
   next.state.set_commands_left(state.commands_left() - 1);
-  step(action.who, {Side::Outer, is_call ? Input::Kind::Command : Input::Kind::Finished, static_cast<std::uint8_t>(action.what), no_word}, next);
+  step(action.who, {Side::outer, is_call ? Input::Kind::command : Input::Kind::finished, static_cast<std::uint8_t>(action.what), no_word}, next);
   return true;
 }
 
@@ -201,8 +201,8 @@ bool TreeModel::restart(const State& state, std::size_t node, Next& next) {
   next = {state, {}};
   next.state.set_member(node, nodes_.fresh(node, nodes_[state.member(node)].incarnation + 1));
   SmallObserver observer = observers_[state.observer()];
-  observer.on_restart(tree_.participant_of(node, Side::Outer));
-  if (tree_.is_nested(node)) observer.on_restart(tree_.participant_of(node, Side::Inner));
+  observer.on_restart(tree_.participant_of(node, Side::outer));
+  if (tree_.is_nested(node)) observer.on_restart(tree_.participant_of(node, Side::inner));
   next.state.set_observer(observers_.intern(observer));
   return true;
 }
@@ -212,7 +212,7 @@ bool TreeModel::expire(const State& state, Action action, bool peer_is_down, Nex
   const bool deaf = peer_is_down && is_deaf(state, action.who, action.what);
   if ((is_down(state, other) != peer_is_down && !deaf) || is_down(state, action.who)) return false;
   next = {state, {}};
-  bool changed = step(action.who, {Side::Outer, Input::Kind::PeerSilent, static_cast<std::uint8_t>(action.what), no_word}, next);
+  bool changed = step(action.who, {Side::outer, Input::Kind::peer_silent, static_cast<std::uint8_t>(action.what), no_word}, next);
   const std::size_t channel = tree_.channel_between(other, action.who);
   if (is_down(state, other) && state.content(channel) != no_word) {  // silence means that nothing of the peer is under way any more
     next.state.set_content(channel, no_word);

@@ -16,7 +16,7 @@ namespace {
 template <class Value>
 const auto& participant(const Value& value, Side side) {
   if constexpr (requires { value.outer(); }) {
-    return side == Side::Outer ? value.outer() : value.inner();
+    return side == Side::outer ? value.outer() : value.inner();
   } else {
     return value;
   }
@@ -44,18 +44,18 @@ TreeNodes::TreeNodes(const TreeShape& shape) : shape_(shape) {
 }
 
 handshake::Config TreeNodes::config(std::size_t group, std::size_t index, std::uint32_t incarnation) const {
-  return {handshake::Variant::Robust,
-          index == 0 ? handshake::Role::Master : handshake::Role::Slave,
+  return {handshake::Variant::robust,
+          index == 0 ? handshake::Role::master : handshake::Role::slave,
           static_cast<std::uint8_t>(index),
           static_cast<std::uint8_t>(shape_.size(group) - 1),
           incarnation,
-          handshake::Subscription::Star,
+          handshake::Subscription::star,
           false};
 }
 
 auto TreeNodes::made(std::size_t node, std::uint32_t incarnation) const -> Node {
   if (shape_.is_nested(node)) return {Nested(config(0, node, incarnation), config(1, 0, incarnation)), false};
-  const std::size_t participant = shape_.participant_of(node, Side::Outer);
+  const std::size_t participant = shape_.participant_of(node, Side::outer);
   return {Participant(config(shape_.group_of(participant), shape_.index_of(participant), incarnation)), false};
 }
 
@@ -74,7 +74,7 @@ TreeStepped TreeNodes::step_anew(NodeId id, const TreeStimulus& stimulus) {
   TreeEffects effects;
   std::visit(
       [&](auto& value) {
-        for (const Side side : {Side::Outer, Side::Inner}) before[at(side)] = participant(value, side).word();
+        for (const Side side : {Side::outer, Side::inner}) before[at(side)] = participant(value, side).word();
         const PublishedState first = before[at(stimulus.side)].state;
         const auto& stepping = participant(value, stimulus.side);
         const Input input = input_of(stimulus.kind, stimulus.what, words_[stimulus.word], false, stepping.intent().run);
@@ -84,15 +84,15 @@ TreeStepped TreeNodes::step_anew(NodeId id, const TreeStimulus& stimulus) {
           effect.side = one.side;
           effect.effect = effect_of(before[at(one.side)], one.after, one.outputs);
           before[at(one.side)] = one.after;
-          if (one.side == Side::Inner && one.outputs.raised && one.outputs.raised_kind == handshake::IntentKind::Start) {
+          if (one.side == Side::inner && one.outputs.raised && one.outputs.raised_kind == handshake::IntentKind::Start) {
             effect.effect.started_run = one.after.intent.run;
-            effect.effect.outer_run = before[at(Side::Outer)].intent.run;
+            effect.effect.outer_run = before[at(Side::outer)].intent.run;
           }
           if (effect.effect != Effect{}) effects.each[effects.count++] = effect;
         }
         PropertySet more = judged(input, outputs.steps[0].outputs, first, participant(value, stimulus.side));
-        const Side other = stimulus.side == Side::Outer ? Side::Inner : Side::Outer;
-        if (stimulus.kind == Input::Kind::PeerSilent && participant(value, other).state() != PublishedState::Halted) more.insert(Property::F1);
+        const Side other = stimulus.side == Side::outer ? Side::inner : Side::outer;
+        if (stimulus.kind == Input::Kind::peer_silent && participant(value, other).state() != PublishedState::Halted) more.insert(Property::F1);
         if (more.bits != 0) {
           if (effects.count == 0) effects.each[effects.count++].side = stimulus.side;
           effects.each[0].effect.properties.bits |= more.bits;
@@ -112,8 +112,8 @@ NodeId TreeNodes::intern(const Node& node) {
   traits.down = node.down;
   std::visit(
       [&](const auto& value) {
-        traits.incarnation = participant(value, Side::Outer).config().incarnation;
-        for (const Side side : {Side::Outer, Side::Inner}) {
+        traits.incarnation = participant(value, Side::outer).config().incarnation;
+        for (const Side side : {Side::outer, Side::inner}) {
           traits.word[at(side)] = intern_word({participant(value, side).word(), false});
           traits.state[at(side)] = participant(value, side).state();
           for (std::size_t peer = 0; peer < participant(value, side).peer_count(); ++peer)

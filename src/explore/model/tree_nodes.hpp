@@ -22,15 +22,15 @@ constexpr std::size_t at(handshake::Side side) { return static_cast<std::size_t>
 
 /// What happens to one of a node's participants.
 struct TreeStimulus {
-  handshake::Side side = handshake::Side::Outer;
-  handshake::Input::Kind kind = handshake::Input::Kind::Finished;
+  handshake::Side side = handshake::Side::outer;
+  handshake::Input::Kind kind = handshake::Input::Kind::finished;
   std::uint8_t what = 0;      ///< method or peer
   WordId word = no_word;
 };
 
 /// What one participant's part of a node's step means to whoever watches.
 struct TreeEffect {
-  handshake::Side side = handshake::Side::Outer;
+  handshake::Side side = handshake::Side::outer;
   Effect effect;
   constexpr bool operator==(const TreeEffect&) const = default;
 };

@@ -47,10 +47,10 @@ class TreeShape {
 
   bool is_nested(std::size_t node) const { return inner_ != 0 && node == outer_ - 1; }
   std::size_t node_of(std::size_t participant) const { return node_of_[participant]; }
-  handshake::Side side_of(std::size_t participant) const { return inner_ != 0 && participant == outer_ ? handshake::Side::Inner : handshake::Side::Outer; }
+  handshake::Side side_of(std::size_t participant) const { return inner_ != 0 && participant == outer_ ? handshake::Side::inner : handshake::Side::outer; }
   /// Which of a node's participants: Inner is the master of the inner group.
   std::size_t participant_of(std::size_t node, handshake::Side side) const {
-    return side == handshake::Side::Inner ? outer_ : node < outer_ ? node : node + 1;
+    return side == handshake::Side::inner ? outer_ : node < outer_ ? node : node + 1;
   }
   /// The participant that a peer index stands for.
   std::size_t peer_of(std::size_t participant, std::size_t peer) const {
@@ -72,7 +72,7 @@ class TreeShape {
     const std::size_t index = index_of(participant);
     return std::string(group_of(participant) == 0 ? "" : "inner ") + (index == 0 ? "master" : "slave " + std::to_string(index));
   }
-  std::string node_name(std::size_t node) const { return is_nested(node) ? "the node of " + name(node) + " and inner master" : name(participant_of(node, handshake::Side::Outer)); }
+  std::string node_name(std::size_t node) const { return is_nested(node) ? "the node of " + name(node) + " and inner master" : name(participant_of(node, handshake::Side::outer)); }
 
  private:
   static std::vector<handshake::TreeGroup> groups_of(const Query& query) {

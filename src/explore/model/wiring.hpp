@@ -19,7 +19,7 @@ class Wiring {
     const std::size_t slaves = query.slaves;
     for (std::size_t i = 1; i <= slaves; ++i) add(i, 0);
     for (std::size_t i = 1; i <= slaves; ++i) add(0, i);
-    if (query.subscription == handshake::Subscription::Star) return;
+    if (query.subscription == handshake::Subscription::star) return;
     for (std::size_t from = 1; from <= slaves; ++from)
       for (std::size_t to = 1; to <= slaves; ++to)
         if (from != to) add(from, to);

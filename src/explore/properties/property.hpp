@@ -47,7 +47,7 @@ struct PropertySet {
   constexpr bool operator==(const PropertySet&) const = default;
 };
 
-enum class Verdict : std::uint8_t {
+enum class PropertyVerdict : std::uint8_t {
   holds,
   violated,
   reached,
@@ -56,6 +56,6 @@ enum class Verdict : std::uint8_t {
   not_asked,  ///< nobody can fall silent here, so there is nothing to say about silence
 };
 inline constexpr std::array<std::string_view, 6> verdict_names{"holds", "violated", "reached", "unreached", "unknown", "not asked"};
-constexpr std::string_view name_of(Verdict verdict) { return verdict_names[static_cast<std::size_t>(verdict)]; }
+constexpr std::string_view name_of(PropertyVerdict verdict) { return verdict_names[static_cast<std::size_t>(verdict)]; }
 
 }  // namespace takt::explore

@@ -28,7 +28,7 @@ class WordClasses {
 
 struct Step {
   MemberId to = 0;
-  Kind kind = Kind::Received;
+  Kind kind = Kind::received;
   std::uint8_t peer = 0;
   WordId word = no_word;
 };
@@ -51,7 +51,7 @@ class Steps {
 
  private:
   static bool recurs(MemberId from, const Stimulus& stimulus, MemberId to) {
-    return from != to && stimulus.kind != Kind::Command && stimulus.kind != Kind::Finished && !stimulus.overtaken;
+    return from != to && stimulus.kind != Kind::command && stimulus.kind != Kind::finished && !stimulus.overtaken;
   }
   std::vector<std::uint32_t> first_;
   std::vector<Step> steps_;
@@ -91,8 +91,8 @@ class Finder {
 
  private:
   bool is_heard(const Step& step) const {
-    if (step.kind == Kind::Initialised || heard_[step.peer] == anything) return true;
-    if (step.kind == Kind::PeerSilent) return heard_[step.peer] == silent;
+    if (step.kind == Kind::initialised || heard_[step.peer] == anything) return true;
+    if (step.kind == Kind::peer_silent) return heard_[step.peer] == silent;
     return heard_[step.peer] != silent && classes_.of(step.word) == heard_[step.peer];
   }
 
@@ -105,7 +105,7 @@ class Finder {
     std::vector<std::uint32_t> choices{silent};
     for (const MemberId member : component)
       for (const Step& step : steps_.from(member))
-        if (step.kind == Kind::Received && step.peer == peer) choices.push_back(classes_.of(step.word));
+        if (step.kind == Kind::received && step.peer == peer) choices.push_back(classes_.of(step.word));
     std::sort(choices.begin(), choices.end());
     choices.erase(std::unique(choices.begin(), choices.end()), choices.end());
     for (const std::uint32_t choice : choices) {

@@ -14,7 +14,7 @@ bool Effect::begins_round() const {
   return std::any_of(changes().begin(), changes().end(), [](const StateChange& each) { return handshake::RunHistory<SmallStorage>::begins_round(each); });
 }
 
-SmallObserver::SmallObserver(handshake::Variant variant, const GroupTree& tree) : is_paper_(variant == handshake::Variant::Paper), history_(variant, tree) {
+SmallObserver::SmallObserver(handshake::Variant variant, const GroupTree& tree) : is_paper_(variant == handshake::Variant::paper), history_(variant, tree) {
   if (is_paper_) ask(PublishedState::Halted);
 }
 

@@ -49,7 +49,7 @@ class Player {
 
  private:
   handshake::Config config(std::size_t index, std::uint32_t incarnation) const {
-    return {query_.variant, index == 0 ? handshake::Role::Master : handshake::Role::Slave, static_cast<std::uint8_t>(index),
+    return {query_.variant, index == 0 ? handshake::Role::master : handshake::Role::slave, static_cast<std::uint8_t>(index),
             query_.slaves, incarnation, query_.subscription};
   }
 

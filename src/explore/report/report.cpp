@@ -35,7 +35,7 @@ std::string counter_example(const Query& query, const SearchResult& result, Prop
 
 }  // namespace
 
-std::string_view variant_of(const Query& query) { return query.variant == handshake::Variant::Paper ? "paper" : "robust"; }
+std::string_view variant_of(const Query& query) { return query.variant == handshake::Variant::paper ? "paper" : "robust"; }
 
 std::vector<std::string_view> faults_of(const Query& query) {
   std::vector<std::string_view> names;
@@ -47,7 +47,7 @@ std::vector<std::string_view> faults_of(const Query& query) {
 std::string query_line(const Query& query) {
   const std::string faults = fault_list(query);
   const std::string network = query.network == Network::registers ? "" : ", channels of " + std::to_string(query.capacity);
-  const std::string subscription = query.subscription == handshake::Subscription::Star ? "" : ", all-to-all";
+  const std::string subscription = query.subscription == handshake::Subscription::star ? "" : ", all-to-all";
   const std::string inner = !query.nested() ? "" : ", the last of them master of " + std::to_string(query.inner_slaves) + (query.inner_slaves == 1 ? " inner slave" : " inner slaves");
   const std::string joining = !query.joining ? "" : query.nested() ? ", the last inner slave joins" : ", the last slave joins";
   const std::string beginnings = query.beginnings == Beginnings::all ? "" : ", switched on";
@@ -67,9 +67,9 @@ std::string text_report(const Query& query, const SearchResult& result, double c
   text += result.exhausted ? "The whole space was searched.\n"
                            : result.interrupted ? "Interrupted: what was found until then.\n" : "Not the whole space was searched: the limit of states or depth was reached.\n";
   for (std::size_t p = 0; p < property_count; ++p)
-    if (result.verdicts[p] != Verdict::not_asked) text += verdict_line(result, p);
+    if (result.verdicts[p] != PropertyVerdict::not_asked) text += verdict_line(result, p);
   for (std::size_t p = 0; p < property_count; ++p)
-    if (result.verdicts[p] == Verdict::violated && result.traces[p]) text += counter_example(query, result, static_cast<Property>(p), *result.traces[p]);
+    if (result.verdicts[p] == PropertyVerdict::violated && result.traces[p]) text += counter_example(query, result, static_cast<Property>(p), *result.traces[p]);
   const bool is_new = result.livelock && result.traces[index_of(Property::L1)] && result.traces[index_of(Property::L1)]->cycle == 0;
   if (is_new) text += counter_example(query, result, Property::L1, *result.livelock);
   return text;

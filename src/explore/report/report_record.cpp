@@ -10,7 +10,7 @@ namespace {
 
 std::string_view variant(const Exploration& made) { return variant_of(made.query); }
 std::uint64_t slaves(const Exploration& made) { return made.query.slaves; }
-std::string_view subscription(const Exploration& made) { return made.query.subscription == handshake::Subscription::Star ? "star" : "all-to-all"; }
+std::string_view subscription(const Exploration& made) { return made.query.subscription == handshake::Subscription::star ? "star" : "all-to-all"; }
 bool is_nested(const Exploration& made) { return made.query.nested(); }
 std::uint64_t inner_slaves(const Exploration& made) { return made.query.inner_slaves; }
 bool is_joining(const Exploration& made) { return made.query.joining; }
@@ -33,7 +33,7 @@ double octets_per_state(const Exploration& made) { return std::round(10 * static
 std::vector<std::pair<std::string, std::string_view>> properties(const Exploration& made) {
   std::vector<std::pair<std::string, std::string_view>> asked;
   for (std::size_t p = 0; p < property_count; ++p)
-    if (made.result.verdicts[p] != Verdict::not_asked) asked.emplace_back(property_names[p], name_of(made.result.verdicts[p]));
+    if (made.result.verdicts[p] != PropertyVerdict::not_asked) asked.emplace_back(property_names[p], name_of(made.result.verdicts[p]));
   return asked;
 }
 

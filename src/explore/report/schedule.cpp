@@ -249,7 +249,7 @@ ScenarioText scenario_of(const Query& query, const Replay& replayed, Property pr
 
   ScenarioText text;
   text.missing = scheduler.missing();
-  if (query.subscription == handshake::Subscription::AllToAll) text.missing.push_back("which of the other slaves hears a slave's message");
+  if (query.subscription == handshake::Subscription::all_to_all) text.missing.push_back("which of the other slaves hears a slave's message");
   std::string head = "// Found by takt explore: " + std::string(name_of(property)) + ", " + std::string(property_texts[index_of(property)]) + ", is violated.\n//\n";
   const std::string drawn = chart(query, replayed);
   for (std::size_t begin = 0; begin < drawn.size();) {
@@ -259,8 +259,8 @@ ScenarioText scenario_of(const Query& query, const Replay& replayed, Property pr
   }
   text.json = head + "{\n  \"$schema\": \"../takt.schema.json\",\n  \"name\": \"" + name + "\",\n  \"duration\": " + microseconds(duration) +
               ",\n  \"network\": {\n    \"nodes\": {" + nodes + "\n    },\n    \"links\": [" + links + "\n    ]\n  },\n  \"programs\": [\n    {\n" +
-              "      \"name\": \"group\",\n      \"variant\": \"" + (query.variant == handshake::Variant::Paper ? "paper" : "robust") +
-              "\"," + (query.subscription == handshake::Subscription::AllToAll ? "\n      \"subscription\": \"all-to-all\"," : "") + "\n      \"master\": \"master\",\n      \"slaves\": [" + slaves + "],\n      \"cycle\": " + microseconds(period) +
+              "      \"name\": \"group\",\n      \"variant\": \"" + (query.variant == handshake::Variant::paper ? "paper" : "robust") +
+              "\"," + (query.subscription == handshake::Subscription::all_to_all ? "\n      \"subscription\": \"all-to-all\"," : "") + "\n      \"master\": \"master\",\n      \"slaves\": [" + slaves + "],\n      \"cycle\": " + microseconds(period) +
               ",\n      \"receive_timeout\": \"100ms\",\n      \"initialisation\": " + microseconds(initialisation) +
               ",\n      \"process_data\": " + list(data) + "\n    }\n  ],\n  \"script\": " + list(script) + ",\n  \"faults\": " + list(faults) +
               ",\n  \"require\": " + list(require) + "\n}\n";

@@ -41,7 +41,7 @@ struct TreeWords {
       else made.marked = {ends.sender};
     } else if (of_node) {
       it.who = tree.node_name(action.who);
-      it.comes_up = model.is_down(state, tree.participant_of(action.who, handshake::Side::Outer));
+      it.comes_up = model.is_down(state, tree.participant_of(action.who, handshake::Side::outer));
       for (std::size_t p = 0; p < tree.participants(); ++p)
         if (tree.node_of(p) == action.who) made.marked.push_back(p);
     } else {

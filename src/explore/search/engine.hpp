@@ -193,18 +193,18 @@ class Search {
     result_.words = model_.word_count();
     for (std::size_t p = 0; p < property_count; ++p) {
       const auto property = static_cast<Property>(p);
-      Verdict& verdict = result_.verdicts[p];
+      PropertyVerdict& verdict = result_.verdicts[p];
       if ((is_of_silence(property) && !model_.query().asks_for_silence()) || (is_of_roles(property) && !model_.query().has_roles())) {
-        verdict = Verdict::not_asked;
+        verdict = PropertyVerdict::not_asked;
         continue;
       }
       if (must_always_hold(property)) {
-        verdict = seen_.contains(property) ? Verdict::violated : Verdict::holds;
+        verdict = seen_.contains(property) ? PropertyVerdict::violated : PropertyVerdict::holds;
         const bool is_liveness = property == Property::L1 || property == Property::F1;
         const bool decided = result_.exhausted && (judged_ || !loops_back_);
-        if (is_liveness && verdict == Verdict::holds && !decided) verdict = Verdict::unknown;
+        if (is_liveness && verdict == PropertyVerdict::holds && !decided) verdict = PropertyVerdict::unknown;
       } else {
-        verdict = seen_.contains(property) ? Verdict::reached : Verdict::unreached;
+        verdict = seen_.contains(property) ? PropertyVerdict::reached : PropertyVerdict::unreached;
       }
     }
   }

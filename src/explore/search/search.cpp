@@ -9,11 +9,11 @@ class RolesModel;
 class TreeModel;
 
 bool SearchResult::all_hold() const {
-  return std::all_of(verdicts.begin(), verdicts.end(), [](Verdict each) { return each == Verdict::holds || each == Verdict::reached || each == Verdict::not_asked; });
+  return std::all_of(verdicts.begin(), verdicts.end(), [](PropertyVerdict each) { return each == PropertyVerdict::holds || each == PropertyVerdict::reached || each == PropertyVerdict::not_asked; });
 }
 
 bool SearchResult::any_violated() const {
-  return std::any_of(verdicts.begin(), verdicts.end(), [](Verdict each) { return each == Verdict::violated; });
+  return std::any_of(verdicts.begin(), verdicts.end(), [](PropertyVerdict each) { return each == PropertyVerdict::violated; });
 }
 
 SearchResult explore(const Query& query, const Watcher& watcher) {

@@ -45,11 +45,11 @@ struct SearchResult {
   std::uint64_t words = 0;            ///< different words
   std::uint64_t quiescent = 0;        ///< states in which nothing changes any more without the adversary
   std::vector<Beginning> beginnings;
-  std::array<Verdict, property_count> verdicts{};
+  std::array<PropertyVerdict, property_count> verdicts{};
   std::array<std::optional<Trace>, property_count> traces;  ///< of what is violated or reached
   std::optional<Trace> livelock;         ///< L1: a cycle that never ends, even if L1 is violated in a shorter way, too
 
-  Verdict operator[](Property property) const { return verdicts[index_of(property)]; }
+  PropertyVerdict operator[](Property property) const { return verdicts[index_of(property)]; }
   /// Whatever must hold holds and whatever must be reached is reached.
   bool all_hold() const;
   bool any_violated() const;

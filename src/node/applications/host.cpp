@@ -22,7 +22,7 @@ std::int64_t monotonic_ns() { return DeadlineClock(ClockName::monotonic).now(); 
 class DdsTopicWriter final : public TopicWriter {
  public:
   explicit DdsTopicWriter(DdsWriter& writer) : writer_(writer) {}
-  WriteOutcome write(uadp::Octets value) override { return writer_.write(value); }
+  SendOutcome write(uadp::Octets value) override { return writer_.write(value); }
 
  private:
   DdsWriter& writer_;

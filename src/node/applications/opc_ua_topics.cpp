@@ -60,12 +60,12 @@ class OpcUaTopics::Writer final : public TopicWriter {
     communication_.enable(shared.now());
   }
 
-  WriteOutcome write(uadp::Octets value) override {
+  SendOutcome write(uadp::Octets value) override {
     const std::lock_guard lock(shared_.mutex);
-    if (!values_.assign(value)) return WriteOutcome::failed;
+    if (!values_.assign(value)) return SendOutcome::failed;
     const std::uint64_t failures = shared_.socket->send_failures();
     communication_.advance(shared_.now());
-    return shared_.socket->send_failures() == failures ? WriteOutcome::sent : WriteOutcome::failed;
+    return shared_.socket->send_failures() == failures ? SendOutcome::sent : SendOutcome::failed;
   }
 
  private:

@@ -20,8 +20,8 @@ std::optional<gateway::TypeMapping> own_mapping(const TopicEnd& topic, Direction
   return mapping;
 }
 
-CallResult result_of(WriteOutcome outcome) {
-  return {.sent = outcome == WriteOutcome::sent ? 1U : 0U, .timed_out = outcome == WriteOutcome::timed_out ? 1U : 0U, .not_sent = outcome == WriteOutcome::failed ? 1U : 0U};
+CallResult result_of(SendOutcome outcome) {
+  return {.sent = outcome == SendOutcome::sent ? 1U : 0U, .timed_out = outcome == SendOutcome::timed_out ? 1U : 0U, .not_sent = outcome == SendOutcome::failed ? 1U : 0U};
 }
 
 class Publishing final : public Work {

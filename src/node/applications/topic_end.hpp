@@ -15,7 +15,7 @@ namespace takt::node {
 class TopicWriter {
  public:
   virtual ~TopicWriter() = default;
-  virtual WriteOutcome write(uadp::Octets value) = 0;
+  virtual SendOutcome write(uadp::Octets value) = 0;
 };
 
 class TopicReader {

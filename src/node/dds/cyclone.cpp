@@ -200,9 +200,9 @@ Qos qos_of(const vocabulary::Qos& asked, std::string& problem) {
 class CycloneWriter final : public DdsWriter {
  public:
   explicit CycloneWriter(dds_entity_t writer) : writer_(writer) {}
-  WriteOutcome write(Octets payload) override {
+  SendOutcome write(Octets payload) override {
     const dds_return_t code = dds_write(writer_, &payload);
-    return code == DDS_RETCODE_OK ? WriteOutcome::sent : code == DDS_RETCODE_TIMEOUT ? WriteOutcome::timed_out : WriteOutcome::failed;
+    return code == DDS_RETCODE_OK ? SendOutcome::sent : code == DDS_RETCODE_TIMEOUT ? SendOutcome::timed_out : SendOutcome::failed;
   }
   std::uint32_t matched() const override {
     dds_publication_matched_status_t status = {};

@@ -12,14 +12,14 @@
 namespace takt::node {
 
 /// What became of a sample. `timed_out`: it waited for room for max_blocking_time, in vain.
-enum class WriteOutcome : std::uint8_t { sent, timed_out, failed };
+enum class SendOutcome : std::uint8_t { sent, timed_out, failed };
 
 /// Writes samples of one topic. A sample is a serialized payload: encapsulation header and CDR.
 class DdsWriter {
  public:
   virtual ~DdsWriter() = default;
   /// Waits until there is room, for max_blocking_time at most.
-  virtual WriteOutcome write(uadp::Octets payload) = 0;
+  virtual SendOutcome write(uadp::Octets payload) = 0;
   /// Readers that it has found. A volatile sample is for these alone.
   virtual std::uint32_t matched() const = 0;
 };

@@ -70,9 +70,9 @@ std::string difference_of(double takt, double published) {
   return published == 0 ? fmt::format("{:+g}", takt) : fmt::format("{:+.3g} %", 100 * (takt - published) / published);
 }
 
-Verdict verdict_of(const FigureText& text, bool is_met) {
-  if (!text.differs.empty()) return is_met ? Verdict::met_after_all : Verdict::differs;
-  return !is_met ? Verdict::missed : text.is_calibrated ? Verdict::calibrated : Verdict::met;
+Agreement verdict_of(const FigureText& text, bool is_met) {
+  if (!text.differs.empty()) return is_met ? Agreement::met_after_all : Agreement::differs;
+  return !is_met ? Agreement::missed : text.is_calibrated ? Agreement::calibrated : Agreement::met;
 }
 
 Judged judge(const Entry& entry, const Measured& measured) {
@@ -105,7 +105,7 @@ Judged judge(const Entry& entry, const Measured& measured) {
 
 }  // namespace
 
-std::string_view name_of(Verdict verdict) {
+std::string_view name_of(Agreement verdict) {
   constexpr std::array<std::string_view, 5> names = {"met", "calibrated", "differs", "met after all", "MISSED"};
   return names[static_cast<std::size_t>(verdict)];
 }

@@ -9,14 +9,14 @@
 
 namespace takt::papers::validation {
 
-enum class Verdict {
+enum class Agreement {
   met,
   calibrated,    ///< met, but the scenario was fitted to it
   differs,       ///< not met, as the table says, with a reason
   met_after_all, ///< the table says that it differs, but it is met
   missed,
 };
-std::string_view name_of(Verdict verdict);
+std::string_view name_of(Agreement verdict);
 
 struct Judged {
   std::size_t source = 0;
@@ -30,7 +30,7 @@ struct Judged {
   std::string difference;              ///< takt's less the published figure
   std::optional<double> published_value;
   std::optional<double> takt_value;
-  Verdict verdict = Verdict::missed;
+  Agreement verdict = Agreement::missed;
   std::string why;
 };
 

@@ -43,7 +43,7 @@ std::string summary(const Validation& made) {
   const auto line = [&](const std::string& name, std::optional<std::size_t> source) {
     std::array<std::size_t, 5> counts{};
     std::size_t all = 0;
-    for (std::size_t v = 0; v < counts.size(); ++v) all += counts[v] = made.count(static_cast<Verdict>(v), source);
+    for (std::size_t v = 0; v < counts.size(); ++v) all += counts[v] = made.count(static_cast<Agreement>(v), source);
     return fmt::format("{:<34}{:>9}{:>6}{:>12}{:>9}{:>8}\n", name, all, counts[0] + counts[3], counts[1], counts[2], counts[4]);
   };
   for (std::size_t s = 0; s < made.sources.size(); ++s) out += line(made.sources[s].name, s);
@@ -51,12 +51,12 @@ std::string summary(const Validation& made) {
 }
 
 std::string verdict_text(const Validation& made) {
-  const std::size_t differing = made.count(Verdict::differs);
-  if (!made.holds()) return fmt::format("NOT REPRODUCED: {} missed", made.count(Verdict::missed));
+  const std::size_t differing = made.count(Agreement::differs);
+  if (!made.holds()) return fmt::format("NOT REPRODUCED: {} missed", made.count(Agreement::missed));
   return differing == 0 ? "REPRODUCED" : fmt::format("REPRODUCED but for {} that differ", differing);
 }
 
-std::string lines_of(const Validation& made, Verdict verdict, const char* title) {
+std::string lines_of(const Validation& made, Agreement verdict, const char* title) {
   std::string out;
   for (const Judged& each : made.figures)
     if (each.verdict == verdict)
@@ -70,8 +70,8 @@ json::Node real(const std::optional<double>& value) { return value ? json::Node:
 }  // namespace
 
 std::string text_report(const Validation& made) {
-  return fmt::format("Published figures{}\n\n", made.is_short ? " (short: of large tables some rows)" : "") + summary(made) + lines_of(made, Verdict::missed, "Missed") +
-         lines_of(made, Verdict::differs, "Different, as the tables say") + lines_of(made, Verdict::met_after_all, "Met, though the tables say that they differ") +
+  return fmt::format("Published figures{}\n\n", made.is_short ? " (short: of large tables some rows)" : "") + summary(made) + lines_of(made, Agreement::missed, "Missed") +
+         lines_of(made, Agreement::differs, "Different, as the tables say") + lines_of(made, Agreement::met_after_all, "Met, though the tables say that they differ") +
          fmt::format("\n{}\n", verdict_text(made));
 }
 

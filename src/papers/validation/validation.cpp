@@ -9,9 +9,9 @@
 
 namespace takt::papers::validation {
 
-bool Validation::holds() const { return count(Verdict::missed) == 0; }
+bool Validation::holds() const { return count(Agreement::missed) == 0; }
 
-std::size_t Validation::count(Verdict verdict, std::optional<std::size_t> source) const {
+std::size_t Validation::count(Agreement verdict, std::optional<std::size_t> source) const {
   return static_cast<std::size_t>(std::count_if(figures.begin(), figures.end(), [&](const Judged& each) { return each.verdict == verdict && (!source || each.source == *source); }));
 }
 

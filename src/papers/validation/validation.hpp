@@ -28,7 +28,7 @@ struct Validation {
   std::vector<Figure> pictures;
   /// Every figure is met, or is one of those that the tables say differ.
   bool holds() const;
-  std::size_t count(Verdict verdict, std::optional<std::size_t> source = {}) const;
+  std::size_t count(Agreement verdict, std::optional<std::size_t> source = {}) const;
 };
 
 /// Nothing if a table or a scenario is wrong: the diagnostics say how.

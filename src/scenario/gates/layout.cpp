@@ -42,7 +42,7 @@ class Layout {
  private:
   const ScheduledStream& stream(Crossing c) const { return problem_.streams[c.stream]; }
   const ScheduledHop& hop(Crossing c) const { return problem_.streams[c.stream].hops[c.hop]; }
-  const GateWindow& window(Crossing c) const { return layout_.schedule.windows[c.stream][c.hop]; }
+  const StreamWindow& window(Crossing c) const { return layout_.schedule.windows[c.stream][c.hop]; }
   /// Its frame may begin by then, as the clocks go. At the talker no margin: it is the talker's own clock.
   Duration earliest(Crossing c) const { return window(c).start - (hop(c).previous ? problem_.margin : Duration()); }
   /// The end of what keeps others away: the gap behind the latest frame is part of it.

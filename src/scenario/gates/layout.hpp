@@ -10,7 +10,7 @@ namespace takt::scenario {
 
 /// A schedule, or why there is none.
 struct GateLayout {
-  GateSchedule schedule;                  ///< whole if there are no conflicts
+  GateSolution schedule;                  ///< whole if there are no conflicts
   std::vector<GateConflict> conflicts;    ///< at most one for each pair of streams and port
 };
 

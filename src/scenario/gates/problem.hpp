@@ -1,5 +1,5 @@
 // What automatic gates are laid for, and what is laid: plain values, so that other ways to a schedule can take the same problem and
-// the checker (synthesis/check.hpp) judges them all.
+// the checker (schedule_check/check.hpp) judges them all.
 //
 // Times are those of the synchronised clocks. The windows of a stream repeat with its period; `GateList`s begin at 0.
 #pragma once
@@ -59,11 +59,11 @@ inline constexpr std::size_t most_gate_entries = 1024;
 inline constexpr sim::Duration longest_gate_cycle = sim::Duration::from_ps(3'600'000'000'000'000);
 
 /// For a stream at a hop: its frames begin at `start` + n * period, and the gate is open from `open` to `close` + n * period.
-struct GateWindow {
+struct StreamWindow {
   sim::Duration start;
   sim::Duration open;
   sim::Duration close;
-  bool operator==(const GateWindow&) const = default;
+  bool operator==(const StreamWindow&) const = default;
 };
 
 struct GateList {
@@ -77,10 +77,10 @@ struct GateList {
   bool operator==(const GateList&) const = default;
 };
 
-struct GateSchedule {
-  std::vector<std::vector<GateWindow>> windows;  ///< by stream and hop
+struct GateSolution {
+  std::vector<std::vector<StreamWindow>> windows;  ///< by stream and hop
   std::vector<GateList> lists;                   ///< by port
-  bool operator==(const GateSchedule&) const = default;
+  bool operator==(const GateSolution&) const = default;
 };
 
 /// Why there is no schedule.
@@ -101,7 +101,7 @@ struct GateConflict {
 /// A problem and its solution, as a scenario keeps them.
 struct GatePlan {
   GateProblem problem;
-  GateSchedule schedule;
+  GateSolution schedule;
 };
 
 }  // namespace takt::scenario

@@ -56,7 +56,7 @@ void tell_idle_script(const Usage& usage, json::Diagnostics& diagnostics) {
   std::set<std::string_view> needed;
   for (const Program& program : r.scenario.programs) {
     for (const Role& role : program.roles) needed.insert(role.skill);
-    const bool is_started = program.within || std::any_of(r.scenario.script.begin(), r.scenario.script.end(), [&](const ScriptEntry& entry) { return entry.call == Method::start && entry.program == program.name; });
+    const bool is_started = program.within || std::any_of(r.scenario.script.begin(), r.scenario.script.end(), [&](const ScriptEntry& entry) { return entry.call == Method::Start && entry.program == program.name; });
     if (!is_started) warn_once(diagnostics, program.where.at("name"), "a program that nobody starts", {json::quote(program.name), "\"call\": \"Start\" in \"script\""});
   }
   for (const TopologyNode& node : r.topology.nodes) {

@@ -20,7 +20,7 @@ std::unique_ptr<wire::Nesting> ProgramApplication::nest(ProgramApplication& oute
   outer.host_of_other_ = &inner_host;
   inner.other_ = &outer;
   inner.host_of_other_ = &outer_host;
-  inner.side_ = handshake::Side::Inner;
+  inner.side_ = handshake::Side::inner;
   return std::make_unique<wire::Nesting>(outer.node_, inner.node_);
 }
 
@@ -80,7 +80,7 @@ void ProgramApplication::act(models::HostServices& host, const wire::Publish& me
     host.send(*role_stream_, message.octets);
   } else if (const auto& stream = data_streams_[message.data_set()]) {
     monitor_->on_published(message.data_set(), message.sequence);
-    if (node_.endpoint()->settings().handshake.variant == handshake::Variant::Paper) message.set_run(monitor_->sending_run(*node_.participant()));
+    if (node_.endpoint()->settings().handshake.variant == handshake::Variant::paper) message.set_run(monitor_->sending_run(*node_.participant()));
     host.send(*stream, message.octets);
   }
 }

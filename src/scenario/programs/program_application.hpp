@@ -73,7 +73,7 @@ class ProgramApplication final : public models::Application {
   wire::ProgramNode node_;
   std::vector<sim::TrueTime> heard_;   ///< by peer; the beginning for one that was never heard
   bool has_crashed_ = false;
-  handshake::Side side_ = handshake::Side::Outer;
+  handshake::Side side_ = handshake::Side::outer;
   ProgramApplication* other_ = nullptr;          ///< nested with this one
   models::HostServices* host_of_other_ = nullptr;
 };

@@ -28,7 +28,7 @@ void ProgramMonitor::on_step(std::size_t participant, const handshake::Outputs& 
   const handshake::Origin origin = outputs.raised ? origin_of(outputs) : handshake::Origin();
   if (tree_ != nullptr) tree_->on_step(group_, participant, outputs, after, origin);
   tracker_.on_step(participant, outputs, after, simulation_->now(), origin);
-  if (outputs.alarm == handshake::Alarm::PeerLeft) last_leave_ = sim::TrueTime::never();
+  if (outputs.alarm == handshake::Alarm::peer_left) last_leave_ = sim::TrueTime::never();
   for (const handshake::StateChange& change : outputs.changes()) {
     ++changes_;
     counts_.add(simulation_->now(), [](Counts& counts) { ++counts.changes; });
@@ -43,12 +43,12 @@ void ProgramMonitor::on_step(std::size_t participant, const handshake::Outputs& 
 handshake::Origin ProgramMonitor::origin_of(const handshake::Outputs& outputs) const {
   using handshake::Cause;
   switch (outputs.alarm) {
-    case handshake::Alarm::None: return {Cause::command, sim::TrueTime::never(), !is_called_ && outputs.raised_kind == handshake::IntentKind::Start};
-    case handshake::Alarm::PeerSilent: return silence_;
-    case handshake::Alarm::PeerRestarted: return {Cause::restart, last_back_};
-    case handshake::Alarm::PeerLeft: return {Cause::leave, last_leave_};
-    case handshake::Alarm::Mismatch: return {Cause::mismatch};
-    case handshake::Alarm::OtherGroup: return {Cause::nested};
+    case handshake::Alarm::none: return {Cause::command, sim::TrueTime::never(), !is_called_ && outputs.raised_kind == handshake::IntentKind::Start};
+    case handshake::Alarm::peer_silent: return silence_;
+    case handshake::Alarm::peer_restarted: return {Cause::restart, last_back_};
+    case handshake::Alarm::peer_left: return {Cause::leave, last_leave_};
+    case handshake::Alarm::mismatch: return {Cause::mismatch};
+    case handshake::Alarm::other_group: return {Cause::nested};
   }
   return {};
 }

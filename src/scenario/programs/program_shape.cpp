@@ -8,7 +8,7 @@ wire::ProgramShape shape_of(const ResolvedProgram& program) {
   const Program& description = *program.description;
   wire::ProgramShape shape;
   shape.name = program.name;
-  shape.variant = variant_of(description.variant);
+  shape.variant = description.variant;
   shape.participants.push_back(description.master);
   shape.participants.insert(shape.participants.end(), description.slaves.begin(), description.slaves.end());
   for (const Role& role : description.roles) shape.participants.push_back(role.name);

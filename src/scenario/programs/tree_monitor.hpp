@@ -21,7 +21,7 @@ class TreeMonitor {
 
   /// `programs`: numbers of the run's programs in the order of `groups`.
   TreeMonitor(sim::Simulation& simulation, std::vector<std::uint32_t> programs, std::vector<handshake::TreeGroup> groups)
-      : simulation_(&simulation), programs_(std::move(programs)), observer_(handshake::Variant::Robust, handshake::GroupTree(std::move(groups))), reactions_(observer_.tree().participants()) {}
+      : simulation_(&simulation), programs_(std::move(programs)), observer_(handshake::Variant::robust, handshake::GroupTree(std::move(groups))), reactions_(observer_.tree().participants()) {}
 
   void on_step(std::size_t group, std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after, const handshake::Origin& origin);
   void on_crash(std::size_t group, std::size_t participant);

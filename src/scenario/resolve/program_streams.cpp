@@ -15,7 +15,7 @@ class ProgramStreams {
   ProgramStreams(Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program) : r_(resolved), builder_(builder), program_(program), description_(*program.description) {}
 
   bool lay() {
-    const Octets state{wire::state_octets(vocabulary::variant_of(description_.variant))};
+    const Octets state{wire::state_octets(description_.variant)};
     const Octets table{wire::table_octets(description_.roles.size(), program_.candidates().size())};
     for (std::size_t m = 0; m < program_.members.size(); ++m) {
       ResolvedMember& member = program_.members[m];

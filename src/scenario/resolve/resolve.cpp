@@ -396,11 +396,11 @@ class Resolver {
     if (!participant) return;
     // In the paper's handshake all participants may be started from outside; `robust` begins a run at the master.
     if (diagnostics_.is_refused(entry.where.at("call"))) return;
-    if (*entry.call == Method::start && *participant != 0 && program->variant == Variant::robust) {
+    if (*entry.call == Method::Start && *participant != 0 && program->variant == Variant::robust) {
       diagnostics_.error(entry.where.at("on"), "Start at a slave", {json::quote(*entry.on), "the master, " + json::quote(program->master)});
       return;
     }
-    if (*entry.call == Method::start && program->within) {
+    if (*entry.call == Method::Start && program->within) {
       diagnostics_.error(entry.where.at("program"), "Start of a nested program", {json::quote(program->name), "the outermost program, which starts it"});
       return;
     }

@@ -96,7 +96,7 @@ struct ResolvedProgram {
 struct ResolvedCall {
   std::uint32_t program = 0;
   std::uint8_t participant = 0;
-  Method method = Method::start;
+  Method method = Method::Start;
 };
 
 /// A candidate begins to announce itself, or leaves.

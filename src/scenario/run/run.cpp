@@ -23,11 +23,11 @@ wire::EndpointSettings endpoint_settings(const ResolvedProgram& program, std::si
   const Program& description = *program.description;
   wire::EndpointSettings endpoint;
   endpoint.handshake.variant = format->shape().variant;
-  endpoint.handshake.role = participant == 0 ? handshake::Role::Master : handshake::Role::Slave;
+  endpoint.handshake.role = participant == 0 ? handshake::Role::master : handshake::Role::slave;
   endpoint.handshake.index = static_cast<std::uint8_t>(participant);
   endpoint.handshake.slaves = static_cast<std::uint8_t>(program.participant_names.size() - 1);
   endpoint.handshake.incarnation = 1;
-  endpoint.handshake.subscription = description.subscription == Subscription::star ? handshake::Subscription::Star : handshake::Subscription::AllToAll;
+  endpoint.handshake.subscription = description.subscription;
   endpoint.handshake.nested = program.nested.contains(static_cast<std::uint8_t>(participant));
   endpoint.format = std::move(format);
   endpoint.cycle = description.cycle;
@@ -75,11 +75,10 @@ class Run::Script final : public sim::Component {
   /// Nobody has the role: refused.
   void act(const ResolvedCall& call) {
     const LiveProgram& live = *run_->programs_[call.program];
-    const program::Method method = vocabulary::method_of(call.method);
     if (const LiveMember* const member = live.who_is(call.participant))
-      member->process->call([&](models::Application&, models::HostServices& host) { member->application->call(host, method); });
+      member->process->call([&](models::Application&, models::HostServices& host) { member->application->call(host, call.method); });
     else
-      live.monitor->on_call(call.participant, method, program::StatusCode::BadInvalidState);
+      live.monitor->on_call(call.participant, call.method, program::StatusCode::BadInvalidState);
   }
   void act(const ResolvedPlug& change) {
     const LiveProgram& live = *run_->programs_[change.program];

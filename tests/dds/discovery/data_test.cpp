@@ -248,7 +248,7 @@ TEST(Data, OfAStockImplementation) {
         EXPECT_EQ(decode(data->payload, messages.emplace_back()), DataVerdict::ok);
       }
     }
-    EXPECT_EQ(decoder.verdict(), Verdict::ok);
+    EXPECT_EQ(decoder.verdict(), MessageStatus::ok);
     EXPECT_EQ(decoder.skipped(), 0u);
   }
   ASSERT_EQ(participants.size(), 5u);

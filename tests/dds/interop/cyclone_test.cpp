@@ -229,7 +229,7 @@ void exchange(const TimingProfile& timing, const DiscoveryProfile& profile, std:
   EXPECT_TRUE(ours.run_until([&] { return peer.has_ended(); }));
   EXPECT_EQ(peer.exit_status(), 0);
   EXPECT_TRUE(ours.run_until([&] { return ours.lost == 1; })) << "it takes leave";
-  EXPECT_EQ(ours->figures().verdicts[Verdict::malformed] + ours->figures().verdicts[Verdict::truncated], 0u);
+  EXPECT_EQ(ours->figures().verdicts[MessageStatus::malformed] + ours->figures().verdicts[MessageStatus::truncated], 0u);
   EXPECT_EQ(ours->discovery()->figures().refused, 0u);
 }
 

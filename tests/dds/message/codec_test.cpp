@@ -140,7 +140,7 @@ TEST(Codec, FormerSubmessagesTellAboutLaterOnes) {
   while (decoder.next())
     if (decoder.kind() == SubmessageKind::heartbeat) seen.push_back(decoder.interpretation());
   ASSERT_EQ(seen.size(), 4u);
-  EXPECT_EQ(decoder.verdict(), Verdict::ok);
+  EXPECT_EQ(decoder.verdict(), MessageStatus::ok);
   EXPECT_EQ(seen[0].source, some_prefix);
   EXPECT_EQ(seen[0].vendor, takt_vendor);
   EXPECT_TRUE(seen[0].destination.is_unknown());

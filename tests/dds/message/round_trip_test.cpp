@@ -43,7 +43,7 @@ bool survive(const std::vector<Submessage>& submessages, ByteOrder order) {
     if (count == submessages.size() || !same_submessage(submessages[count], decoder.submessage())) return false;
     ++count;
   }
-  return decoder.verdict() == Verdict::ok && decoder.skipped() == 0 && count == submessages.size() && decoder.header() == some_header;
+  return decoder.verdict() == MessageStatus::ok && decoder.skipped() == 0 && count == submessages.size() && decoder.header() == some_header;
 }
 
 TEST(RoundTrip, OfEverySubmessage) {

@@ -21,9 +21,9 @@ void expect_to_recover(const Query& query, std::uint64_t states) {
   const SearchResult result = ask(query);
   EXPECT_TRUE(result.exhausted);
   for (const Property property : {Property::S1, Property::S2, Property::S3, Property::S4, Property::S5, Property::L1})
-    EXPECT_EQ(result[property], Verdict::holds) << text_report(query, result, 0.0);
-  EXPECT_NE(result[Property::F1], Verdict::violated) << text_report(query, result, 0.0);
-  EXPECT_EQ(result[Property::all_running], Verdict::reached);
+    EXPECT_EQ(result[property], PropertyVerdict::holds) << text_report(query, result, 0.0);
+  EXPECT_NE(result[Property::F1], PropertyVerdict::violated) << text_report(query, result, 0.0);
+  EXPECT_EQ(result[Property::all_running], PropertyVerdict::reached);
   EXPECT_EQ(result.states, states);
 }
 
@@ -61,7 +61,7 @@ TEST(Forge, WhatAStrangerMaySay) {
   std::size_t kinds = 0;
   std::size_t ahead = 0;
   for (const Letter& letter : letters) {
-    EXPECT_TRUE(handshake::is_valid(letter.word, handshake::Variant::Robust, 2));
+    EXPECT_TRUE(handshake::is_valid(letter.word, handshake::Variant::robust, 2));
     kinds |= std::size_t{1} << (handshake::index_of(letter.word.intent.kind) * handshake::published_state_count + handshake::index_of(letter.word.state));
     if (letter.ahead) ++ahead;
   }

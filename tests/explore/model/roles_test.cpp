@@ -30,7 +30,7 @@ TEST(Roles, HoldInEveryOrder) {
       {of_roles(1, 2, 1, {Fault::crash}, true), 360120, 1545424},
 #endif
   };
-  for (const Case& each : cases) EXPECT_EQ(expect_to_hold(each)[Property::B1], Verdict::holds);
+  for (const Case& each : cases) EXPECT_EQ(expect_to_hold(each)[Property::B1], PropertyVerdict::holds);
 }
 
 TEST(Roles, RunsBeginWhereverAGroupRests) {
@@ -45,9 +45,9 @@ TEST(Roles, AGroupWhoseRolesNobodyFillsStaysHalted) {
   Query query = of_roles(2, 2, 2, {});
   query.offers = {1, 1, 0};
   const SearchResult result = ask(query);
-  EXPECT_EQ(result[Property::all_running], Verdict::unreached);
-  EXPECT_EQ(result[Property::L1], Verdict::holds);
-  EXPECT_EQ(result[Property::B1], Verdict::holds);
+  EXPECT_EQ(result[Property::all_running], PropertyVerdict::unreached);
+  EXPECT_EQ(result[Property::L1], PropertyVerdict::holds);
+  EXPECT_EQ(result[Property::B1], PropertyVerdict::holds);
 }
 
 /// A step in a state in which the property is violated by hand.
@@ -67,7 +67,7 @@ TEST(Roles, AChartNamesTheRoles) {
   Query query = of_roles(1, 2, 1, {});
   query.beginnings = Beginnings::switched_on;
   const SearchResult result = ask(query);
-  ASSERT_EQ(result[Property::all_running], Verdict::reached);
+  ASSERT_EQ(result[Property::all_running], PropertyVerdict::reached);
   const Trace& trace = *result.traces[index_of(Property::all_running)];
   const std::string text = chart(query, result.beginnings[trace.beginning], trace);
   for (const char* part : {"master              candidate 1         candidate 2\n", "hears master: bound, role 1: candidate 1 life 1", "Start is called at the master", "Running             Running, role 1     joins\n"})

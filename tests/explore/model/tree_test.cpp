@@ -88,7 +88,7 @@ class Watched : public testing::Test {
   }
   static constexpr std::uint32_t outer = 7, inner = 9;
   TreeShape shape{tree(1, 1, false, 1, {})};
-  SmallObserver observer{handshake::Variant::Robust, shape.tree()};
+  SmallObserver observer{handshake::Variant::robust, shape.tree()};
 };
 
 TEST_F(Watched, ARightStartViolatesNothing) {
@@ -197,7 +197,7 @@ TEST(Tree, AChartNamesBothGroups) {
   Query query = tree(1, 1, true, 1, {});
   query.beginnings = Beginnings::switched_on;
   const SearchResult result = ask(query);
-  ASSERT_EQ(result[Property::all_running], Verdict::reached);
+  ASSERT_EQ(result[Property::all_running], PropertyVerdict::reached);
   const Trace& trace = *result.traces[index_of(Property::all_running)];
   const std::string text = chart(query, result.beginnings[trace.beginning], trace);
   for (const char* part : {"master         slave 1        inner master   inner slave 1\n", "inner slave 1 comes up", "Start is called at the master",
@@ -211,8 +211,8 @@ TEST(Tree, ACutSearchDecidesNoLiveness) {
   const SearchResult result = ask(query);
   EXPECT_FALSE(result.exhausted);
   EXPECT_EQ(result.states, 1000U);
-  EXPECT_EQ(result[Property::L1], Verdict::unknown);
-  EXPECT_EQ(result[Property::F1], Verdict::unknown);
+  EXPECT_EQ(result[Property::L1], PropertyVerdict::unknown);
+  EXPECT_EQ(result[Property::F1], PropertyVerdict::unknown);
 }
 
 }  // namespace

@@ -93,37 +93,37 @@ void compare(Variant variant, std::uint8_t slaves, std::uint64_t walks, Query qu
     }
   }
   if (forgery == 0) {
-    EXPECT_EQ(violations > 0, variant == Variant::Paper);
+    EXPECT_EQ(violations > 0, variant == Variant::paper);
   }
 }
 
 TEST(Walks, RobustDoesTheSameInTheModelAndInTheOpen) {
-  for (std::uint8_t slaves = 1; slaves <= 3; ++slaves) compare(Variant::Robust, slaves, 500);
+  for (std::uint8_t slaves = 1; slaves <= 3; ++slaves) compare(Variant::robust, slaves, 500);
 }
 TEST(Walks, PaperDoesTheSameInTheModelAndInTheOpen) {
-  for (std::uint8_t slaves = 1; slaves <= 3; ++slaves) compare(Variant::Paper, slaves, 500);
+  for (std::uint8_t slaves = 1; slaves <= 3; ++slaves) compare(Variant::paper, slaves, 500);
 }
 
 TEST(Walks, AllToAllDoesTheSameInTheModelAndInTheOpen) {
   Query query;
-  query.subscription = handshake::Subscription::AllToAll;
-  for (const Variant variant : {Variant::Robust, Variant::Paper})
+  query.subscription = handshake::Subscription::all_to_all;
+  for (const Variant variant : {Variant::robust, Variant::paper})
     for (std::uint8_t slaves = 2; slaves <= 3; ++slaves) compare(variant, slaves, 500, query);
 }
 // What a stranger says is heard in the open as it is in the model. (There S1 to S5 are not judged while it may do harm.)
 TEST(Walks, ForgedWordsDoTheSameInTheModelAndInTheOpen) {
   Query query;
-  compare(Variant::Robust, 1, 500, query, 20);
-  compare(Variant::Robust, 2, 500, query, 20);
+  compare(Variant::robust, 1, 500, query, 20);
+  compare(Variant::robust, 2, 500, query, 20);
   query.network = Network::channels;
-  compare(Variant::Robust, 2, 500, query, 20);
+  compare(Variant::robust, 2, 500, query, 20);
 }
 TEST(Walks, ChannelsDoTheSameInTheModelAndInTheOpen) {
   Query query;
   query.network = Network::channels;
   // One message overtaken at a time in each channel: then the model's sequence numbers are exact (README.md).
   for (query.capacity = 1; query.capacity <= 2; ++query.capacity)
-    for (const Variant variant : {Variant::Robust, Variant::Paper})
+    for (const Variant variant : {Variant::robust, Variant::paper})
       for (std::uint8_t slaves = 1; slaves <= 3; ++slaves) compare(variant, slaves, 500, query);
 }
 
@@ -135,8 +135,8 @@ TEST(Symmetry, StepsCommuteWithNames) {
   query.fault_budget = 4;
   for (const Fault fault : true_faults) query.faults.insert(fault);
   for (int kind = 0; kind < 6; ++kind) {
-    query.variant = kind % 2 == 0 ? Variant::Robust : Variant::Paper;
-    query.subscription = kind / 2 == 1 ? handshake::Subscription::AllToAll : handshake::Subscription::Star;
+    query.variant = kind % 2 == 0 ? Variant::robust : Variant::paper;
+    query.subscription = kind / 2 == 1 ? handshake::Subscription::all_to_all : handshake::Subscription::star;
     query.network = kind / 2 == 2 ? Network::channels : Network::registers;
     SCOPED_TRACE(kind);
     GroupModel model(query);

@@ -15,7 +15,7 @@ struct Case {
   std::uint32_t commands;
   std::uint32_t faults;  ///< of every class
   Network network = Network::registers;
-  handshake::Subscription subscription = handshake::Subscription::Star;
+  handshake::Subscription subscription = handshake::Subscription::star;
   std::uint8_t inner_slaves = 0;
   bool forges = false;   ///< the only fault is a forged word
   std::uint8_t candidates = 0;
@@ -28,14 +28,14 @@ const std::vector<Case>& cases() {
                                      {2, 2, 0},
                                      {1, 2, 1},
                                      {2, 1, 1},
-                                     {2, 1, 0, Network::registers, handshake::Subscription::AllToAll},
+                                     {2, 1, 0, Network::registers, handshake::Subscription::all_to_all},
                                      {1, 1, 1, Network::channels},
-                                     {1, 2, 0, Network::registers, handshake::Subscription::Star, 1},
-                                     {1, 1, 1, Network::registers, handshake::Subscription::Star, 1},
-                                     {1, 1, 1, Network::registers, handshake::Subscription::Star, 0, true},
-                                     {1, 1, 0, Network::registers, handshake::Subscription::Star, 0, false, 2},
-                                     {2, 1, 0, Network::registers, handshake::Subscription::Star, 0, false, 2, 2},
-                                     {1, 1, 1, Network::registers, handshake::Subscription::Star, 0, false, 1}};
+                                     {1, 2, 0, Network::registers, handshake::Subscription::star, 1},
+                                     {1, 1, 1, Network::registers, handshake::Subscription::star, 1},
+                                     {1, 1, 1, Network::registers, handshake::Subscription::star, 0, true},
+                                     {1, 1, 0, Network::registers, handshake::Subscription::star, 0, false, 2},
+                                     {2, 1, 0, Network::registers, handshake::Subscription::star, 0, false, 2, 2},
+                                     {1, 1, 1, Network::registers, handshake::Subscription::star, 0, false, 1}};
   return all;
 }
 
@@ -67,7 +67,7 @@ int probe() {
     std::fflush(stdout);  // a mutant may break a CHECK
     const SearchResult result = explore(query, [](const Progress&) { return true; });
     for (std::size_t p = 0; p < property_count; ++p) {
-      if (result.verdicts[p] != Verdict::violated && result.verdicts[p] != Verdict::unreached) continue;
+      if (result.verdicts[p] != PropertyVerdict::violated && result.verdicts[p] != PropertyVerdict::unreached) continue;
       // The page with the chart first, for the last two lines are what the caller looks for.
       if (query.is_tree()) std::printf("%s\n%s\n", text_report(query, result, 0.0).c_str(), query_line(query).c_str());
       std::printf("killed %.*s\n", static_cast<int>(property_names[p].size()), property_names[p].data());

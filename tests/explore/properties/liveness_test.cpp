@@ -93,27 +93,27 @@ void compare(const Query& query) {
   for (const bool symmetry : {false, true}) {
     asked.symmetry = symmetry;
     const SearchResult result = ask(asked);
-    EXPECT_EQ(result[Property::L1] == Verdict::violated, unsettled) << symmetry;
-    if (query.asks_for_silence() && query.variant == Variant::Robust) {
-      EXPECT_EQ(result[Property::F1] == Verdict::violated, unhalted) << symmetry;
+    EXPECT_EQ(result[Property::L1] == PropertyVerdict::violated, unsettled) << symmetry;
+    if (query.asks_for_silence() && query.variant == Variant::robust) {
+      EXPECT_EQ(result[Property::F1] == PropertyVerdict::violated, unhalted) << symmetry;
     }
   }
 }
 
 TEST(Liveness, RobustAgreesWithTheFixedPoint) {
-  compare(small(Variant::Robust, 1, 3, {}));
-  compare(small(Variant::Robust, 1, 1, {Fault::crash, Fault::reorder}));
-  compare(small(Variant::Robust, 2, 1, {}));
+  compare(small(Variant::robust, 1, 3, {}));
+  compare(small(Variant::robust, 1, 1, {Fault::crash, Fault::reorder}));
+  compare(small(Variant::robust, 2, 1, {}));
 }
 
 TEST(Liveness, PaperAgreesWithTheFixedPoint) {
-  for (std::uint32_t commands = 0; commands <= 2; ++commands) compare(small(Variant::Paper, 1, commands, {}));
-  compare(small(Variant::Paper, 2, 1, {}));
-  compare(small(Variant::Paper, 1, 1, {Fault::loss, Fault::crash}));
+  for (std::uint32_t commands = 0; commands <= 2; ++commands) compare(small(Variant::paper, 1, commands, {}));
+  compare(small(Variant::paper, 2, 1, {}));
+  compare(small(Variant::paper, 1, 1, {Fault::loss, Fault::crash}));
 }
 
 TEST(Liveness, ChannelsAgreeWithTheFixedPoint) {
-  for (const Variant variant : {Variant::Robust, Variant::Paper}) {
+  for (const Variant variant : {Variant::robust, Variant::paper}) {
     Query query = small(variant, 1, 2, {});
     query.network = Network::channels;
     compare(query);
@@ -128,10 +128,10 @@ TEST(Liveness, ChannelsAgreeWithTheFixedPoint) {
 
 // Only `paper` lets somebody go round: its suspend and resume chase each other.
 TEST(Recurrence, NamesWhoGoesRound) {
-  for (const Variant variant : {Variant::Robust, Variant::Paper}) {
+  for (const Variant variant : {Variant::robust, Variant::paper}) {
     Whole whole(small(variant, 1, 2, {Fault::loss, Fault::crash}));
     const std::vector<bool> round = members_that_go_round(whole.model().members(), 1);
-    EXPECT_EQ(std::find(round.begin(), round.end(), true) != round.end(), variant == Variant::Paper);
+    EXPECT_EQ(std::find(round.begin(), round.end(), true) != round.end(), variant == Variant::paper);
   }
 }
 

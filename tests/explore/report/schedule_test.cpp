@@ -27,7 +27,7 @@ const std::vector<End>& ends() {
       {"paper-missed-halt-L1", {PublishedState::Ready, PublishedState::Ready}},           // after a Start
       {"paper-reset-restarts-L1", {PublishedState::Running, PublishedState::Running}},    // after a Reset
       {"paper-silence-F1", {PublishedState::Running, PublishedState::Running}},           // the master is down
-      {"paper-suspend-resume-chase-L1", {}},
+      {"paper-suspend-resume-livelock-L1", {}},
   };
   return all;
 }
@@ -84,7 +84,7 @@ std::vector<Row> table() {
     std::istringstream rest(line.substr(line.find('|', 3) + 1));
     std::string bar;
     rest >> row.property >> bar;
-    row.query.variant = handshake::Variant::Paper;
+    row.query.variant = handshake::Variant::paper;
     row.query.finishes = false;
     for (std::string word; rest >> word && word != "|";) {
       std::string value;
@@ -111,7 +111,7 @@ TEST(Findings, StandInTheTable) {
     const SearchResult result = ask(row.query);
     for (std::size_t p = 0; p < property_count; ++p)
       if (property_names[p] == row.property) {
-        EXPECT_EQ(result.verdicts[p], Verdict::violated);
+        EXPECT_EQ(result.verdicts[p], PropertyVerdict::violated);
       }
   }
 }

@@ -46,7 +46,7 @@ TEST(Robust, HoldsInEveryOrderUnderEveryFault) {
 #endif
   for (const BudgetCase& each : cases) {
     SCOPED_TRACE(testing::Message() << int{each.slaves} << " slaves, " << each.commands << " calls, " << each.faults << " faults");
-    Query asked = query(Variant::Robust, each.slaves, each.commands, each.faults, every_fault);
+    Query asked = query(Variant::robust, each.slaves, each.commands, each.faults, every_fault);
     const SearchResult result = ask(asked);
     EXPECT_TRUE(result.exhausted);
     EXPECT_TRUE(result.all_hold()) << verdicts(result);
@@ -77,10 +77,10 @@ TEST(Robust, HoldsUnderEachClassOfFaultsByItself) {
   for (const FaultCase& each : cases) {
     SCOPED_TRACE(name_of(each.fault));
     const Fault classes[] = {each.fault};
-    const SearchResult one = ask(query(Variant::Robust, 1, 2, 2, classes));
+    const SearchResult one = ask(query(Variant::robust, 1, 2, 2, classes));
     EXPECT_TRUE(one.exhausted && one.all_hold()) << verdicts(one);
     EXPECT_EQ(one.states, each.one_slave);
-    Query asked = query(Variant::Robust, 2, 1, 1, classes);
+    Query asked = query(Variant::robust, 2, 1, 1, classes);
     const SearchResult two = ask(asked);
     EXPECT_TRUE(two.exhausted && two.all_hold()) << verdicts(two);
     EXPECT_EQ(two.states, each.two_slaves);
@@ -102,7 +102,7 @@ struct NetworkCase {
 // 1 call and 1 fault of every class.
 TEST(Robust, HoldsOnChannelsAndWithAllToAllSubscription) {
   using handshake::Subscription;
-  constexpr NetworkCase cases[] = {{1, 1, Subscription::Star, 14555, 14555}, {1, 2, Subscription::Star, 28271, 28271}, {1, 3, Subscription::Star, 32314, 32314}};
+  constexpr NetworkCase cases[] = {{1, 1, Subscription::star, 14555, 14555}, {1, 2, Subscription::star, 28271, 28271}, {1, 3, Subscription::star, 32314, 32314}};
   const auto check = [](const NetworkCase& each, Query asked) {
     SCOPED_TRACE(testing::Message() << int{each.slaves} << " slaves, channels of " << int{each.capacity} << ", subscription " << static_cast<int>(each.subscription));
     asked.subscription = each.subscription;
@@ -119,12 +119,12 @@ TEST(Robust, HoldsOnChannelsAndWithAllToAllSubscription) {
     EXPECT_EQ(apart.states, each.told_apart);
     EXPECT_EQ(verdicts(apart), verdicts(result));
   };
-  for (const NetworkCase& each : cases) check(each, query(Variant::Robust, each.slaves, 1, 1, every_fault));
+  for (const NetworkCase& each : cases) check(each, query(Variant::robust, each.slaves, 1, 1, every_fault));
 #ifdef NDEBUG
   constexpr Fault crash[] = {Fault::crash};
-  check({2, 1, Subscription::Star, 37751, 74500}, query(Variant::Robust, 2, 1, 1, crash));
-  check({2, 2, Subscription::Star, 12842, 25264}, query(Variant::Robust, 2, 1, 0, {}));
-  check({2, 0, Subscription::AllToAll, 582170, 1117007}, query(Variant::Robust, 2, 1, 1, crash));
+  check({2, 1, Subscription::star, 37751, 74500}, query(Variant::robust, 2, 1, 1, crash));
+  check({2, 2, Subscription::star, 12842, 25264}, query(Variant::robust, 2, 1, 0, {}));
+  check({2, 0, Subscription::all_to_all, 582170, 1117007}, query(Variant::robust, 2, 1, 1, crash));
 #endif
 }
 
@@ -132,13 +132,13 @@ TEST(Robust, HoldsOnChannelsAndWithAllToAllSubscription) {
 TEST(Paper, FailsOnEveryNetwork) {
   for (const bool channels : {false, true}) {
     SCOPED_TRACE(channels);
-    Query asked = query(Variant::Paper, channels ? 1 : 2, channels ? 2 : 1, 0, {});
+    Query asked = query(Variant::paper, channels ? 1 : 2, channels ? 2 : 1, 0, {});
     if (channels) asked.network = Network::channels;
-    else asked.subscription = handshake::Subscription::AllToAll;
+    else asked.subscription = handshake::Subscription::all_to_all;
     const SearchResult result = ask(asked);
     EXPECT_TRUE(result.exhausted);
-    for (const Property property : {Property::S1, Property::S2, Property::L1}) EXPECT_EQ(result[property], Verdict::violated) << name_of(property);
-    for (const Property property : {Property::S4, Property::S5}) EXPECT_EQ(result[property], Verdict::holds) << name_of(property);
+    for (const Property property : {Property::S1, Property::S2, Property::L1}) EXPECT_EQ(result[property], PropertyVerdict::violated) << name_of(property);
+    for (const Property property : {Property::S4, Property::S5}) EXPECT_EQ(result[property], PropertyVerdict::holds) << name_of(property);
     for (const Property property : {Property::S1, Property::S2}) {
       if (!result.traces[index_of(property)]) continue;
       const Trace& trace = *result.traces[index_of(property)];
@@ -151,33 +151,33 @@ TEST(Paper, FailsOnEveryNetwork) {
 TEST(Silence, IsAskedOnlyWhereSomebodyCanBeSilent) {
   const auto of_silence = [](std::initializer_list<Fault> classes, std::uint32_t budget) {
     const std::vector<Fault> all(classes);
-    const SearchResult result = ask(query(Variant::Robust, 1, 2, budget, all));
+    const SearchResult result = ask(query(Variant::robust, 1, 2, budget, all));
     EXPECT_TRUE(result.all_hold());
     return std::pair(result[Property::F1], result[Property::silence]);
   };
-  EXPECT_EQ(of_silence({Fault::loss, Fault::restart}, 1), std::pair(Verdict::not_asked, Verdict::not_asked));
-  EXPECT_EQ(of_silence({Fault::crash}, 0), std::pair(Verdict::not_asked, Verdict::not_asked));
-  EXPECT_EQ(of_silence({Fault::crash}, 1), std::pair(Verdict::holds, Verdict::reached));
-  EXPECT_EQ(of_silence({Fault::timeout}, 1), std::pair(Verdict::holds, Verdict::reached));
+  EXPECT_EQ(of_silence({Fault::loss, Fault::restart}, 1), std::pair(PropertyVerdict::not_asked, PropertyVerdict::not_asked));
+  EXPECT_EQ(of_silence({Fault::crash}, 0), std::pair(PropertyVerdict::not_asked, PropertyVerdict::not_asked));
+  EXPECT_EQ(of_silence({Fault::crash}, 1), std::pair(PropertyVerdict::holds, PropertyVerdict::reached));
+  EXPECT_EQ(of_silence({Fault::timeout}, 1), std::pair(PropertyVerdict::holds, PropertyVerdict::reached));
 }
 
 TEST(Paper, FailsAsTheReadmeOfTheHandshakeSays) {
-  const SearchResult result = ask(query(Variant::Paper, 1, 2, 1, every_fault));
+  const SearchResult result = ask(query(Variant::paper, 1, 2, 1, every_fault));
   EXPECT_TRUE(result.exhausted);
-  for (const Property property : {Property::S1, Property::S2, Property::S3, Property::F1, Property::L1}) EXPECT_EQ(result[property], Verdict::violated) << name_of(property);
-  for (const Property property : {Property::S4, Property::S5}) EXPECT_EQ(result[property], Verdict::holds) << name_of(property);
-  for (std::size_t p = index_of(Property::all_running); p < property_count; ++p) EXPECT_EQ(result.verdicts[p], Verdict::reached) << property_names[p];
+  for (const Property property : {Property::S1, Property::S2, Property::S3, Property::F1, Property::L1}) EXPECT_EQ(result[property], PropertyVerdict::violated) << name_of(property);
+  for (const Property property : {Property::S4, Property::S5}) EXPECT_EQ(result[property], PropertyVerdict::holds) << name_of(property);
+  for (std::size_t p = index_of(Property::all_running); p < property_count; ++p) EXPECT_EQ(result.verdicts[p], PropertyVerdict::reached) << property_names[p];
 }
 
 // The counter-example of an invariant is one for the observer of all other tests, too.
 TEST(Paper, TheObserverSeesWhatTheSearchSees) {
   for (std::uint8_t slaves = 1; slaves <= 2; ++slaves) {
     for (const bool finishes : {true, false}) {
-      Query asked = query(Variant::Paper, slaves, slaves == 1 ? 3 : 1, 1, every_fault);
+      Query asked = query(Variant::paper, slaves, slaves == 1 ? 3 : 1, 1, every_fault);
       asked.finishes = finishes;
       const SearchResult result = ask(asked);
       for (const Property property : {Property::S1, Property::S2, Property::S3}) {
-        if (result[property] != Verdict::violated) continue;
+        if (result[property] != PropertyVerdict::violated) continue;
         const Trace& trace = *result.traces[index_of(property)];
         EXPECT_TRUE(observed(replay(asked, result.beginnings[trace.beginning], trace), property)) << name_of(property);
       }
@@ -186,25 +186,25 @@ TEST(Paper, TheObserverSeesWhatTheSearchSees) {
 }
 
 // Suspend and resume that cross chase each other for ever: a cycle, and not only an end at the wrong place.
-TEST(Paper, HasFairCyclesOutsideTheGoal) { EXPECT_GT(ask(query(Variant::Paper, 1, 2, 0, {})).cyclic_states, 100U); }
+TEST(Paper, HasFairCyclesOutsideTheGoal) { EXPECT_GT(ask(query(Variant::paper, 1, 2, 0, {})).cyclic_states, 100U); }
 
 // Without any call the paper's group stays where it is; with none, nothing can be reached either, and that is said.
 TEST(Vacuity, NothingIsReachedWithoutCalls) {
-  const SearchResult result = ask(query(Variant::Robust, 1, 0, 0, {}));
+  const SearchResult result = ask(query(Variant::robust, 1, 0, 0, {}));
   EXPECT_TRUE(result.exhausted);
   EXPECT_FALSE(result.all_hold());
   EXPECT_FALSE(result.any_violated());
-  EXPECT_EQ(result[Property::T5], Verdict::unreached);
+  EXPECT_EQ(result[Property::T5], PropertyVerdict::unreached);
 }
 
 TEST(Limits, StatesAndDepth) {
-  Query asked = query(Variant::Robust, 1, 4, 0, {});
+  Query asked = query(Variant::robust, 1, 4, 0, {});
   asked.states = 1000;
   const SearchResult few = ask(asked);
   EXPECT_EQ(few.states, 1000U);
   EXPECT_FALSE(few.exhausted);
-  EXPECT_EQ(few[Property::L1], Verdict::unknown);
-  asked = query(Variant::Robust, 1, 4, 0, {});
+  EXPECT_EQ(few[Property::L1], PropertyVerdict::unknown);
+  asked = query(Variant::robust, 1, 4, 0, {});
   asked.depth = 5;
   const SearchResult shallow = ask(asked);
   EXPECT_EQ(shallow.depth, 5U);
@@ -212,7 +212,7 @@ TEST(Limits, StatesAndDepth) {
 }
 
 TEST(Limits, CanBeInterrupted) {
-  const SearchResult result = explore(query(Variant::Robust, 2, 2, 1, every_fault), [](const Progress&) { return false; });
+  const SearchResult result = explore(query(Variant::robust, 2, 2, 1, every_fault), [](const Progress&) { return false; });
   EXPECT_TRUE(result.interrupted);
   EXPECT_FALSE(result.exhausted);
 }

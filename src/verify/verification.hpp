@@ -1,4 +1,4 @@
-// The sandwich of each requirement: simulated maximum <= adversarial maximum <= analytic bound, and where the limit lies in it.
+// What is said of each requirement: simulated maximum <= adversarial maximum <= analytic bound, and where the limit lies between them.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,17 @@
 
 namespace takt::verify {
 
-enum class Verdict : std::uint8_t {
+enum class Conclusion : std::uint8_t {
   pass,           ///< proved: no run that the scenario allows exceeds the limit, and all that the proof rests on stands
   refuted,        ///< there is a run that exceeds it
   undecided,      ///< no run was found, and none is excluded
   contradiction,  ///< a run exceeds what was proved: a mistake of takt, nothing here is to be trusted
 };
-const char* name_of(Verdict verdict);
+const char* name_of(Conclusion verdict);
 
 struct Line {
   results::RequirementResult requirement;
-  Verdict verdict = Verdict::undecided;
+  Conclusion verdict = Conclusion::undecided;
   std::optional<sim::Duration> simulated;
   std::optional<sim::Duration> adversarial;
   std::optional<sim::Duration> bound;
@@ -40,11 +40,11 @@ struct Line {
 struct Verification {
   std::vector<Line> lines;
   analysis::AssumptionLedger ledger;        ///< after proofs and runs
-  std::vector<Freedom> freedoms;
+  std::vector<FreeVariable> variables;
   std::uint64_t runs = 0;
   bool partial = false;                     ///< interrupted: what has not been refuted or proved is undecided
   std::optional<Contradiction> contradiction;
-  Verdict verdict() const;                  ///< contradiction if there is one, else refuted if one is, else undecided if one is
+  Conclusion verdict() const;               ///< contradiction if there is one, else refuted if one is, else undecided if one is
 };
 
 struct Options {

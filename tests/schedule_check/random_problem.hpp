@@ -5,11 +5,11 @@
 
 #include "scenario/gates/problem.hpp"
 
-namespace takt::synthesis {
+namespace takt::schedule_check {
 
 /// Streams with random ways, periods and releases; most of them get into each other's way.
 scenario::GateProblem random_problem(std::uint64_t seed);
 /// The same without those streams that do not fit; at least one is left.
 scenario::GateProblem random_problem_that_fits(std::uint64_t seed);
 
-}  // namespace takt::synthesis
+}  // namespace takt::schedule_check

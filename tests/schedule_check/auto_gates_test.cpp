@@ -10,9 +10,9 @@
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "sim/random.hpp"
-#include "synthesis/check.hpp"
+#include "schedule_check/check.hpp"
 
-namespace takt::synthesis {
+namespace takt::schedule_check {
 namespace {
 
 using namespace sim::literals;  // NOLINT
@@ -186,4 +186,4 @@ TEST(AutoGates, RandomNetworks) {
 }
 
 }  // namespace
-}  // namespace takt::synthesis
+}  // namespace takt::schedule_check

@@ -1,11 +1,11 @@
-#include "verify/sandwich.hpp"
+#include "verify/verification.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace takt::verify {
 
-const char* name_of(Verdict verdict) {
+const char* name_of(Conclusion verdict) {
   constexpr const char* names[] = {"pass", "refuted", "undecided", "contradiction"};
   return names[static_cast<std::size_t>(verdict)];
 }
@@ -15,12 +15,12 @@ std::optional<double> Line::tightness() const {
   return static_cast<double>(adversarial->ps()) / static_cast<double>(bound->ps());
 }
 
-Verdict Verification::verdict() const {
-  if (contradiction) return Verdict::contradiction;
-  Verdict worst = partial ? Verdict::undecided : Verdict::pass;
+Conclusion Verification::verdict() const {
+  if (contradiction) return Conclusion::contradiction;
+  Conclusion worst = partial ? Conclusion::undecided : Conclusion::pass;
   for (const Line& line : lines) {
-    if (line.verdict == Verdict::refuted) return Verdict::refuted;
-    if (line.verdict == Verdict::undecided) worst = Verdict::undecided;
+    if (line.verdict == Conclusion::refuted) return Conclusion::refuted;
+    if (line.verdict == Conclusion::undecided) worst = Conclusion::undecided;
   }
   return worst;
 }
@@ -43,9 +43,9 @@ Line line_of(const Finding& finding, const Proof& proof, const analysis::Assumpt
   line.runs = finding.runs;
   line.exhaustive = finding.exhaustive;
   if (finding.worst.failed)
-    line.verdict = Verdict::refuted;
+    line.verdict = Conclusion::refuted;
   else if (proof.holds && objection.empty())
-    line.verdict = Verdict::pass;
+    line.verdict = Conclusion::pass;
   if (line.bound && line.requirement.limit && *line.bound > *line.requirement.limit)
     line.reason = finding.worst.failed ? "a run exceeds the limit" : "no run that was found exceeds the limit, but the bound does";
   if ((proof.holds || proof.time) && !objection.empty()) line.reason = objection;
@@ -59,7 +59,7 @@ void settle(analysis::AssumptionLedger& ledger, const std::vector<Violation>& vi
 
 /// A proof that stands, of a requirement that a run has failed.
 std::optional<Contradiction> contradiction_of(const Line& line, const Finding& finding, const Proof& proof, const analysis::AssumptionLedger& ledger) {
-  if (line.verdict != Verdict::refuted || !proof.holds || !ledger.objection(proof.assumptions, proof.from).empty()) return std::nullopt;
+  if (line.verdict != Conclusion::refuted || !proof.holds || !ledger.objection(proof.assumptions, proof.from).empty()) return std::nullopt;
   // A bound says how long a reaction or a frame takes, not that there is one: a requirement that fails for want of it is refuted, and that is all.
   if (line.requirement.limit && !finding.worst.measured) return std::nullopt;
   if (line.requirement.figure && !finding.worst.figure) return std::nullopt;   // likewise
@@ -78,7 +78,7 @@ void add_slack(Verification& result, const analysis::Bounds& bounds, const std::
 
 Verification conclude(Search found, const std::vector<Proof>& proofs, const analysis::AssumptionLedger& ledger) {
   Verification result;
-  result.freedoms = std::move(found.freedoms);
+  result.variables = std::move(found.variables);
   result.runs = found.runs;
   result.partial = found.partial;
   result.contradiction = std::move(found.contradiction);

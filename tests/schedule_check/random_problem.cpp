@@ -7,7 +7,7 @@
 #include "scenario/gates/layout.hpp"
 #include "sim/random.hpp"
 
-namespace takt::synthesis {
+namespace takt::schedule_check {
 namespace {
 
 using scenario::GateProblem;
@@ -124,4 +124,4 @@ GateProblem random_problem_that_fits(std::uint64_t seed) {
   return fits.streams.empty() ? random_problem_that_fits(seed + 1) : fits;
 }
 
-}  // namespace takt::synthesis
+}  // namespace takt::schedule_check

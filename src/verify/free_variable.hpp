@@ -23,14 +23,14 @@
 
 namespace takt::verify {
 
-/// What a latency may be instead of what chance has; 1 ps apart, as values of a freedom.
+/// What a latency may be instead of what chance has; 1 ps apart, as values of a variable.
 inline constexpr sim::Duration by_chance = sim::Duration::from_ps(0);
 inline constexpr sim::Duration always_least = sim::Duration::from_ps(1);
 inline constexpr sim::Duration always_greatest = sim::Duration::from_ps(2);
 inline constexpr sim::Duration either_end = sim::Duration::from_ps(3);   ///< the least or the greatest, as chance has it
 
 /// Something that is free: a time from 0 up to, but without, `range`.
-struct Freedom {
+struct FreeVariable {
   enum class Kind : std::uint8_t { talker, publisher, call, fault, host_latency, generator_latency, jitter, losses, frequency };
   enum class Latency : std::uint8_t { transmit, receive, wake_up };
   Kind kind{};
@@ -42,21 +42,21 @@ struct Freedom {
   sim::Duration least = {};
   sim::Duration greatest = {};
   std::string node = {};         ///< of frequencies
-  bool operator==(const Freedom&) const = default;
+  bool operator==(const FreeVariable&) const = default;
   bool is_latency() const { return kind == Kind::host_latency || kind == Kind::generator_latency; }
 };
 
 /// All that is free, but for the seed.
-std::vector<Freedom> freedoms_of(const scenario::Resolved& resolved);
+std::vector<FreeVariable> free_variables_of(const scenario::Resolved& resolved);
 
 /// One of the runs that the scenario allows.
 struct Choice {
   std::uint64_t seed = 1;
-  std::vector<sim::Duration> values;   ///< by freedom; 0 is what a run takes
+  std::vector<sim::Duration> values;   ///< by variable; 0 is what a run takes
   bool operator==(const Choice&) const = default;
 };
 
 /// The scenario in which the choice is made: a file of it replays the run. Precondition: the values lie within their ranges.
-scenario::Scenario scenario_of(const scenario::Scenario& scenario, std::span<const Freedom> freedoms, const Choice& choice);
+scenario::Scenario scenario_of(const scenario::Scenario& scenario, std::span<const FreeVariable> variables, const Choice& choice);
 
 }  // namespace takt::verify

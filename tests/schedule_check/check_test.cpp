@@ -1,5 +1,5 @@
 // The checker and the layout against each other: what is laid out is sound, and what is changed in it is not.
-#include "synthesis/check.hpp"
+#include "schedule_check/check.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -12,13 +12,13 @@
 #include "scenario/gates/layout.hpp"
 #include "sim/random.hpp"
 
-namespace takt::synthesis {
+namespace takt::schedule_check {
 namespace {
 
 using namespace sim::literals;  // NOLINT
 using scenario::GateList;
 using scenario::GateProblem;
-using scenario::GateSchedule;
+using scenario::GateSolution;
 using sim::Duration;
 
 std::string text_of(const std::vector<std::string>& lines) {
@@ -49,10 +49,10 @@ TEST(GateCheck, WhatConflictsIsRefused) {
 }
 
 /// Changes a schedule so that it is wrong; false if this one has nothing to change.
-using Mutation = std::function<bool(const GateProblem&, GateSchedule&, sim::RandomStream&)>;
+using Mutation = std::function<bool(const GateProblem&, GateSolution&, sim::RandomStream&)>;
 
 /// A list with an entry of more than a few ns, and such an entry.
-std::optional<std::pair<GateList*, std::size_t>> some_entry(GateSchedule& schedule, sim::RandomStream& chance) {
+std::optional<std::pair<GateList*, std::size_t>> some_entry(GateSolution& schedule, sim::RandomStream& chance) {
   for (int tries = 0; tries < 100; ++tries) {
     GateList& list = schedule.lists[chance.below(schedule.lists.size())];
     if (list.entries.size() < 2) continue;
@@ -64,52 +64,52 @@ std::optional<std::pair<GateList*, std::size_t>> some_entry(GateSchedule& schedu
 
 const std::map<std::string, Mutation>& mutations() {
   static const std::map<std::string, Mutation> all = {
-      {"a frame begins later", [](const GateProblem&, GateSchedule& s, sim::RandomStream& chance) {
+      {"a frame begins later", [](const GateProblem&, GateSolution& s, sim::RandomStream& chance) {
          auto& window = s.windows[chance.below(s.windows.size())];
          window[chance.below(window.size())].start += 1_ns;
          return true;
        }},
-      {"a frame begins earlier", [](const GateProblem&, GateSchedule& s, sim::RandomStream& chance) {
+      {"a frame begins earlier", [](const GateProblem&, GateSolution& s, sim::RandomStream& chance) {
          auto& window = s.windows[chance.below(s.windows.size())];
          window[chance.below(window.size())].start -= 1_ns;
          return true;
        }},
-      {"a window that is said to be larger", [](const GateProblem&, GateSchedule& s, sim::RandomStream& chance) {
+      {"a window that is said to be larger", [](const GateProblem&, GateSolution& s, sim::RandomStream& chance) {
          auto& window = s.windows[chance.below(s.windows.size())];
          window[chance.below(window.size())].close += 1_ns;
          return true;
        }},
-      {"a window is missing", [](const GateProblem&, GateSchedule& s, sim::RandomStream& chance) {
+      {"a window is missing", [](const GateProblem&, GateSolution& s, sim::RandomStream& chance) {
          s.windows[chance.below(s.windows.size())].pop_back();
          return true;
        }},
-      {"a gate in the other state", [](const GateProblem&, GateSchedule& s, sim::RandomStream& chance) {
+      {"a gate in the other state", [](const GateProblem&, GateSolution& s, sim::RandomStream& chance) {
          const auto at = some_entry(s, chance);
          if (at) at->first->entries[at->second].open ^= static_cast<models::GateStates>(1u << chance.below(8));
          return at.has_value();
        }},
-      {"an entry that ends later", [](const GateProblem&, GateSchedule& s, sim::RandomStream& chance) {
+      {"an entry that ends later", [](const GateProblem&, GateSolution& s, sim::RandomStream& chance) {
          const auto at = some_entry(s, chance);
          if (!at || at->second + 1 == at->first->entries.size()) return false;
          at->first->entries[at->second].interval += 4_ns;
          at->first->entries[at->second + 1].interval -= 4_ns;
          return true;
        }},
-      {"an entry that ends earlier", [](const GateProblem&, GateSchedule& s, sim::RandomStream& chance) {
+      {"an entry that ends earlier", [](const GateProblem&, GateSolution& s, sim::RandomStream& chance) {
          const auto at = some_entry(s, chance);
          if (!at || at->second + 1 == at->first->entries.size()) return false;
          at->first->entries[at->second].interval -= 4_ns;
          at->first->entries[at->second + 1].interval += 4_ns;
          return true;
        }},
-      {"an entry is missing", [](const GateProblem&, GateSchedule& s, sim::RandomStream& chance) {
+      {"an entry is missing", [](const GateProblem&, GateSolution& s, sim::RandomStream& chance) {
          const auto at = some_entry(s, chance);
          if (!at || at->second == 0) return false;
          at->first->entries[at->second - 1].interval += at->first->entries[at->second].interval;
          at->first->entries.erase(at->first->entries.begin() + static_cast<std::ptrdiff_t>(at->second));
          return true;
        }},
-      {"a list of another port", [](const GateProblem& problem, GateSchedule& s, sim::RandomStream&) {
+      {"a list of another port", [](const GateProblem& problem, GateSolution& s, sim::RandomStream&) {
          for (std::size_t p = 1; p < s.lists.size(); ++p) {
            if (s.lists[p - 1].entries.empty() || s.lists[p].entries.empty() || s.lists[p - 1] == s.lists[p]) continue;
            // Two that differ by less than a tolerance are not different.
@@ -119,19 +119,19 @@ const std::map<std::string, Mutation>& mutations() {
          }
          return false;
        }},
-      {"a cycle that the entries do not fill", [](const GateProblem&, GateSchedule& s, sim::RandomStream& chance) {
+      {"a cycle that the entries do not fill", [](const GateProblem&, GateSolution& s, sim::RandomStream& chance) {
          const auto at = some_entry(s, chance);
          if (at) at->first->cycle += at->first->cycle;
          return at.has_value();
        }},
-      {"a cycle that is no multiple", [](const GateProblem&, GateSchedule& s, sim::RandomStream& chance) {
+      {"a cycle that is no multiple", [](const GateProblem&, GateSolution& s, sim::RandomStream& chance) {
          const auto at = some_entry(s, chance);
          if (!at) return false;
          at->first->cycle += 1_us;
          at->first->entries[at->second].interval += 1_us;
          return true;
        }},
-      {"an entry of nothing", [](const GateProblem&, GateSchedule& s, sim::RandomStream& chance) {
+      {"an entry of nothing", [](const GateProblem&, GateSolution& s, sim::RandomStream& chance) {
          const auto at = some_entry(s, chance);
          if (at) at->first->entries.push_back({0xFF, Duration()});
          return at.has_value();
@@ -145,7 +145,7 @@ TEST(GateCheck, WhatIsChangedIsRefused) {
     std::size_t changed = 0;
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
       const GateProblem problem = random_problem_that_fits(seed);
-      GateSchedule schedule = scenario::lay_out_gates(problem).schedule;
+      GateSolution schedule = scenario::lay_out_gates(problem).schedule;
       sim::RandomStream chance(seed, "mutation", name);
       if (!change(problem, schedule, chance)) continue;
       ++changed;
@@ -176,7 +176,7 @@ TEST(GateCheck, ATrainThatPartsAndJoins) {
 TEST(GateCheck, ASchedulesOfAnotherProblemIsRefused) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const GateProblem problem = random_problem_that_fits(seed);
-    const GateSchedule schedule = scenario::lay_out_gates(problem).schedule;
+    const GateSolution schedule = scenario::lay_out_gates(problem).schedule;
     GateProblem other = problem;
     other.margin += 5_ns;
     EXPECT_FALSE(check(other, schedule).empty()) << seed;
@@ -198,4 +198,4 @@ TEST(GateCheck, ASchedulesOfAnotherProblemIsRefused) {
 }
 
 }  // namespace
-}  // namespace takt::synthesis
+}  // namespace takt::schedule_check

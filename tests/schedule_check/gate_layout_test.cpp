@@ -6,7 +6,7 @@
 
 #include "random_problem.hpp"
 
-namespace takt::synthesis {
+namespace takt::schedule_check {
 namespace {
 
 using namespace sim::literals;  // NOLINT
@@ -14,7 +14,7 @@ using scenario::GateConflict;
 using scenario::GateLayout;
 using scenario::GateList;
 using scenario::GateProblem;
-using scenario::GateWindow;
+using scenario::StreamWindow;
 using scenario::lay_out_gates;
 using sim::Duration;
 
@@ -32,8 +32,8 @@ TEST(GateLayout, ByHand) {
   ASSERT_TRUE(layout.conflicts.empty());
   ASSERT_EQ(layout.schedule.windows.size(), 1u);
   // At the talker no margin before; 10 us + 864 ns + 1050 ns later the frame is ready at the switch.
-  EXPECT_EQ(layout.schedule.windows[0][0], (GateWindow{10_us, 10_us, 11'064_ns}));
-  EXPECT_EQ(layout.schedule.windows[0][1], (GateWindow{11'914_ns, 11'714_ns, 12'978_ns}));
+  EXPECT_EQ(layout.schedule.windows[0][0], (StreamWindow{10_us, 10_us, 11'064_ns}));
+  EXPECT_EQ(layout.schedule.windows[0][1], (StreamWindow{11'914_ns, 11'714_ns, 12'978_ns}));
   EXPECT_EQ(layout.schedule.lists[0].cycle, 100_us);
   EXPECT_EQ(layout.schedule.lists[0].entries, (std::vector<GateList::Entry>{{0xBF, 9'904_ns}, {0x00, 96_ns}, {0x40, 1'064_ns}, {0xBF, 88'936_ns}}));
   EXPECT_EQ(layout.schedule.lists[1].entries, (std::vector<GateList::Entry>{{0xBF, 11'618_ns}, {0x00, 96_ns}, {0x40, 1'264_ns}, {0xBF, 87'022_ns}}));
@@ -168,10 +168,10 @@ TEST(GateLayout, ConflictsAreReal) {
         const auto& hops = problem.streams[stream].hops;
         for (std::size_t h = 0; h < hops.size(); ++h)
           if (hops[h].port == conflict.port) return layout.schedule.windows[stream][h];
-        return GateWindow{};
+        return StreamWindow{};
       };
-      const GateWindow first = window_of(conflict.first);
-      const GateWindow second = window_of(conflict.second);
+      const StreamWindow first = window_of(conflict.first);
+      const StreamWindow second = window_of(conflict.second);
       RC_ASSERT((conflict.first_from - first.open) % problem.streams[conflict.first].period == Duration());
       RC_ASSERT((conflict.second_from - second.open) % problem.streams[conflict.second].period == Duration());
       const Duration gap = problem.ports[conflict.port].gap + 1_ns;
@@ -184,4 +184,4 @@ TEST(GateLayout, ConflictsAreReal) {
 }
 
 }  // namespace
-}  // namespace takt::synthesis
+}  // namespace takt::schedule_check

@@ -6,7 +6,7 @@
 
 #include "scenario/gates/problem.hpp"
 
-namespace takt::synthesis {
+namespace takt::schedule_check {
 
 /// What is wrong, one sentence each, at most `most`; empty if the schedule is sound:
 ///
@@ -17,6 +17,6 @@ namespace takt::synthesis {
 /// - frames of different trains, or of one train that come by different ways, never meet, whatever the clocks say within the margin;
 /// - a scheduled class is open in its windows only (to the ns), and the other classes are open in all that is left;
 /// - cycles are common multiples of the periods, and the lists are such as ports take: 1 to 1024 entries of at least 1 ns that fill the cycle.
-std::vector<std::string> check(const scenario::GateProblem& problem, const scenario::GateSchedule& schedule, std::size_t most = 20);
+std::vector<std::string> check(const scenario::GateProblem& problem, const scenario::GateSolution& schedule, std::size_t most = 20);
 
-}  // namespace takt::synthesis
+}  // namespace takt::schedule_check

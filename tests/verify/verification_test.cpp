@@ -1,5 +1,5 @@
 // simulated <= adversarial <= bound for every requirement of every shipped scenario, and verdicts that follow from it.
-#include "verify/sandwich.hpp"
+#include "verify/verification.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::vector<std::string> shipped() {
   return files;
 }
 
-TEST(Sandwich, OfEveryShippedScenario) {
+TEST(Verification, OfEveryShippedScenario) {
   std::size_t bounds = 0;
   std::size_t files = 0;
   for (const std::string& file : shipped()) {
@@ -50,7 +50,7 @@ TEST(Sandwich, OfEveryShippedScenario) {
 }
 
 // Streams with windows of their own: what is simulated, the worst that can be found and the bound are one.
-TEST(Sandwich, AutomaticGatesAreProved) {
+TEST(Verification, AutomaticGatesAreProved) {
   json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/scenarios/tsn/automatic-gates.json", {}, diagnostics);
   ASSERT_TRUE(resolved) << diagnostics.to_text();
@@ -58,7 +58,7 @@ TEST(Sandwich, AutomaticGatesAreProved) {
   std::size_t streams = 0;
   for (const Line& line : found.lines) {
     if (!line.requirement.text.starts_with("stream") && !line.requirement.text.starts_with("reaction")) continue;
-    EXPECT_EQ(line.verdict, Verdict::pass) << line.requirement.text << ": " << line.reason;
+    EXPECT_EQ(line.verdict, Conclusion::pass) << line.requirement.text << ": " << line.reason;
     ASSERT_TRUE(line.bound) << line.requirement.text << ": " << line.reason;
     if (!line.requirement.text.starts_with("stream")) continue;
     ++streams;
@@ -68,14 +68,14 @@ TEST(Sandwich, AutomaticGatesAreProved) {
 }
 
 // Operating systems, calls and phases meet at their worst: what the bounds give away is little.
-TEST(Sandwich, TheWorstRunOfRobotArmComesNearItsBounds) {
+TEST(Verification, TheWorstRunOfRobotArmComesNearItsBounds) {
   json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/scenarios/robot-arm.json", {}, diagnostics);
   ASSERT_TRUE(resolved) << diagnostics.to_text();
   Options options;
   options.search.seeds = 1;
   for (const Line& line : verify(*resolved, options).lines) {
-    EXPECT_EQ(line.verdict, Verdict::pass) << line.requirement.text;
+    EXPECT_EQ(line.verdict, Conclusion::pass) << line.requirement.text;
     if (!line.bound) continue;
     EXPECT_GE(*line.tightness(), line.requirement.kind == results::RequirementKind::reaction ? 0.9 : 0.85) << line.requirement.text;
   }
@@ -94,14 +94,14 @@ Verification verified(const std::string& requirements) {
 }
 
 // Alone the frame takes 2 x 154 octets + 4 for the tag, and the cables and the switch; at worst 1470 octets of 8 ns more, less 1 ns that is left of them.
-TEST(Sandwich, VerdictsFollowFromTheLimit) {
+TEST(Verification, VerdictsFollowFromTheLimit) {
   const Verification found = verified(R"({"stream": "urgent", "latency": "20us"}, {"stream": "urgent", "latency": "14us"}, {"stream": "urgent", "dropped": 0},
     {"stream": "urgent", "delivered": 20}, {"stream": "urgent", "delivered": 21})");
   ASSERT_EQ(found.lines.size(), 5u);
-  const Verdict expected[] = {Verdict::pass, Verdict::refuted, Verdict::pass, Verdict::pass, Verdict::refuted};
+  const Conclusion expected[] = {Conclusion::pass, Conclusion::refuted, Conclusion::pass, Conclusion::pass, Conclusion::refuted};
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(found.lines[i].verdict, expected[i]) << found.lines[i].requirement.text << ": " << found.lines[i].reason;
   EXPECT_EQ(found.lines[1].reason, "a run exceeds the limit");
-  EXPECT_EQ(found.verdict(), Verdict::refuted);
+  EXPECT_EQ(found.verdict(), Conclusion::refuted);
   EXPECT_GT(*found.lines[0].tightness(), 0.99);
   const std::string json = json_report("two", found, std::vector<std::string>(5));
   for (const char* const key : {"\"simulated_ps\"", "\"adversarial_ps\"", "\"bound_ps\"", "\"limit_ps\": 20000000", "\"verdict\": \"refuted\""})
@@ -109,27 +109,27 @@ TEST(Sandwich, VerdictsFollowFromTheLimit) {
 }
 
 // "suspend within 2ms" fails where nobody suspends: refuted by that run, which contradicts no bound.
-TEST(Sandwich, WantOfAReactionIsNoContradiction) {
+TEST(Verification, WantOfAReactionIsNoContradiction) {
   json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/tests/findings/contradiction-without-a-reaction.json", {}, diagnostics);
   ASSERT_TRUE(resolved) << diagnostics.to_text();
   const Verification found = verify(*resolved, small());
   EXPECT_FALSE(found.contradiction) << found.contradiction->text;
-  EXPECT_EQ(found.verdict(), Verdict::refuted);
+  EXPECT_EQ(found.verdict(), Conclusion::refuted);
 }
 
-TEST(Sandwich, UndecidedBetweenTheWorstRunAndTheBound) {
+TEST(Verification, UndecidedBetweenTheWorstRunAndTheBound) {
   const Verification loose = verified(R"({"stream": "urgent", "latency": "20us"})");
   const Duration between = *loose.lines[0].adversarial + (*loose.lines[0].bound - *loose.lines[0].adversarial) / 2;
   ASSERT_GT(between, *loose.lines[0].adversarial);
   const Verification found = verified(R"({"stream": "urgent", "latency": ")" + std::to_string(between.ps()) + R"(ps"})");
-  EXPECT_EQ(found.lines[0].verdict, Verdict::undecided);
-  EXPECT_EQ(found.verdict(), Verdict::undecided);
+  EXPECT_EQ(found.lines[0].verdict, Conclusion::undecided);
+  EXPECT_EQ(found.verdict(), Conclusion::undecided);
   EXPECT_NE(found.lines[0].reason, "");
 }
 
 // Who has a role is settled while the Program runs, in every order that the explorer finds.
-TEST(Sandwich, InvariantsOfAProgramWithRolesAreExplored) {
+TEST(Verification, InvariantsOfAProgramWithRolesAreExplored) {
   const auto judged = [](const std::string& script) {
     json::Diagnostics diagnostics;
     const auto resolved = scenario::load_text(R"({"name": "roles", "duration": "300ms", "network": {
@@ -145,10 +145,10 @@ TEST(Sandwich, InvariantsOfAProgramWithRolesAreExplored) {
     return line == found.lines.end() ? Line{} : *line;
   };
   const Line idle = judged("");
-  EXPECT_EQ(idle.verdict, Verdict::pass) << idle.reason;
+  EXPECT_EQ(idle.verdict, Conclusion::pass) << idle.reason;
   EXPECT_EQ(idle.remark, "explored: 10780 states, 1 call and 0 faults in all, joins and leaves among the calls");
   // Explored as well, but how often who has a role publishes then is not bounded, so nothing is proved.
-  EXPECT_EQ(judged(R"({"at": "200ms", "leave": "a"})").verdict, Verdict::undecided);
+  EXPECT_EQ(judged(R"({"at": "200ms", "leave": "a"})").verdict, Conclusion::undecided);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "synthesis/check.hpp"
+#include "schedule_check/check.hpp"
 
 #include <fmt/format.h>
 
@@ -6,13 +6,13 @@
 #include <optional>
 #include <utility>
 
-namespace takt::synthesis {
+namespace takt::schedule_check {
 namespace {
 
 using scenario::GateList;
 using scenario::GateProblem;
-using scenario::GateSchedule;
-using scenario::GateWindow;
+using scenario::GateSolution;
+using scenario::StreamWindow;
 using scenario::ScheduledHop;
 using scenario::ScheduledStream;
 using sim::Duration;
@@ -30,7 +30,7 @@ struct Passage {
 
 class Checker {
  public:
-  Checker(const GateProblem& problem, const GateSchedule& schedule, std::size_t most) : problem_(problem), schedule_(schedule), most_(most) {}
+  Checker(const GateProblem& problem, const GateSolution& schedule, std::size_t most) : problem_(problem), schedule_(schedule), most_(most) {}
 
   std::vector<std::string> run() {
     if (!has_all_parts()) return std::move(wrong_);
@@ -47,7 +47,7 @@ class Checker {
   }
   const ScheduledStream& stream(std::size_t s) const { return problem_.streams[s]; }
   const ScheduledHop& hop(std::size_t s, std::size_t h) const { return problem_.streams[s].hops[h]; }
-  const GateWindow& window(std::size_t s, std::size_t h) const { return schedule_.windows[s][h]; }
+  const StreamWindow& window(std::size_t s, std::size_t h) const { return schedule_.windows[s][h]; }
   std::string name(std::size_t s, std::size_t h) const { return fmt::format("\"{}\" at \"{}\"", stream(s).name, problem_.ports[hop(s, h).port].name); }
 
   bool has_all_parts() {
@@ -77,7 +77,7 @@ class Checker {
     const std::int64_t start = window(s, h).start.ps();
     const std::int64_t earliest = start - (at.previous ? problem_.margin.ps() : 0);
     const std::int64_t latest = start + at.transmission.ps() + problem_.margin.ps();
-    const GateWindow& said = window(s, h);
+    const StreamWindow& said = window(s, h);
     if (said.open.ps() > earliest || said.open.ps() <= earliest - ns || said.close.ps() < latest || said.close.ps() >= latest + ns)
       say("the window of {} is from {} ps to {} ps, not from {} ps to {} ps", name(s, h), said.open.ps(), said.close.ps(), earliest, latest);
     std::int64_t there = stream(s).release.ps();
@@ -244,13 +244,13 @@ class Checker {
   }
 
   const GateProblem& problem_;
-  const GateSchedule& schedule_;
+  const GateSolution& schedule_;
   std::size_t most_;
   std::vector<std::string> wrong_;
 };
 
 }  // namespace
 
-std::vector<std::string> check(const GateProblem& problem, const GateSchedule& schedule, std::size_t most) { return Checker(problem, schedule, most).run(); }
+std::vector<std::string> check(const GateProblem& problem, const GateSolution& schedule, std::size_t most) { return Checker(problem, schedule, most).run(); }
 
-}  // namespace takt::synthesis
+}  // namespace takt::schedule_check

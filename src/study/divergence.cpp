@@ -1,4 +1,4 @@
-#include "study/parting.hpp"
+#include "study/divergence.hpp"
 
 #include <fmt/format.h>
 
@@ -82,7 +82,7 @@ class Side : public sim::TraceSink {
 
 }  // namespace
 
-std::optional<Parting> first_parting(const scenario::Resolved& a, const scenario::Resolved& b, const std::function<bool()>& interrupted) {
+std::optional<Divergence> first_divergence(const scenario::Resolved& a, const scenario::Resolved& b, const std::function<bool()>& interrupted) {
   Side left(a);
   Side right(b);
   for (std::uint64_t count = 0;; ++count) {
@@ -102,11 +102,11 @@ std::optional<Parting> first_parting(const scenario::Resolved& a, const scenario
       right.pop();
       continue;
     }
-    Parting parting;
-    parting.at = left_first ? left.front().time : right.front().time;
-    std::set_difference(of_left.begin(), of_left.end(), of_right.begin(), of_right.end(), std::back_inserter(parting.only_a));
-    std::set_difference(of_right.begin(), of_right.end(), of_left.begin(), of_left.end(), std::back_inserter(parting.only_b));
-    return parting;
+    Divergence divergence;
+    divergence.at = left_first ? left.front().time : right.front().time;
+    std::set_difference(of_left.begin(), of_left.end(), of_right.begin(), of_right.end(), std::back_inserter(divergence.only_a));
+    std::set_difference(of_right.begin(), of_right.end(), of_left.begin(), of_left.end(), std::back_inserter(divergence.only_b));
+    return divergence;
   }
 }
 

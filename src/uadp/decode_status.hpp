@@ -8,7 +8,7 @@
 
 namespace takt::uadp {
 
-enum class Verdict : std::uint8_t {
+enum class DecodeStatus : std::uint8_t {
   ok,
   truncated,    ///< the octets end before the message does
   version,      ///< not UADPVersion 1
@@ -20,22 +20,22 @@ enum class Verdict : std::uint8_t {
   action,       ///< has an ActionHeader (v1.05.04)
 };
 
-inline constexpr std::size_t verdict_count = 9;
-inline constexpr std::array<std::string_view, verdict_count> verdict_names{
+inline constexpr std::size_t decode_status_count = 9;
+inline constexpr std::array<std::string_view, decode_status_count> decode_status_names{
     "ok", "truncated", "version", "reserved", "malformed", "secured", "chunked", "discovery", "action"};
 
-constexpr std::size_t index_of(Verdict verdict) { return static_cast<std::size_t>(verdict); }
-constexpr std::string_view name_of(Verdict verdict) { return verdict_names[index_of(verdict)]; }
-static_assert(index_of(Verdict::action) + 1 == verdict_count);
+constexpr std::size_t index_of(DecodeStatus verdict) { return static_cast<std::size_t>(verdict); }
+constexpr std::string_view name_of(DecodeStatus verdict) { return decode_status_names[index_of(verdict)]; }
+static_assert(index_of(DecodeStatus::action) + 1 == decode_status_count);
 
 /// How many messages got which verdict.
-struct VerdictCounts {
-  std::array<std::uint64_t, verdict_count> of{};
-  void count(Verdict verdict) { ++of[index_of(verdict)]; }
-  std::uint64_t operator[](Verdict verdict) const { return of[index_of(verdict)]; }
+struct DecodeStatusCounts {
+  std::array<std::uint64_t, decode_status_count> of{};
+  void count(DecodeStatus verdict) { ++of[index_of(verdict)]; }
+  std::uint64_t operator[](DecodeStatus verdict) const { return of[index_of(verdict)]; }
   std::uint64_t dropped() const {
     std::uint64_t sum = 0;
-    for (std::size_t i = 1; i < verdict_count; ++i) sum += of[i];
+    for (std::size_t i = 1; i < decode_status_count; ++i) sum += of[i];
     return sum;
   }
 };

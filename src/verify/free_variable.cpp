@@ -1,4 +1,4 @@
-#include "verify/freedom.hpp"
+#include "verify/free_variable.hpp"
 
 #include <algorithm>
 
@@ -17,26 +17,26 @@ const std::string& participant_name(const Program& program, std::size_t particip
   return participant == 0 ? program.master : program.slaves[participant - 1];
 }
 
-void add_talkers(const Scenario& scenario, std::vector<Freedom>& found) {
+void add_talkers(const Scenario& scenario, std::vector<FreeVariable>& found) {
   for (std::size_t s = 0; s < scenario.streams.size(); ++s) {
     const scenario::Stream& stream = scenario.streams[s];
     const Duration period = stream.every ? *stream.every : stream.burst ? stream.burst->every : Duration();
-    if (!scenario::promises_phase(stream) && period > Duration()) found.push_back({Freedom::Kind::talker, s, 0, period, "phase of " + stream.name, {}, {}, {}});
+    if (!scenario::promises_phase(stream) && period > Duration()) found.push_back({FreeVariable::Kind::talker, s, 0, period, "phase of " + stream.name, {}, {}, {}});
   }
 }
 
-void add_publishers(const Scenario& scenario, std::vector<Freedom>& found) {
+void add_publishers(const Scenario& scenario, std::vector<FreeVariable>& found) {
   for (std::size_t p = 0; p < scenario.programs.size(); ++p) {
     const Program& program = scenario.programs[p];
     if (!program.roles.empty()) continue;   // who takes part, and since when, is settled in the run
     for (std::size_t participant = 0; participant <= program.slaves.size(); ++participant) {
       const std::string& name = participant_name(program, participant);
-      if (!scenario::promises_phase(program, name)) found.push_back({Freedom::Kind::publisher, p, participant, program.cycle, "phase of " + program.name + " on " + name, {}, {}, {}});
+      if (!scenario::promises_phase(program, name)) found.push_back({FreeVariable::Kind::publisher, p, participant, program.cycle, "phase of " + program.name + " on " + name, {}, {}, {}});
     }
   }
 }
 
-void add_calls(const Scenario& scenario, std::vector<Freedom>& found) {
+void add_calls(const Scenario& scenario, std::vector<FreeVariable>& found) {
   std::vector<Duration> times;
   for (const scenario::ScriptEntry& entry : scenario.script) times.push_back(entry.at);
   std::sort(times.begin(), times.end());
@@ -48,7 +48,7 @@ void add_calls(const Scenario& scenario, std::vector<Freedom>& found) {
     const auto next = std::upper_bound(times.begin(), times.end(), entry.at);
     const Duration room = (next == times.end() ? scenario.duration : *next) - entry.at;
     const Duration range = std::min(program->cycle, room);
-    if (range > Duration()) found.push_back({Freedom::Kind::call, i, 0, range, "instant of call " + std::to_string(i + 1), {}, {}, {}});
+    if (range > Duration()) found.push_back({FreeVariable::Kind::call, i, 0, range, "instant of call " + std::to_string(i + 1), {}, {}, {}});
   }
 }
 
@@ -72,7 +72,7 @@ Duration longest_period(const Scenario& scenario) {
   return longest;
 }
 
-void add_faults(const Scenario& scenario, std::vector<Freedom>& found) {
+void add_faults(const Scenario& scenario, std::vector<FreeVariable>& found) {
   const Duration longest = longest_period(scenario);
   std::vector<FaultSpan> spans;
   for (const scenario::Fault& fault : scenario.faults) spans.push_back(std::visit([](const auto& each) { return span_of(each); }, fault));
@@ -83,23 +83,23 @@ void add_faults(const Scenario& scenario, std::vector<Freedom>& found) {
     for (std::size_t other = 0; other < spans.size(); ++other)
       if (other != i && spans[other].end >= spans[i].begin) next = std::min(next, spans[other].begin);
     const Duration range = std::min(longest, next - spans[i].end);
-    if (range > Duration()) found.push_back({Freedom::Kind::fault, i, 0, range, "instant of fault " + std::to_string(i + 1), {}, {}, {}});
+    if (range > Duration()) found.push_back({FreeVariable::Kind::fault, i, 0, range, "instant of fault " + std::to_string(i + 1), {}, {}, {}});
   }
 }
 
-void add_jitters(const Scenario& scenario, std::vector<Freedom>& found) {
+void add_jitters(const Scenario& scenario, std::vector<FreeVariable>& found) {
   for (std::size_t s = 0; s < scenario.streams.size(); ++s)
     if (const scenario::Stream& stream = scenario.streams[s]; stream.every && stream.jitter > Duration())
-      found.push_back({Freedom::Kind::jitter, s, 0, stream.jitter + Duration::from_ps(1), "jitter of " + stream.name, {}, {}, {}});
+      found.push_back({FreeVariable::Kind::jitter, s, 0, stream.jitter + Duration::from_ps(1), "jitter of " + stream.name, {}, {}, {}});
 }
 
-void add_losses(const Scenario& scenario, std::vector<Freedom>& found) {
+void add_losses(const Scenario& scenario, std::vector<FreeVariable>& found) {
   for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
     const auto* const errors = std::get_if<scenario::FrameErrors>(&scenario.faults[i]);
     const bool is_chance = errors != nullptr && (errors->burst_loss || (errors->loss && *errors->loss > 0 && *errors->loss < 1));
     if (!is_chance || errors->at >= scenario.duration || longest_period(scenario) == Duration()) continue;
     const Duration range = std::min(errors->lasts.value_or(scenario.duration), scenario.duration - errors->at);
-    if (range > Duration()) found.push_back({Freedom::Kind::losses, i, 0, range, "losses by fault " + std::to_string(i + 1), {}, {}, {}});
+    if (range > Duration()) found.push_back({FreeVariable::Kind::losses, i, 0, range, "losses by fault " + std::to_string(i + 1), {}, {}, {}});
   }
 }
 
@@ -127,11 +127,11 @@ const scenario::Clock* ranging_clock(const Scenario& scenario, const std::string
   return clock != nullptr && !clock->ideal && clock->offset.from && clock->offset.to && *clock->offset.from != *clock->offset.to ? clock : nullptr;
 }
 
-void add_frequencies(const scenario::Resolved& r, std::vector<Freedom>& found) {
+void add_frequencies(const scenario::Resolved& r, std::vector<FreeVariable>& found) {
   for (const models::NodePlan& node : r.plan.nodes) {
     const scenario::Clock* const clock = ranging_clock(r.scenario, node.name);
     if (clock == nullptr) continue;
-    found.push_back({Freedom::Kind::frequency, 0, 0, always_greatest + Duration::from_ps(1),
+    found.push_back({FreeVariable::Kind::frequency, 0, 0, always_greatest + Duration::from_ps(1),
                      "frequency of " + node.name + ", " + json::to_text(*clock->offset.from) + " to " + json::to_text(*clock->offset.to), {}, {}, {}, node.name});
   }
 }
@@ -151,21 +151,21 @@ void set_frequency(Scenario& made, const std::string& node, Duration value) {
 /// What has no ceiling worth the name is left to chance: no bound is claimed there, and a frame for ever under way shows nothing.
 constexpr Duration longest_latency = Duration::from_ps(10'000'000'000'000);
 
-constexpr std::pair<Freedom::Latency, const char*> latencies[] = {{Freedom::Latency::transmit, "transmit latency"}, {Freedom::Latency::receive, "receive latency"}, {Freedom::Latency::wake_up, "wake-up latency"}};
+constexpr std::pair<FreeVariable::Latency, const char*> latencies[] = {{FreeVariable::Latency::transmit, "transmit latency"}, {FreeVariable::Latency::receive, "receive latency"}, {FreeVariable::Latency::wake_up, "wake-up latency"}};
 
-void add_latencies(const models::OsLatency& os, Freedom::Kind kind, std::size_t item, const std::string& whose, std::vector<Freedom>& found) {
+void add_latencies(const models::OsLatency& os, FreeVariable::Kind kind, std::size_t item, const std::string& whose, std::vector<FreeVariable>& found) {
   for (const auto& [latency, name] : latencies) {
-    const sim::Distribution& distribution = latency == Freedom::Latency::transmit ? os.transmit : latency == Freedom::Latency::receive ? os.receive : os.wake_up;
+    const sim::Distribution& distribution = latency == FreeVariable::Latency::transmit ? os.transmit : latency == FreeVariable::Latency::receive ? os.receive : os.wake_up;
     if (distribution.least() == distribution.greatest() || distribution.greatest() > longest_latency) continue;
     found.push_back({kind, item, 0, either_end + Duration::from_ps(1), std::string(name) + " of " + whose, latency, distribution.least(), distribution.greatest()});
   }
 }
 
-void add_latencies(const scenario::Resolved& r, std::vector<Freedom>& found) {
+void add_latencies(const scenario::Resolved& r, std::vector<FreeVariable>& found) {
   const auto& nodes = r.scenario.network.nodes;
   for (std::size_t n = 0; n < nodes.size(); ++n)
     if (const auto node = r.topology.find(nodes[n].first); node && std::holds_alternative<scenario::HostNode>(nodes[n].second))
-      add_latencies(r.plan.os_latencies[r.plan.nodes[*node].os_latency], Freedom::Kind::host_latency, n, nodes[n].first, found);
+      add_latencies(r.plan.os_latencies[r.plan.nodes[*node].os_latency], FreeVariable::Kind::host_latency, n, nodes[n].first, found);
   const auto& generate = r.scenario.network.generate;
   for (std::size_t g = 0; g < generate.size(); ++g) {
     // Any host of it stands for all.
@@ -175,24 +175,24 @@ void add_latencies(const scenario::Resolved& r, std::vector<Freedom>& found) {
       return description != nullptr && !is_listed && description->os == generate[g].os;
     });
     if (host != r.topology.nodes.end())
-      add_latencies(r.plan.os_latencies[r.plan.nodes[static_cast<std::size_t>(host - r.topology.nodes.begin())].os_latency], Freedom::Kind::generator_latency, g,
+      add_latencies(r.plan.os_latencies[r.plan.nodes[static_cast<std::size_t>(host - r.topology.nodes.begin())].os_latency], FreeVariable::Kind::generator_latency, g,
                     "the hosts of generator " + std::to_string(g + 1), found);
   }
 }
 
-void fix(scenario::OperatingSystem& os, const Freedom& freedom, Duration value) {
+void fix(scenario::OperatingSystem& os, const FreeVariable& variable, Duration value) {
   scenario::Latency fixed;
   if (value == either_end)
-    fixed.table = {{freedom.least, 1}, {freedom.greatest, 1}};
+    fixed.table = {{variable.least, 1}, {variable.greatest, 1}};
   else
-    fixed.fixed = value == always_least ? freedom.least : freedom.greatest;
-  (freedom.latency == Freedom::Latency::transmit ? os.transmit : freedom.latency == Freedom::Latency::receive ? os.receive : os.wake_up) = fixed;
+    fixed.fixed = value == always_least ? variable.least : variable.greatest;
+  (variable.latency == FreeVariable::Latency::transmit ? os.transmit : variable.latency == FreeVariable::Latency::receive ? os.receive : os.wake_up) = fixed;
 }
 
 }  // namespace
 
-std::vector<Freedom> freedoms_of(const scenario::Resolved& resolved) {
-  std::vector<Freedom> found;
+std::vector<FreeVariable> free_variables_of(const scenario::Resolved& resolved) {
+  std::vector<FreeVariable> found;
   add_publishers(resolved.scenario, found);
   add_calls(resolved.scenario, found);
   add_talkers(resolved.scenario, found);
@@ -204,30 +204,30 @@ std::vector<Freedom> freedoms_of(const scenario::Resolved& resolved) {
   return found;
 }
 
-Scenario scenario_of(const Scenario& scenario, std::span<const Freedom> freedoms, const Choice& choice) {
-  TAKT_CHECK(freedoms.size() == choice.values.size(), "a value for each freedom");
+Scenario scenario_of(const Scenario& scenario, std::span<const FreeVariable> variables, const Choice& choice) {
+  TAKT_CHECK(variables.size() == choice.values.size(), "a value for each variable");
   Scenario made = scenario;
   made.seed = choice.seed;
-  for (std::size_t i = 0; i < freedoms.size(); ++i) {
-    const Freedom& freedom = freedoms[i];
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const FreeVariable& variable = variables[i];
     const Duration value = choice.values[i];
-    TAKT_CHECK(value >= Duration() && value < freedom.range, "a value within its range");
+    TAKT_CHECK(value >= Duration() && value < variable.range, "a value within its range");
     if (value == Duration()) continue;
-    switch (freedom.kind) {
-      case Freedom::Kind::talker: made.streams[freedom.item].offset = value; break;
-      case Freedom::Kind::publisher:
-        made.programs[freedom.item].phases.emplace_back(participant_name(made.programs[freedom.item], freedom.participant), value);
+    switch (variable.kind) {
+      case FreeVariable::Kind::talker: made.streams[variable.item].offset = value; break;
+      case FreeVariable::Kind::publisher:
+        made.programs[variable.item].phases.emplace_back(participant_name(made.programs[variable.item], variable.participant), value);
         break;
-      case Freedom::Kind::call: made.script[freedom.item].at += value; break;
-      case Freedom::Kind::fault: std::visit([&](auto& fault) { fault.at += value; }, made.faults[freedom.item]); break;
-      case Freedom::Kind::host_latency: fix(std::get<scenario::HostNode>(made.network.nodes[freedom.item].second).os, freedom, value); break;
-      case Freedom::Kind::generator_latency: fix(made.network.generate[freedom.item].os, freedom, value); break;
-      case Freedom::Kind::jitter:
-        made.streams[freedom.item].offset = made.streams[freedom.item].offset.value_or(Duration()) + value;
-        made.streams[freedom.item].jitter = Duration();
+      case FreeVariable::Kind::call: made.script[variable.item].at += value; break;
+      case FreeVariable::Kind::fault: std::visit([&](auto& fault) { fault.at += value; }, made.faults[variable.item]); break;
+      case FreeVariable::Kind::host_latency: fix(std::get<scenario::HostNode>(made.network.nodes[variable.item].second).os, variable, value); break;
+      case FreeVariable::Kind::generator_latency: fix(made.network.generate[variable.item].os, variable, value); break;
+      case FreeVariable::Kind::jitter:
+        made.streams[variable.item].offset = made.streams[variable.item].offset.value_or(Duration()) + value;
+        made.streams[variable.item].jitter = Duration();
         break;
-      case Freedom::Kind::losses: lose_in_one_stretch(made, freedom.item, value); break;
-      case Freedom::Kind::frequency: set_frequency(made, freedom.node, value); break;
+      case FreeVariable::Kind::losses: lose_in_one_stretch(made, variable.item, value); break;
+      case FreeVariable::Kind::frequency: set_frequency(made, variable.node, value); break;
     }
   }
   return made;

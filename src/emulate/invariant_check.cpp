@@ -5,7 +5,7 @@
 
 #include "handshake/observer.hpp"
 #include "scenario/resolve/nesting.hpp"
-#include "vocabulary/protocol.hpp"
+#include "plant/protocol.hpp"
 
 namespace takt::emulate {
 namespace {

@@ -1,31 +1,18 @@
 #include "emulate/plan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <functional>
-#include <map>
 #include <numeric>
 #include <set>
 #include <utility>
 
 #include "json/fields.hpp"
-#include "vocabulary/protocol.hpp"
+#include "plant/protocol.hpp"
 
 namespace takt::emulate {
 namespace {
 
 constexpr std::size_t most_nodes = 250;  // of the topology: each is a namespace
-
-/// Members of a scenario's Program that a node's file has too, and those that are said otherwise there or not at all.
-constexpr std::array<std::string_view, 11> shared = {"name",    "variant",      "master",          "slaves",         "cycle",       "offset",
-                                                     "publish", "subscription", "receive_timeout", "initialisation", "process_data"};
-constexpr std::array<std::string_view, 3> shared_roles = {"roles", "announce_every", "on_replacement"};
-constexpr std::array<std::string_view, 7> translated = {"pcp", "vlan", "violations", "phases", "within", "candidates", "absent"};
-
-template <class Range>
-bool holds(const Range& range, std::string_view text) {
-  return std::find(range.begin(), range.end(), text) != range.end();
-}
 
 class Planner {
  public:
@@ -72,23 +59,14 @@ class Planner {
 
   void add_program(std::uint32_t number) {
     const scenario::ResolvedProgram& program = resolved_.programs[number];
-    const json::Node written = json::encode_value(*program.description);
-    const json::Node usual = json::encode_value(scenario::Program{});
-    json::Node file = json::Node::object();
-    for (const json::Member& member : written.members) {
-      const json::Node* const without = usual.find(member.key);
-      if (member.key == (program.has_roles() ? "slaves" : "roles")) continue;
-      if (holds(shared, member.key) || (program.has_roles() && holds(shared_roles, member.key)))
-        file.add(member.key, member.value);
-      else if (!holds(translated, member.key) && (without == nullptr || !json::equal(*without, member.value)))
-        plan_.refusals.push_back("program " + program.name + " has \"" + member.key + "\", which real nodes do not know");
-    }
-    file.add("publisher_id", json::Node::of_integer(program.first_publisher_id));
-    if (program.has_roles()) {
-      json::Node& candidates = file.add("candidates", json::Node::array());
-      for (const scenario::ResolvedMember& each : program.candidates()) candidates.items.push_back(json::Node::of_string(name_of(each)));
-    }
-    files_[number] = std::move(file);
+    if (!program.replies.empty()) plan_.refusals.push_back("program " + program.name + " has \"replies\", which real nodes do not know");
+    plant::Program same = *program.description;  // the same at all nodes: what is left to the scenario's order is said
+    same.publisher_id = program.first_publisher_id;
+    same.within.reset();
+    same.candidates.clear();
+    for (const scenario::ResolvedMember& each : program.candidates()) same.candidates.push_back(name_of(each));
+    same.absent.clear();  // as each node says of itself: it may have been told to join before it starts again
+    programs_.push_back(std::move(same));
     for (std::size_t p = 0; p < program.participants().size(); ++p) add_part(number, static_cast<std::uint8_t>(p));
     for (std::size_t c = 0; c < program.candidates().size(); ++c) add_candidate(number, static_cast<std::uint8_t>(c));
   }
@@ -134,17 +112,13 @@ class Planner {
     json::Node programs = json::Node::array();
     for (const PlannedNode::Part& part : node.parts) {
       const scenario::ResolvedProgram& resolved = resolved_.programs[part.program];
-      json::Node& program = programs.items.emplace_back(files_[part.program]);
-      std::erase_if(program.members, [](const json::Member& member) { return member.key == "offset"; });
-      program.add("offset", json::encode_value(resolved.phases[part.participant]));
-      if (&part != &node.parts.front()) program.add("within", json::Node::of_string(first.name));
+      plant::Program program = programs_[part.program];
+      if (&part != &node.parts.front()) program.within = first.name;
+      programs.items.push_back(json::encode_value(program));
       if (resolved.description->vlan != first.description->vlan || resolved.description->pcp != first.description->pcp)
         plan_.refusals.push_back("programs " + first.name + " and " + resolved.name + " have other VLANs or priorities, but " + name + " has one transport for both");
     }
-    if (node.parts.size() == 1)
-      file.add("program", std::move(programs.items.front()));
-    else
-      file.add("programs", std::move(programs));
+    file.add("programs", std::move(programs));
     json::Node& transport = file.add("transport", json::Node::object());
     transport.add("kind", json::Node::of_string("ethernet"));
     transport.add("interface", json::Node::of_string("eth0"));
@@ -209,7 +183,7 @@ class Planner {
 
   const scenario::Resolved& resolved_;
   Plan plan_;
-  std::map<std::uint32_t, json::Node> files_;  // what all participants of a program say of it
+  std::vector<plant::Program> programs_;  // as all their nodes have them
   std::set<std::string> left_out_;
 };
 

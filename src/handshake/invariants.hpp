@@ -34,15 +34,15 @@ namespace takt::handshake {
 enum class Invariant : std::uint8_t { S1, S2, S3, S4, S5 };
 
 enum class Finding : std::uint8_t {
-  running_before_all_ready,      ///< S1
-  ready_before_inner_group,      ///< S1 of the tree
-  master_before_slaves,         ///< S2
-  data_of_one_not_running,        ///< S3: the sender was not Running when it sent
-  data_to_one_not_running,        ///< S3
-  data_of_another_run,           ///< S3
-  running_without_init,         ///< S4
-  no_such_transition,           ///< S5: not in the table
-  state_jumped,                ///< S5: the change does not begin where the last one ended
+  running_before_all_ready,  ///< S1
+  ready_before_inner_group,  ///< S1 of the tree
+  master_before_slaves,      ///< S2
+  data_of_one_not_running,   ///< S3: the sender was not Running when it sent
+  data_to_one_not_running,   ///< S3
+  data_of_another_run,       ///< S3
+  running_without_init,      ///< S4
+  no_such_transition,        ///< S5: not in the table
+  state_jumped,              ///< S5: the change does not begin where the last one ended
 };
 
 struct Violation {

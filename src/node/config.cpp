@@ -62,7 +62,7 @@ class Checker {
     LoadedProgram loaded;
     loaded.program = program;
     const bool is_candidate = !program.roles.empty() && self != nodes.begin();
-    loaded.endpoint = endpoint_settings(program, static_cast<std::uint8_t>(is_candidate ? 1 : self - nodes.begin()),
+    loaded.endpoint = endpoint_settings(program, static_cast<std::uint8_t>(is_candidate ? 1 : self - nodes.begin()), config_.node,
                                         std::visit([](const auto& transport) { return transport.pcp; }, config_.transport));
     if (diagnostics_.errors() == errors_before) {
       loaded.roles = roles_at(config_, program, shape);

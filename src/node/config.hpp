@@ -10,48 +10,26 @@
 
 #include "json/fields.hpp"
 #include "sim/time.hpp"
-#include "vocabulary/protocol.hpp"
+#include "plant/protocol.hpp"
 #include "wire/program_node.hpp"
 
 namespace takt::node {
 
 using sim::Duration;
 
-// The words that scenario files have too.
-using vocabulary::DataField;
-using vocabulary::DataType;
-using vocabulary::Method;
-using vocabulary::OnReplacement;
-using vocabulary::ProcessData;
-using vocabulary::Publish;
-using vocabulary::Role;
-using vocabulary::Subscription;
-using vocabulary::Variant;
+// What scenario files have too.
+using plant::DataField;
+using plant::DataType;
+using plant::Method;
+using plant::OnReplacement;
+using plant::ProcessData;
+using plant::Program;
+using plant::Publish;
+using plant::Role;
+using plant::Subscription;
+using plant::Variant;
 
 enum class ClockName : std::uint8_t { monotonic, tai };
-
-/// As in a scenario; the same for all nodes of the group.
-struct Program {
-  json::Source where;
-  std::string name;
-  Variant variant = Variant::robust;
-  std::string master;
-  std::vector<std::string> slaves;           ///< or
-  std::vector<Role> roles;
-  std::vector<std::string> candidates;       ///< with roles: the nodes that may have one
-  std::optional<Duration> announce_every;    ///< 10 cycles if absent
-  OnReplacement on_replacement = OnReplacement::stay_halted;
-  std::optional<std::string> within;  ///< program in which it is nested
-  Duration cycle;
-  Duration offset;
-  Publish publish = Publish::cyclic;
-  Subscription subscription = Subscription::star;
-  std::optional<Duration> receive_timeout;
-  Duration initialisation = Duration::from_ps(1'000'000'000);
-  std::optional<std::uint16_t> publisher_id;  ///< of the master; if absent 1, or the next behind the program before it in the file
-  std::vector<ProcessData> process_data;
-  bool operator==(const Program&) const = default;
-};
 
 /// UADP over UDP.
 struct UdpTransport {
@@ -123,7 +101,6 @@ struct Config {
 };
 
 const json::Enumeration& describe(json::Type<ClockName>);
-const json::Object& describe(json::Type<Program>);
 const json::Object& describe(json::Type<UdpTransport>);
 const json::Object& describe(json::Type<EthernetTransport>);
 const json::Tagged& describe(json::Type<Transport>);

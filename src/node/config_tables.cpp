@@ -1,4 +1,4 @@
-// The words of node files, besides those of src/vocabulary.
+// The words of node files, besides the plant (src/plant).
 #include "node/config.hpp"
 
 namespace takt::node {
@@ -15,32 +15,6 @@ const json::Enumeration& describe(json::Type<ClockName>) {
   static constexpr json::EnumName names[] = {name(ClockName::monotonic, "monotonic", "CLOCK_MONOTONIC; shared by nodes on one machine"),
                                              name(ClockName::tai, "tai", "CLOCK_TAI; shared by machines that gPTP synchronises")};
   static constexpr json::Enumeration table = json::enumeration<ClockName>("a clock", names);
-  return table;
-}
-
-const json::Object& describe(json::Type<Program>) {
-  static constexpr json::Field fields[] = {
-      required<&Program::name>("name", "The same at all nodes.", {.min_length = 1, .max_length = 200}),
-      optional<&Program::variant>("variant", "Which handshake synchronises the participants."),
-      required<&Program::master>("master", "The name of the master."),
-      optional<&Program::slaves>("slaves", "The names of the slaves.", {.min_items = 1, .max_items = 64}),
-      optional<&Program::roles>("roles", "Roles instead of slaves: each is bound to a node that announces the skill it needs.", {.min_items = 1, .max_items = 64}),
-      optional<&Program::candidates>("candidates", "The names of the nodes that may have a role; the same list at all nodes.", {.min_items = 1, .max_items = 64}),
-      optional<&Program::announce_every>("announce_every", "Interval of announcements; who misses three is gone. 10 cycles if absent.", {.min = 10_us, .max = 3600_s}),
-      optional<&Program::on_replacement>("on_replacement", "What follows when a node that was lost in a start or a run has been replaced."),
-      optional<&Program::within>("within", "The program of this file in which this one is nested: its master is a slave there."),
-      required<&Program::cycle>("cycle", "Publishing interval of state and process data.", {.min = 10_us, .max = 3600_s}),
-      optional<&Program::offset>("offset", "Phase of publishing within the cycle.", {.max = 3600_s}),
-      optional<&Program::publish>("publish", "When the state is published."),
-      optional<&Program::subscription>("subscription", "Who hears whom."),
-      optional<&Program::receive_timeout>("receive_timeout", "A peer that is silent for so long halts the group (MessageReceiveTimeout); 10 cycles if absent.", {.min = 1_us, .max = 3600_s}),
-      optional<&Program::initialisation>("initialisation", "How long a participant stays in INIT.", {.max = 3600_s}),
-      optional<&Program::publisher_id>("publisher_id", "PublisherId of the master; the slaves have the next ones. If absent 1, or the next behind the program before it.", {.min = 1, .max = 65471}),
-      optional<&Program::process_data>("process_data", "Data sets that the participants exchange.", {.max_items = 256}),
-  };
-  static constexpr std::string_view members[] = {"slaves", "roles"};
-  static constexpr json::Group groups[] = {json::exactly_one_of(members)};
-  static constexpr json::Object table = json::object<Program>("program", "A distributed OPC UA Program, as in a scenario.", fields, {.groups = groups});
   return table;
 }
 

@@ -1,7 +1,6 @@
 #include "node/plug_check.hpp"
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include "json/suggest.hpp"
@@ -11,25 +10,7 @@ namespace {
 
 bool holds(const std::vector<std::string>& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
 
-void refuse_without_roles(const Program& program, json::Diagnostics& diagnostics) {
-  const auto refuse = [&](bool is_there, std::string_view key) {
-    if (is_there) diagnostics.error(program.where.at(key), "belongs to a program with roles", {json::quote(key), "\"roles\" instead of \"slaves\""});
-  };
-  refuse(!program.candidates.empty(), "candidates");
-  refuse(program.announce_every.has_value(), "announce_every");
-  refuse(program.on_replacement != OnReplacement::stay_halted, "on_replacement");
-}
-
-void check_names(const Program& program, json::Diagnostics& diagnostics) {
-  std::set<std::string_view> names = {program.master};
-  std::map<handshake::SkillId, std::string_view> skills;
-  for (const Role& role : program.roles) {
-    if (!names.insert(role.name).second)
-      diagnostics.error(role.where.at("name"), "duplicate name", {json::quote(role.name) + " a second time", "a name of its own for each role and the master"});
-    const auto [known, is_new] = skills.emplace(handshake::skill_id(role.skill), role.skill);
-    if (!is_new && known->second != role.skill)
-      diagnostics.error(role.where.at("skill"), "two skills that look the same on the network", {json::quote(role.skill) + " and " + json::quote(known->second), "another name for one"});
-  }
+void check_candidates(const Program& program, json::Diagnostics& diagnostics) {
   std::set<std::string_view> nodes = {program.master};
   for (std::size_t i = 0; i < program.candidates.size(); ++i)
     if (!nodes.insert(program.candidates[i]).second)
@@ -40,20 +21,10 @@ void check_names(const Program& program, json::Diagnostics& diagnostics) {
 }  // namespace
 
 void check_roles(const Program& program, json::Diagnostics& diagnostics) {
-  if (program.roles.empty()) {
-    refuse_without_roles(program, diagnostics);
-    return;
-  }
+  if (program.roles.empty()) return;
   if (program.candidates.empty())
     diagnostics.error(program.where.at("roles"), "roles that no node may have", {"no \"candidates\"", "the names of the nodes that may have a role"});
-  if (program.variant == Variant::paper)
-    diagnostics.error(program.where.at("variant"), "roles with the handshake of the paper", {"\"paper\", which cannot tell one node from the next", "\"robust\""});
-  if (program.subscription == Subscription::all_to_all)
-    diagnostics.error(program.where.at("subscription"), "roles with all-to-all subscription", {"\"all-to-all\"", "\"star\": who has a role hears the master"});
-  if (program.announce_every && *program.announce_every < program.cycle)
-    diagnostics.error(program.where.at("announce_every"), "announcements within one cycle",
-                      {json::to_text(*program.announce_every), "at least the cycle of " + json::to_text(program.cycle)});
-  check_names(program, diagnostics);
+  check_candidates(program, diagnostics);
 }
 
 void check_offers(const Config& config, std::span<const Program> programs, json::Diagnostics& diagnostics) {
@@ -89,12 +60,12 @@ void check_offers(const Config& config, std::span<const Program> programs, json:
 std::optional<wire::RoleSettings> roles_at(const Config& config, const Program& program, const wire::ProgramShape& shape) {
   if (program.roles.empty()) return std::nullopt;
   wire::RoleSettings roles;
-  roles.format = std::make_shared<const wire::PlugFormat>(vocabulary::plug_shape_of(shape, program.roles, program.candidates));
+  roles.format = std::make_shared<const wire::PlugFormat>(plant::plug_shape_of(shape, program.roles, program.candidates));
   roles.announce_cycle = program.announce_every.value_or(program.cycle * wire::cycles_of_announcement);
   roles.restarts = program.on_replacement == OnReplacement::restart;
   if (config.node == program.master) return roles;
   const auto number = std::find(program.candidates.begin(), program.candidates.end(), config.node) - program.candidates.begin();
-  roles.offer = wire::Offer{static_cast<std::uint8_t>(number), 1, vocabulary::skill_ids_of(config.offers), !config.absent};
+  roles.offer = wire::Offer{static_cast<std::uint8_t>(number), 1, plant::skill_ids_of(config.offers), !config.absent && !holds(program.absent, config.node)};
   return roles;
 }
 

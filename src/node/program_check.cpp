@@ -5,10 +5,12 @@
 #include <utility>
 
 #include "json/suggest.hpp"
+#include "plant/program_check.hpp"
 
 namespace takt::node {
 namespace {
 
+constexpr Duration shortest_cycle = Duration::from_ps(10'000'000);
 constexpr std::uint32_t most_octets = 1472;  // what UDP over IPv4 leaves of an Ethernet frame
 
 void check_participants(const Program& program, json::Diagnostics& diagnostics) {
@@ -18,12 +20,15 @@ void check_participants(const Program& program, json::Diagnostics& diagnostics) 
       diagnostics.error(program.where.at("slaves", i), "a participant twice", {json::quote(program.slaves[i]), "a name of its own for each"});
 }
 
-void check_times(const Program& program, json::Diagnostics& diagnostics) {
-  if (program.offset > Duration() && program.offset >= program.cycle)
-    diagnostics.error(program.where.at("offset"), "an offset beyond the cycle", {json::to_text(program.offset), "less than " + json::to_text(program.cycle)});
-  if (program.receive_timeout && *program.receive_timeout <= program.cycle)
-    diagnostics.error(program.where.at("receive_timeout"), "a time-out within one cycle",
-                      {json::to_text(*program.receive_timeout), "more than the cycle of " + json::to_text(program.cycle)});
+/// What only a simulator does, or takes finer than a thread of an operating system can.
+void check_hosting(const Program& program, json::Diagnostics& diagnostics) {
+  if (program.cycle < shortest_cycle) diagnostics.error(program.where.at("cycle"), "too short for a real node", {json::to_text(program.cycle), "at least " + json::to_text(shortest_cycle)});
+  if (!program.replies.empty()) diagnostics.error(program.where.at("replies"), "not on a real node", {"process data that answers other process data", "data that is published every cycle"});
+  const std::vector<std::string> participants = participants_of(program);
+  const std::vector<std::string_view> names(participants.begin(), participants.end());
+  for (const auto& phase : program.phases)
+    if (std::ranges::find(names, phase.first) == names.end())
+      diagnostics.error(program.where.at("phases"), "not a participant of the program", {json::quote(phase.first), "the master or a slave", json::suggest(phase.first, names)});
 }
 
 /// The participant that publishes a data set; 0 after a mistake.
@@ -99,13 +104,6 @@ class NestingChecker {
 
 }  // namespace
 
-std::vector<std::string> participants_of(const Program& program) {
-  std::vector<std::string> names = {program.master};
-  names.insert(names.end(), program.slaves.begin(), program.slaves.end());
-  for (const Role& role : program.roles) names.push_back(role.name);
-  return names;
-}
-
 std::vector<std::string> nodes_of(const Program& program) {
   std::vector<std::string> names = {program.master};
   const std::vector<std::string>& others = program.roles.empty() ? program.slaves : program.candidates;
@@ -115,7 +113,8 @@ std::vector<std::string> nodes_of(const Program& program) {
 
 wire::ProgramShape checked_shape(const Program& program, std::uint16_t first_publisher_id, json::Diagnostics& diagnostics) {
   check_participants(program, diagnostics);
-  check_times(program, diagnostics);
+  plant::check_program(program, diagnostics);
+  check_hosting(program, diagnostics);
   wire::ProgramShape shape;
   shape.name = program.name;
   shape.variant = program.variant;
@@ -135,7 +134,7 @@ wire::ProgramShape checked_shape(const Program& program, std::uint16_t first_pub
   return shape;
 }
 
-wire::EndpointSettings endpoint_settings(const Program& program, std::uint8_t index, std::uint8_t priority) {
+wire::EndpointSettings endpoint_settings(const Program& program, std::uint8_t index, const std::string& node, std::uint8_t priority) {
   wire::EndpointSettings settings;
   settings.handshake.variant = program.variant;
   settings.handshake.index = index;
@@ -143,7 +142,7 @@ wire::EndpointSettings endpoint_settings(const Program& program, std::uint8_t in
   settings.handshake.slaves = static_cast<std::uint8_t>(program.slaves.size() + program.roles.size());
   settings.handshake.subscription = program.subscription;
   settings.cycle = program.cycle;
-  settings.offset = program.offset;
+  settings.offset = phase_of(program, node);
   settings.receive_timeout = program.receive_timeout.value_or(program.cycle * 10);
   settings.initialisation = program.initialisation;
   settings.publish_on_change = program.publish == Publish::on_change;

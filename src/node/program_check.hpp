@@ -9,8 +9,6 @@
 
 namespace takt::node {
 
-/// The master and the slaves, or the roles.
-std::vector<std::string> participants_of(const Program& program);
 /// The nodes: the master and the slaves, or the candidates.
 std::vector<std::string> nodes_of(const Program& program);
 
@@ -18,8 +16,8 @@ std::vector<std::string> nodes_of(const Program& program);
 /// is not to be used.
 wire::ProgramShape checked_shape(const Program& program, std::uint16_t first_publisher_id, json::Diagnostics& diagnostics);
 
-/// `index` is the participant that this node is; without format.
-wire::EndpointSettings endpoint_settings(const Program& program, std::uint8_t index, std::uint8_t priority);
+/// `index` is the participant that the node of this name is; without format.
+wire::EndpointSettings endpoint_settings(const Program& program, std::uint8_t index, const std::string& node, std::uint8_t priority);
 
 /// Which of the Programs is nested in which: refuses what is none (as in scenarios: an unknown outer Program, a master that is no slave of
 /// it, a circle, two inner Programs at one slave, the handshake of the paper).

@@ -110,11 +110,11 @@ TypeMapping mapping(Direction direction) {
 
 /// Nothing is lost, whoever finds whom first and however slow the other is: two endpoints do not match at the same instant, and to a volatile reader
 /// all is history that was written before it heard of the writer.
-vocabulary::Qos reliable() {
-  vocabulary::Qos qos;
-  qos.reliability = vocabulary::Reliability::reliable;
-  qos.durability = vocabulary::Durability::transient_local;
-  qos.history = vocabulary::History::keep_all;
+plant::Qos reliable() {
+  plant::Qos qos;
+  qos.reliability = plant::Reliability::reliable;
+  qos.durability = plant::Durability::transient_local;
+  qos.history = plant::History::keep_all;
   qos.max_blocking_time = 1000_s;
   return qos;
 }

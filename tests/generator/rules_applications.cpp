@@ -108,6 +108,7 @@ std::span<const Rule> application_rules() {
       {.key = "topic.name", .make = [](Maker&, const Scope& s) -> Made { return text("t" + std::to_string(s.number)); }},
       {.key = "topic.protocol", .make = protocol},
       {.key = "topic.fields", .make = fields},
+      {.key = "topic.publisher_id", .percent = 20, .make = [](Maker&, const Scope& s) -> Made { return is_of_dds(s) ? std::nullopt : Made(number(20'000 + s.number)); }},
       {.key = "topic.pcp", .percent = 60, .words = "0 2 4 5"},
       {.key = "topic.vlan", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return s.has("pcp") ? m.word("0 10") : Made(); }},
       {.key = "topic.keys", .feature = Feature::dds, .percent = 30, .make = [](Maker&, const Scope& s) -> Made { return is_of_dds(s) ? Made(list({text("f0")})) : std::nullopt; }},

@@ -96,6 +96,7 @@ Made slaves(Maker& m, const Scope& s) {
 bool is_scheduled(const Maker& m, const Scope& s) { return m.wants(Feature::automatic_gates) && !s.has("roles"); }
 
 Made phases(Maker& m, const Scope& s) {
+  if (s.has("roles")) return std::nullopt;
   Node made = Node::object();
   const std::vector<std::string> all = members_of(*s.made);
   if (is_scheduled(m, s)) {
@@ -218,6 +219,7 @@ std::span<const Rule> program_rules() {
        }},
       {.key = "program.vlan", .percent = 15, .words = "0 10"},
       {.key = "program.violations", .percent = 20},
+      {.key = "program.publisher_id", .percent = 20, .make = [](Maker&, const Scope& s) -> Made { return number(1000 + 100 * s.number); }},
       {.key = "program.process_data", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return m.wants(Feature::replies) || m.draw.one_in(2) ? process_data(m, s) : std::nullopt; }},
       {.key = "program.replies", .feature = Feature::replies, .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return s.has("process_data") && !s.has("roles") ? Made(m.objects("reply", 1, s)) : std::nullopt; }},
       {.key = "role.name", .make = [](Maker&, const Scope& s) -> Made { return text("r" + std::to_string(s.number)); }},

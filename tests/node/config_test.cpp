@@ -39,6 +39,19 @@ TEST(Config, OfASlave) {
   EXPECT_EQ(endpoint.format->longest(), wire::process_data_octets(25));
 }
 
+TEST(Config, OwnPhasesAreTaken) {
+  const std::string phases = R"(, "offset": "100us", "phases": {"a": "250us"})";
+  EXPECT_EQ(Load(file("a", phases)).loaded->programs[0].endpoint.offset, Duration::from_ps(250'000'000));
+  EXPECT_EQ(Load(file("b", phases)).loaded->programs[0].endpoint.offset, Duration::from_ps(100'000'000));
+  EXPECT_FALSE(Load(file("b", R"(, "phases": {"stranger": "250us"})")).loaded);
+}
+
+TEST(Config, WhatOnlyASimulatorDoesIsRefused) {
+  const Load load(file("b", R"(, "replies": [{"to": "d", "with": "e"}])"));
+  EXPECT_FALSE(load.loaded);
+  EXPECT_NE(load.diagnostics.to_text().find("/program/replies: not on a real node"), std::string::npos) << load.diagnostics.to_text();
+}
+
 TEST(Config, MistakesAreFound) {
   for (const std::string& text : {
            std::string("{"), std::string("{}"), file("c"), file("a", R"(, "offset": "1ms")"), file("a", R"(, "receive_timeout": "1ms")"),

@@ -40,6 +40,11 @@ const BadCase groups_cases[] = {
      R"(2:131: error at /programs/1/roles: a node that offers its skills to two programs: found "b" to "p" and "q", expected "candidates" that share no host)"},
     {"JoinOfAStranger", with_groups(R"({"name": "p", "master": "a", "roles": [{"name": "r", "skill": "welding"}], "cycle": "1ms"})", R"({"at": "0s", "join": "c"})"),
      R"(3:22: error at /script/0/join: not a candidate of a program: found "c", expected a host that offers a skill a role needs)"},
+    {"PhasesOfRoles", with_groups(R"({"name": "p", "master": "a", "roles": [{"name": "r", "skill": "welding"}], "phases": {"a": "1us"}, "cycle": "1ms"})"),
+     R"(2:86: error at /programs/0/phases: phases in a program with roles: found "phases" beside "roles", whose participants come and go, expected "offset")"},
+    {"PublisherIdsOfAnother", with_groups(R"({"name": "p", "master": "a", "slaves": ["b"], "publisher_id": 7, "cycle": "1ms"},
+{"name": "q", "master": "b", "slaves": ["c"], "publisher_id": 8, "cycle": "1ms"})"),
+     R"(3:63: error at /programs/1/publisher_id: a PublisherId twice: found 8, which "p" has, expected PublisherIds of its own for "q")"},
     {"AnnouncementsOfSlaves", with_groups(R"({"name": "p", "master": "a", "slaves": ["b"], "announce_every": "1ms", "cycle": "1ms"})"),
      R"(2:65: error at /programs/0/announce_every: belongs to a program with roles: found "announce_every", expected "roles" instead of "slaves")"},
 };

@@ -7,8 +7,8 @@
 #include "json/suggest.hpp"
 #include "node/dds/participant.hpp"
 #include "sim/check.hpp"
-#include "vocabulary/keys.hpp"
-#include "vocabulary/protocol.hpp"
+#include "plant/keys.hpp"
+#include "plant/protocol.hpp"
 
 namespace takt::node {
 namespace {
@@ -28,7 +28,7 @@ TopicShape shape_of(const Topic& topic, std::size_t position) {
   }
   for (std::size_t f = 0; f < topic.fields.size(); ++f)
     if (std::find(topic.keys.begin(), topic.keys.end(), topic.fields[f].first) != topic.keys.end()) shape.key_fields.push_back(f);
-  shape.value_field = vocabulary::value_field(topic.fields, topic.keys);
+  shape.value_field = plant::value_field(topic.fields, topic.keys);
   return shape;
 }
 
@@ -47,14 +47,14 @@ class Checker {
   void run() {
     check_topics();
     number_publications();
-    const auto is_elsewhere = [this](const auto& each) { return each.on && *each.on != config_.node; };
+    const auto is_elsewhere = [this](const auto& each) { return each.on != config_.node; };
     std::erase_if(config_.applications, is_elsewhere);
     std::erase_if(config_.gateways, is_elsewhere);
     if (config_.applications.empty() && config_.gateways.empty())
       diagnostics_.error(config_.where.at("node"), "nothing to run here", {json::quote(config_.node), "a node that an application or a gateway is on"});
     std::set<std::string> names;
-    for (const ApplicationOfNode& each : config_.applications) check_application(each, names);
-    for (const GatewayOfNode& each : config_.gateways) check_gateway(each, names);
+    for (const plant::Application& each : config_.applications) check_application(each, names);
+    for (const plant::Gateway& each : config_.gateways) check_gateway(each, names);
     if (uses_opc_ua_ && !config_.transport) diagnostics_.error(config_.where.at("node"), "no transport", {"topics of OPC UA", "a \"transport\" for them"});
   }
 
@@ -62,10 +62,10 @@ class Checker {
   /// A WriterGroup for each publication of a topic, in the order of the file, which may tell of other nodes: the same numbers at all of them.
   void number_publications() {
     std::map<std::string, std::uint16_t> counts;
-    for (ApplicationOfNode& application : config_.applications)
-      for (Thread& thread : application.threads)
-        if (thread.publish) thread.writer_group = ++counts[*thread.publish];
-    for (GatewayOfNode& gateway : config_.gateways) gateway.writer_group = ++counts[gateway.to];
+    for (const plant::Application& application : config_.applications)
+      for (const Thread& thread : application.threads)
+        if (thread.publish) loaded_.writer_groups[{application.name, thread.name}] = ++counts[*thread.publish];
+    for (const plant::Gateway& gateway : config_.gateways) loaded_.writer_groups[{gateway.name, sending_thread}] = ++counts[gateway.to];
     for (std::size_t i = 0; i < config_.topics.size(); ++i) loaded_.shapes[i].writer_groups = std::max<std::uint16_t>(1, counts[config_.topics[i].name]);
   }
 
@@ -80,19 +80,22 @@ class Checker {
       if (!is_dds && !ids.insert(loaded_.shapes.back().publisher_id).second)
         diagnostics_.error(topic.where.at("publisher_id"), "a PublisherId twice", {std::to_string(loaded_.shapes.back().publisher_id), "one of its own for each topic"});
       if (is_dds && topic.publisher_id) diagnostics_.error(topic.where.at("publisher_id"), "not of DDS", {"a PublisherId", "a topic of OPC UA"});
-      for (const auto& [is_there, key] : {std::pair{!topic.keys.empty(), "keys"}, std::pair{topic.type.has_value(), "type"}, std::pair{topic.domain.has_value(), "domain"}, std::pair{topic.qos.has_value(), "qos"}})
+      for (const auto& [is_there, key] : {std::pair{!topic.keys.empty(), "keys"}, std::pair{topic.type.has_value(), "type"}, std::pair{topic.domain.has_value(), "domain"}, std::pair{topic.qos.has_value(), "qos"},
+                                        std::pair{topic.publication.has_value(), "publication"}, std::pair{topic.flow_control.has_value(), "flow_control"}})
         if (!is_dds && is_there) diagnostics_.error(topic.where.at(key), "not of OPC UA", {json::quote(key), "a topic of DDS"});
       if (is_dds && !is_dds_name(topic.name))
         diagnostics_.error(topic.where.at("name"), "not a topic name of DDS", {json::quote(topic.name), "letters, digits, '_' and '/', and no digit first"});
       if (topic.qos) check_qos(*topic.qos);
+      if (is_dds && topic.publication == plant::Publication::asynchronous)
+        diagnostics_.error(topic.where.at("publication"), "not on a real node", {"asynchronous publication, which is not asked of Cyclone DDS", "\"synchronous\""});
       const std::size_t errors_before = diagnostics_.errors();
-      if (is_dds) vocabulary::check_keys(topic.where, topic.keys, topic.fields, diagnostics_);
+      if (is_dds) plant::check_keys(topic.where, topic.keys, topic.fields, diagnostics_);
       if (is_dds && diagnostics_.errors() == errors_before) loaded_.shapes.back().key = gateway::KeyLayout(loaded_.shapes.back().type, topic.keys);
     }
   }
 
-  void check_qos(const vocabulary::Qos& qos) {
-    if (qos.durability && *qos.durability > vocabulary::Durability::transient_local)
+  void check_qos(const plant::Qos& qos) {
+    if (qos.durability && *qos.durability > plant::Durability::transient_local)
       diagnostics_.error(qos.where.at("durability"), "not on a real node", {"transient or persistent data, which Cyclone DDS does not keep", "volatile or transient-local"});
     if (qos.durability_service)
       diagnostics_.error(qos.where.at("durability_service"), "not on a real node", {"what a persistence service keeps, and Cyclone DDS has none", "volatile or transient-local data"});
@@ -119,7 +122,7 @@ class Checker {
     if (offset > Duration() && offset >= every) diagnostics_.error(where.at(key), "an offset beyond the interval", {json::to_text(offset), "less than " + json::to_text(every)});
   }
 
-  void check_application(const ApplicationOfNode& application, std::set<std::string>& names) {
+  void check_application(const plant::Application& application, std::set<std::string>& names) {
     if (!names.insert(application.name).second)
       diagnostics_.error(application.where.at("name"), "duplicate name", {json::quote(application.name), "a name of its own for each application and gateway"});
     std::set<std::string> threads;
@@ -129,16 +132,17 @@ class Checker {
       check_phase(thread.where, "offset", thread.offset, thread.every);
       const char* const role = thread.publish ? "publish" : "subscribe";
       const auto topic = use(thread.publish ? *thread.publish : thread.subscribe.value_or(""), thread.where.at(role), thread.publish.has_value());
-      if (topic && thread.payload && thread.publish) vocabulary::check_instances(*thread.payload, !config_.topics[*topic].keys.empty() && !thread.payload->copy_of, diagnostics_);
+      if (topic && thread.payload && thread.publish) plant::check_instances(*thread.payload, !config_.topics[*topic].keys.empty() && !thread.payload->copy_of, diagnostics_);
       if (thread.payload && !thread.publish) diagnostics_.error(thread.where.at("payload"), "nothing is published", {"a payload", "a thread that publishes"});
       if (thread.buffer && !thread.subscribe) diagnostics_.error(thread.where.at("buffer"), "nothing is taken", {"a buffer", "a thread that subscribes"});
       if (thread.qos && topic && config_.topics[*topic].protocol != Protocol::dds) diagnostics_.error(thread.where.at("qos"), "not of OPC UA", {"quality of service", "a topic of DDS"});
       if (thread.qos) check_qos(*thread.qos);
+      if (thread.signal) diagnostics_.error(thread.where.at("signal"), "not on a real node", {"a digital output", "a thread without one"});
       if (topic && thread.payload && thread.payload->copy_of) check_copy(application, *thread.payload, *topic);
     }
   }
 
-  void check_copy(const ApplicationOfNode& application, const Payload& payload, std::size_t to) {
+  void check_copy(const plant::Application& application, const Payload& payload, std::size_t to) {
     const json::Place place = payload.where.at("copy_of");
     const auto from = use(*payload.copy_of, place);
     if (!from) return;
@@ -152,7 +156,7 @@ class Checker {
     if (types_of(*from) != types_of(to)) diagnostics_.error(place, "other fields", {json::quote(*payload.copy_of), "a topic with fields of the same types in the same order"});
   }
 
-  void check_gateway(const GatewayOfNode& gateway, std::set<std::string>& names) {
+  void check_gateway(const plant::Gateway& gateway, std::set<std::string>& names) {
     if (!names.insert(gateway.name).second)
       diagnostics_.error(gateway.where.at("name"), "duplicate name", {json::quote(gateway.name), "a name of its own for each application and gateway"});
     published_.clear();

@@ -1,89 +1,28 @@
 // The file of a node that runs applications and gateways: the words of scenarios, for those of them that are `on` this node.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gateway/key_layout.hpp"
 #include "gateway/type_mapping.hpp"
 #include "node/config.hpp"
-#include "vocabulary/application.hpp"
-#include "vocabulary/dds.hpp"
+#include "plant/application.hpp"
+#include "plant/dds.hpp"
 
 namespace takt::node {
 
-using vocabulary::Overflow;
-using vocabulary::Pattern;
-using vocabulary::Payload;
-using vocabulary::Protocol;
-
-struct Topic {
-  json::Source where;
-  std::string name;
-  Protocol protocol = Protocol::opc_ua;
-  json::NameMap<DataField> fields;
-  std::optional<std::uint16_t> publisher_id;  ///< of OPC UA; 1 + the position among the topics if absent
-  std::vector<std::string> keys = {};         ///< of DDS, as all below: fields that tell instances apart
-  std::optional<std::string> type;            ///< the name of the IDL struct; the topic's if absent
-  std::optional<std::uint16_t> domain;
-  std::optional<vocabulary::Qos> qos;
-  bool operator==(const Topic&) const = default;
-};
-
-/// Activated at offset + n * every of the clock. Exactly one of publish and subscribe is there.
-struct Thread {
-  json::Source where;
-  std::string name;
-  std::optional<std::string> publish;
-  std::optional<std::string> subscribe;
-  Duration every;
-  Duration offset;
-  std::optional<Payload> payload;
-  std::optional<std::uint32_t> buffer;
-  std::optional<std::uint64_t> tests;
-  std::optional<vocabulary::Qos> qos;
-  std::uint16_t writer_group = 1;             ///< not in the file: its number among the publications of its topic, if that is of OPC UA
-  bool operator==(const Thread&) const = default;
-};
-
-/// The thread that checks what the other threads of its application have done in each of its windows.
-struct Scheduler {
-  json::Source where;
-  Duration window = Duration::from_ps(10'000'000'000);
-  Duration after;
-  std::optional<std::uint64_t> tests;
-  Duration tolerance = Duration::from_ps(1'000'000'000);
-  bool operator==(const Scheduler&) const = default;
-};
-
-struct ApplicationOfNode {
-  json::Source where;
-  std::string name;
-  std::optional<std::string> on;
-  std::vector<Thread> threads;
-  Scheduler scheduler = {};
-  bool operator==(const ApplicationOfNode&) const = default;
-};
-
-struct GatewayOfNode {
-  json::Source where;
-  std::string name;
-  std::optional<std::string> on;
-  std::string from;
-  std::string to;
-  Duration receive_every;
-  Duration receive_offset;
-  Duration send_every;
-  Duration send_offset;
-  std::uint32_t buffer = 1;
-  Overflow overflow = Overflow::overwrite_oldest;
-  std::optional<Duration> stale_after;
-  Scheduler scheduler = {};
-  std::uint16_t writer_group = 1;             ///< as that of a thread
-  bool operator==(const GatewayOfNode&) const = default;
-};
+using plant::Overflow;
+using plant::Pattern;
+using plant::Payload;
+using plant::Protocol;
+using plant::Scheduler;
+using plant::Thread;
+using plant::Topic;
 
 /// How RTPS travels; ports are those of DDSI-RTPS 2.5, 9.6.1.
 struct DdsTransport {
@@ -96,8 +35,8 @@ struct ApplicationsConfig {
   json::Source where;
   std::string node;
   std::vector<Topic> topics;
-  std::vector<ApplicationOfNode> applications;
-  std::vector<GatewayOfNode> gateways;
+  std::vector<plant::Application> applications;
+  std::vector<plant::Gateway> gateways;
   std::optional<Transport> transport;
   DdsTransport dds = {};
   ClockName clock = ClockName::monotonic;
@@ -107,13 +46,11 @@ struct ApplicationsConfig {
   bool operator==(const ApplicationsConfig&) const = default;
 };
 
-const json::Object& describe(json::Type<Topic>);
-const json::Object& describe(json::Type<Thread>);
-const json::Object& describe(json::Type<Scheduler>);
-const json::Object& describe(json::Type<ApplicationOfNode>);
-const json::Object& describe(json::Type<GatewayOfNode>);
 const json::Object& describe(json::Type<DdsTransport>);
 const json::Object& describe(json::Type<ApplicationsConfig>);
+
+/// The thread of a gateway that publishes.
+inline constexpr const char* sending_thread = "send";
 
 /// A topic that has been checked.
 struct TopicShape {
@@ -131,6 +68,8 @@ struct TopicShape {
 struct LoadedApplications {
   ApplicationsConfig config;
   std::vector<TopicShape> shapes;  ///< by topic
+  /// By application and thread: which of the publications of its topic it is, for topics of OPC UA.
+  std::map<std::pair<std::string, std::string>, std::uint16_t> writer_groups;
   std::size_t topic(const std::string& name) const;
 };
 

@@ -8,7 +8,7 @@
 #include "node/applications/thread_group.hpp"
 #include "node/real_node.hpp"
 #include "sim/check.hpp"
-#include "vocabulary/qos_of_thread.hpp"
+#include "plant/qos_of_thread.hpp"
 
 namespace takt::node {
 namespace {
@@ -37,7 +37,7 @@ class DdsTopicReader final : public TopicReader {
   DdsReader& reader_;
 };
 
-gateway::BufferSettings buffer_of(const GatewayOfNode& given) {
+gateway::BufferSettings buffer_of(const plant::Gateway& given) {
   constexpr gateway::Overflow overflows[] = {gateway::Overflow::overwrite_oldest, gateway::Overflow::drop_newest, gateway::Overflow::keep_latest};
   return {.capacity = given.buffer, .overflow = overflows[static_cast<std::size_t>(given.overflow)], .stale_after = given.stale_after};
 }
@@ -130,25 +130,25 @@ DdsParticipant* ApplicationHost::participant_of(std::uint16_t domain, std::strin
   return participants_.emplace_back(domain, std::move(participant)).second.get();
 }
 
-TopicWriter* ApplicationHost::writer_of(const std::string& topic, std::uint16_t writer_group, const std::optional<vocabulary::Qos>& qos, std::string& problem) {
+TopicWriter* ApplicationHost::writer_of(const std::string& topic, std::uint16_t writer_group, const std::optional<plant::Qos>& qos, std::string& problem) {
   const std::size_t index = loaded_.topic(topic);
   const TopicShape& shape = loaded_.shapes[index];
   if (loaded_.config.topics[index].protocol == Protocol::opc_ua) return &opc_ua_->add_writer(shape, writer_group);
   DdsParticipant* const participant = participant_of(shape.domain, problem);
-  DdsWriter* const writer = participant == nullptr ? nullptr : participant->add_writer({topic, shape.type.name, vocabulary::merged(loaded_.config.topics[index].qos, qos), shape.key}, problem);
+  DdsWriter* const writer = participant == nullptr ? nullptr : participant->add_writer({topic, shape.type.name, plant::merged(loaded_.config.topics[index].qos, qos), shape.key}, problem);
   return writer == nullptr ? nullptr : dds_writers_.emplace_back(std::make_unique<DdsTopicWriter>(*writer)).get();
 }
 
-TopicReader* ApplicationHost::reader_of(const std::string& topic, const std::optional<vocabulary::Qos>& qos, std::string& problem) {
+TopicReader* ApplicationHost::reader_of(const std::string& topic, const std::optional<plant::Qos>& qos, std::string& problem) {
   const std::size_t index = loaded_.topic(topic);
   const TopicShape& shape = loaded_.shapes[index];
   if (loaded_.config.topics[index].protocol == Protocol::opc_ua) return &opc_ua_->add_reader(shape);
   DdsParticipant* const participant = participant_of(shape.domain, problem);
-  DdsReader* const reader = participant == nullptr ? nullptr : participant->add_reader({topic, shape.type.name, vocabulary::merged(loaded_.config.topics[index].qos, qos), shape.key}, problem);
+  DdsReader* const reader = participant == nullptr ? nullptr : participant->add_reader({topic, shape.type.name, plant::merged(loaded_.config.topics[index].qos, qos), shape.key}, problem);
   return reader == nullptr ? nullptr : dds_readers_.emplace_back(std::make_unique<DdsTopicReader>(*reader)).get();
 }
 
-bool ApplicationHost::add_application(const ApplicationOfNode& application, std::string& problem) {
+bool ApplicationHost::add_application(const plant::Application& application, std::string& problem) {
   Watched& watched = *watched_.emplace_back(std::make_unique<Watched>());
   watched.name = application.name;
   watched.scheduler = application.scheduler;
@@ -157,7 +157,7 @@ bool ApplicationHost::add_application(const ApplicationOfNode& application, std:
     const std::size_t index = loaded_.topic(topic);
     const TopicEnd end = {&loaded_.shapes[index], loaded_.config.topics[index].protocol == Protocol::dds};
     if (thread.publish) {
-      TopicWriter* const writer = writer_of(topic, thread.writer_group, thread.qos, problem);
+      TopicWriter* const writer = writer_of(topic, loaded_.writer_groups.at({application.name, thread.name}), thread.qos, problem);
       if (writer == nullptr) return false;
       watched.add(make_publishing(end, *writer, thread.payload, watched.newest), thread.every, thread.offset, "publish", thread.name, topic).tests = thread.tests;
     } else {
@@ -170,14 +170,14 @@ bool ApplicationHost::add_application(const ApplicationOfNode& application, std:
   return true;
 }
 
-bool ApplicationHost::add_gateway(const GatewayOfNode& given, std::string& problem) {
+bool ApplicationHost::add_gateway(const plant::Gateway& given, std::string& problem) {
   const std::size_t to = loaded_.topic(given.to);
   const auto direction = loaded_.config.topics[to].protocol == Protocol::dds ? gateway::Direction::to_dds : gateway::Direction::to_opc_ua;
   std::vector<std::string> problems;
   auto mapping = mapping_between(loaded_.shapes[loaded_.topic(given.from)], loaded_.shapes[to], direction, problems);
   TAKT_CHECK(mapping.has_value(), "mappings have been checked");
   TopicReader* const reader = reader_of(given.from, std::nullopt, problem);
-  TopicWriter* const writer = reader == nullptr ? nullptr : writer_of(given.to, given.writer_group, std::nullopt, problem);
+  TopicWriter* const writer = reader == nullptr ? nullptr : writer_of(given.to, loaded_.writer_groups.at({given.name, sending_thread}), std::nullopt, problem);
   if (writer == nullptr) return false;
   Watched& watched = *watched_.emplace_back(std::make_unique<Watched>());
   watched.name = given.name;

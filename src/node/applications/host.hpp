@@ -58,11 +58,11 @@ class ApplicationHost {
   struct Watched;
   ApplicationHost(const LoadedApplications& loaded);
   bool open(std::string& problem);
-  TopicWriter* writer_of(const std::string& topic, std::uint16_t writer_group, const std::optional<vocabulary::Qos>& qos, std::string& problem);
-  TopicReader* reader_of(const std::string& topic, const std::optional<vocabulary::Qos>& qos, std::string& problem);
+  TopicWriter* writer_of(const std::string& topic, std::uint16_t writer_group, const std::optional<plant::Qos>& qos, std::string& problem);
+  TopicReader* reader_of(const std::string& topic, const std::optional<plant::Qos>& qos, std::string& problem);
   DdsParticipant* participant_of(std::uint16_t domain, std::string& problem);
-  bool add_application(const ApplicationOfNode& application, std::string& problem);
-  bool add_gateway(const GatewayOfNode& gateway, std::string& problem);
+  bool add_application(const plant::Application& application, std::string& problem);
+  bool add_gateway(const plant::Gateway& gateway, std::string& problem);
   void run_task(Task& task);
   void run_scheduler(Watched& watched);
 

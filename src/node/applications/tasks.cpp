@@ -5,7 +5,7 @@
 #include "gateway/field_values.hpp"
 #include "sim/check.hpp"
 #include "uadp/store_number.hpp"
-#include "vocabulary/keys.hpp"
+#include "plant/keys.hpp"
 
 namespace takt::node {
 namespace {
@@ -40,7 +40,7 @@ class Publishing final : public Work {
       if (!newest_.get(*payload_.copy_of, fields_)) return {};
     } else {
       ++count_;
-      for (const Place& key : keys_) store(key, vocabulary::instance_of(payload_, count_));
+      for (const Place& key : keys_) store(key, plant::instance_of(payload_, count_));
       store(value_, payload_.pattern == Pattern::alternate ? count_ % 2 : count_);
     }
     if (mapping_ && mapping_->to_cdr(fields_, payload_octets_) != gateway::MappingError::none) return {};

@@ -162,8 +162,8 @@ using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 std::int32_t limit_of(const std::optional<std::uint32_t>& limit) { return limit ? static_cast<std::int32_t>(*limit) : DDS_LENGTH_UNLIMITED; }
 dds_duration_t ns_of(const std::optional<sim::Duration>& duration, dds_duration_t absent) { return duration ? duration->ps() / 1000 : absent; }
 
-Qos qos_of(const vocabulary::Qos& asked, std::string& problem) {
-  using namespace vocabulary;
+Qos qos_of(const plant::Qos& asked, std::string& problem) {
+  using namespace plant;
   Qos qos(dds_create_qos(), &dds_delete_qos);
   const bool is_reliable = asked.reliability == Reliability::reliable;
   dds_qset_reliability(qos.get(), is_reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, ns_of(asked.max_blocking_time, DDS_MSECS(100)));

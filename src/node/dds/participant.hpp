@@ -7,7 +7,7 @@
 
 #include "gateway/key_layout.hpp"
 #include "uadp/octets.hpp"
-#include "vocabulary/dds.hpp"
+#include "plant/dds.hpp"
 
 namespace takt::node {
 
@@ -38,7 +38,7 @@ class DdsReader {
 struct DdsTopic {
   std::string name;
   std::string type;
-  vocabulary::Qos qos;  ///< absent: as a scenario says
+  plant::Qos qos;  ///< absent: as a scenario says
   gateway::KeyLayout key = {};
 };
 

@@ -59,9 +59,9 @@ void DdsNode::crash() {
   timed_out_.clear();
 }
 
-dds::Storage* DdsNode::storage(vocabulary::Durability durability) {
-  if (durability == vocabulary::Durability::persistent) return &persistent_;
-  return durability == vocabulary::Durability::transient ? &transient_ : nullptr;
+dds::Storage* DdsNode::storage(plant::Durability durability) {
+  if (durability == plant::Durability::persistent) return &persistent_;
+  return durability == plant::Durability::transient ? &transient_ : nullptr;
 }
 
 dds::Guid DdsNode::persistence_guid(std::uint32_t thread) const { return {prefix_of(number_ + 1, 0), dds::EntityId::user(thread + 1, dds::EntityKind::writer_no_key)}; }

@@ -55,7 +55,7 @@ class DdsNode {
   dds::Participant& participant() { return *participant_; }
   const dds::Participant& participant() const { return *participant_; }
   /// Keeps what survives a crash; null where nothing is to.
-  dds::Storage* storage(vocabulary::Durability durability);
+  dds::Storage* storage(plant::Durability durability);
   /// A name of an endpoint that survives restarts.
   dds::Guid persistence_guid(std::uint32_t thread) const;
 

@@ -35,7 +35,7 @@ dds::DurableTopic durable_topic(const ResolvedTopic& topic, const ResolvedServic
 
 DdsWriter::DdsWriter(DdsNode& node, const ResolvedTopic& topic, const ResolvedThread& thread, std::uint32_t thread_number)
     : node_(&node), layout_(topic.layout), key_(&topic.key), config_(writer_config(topic, thread)), payload_(layout_.octets()) {
-  config_.storage = node.storage(thread.qos.durability.value_or(vocabulary::Durability::volatile_));
+  config_.storage = node.storage(thread.qos.durability.value_or(plant::Durability::volatile_));
   if (config_.storage != nullptr) config_.persistence_guid = node.persistence_guid(thread_number);
 }
 
@@ -71,7 +71,7 @@ std::optional<WriteOutcome> DdsWriter::go_on(models::HostServices& host) {
 
 DdsReader::DdsReader(DdsNode& node, const ResolvedTopic& topic, const ResolvedThread& thread, std::uint32_t thread_number)
     : node_(&node), layout_(topic.layout), config_(reader_config(topic, thread)), sample_(topic.layout.zeros()) {
-  config_.storage = node.storage(thread.qos.durability.value_or(vocabulary::Durability::volatile_));
+  config_.storage = node.storage(thread.qos.durability.value_or(plant::Durability::volatile_));
   if (config_.storage != nullptr) config_.persistence_guid = node.persistence_guid(thread_number);
 }
 

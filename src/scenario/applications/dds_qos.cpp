@@ -8,16 +8,16 @@ template <class To, class From>
 constexpr To same(From value) {
   return static_cast<To>(value);
 }
-static_assert(same<dds::ReliabilityKind>(vocabulary::Reliability::reliable) == dds::ReliabilityKind::reliable);
-static_assert(same<dds::DurabilityKind>(vocabulary::Durability::persistent) == dds::DurabilityKind::persistent);
-static_assert(same<dds::HistoryKind>(vocabulary::History::keep_all) == dds::HistoryKind::keep_all);
-static_assert(same<dds::LivelinessKind>(vocabulary::Liveliness::manual_by_topic) == dds::LivelinessKind::manual_by_topic);
-static_assert(same<dds::OwnershipKind>(vocabulary::Ownership::exclusive) == dds::OwnershipKind::exclusive);
-static_assert(same<dds::DestinationOrderKind>(vocabulary::DestinationOrder::by_source) == dds::DestinationOrderKind::by_source_timestamp);
+static_assert(same<dds::ReliabilityKind>(plant::Reliability::reliable) == dds::ReliabilityKind::reliable);
+static_assert(same<dds::DurabilityKind>(plant::Durability::persistent) == dds::DurabilityKind::persistent);
+static_assert(same<dds::HistoryKind>(plant::History::keep_all) == dds::HistoryKind::keep_all);
+static_assert(same<dds::LivelinessKind>(plant::Liveliness::manual_by_topic) == dds::LivelinessKind::manual_by_topic);
+static_assert(same<dds::OwnershipKind>(plant::Ownership::exclusive) == dds::OwnershipKind::exclusive);
+static_assert(same<dds::DestinationOrderKind>(plant::DestinationOrder::by_source) == dds::DestinationOrderKind::by_source_timestamp);
 
 std::int32_t limit(const std::optional<std::uint32_t>& value) { return value ? static_cast<std::int32_t>(*value) : dds::unlimited; }
 
-dds::ResourceLimits limits_of(const vocabulary::ResourceLimits& limits) {
+dds::ResourceLimits limits_of(const plant::ResourceLimits& limits) {
   return {limit(limits.max_samples), limit(limits.max_instances), limit(limits.max_samples_per_instance)};
 }
 

@@ -1,4 +1,4 @@
-// What scenario files say of DDS: quality of service of topics, domains and their discovery (OMG DDS 1.4, 2.2.3; DDSI-RTPS 2.5, 8.5).
+// What scenario files say of DDS beside the plant: domains and their discovery (DDSI-RTPS 2.5, 8.5).
 // See scenario/description/description.hpp.
 #pragma once
 
@@ -8,25 +8,18 @@
 
 #include "json/fields.hpp"
 #include "sim/time.hpp"
-#include "vocabulary/dds.hpp"
+#include "plant/application.hpp"
+#include "plant/dds.hpp"
 
 namespace takt::scenario {
 
 using sim::Duration;
 
-using vocabulary::Durability;
-using vocabulary::Qos;
-using vocabulary::Reliability;
-
-enum class Publication : std::uint8_t { synchronous, asynchronous };
-
-/// What an asynchronous writer may send at once.
-struct FlowControl {
-  json::Source where;
-  std::uint32_t octets = 0;
-  Duration every;
-  bool operator==(const FlowControl&) const = default;
-};
+using plant::Durability;
+using plant::FlowControl;
+using plant::Publication;
+using plant::Qos;
+using plant::Reliability;
 
 enum class Discovery : std::uint8_t { simple, static_, server };
 
@@ -41,8 +34,6 @@ struct Domain {
   bool operator==(const Domain&) const = default;
 };
 
-const json::Enumeration& describe(json::Type<Publication>);
-const json::Object& describe(json::Type<FlowControl>);
 const json::Enumeration& describe(json::Type<Discovery>);
 const json::Object& describe(json::Type<Domain>);
 

@@ -1,32 +1,15 @@
 // The vocabulary of DDS in scenario files. See scenario/description/tables.cpp.
+#include "scenario/applications/description_applications.hpp"
 #include "scenario/applications/description_dds.hpp"
-#include "vocabulary/limits.hpp"
+#include "plant/limits.hpp"
 
 namespace takt::scenario {
 
 using json::name;
 using json::optional;
 using json::required;
-using vocabulary::longest_step;
+using plant::longest_step;
 using namespace sim::literals;
-
-const json::Enumeration& describe(json::Type<Publication>) {
-  static constexpr json::EnumName names[] = {
-      name(Publication::synchronous, "synchronous", "the writing thread sends"),
-      name(Publication::asynchronous, "asynchronous", "a queue takes the sample; another thread sends it, under flow control"),
-  };
-  static constexpr json::Enumeration table = json::enumeration<Publication>("a publication mode", names);
-  return table;
-}
-
-const json::Object& describe(json::Type<FlowControl>) {
-  static constexpr json::Field fields[] = {
-      required<&FlowControl::octets>("octets", "Octets that may be sent in a period.", {.min = 1, .max = 1'000'000'000}),
-      required<&FlowControl::every>("every", "The period.", {.min = 1_us, .max = longest_step}),
-  };
-  static constexpr json::Object table = json::object<FlowControl>("flow_control", "What an asynchronous writer may send at once.", fields);
-  return table;
-}
 
 const json::Enumeration& describe(json::Type<Discovery>) {
   static constexpr json::EnumName names[] = {
@@ -47,6 +30,17 @@ const json::Object& describe(json::Type<Domain>) {
       optional<&Domain::lease_duration>("lease_duration", "A participant that is silent for so long is gone.", {.min = 1_ms, .max = longest_step}),
   };
   static constexpr json::Object table = json::object<Domain>("domain", "A domain of DDS.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<Persistence>) {
+  static constexpr json::Field fields[] = {
+      required<&Persistence::name>("name", "Unique among applications, gateways, streams and programs.", {.min_length = 1, .max_length = 200}),
+      required<&Persistence::on>("on", "The host; it has no other part in these topics.", {.min_length = 1}),
+      required<&Persistence::topics>("topics", "Topics of DDS whose durability is transient or persistent.", {.min_items = 1, .max_items = 1000, .unique = true, .items = {.min_length = 1}}),
+  };
+  static constexpr json::Object table =
+      json::object<Persistence>("persistence", "A persistence service of DDS: keeps the last samples of topics for readers that come when the writers are gone.", fields);
   return table;
 }
 

@@ -8,7 +8,7 @@ namespace takt::scenario {
 namespace {
 
 // The values have the same order.
-static_assert(static_cast<gateway::Overflow>(vocabulary::Overflow::keep_latest) == gateway::Overflow::keep_latest);
+static_assert(static_cast<gateway::Overflow>(plant::Overflow::keep_latest) == gateway::Overflow::keep_latest);
 
 std::vector<gateway::DataSetField> fields_of(const ResolvedTopic& topic) {
   std::vector<gateway::DataSetField> fields;

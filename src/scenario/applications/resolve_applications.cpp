@@ -15,14 +15,14 @@
 #include "scenario/applications/resolved_dds.hpp"
 #include "scenario/resolve/known_names.hpp"
 #include "scenario/resolve/os_profiles.hpp"
-#include "vocabulary/keys.hpp"
-#include "vocabulary/limits.hpp"
-#include "vocabulary/qos_of_thread.hpp"
+#include "plant/keys.hpp"
+#include "plant/limits.hpp"
+#include "plant/qos_of_thread.hpp"
 
 namespace takt::scenario {
 namespace {
 
-using vocabulary::most_publishers;
+using plant::most_publishers;
 constexpr std::uint32_t all_that_came = 65'536;   // a gateway has a buffer of its own
 constexpr std::uint32_t unknown_topic = 0xFFFF'FFFF;
 constexpr Duration shortest_interval = 10_us;     // the table refuses shorter ones
@@ -87,17 +87,20 @@ class ApplicationResolver {
       for (const auto& [present, key] : {std::pair(!topic.keys.empty(), "keys"), std::pair(topic.type.has_value(), "type"), std::pair(topic.domain.has_value(), "domain"), std::pair(topic.qos.has_value(), "qos"),
                                          std::pair(topic.publication.has_value(), "publication"), std::pair(topic.flow_control.has_value(), "flow_control")})
         if (present) refuse_of_dds(topic.where.at(key), key);
+    } else if (topic.publisher_id) {
+      diagnostics_.error(topic.where.at("publisher_id"), "does not belong to DDS", {"\"publisher_id\"", "a topic with \"protocol\": \"opc-ua\""});
     } else if (topic.flow_control && topic.publication != Publication::asynchronous) {
       diagnostics_.error(topic.where.at("flow_control"), "flow control of synchronous publication", {"\"flow_control\"", "\"publication\": \"asynchronous\""});
     }
     ResolvedTopic made;
     made.description = &topic;
     // Topics of DDS count, so that a topic has the number that it has in the file of a node.
-    made.publisher_id = static_cast<std::uint16_t>(++publishers_);
+    ++publishers_;
+    made.publisher_id = topic.publisher_id.value_or(static_cast<std::uint16_t>(publishers_));
     if (publishers_ == most_publishers + 1)
       diagnostics_.error(topic.where.place(), "too many topics and participants of programs", {std::to_string(publishers_), "at most " + std::to_string(most_publishers)});
     const std::size_t errors_before = diagnostics_.errors();
-    if (!diagnostics_.is_refused(topic.where.at("fields"))) vocabulary::check_keys(topic.where, topic.keys, topic.fields, diagnostics_);
+    if (!diagnostics_.is_refused(topic.where.at("fields"))) plant::check_keys(topic.where, topic.keys, topic.fields, diagnostics_);
     const bool has_sound_keys = !topic.keys.empty() && topic.protocol == Protocol::dds && diagnostics_.errors() == errors_before;
     made.layout = SampleLayout(topic.fields, has_sound_keys ? topic.keys : std::vector<std::string>());
     std::vector<std::string> problems;
@@ -183,13 +186,13 @@ class ApplicationResolver {
       refuse(one.publishes && thread.signal, "signal", "subscribe");
       refuse(!one.publishes && thread.payload, "payload", "publish");
       if (thread.qos && one.topic < r_.topics.size() && !diagnostics_.is_refused(r_.topics[one.topic].description->where.at("protocol")) && r_.topics[one.topic].description->protocol == Protocol::opc_ua) refuse_of_dds(thread.where.at("qos"), "qos");
-      if (one.topic < r_.topics.size()) one.qos = vocabulary::merged(r_.topics[one.topic].description->qos, thread.qos);
+      if (one.topic < r_.topics.size()) one.qos = plant::merged(r_.topics[one.topic].description->qos, thread.qos);
       one.own_qos = thread.qos ? &*thread.qos : nullptr;
       if (one.publishes) one.pattern = thread.payload ? thread.payload->pattern : Pattern::counter;
       if (thread.payload && one.publishes) {
         one.payload = *thread.payload;
         if (one.topic < r_.topics.size() && !diagnostics_.is_refused(r_.topics[one.topic].description->where.at("keys")))
-          vocabulary::check_instances(*thread.payload, !r_.topics[one.topic].description->keys.empty() && !thread.payload->copy_of, diagnostics_);
+          plant::check_instances(*thread.payload, !r_.topics[one.topic].description->keys.empty() && !thread.payload->copy_of, diagnostics_);
       }
       if (thread.signal) add_signal(*thread.signal, one, made);
       made.threads.push_back(std::move(one));
@@ -253,7 +256,7 @@ class ApplicationResolver {
       thread.response = response_of(sends ? gateway.send_response : gateway.receive_response, made);
       thread.tests = gateway.scheduler.tests;
       thread.buffer = all_that_came;
-      if (thread.topic < r_.topics.size()) thread.qos = vocabulary::merged(r_.topics[thread.topic].description->qos, std::nullopt);
+      if (thread.topic < r_.topics.size()) thread.qos = plant::merged(r_.topics[thread.topic].description->qos, std::nullopt);
       if (!sends && !thread.qos.depth) thread.qos.depth = gateway.buffer;
       made.threads.push_back(std::move(thread));
     }
@@ -273,7 +276,7 @@ class ApplicationResolver {
         refuse_of_dds(place, "persistence");
         continue;
       }
-      ResolvedService::Kept kept{topic, std::nullopt, 0, vocabulary::merged(r_.topics[topic].description->qos, std::nullopt), place};
+      ResolvedService::Kept kept{topic, std::nullopt, 0, plant::merged(r_.topics[topic].description->qos, std::nullopt), place};
       if (kept.qos.durability.value_or(Durability::volatile_) < Durability::transient)
         diagnostics_.error_unless(topics_are_refused(), place, "a topic that is not kept", {json::quote(service.topics[t]), "a topic whose \"qos\" has \"durability\": \"transient\" or \"persistent\""});
       made.service->topics.push_back(std::move(kept));
@@ -347,7 +350,7 @@ class ApplicationResolver {
     if (description.protocol == Protocol::dds) {
       // Of an exclusive topic readers get the samples of the strongest writer.
       const auto strength = [&](const auto& each) { return r_.applications[each.first].threads[each.second].qos.ownership_strength.value_or(0); };
-      const bool exclusive = description.qos && description.qos->ownership == vocabulary::Ownership::exclusive;
+      const bool exclusive = description.qos && description.qos->ownership == plant::Ownership::exclusive;
       const auto strongest = *std::max_element(publishers.begin(), publishers.end(), [&](const auto& x, const auto& y) { return strength(x) < strength(y); });
       for (const auto& [heard_by, of] : subscribers)
         for (const auto& [a, t] : publishers)

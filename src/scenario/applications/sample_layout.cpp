@@ -4,14 +4,14 @@
 
 #include "sim/check.hpp"
 #include "uadp/store_number.hpp"
-#include "vocabulary/keys.hpp"
-#include "vocabulary/protocol.hpp"
+#include "plant/keys.hpp"
+#include "plant/protocol.hpp"
 
 namespace takt::scenario {
 
-SampleLayout::SampleLayout(const json::NameMap<vocabulary::DataField>& fields, const std::vector<std::string>& keys) : value_(vocabulary::value_field(fields, keys)) {
+SampleLayout::SampleLayout(const json::NameMap<plant::DataField>& fields, const std::vector<std::string>& keys) : value_(plant::value_field(fields, keys)) {
   for (const auto& [name, field] : fields) {
-    fields_.push_back({name, vocabulary::built_in_type_of(field.type), field.count, octets_});
+    fields_.push_back({name, plant::built_in_type_of(field.type), field.count, octets_});
     octets_ += fields_.back().octets();
     if (std::find(keys.begin(), keys.end(), name) != keys.end()) keys_.push_back(fields_.size() - 1);
   }

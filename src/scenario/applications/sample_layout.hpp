@@ -26,7 +26,7 @@ class SampleLayout {
   };
 
   SampleLayout() = default;
-  explicit SampleLayout(const json::NameMap<vocabulary::DataField>& fields, const std::vector<std::string>& keys = {});
+  explicit SampleLayout(const json::NameMap<plant::DataField>& fields, const std::vector<std::string>& keys = {});
 
   const std::vector<Field>& fields() const { return fields_; }
   std::size_t octets() const { return octets_; }

@@ -6,7 +6,7 @@
 #include "scenario/applications/dds_node.hpp"
 #include "scenario/applications/gateway_bridge.hpp"
 #include "sim/check.hpp"
-#include "vocabulary/keys.hpp"
+#include "plant/keys.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -173,7 +173,7 @@ void TopicApplication::publish(models::HostServices& host, Live& live, sim::Loca
     live.sample = source.sample;
   } else {
     ++live.publications;
-    live.layout->set_keys(live.sample, vocabulary::instance_of(live.settings->payload, live.publications));
+    live.layout->set_keys(live.sample, plant::instance_of(live.settings->payload, live.publications));
     live.layout->set_first(live.sample, live.settings->pattern == Pattern::alternate ? live.publications % 2 : live.publications);
   }
   count(live, due, live.writer->write(host, live.sample));

@@ -11,16 +11,16 @@
 #include "handshake/cause.hpp"
 #include "json/any.hpp"
 #include "json/fields.hpp"
+#include "plant/latency.hpp"
+#include "plant/program.hpp"
+#include "plant/role.hpp"
 #include "scenario/applications/description_applications.hpp"
 #include "scenario/description/clocks.hpp"
 #include "scenario/description/faults.hpp"
 #include "scenario/description/figures.hpp"
 #include "scenario/description/ingress.hpp"
-#include "scenario/description/latency.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
-#include "vocabulary/plug.hpp"
-#include "vocabulary/program.hpp"
 
 namespace takt::handshake {
 /// Here, since the words are those of scenario files.
@@ -28,6 +28,22 @@ const json::Enumeration& describe(json::Type<Cause>);
 }  // namespace takt::handshake
 
 namespace takt::scenario {
+
+// What node files have too.
+using plant::DataField;
+using plant::DataType;
+using plant::Latency;
+using plant::LatencyTail;
+using plant::Method;
+using plant::OnReplacement;
+using plant::ProcessData;
+using plant::Program;
+using plant::Publish;
+using plant::Reply;
+using plant::Role;
+using plant::Subscription;
+using plant::Variant;
+using plant::Violations;
 
 using sim::DataRate;
 using sim::Duration;
@@ -247,54 +263,6 @@ struct Stream {
   bool operator==(const Stream&) const = default;
 };
 
-// The words that node files have too.
-using vocabulary::DataField;
-using vocabulary::DataType;
-using vocabulary::Method;
-using vocabulary::OnReplacement;
-using vocabulary::ProcessData;
-using vocabulary::Publish;
-using vocabulary::Role;
-using vocabulary::Subscription;
-using vocabulary::Variant;
-
-enum class Violations : std::uint8_t { forbidden, reported };
-
-/// Process data that is published when other process data has come and has been worked at, not every cycle.
-struct Reply {
-  json::Source where;
-  std::string to;
-  std::string with;
-  bool operator==(const Reply&) const = default;
-};
-
-struct Program {
-  json::Source where;
-  std::string name;
-  Variant variant = Variant::robust;
-  std::string master;
-  std::vector<std::string> slaves;
-  std::optional<std::string> within;
-  std::vector<Role> roles = {};
-  std::vector<std::string> candidates = {};
-  std::vector<std::string> absent = {};
-  std::optional<Duration> announce_every = {};
-  OnReplacement on_replacement = OnReplacement::stay_halted;
-  Duration cycle;
-  std::optional<Duration> offset;    ///< the same
-  json::NameMap<Duration> phases;    ///< of single participants
-  Publish publish = Publish::cyclic;
-  Subscription subscription = Subscription::star;
-  std::optional<Duration> receive_timeout;
-  Duration initialisation = 1_ms;
-  std::uint8_t pcp = 6;
-  std::uint16_t vlan = 0;
-  Violations violations = Violations::forbidden;
-  std::vector<ProcessData> process_data;
-  std::vector<Reply> replies = {};
-  bool operator==(const Program&) const = default;
-};
-
 /// Another gate list for a port.
 struct SetGates {
   json::Source where;
@@ -413,7 +381,6 @@ struct Scenario {
 };
 
 const json::Object& describe(json::Type<Processing>);
-const json::Object& describe(json::Type<Reply>);
 const json::Enumeration& describe(json::Type<OsProfile>);
 const json::Object& describe(json::Type<OperatingSystem>);
 const json::Enumeration& describe(json::Type<TrafficClasses>);
@@ -439,8 +406,6 @@ const json::Object& describe(json::Type<ExponentialGaps>);
 const json::Object& describe(json::Type<Bursts>);
 const json::Custom& describe(json::Type<Names>);
 const json::Object& describe(json::Type<Stream>);
-const json::Enumeration& describe(json::Type<Violations>);
-const json::Object& describe(json::Type<Program>);
 const json::Object& describe(json::Type<SetGates>);
 const json::Object& describe(json::Type<ScriptEntry>);
 const json::Enumeration& describe(json::Type<Reaction>);

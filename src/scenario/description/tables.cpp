@@ -1,7 +1,7 @@
 // The vocabulary of scenario files: for each struct of description.hpp the table of its fields. Decoding, the resolved copy
 // and the JSON Schema are all made from these tables. Networks have a file of their own.
 #include "scenario/description/description.hpp"
-#include "vocabulary/limits.hpp"
+#include "plant/limits.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -9,9 +9,9 @@ namespace {
 using json::name;
 using json::optional;
 using json::required;
-using vocabulary::longest;
-using vocabulary::longest_step;
-using vocabulary::most_names;
+using plant::longest;
+using plant::longest_step;
+using plant::most_names;
 
 constexpr Duration longest_mean_gap = 3600_s;  // random gaps may be 44 times their mean
 
@@ -108,47 +108,6 @@ const json::Object& describe(json::Type<Stream>) {
   static constexpr std::string_view schedules[] = {"every", "exponential", "burst", "trace"};
   static constexpr json::Group groups[] = {json::exactly_one_of(schedules)};
   static constexpr json::Object table = json::object<Stream>("stream", "Frames from one host to others, without a protocol.", fields, {.groups = groups});
-  return table;
-}
-
-const json::Enumeration& describe(json::Type<Violations>) {
-  static constexpr json::EnumName names[] = {
-      name(Violations::forbidden, "forbidden", "a violated invariant fails the run"),
-      name(Violations::reported, "reported", "violated invariants are findings, the verdict ignores them"),
-  };
-  static constexpr json::Enumeration table = json::enumeration<Violations>("a rule for violated invariants", names);
-  return table;
-}
-
-const json::Object& describe(json::Type<Program>) {
-  static constexpr json::Field fields[] = {
-      required<&Program::name>("name", "Unique among streams and programs.", {.min_length = 1, .max_length = 200}),
-      optional<&Program::variant>("variant", "Which handshake synchronises the participants."),
-      required<&Program::master>("master", "The host of the master."),
-      optional<&Program::slaves>("slaves", "The hosts of the slaves.", {.min_items = 1, .max_items = 64}),
-      optional<&Program::roles>("roles", "Roles instead of slaves: each is bound to a node that announces the skill it needs.", {.min_items = 1, .max_items = 64}),
-      optional<&Program::candidates>("candidates", "The only hosts that may have a role; all that offer a skill it needs if absent.", {.max_items = 64}),
-      optional<&Program::absent>("absent", "Candidates that announce themselves only when the script lets them join.", {.max_items = 64}),
-      optional<&Program::announce_every>("announce_every", "Interval of announcements; who misses three is gone. 10 cycles if absent.", {.min = 1_us, .max = 3600_s}),
-      optional<&Program::on_replacement>("on_replacement", "What follows when a node that was lost in a start or a run has been replaced."),
-      optional<&Program::within>("within", "The program in which this one is nested: its master is a slave there, and it is started, suspended, resumed, reset and halted with it."),
-      required<&Program::cycle>("cycle", "Publishing interval of state and process data.", {.min = 1_us, .max = 3600_s}),
-      optional<&Program::offset>("offset", "Phase of publishing within the cycle; 0 in a run if absent, and then any for the search for the worst case.", {.max = 3600_s}),
-      optional<&Program::phases>("phases", "Other phases of single participants, by host.", {.max_items = 65, .items = {.max = 3600_s}}),
-      optional<&Program::publish>("publish", "When the state is published."),
-      optional<&Program::subscription>("subscription", "Who hears whom."),
-      optional<&Program::receive_timeout>("receive_timeout", "A peer that is silent for so long halts the group (MessageReceiveTimeout); 10 cycles if absent.",
-                                          {.min = 1_us, .max = 3600_s}),
-      optional<&Program::initialisation>("initialisation", "How long a participant stays in INIT.", {.max = 3600_s}),
-      optional<&Program::pcp>("pcp", "Priority of its messages.", {.max = 7}),
-      optional<&Program::vlan>("vlan", "VLAN of its messages.", {.max = 4094}),
-      optional<&Program::violations>("violations", "What a violated invariant means for the verdict."),
-      optional<&Program::process_data>("process_data", "Data sets that the participants exchange.", {.max_items = 256}),
-      optional<&Program::replies>("replies", "Process data that answers other process data at once.", {.max_items = 256}),
-  };
-  static constexpr std::string_view members[] = {"slaves", "roles"};
-  static constexpr json::Group groups[] = {json::exactly_one_of(members)};
-  static constexpr json::Object table = json::object<Program>("program", "A distributed OPC UA Program: one master, its slaves, their handshake.", fields, {.groups = groups});
   return table;
 }
 

@@ -1,6 +1,6 @@
 // The vocabulary of clocks and gPTP. See description_tables.cpp.
 #include "scenario/description/clocks.hpp"
-#include "vocabulary/limits.hpp"
+#include "plant/limits.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -8,7 +8,7 @@ namespace {
 using json::name;
 using json::optional;
 using json::required;
-using vocabulary::most_names;
+using plant::most_names;
 using sim::FrequencyOffset;
 using namespace sim::literals;  // NOLINT: units in limits
 

@@ -1,13 +1,13 @@
 // The vocabulary of faults. See description_tables.cpp.
 #include "scenario/description/faults.hpp"
-#include "vocabulary/limits.hpp"
+#include "plant/limits.hpp"
 
 namespace takt::scenario {
 
 using json::name;
 using json::optional;
 using json::required;
-using vocabulary::longest;
+using plant::longest;
 using namespace sim::literals;  // NOLINT: units in limits
 
 const json::Object& describe(json::Type<LinkDown>) {

@@ -1,13 +1,13 @@
 // The vocabulary of requirements. See tables.cpp.
 #include "scenario/description/description.hpp"
-#include "vocabulary/limits.hpp"
+#include "plant/limits.hpp"
 
 namespace takt::scenario {
 namespace {
 
 using json::name;
 using json::optional;
-using vocabulary::longest;
+using plant::longest;
 
 void decode_tolerance(const json::Node& node, Tolerance& value, json::Reader& reader) {
   value = {reader.source(node), {}, 0};

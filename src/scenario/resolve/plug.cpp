@@ -27,26 +27,6 @@ class RoleResolver {
  private:
   void check() {
     program_.announce_every = description_.announce_every.value_or(description_.cycle * wire::cycles_of_announcement);
-    const bool has_cycle = description_.cycle > Duration() && !diagnostics_.is_refused(description_.where.at("cycle"));
-    if (!has_cycle) diagnostics_.consequence();
-    if (has_cycle && program_.announce_every < description_.cycle)
-      diagnostics_.error(description_.where.at("announce_every"), "announcements within one cycle",
-                         {json::to_text(program_.announce_every), "at least the cycle of " + json::to_text(description_.cycle)});
-    if (description_.variant == Variant::paper)
-      diagnostics_.error(description_.where.at("variant"), "roles with the handshake of the paper", {"\"paper\", which cannot tell one node from the next", "\"robust\""});
-    if (description_.subscription == Subscription::all_to_all)
-      diagnostics_.error(description_.where.at("subscription"), "roles with all-to-all subscription", {"\"all-to-all\"", "\"star\": who has a role hears the master"});
-    program_.participant_names = {description_.master};
-    std::set<std::string_view> names{description_.master};
-    std::map<handshake::SkillId, std::string_view> skills;
-    for (const Role& role : description_.roles) {
-      if (!names.insert(role.name).second)
-        diagnostics_.error(role.where.at("name"), "duplicate name", {json::quote(role.name) + " a second time", "a name of its own for each role and the master"});
-      const auto [known, is_new] = skills.emplace(handshake::skill_id(role.skill), role.skill);
-      if (!is_new && known->second != role.skill)
-        diagnostics_.error(role.where.at("skill"), "two skills that look the same on the network", {json::quote(role.skill) + " and " + json::quote(known->second), "another name for one"});
-      program_.participant_names.push_back(role.name);
-    }
     check_process_data();
   }
 
@@ -136,16 +116,6 @@ class RoleResolver {
 }  // namespace
 
 void resolve_roles(const Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program, json::Diagnostics& diagnostics) { RoleResolver(resolved, builder, program, diagnostics).run(); }
-
-void refuse_without_roles(const Program& program, json::Diagnostics& diagnostics) {
-  const auto refuse = [&](bool is_there, std::string_view key) {
-    if (is_there) diagnostics.error(program.where.at(key), "belongs to a program with roles", {json::quote(key), "\"roles\" instead of \"slaves\""});
-  };
-  refuse(!program.candidates.empty(), "candidates");
-  refuse(!program.absent.empty(), "absent");
-  refuse(program.announce_every.has_value(), "announce_every");
-  refuse(program.on_replacement != OnReplacement::stay_halted, "on_replacement");
-}
 
 void check_candidates(const Resolved& resolved, json::Diagnostics& diagnostics) {
   std::map<std::uint32_t, const ResolvedProgram*> taken;

@@ -9,8 +9,6 @@ namespace takt::scenario {
 
 /// Finds the members of the program, or reports why it cannot be.
 void resolve_roles(const Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program, json::Diagnostics& diagnostics);
-/// Keys that a program with slaves has no use for.
-void refuse_without_roles(const Program& program, json::Diagnostics& diagnostics);
 /// After all programs have been resolved: a node offers its skills to one program.
 void check_candidates(const Resolved& resolved, json::Diagnostics& diagnostics);
 /// "join" or "leave" of the script.

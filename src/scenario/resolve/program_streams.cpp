@@ -4,7 +4,7 @@
 
 #include "models/ethernet/sizes.hpp"
 #include "uadp/builtin_type.hpp"
-#include "vocabulary/protocol.hpp"
+#include "plant/protocol.hpp"
 #include "wire/plug_format.hpp"
 
 namespace takt::scenario {
@@ -82,7 +82,7 @@ class ProgramStreams {
 
 std::uint32_t field_octets_of(const ProcessData& data) {
   std::uint32_t octets = 0;
-  for (const auto& [name, field] : data.fields) octets += static_cast<std::uint32_t>(uadp::fixed_octets(vocabulary::built_in_type_of(field.type))) * field.count;
+  for (const auto& [name, field] : data.fields) octets += static_cast<std::uint32_t>(uadp::fixed_octets(plant::built_in_type_of(field.type))) * field.count;
   return octets;
 }
 

@@ -7,6 +7,8 @@
 #include "json/override.hpp"
 #include "json/suggest.hpp"
 #include "models/ethernet/sizes.hpp"
+#include "plant/limits.hpp"
+#include "plant/program_check.hpp"
 #include "scenario/applications/resolve_applications.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "scenario/idle/idle.hpp"
@@ -27,13 +29,12 @@
 #include "scenario/resolve/stream_builder.hpp"
 #include "scenario/resolve/trace_file.hpp"
 #include "scenario/resolve/windows.hpp"
-#include "vocabulary/limits.hpp"
 #include "wire/program_format.hpp"
 
 namespace takt::scenario {
 namespace {
 
-using vocabulary::most_publishers;
+using plant::most_publishers;
 
 class Resolver {
  public:
@@ -54,6 +55,7 @@ class Resolver {
     for (const Program& program : r_.scenario.programs)
       if (is_read(program)) add_program(program);
     resolve_applications(r_, builder, publishers_, diagnostics_);
+    check_publishers();
     resolve_nesting(r_, diagnostics_);
     check_candidates(r_, diagnostics_);
     resolve_ingress(r_, diagnostics_);
@@ -228,28 +230,17 @@ class Resolver {
     resolved.description = &program;
     resolved.receive_timeout = program.receive_timeout.value_or(program.cycle * 10);
     const std::size_t errors_before = diagnostics_.errors();
-    // Names are checked without a cycle, too; nothing is compared with it, and there are no streams.
-    const bool has_cycle = program.cycle > Duration() && !diagnostics_.is_refused(program.where.at("cycle"));
-    if (!has_cycle) diagnostics_.consequence();
-    if (has_cycle && resolved.receive_timeout <= program.cycle)
-      diagnostics_.error(program.where.at("receive_timeout"), "a time-out within one cycle",
-                         {json::to_text(resolved.receive_timeout), "more than the cycle of " + json::to_text(program.cycle)});
-    const auto check_phase = [&](Duration phase, const json::Place& place) {
-      if (has_cycle && phase >= program.cycle && phase > Duration())
-        diagnostics_.error(place, "an offset beyond the cycle", {json::to_text(phase), "less than " + json::to_text(program.cycle)});
-    };
     if (program.roles.empty() && diagnostics_.is_refused(program.where.at("roles"))) return;  // who is in it is not known
-    if (program.offset) check_phase(*program.offset, program.where.at("offset"));
-    if (!program.roles.empty()) {
-      if (!program.replies.empty())
-        diagnostics_.error(program.where.at("replies"), "replies in a program with roles", {"\"replies\" beside \"roles\"", "\"slaves\", whose replies are measured"});
-      resolved.phases.assign(program.roles.size() + 1, program.offset.value_or(Duration()));
+    plant::check_program(program, diagnostics_);
+    resolved.participant_names = plant::participants_of(program);
+    for (const std::string& name : resolved.participant_names) resolved.phases.push_back(plant::phase_of(program, name));
+    if (program.roles.empty())
+      add_slaves(program, resolved);
+    else
       resolve_roles(r_, *builder_, resolved, diagnostics_);
-    } else {
-      add_slaves(program, resolved, check_phase);
-    }
     if (diagnostics_.errors() != errors_before) return;
     const std::size_t wanted = resolved.participant_names.size() + resolved.candidates().size();
+    if (program.publisher_id) publishers_ = *program.publisher_id - std::size_t{1};
     if (publishers_ + wanted > most_publishers) {
       diagnostics_.error(program.where.place(), "too many participants of all programs together",
                          {std::to_string(publishers_ + wanted) + " with this program", "at most " + std::to_string(most_publishers)});
@@ -262,24 +253,36 @@ class Resolver {
     r_.programs.push_back(std::move(resolved));
   }
 
+  /// The PublisherId says who sends, so no two have the same. Numbers that are not written are the next ones.
+  void check_publishers() {
+    struct Publishers {
+      std::size_t first;
+      std::size_t behind;
+      const std::string* name;
+      const json::Source* where;
+    };
+    std::vector<Publishers> all;
+    for (const ResolvedProgram& each : r_.programs)
+      all.push_back({each.first_publisher_id, each.first_publisher_id + each.participant_names.size() + each.candidates().size(), &each.name, &each.description->where});
+    for (const ResolvedTopic& each : r_.topics)
+      if (each.description->protocol == Protocol::opc_ua) all.push_back({each.publisher_id, each.publisher_id + std::size_t{1}, &each.description->name, &each.description->where});
+    std::ranges::stable_sort(all, {}, &Publishers::first);
+    for (std::size_t i = 1; i < all.size(); ++i)
+      if (all[i].first < all[i - 1].behind)
+        diagnostics_.error(all[i].where->at("publisher_id"), "a PublisherId twice", {std::to_string(all[i].first) + ", which " + json::quote(*all[i - 1].name) + " has", "PublisherIds of its own for " + json::quote(*all[i].name)});
+  }
+
   /// Without roles: all are participants from the beginning.
-  void add_slaves(const Program& program, ResolvedProgram& resolved, const auto& check_phase) {
-    refuse_without_roles(program, diagnostics_);
+  void add_slaves(const Program& program, ResolvedProgram& resolved) {
     std::set<std::string_view> seen;
     const auto add_participant = [&](const std::string& name, const json::Place& place) {
       if (!seen.insert(name).second)
         diagnostics_.error(place, "a host twice in one program", {json::quote(name), "each participant on a host of its own"});
       if (const auto host = builder_->host(name, place)) resolved.members.push_back({.node = models::NodeIndex{*host}});
-      resolved.participant_names.push_back(name);
     };
     add_participant(program.master, program.where.at("master"));
     for (std::size_t i = 0; i < program.slaves.size(); ++i) add_participant(program.slaves[i], program.where.at("slaves", i));
-    resolved.phases.assign(program.slaves.size() + 1, program.offset.value_or(Duration()));
-    for (const auto& [name, phase] : program.phases) {
-      const auto participant = participant_of(program, name, program.where.at("phases"));
-      check_phase(phase, program.where.at("phases"));
-      if (participant && *participant < resolved.phases.size()) resolved.phases[*participant] = phase;
-    }
+    for (const auto& phase : program.phases) participant_of(program, phase.first, program.where.at("phases"));
     check_process_data(program);
     check_replies(program, diagnostics_);
   }

@@ -12,7 +12,7 @@
 #include "scenario/resolve/nesting.hpp"
 #include "scenario/run/accounts.hpp"
 #include "scenario/run/action_content.hpp"
-#include "vocabulary/protocol.hpp"
+#include "plant/protocol.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -50,7 +50,7 @@ wire::NodeSettings node_settings(const ResolvedProgram& program, std::size_t m, 
   }
   if (!program.has_roles()) return node;
   node.roles = wire::RoleSettings{formats.roles, program.announce_every, program.description->on_replacement == OnReplacement::restart, {}};
-  if (is_candidate) node.roles->offer = wire::Offer{static_cast<std::uint8_t>(m - 1), 1, vocabulary::skill_ids_of(member.skills), !member.is_absent};
+  if (is_candidate) node.roles->offer = wire::Offer{static_cast<std::uint8_t>(m - 1), 1, plant::skill_ids_of(member.skills), !member.is_absent};
   return node;
 }
 

@@ -48,7 +48,7 @@ TEST_F(ApplicationsFile, OnlyWhatIsOnThisNodeIsKept) {
     "node": "a",
     "topics": [{"name": "x", "protocol": "opc-ua", "fields": {"n": "UInt32", "v": {"type": "Double", "count": 2}}},
                {"name": "y", "protocol": "opc-ua", "publisher_id": 9, "fields": {"n": "UInt32"}}],
-    "applications": [{"name": "here", "threads": [{"name": "p", "publish": "x", "every": "5ms", "offset": "1ms"}]},
+    "applications": [{"name": "here", "on": "a", "threads": [{"name": "p", "publish": "x", "every": "5ms", "offset": "1ms"}]},
                      {"name": "there", "on": "b", "threads": [{"name": "p", "publish": "y", "every": "5ms"}]}],
     "transport": {"kind": "udp", "destinations": ["239.0.0.1"]}})");
   ASSERT_TRUE(loaded) << said_.size();
@@ -67,10 +67,10 @@ TEST_F(ApplicationsFile, AllMistakesAreNamedAtOnce) {
     "topics": [{"name": "x", "protocol": "opc-ua", "fields": {"n": "UInt32"}, "domain": 3},
                {"name": "x", "protocol": "opc-ua", "publisher_id": 1, "fields": {"n": "UInt32"}},
                {"name": "z", "protocol": "opc-ua", "fields": {"n": "Double"}}],
-    "applications": [{"name": "one", "threads": [{"name": "p", "publish": "x", "every": "5ms", "offset": "5ms"},
+    "applications": [{"name": "one", "on": "a", "threads": [{"name": "p", "publish": "x", "every": "5ms", "offset": "5ms"},
                                                 {"name": "p", "publish": "x", "every": "5ms", "payload": {"copy_of": "z"}},
                                                 {"name": "s", "subscribe": "nothing", "every": "5ms", "payload": "counter"}]}],
-    "gateways": [{"name": "one", "from": "x", "to": "z", "receive_every": "1ms", "send_every": "1ms", "send_offset": "2ms"}]})"));
+    "gateways": [{"name": "one", "on": "a", "from": "x", "to": "z", "receive_every": "1ms", "send_every": "1ms", "send_offset": "2ms"}]})"));
   EXPECT_EQ(said_, (Lines{"/node: no transport", "/topics/0/domain: not of OPC UA", "/topics/1/name: duplicate name", "/topics/1/publisher_id: a PublisherId twice",
                           "/applications/0/threads/0/offset: an offset beyond the interval", "/applications/0/threads/1/name: duplicate name",
                           "/applications/0/threads/1/publish: published twice", "/applications/0/threads/1/payload/copy_of: not subscribed to",
@@ -84,7 +84,7 @@ TEST_F(ApplicationsFile, AGatewayNeedsTypesThatMap) {
   const auto with = [](const std::string& members) {
     return R"({"node": "a", "transport": {"kind": "udp", "destinations": ["239.0.0.1"]},
                "topics": [{"name": "x", "protocol": "opc-ua", "fields": {"n": "UInt32", "v": "Double"}}, {"name": "y", "protocol": "dds", "type": "A::B", "domain": 4, "fields": {)" +
-           members + R"(}}], "gateways": [{"name": "g", "from": "x", "to": "y", "receive_every": "1ms", "send_every": "1ms"}]})";
+           members + R"(}}], "gateways": [{"name": "g", "on": "a", "from": "x", "to": "y", "receive_every": "1ms", "send_every": "1ms"}]})";
   };
   const auto loaded = load(with(R"("v": "Double", "n": "UInt32")"));
   ASSERT_TRUE(loaded) << said_.front();
@@ -100,15 +100,26 @@ TEST_F(ApplicationsFile, AGatewayNeedsTypesThatMap) {
 TEST_F(ApplicationsFile, NamesAndPoliciesThatDdsRefuses) {
   EXPECT_FALSE(load(R"({"node": "a", "topics": [{"name": "dds-topic", "protocol": "dds", "fields": {"n": "UInt32"}, "qos": {"durability": "persistent"}},
                                               {"name": "x", "protocol": "opc-ua", "fields": {"n": "UInt32"}}],
-                        "applications": [{"name": "one", "threads": [{"name": "p", "publish": "x", "every": "5ms", "qos": {"depth": 3}}]}],
+                        "applications": [{"name": "one", "on": "a", "threads": [{"name": "p", "publish": "x", "every": "5ms", "qos": {"depth": 3}}]}],
                         "transport": {"kind": "udp", "destinations": ["239.0.0.1"]}})"));
   EXPECT_EQ(said_, (Lines{"/topics/0/name: not a topic name of DDS", "/topics/0/qos/durability: not on a real node", "/applications/0/threads/0/qos: not of OPC UA"}));
+}
+
+TEST_F(ApplicationsFile, TakesThePlantOfAScenarioButWhatOnlyASimulatorDoes) {
+  const auto file = [](const std::string& topic, const std::string& thread) {
+    return R"({"node": "a", "transport": {"kind": "udp", "destinations": ["239.0.0.1"]},
+               "topics": [{"name": "x", "protocol": "opc-ua", "fields": {"n": "UInt32"}, "pcp": 5, "vlan": 3)" + topic + R"(}],
+               "applications": [{"name": "one", "on": "a", "threads": [{"name": "s", "subscribe": "x", "every": "5ms", "response": {"uniform": {"from": "1us", "to": "9us"}})" + thread + "}]}]}";
+  };
+  EXPECT_TRUE(load(file("", "")));
+  EXPECT_FALSE(load(file(R"(, "publication": "asynchronous")", R"(, "signal": "valve")")));
+  EXPECT_EQ(said_, (Lines{"/topics/0/publication: not of OPC UA", "/applications/0/threads/0/signal: not on a real node"}));
 }
 
 TEST_F(ApplicationsFile, WithoutDdsItIsRefusedByName) {
   if (has_dds()) GTEST_SKIP() << "this build has DDS";
   EXPECT_FALSE(load(R"({"node": "a", "topics": [{"name": "y", "protocol": "dds", "fields": {"n": "UInt32"}}],
-                        "applications": [{"name": "one", "threads": [{"name": "p", "publish": "y", "every": "5ms"}]}]})"));
+                        "applications": [{"name": "one", "on": "a", "threads": [{"name": "p", "publish": "y", "every": "5ms"}]}]})"));
   EXPECT_EQ(said_, Lines{"/applications/0/threads/0/publish: DDS is not in this build"});
   EXPECT_NE(std::string(dds_needed).find("cyclonedds-dev"), std::string::npos);
 }

@@ -51,10 +51,10 @@ TEST(ApplicationHost, AChainOfThreeRolesTakesWhatItPublishes) {
     "node": "all",
     "topics": [{"name": "process", "protocol": "opc-ua", "publisher_id": 31, "fields": {"v": {"type": "Double", "count": 4}}}, {"name": "report", "protocol": "opc-ua", "publisher_id": 32, "fields": {"v": {"type": "Double", "count": 4}}}],
     "applications": [
-      {"name": "update", "threads": [{"name": "publish", "publish": "process", "every": "5ms"}]},
-      {"name": "control", "threads": [{"name": "subscribe", "subscribe": "process", "every": "5ms", "offset": "1ms", "buffer": 1000},
+      {"name": "update", "on": "all", "threads": [{"name": "publish", "publish": "process", "every": "5ms"}]},
+      {"name": "control", "on": "all", "threads": [{"name": "subscribe", "subscribe": "process", "every": "5ms", "offset": "1ms", "buffer": 1000},
                                       {"name": "publish", "publish": "report", "every": "5ms", "offset": "3ms", "payload": {"copy_of": "process"}}]},
-      {"name": "diagnose", "threads": [{"name": "subscribe", "subscribe": "report", "every": "5ms", "offset": "4ms", "buffer": 1000}]}],
+      {"name": "diagnose", "on": "all", "threads": [{"name": "subscribe", "subscribe": "report", "every": "5ms", "offset": "4ms", "buffer": 1000}]}],
     "transport": {"kind": "udp", "interface": "lo", "port": )" + port + R"(, "destinations": ["127.0.0.1", "127.0.0.1:)" + std::to_string(listener_port) + R"("]}})";
   json::Diagnostics diagnostics;
   const auto loaded = load_applications(path.string(), diagnostics);

@@ -42,8 +42,8 @@ TEST(Instances, EachHasAHistoryOfItsOwn) {
     return R"({"node": "n", "duration": "3s", "dds": "lo",
       "topics": [{"name": "x", "protocol": "dds", "domain": 71, "fields": {"level": "UInt32", "part": "UInt16", "axes": {"type": "Double", "count": 2}},
                   "qos": {"reliability": "reliable", "durability": "transient-local"})" + keys + R"(}],
-      "applications": [{"name": "p", "threads": [{"name": "publish", "publish": "x", "every": "2ms")" + (keys.empty() ? "" : R"(, "payload": {"pattern": "counter", "instance": 40, "instances": 3})") +
-           R"(}]}, {"name": "s", "threads": [{"name": "subscribe", "subscribe": "x", "every": "1s", "offset": "500ms", "buffer": 10, "qos": {"depth": 1}}]}]})";
+      "applications": [{"name": "p", "on": "n", "threads": [{"name": "publish", "publish": "x", "every": "2ms")" + (keys.empty() ? "" : R"(, "payload": {"pattern": "counter", "instance": 40, "instances": 3})") +
+           R"(}]}, {"name": "s", "on": "n", "threads": [{"name": "subscribe", "subscribe": "x", "every": "1s", "offset": "500ms", "buffer": 10, "qos": {"depth": 1}}]}]})";
   };
   const auto keyed = run(topic(R"(, "keys": ["part"])"));
   const auto keyless = run(topic(""));
@@ -62,9 +62,9 @@ TEST(Partitions, KeepApart) {
   if (!has_dds()) GTEST_SKIP() << "this build has no DDS";
   const auto statistics = run(R"({"node": "n", "duration": "2s", "dds": "lo",
     "topics": [{"name": "x", "protocol": "dds", "domain": 72, "fields": {"level": "UInt32"}, "qos": {"reliability": "reliable", "partition": ["left-1"]}}],
-    "applications": [{"name": "p", "threads": [{"name": "publish", "publish": "x", "every": "5ms"}]},
-                     {"name": "same", "threads": [{"name": "subscribe", "subscribe": "x", "every": "5ms", "buffer": 100, "qos": {"partition": ["right", "left-*"]}}]},
-                     {"name": "other", "threads": [{"name": "subscribe", "subscribe": "x", "every": "5ms", "buffer": 100, "qos": {"partition": ["right"]}}]}]})");
+    "applications": [{"name": "p", "on": "n", "threads": [{"name": "publish", "publish": "x", "every": "5ms"}]},
+                     {"name": "same", "on": "n", "threads": [{"name": "subscribe", "subscribe": "x", "every": "5ms", "buffer": 100, "qos": {"partition": ["right", "left-*"]}}]},
+                     {"name": "other", "on": "n", "threads": [{"name": "subscribe", "subscribe": "x", "every": "5ms", "buffer": 100, "qos": {"partition": ["right"]}}]}]})");
   ASSERT_EQ(statistics.size(), 3u);
   EXPECT_GT(statistics[1].threads[0].taken, 0u);
   EXPECT_EQ(statistics[2].threads[0].taken, 0u);
@@ -78,7 +78,7 @@ TEST(Keys, MistakesAreNamed) {
                {"name": "c", "protocol": "dds", "fields": {"n": "UInt32"}, "keys": ["n"]},
                {"name": "d", "protocol": "dds", "fields": {"n": {"type": "UInt64", "count": 3}, "v": "Double"}, "keys": ["n"]},
                {"name": "e", "protocol": "opc-ua", "fields": {"n": "UInt32"}}],
-    "applications": [{"name": "p", "threads": [{"name": "one", "publish": "e", "every": "1ms", "payload": {"pattern": "counter", "instances": 2}}]}]})",
+    "applications": [{"name": "p", "on": "n", "threads": [{"name": "one", "publish": "e", "every": "1ms", "payload": {"pattern": "counter", "instances": 2}}]}]})",
                     diagnostics));
   std::vector<std::string> said;
   for (const auto& each : diagnostics.sorted()) said.push_back(each.place.pointer + ": " + each.message);

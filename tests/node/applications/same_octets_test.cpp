@@ -85,10 +85,10 @@ std::vector<Message> real() {
   OpcUaTopics topics(std::make_unique<KeepingSocket>(messages), [] { return std::int64_t{0}; });
   NewestSamples newest;
   std::vector<std::unique_ptr<Work>> works;
-  for (const ApplicationOfNode& application : loaded->config.applications)
+  for (const plant::Application& application : loaded->config.applications)
     for (const Thread& thread : application.threads) {
       const TopicShape& shape = loaded->shapes[loaded->topic(*thread.publish)];
-      works.push_back(make_publishing({&shape, false}, topics.add_writer(shape, thread.writer_group), thread.payload, newest));
+      works.push_back(make_publishing({&shape, false}, topics.add_writer(shape, loaded->writer_groups.at({application.name, thread.name})), thread.payload, newest));
     }
   for (std::size_t round = 0; round < rounds; ++round)
     for (const auto& work : works) EXPECT_EQ(work->call(0).sent, 1u);

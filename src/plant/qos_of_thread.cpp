@@ -1,6 +1,6 @@
-#include "vocabulary/qos_of_thread.hpp"
+#include "plant/qos_of_thread.hpp"
 
-namespace takt::vocabulary {
+namespace takt::plant {
 namespace {
 
 /// Numbers and times that are out of range stand as zero, which the tables refuse for all of these.
@@ -58,4 +58,4 @@ Qos merged(const std::optional<Qos>& topic, const std::optional<Qos>& thread) {
   return result;
 }
 
-}  // namespace takt::vocabulary
+}  // namespace takt::plant

@@ -3,11 +3,11 @@
 
 #include <optional>
 
-#include "vocabulary/dds.hpp"
+#include "plant/dds.hpp"
 
-namespace takt::vocabulary {
+namespace takt::plant {
 
 /// What a table has refused counts as not said.
 Qos merged(const std::optional<Qos>& topic, const std::optional<Qos>& thread);
 
-}  // namespace takt::vocabulary
+}  // namespace takt::plant

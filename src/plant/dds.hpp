@@ -9,7 +9,7 @@
 #include "json/fields.hpp"
 #include "sim/time.hpp"
 
-namespace takt::vocabulary {
+namespace takt::plant {
 
 using sim::Duration;
 
@@ -72,4 +72,4 @@ const json::Object& describe(json::Type<ResourceLimits>);
 const json::Object& describe(json::Type<DurabilityService>);
 const json::Object& describe(json::Type<Qos>);
 
-}  // namespace takt::vocabulary
+}  // namespace takt::plant

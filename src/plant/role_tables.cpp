@@ -1,7 +1,7 @@
 // The vocabulary of plug and produce.
-#include "vocabulary/plug.hpp"
+#include "plant/role.hpp"
 
-namespace takt::vocabulary {
+namespace takt::plant {
 
 using json::name;
 using json::required;
@@ -24,4 +24,4 @@ const json::Enumeration& describe(json::Type<OnReplacement>) {
   return table;
 }
 
-}  // namespace takt::vocabulary
+}  // namespace takt::plant

@@ -7,12 +7,12 @@
 
 #include "handshake/binder.hpp"
 #include "handshake/participant.hpp"
-#include "vocabulary/plug.hpp"
-#include "vocabulary/program.hpp"
+#include "plant/role.hpp"
+#include "plant/program.hpp"
 #include "wire/plug_format.hpp"
 #include "wire/program_shape.hpp"
 
-namespace takt::vocabulary {
+namespace takt::plant {
 
 uadp::BuiltInType built_in_type_of(DataType type);
 
@@ -24,4 +24,4 @@ wire::PlugShape plug_shape_of(wire::ProgramShape program, std::span<const Role> 
 /// The skills that a node offers.
 std::vector<handshake::SkillId> skill_ids_of(std::span<const std::string> skills);
 
-}  // namespace takt::vocabulary
+}  // namespace takt::plant

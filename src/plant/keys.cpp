@@ -1,13 +1,13 @@
-#include "vocabulary/keys.hpp"
+#include "plant/keys.hpp"
 
 #include <algorithm>
 #include <set>
 
 #include "json/suggest.hpp"
 #include "uadp/builtin_type.hpp"
-#include "vocabulary/protocol.hpp"
+#include "plant/protocol.hpp"
 
-namespace takt::vocabulary {
+namespace takt::plant {
 namespace {
 
 constexpr std::size_t most_octets = 16;  // of a key hash (DDSI-RTPS 2.5, 9.6.4.8) that is the key itself
@@ -59,4 +59,4 @@ std::uint64_t instance_of(const Payload& payload, std::uint64_t publication) {
   return payload.instance.value_or(0) + (publication + number - 1) % number;
 }
 
-}  // namespace takt::vocabulary
+}  // namespace takt::plant

@@ -1,9 +1,9 @@
-#include "vocabulary/protocol.hpp"
+#include "plant/protocol.hpp"
 
 #include <array>
 #include <utility>
 
-namespace takt::vocabulary {
+namespace takt::plant {
 namespace {
 
 using uadp::BuiltInType;
@@ -39,4 +39,4 @@ std::vector<handshake::SkillId> skill_ids_of(std::span<const std::string> skills
   return ids;
 }
 
-}  // namespace takt::vocabulary
+}  // namespace takt::plant

@@ -5,7 +5,7 @@
 
 #include "sim/time.hpp"
 
-namespace takt::vocabulary {
+namespace takt::plant {
 
 /// An instant of a run: 100 days; the clock ends at 106.
 inline constexpr sim::Duration longest = sim::Duration::from_ps(8'640'000'000'000'000'000);
@@ -16,4 +16,4 @@ inline constexpr std::size_t most_names = 100'000;
 /// PublisherIds are UInt16.
 inline constexpr std::size_t most_publishers = 0xFFFF;
 
-}  // namespace takt::vocabulary
+}  // namespace takt::plant

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "vocabulary/application.hpp"
-#include "vocabulary/program.hpp"
+#include "plant/application.hpp"
+#include "plant/program.hpp"
 
-namespace takt::vocabulary {
+namespace takt::plant {
 
 /// `topic` is where the topic with these keys is written. Each key is a field, and one field at least is none; all together have at most 16 octets.
 void check_keys(const json::Source& topic, const std::vector<std::string>& keys, const json::NameMap<DataField>& fields, json::Diagnostics& diagnostics);
@@ -19,4 +19,4 @@ std::size_t value_field(const json::NameMap<DataField>& fields, const std::vecto
 /// The instance of a thread's publication, which it counts from 1 on: its instances come by turns.
 std::uint64_t instance_of(const Payload& payload, std::uint64_t publication);
 
-}  // namespace takt::vocabulary
+}  // namespace takt::plant

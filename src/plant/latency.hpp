@@ -1,4 +1,4 @@
-// A time that passes in a host, as scenario files say it. See description.hpp.
+// A time that passes in a host, as files say it: what the simulator draws, and a real node takes as it comes.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include "json/fields.hpp"
 #include "sim/time.hpp"
 
-namespace takt::scenario {
+namespace takt::plant {
 
 using sim::Duration;
 
@@ -51,4 +51,4 @@ const json::Object& describe(json::Type<Latency::LogNormal>);
 const json::Object& describe(json::Type<Latency::Point>);
 const json::Object& describe(json::Type<LatencyTail>);
 
-}  // namespace takt::scenario
+}  // namespace takt::plant

@@ -1,23 +1,83 @@
-// The vocabulary of topics, applications and gateways. See scenario/description/tables.cpp.
-#include "scenario/applications/description_applications.hpp"
-#include "vocabulary/limits.hpp"
+// The words of applications. See json/fields.hpp.
+#include "plant/application.hpp"
+#include "plant/limits.hpp"
 
-namespace takt::scenario {
+namespace takt::plant {
 namespace {
 
+using json::name;
 using json::optional;
 using json::required;
-using vocabulary::longest_step;
 
-constexpr std::uint32_t most_samples = 65'536;
+constexpr std::uint32_t largest_buffer = 65'536;
 
 }  // namespace
+
+const json::Enumeration& describe(json::Type<Protocol>) {
+  static constexpr json::EnumName names[] = {
+      name(Protocol::opc_ua, "opc-ua", "OPC UA PubSub: UADP over UDP multicast"),
+      name(Protocol::dds, "dds", "DDS: RTPS over UDP"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Protocol>("a protocol", names);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Pattern>) {
+  static constexpr json::EnumName names[] = {
+      name(Pattern::counter, "counter", "the first field, keys apart, counts the publications, from 1 on"),
+      name(Pattern::alternate, "alternate", "the first field, keys apart, is 1 and 0 by turns"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Pattern>("a pattern", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<Payload>) {
+  static constexpr json::Field fields[] = {
+      optional<&Payload::pattern>("pattern", "What the first field of each sample is that is no key; all other values are zero."),
+      optional<&Payload::copy_of>("copy_of", "A topic that the application subscribes to: its newest sample is published; nothing before the first one."),
+      optional<&Payload::instance>("instance", "Of a topic with keys: what its key fields hold; 0 if absent."),
+      optional<&Payload::instances>("instances", "Of a topic with keys: so many instances, from that one on, by turns; 1 if absent.", {.min = 1, .max = 1'000'000}),
+  };
+  static constexpr std::string_view contents[] = {"pattern", "copy_of"};
+  static constexpr json::Group groups[] = {json::exactly_one_of(contents)};
+  static constexpr json::Object table = json::object<Payload>("payload", "What a thread publishes.", fields, {.groups = groups, .shorthand = "pattern"});
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Overflow>) {
+  static constexpr json::EnumName names[] = {
+      name(Overflow::overwrite_oldest, "overwrite-oldest", "the oldest sample makes room"),
+      name(Overflow::drop_newest, "drop-newest", "what finds no room is dropped"),
+      name(Overflow::keep_latest, "keep-latest", "only the newest sample is kept"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Overflow>("an overflow policy", names);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<Publication>) {
+  static constexpr json::EnumName names[] = {
+      name(Publication::synchronous, "synchronous", "the writing thread sends"),
+      name(Publication::asynchronous, "asynchronous", "a queue takes the sample; another thread sends it, under flow control"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Publication>("a publication mode", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<FlowControl>) {
+  static constexpr json::Field fields[] = {
+      required<&FlowControl::octets>("octets", "Octets that may be sent in a period.", {.min = 1, .max = 1'000'000'000}),
+      required<&FlowControl::every>("every", "The period.", {.min = 1_us, .max = longest_step}),
+  };
+  static constexpr json::Object table = json::object<FlowControl>("flow_control", "What an asynchronous writer may send at once.", fields);
+  return table;
+}
 
 const json::Object& describe(json::Type<Topic>) {
   static constexpr json::Field fields[] = {
       required<&Topic::name>("name", "Unique among topics.", {.min_length = 1, .max_length = 200}),
       required<&Topic::protocol>("protocol", "How its samples travel."),
       required<&Topic::fields>("fields", "The fields of a sample.", {.min_items = 1, .max_items = 256}),
+      optional<&Topic::publisher_id>("publisher_id", "Of OPC UA: PublisherId of whoever publishes it; the next one that is free if absent.", {.min = 1}),
       optional<&Topic::pcp>("pcp", "Priority in a VLAN tag; untagged, priority 0, if absent.", {.max = 7}),
       optional<&Topic::vlan>("vlan", "VLAN identifier in the tag; 0 is a priority tag.", {.max = 4094}),
       optional<&Topic::keys>("keys", "Of DDS: the fields that tell instances apart; together at most 16 octets.", {.max_items = 16, .unique = true}),
@@ -51,7 +111,7 @@ const json::Object& describe(json::Type<Thread>) {
       optional<&Thread::response>("response", "From an activation to the call; not before the next activation: the call is missed. The wake-up latency of the host if absent."),
       optional<&Thread::tests>("tests", "Most tests of this thread; as many as the scheduler says if absent.", {.min = 1, .max = 1'000'000'000}),
       optional<&Thread::payload>("payload", "What it publishes; a counter if absent."),
-      optional<&Thread::buffer>("buffer", "Samples that a call takes at most, the newest; older ones are overwritten. 1 if absent.", {.min = 1, .max = most_samples}),
+      optional<&Thread::buffer>("buffer", "Samples that a call takes at most, the newest; older ones are overwritten. 1 if absent.", {.min = 1, .max = largest_buffer}),
       optional<&Thread::signal>("signal", "Drives a digital output."),
       optional<&Thread::qos>("qos", "Of DDS: other quality of service of this writer or reader than the topic's."),
   };
@@ -98,7 +158,7 @@ const json::Object& describe(json::Type<Gateway>) {
       required<&Gateway::send_every>("send_every", "Interval of its thread \"send\", which publishes one sample of the buffer.", {.min = 10_us, .max = 3600_s}),
       optional<&Gateway::send_offset>("send_offset", "Phase of that thread.", {.max = 3600_s}),
       optional<&Gateway::send_response>("send_response", "Response of that thread; the wake-up latency of the host if absent."),
-      optional<&Gateway::buffer>("buffer", "Samples for which the shared buffer has room.", {.min = 1, .max = most_samples}),
+      optional<&Gateway::buffer>("buffer", "Samples for which the shared buffer has room.", {.min = 1, .max = largest_buffer}),
       optional<&Gateway::overflow>("overflow", "What happens when it is full."),
       optional<&Gateway::stale_after>("stale_after", "Samples that have waited for longer are not published; never if absent.", {.min = 1_us, .max = longest_step}),
       optional<&Gateway::scheduler>("scheduler", "How its threads are checked."),
@@ -107,15 +167,4 @@ const json::Object& describe(json::Type<Gateway>) {
   return table;
 }
 
-const json::Object& describe(json::Type<Persistence>) {
-  static constexpr json::Field fields[] = {
-      required<&Persistence::name>("name", "Unique among applications, gateways, streams and programs.", {.min_length = 1, .max_length = 200}),
-      required<&Persistence::on>("on", "The host; it has no other part in these topics.", {.min_length = 1}),
-      required<&Persistence::topics>("topics", "Topics of DDS whose durability is transient or persistent.", {.min_items = 1, .max_items = 1000, .unique = true, .items = {.min_length = 1}}),
-  };
-  static constexpr json::Object table =
-      json::object<Persistence>("persistence", "A persistence service of DDS: keeps the last samples of topics for readers that come when the writers are gone.", fields);
-  return table;
-}
-
-}  // namespace takt::scenario
+}  // namespace takt::plant

@@ -6,7 +6,7 @@
 
 #include "json/fields.hpp"
 
-namespace takt::vocabulary {
+namespace takt::plant {
 
 /// A place in a group for any node that offers a skill.
 struct Role {
@@ -21,4 +21,4 @@ enum class OnReplacement : std::uint8_t { stay_halted, restart };
 const json::Object& describe(json::Type<Role>);
 const json::Enumeration& describe(json::Type<OnReplacement>);
 
-}  // namespace takt::vocabulary
+}  // namespace takt::plant

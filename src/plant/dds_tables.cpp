@@ -1,8 +1,8 @@
 // The words of quality of service of DDS. See json/fields.hpp.
-#include "vocabulary/dds.hpp"
-#include "vocabulary/limits.hpp"
+#include "plant/dds.hpp"
+#include "plant/limits.hpp"
 
-namespace takt::vocabulary {
+namespace takt::plant {
 namespace {
 
 using json::name;
@@ -116,4 +116,4 @@ const json::Object& describe(json::Type<Qos>) {
   return table;
 }
 
-}  // namespace takt::vocabulary
+}  // namespace takt::plant

@@ -79,6 +79,8 @@ class CreditBasedShaper {
   /// Nothing waits or is being sent, and credit is 0: so it stays, whatever the gate does.
   bool is_at_rest(sim::TrueTime now) const { return queue_empty_ && now >= free_at_ && updated_ >= free_at_ && credit_.units == 0; }
 
+  /// Up to when it has been told what happens.
+  sim::TrueTime updated() const { return updated_; }
   CreditSlope idle_slope() const { return idle_slope_; }
   /// How many units are one bit.
   sim::int128 units_per_bit() const { return sim::int128{idle_slope_.denominator} * 1'000'000'000'000; }

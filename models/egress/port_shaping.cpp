@@ -96,9 +96,12 @@ void PortShaping::follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now)
     static_cast<void>(shaper.gates.is_open(q, local));
     return;
   }
+  // A slow clock shows one time at several instants, of which true_at() is the first, and the clock may have changed since: no step goes behind what
+  // the credit knows already.
+  const auto instant = [&](sim::LocalTime time) { return std::clamp(clock_->true_at(time), shaper.credit.updated(), now); };
   for (;;) {
     const sim::LocalTime at = shaper.followed;
-    if (shaper.credit.is_at_rest(clock_->true_at(at))) {
+    if (shaper.credit.is_at_rest(instant(at))) {
       if (shaper.gates.is_open(q, local))
         shaper.credit.gate_opened(now);
       else
@@ -108,11 +111,11 @@ void PortShaping::follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now)
     const bool open = shaper.gates.is_open(q, at);
     if (open != shaper.credit.gate_is_open()) {  // a list that began to run at once has moved the gate
       if (open)
-        shaper.credit.gate_opened(clock_->true_at(at));
+        shaper.credit.gate_opened(instant(at));
       else
-        shaper.credit.gate_closed(clock_->true_at(at));
+        shaper.credit.gate_closed(instant(at));
     }
-    set_slope(shaper, q, clock_->true_at(at));
+    set_slope(shaper, q, at, instant(at));
     const sim::LocalTime toggle = open ? shaper.gates.close_time(q, at) : shaper.gates.open_time(q, at);
     if (const sim::LocalTime change = pending_change(shaper, at); change < toggle && change <= local) {
       shaper.followed = change;  // the slope belongs to the list, whether or not the gate moves
@@ -121,12 +124,12 @@ void PortShaping::follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now)
     if (toggle > local) break;
     shaper.followed = toggle;
     if (open)
-      shaper.credit.gate_closed(clock_->true_at(toggle));
+      shaper.credit.gate_closed(instant(toggle));
     else
-      shaper.credit.gate_opened(clock_->true_at(toggle));
+      shaper.credit.gate_opened(instant(toggle));
   }
   shaper.followed = local;
-  set_slope(shaper, q, now);
+  set_slope(shaper, q, local, now);
 }
 
 /// When another list begins to run after `at`; never() if none is pending.
@@ -137,8 +140,7 @@ sim::LocalTime PortShaping::pending_change(Shaper& shaper, sim::LocalTime at) {
 }
 
 /// The operational idle slope belongs to the list that is running.
-void PortShaping::set_slope(Shaper& shaper, TrafficClass q, sim::TrueTime now) {
-  const sim::LocalTime local = clock_->local_at(now);
+void PortShaping::set_slope(Shaper& shaper, TrafficClass q, sim::LocalTime local, sim::TrueTime now) {
   const GateControlList* const list = shaper.gates.oper_control_list(local);
   if (list == shaper.slope_of) return;
   shaper.slope_of = list;

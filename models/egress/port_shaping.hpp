@@ -111,7 +111,7 @@ class PortShaping {
     return &shaper->credit;
   }
   sim::LocalTime pending_change(Shaper& shaper, sim::LocalTime at);
-  void set_slope(Shaper& shaper, TrafficClass q, sim::TrueTime now);
+  void set_slope(Shaper& shaper, TrafficClass q, sim::LocalTime local, sim::TrueTime now);
 
   const ShapingConfig* config_;
   const LocalClock* clock_;

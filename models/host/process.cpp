@@ -72,10 +72,12 @@ void Process::work(AlarmId id, sim::Duration duration) {
 }
 
 void Process::clock_changed() {
+  const sim::TrueTime now = simulation_->now();
   for (Alarm& alarm : alarms_) {
-    // One that has expired and waits for the operating system only is past the clock.
-    if (!alarm.timer.armed() || clock_->local_at(simulation_->now()) >= alarm.time) continue;
-    alarm.timer.arm(*simulation_, source_, std::max(clock_->true_at(alarm.time), simulation_->now()).plus_saturated(alarm.latency));
+    // One that has expired and waits for the operating system only is past the clock. One that a step has passed expires now.
+    const bool has_expired = alarm.timer.deadline() <= now.plus_saturated(alarm.latency);
+    if (!alarm.timer.armed() || alarm.time == sim::LocalTime() || has_expired) continue;
+    alarm.timer.arm(*simulation_, source_, std::max(clock_->true_at(alarm.time), now).plus_saturated(alarm.latency));
   }
 }
 

@@ -183,7 +183,7 @@ void Network::announce_cut_through() {
     std::uint8_t timed = 0;
     for (const EgressPort& port : ports)
       for (unsigned p = 0; port.is_connected() && p < 8; ++p)
-        if (contains(port.config().shaping.timed, port.config().traffic_class_of_priority[p])) timed = static_cast<std::uint8_t>(timed | 1u << p);
+        if (port.config().shaping.is_timed(port.config().traffic_class_of_priority[p])) timed = static_cast<std::uint8_t>(timed | 1u << p);
     for (EgressPort& port : ports) {
       std::uint8_t priorities = 0;
       for (const EgressPort& other : ports)

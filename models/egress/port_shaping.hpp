@@ -1,4 +1,4 @@
-// What a port has besides strict priority: transmission gates, credit-based shapers, maximum SDU sizes (IEEE 802.1Q 8.6.8).
+// When a class of a port may send (IEEE 802.1Q 8.6.8): its transmission gate, its transmission selection algorithm, its maximum SDU size.
 #pragma once
 
 #include <algorithm>
@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "models/clock/local_clock.hpp"
-#include "models/egress/credit_based_shaper.hpp"
+#include "models/egress/credit_based_selection.hpp"
 #include "models/egress/gate_schedule.hpp"
 #include "models/egress/shaping_config.hpp"
 #include "models/ethernet/sizes.hpp"
@@ -38,8 +39,8 @@ class PortShaping {
   sim::TrueTime ready_time(sim::TrueTime now, TrafficClass q, const Head& head, sim::Duration delay = {});
   /// For the rest of a frame that was cut: its gate must let it end, its credit does not matter.
   sim::TrueTime rest_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t remaining);
-  /// No shaper has a say in this class: when its gate lets a frame pass the frame may start.
-  bool is_gated_only(TrafficClass q) const { return shapers_[q] == nullptr; }
+  /// No credit has a say in this class: when its gate lets a frame pass the frame may start.
+  bool is_gated_only(TrafficClass q) const { return !std::holds_alternative<CreditPtr>(selection_[q]); }
 
   // What the credit of a class should know.
   /// A frame of the class waits, or stands at the port to be selected.
@@ -66,12 +67,9 @@ class PortShaping {
   /// A broken gate: from now on it is open, or closed, whatever the list says; nothing: it works again.
   void force_gate(sim::TrueTime now, TrafficClass q, std::optional<bool> open);
 
-  bool is_timed(TrafficClass q) const { return contains(config_->timed, q); }
+  bool is_timed(TrafficClass q) const { return contains(timed_, q); }
   /// Nothing but gates, none of them stuck.
-  bool has_only_gates() const {
-    return has_gates_ && !limits_sdu_ && config_->timed == 0 && (forced_open_ | forced_closed_) == 0 &&
-           std::none_of(shapers_.begin(), shapers_.end(), [](const auto& shaper) { return shaper != nullptr; });
-  }
+  bool has_only_gates() const { return has_gates_ && !limits_sdu_ && config_->has_strict_priority_only() && (forced_open_ | forced_closed_) == 0; }
   bool limits_sdu() const { return limits_sdu_; }
   bool fits_max_sdu(TrafficClass q, std::uint32_t msdu) const {
     return config_->queue_max_sdu[q].count == 0 || msdu <= config_->queue_max_sdu[q].count;
@@ -93,36 +91,36 @@ class PortShaping {
   void check_overrun(sim::TrueTime now, TrafficClass q, sim::TrueTime last_bit);
 
  private:
-  struct Shaper {
-    CreditBasedShaper credit;
-    GateSchedule gates;                        // a follower of its own, since its time lags behind
-    const GateControlList* slope_of = nullptr; // the list for which the slope was computed
-    sim::LocalTime followed;                   // the time up to which the credit knows the gate
-  };
+  /// On the heap, so that the algorithms of all classes lie in two lines of the cache.
+  using CreditPtr = std::unique_ptr<CreditBasedSelection>;
+  /// The algorithm of a class with what it must remember.
+  using Selection = std::variant<StrictPriority, CreditPtr, TimeBased>;
 
   sim::Duration occupancy(std::uint32_t length) const { return octet_time_ * wire_length(Octets{length}).count; }
   sim::TrueTime gate_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t length, sim::Duration delay);
-  void follow_gate(Shaper& shaper, TrafficClass q, sim::TrueTime now);
+  bool is_stuck(TrafficClass q) const { return ((forced_open_ | forced_closed_) >> q & 1u) != 0; }
+  GateInForce gate_of(TrafficClass q) const { return {clock_, has_gates_, is_stuck(q)}; }
+  CreditBasedSelection* credit_based(TrafficClass q) {
+    CreditPtr* const credit = std::get_if<CreditPtr>(&selection_[q]);
+    return credit == nullptr ? nullptr : credit->get();
+  }
   /// Null without a shaper; its gate has been followed.
   CreditBasedShaper* credit_of(TrafficClass q, sim::TrueTime now) {
-    Shaper* const shaper = shapers_[q].get();
-    if (shaper == nullptr) return nullptr;
-    follow_gate(*shaper, q, now);
-    return &shaper->credit;
+    CreditBasedSelection* const credit = credit_based(q);
+    return credit == nullptr ? nullptr : &credit->credit_at(gate_of(q), now);
   }
-  sim::LocalTime pending_change(Shaper& shaper, sim::LocalTime at);
-  void set_slope(Shaper& shaper, TrafficClass q, sim::LocalTime local, sim::TrueTime now);
 
   const ShapingConfig* config_;
   const LocalClock* clock_;
   sim::Duration octet_time_;
   bool has_gates_;
   bool limits_sdu_;
+  ClassSet timed_;
   ClassSet forced_open_ = 0;
   ClassSet forced_closed_ = 0;
   GateSchedule gates_;
   std::vector<std::unique_ptr<GateControlList>> lists_;  // all that were ever requested; spans point to them
-  std::array<std::unique_ptr<Shaper>, traffic_class_count> shapers_;
+  std::array<Selection, traffic_class_count> selection_;
   std::array<std::uint64_t, traffic_class_count> transmission_overrun_{};
 };
 

@@ -1,8 +1,9 @@
-// What management sets of a port beyond strict priority: gates, shapers, maximum SDU sizes.
+// What management sets of a port: gates, the transmission selection algorithm of each class, maximum SDU sizes.
 #pragma once
 
 #include <array>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "models/egress/class_set.hpp"
@@ -23,14 +24,26 @@ struct GateConfig {
   bool operator==(const GateConfig&) const = default;
 };
 
-/// The credit-based shaper of a class.
-struct ShaperConfig {
+// The transmission selection algorithms of IEEE 802.1Q 8.6.8 (Table 8-6).
+/// 8.6.8.1: what waits may be sent.
+struct StrictPriority {
+  bool operator==(const StrictPriority&) const = default;
+};
+/// 8.6.8.2: what waits may be sent while the credit of the class is not negative.
+struct CreditBased {
   sim::DataRate idle_slope;
   /// True: idle_slope is the class's bandwidth over the whole gate cycle, so credit grows faster while the gate is open
   /// (8.6.8.2 b). False: it is the rate of growth while the gate is open.
   bool of_whole_cycle = true;
-  bool operator==(const ShaperConfig&) const = default;
+  /// A network interface sends frames of the class at a launch time, too: each waits for its own first.
+  bool has_launch_times = false;
+  bool operator==(const CreditBased&) const = default;
 };
+/// Frames wait for their eligibility time and are sent in its order: ATS (8.6.8.5), and launch times of a network interface.
+struct TimeBased {
+  bool operator==(const TimeBased&) const = default;
+};
+using SelectionAlgorithm = std::variant<StrictPriority, CreditBased, TimeBased>;
 
 /// Frame preemption of a port (IEEE 802.1Q 6.7.2, 12.30; IEEE 802.3 clause 99).
 struct PreemptionConfig {
@@ -45,13 +58,24 @@ struct PreemptionConfig {
 struct ShapingConfig {
   GateStates admin_gate_states = all_gates_open;
   std::optional<GateConfig> gates;
-  std::array<std::optional<ShaperConfig>, traffic_class_count> shapers{};
+  std::array<SelectionAlgorithm, traffic_class_count> selection{};
   std::array<Octets, traffic_class_count> queue_max_sdu{};  ///< octets after the EtherType; 0: any
-  /// Classes whose frames wait for their eligibility time and are sent in its order: those with ATS (8.6.8.5), and those that
-  /// a network interface sends at a launch time.
-  ClassSet timed = 0;
   bool operator==(const ShapingConfig&) const = default;
   bool is_plain() const { return *this == ShapingConfig{}; }
+  /// Null without a credit-based shaper.
+  const CreditBased* shaper_of(TrafficClass q) const { return std::get_if<CreditBased>(&selection[q]); }
+  /// Its frames wait for a time of their own.
+  bool is_timed(TrafficClass q) const {
+    const CreditBased* const shaper = shaper_of(q);
+    return shaper != nullptr ? shaper->has_launch_times : std::holds_alternative<TimeBased>(selection[q]);
+  }
+  ClassSet timed() const {
+    ClassSet set = 0;
+    for (TrafficClass q = 0; q < traffic_class_count; ++q)
+      if (is_timed(q)) set = with(set, q);
+    return set;
+  }
+  bool has_strict_priority_only() const { return selection == ShapingConfig{}.selection; }
 };
 
 }  // namespace takt::models

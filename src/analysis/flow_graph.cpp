@@ -84,7 +84,7 @@ PortModel model_of(const scenario::Resolved& r, const GraphPort& port, const Bou
 /// In a class that is sent by eligibility times, frames without one go before those that wait for theirs.
 void note_unordered_classes(const scenario::Resolved& r, FlowGraph& graph) {
   for (std::size_t p = 0; p < graph.ports.size(); ++p) {
-    const models::ClassSet timed = graph.models[p].config->shaping.timed;
+    const models::ClassSet timed = graph.models[p].config->shaping.timed();
     const bool is_host = r.plan.nodes[graph.ports[p].node.value].kind == models::NodeKind::host;
     for (const std::uint32_t h : graph.ports[p].hops) {
       const Hop& hop = graph.hops[h];

@@ -175,7 +175,7 @@ class RouteMaker {
     if (!filter->flow_meter.is_none()) set_meter(hop, ingress.flow_meters[filter->flow_meter.value].meter);
     if (filter->ats_scheduler.is_none()) return;
     set_ats(hop, ingress, filter->ats_scheduler.value, node, in_port, priority);
-    hop.ats->is_minded = hop.lowest_class == hop.highest_class && models::contains(config.shaping.timed, hop.highest_class);
+    hop.ats->is_minded = hop.lowest_class == hop.highest_class && config.shaping.is_timed(hop.highest_class);
   }
 
   static Policing policing_of(const models::IngressConfig& ingress, const models::StreamFilterConfig& filter, sim::Octets msdu) {

@@ -90,7 +90,7 @@ class FixedPoint {
     if (hop.parents.size() > 1 || hop.headers_come_first || is_held(hop)) return std::nullopt;
     const Hop& before = graph_.hops[hop.parents.front()];
     const std::optional<std::uint32_t> train = train_of(hop.parents.front());
-    if (!train || before.lowest_class != before.highest_class || models::contains(graph_.models[before.port].config->shaping.timed, before.highest_class)) return std::nullopt;
+    if (!train || before.lowest_class != before.highest_class || graph_.models[before.port].config->shaping.is_timed(before.highest_class)) return std::nullopt;
     const auto known = trains_.try_emplace({*train, before.port, before.highest_class}, static_cast<std::uint32_t>(graph_.flows.size() + graph_.hops.size() + trains_.size()));
     return known.first->second;
   }
@@ -120,7 +120,7 @@ class FixedPoint {
     if (port.hops.empty() || !model.counts_packets || config.preemption || config.untagged || !is_plain(config.shaping) || !model.more_gates.empty() || model.cqf || node.ingress) return std::nullopt;
     if (!gptp_messages(r_, port.node).empty()) return std::nullopt;
     for (std::size_t other = 0; other < graph_.ports.size(); ++other)   // eligibility times ask for the last bit
-      if (graph_.ports[other].node == port.node && graph_.models[other].config->shaping.timed != 0) return std::nullopt;
+      if (graph_.ports[other].node == port.node && graph_.models[other].config->shaping.timed() != 0) return std::nullopt;
     const Ps header = port.octet_time * (node.cut_through_header + models::vlan_tag).count;
     for (const std::uint32_t h : port.hops) {
       const Hop& hop = graph_.hops[h];
@@ -142,9 +142,7 @@ class FixedPoint {
   }
   static bool is_plain(const models::ShapingConfig& shaping) {
     const auto is_limited = [](const sim::Octets& sdu) { return sdu.count != 0; };
-    const auto is_shaped = [](const auto& shaper) { return shaper.has_value(); };
-    return !shaping.gates && shaping.timed == 0 && std::none_of(shaping.shapers.begin(), shaping.shapers.end(), is_shaped) &&
-           std::none_of(shaping.queue_max_sdu.begin(), shaping.queue_max_sdu.end(), is_limited);
+    return !shaping.gates && shaping.has_strict_priority_only() && std::none_of(shaping.queue_max_sdu.begin(), shaping.queue_max_sdu.end(), is_limited);
   }
 
   static bool is_held(const Hop& hop) { return hop.ats && hop.ats->is_minded; }

@@ -45,7 +45,7 @@ class PortAnalysis {
 
  private:
   bool is_preemptable(models::TrafficClass q) const { return config_.preemption && models::contains(config_.preemption->preemptable, q); }
-  bool is_shaped(models::TrafficClass q) const { return config_.shaping.shapers[q].has_value(); }
+  bool is_shaped(models::TrafficClass q) const { return config_.shaping.shaper_of(q) != nullptr; }
   bool is_in_cqf(models::TrafficClass q) const { return model_.cqf && models::contains(model_.cqf->classes, q); }
   bool is_gated(models::TrafficClass q) const {
     return std::any_of(gates_.begin(), gates_.end(), [&](const GateCycle& gates) { return !gates.is_always_open(q); });

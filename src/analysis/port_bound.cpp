@@ -25,7 +25,7 @@ constexpr std::size_t most_peaks = 300;
 bool PortAnalysis::make_shaped(TrafficClass q, Service& service, std::string& reason) {
   service.is_shaped = true;
   const double rate = 8e12 / static_cast<double>(octet_);
-  const double admin = static_cast<double>(config_.shaping.shapers[q]->idle_slope.bits_per_second) / rate;
+  const double admin = static_cast<double>(config_.shaping.shaper_of(q)->idle_slope.bits_per_second) / rate;
   double open_share = 1;
   double closed = 0;          // the most that the gate is closed beyond its long-run share
   double lost_share = 0;      // lost at ends of windows, in the long run and at once
@@ -45,7 +45,7 @@ bool PortAnalysis::make_shaped(TrafficClass q, Service& service, std::string& re
     lost = loss * static_cast<double>(gates.windows(q).size() + 1);
     service.windows.emplace_back(gates, q, model_.clock.error, model_.clock.error, model_.clock.slowest_ppt, model_.clock.fastest_ppt);
   }
-  const bool scales = config_.shaping.shapers[q]->of_whole_cycle;
+  const bool scales = config_.shaping.shaper_of(q)->of_whole_cycle;
   service.idle_share = scales ? admin / open_share : admin;
   const double whole_share = service.idle_share * open_share;
   double before_rate = lost_share;
@@ -166,7 +166,7 @@ Ps PortAnalysis::packed(TrafficClass q, Ps room) const {
 std::optional<PortAnalysis::Service> PortAnalysis::service_of(TrafficClass q, std::string& reason) {
   Service service;
   if (is_shaped(q)) {
-    if (contains(config_.shaping.timed, q)) {
+    if (config_.shaping.is_timed(q)) {
       reason = "a class with a credit-based shaper and eligibility times";
       return std::nullopt;
     }
@@ -231,7 +231,7 @@ void PortAnalysis::bound_class(TrafficClass q) {
 Ps PortAnalysis::wait_in_full_queue(TrafficClass q) {
   const models::QueueLimit& limit = config_.queue_limits[q];
   constexpr models::QueueLimit any;
-  if ((limit.frames == any.frames && limit.octets == any.octets) || is_preemptable(q) || is_in_cqf(q) || contains(config_.shaping.timed, q) || !model_.counts_packets) return unbounded_ps;
+  if ((limit.frames == any.frames && limit.octets == any.octets) || is_preemptable(q) || is_in_cqf(q) || config_.shaping.is_timed(q) || !model_.counts_packets) return unbounded_ps;
   const ClassDemand& demand = demands_[q];
   const Ps around = octet_ * models::wire_length(sim::Octets{0}).count;   // preamble and gap
   const Ps by_octets = limit.octets / std::max<Ps>(1, (demand.shortest() - around) / octet_);
@@ -261,7 +261,7 @@ Ps PortAnalysis::wait_in_full_queue(TrafficClass q) {
 /// A class with all of the link, or of its windows, may never be done. But if in each L, a multiple of all periods, no more comes than is sent, a frame that comes L after another one waits for no longer: what has
 /// come before it is more by as much as is sent in L. So nobody who comes later than L, and after links have ceased to limit what comes, need be looked at.
 std::optional<Ps> PortAnalysis::repeats_after(TrafficClass q, const Service& service) const {
-  if (service.is_shaped || is_preemptable(q) || contains(config_.shaping.timed, q)) return std::nullopt;
+  if (service.is_shaped || is_preemptable(q) || config_.shaping.is_timed(q)) return std::nullopt;
   std::optional<Ps> length = demands_[q].common_period(1, longest_search_ps);
   std::vector<TrafficClass> classes{q};
   for (TrafficClass h = 0; h < traffic_class_count; ++h) {
@@ -324,7 +324,7 @@ std::vector<Ps> PortAnalysis::delays_in_busy_period(TrafficClass q, std::string&
   if (is_endless) busy = *repeats;
   else busy_[q] = busy;
   const ClassDemand& demand = demands_[q];
-  const Ps look_ahead = contains(config_.shaping.timed, q) ? model_.late_by : 0;
+  const Ps look_ahead = config_.shaping.is_timed(q) ? model_.late_by : 0;
   const std::vector<Ps> bends = demand.bends(sum(busy, look_ahead), most_bends);
   if (is_endless && bends.empty()) {
     reason = "the class is never done, and there is too much to look at";
@@ -405,7 +405,7 @@ void PortAnalysis::bound_cqf() {
   const Ps waits = std::max<Ps>(0, cqf.cycle * (cqf.buffers - 2) - cqf.offset - cqf.forwarding_delay - 2 * model_.clock.error);
   if (config_.preemption) reason = "cyclic queuing and forwarding with preemption";
   bool is_held_back = false;  // by more than its cycle
-  for (TrafficClass q = 0; q < traffic_class_count; ++q) is_held_back = is_held_back || (is_in_cqf(q) && (is_shaped(q) || contains(config_.shaping.timed, q)));
+  for (TrafficClass q = 0; q < traffic_class_count; ++q) is_held_back = is_held_back || (is_in_cqf(q) && (is_shaped(q) || config_.shaping.is_timed(q)));
   if (is_held_back) reason = "cyclic queuing and forwarding in classes with a shaper";
   const bool holds = fits && all_use_it && model_.clock.is_synchronised && !config_.preemption && !is_held_back;
   for (TrafficClass q = 0; q < traffic_class_count; ++q) {

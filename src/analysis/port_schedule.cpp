@@ -39,7 +39,7 @@ SequenceWindows PortAnalysis::windows_of(const GateCycle& gates, TrafficClass q)
 
 /// Where all frames of a gated class come at known times, on the time that the gates follow too: each into its window. The reason if they may miss them.
 std::optional<SequenceBound> PortAnalysis::sequence_of(TrafficClass q, std::string& reason) const {
-  if (!is_gated(q) || is_shaped(q) || is_preemptable(q) || model_.cqf || contains(config_.shaping.timed, q) || !model_.clock.is_synchronised || !model_.counts_packets) return std::nullopt;
+  if (!is_gated(q) || is_shaped(q) || is_preemptable(q) || model_.cqf || config_.shaping.is_timed(q) || !model_.clock.is_synchronised || !model_.counts_packets) return std::nullopt;
   std::vector<SequencedFlow> flows;
   bool are_known = true;
   for (const PortFlow& flow : traffic_.flows) {
@@ -92,7 +92,7 @@ std::optional<SequenceBound> PortAnalysis::sequence_of(TrafficClass q, std::stri
 
 /// Where frames of a gated class come at known phases, on the time that the gates follow too: how long each of these flows waits. Empty otherwise.
 std::vector<Ps> PortAnalysis::waits_at_phases(TrafficClass q, const Service& service, Ps busy) const {
-  if (!is_gated(q) || service.is_shaped || is_preemptable(q) || contains(config_.shaping.timed, q) || !model_.clock.is_synchronised || !model_.counts_packets) return {};
+  if (!is_gated(q) || service.is_shaped || is_preemptable(q) || config_.shaping.is_timed(q) || !model_.clock.is_synchronised || !model_.counts_packets) return {};
   std::vector<ScheduledFlow> flows;
   std::vector<std::pair<const FrameArrivals*, Ps>> at_any_time;
   UnscheduledWork others;
@@ -146,7 +146,7 @@ std::vector<Ps> PortAnalysis::waits_at_phases(TrafficClass q, const Service& ser
 bool PortAnalysis::phases_count(TrafficClass q) const {
   if (!gates_.empty() || config_.preemption || model_.cqf || !model_.counts_packets || model_.unordered != 0 || busy_[q] == 0 || !is_bounded(class_delay_[q])) return false;
   for (TrafficClass above = q; above < traffic_class_count; ++above)
-    if (is_shaped(above) || contains(config_.shaping.timed, above)) return false;
+    if (is_shaped(above) || config_.shaping.is_timed(above)) return false;
   return std::none_of(traffic_.links.begin(), traffic_.links.end(), [](const IncomingLink& link) { return link.is_mixed; }) &&
          std::all_of(traffic_.flows.begin(), traffic_.flows.end(), [](const PortFlow& flow) { return flow.lowest_class == flow.highest_class; });
 }

@@ -10,7 +10,7 @@ using models::traffic_class_count;
 
 /// By flow of the port; empty if there is none. Arrivals count by their calmest patterns alone, whatever links say, frames as if all were the longest: shorter ones, and those that do not come, leave all others where they are or before.
 std::vector<Ps> PortAnalysis::delays_in_windows(TrafficClass q) const {
-  if (!is_gated(q) || is_shaped(q) || config_.preemption || model_.cqf || contains(config_.shaping.timed, q) || contains(config_.cut_through, q) || !model_.counts_packets) return {};
+  if (!is_gated(q) || is_shaped(q) || config_.preemption || model_.cqf || config_.shaping.is_timed(q) || contains(config_.cut_through, q) || !model_.counts_packets) return {};
   for (TrafficClass h = 0; h < traffic_class_count; ++h)
     if (h != q && !demands_[h].is_empty() && goes_before(h, q) && overlap(q, h)) return {};
   std::vector<PackedFlow> flows;

@@ -42,8 +42,8 @@ std::string SeparatedFlows::objection(const Hop& hop) const {
   for (const std::uint32_t h : graph_.ports[hop.port].hops) {
     const Hop& other = graph_.hops[h];
     for (models::TrafficClass q = std::max(hop.lowest_class, other.lowest_class); q <= other.highest_class; ++q) {
-      if (config.shaping.shapers[q]) return "a credit-based shaper";
-      if (models::contains(config.shaping.timed, q)) return "eligibility times";
+      if (config.shaping.shaper_of(q) != nullptr) return "a credit-based shaper";
+      if (config.shaping.is_timed(q)) return "eligibility times";
     }
   }
   return {};

@@ -31,7 +31,7 @@ std::string causes_at(const models::NetworkPlan& plan, const analysis::PassageBo
   std::string causes;
   if (passage.is_held) causes += "eligibility times, ";
   if (config.shaping.gates) causes += "gates, ";
-  if (config.shaping.shapers[passage.traffic_class]) causes += "credit, ";
+  if (config.shaping.shaper_of(passage.traffic_class) != nullptr) causes += "credit, ";
   if (config.preemption) causes += "preemption, ";
   return causes + "blocking and other frames";
 }

@@ -147,7 +147,7 @@ TEST(PortBound, AFullQueueLimitsTheDelay) {
 // that come later; it does not make one wait.
 TEST(PortBound, ACreditBasedShaperWaitsWithCreditForSoLong) {
   Port port;
-  port.config.shaping.shapers[6] = models::ShaperConfig{sim::DataRate{20'000'000}, true};
+  port.config.shaping.selection[6] = models::CreditBased{sim::DataRate{20'000'000}, true};
   port.traffic.flows = {flow(64, 6, 1000 * us), flow(1518, 7, 1000 * us), flow(1518, 0, 1000 * us)};
   const Ps exact = 2 * 123'040 * ns + 5'760 * ns;
   EXPECT_GE(port.bound().flows[0].delay, exact);

@@ -10,7 +10,7 @@ namespace takt::wire_checker {
 
 class CreditAccount {
  public:
-  CreditAccount(std::uint64_t rate, const models::ShaperConfig& shaper, models::TrafficClass q)
+  CreditAccount(std::uint64_t rate, const models::CreditBased& shaper, models::TrafficClass q)
       : rate_(static_cast<std::int64_t>(rate)), idle_(static_cast<std::int64_t>(shaper.idle_slope.bits_per_second)), admin_idle_(idle_),
         of_whole_cycle_(shaper.of_whole_cycle), class_(q) {}
 

@@ -33,7 +33,7 @@ class Records {
     builder_.plan.port_configs[0].traffic_class_of_priority = models::identity_traffic_classes;
     builder_.plan.ingress_configs.push_back(std::move(ingress));
     builder_.plan.nodes[1].ingress = 0;
-    builder_.plan.port_configs[0].shaping.timed = 0x20;
+    builder_.plan.port_configs[0].shaping.selection[5] = models::TimeBased{};
     changes_ = std::move(changes);
   }
   models::NetworkPlan& plan() { return builder_.plan; }

@@ -13,7 +13,7 @@ PortChecker::PortChecker(std::string name, const models::PortConfig& config, sim
     : name_(std::move(name)), config_(config), violations_(violations), octet_(rate.octet_time().ps()),
       gates_(ListEntry{{}, config.shaping.admin_gate_states, 0, {}, {}}), has_gates_(config.shaping.admin_gate_states != models::all_gates_open) {
   for (TrafficClass q = 0; q < traffic_class_count; ++q)
-    if (config.shaping.shapers[q]) credits_[q].emplace(rate.bits_per_second, *config.shaping.shapers[q], q);
+    if (const models::CreditBased* const shaper = config.shaping.shaper_of(q)) credits_[q].emplace(rate.bits_per_second, *shaper, q);
   // An express frame waits for at most 8 + 123 + 12 octets, and 64 more for each addFragSize.
   if (config.preemption) hold_advance_ = config.preemption->hold_advance ? config.preemption->hold_advance->ps() : octet_ * (143 + 64 * config.preemption->add_frag_size.value());
   if (config.shaping.gates) request_gates(list_config_of(*config.shaping.gates));

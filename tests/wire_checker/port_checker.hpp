@@ -86,7 +86,7 @@ class PortChecker {
 
   Item item_of(const SeenFrame& seen) const;
   models::TrafficClass class_of(const models::Frame& frame) const;
-  bool is_timed(models::TrafficClass q) const { return models::contains(config_.shaping.timed, q); }
+  bool is_timed(models::TrafficClass q) const { return config_.shaping.is_timed(q); }
   Ps duration_of(std::uint32_t octets) const { return octet_ * (models::preamble_and_sfd.count + Ps{octets}); }
   /// Express frames come before preemptable ones.
   int rank_of(models::TrafficClass q) const { return q + (is_preemptable(q) ? 0 : 8); }

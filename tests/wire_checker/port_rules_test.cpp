@@ -165,7 +165,7 @@ TEST(PortRules, QueuesHaveLimits) {
 
 TEST(PortRules, EligibilityTimes) {
   PortConfig config;
-  config.shaping.timed = 0x20;
+  config.shaping.selection[5] = models::TimeBased{};
   EXPECT_NOTHING(Port(config).frame('a', 5, 100, 500 * ns).at(0).wait('a').at(500 * ns).leave('a').start('a').until(2'000 * ns));
   EXPECT_FOUND(Port(config).frame('a', 5, 100, 500 * ns).at(0).wait('a').at(499 * ns).leave('a').start('a').until(2'000 * ns), "before its eligibility time");
   EXPECT_FOUND(Port(config).frame('a', 5, 100, 500 * ns).at(0).wait('a').at(501 * ns).leave('a').start('a').until(2'000 * ns), "the medium is idle");
@@ -221,7 +221,7 @@ TEST(PortRules, TheMacHolds) {
 // 250 Mb/s of 1 Gb/s: a frame of 100 octets costs 960 ns * 750 Mb/s = 720 bit, which take 720 / 250M = 2880 ns to come back.
 TEST(PortRules, Credits) {
   PortConfig config;
-  config.shaping.shapers[5] = models::ShaperConfig{sim::DataRate{250'000'000}, false};
+  config.shaping.selection[5] = models::CreditBased{sim::DataRate{250'000'000}, false};
   const auto port = [&] { return Port(config).frame('a', 5).frame('b', 5).frame('c', 0, 1'500); };
   EXPECT_NOTHING(port().at(0).start('a').wait('b').at(3'840 * ns).leave('b').start('b').until(9'000 * ns));
   EXPECT_FOUND(port().at(0).start('a').wait('b').at(3'839'999).leave('b').start('b').until(9'000 * ns), "negative credit");

@@ -69,7 +69,7 @@ void WireChecker::announce_cut_through() {
       for (unsigned p = 0; p < 8; ++p) {
         const models::TrafficClass q = config.traffic_class_of_priority[p];
         if (port != incoming->to_port && models::contains(config.cut_through, q)) cut |= 1u << p;
-        if (models::contains(config.shaping.timed, q)) timed |= 1u << p;
+        if (config.shaping.is_timed(q)) timed |= 1u << p;
       }
     }
     incoming->noticed = static_cast<std::uint8_t>(cut & ~timed);

@@ -171,7 +171,7 @@ class Extraction {
     const std::string port = json::quote(r_.topology.nodes[from].name + " to " + r_.topology.nodes[to].name);
     std::string problem;
     if (models::contains(config.cut_through, q)) problem = "cut-through at " + port + ", which makes its delays depend on other traffic";
-    if (config.shaping.shapers[q] || models::contains(config.shaping.timed, q)) problem = "a shaper of its class at " + port;
+    if (!std::holds_alternative<models::StrictPriority>(config.shaping.selection[q])) problem = "a shaper of its class at " + port;
     if (config.preemption && models::contains(config.preemption->preemptable, q)) problem = "a preemptable class at " + port;
     if (!problem.empty()) return refuse(stream, problem), false;
     const models::StreamPlan& plan = plan_of(stream);

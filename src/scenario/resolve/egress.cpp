@@ -94,11 +94,12 @@ class EgressResolver {
     if (node.is_host() && !egress.ats.empty()) refuse("ats", "ATS in a host", "a host, whose frames meet no ATS scheduler", "a switch; \"launch\" of a stream for a host");
     if (const models::ClassSet both = config.preemption ? static_cast<models::ClassSet>(config.preemption->preemptable & config.cut_through) : models::ClassSet{0}; both != 0)
       refuse("cut_through", "cut-through of a preemptable class", classes(both) + ", whose frames may be cut while they come", "express classes");
-    if (const auto both = static_cast<models::ClassSet>(config.shaping.timed & config.cut_through); both != 0)
+    const models::ClassSet ats = set_of(egress.ats);
+    if (const auto both = static_cast<models::ClassSet>(ats & config.cut_through); both != 0)
       refuse("cut_through", "cut-through of a class with ATS", classes(both) + ", whose eligibility times count from the last bit", "classes without ATS");
     models::ClassSet shaped = 0;
     for (const Shaper& shaper : egress.shapers) shaped = models::with(shaped, shaper.traffic_class & 7u);
-    if (const auto both = static_cast<models::ClassSet>(config.shaping.timed & shaped); both != 0)
+    if (const auto both = static_cast<models::ClassSet>(ats & shaped); both != 0)
       refuse("ats", "two transmission selection algorithms", classes(both) + " with a credit-based shaper and ATS", "one for a class");
     if (!config.shaping.gates || config.shaping.gates->admin_control_list.empty() || config.shaping.gates->admin_cycle_time <= Duration()) return;
     const models::GateControlList list(config.shaping.gates->admin_control_list, config.shaping.gates->admin_cycle_time);
@@ -124,9 +125,10 @@ class EgressResolver {
       if (shaper.idle_slope > rate)
         diagnostics_.error_unless(diagnostics_.is_refused(r_.scenario.network.where.at("links")), shaper.where.at("idle_slope"), "a shaper faster than its link", {json::to_text(shaper.idle_slope), "at most " + json::to_text(rate)});
       else
-        config.shapers[shaper.traffic_class] = models::ShaperConfig{shaper.idle_slope, shaper.of == SlopeOf::cycle};
+        config.selection[shaper.traffic_class] = models::CreditBased{shaper.idle_slope, shaper.of == SlopeOf::cycle};
     }
-    config.timed = set_of(egress.ats);
+    for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
+      if (models::contains(set_of(egress.ats), q)) config.selection[q] = models::TimeBased{};
     for (const MaxSdu& max_sdu : egress.max_sdu) config.queue_max_sdu[max_sdu.traffic_class] = max_sdu.size;
     return config;
   }
@@ -172,15 +174,18 @@ void add_launch_classes(Resolved& r) {
       const auto found = priorities.find(end->node.value);
       if (found == priorities.end()) continue;
       models::PortConfig config = r.plan.port_configs[end->port_config.value_or(r.plan.nodes[end->node.value].port_config)];
-      for (const std::uint8_t priority : found->second)
-        config.shaping.timed = models::with(config.shaping.timed, config.traffic_class_of_priority[priority]);
+      for (const std::uint8_t priority : found->second) {
+        models::SelectionAlgorithm& selection = config.shaping.selection[config.traffic_class_of_priority[priority]];
+        if (auto* const shaper = std::get_if<models::CreditBased>(&selection)) shaper->has_launch_times = true;
+        else selection = models::TimeBased{};
+      }
       end->port_config = static_cast<std::uint32_t>(r.plan.port_configs.size());
       r.plan.port_configs.push_back(std::move(config));
     }
   }
 }
 
-bool slope_is_possible(const models::ShaperConfig& shaper, models::TrafficClass q, const models::GateConfig& gates, DataRate rate) {
+bool slope_is_possible(const models::CreditBased& shaper, models::TrafficClass q, const models::GateConfig& gates, DataRate rate) {
   if (!shaper.of_whole_cycle || gates.admin_control_list.empty() || gates.admin_cycle_time <= Duration()) return true;
   const models::OpenShare share = models::GateControlList(gates.admin_control_list, gates.admin_cycle_time).open_share(q);
   return static_cast<sim::int128>(shaper.idle_slope.bits_per_second) * share.cycle.ps() <= static_cast<sim::int128>(rate.bits_per_second) * share.open.ps();
@@ -197,7 +202,7 @@ void check_slopes(const Resolved& r, json::Diagnostics& diagnostics) {
         if (egress.to && *egress.to != r.topology.nodes[peer->node.value].name) continue;
         for (const Shaper& shaper : egress.shapers) {
           const models::TrafficClass q = shaper.traffic_class & 7u;
-          if (!config.shapers[q] || slope_is_possible(*config.shapers[q], q, *config.gates, link.rate) || !reported.insert({&shaper, link.rate.bits_per_second}).second) continue;
+          if (!config.shaper_of(q) || slope_is_possible(*config.shaper_of(q), q, *config.gates, link.rate) || !reported.insert({&shaper, link.rate.bits_per_second}).second) continue;
           const bool is_refused = (egress.gates && diagnostics.is_refused(egress.gates->where.place())) || diagnostics.is_refused(shaper.where.place()) ||
                                   (!shaper.where.is_known() && diagnostics.has_errors()) || diagnostics.is_refused(r.scenario.network.where.at("links"));
           diagnostics.error_unless(is_refused, shaper.where.at("idle_slope"), "a shaper faster than its link while its gate is open",

@@ -16,7 +16,7 @@ void resolve_egress(Resolved& resolved, json::Diagnostics& diagnostics);
 void add_launch_classes(Resolved& resolved);
 
 /// Whether credit can grow as fast as an idle slope of the whole cycle asks for while the gate is open.
-bool slope_is_possible(const models::ShaperConfig& shaper, models::TrafficClass q, const models::GateConfig& gates, DataRate rate);
+bool slope_is_possible(const models::CreditBased& shaper, models::TrafficClass q, const models::GateConfig& gates, DataRate rate);
 /// The same of all ports. To be called when all gates are there, those of CQF too.
 void check_slopes(const Resolved& resolved, json::Diagnostics& diagnostics);
 

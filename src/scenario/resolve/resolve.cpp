@@ -360,11 +360,11 @@ class Resolver {
     for (const models::LinkPlan& link : r_.plan.links) {
       for (const models::LinkPlan::End* end : {&link.a, &link.b}) {
         if (end->node.value != node || end->port != port || !end->port_config) continue;
-        const auto& shapers = r_.plan.port_configs[*end->port_config].shaping.shapers;
+        const models::ShapingConfig& shaping = r_.plan.port_configs[*end->port_config].shaping;
         for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
-          if (shapers[q] && !slope_is_possible(*shapers[q], q, gates, link.rate))
+          if (const models::CreditBased* const shaper = shaping.shaper_of(q); shaper != nullptr && !slope_is_possible(*shaper, q, gates, link.rate))
             diagnostics_.error(set.where.at("gates"), "a shaper faster than its link while its gate is open",
-                               {json::to_text(shapers[q]->idle_slope) + " of the whole cycle in the part of it for which the gate of class " + std::to_string(q) + " is open",
+                               {json::to_text(shaper->idle_slope) + " of the whole cycle in the part of it for which the gate of class " + std::to_string(q) + " is open",
                                 "at most " + json::to_text(link.rate) + " then"});
       }
     }

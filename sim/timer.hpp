@@ -28,15 +28,18 @@ class Timer {
 
   /// True if `event`, an event of this timer, is the time-out itself and not the trace of a moved or cancelled one.
   bool fired(Simulation& simulation, EventSource& source, const Event& event) {
+    if (!is_due(simulation, source, event)) return false;
+    cancel();
+    return true;
+  }
+  /// The same for an owner that may act on another of its timers first: it stays armed.
+  bool is_due(Simulation& simulation, EventSource& source, const Event& event) {
     if (event.argument != generation_) return false;
     pending_ = TrueTime::never();
     if (!armed()) return false;
-    if (deadline_ > simulation.now()) {
-      arm(simulation, source, deadline_);
-      return false;
-    }
-    deadline_ = TrueTime::never();
-    return true;
+    if (deadline_ <= simulation.now()) return true;
+    arm(simulation, source, deadline_);
+    return false;
   }
 
  private:

@@ -1,6 +1,7 @@
 #include "models/host/process.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace takt::models {
@@ -33,9 +34,38 @@ void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
   }
   TAKT_CHECK(event.kind() < alarms_.size(), "an alarm that was never set");
   Alarm& alarm = alarms_[event.kind()];
-  if (!alarm.timer.fired(simulation, source_, event)) return;
+  if (!alarm.timer.is_due(simulation, source_, event)) return;
+  const bool is_alone = due_alarms() == 1 && (partner_ == nullptr || partner_->due_alarms() == 0);
+  is_alone ? expire(event.kind()) : expire_in_order();
+}
+
+std::size_t Process::due_alarms() const {
+  const sim::TrueTime now = simulation_->now();
+  return static_cast<std::size_t>(std::count_if(alarms_.begin(), alarms_.end(), [&](const Alarm& alarm) { return alarm.timer.deadline() <= now; }));
+}
+
+void Process::expire(AlarmId id) {
+  Alarm& alarm = alarms_[id];
+  alarm.timer.cancel();
   alarm.has_latency = false;
-  application_->wake(*this, event.kind());
+  application_->wake(*this, id);
+}
+
+/// A step of the clock makes many alarms due at once, and what one of them does may depend on the others: they expire as they would have without
+/// the step, not in the order of their events. One that is set to this instant meanwhile waits for its own event.
+void Process::expire_in_order() {
+  const sim::TrueTime now = simulation_->now();
+  due_.clear();
+  for (Process* const process : {this, partner_}) {
+    if (process == nullptr) continue;
+    for (AlarmId alarm = 0; alarm < process->alarms_.size(); ++alarm)
+      if (process->alarms_[alarm].timer.deadline() <= now) due_.push_back({process->alarms_[alarm].time, process, alarm});
+  }
+  std::sort(due_.begin(), due_.end(), [](const Due& a, const Due& b) {
+    return std::tuple(a.time, a.process->id().index, a.alarm) < std::tuple(b.time, b.process->id().index, b.alarm);
+  });
+  for (const Due& each : due_)
+    if (each.process->alarms_[each.alarm].timer.deadline() <= now) each.process->expire(each.alarm);
 }
 
 void Process::hand_over(FrameIndex frame, bool last) {

@@ -51,7 +51,16 @@ class Process final : public sim::Component, public HostServices {
 
   sim::ComponentId id() const { return source_.id(); }
 
+  /// Two applications of one host that act on each other: alarms of both that are due at one instant expire in the order of their times.
+  static void join(Process& a, Process& b) {
+    a.partner_ = &b;
+    b.partner_ = &a;
+  }
+
  private:
+  std::size_t due_alarms() const;
+  void expire(AlarmId alarm);
+  void expire_in_order();
   void hand_over(FrameIndex frame, bool last);
 
   sim::Simulation* simulation_;
@@ -70,6 +79,13 @@ class Process final : public sim::Component, public HostServices {
     sim::LocalTime time = sim::LocalTime::never();   // when it is to expire
   };
   std::vector<Alarm> alarms_;
+  Process* partner_ = nullptr;
+  struct Due {
+    sim::LocalTime time;
+    Process* process;
+    AlarmId alarm;
+  };
+  std::vector<Due> due_;  // of one instant; kept for its room
   std::unique_ptr<Application> application_;
 };
 

@@ -229,6 +229,7 @@ void Run::nest_programs() {
     const LiveMember& outer = programs_[resolved_->programs[i].outer->program]->members[resolved_->programs[i].outer->participant];
     const LiveMember& inner = programs_[i]->members[0];
     nestings_.push_back(ProgramApplication::nest(*outer.application, *outer.process, *inner.application, *inner.process));
+    models::Process::join(*outer.process, *inner.process);
   }
   for (const std::vector<std::uint32_t>& tree : trees_of(*resolved_)) {
     std::vector<handshake::TreeGroup> groups;

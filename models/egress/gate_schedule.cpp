@@ -57,8 +57,7 @@ HoldRequest GateSchedule::hold_request(LocalTime now, Duration hold_advance, Dur
   LocalTime begin = begun ? now : walk_to_hold_change(place);
   LocalTime end = now;           // of the request, as far as it is known
   bool hold = false;
-  // Periods can only join for ever if the advance is longer than every gap; then the walk ends with the list.
-  for (std::uint32_t periods = 0; periods <= 2 * CyclicIntervals::entry_limit; ++periods) {
+  for (;;) {
     if (begin == LocalTime::never()) return {hold, hold ? end : begin};
     const LocalTime requested = begun ? now : begin - hold_advance;
     if (hold ? requested > end : requested > now) return {hold, hold ? end : requested};
@@ -70,8 +69,17 @@ HoldRequest GateSchedule::hold_request(LocalTime now, Duration hold_advance, Dur
     }
     begin = walk_to_hold_change(place);
     begun = false;
+    const Schedule::Span& span = schedule_.span_of(place);
+    if (!hold || begin == LocalTime::never() || !span.repeats || begin - std::max(now, span.from) <= 2 * span.list->cycle_time()) continue;
+    // The advances are longer than each gap of the cycle: what has joined for a whole cycle joins as long as the list runs.
+    if (span.until == LocalTime::never()) return {true, span.until};
+    const LocalTime near_end = span.until - 2 * span.list->cycle_time();
+    if (near_end <= begin) continue;
+    place = schedule_.place_in(place.span, near_end);
+    if (holds_in(place)) walk_to_hold_change(place);
+    begin = walk_to_hold_change(place);
+    end = begin - hold_advance;
   }
-  return {hold, LocalTime::never()};
 }
 
 OpenShare GateSchedule::open_share(TrafficClass q, LocalTime now) {

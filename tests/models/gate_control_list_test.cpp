@@ -201,6 +201,16 @@ TEST(HoldAndRelease, TheRequestComesInAdvance) {
   EXPECT_EQ(gates.hold_request(at(1'050_us), 950_us, 0_us), (HoldRequest{true, never}));
 }
 
+// Each period joins the next, for as long as the list runs; a port that asks for each frame could not walk to there. Another list ends it after a minute.
+TEST(HoldAndRelease, PeriodsThatJoinAreNotWalkedThrough) {
+  const GateControlList joining(worked_entries, 1_ms);
+  const GateControlList released(std::vector<GateControlEntry>{{release, 0xFF, 1_ms}}, 1_ms);
+  GateSchedule gates = running_from_0(joining);
+  for (int ask = 0; ask < 20'000; ++ask) ASSERT_EQ(gates.hold_request(at(50_us + 1_us * ask), 950_us, 0_us), (HoldRequest{true, never}));
+  gates.request_change(at(30_ms), {&released, at(60'000_ms), {}});
+  for (int ask = 0; ask < 20'000; ++ask) ASSERT_EQ(gates.hold_request(at(50_ms + 1_us * ask), 950_us, 0_us), (HoldRequest{true, at(59'999_ms + 100_us)}));
+}
+
 // SetGateStates leaves hold as it is: the first entry does not hold in the first cycle, and does from the second on.
 TEST(HoldAndRelease, SetGateStatesLeavesItAsItIs) {
   const GateControlList list(std::vector<GateControlEntry>{{set, 1, 10_us}, {hold, 1, 10_us}, {set, 3, 10_us}}, 30_us);

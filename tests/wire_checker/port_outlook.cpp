@@ -98,12 +98,14 @@ Ps PortChecker::idle_due(Ps from) const {
   const auto beyond_hold = [&](TrafficClass q, Ps eligible, Ps duration, bool is_rest) {
     Ps time = from;
     Outlook outlook{credits_[q], gates_};
+    outlook.gates.run_to(std::max(from, outlook.gates.now()));
+    const Ps horizon = outlook.gates.horizon() + hold_advance_;
     for (int attempt = 0; attempt < 1000; ++attempt) {
       time = is_rest ? fit(q, time, duration, outlook.gates) : ready_time(q, time, eligible, duration, outlook);
       if (time == never) return never;
       const HoldState hold = hold_at(time, outlook.gates);
       if (!hold.asked) return time;
-      if (hold.until == never) return never;
+      if (hold.until == never || (!outlook.credit && hold.until > horizon)) return never;  // holds that join for a whole cycle join for ever
       time = hold.until;
     }
     return never;

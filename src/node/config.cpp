@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "json/suggest.hpp"
-#include "node/plug_check.hpp"
 #include "node/program_check.hpp"
+#include "plant/program_check.hpp"
 
 namespace takt::node {
 namespace {
@@ -23,7 +23,7 @@ class Checker {
     check_names();
     for (const Program& program : all_) add(program);
     check_publishers();
-    check_nesting(all_, diagnostics_);
+    plant::check_nesting(all_, true, diagnostics_);
     check_offers(config_, all_, diagnostics_);
     if (loaded_.programs.empty()) refuse_stranger();
     if (!diagnostics_.has_errors()) join();
@@ -52,19 +52,19 @@ class Checker {
 
   void add(const Program& program) {
     const std::size_t errors_before = diagnostics_.errors();
-    const std::vector<std::string> nodes = nodes_of(program);
+    const std::vector<std::string> nodes = plant::nodes_of(program);
     const std::uint32_t first = program.publisher_id.value_or(publishers_.empty() ? 1 : publishers_.back().behind);
     publishers_.push_back({&program, first, first + static_cast<std::uint32_t>(1 + program.slaves.size() + program.roles.size() + program.candidates.size())});
-    check_roles(program, diagnostics_);
-    wire::ProgramShape shape = checked_shape(program, static_cast<std::uint16_t>(first), diagnostics_);
+    node::check(program, diagnostics_);
     const auto self = std::find(nodes.begin(), nodes.end(), config_.node);
     if (self == nodes.end()) return;
     LoadedProgram loaded;
     loaded.program = program;
     const bool is_candidate = !program.roles.empty() && self != nodes.begin();
-    loaded.endpoint = endpoint_settings(program, static_cast<std::uint8_t>(is_candidate ? 1 : self - nodes.begin()), config_.node,
-                                        std::visit([](const auto& transport) { return transport.pcp; }, config_.transport));
+    loaded.endpoint = plant::endpoint_settings(program, static_cast<std::uint8_t>(is_candidate ? 1 : self - nodes.begin()));
+    loaded.endpoint.priority = std::visit([](const auto& transport) { return transport.pcp; }, config_.transport);
     if (diagnostics_.errors() == errors_before) {
+      wire::ProgramShape shape = plant::shape_of(program, static_cast<std::uint16_t>(first));
       loaded.roles = roles_at(config_, program, shape);
       loaded.endpoint.format = std::make_shared<const wire::ProgramFormat>(std::move(shape));
     }
@@ -87,7 +87,7 @@ class Checker {
   void refuse_stranger() {
     std::vector<std::string> nodes;
     for (const Program& program : all_)
-      for (std::string& name : nodes_of(program)) nodes.push_back(std::move(name));
+      for (std::string& name : plant::nodes_of(program)) nodes.push_back(std::move(name));
     const bool has_roles = std::any_of(all_.begin(), all_.end(), [](const Program& program) { return !program.roles.empty(); });
     const std::vector<std::string_view> names(nodes.begin(), nodes.end());
     diagnostics_.error(config_.where.at("node"), all_.size() == 1 ? "not a participant of the program" : "not a participant of any program",

@@ -1,26 +1,22 @@
-// One Program of a node's file: checked, and what it is on the network.
+// The Programs of a node's file: checked, and what the node is in them.
 #pragma once
 
+#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "node/config.hpp"
 
 namespace takt::node {
 
-/// The nodes: the master and the slaves, or the candidates.
-std::vector<std::string> nodes_of(const Program& program);
+/// Participants, times, messages, which have to fit into a frame, and what only a simulator does.
+void check(const Program& program, json::Diagnostics& diagnostics);
+/// What the node offers, and to whom: to one Program with roles, which needs some of it.
+void check_offers(const Config& config, std::span<const Program> programs, json::Diagnostics& diagnostics);
 
-/// Participants, times and messages, which have to fit into a frame. With a mistake the shape
-/// is not to be used.
-wire::ProgramShape checked_shape(const Program& program, std::uint16_t first_publisher_id, json::Diagnostics& diagnostics);
+/// After these checks. Nothing for a Program with slaves. `shape` is the Program's.
+std::optional<wire::RoleSettings> roles_at(const Config& config, const Program& program, const wire::ProgramShape& shape);
 
-/// `index` is the participant that the node of this name is; without format.
-wire::EndpointSettings endpoint_settings(const Program& program, std::uint8_t index, const std::string& node, std::uint8_t priority);
-
-/// Which of the Programs is nested in which: refuses what is none (as in scenarios: an unknown outer Program, a master that is no slave of
-/// it, a circle, two inner Programs at one slave, the handshake of the paper).
-void check_nesting(std::span<const Program> programs, json::Diagnostics& diagnostics);
+/// Whether the node may have this role.
+bool may_have(const Config& config, const Role& role);
 
 }  // namespace takt::node

@@ -1,10 +1,14 @@
 #include "plant/program_check.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
-#include <string_view>
+#include <utility>
 
 #include "handshake/binder.hpp"
+#include "json/suggest.hpp"
+#include "plant/protocol.hpp"
+#include "wire/program_format.hpp"
 
 namespace takt::plant {
 namespace {
@@ -53,6 +57,73 @@ void check_roles(const Program& program, json::Diagnostics& diagnostics) {
   }
 }
 
+void check_nodes(const Program& program, json::Diagnostics& diagnostics) {
+  const std::vector<std::string> nodes = nodes_of(program);
+  std::set<std::string_view> seen;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (!seen.insert(nodes[i]).second)
+      diagnostics.error(program.where.at(program.roles.empty() ? "slaves" : "candidates", i - 1), "a node twice in one program",
+                        {json::quote(nodes[i]) + (nodes[i] == program.master ? ", which is the master" : ""), "each participant on a node of its own"});
+}
+
+class NestingCheck {
+ public:
+  NestingCheck(std::span<const Program> programs, bool is_complete, json::Diagnostics& diagnostics) : programs_(programs), is_complete_(is_complete), diagnostics_(diagnostics) {}
+
+  void run() {
+    for (const Program& program : programs_)
+      if (program.within) check(program);
+  }
+
+ private:
+  void check(const Program& program) {
+    const json::Place place = program.where.at("within");
+    const Program* const outer = find(*program.within);
+    if (outer == nullptr) {
+      std::vector<std::string_view> names;
+      for (const Program& each : programs_) names.push_back(each.name);
+      diagnostics_.error_unless(!is_complete_, place, "unknown program", {json::quote(*program.within), "the name of a program", json::suggest(*program.within, names)});
+      return;
+    }
+    if (is_in_a_circle(program)) {
+      diagnostics_.error(place, "programs nested in a circle", {json::quote(program.name) + " within itself, by way of " + json::quote(*program.within), "a tree of programs"});
+      return;
+    }
+    const std::vector<std::string_view> slaves(outer->slaves.begin(), outer->slaves.end());
+    if (std::ranges::find(slaves, program.master) == slaves.end())
+      diagnostics_.error_unless(diagnostics_.is_refused(outer->where.at("slaves")), program.where.at("master"), "the master of a nested program is no slave of the outer one",
+                                {json::quote(program.master), "a slave of " + json::quote(outer->name), json::suggest(program.master, slaves)});
+    const auto [taken, is_new] = taken_.emplace(std::pair(outer->name, program.master), program.name);
+    if (!is_new)
+      diagnostics_.error(place, "two programs nested at one slave", {json::quote(program.name) + " and " + json::quote(taken->second) + " at " + json::quote(program.master), "one"});
+    for (const Program* each : {&program, outer})
+      if (!each->roles.empty() && refused_.insert(each).second)
+        diagnostics_.error(each->where.at("roles"), "roles in nested programs", {"\"roles\" of " + json::quote(each->name), "\"slaves\" for both programs"});
+      else if (each->variant == Variant::paper && refused_.insert(each).second)
+        diagnostics_.error(each->where.at("variant"), "nesting with the handshake of the paper", {"\"paper\", whose states alone do not tell one run from the next", "\"robust\" for both programs"});
+  }
+
+  const Program* find(const std::string& name) const {
+    const auto found = std::ranges::find(programs_, name, &Program::name);
+    return found == programs_.end() ? nullptr : &*found;
+  }
+
+  bool is_in_a_circle(const Program& program) const {
+    const Program* outer = &program;
+    for (std::size_t steps = 0; outer != nullptr && outer->within && steps <= programs_.size(); ++steps) {
+      outer = find(*outer->within);
+      if (outer == &program) return true;
+    }
+    return false;
+  }
+
+  std::span<const Program> programs_;
+  bool is_complete_;
+  json::Diagnostics& diagnostics_;
+  std::map<std::pair<std::string, std::string>, std::string> taken_;  // outer Program and slave: the Program nested there
+  std::set<const Program*> refused_;                                  // whose roles or variant have been reported
+};
+
 }  // namespace
 
 std::vector<std::string> participants_of(const Program& program) {
@@ -60,6 +131,28 @@ std::vector<std::string> participants_of(const Program& program) {
   names.insert(names.end(), program.slaves.begin(), program.slaves.end());
   for (const Role& role : program.roles) names.push_back(role.name);
   return names;
+}
+
+std::vector<std::string> nodes_of(const Program& program) {
+  std::vector<std::string> names = {program.master};
+  const std::vector<std::string>& others = program.roles.empty() ? program.slaves : program.candidates;
+  names.insert(names.end(), others.begin(), others.end());
+  return names;
+}
+
+bool may_be_participant(const Program& program, std::string_view name, const MayBeNode& may_be_node, const json::Diagnostics& diagnostics) {
+  if (!are_all_named(program.roles, program.where.at("roles"), diagnostics)) return true;
+  return (diagnostics.is_refused(program.where.at("master")) || diagnostics.is_refused(program.where.at("slaves"))) && may_be_node(name);
+}
+
+std::optional<std::uint8_t> participant_of(const Program& program, const std::string& name, const json::Place& place, const MayBeNode& may_be_node, json::Diagnostics& diagnostics) {
+  const std::vector<std::string> participants = participants_of(program);
+  const auto found = std::ranges::find(participants, name);
+  if (found != participants.end()) return static_cast<std::uint8_t>(found - participants.begin());
+  const std::vector<std::string_view> names(participants.begin(), participants.end());
+  diagnostics.error_unless(may_be_participant(program, name, may_be_node, diagnostics), place, "not a participant of the program",
+                           {json::quote(name), (program.roles.empty() ? "the master or a slave of " : "the master or a role of ") + json::quote(program.name), json::suggest(name, names)});
+  return std::nullopt;
 }
 
 bool has_cycle(const Program& program, const json::Diagnostics& diagnostics) { return program.cycle > Duration() && !diagnostics.is_refused(program.where.at("cycle")); }
@@ -74,5 +167,26 @@ void check_program(const Program& program, json::Diagnostics& diagnostics) {
   else
     check_roles(program, diagnostics);
 }
+
+void check_members(const Program& program, std::uint32_t most_octets, const MayBeNode& may_be_node, json::Diagnostics& diagnostics) {
+  check_nodes(program, diagnostics);
+  if (program.roles.empty())
+    for (const auto& phase : program.phases) participant_of(program, phase.first, program.where.at("phases"), may_be_node, diagnostics);
+  std::set<std::string_view> names = {"state"};
+  if (!program.roles.empty()) names.insert({"bindings", "announce"});
+  const std::string taken = program.roles.empty() ? "(\"state\" is taken)" : "(\"state\", \"bindings\" and \"announce\" are taken)";
+  for (const ProcessData& data : program.process_data) {
+    if (!data.where.is_known() && diagnostics.has_errors()) {  // no object: nothing is known of it
+      diagnostics.consequence();
+      continue;
+    }
+    participant_of(program, data.from, data.where.at("from"), may_be_node, diagnostics);
+    if (!data.name.empty() && !names.insert(data.name).second) diagnostics.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set " + taken});
+    const std::uint32_t octets = wire::process_data_octets(field_octets_of(data));
+    if (octets > most_octets) diagnostics.error(data.where.at("fields"), "more than one frame", {std::to_string(octets) + " octets with all headers", "at most " + std::to_string(most_octets)});
+  }
+}
+
+void check_nesting(std::span<const Program> programs, bool is_complete, json::Diagnostics& diagnostics) { NestingCheck(programs, is_complete, diagnostics).run(); }
 
 }  // namespace takt::plant

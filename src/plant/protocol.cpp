@@ -1,7 +1,11 @@
 #include "plant/protocol.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
+
+#include "plant/program_check.hpp"
+#include "wire/program_node.hpp"
 
 namespace takt::plant {
 namespace {
@@ -17,12 +21,46 @@ static_assert(built_in_types.size() == static_cast<std::size_t>(DataType::float6
 
 BuiltInType built_in_type_of(DataType type) { return built_in_types[static_cast<std::size_t>(type)]; }
 
-wire::DataSetShape data_set_shape_of(const ProcessData& data, std::uint8_t from) {
-  wire::DataSetShape shape;
-  shape.name = data.name;
-  shape.from = from;
-  for (const auto& [name, field] : data.fields) shape.fields.push_back({name, built_in_type_of(field.type), field.count});
+std::uint32_t field_octets_of(const ProcessData& data) {
+  std::uint32_t octets = 0;
+  for (const auto& [name, field] : data.fields) octets += static_cast<std::uint32_t>(uadp::fixed_octets(built_in_type_of(field.type))) * field.count;
+  return octets;
+}
+
+Duration receive_timeout_of(const Program& program) { return program.receive_timeout.value_or(program.cycle * 10); }
+
+Duration announce_every_of(const Program& program) { return program.announce_every.value_or(program.cycle * wire::cycles_of_announcement); }
+
+wire::ProgramShape shape_of(const Program& program, std::uint16_t first_publisher_id) {
+  wire::ProgramShape shape;
+  shape.name = program.name;
+  shape.variant = program.variant;
+  shape.participants = participants_of(program);
+  shape.first_publisher_id = first_publisher_id;
+  for (const ProcessData& data : program.process_data) {
+    wire::DataSetShape& made = shape.data_sets.emplace_back();
+    made.name = data.name;
+    made.from = static_cast<std::uint8_t>(std::ranges::find(shape.participants, data.from) - shape.participants.begin());
+    for (const auto& [name, field] : data.fields) made.fields.push_back({name, built_in_type_of(field.type), field.count});
+  }
   return shape;
+}
+
+wire::EndpointSettings endpoint_settings(const Program& program, std::uint8_t participant) {
+  const std::vector<std::string> participants = participants_of(program);
+  wire::EndpointSettings settings;
+  settings.handshake.variant = program.variant;
+  settings.handshake.index = participant;
+  settings.handshake.role = participant == 0 ? handshake::Role::master : handshake::Role::slave;
+  settings.handshake.slaves = static_cast<std::uint8_t>(participants.size() - 1);
+  settings.handshake.subscription = program.subscription;
+  settings.cycle = program.cycle;
+  settings.offset = phase_of(program, participants[participant]);
+  settings.receive_timeout = receive_timeout_of(program);
+  settings.initialisation = program.initialisation;
+  settings.publish_on_change = program.publish == Publish::on_change;
+  settings.priority = program.pcp;
+  return settings;
 }
 
 wire::PlugShape plug_shape_of(wire::ProgramShape program, std::span<const Role> roles, std::vector<std::string> candidates) {

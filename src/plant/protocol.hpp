@@ -10,14 +10,24 @@
 #include "plant/role.hpp"
 #include "plant/program.hpp"
 #include "wire/plug_format.hpp"
+#include "wire/program_endpoint.hpp"
 #include "wire/program_shape.hpp"
 
 namespace takt::plant {
 
 uadp::BuiltInType built_in_type_of(DataType type);
 
-/// `from` is the participant that `data.from` names.
-wire::DataSetShape data_set_shape_of(const ProcessData& data, std::uint8_t from);
+/// Octets of all values of a data set.
+std::uint32_t field_octets_of(const ProcessData& data);
+/// MessageReceiveTimeout.
+Duration receive_timeout_of(const Program& program);
+/// How often what has or gives roles announces itself.
+Duration announce_every_of(const Program& program);
+
+/// Of a Program that was checked.
+wire::ProgramShape shape_of(const Program& program, std::uint16_t first_publisher_id);
+/// Of a participant; without format and incarnation.
+wire::EndpointSettings endpoint_settings(const Program& program, std::uint8_t participant);
 
 /// Of a group with roles, which are the participants of `program` behind the master.
 wire::PlugShape plug_shape_of(wire::ProgramShape program, std::span<const Role> roles, std::vector<std::string> candidates);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "plant/protocol.hpp"
+
 namespace takt::verify {
 namespace {
 
@@ -30,7 +32,7 @@ Scenario shortened(const Scenario& scenario, Duration longest_reaction) {
   Duration enough = longest_reaction;
   Duration period;
   for (const scenario::Program& program : scenario.programs) {
-    enough = std::max(enough, program.cycle * 40 + program.initialisation * 2 + program.receive_timeout.value_or(program.cycle * 10));
+    enough = std::max(enough, program.cycle * 40 + program.initialisation * 2 + plant::receive_timeout_of(program));
     period = std::max(period, program.cycle);
   }
   for (const scenario::Stream& stream : scenario.streams)

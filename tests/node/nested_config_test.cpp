@@ -7,7 +7,7 @@
 
 #include "node/clock.hpp"
 #include "node/config.hpp"
-#include "scenario/programs/program_shape.hpp"
+#include "plant/protocol.hpp"
 #include "scenario/resolve/resolve.hpp"
 
 namespace takt::node {
@@ -100,7 +100,7 @@ TEST(NestedConfig, MistakesAreFound) {
            Mistake{file("m", within("a", "b", "m", "x") + ", " + within("b", "a", "x", "m")), "programs nested in a circle"},
            Mistake{file("m", within("a", "a", "m", "x")), "programs nested in a circle"},
            Mistake{file("m", cell + ", " + within("b", "cell", "m", "x", R"(, "variant": "paper")")), "nesting with the handshake of the paper"},
-           Mistake{file("m", cell + ", " + within("b", "cell", "m", "m")), "a participant twice"},  // a third level on one node would be that
+           Mistake{file("m", cell + ", " + within("b", "cell", "m", "m")), "a node twice in one program"},  // a third level on one node would be that
            Mistake{file("m", cell + ", " + cell), "duplicate name"},
            Mistake{file("w", tree), "not a participant of any program"},
            Mistake{file("m", cell + ", " + within("b", "cell", "m", "x", R"(, "publisher_id": 3)")), "PublisherIds of two programs"},
@@ -139,7 +139,7 @@ TEST(NestedConfig, TheOctetsAreThoseOfTheSimulator) {
                                                             x.loaded->programs[0].endpoint.format.get(), x.loaded->programs[1].endpoint.format.get()};
   const std::array<std::size_t, 5> numbers = {0, 0, 1, 1, 2};
   for (std::size_t i = 0; i < formats.size(); ++i) {
-    const wire::ProgramFormat there(scenario::shape_of(resolved->programs[numbers[i]]));
+    const wire::ProgramFormat there(plant::shape_of(*resolved->programs[numbers[i]].description, resolved->programs[numbers[i]].first_publisher_id));
     for (std::uint8_t sender = 0; sender < 3; ++sender) {
       const wire::StateMessage message{sender, 77, {5, handshake::PublishedState::Running, {3, handshake::IntentKind::Start, 0, handshake::run_of(5, 3)}, handshake::run_of(5, 3)}};
       const uadp::Octets first = there.encode(message, buffer_there);

@@ -96,8 +96,8 @@ TEST(RolesConfig, MistakesAreFound) {
            Mistake{file("a", welds + R"(, "script": [{"at": "1s"}])"), R"(expected exactly one of "call" or "plug")"},
            Mistake{file("m", "", program("", R"([{"name": "left", "skill": "welding"}])", "")), R"(roles that no node may have: found no "candidates")"},
            Mistake{file("m", "", program("", R"([{"name": "m", "skill": "welding"}])")), R"(duplicate name: found "m" a second time)"},
-           Mistake{file("m", "", program("", R"([{"name": "left", "skill": "welding"}])", R"(, "candidates": ["a", "m", "a"])")), R"(error at /program/candidates/1: a node twice: found "m", which is the master)"},
-           Mistake{file("m", "", program("", R"([{"name": "left", "skill": "welding"}])", R"(, "candidates": ["a", "m", "a"])")), R"(error at /program/candidates/2: a node twice: found "a")"},
+           Mistake{file("m", "", program("", R"([{"name": "left", "skill": "welding"}])", R"(, "candidates": ["a", "m", "a"])")), R"(error at /program/candidates/1: a node twice in one program: found "m", which is the master)"},
+           Mistake{file("m", "", program("", R"([{"name": "left", "skill": "welding"}])", R"(, "candidates": ["a", "m", "a"])")), R"(error at /program/candidates/2: a node twice in one program: found "a")"},
            Mistake{file("m", "", program(R"(, "variant": "paper")")), "roles with the handshake of the paper"},
            Mistake{file("m", "", program(R"(, "subscription": "all-to-all")")), "roles with all-to-all subscription"},
            Mistake{file("m", "", program(R"(, "announce_every": "500us")")), "announcements within one cycle: found 500us, expected at least the cycle of 1ms"},
@@ -107,7 +107,7 @@ TEST(RolesConfig, MistakesAreFound) {
            Mistake{file("m", "", program(R"(, "process_data": [{"name": "bindings", "from": "m", "fields": {"x": "Double"}}])")), "duplicate name: found \"bindings\""},
            Mistake{file("m", "", program(R"(, "process_data": [{"name": "d", "from": "a", "fields": {"x": "Double"}}])")), R"(found "a", expected the master or a role)"},
            Mistake{two, R"(a node that offers its skills to two programs: found "a" to "p" and "q")"},
-           Mistake{nested, R"(error at /programs/1/within: a program with roles is nested: found "p")"},
+           Mistake{nested, R"(roles in nested programs: found "roles" of "p")"},
        }) {
     const Load load(each.text);
     EXPECT_FALSE(load.loaded) << each.text;

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "node/config.hpp"
-#include "scenario/programs/program_shape.hpp"
+#include "plant/protocol.hpp"
 #include "scenario/resolve/resolve.hpp"
 
 namespace takt::node {
@@ -20,7 +20,7 @@ wire::ProgramFormat of_scenario(const std::string& variant) {
   json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(text, "s.json", {}, diagnostics);
   EXPECT_TRUE(resolved) << diagnostics.to_text();
-  return wire::ProgramFormat(scenario::shape_of(resolved->programs[0]));
+  return wire::ProgramFormat(plant::shape_of(*resolved->programs[0].description, resolved->programs[0].first_publisher_id));
 }
 
 wire::ProgramFormat of_node(const std::string& variant) {

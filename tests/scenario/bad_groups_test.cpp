@@ -34,6 +34,11 @@ const BadCase groups_cases[] = {
      R"(2:26: error at /programs/0/variant: roles with the handshake of the paper: found "paper", which cannot tell one node from the next, expected "robust")"},
     {"RoleTwice", with_groups(R"({"name": "p", "master": "a", "roles": [{"name": "a", "skill": "welding"}], "cycle": "1ms"})"),
      R"(2:49: error at /programs/0/roles/0/name: duplicate name: found "a" a second time, expected a name of its own for each role and the master)"},
+    {"MasterAsCandidate", with_groups(R"({"name": "p", "master": "a", "roles": [{"name": "r", "skill": "welding"}], "candidates": ["b", "a"], "cycle": "1ms"})"),
+     R"(2:96: error at /programs/0/candidates/1: a node twice in one program: found "a", which is the master, expected each participant on a node of its own)"},
+    {"DataOfRolesBeyondAFrame", with_groups(R"({"name": "p", "master": "a", "roles": [{"name": "r", "skill": "welding"}], "cycle": "1ms", "process_data": [
+{"name": "d", "from": "a", "fields": {"x": {"type": "Double", "count": 200}}}]})"),
+     R"(3:38: error at /programs/0/process_data/0/fields: more than one frame: found 1624 octets with all headers, expected at most 1500)"},
     {"AbsentStranger", with_groups(R"({"name": "p", "master": "a", "roles": [{"name": "r", "skill": "welding"}], "absent": ["c"], "cycle": "1ms"})"),
      R"(2:87: error at /programs/0/absent/0: not a candidate of the program: found "c", expected a host that offers a skill it needs)"},
     {"TwoProgramsForOneNode", with_groups(R"({"name": "p", "master": "a", "roles": [{"name": "r", "skill": "welding"}], "cycle": "1ms"}, {"name": "q", "master": "c", "roles": [{"name": "r", "skill": "welding"}], "cycle": "1ms"})"),

@@ -8,8 +8,6 @@
 
 namespace takt::scenario {
 
-wire::ProgramShape shape_of(const ResolvedProgram& program);
-
 /// The messages of a program; those of roles only if it has some.
 struct ProgramFormats {
   std::shared_ptr<const wire::ProgramFormat> program;

@@ -11,17 +11,6 @@
 
 namespace takt::scenario {
 
-/// Whether all entries of a list could be read and have names; only then a name that is not among them is surely a mistake. `list` is where
-/// the list is written.
-template <class Entry>
-bool are_all_named(const std::vector<Entry>& entries, const json::Place& list, const json::Diagnostics& diagnostics) {
-  if (!diagnostics.is_refused(list)) return true;
-  if (entries.empty()) return false;
-  for (const Entry& entry : entries)
-    if (!entry.where.is_known() || diagnostics.is_refused(entry.where.at("name"))) return false;
-  return true;
-}
-
 /// The names of all streams: of those that are laid, and of those that would be but for mistakes.
 class StreamNames {
  public:

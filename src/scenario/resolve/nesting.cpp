@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "json/suggest.hpp"
+#include "plant/program_check.hpp"
 #include "scenario/resolve/known_names.hpp"
 
 namespace takt::scenario {
@@ -18,53 +18,16 @@ class Nester {
   }
 
   void run() {
-    for (const Program& program : r_.scenario.programs)
-      if (program.within) check(program);
+    plant::check_nesting(r_.scenario.programs, !may_be_unread_program(r_.scenario, diagnostics_), diagnostics_);
     for (ResolvedProgram& program : r_.programs)
       if (program.description->within) note(program);
     for (const Requirement& requirement : r_.scenario.require) check(requirement);
   }
 
  private:
-  void check(const Program& program) {
-    const json::Place place = program.where.at("within");
-    const Program* const outer = find(*program.within);
-    if (outer == nullptr) {
-      std::vector<std::string_view> names;
-      for (const Program& each : r_.scenario.programs) names.push_back(each.name);
-      diagnostics_.error_unless(may_be_unread_program(r_.scenario, diagnostics_), place, "unknown program", {json::quote(*program.within), "the name of a program", json::suggest(*program.within, names)});
-      return;
-    }
-    if (is_in_a_cycle(program)) {
-      diagnostics_.error(place, "programs nested in a circle", {json::quote(program.name) + " within itself, by way of " + json::quote(*program.within), "a tree of programs"});
-      return;
-    }
-    const std::vector<std::string_view> slaves(outer->slaves.begin(), outer->slaves.end());
-    if (std::find(slaves.begin(), slaves.end(), program.master) == slaves.end())
-      diagnostics_.error_unless(diagnostics_.is_refused(outer->where.at("slaves")), program.where.at("master"), "the master of a nested program is no slave of the outer one",
-                         {json::quote(program.master), "a slave of " + json::quote(outer->name), json::suggest(program.master, slaves)});
-    const auto [taken, is_new] = taken_.emplace(std::pair(outer->name, program.master), program.name);
-    if (!is_new)
-      diagnostics_.error(place, "two programs nested at one slave", {json::quote(program.name) + " and " + json::quote(taken->second) + " at " + json::quote(program.master), "one"});
-    for (const Program* each : {&program, outer})
-      if (!each->roles.empty() && refused_.insert(each->name).second)
-        diagnostics_.error(each->where.at("roles"), "roles in nested programs", {"\"roles\" of " + json::quote(each->name), "\"slaves\" for both programs"});
-      else if (each->variant == Variant::paper && refused_.insert(each->name).second)
-        diagnostics_.error(each->where.at("variant"), "nesting with the handshake of the paper", {"\"paper\", whose states alone do not tell one run from the next", "\"robust\" for both programs"});
-  }
-
   const Program* find(const std::string& name) const {
     const auto found = programs_.find(name);
     return found == programs_.end() ? nullptr : found->second;
-  }
-
-  bool is_in_a_cycle(const Program& program) const {
-    const Program* outer = &program;
-    for (std::size_t steps = 0; outer != nullptr && outer->within && steps <= r_.scenario.programs.size(); ++steps) {
-      outer = find(*outer->within);
-      if (outer == &program) return true;
-    }
-    return false;
   }
 
   void note(ResolvedProgram& program) {
@@ -103,11 +66,9 @@ class Nester {
 
   Resolved& r_;
   json::Diagnostics& diagnostics_;
-  std::map<std::pair<std::string, std::string>, std::string> taken_;  // outer program and slave: the program nested there
   std::map<std::string_view, const Program*> programs_;
   std::map<std::string_view, std::uint32_t> numbers_;
-  std::set<std::string_view> roots_;                                  // programs in which others are nested, but that are not themselves
-  std::set<std::string> refused_;                                     // programs whose variant has been reported
+  std::set<std::string_view> roots_;  // programs in which others are nested, but that are not themselves
 };
 
 }  // namespace

@@ -6,8 +6,7 @@
 
 namespace takt::scenario {
 
-/// After all programs have been resolved. Refuses nesting that is none: an unknown outer program, a master that is no slave of it, a
-/// cycle, two inner programs at one slave, the handshake of the paper.
+/// After all programs have been resolved.
 void resolve_nesting(Resolved& resolved, json::Diagnostics& diagnostics);
 
 /// The trees of nested programs: for each the numbers of its programs, the outer ones first. Programs without nesting are in none.

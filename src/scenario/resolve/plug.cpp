@@ -5,8 +5,8 @@
 #include <set>
 
 #include "json/suggest.hpp"
+#include "plant/protocol.hpp"
 #include "scenario/resolve/known_names.hpp"
-#include "wire/program_node.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -18,34 +18,13 @@ class RoleResolver {
 
   void run() {
     const auto master = builder_.host(description_.master, description_.where.at("master"));
-    check();
+    program_.announce_every = plant::announce_every_of(description_);
     if (!master) return;
     program_.members.push_back({.node = models::NodeIndex{*master}});
     find_candidates(*master);
   }
 
  private:
-  void check() {
-    program_.announce_every = description_.announce_every.value_or(description_.cycle * wire::cycles_of_announcement);
-    check_process_data();
-  }
-
-  void check_process_data() {
-    std::set<std::string_view> names{"state", "bindings", "announce"};
-    for (const ProcessData& data : description_.process_data) {
-      if (!data.where.is_known() && diagnostics_.has_errors()) {
-        diagnostics_.consequence();
-        continue;
-      }
-      if (!data.name.empty() && !names.insert(data.name).second) diagnostics_.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set (\"state\", \"bindings\" and \"announce\" are taken)"});
-      if (std::find(program_.participant_names.begin(), program_.participant_names.end(), data.from) != program_.participant_names.end()) continue;
-      const std::vector<std::string_view> known(program_.participant_names.begin(), program_.participant_names.end());
-      const bool is_unclear = !are_all_named(description_.roles, description_.where.at("roles"), diagnostics_) || diagnostics_.is_refused(description_.where.at("master"));
-      diagnostics_.error_unless(is_unclear, data.where.at("from"), "not a participant of the program",
-                                {json::quote(data.from), "the master or a role of " + json::quote(program_.name), json::suggest(data.from, known)});
-    }
-  }
-
   void find_candidates(std::uint32_t master) {
     std::set<std::string_view> needed;
     for (const Role& role : description_.roles) needed.insert(role.skill);
@@ -53,8 +32,7 @@ class RoleResolver {
     for (std::size_t i = 0; i < description_.candidates.size(); ++i) {
       const json::Place place = description_.where.at("candidates", i);
       const std::string& name = description_.candidates[i];
-      if (!builder_.host(name, place)) continue;
-      if (!listed.insert(name).second) diagnostics_.error(place, "a host twice", {json::quote(name), "each candidate once"});
+      if (builder_.host(name, place)) listed.insert(name);
     }
     std::set<std::string_view> offered;
     for (std::uint32_t n = 0; n < r_.topology.nodes.size(); ++n) {

@@ -33,7 +33,7 @@ class ProgramStreams {
     ResolvedProcessData made;
     made.name = data.name;
     made.from = static_cast<std::uint8_t>(std::ranges::find(program_.participant_names, data.from) - program_.participant_names.begin());
-    made.field_octets = field_octets_of(data);
+    made.field_octets = plant::field_octets_of(data);
     for (const auto& [name, field] : data.fields) made.values += field.count;
     const bool is_of_role = program_.has_roles() && made.from != 0;
     for (std::size_t m = 0; m < program_.members.size(); ++m) {
@@ -79,12 +79,6 @@ class ProgramStreams {
 };
 
 }  // namespace
-
-std::uint32_t field_octets_of(const ProcessData& data) {
-  std::uint32_t octets = 0;
-  for (const auto& [name, field] : data.fields) octets += static_cast<std::uint32_t>(uadp::fixed_octets(plant::built_in_type_of(field.type))) * field.count;
-  return octets;
-}
 
 bool lay_program_streams(Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program) { return ProgramStreams(resolved, builder, program).lay(); }
 

@@ -6,9 +6,6 @@
 
 namespace takt::scenario {
 
-/// The user's fields of a data set.
-std::uint32_t field_octets_of(const ProcessData& data);
-
 /// Lays the streams of a program whose members and their skills are known, and notes its process data. False if one cannot be laid (reported).
 bool lay_program_streams(Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program);
 

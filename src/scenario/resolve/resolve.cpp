@@ -9,6 +9,7 @@
 #include "models/ethernet/sizes.hpp"
 #include "plant/limits.hpp"
 #include "plant/program_check.hpp"
+#include "plant/protocol.hpp"
 #include "scenario/applications/resolve_applications.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "scenario/idle/idle.hpp"
@@ -29,7 +30,6 @@
 #include "scenario/resolve/stream_builder.hpp"
 #include "scenario/resolve/trace_file.hpp"
 #include "scenario/resolve/windows.hpp"
-#include "wire/program_format.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -228,7 +228,7 @@ class Resolver {
     ResolvedProgram resolved;
     resolved.name = program.name;
     resolved.description = &program;
-    resolved.receive_timeout = program.receive_timeout.value_or(program.cycle * 10);
+    resolved.receive_timeout = plant::receive_timeout_of(program);
     const std::size_t errors_before = diagnostics_.errors();
     if (program.roles.empty() && diagnostics_.is_refused(program.where.at("roles"))) return;  // who is in it is not known
     plant::check_program(program, diagnostics_);
@@ -238,6 +238,8 @@ class Resolver {
       add_slaves(program, resolved);
     else
       resolve_roles(r_, *builder_, resolved, diagnostics_);
+    plant::check_members(program, static_cast<std::uint32_t>(models::maximum_msdu.count), may_be_node(), diagnostics_);
+    if (program.roles.empty()) check_replies(program, diagnostics_);
     if (diagnostics_.errors() != errors_before) return;
     const std::size_t wanted = resolved.participant_names.size() + resolved.candidates().size();
     if (program.publisher_id) publishers_ = *program.publisher_id - std::size_t{1};
@@ -274,53 +276,15 @@ class Resolver {
 
   /// Without roles: all are participants from the beginning.
   void add_slaves(const Program& program, ResolvedProgram& resolved) {
-    std::set<std::string_view> seen;
     const auto add_participant = [&](const std::string& name, const json::Place& place) {
-      if (!seen.insert(name).second)
-        diagnostics_.error(place, "a host twice in one program", {json::quote(name), "each participant on a host of its own"});
       if (const auto host = builder_->host(name, place)) resolved.members.push_back({.node = models::NodeIndex{*host}});
     };
     add_participant(program.master, program.where.at("master"));
     for (std::size_t i = 0; i < program.slaves.size(); ++i) add_participant(program.slaves[i], program.where.at("slaves", i));
-    for (const auto& phase : program.phases) participant_of(program, phase.first, program.where.at("phases"));
-    check_process_data(program);
-    check_replies(program, diagnostics_);
   }
 
-  /// What is wrong with data sets, whatever else is wrong with their program.
-  void check_process_data(const Program& program) {
-    std::set<std::string_view> names{"state"};
-    for (const ProcessData& data : program.process_data) {
-      if (!is_read(data)) {
-        diagnostics_.consequence();
-        continue;
-      }
-      participant_of(program, data.from, data.where.at("from"));
-      if (!data.name.empty() && !names.insert(data.name).second)
-        diagnostics_.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set (\"state\" is taken)"});
-      const Octets msdu{wire::process_data_octets(field_octets_of(data))};
-      if (msdu > models::maximum_msdu)
-        diagnostics_.error(data.where.at("fields"), "more than one frame", {std::to_string(msdu.count) + " octets after the EtherType", "at most 1500 with all headers"});
-    }
-  }
-
-  /// Whether the name may be that of a participant that was refused: a node, or a role that could not be read.
-  bool may_be_participant(const Program& program, std::string_view name) const {
-    if (!are_all_named(program.roles, program.where.at("roles"), diagnostics_)) return true;
-    return (diagnostics_.is_refused(program.where.at("master")) || diagnostics_.is_refused(program.where.at("slaves"))) && r_.topology.find(name).has_value();
-  }
-
-  std::optional<std::uint8_t> participant_of(const Program& program, const std::string& name, const json::Place& place) {
-    if (name == program.master) return std::uint8_t{0};
-    const auto found = std::find(program.slaves.begin(), program.slaves.end(), name);
-    if (found != program.slaves.end()) return static_cast<std::uint8_t>(found - program.slaves.begin() + 1);
-    for (std::size_t i = 0; i < program.roles.size(); ++i)
-      if (program.roles[i].name == name) return static_cast<std::uint8_t>(i + 1);
-    std::vector<std::string_view> names{program.master};
-    names.insert(names.end(), program.slaves.begin(), program.slaves.end());
-    for (const Role& role : program.roles) names.push_back(role.name);
-    diagnostics_.error_unless(may_be_participant(program, name), place, "not a participant of the program", {json::quote(name), "the master or a slave of " + json::quote(program.name), json::suggest(name, names)});
-    return std::nullopt;
+  plant::MayBeNode may_be_node() const {
+    return [this](std::string_view name) { return r_.topology.find(name).has_value(); };
   }
 
   void add_action(const ScriptEntry& entry) {
@@ -373,15 +337,14 @@ class Resolver {
   /// Whatever the program is: who is a participant of none is a mistake of its own.
   void check_caller(const ScriptEntry& entry) {
     if (!entry.on || is_program(entry.program) || !are_all_named(r_.scenario.programs, r_.scenario.where.at("programs"), diagnostics_)) return;
-    std::vector<std::string_view> names;
+    std::vector<std::string> names;
     for (const Program& program : r_.scenario.programs) {
-      if (may_be_participant(program, *entry.on)) return;
-      names.push_back(program.master);
-      names.insert(names.end(), program.slaves.begin(), program.slaves.end());
-      for (const Role& role : program.roles) names.push_back(role.name);
+      if (plant::may_be_participant(program, *entry.on, may_be_node(), diagnostics_)) return;
+      for (std::string& name : plant::participants_of(program)) names.push_back(std::move(name));
     }
-    if (std::find(names.begin(), names.end(), *entry.on) == names.end())
-      diagnostics_.error_unless(diagnostics_.is_refused(entry.where.at("on")), entry.where.at("on"), "not a participant of a program", {json::quote(*entry.on), "the master or a slave of one", json::suggest(*entry.on, names)});
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    if (std::ranges::find(known, *entry.on) == known.end())
+      diagnostics_.error_unless(diagnostics_.is_refused(entry.where.at("on")), entry.where.at("on"), "not a participant of a program", {json::quote(*entry.on), "the master or a slave of one", json::suggest(*entry.on, known)});
   }
 
   bool is_program(const std::optional<std::string>& name) const {
@@ -395,7 +358,7 @@ class Resolver {
     }
     const Program* const program = find_program(r_.scenario, *entry.program, entry.where.at("program"), diagnostics_);
     if (program == nullptr) return;
-    const auto participant = entry.on ? participant_of(*program, *entry.on, entry.where.at("on")) : std::optional<std::uint8_t>(0);
+    const auto participant = entry.on ? plant::participant_of(*program, *entry.on, entry.where.at("on"), may_be_node(), diagnostics_) : std::optional<std::uint8_t>(0);
     if (!participant) return;
     // In the paper's handshake all participants may be started from outside; `robust` begins a run at the master.
     if (diagnostics_.is_refused(entry.where.at("call"))) return;

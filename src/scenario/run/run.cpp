@@ -19,31 +19,15 @@ namespace {
 
 constexpr std::uint32_t script_action = 120;  // kind of digest record
 
-wire::EndpointSettings endpoint_settings(const ResolvedProgram& program, std::size_t participant, std::shared_ptr<const wire::ProgramFormat> format) {
-  const Program& description = *program.description;
-  wire::EndpointSettings endpoint;
-  endpoint.handshake.variant = format->shape().variant;
-  endpoint.handshake.role = participant == 0 ? handshake::Role::master : handshake::Role::slave;
-  endpoint.handshake.index = static_cast<std::uint8_t>(participant);
-  endpoint.handshake.slaves = static_cast<std::uint8_t>(program.participant_names.size() - 1);
-  endpoint.handshake.incarnation = 1;
-  endpoint.handshake.subscription = description.subscription;
-  endpoint.handshake.nested = program.nested.contains(static_cast<std::uint8_t>(participant));
-  endpoint.format = std::move(format);
-  endpoint.cycle = description.cycle;
-  endpoint.offset = program.phases[participant];
-  endpoint.receive_timeout = program.receive_timeout;
-  endpoint.initialisation = description.initialisation;
-  endpoint.publish_on_change = description.publish == Publish::on_change;
-  endpoint.priority = description.pcp;
-  return endpoint;
-}
-
 /// What is no participant from the beginning gets index and incarnation with its role.
 wire::NodeSettings node_settings(const ResolvedProgram& program, std::size_t m, const ProgramFormats& formats) {
   const ResolvedMember& member = program.members[m];
   const bool is_candidate = m >= program.participants().size();
-  wire::NodeSettings node{endpoint_settings(program, is_candidate ? 1 : m, formats.program)};
+  const auto participant = static_cast<std::uint8_t>(is_candidate ? 1 : m);
+  wire::NodeSettings node{plant::endpoint_settings(*program.description, participant)};
+  node.endpoint.format = formats.program;
+  node.endpoint.handshake.incarnation = 1;
+  node.endpoint.handshake.nested = program.nested.contains(participant);
   if (!program.replies.empty()) {   // what it answers at once, instead of publishing it every cycle
     node.endpoint.on_demand.assign(program.process_data.size(), false);
     for (const ResolvedReply& reply : program.replies) node.endpoint.on_demand[reply.with] = true;

@@ -1,9 +1,8 @@
 #include "models/gptp/codec.hpp"
 
-#include <concepts>
 #include <type_traits>
 
-#include "sim/check.hpp"
+#include "sim/octets.hpp"
 
 namespace takt::models::gptp {
 namespace {
@@ -16,77 +15,42 @@ constexpr std::uint16_t tlv_path_trace = 0x0008;
 constexpr std::uint16_t follow_up_information_length = 28;
 constexpr std::uint32_t organization_802_1 = 0x0080C2;
 
-/// Writes big-endian numbers at the end.
-class Writer {
- public:
-  explicit Writer(std::vector<std::byte>& octets) : octets_(octets) {}
-  template <std::integral T>
-  void put(T value, std::size_t length = sizeof(T)) {
-    const auto bits = static_cast<std::uint64_t>(value);
-    for (std::size_t i = length; i-- > 0;) octets_.push_back(static_cast<std::byte>(bits >> (8 * i) & 0xFF));
-  }
-  void put(const ClockIdentity& identity) {
-    for (const std::uint8_t octet : identity.octets) put(octet);
-  }
-  void put(const PortIdentity& identity) {
-    put(identity.clock);
-    put(identity.port);
-  }
-  void put(const Timestamp& time) {
-    put(time.seconds, 6);
-    put(time.nanoseconds);
-  }
-  void zeros(std::size_t count) { octets_.resize(octets_.size() + count); }
+using Reader = sim::OctetReader<sim::BigEndian>;
+using Writer = sim::OctetWriter<sim::BigEndian>;
 
- private:
-  std::vector<std::byte>& octets_;
-};
+void put(Writer& out, const ClockIdentity& identity) { out.put_octets(std::as_bytes(std::span(identity.octets))); }
+void put(Writer& out, const PortIdentity& identity) {
+  put(out, identity.clock);
+  out.put(identity.port);
+}
+void put(Writer& out, const Timestamp& time) {
+  out.put(static_cast<std::uint16_t>(time.seconds >> 32));
+  out.put(static_cast<std::uint32_t>(time.seconds));
+  out.put(time.nanoseconds);
+}
+/// Three octets: an OUI, or what its owner numbers.
+void put_24_bits(Writer& out, std::uint32_t value) {
+  out.put(static_cast<std::uint8_t>(value >> 16));
+  out.put(static_cast<std::uint16_t>(value));
+}
 
-/// Reads big-endian numbers from the front. A read past the end gives 0 and makes failed() true for good.
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> octets) : octets_(octets) {}
-  template <std::integral T>
-  T get(std::size_t length = sizeof(T)) {
-    if (octets_.size() < length) {
-      failed_ = true;
-      return 0;
-    }
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < length; ++i) bits = bits << 8 | static_cast<std::uint64_t>(octets_[i]);
-    octets_ = octets_.subspan(length);
-    return static_cast<T>(bits);
-  }
-  void get(ClockIdentity& identity) {
-    for (std::uint8_t& octet : identity.octets) octet = get<std::uint8_t>();
-  }
-  void get(PortIdentity& identity) {
-    get(identity.clock);
-    identity.port = get<std::uint16_t>();
-  }
-  void get(Timestamp& time) {
-    time.seconds = get<std::uint64_t>(6);
-    time.nanoseconds = get<std::uint32_t>();
-    if (time.nanoseconds >= 1'000'000'000) failed_ = true;
-  }
-  /// The next `length` octets, as a reader of their own.
-  Reader part(std::size_t length) {
-    if (octets_.size() < length) {
-      failed_ = true;
-      return Reader({});
-    }
-    const Reader front(octets_.first(length));
-    octets_ = octets_.subspan(length);
-    return front;
-  }
-  void skip(std::size_t length) { part(length); }
-  std::size_t left() const { return octets_.size(); }
-  bool failed() const { return failed_; }
-
- private:
-  std::span<const std::byte> octets_;
-  bool failed_ = false;
-};
+void get(Reader& in, ClockIdentity& identity) {
+  for (std::uint8_t& octet : identity.octets) octet = in.get<std::uint8_t>();
+}
+void get(Reader& in, PortIdentity& identity) {
+  get(in, identity.clock);
+  identity.port = in.get<std::uint16_t>();
+}
+void get(Reader& in, Timestamp& time) {
+  const auto high = in.get<std::uint16_t>();
+  time.seconds = std::uint64_t{high} << 32 | in.get<std::uint32_t>();
+  time.nanoseconds = in.get<std::uint32_t>();
+  if (time.nanoseconds >= 1'000'000'000) in.fail();
+}
+std::uint32_t get_24_bits(Reader& in) {
+  const auto high = in.get<std::uint8_t>();
+  return std::uint32_t{high} << 16 | in.get<std::uint16_t>();
+}
 
 template <class Body>
 constexpr MessageType type_of() {
@@ -121,48 +85,48 @@ std::uint8_t flags_of(const Message& message) {
 void put_information(Writer& out, const FollowUpInformation& information) {
   out.put(tlv_organization_extension);
   out.put(follow_up_information_length);
-  out.put(organization_802_1, 3);
-  out.put(std::uint32_t{1}, 3);  // organizationSubType
+  put_24_bits(out, organization_802_1);
+  put_24_bits(out, 1);  // organizationSubType
   out.put(information.cumulative_scaled_rate_offset);
   out.put(information.gm_time_base_indicator);
-  for (const std::uint8_t octet : information.last_gm_phase_change) out.put(octet);
+  out.put_octets(std::as_bytes(std::span(information.last_gm_phase_change)));
   out.put(information.scaled_last_gm_freq_change);
 }
 
 void put_body(Writer& out, const Sync& sync) {
-  if (!sync.one_step) return out.zeros(10);
-  out.put(sync.one_step->origin);
+  if (!sync.one_step) return out.put_zeros(10);
+  put(out, sync.one_step->origin);
   put_information(out, sync.one_step->information);
 }
 void put_body(Writer& out, const FollowUp& follow_up) {
-  out.put(follow_up.precise_origin);
+  put(out, follow_up.precise_origin);
   put_information(out, follow_up.information);
 }
-void put_body(Writer& out, const PdelayReq&) { out.zeros(20); }
+void put_body(Writer& out, const PdelayReq&) { out.put_zeros(20); }
 void put_body(Writer& out, const PdelayResp& response) {
-  out.put(response.request_receipt);
-  out.put(response.requesting_port);
+  put(out, response.request_receipt);
+  put(out, response.requesting_port);
 }
 void put_body(Writer& out, const PdelayRespFollowUp& follow_up) {
-  out.put(follow_up.response_origin);
-  out.put(follow_up.requesting_port);
+  put(out, follow_up.response_origin);
+  put(out, follow_up.requesting_port);
 }
 void put_body(Writer& out, const Announce& announce) {
   TAKT_CHECK(announce.path_trace.size() <= Announce::longest_path_trace, "a path trace that fits a frame");
-  out.zeros(10);
+  out.put_zeros(10);
   out.put(announce.current_utc_offset);
-  out.zeros(1);
+  out.put_zeros(1);
   out.put(announce.grandmaster_priority1);
   out.put(announce.grandmaster_quality.clock_class);
   out.put(announce.grandmaster_quality.clock_accuracy);
   out.put(announce.grandmaster_quality.offset_scaled_log_variance);
   out.put(announce.grandmaster_priority2);
-  out.put(announce.grandmaster);
+  put(out, announce.grandmaster);
   out.put(announce.steps_removed);
   out.put(announce.time_source);
   out.put(tlv_path_trace);
   out.put(static_cast<std::uint16_t>(8 * announce.path_trace.size()));
-  for (const ClockIdentity& identity : announce.path_trace) out.put(identity);
+  for (const ClockIdentity& identity : announce.path_trace) put(out, identity);
 }
 
 struct RawHeader {
@@ -184,10 +148,10 @@ std::optional<RawHeader> get_header(Reader& in) {
   raw.header.minor_sdo_id = in.get<std::uint8_t>();
   for (std::uint8_t& octet : raw.flags) octet = in.get<std::uint8_t>();
   raw.header.correction.scaled_ns = in.get<std::int64_t>();
-  in.skip(4);
-  in.get(raw.header.source);
+  in.take(4);
+  get(in, raw.header.source);
   raw.header.sequence_id = in.get<std::uint16_t>();
-  in.skip(1);
+  in.take(1);
   raw.header.log_message_interval = in.get<std::int8_t>();
   const bool known = (first >> 4 == 1 || first >> 4 == 2) && (version & 0xF) == 2;
   if (in.failed() || !known || raw.length < header_length) return std::nullopt;
@@ -200,7 +164,7 @@ bool find_tlv(Reader& in, std::uint16_t wanted, Found&& found) {
   bool is_found = false;
   while (in.left() >= 4) {
     const auto type = in.get<std::uint16_t>();
-    Reader contents = in.part(in.get<std::uint16_t>());
+    const Reader contents(in.take(in.get<std::uint16_t>()));
     if (in.failed()) return false;
     if (type == wanted && !is_found) is_found = found(contents);
   }
@@ -210,7 +174,7 @@ bool find_tlv(Reader& in, std::uint16_t wanted, Found&& found) {
 bool get_information(Reader& in, FollowUpInformation& information) {
   return find_tlv(in, tlv_organization_extension, [&](Reader contents) {
     if (contents.left() != follow_up_information_length) return false;
-    if (contents.get<std::uint32_t>(3) != organization_802_1 || contents.get<std::uint32_t>(3) != 1) return false;
+    if (get_24_bits(contents) != organization_802_1 || get_24_bits(contents) != 1) return false;
     information.cumulative_scaled_rate_offset = contents.get<std::int32_t>();
     information.gm_time_base_indicator = contents.get<std::uint16_t>();
     for (std::uint8_t& octet : information.last_gm_phase_change) octet = contents.get<std::uint8_t>();
@@ -221,50 +185,50 @@ bool get_information(Reader& in, FollowUpInformation& information) {
 
 bool get_body(Reader& in, const RawHeader& raw, Sync& sync) {
   if ((raw.flags[0] & two_step_flag) != 0) {
-    in.skip(10);
+    in.take(10);
     return true;
   }
   Sync::OneStep contents;
-  in.get(contents.origin);
+  get(in, contents.origin);
   const bool complete = get_information(in, contents.information);
   sync.one_step = contents;
   return complete;
 }
 bool get_body(Reader& in, const RawHeader&, FollowUp& follow_up) {
-  in.get(follow_up.precise_origin);
+  get(in, follow_up.precise_origin);
   return get_information(in, follow_up.information);
 }
 bool get_body(Reader& in, const RawHeader&, PdelayReq&) {
-  in.skip(20);
+  in.take(20);
   return true;
 }
 bool get_body(Reader& in, const RawHeader&, PdelayResp& response) {
-  in.get(response.request_receipt);
-  in.get(response.requesting_port);
+  get(in, response.request_receipt);
+  get(in, response.requesting_port);
   return true;
 }
 bool get_body(Reader& in, const RawHeader&, PdelayRespFollowUp& follow_up) {
-  in.get(follow_up.response_origin);
-  in.get(follow_up.requesting_port);
+  get(in, follow_up.response_origin);
+  get(in, follow_up.requesting_port);
   return true;
 }
 bool get_body(Reader& in, const RawHeader& raw, Announce& announce) {
   announce.time_flags = raw.flags[1];
-  in.skip(10);
+  in.take(10);
   announce.current_utc_offset = in.get<std::int16_t>();
-  in.skip(1);
+  in.take(1);
   announce.grandmaster_priority1 = in.get<std::uint8_t>();
   announce.grandmaster_quality.clock_class = in.get<std::uint8_t>();
   announce.grandmaster_quality.clock_accuracy = in.get<std::uint8_t>();
   announce.grandmaster_quality.offset_scaled_log_variance = in.get<std::uint16_t>();
   announce.grandmaster_priority2 = in.get<std::uint8_t>();
-  in.get(announce.grandmaster);
+  get(in, announce.grandmaster);
   announce.steps_removed = in.get<std::uint16_t>();
   announce.time_source = in.get<std::uint8_t>();
   return find_tlv(in, tlv_path_trace, [&](Reader contents) {
     if (contents.left() % 8 != 0 || contents.left() / 8 > Announce::longest_path_trace) return false;
     announce.path_trace.resize(contents.left() / 8);
-    for (ClockIdentity& identity : announce.path_trace) contents.get(identity);
+    for (ClockIdentity& identity : announce.path_trace) get(contents, identity);
     return true;
   });
 }
@@ -284,33 +248,33 @@ std::size_t encoded_length(const Message& message) {
 }
 
 void encode(const Message& message, std::vector<std::byte>& octets) {
-  octets.clear();
+  octets.resize(encoded_length(message));
   Writer out(octets);
   const Header& header = header_of(message);
   const MessageType type = std::visit([](const auto& each) { return type_of<std::decay_t<decltype(each)>>(); }, message);
   const Announce* const announce = std::get_if<Announce>(&message);
   out.put(static_cast<std::uint8_t>(static_cast<unsigned>(header.major_sdo_id) << 4 | static_cast<unsigned>(type)));
   out.put(static_cast<std::uint8_t>(header.minor_version << 4 | 2));
-  out.put(static_cast<std::uint16_t>(encoded_length(message)));
+  out.put(static_cast<std::uint16_t>(octets.size()));
   out.put(header.domain);
   out.put(header.minor_sdo_id);
   out.put(flags_of(message));
   out.put(announce != nullptr ? announce->time_flags : ptp_time_scale_flag);
   out.put(header.correction.scaled_ns);
-  out.zeros(4);
-  out.put(header.source);
+  out.put_zeros(4);
+  put(out, header.source);
   out.put(header.sequence_id);
   out.put(control_of(type));
   out.put(header.log_message_interval);
   std::visit([&](const auto& each) { put_body(out, each); }, message);
-  TAKT_CHECK(octets.size() == encoded_length(message), "a message of its length");
+  TAKT_CHECK(!out.overflowed() && out.position() == octets.size(), "a message of its length");
 }
 
 std::optional<Message> decode(std::span<const std::byte> octets) {
   Reader whole(octets);
   const std::optional<RawHeader> raw = get_header(whole);
   if (!raw || raw->length > octets.size()) return std::nullopt;
-  Reader in = whole.part(raw->length - header_length);
+  Reader in(whole.take(raw->length - header_length));
   switch (raw->type) {
     case MessageType::sync: return decoded<Sync>(in, *raw);
     case MessageType::follow_up: return decoded<FollowUp>(in, *raw);

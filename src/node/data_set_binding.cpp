@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "uadp/reader.hpp"
-#include "uadp/writer.hpp"
+#include "uadp/octets.hpp"
 
 namespace takt::node {
 namespace {

@@ -1,9 +1,10 @@
 // One value without its type: the encoding of OPC 10000-6, 5.2.2, which RawData fields and the insides of Variants use.
 #pragma once
 
+#include <algorithm>
+
 #include "uadp/builtin_type.hpp"
-#include "uadp/reader.hpp"
-#include "uadp/writer.hpp"
+#include "uadp/octets.hpp"
 
 namespace takt::uadp {
 

@@ -1,7 +1,6 @@
 #include "wire/plug_format.hpp"
 
-#include "uadp/reader.hpp"
-#include "uadp/writer.hpp"
+#include "uadp/octets.hpp"
 
 namespace takt::wire {
 namespace {

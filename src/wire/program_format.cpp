@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "uadp/reader.hpp"
-#include "uadp/writer.hpp"
+#include "uadp/octets.hpp"
 
 namespace takt::wire {
 namespace {

@@ -14,7 +14,7 @@ using Prefixes = std::vector<std::string>;
 
 /// Headers of the repository, as they are written in an #include: from the root, or from src/.
 const Prefixes kernel = {"sim/"};
-const Prefixes base = {"sim/time.hpp", "sim/units.hpp", "sim/check.hpp"};
+const Prefixes base = {"sim/time.hpp", "sim/units.hpp", "sim/octets.hpp", "sim/check.hpp"};
 const Prefixes models = {"models/"};
 const Prefixes protocol = {"wire/", "uadp/", "pubsub/", "program/", "handshake/", "dds/", "gateway/"};
 const Prefixes scenario = {"scenario/"};

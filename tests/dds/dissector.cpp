@@ -11,7 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "dds/message/writer.hpp"
+#include "dds/message/octets.hpp"
 
 namespace takt::dds::test {
 namespace {

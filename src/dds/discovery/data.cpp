@@ -16,7 +16,7 @@ static_assert(static_cast<std::size_t>(DataVerdict::not_understood) + 1 == verdi
 /// Writes a payload: the encapsulation, the parameters that `put_all` puts, the sentinel.
 template <class PutAll>
 Octets encode_list(std::span<std::byte> target, PutAll put_all) {
-  Writer writer(target);
+  Writer writer(target, ByteOrder::little);
   detail::put_big_endian(writer, static_cast<std::uint32_t>(Encapsulation::pl_cdr_le) << 16, 4);
   ParameterWriter list(writer);
   put_all(list);

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "dds/message/encapsulation.hpp"
-#include "dds/message/writer.hpp"
+#include "dds/message/octets.hpp"
 
 namespace takt::dds {
 

@@ -5,7 +5,7 @@
 #include "dds/message/flags.hpp"
 #include "dds/message/fragments.hpp"
 #include "dds/message/parameter_list.hpp"
-#include "dds/message/reader.hpp"
+#include "dds/message/octets.hpp"
 #include "dds/message/wire_values.hpp"
 
 namespace takt::dds {

@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "dds/message/reader.hpp"
+#include "dds/message/octets.hpp"
 
 namespace takt::dds {
 

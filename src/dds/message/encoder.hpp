@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dds/message/submessage.hpp"
-#include "dds/message/writer.hpp"
+#include "dds/message/octets.hpp"
 
 namespace takt::dds {
 

@@ -3,8 +3,7 @@
 
 #include <optional>
 
-#include "dds/message/reader.hpp"
-#include "dds/message/writer.hpp"
+#include "dds/message/octets.hpp"
 
 namespace takt::dds {
 

@@ -1,9 +1,8 @@
 // The small values that submessages and parameters are made of (DDSI-RTPS 9.3, 9.4.2), read and written.
 #pragma once
 
-#include "dds/message/reader.hpp"
+#include "dds/message/octets.hpp"
 #include "dds/message/submessage.hpp"
-#include "dds/message/writer.hpp"
 
 namespace takt::dds {
 

@@ -33,7 +33,7 @@ std::vector<Event> events_of(const scenario::Resolved& r, std::size_t program) {
   for (const scenario::ResolvedAction& action : r.script) {
     if (action.at.since_start() >= r.scenario.duration) continue;
     if (const auto* const call = std::get_if<scenario::ResolvedCall>(&action.what); call != nullptr && is_near(call->program)) events.push_back({action.at, true});
-    if (const auto* const plug = std::get_if<scenario::ResolvedPlug>(&action.what); plug != nullptr && is_near(plug->program)) events.push_back({action.at, false});
+    if (const auto* const change = std::get_if<scenario::ResolvedMembership>(&action.what); change != nullptr && is_near(change->program)) events.push_back({action.at, false});
     if (const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what)) {
       bool is_here = false;
       for (std::size_t p = 0; p < r.programs.size(); ++p) is_here = is_here || (is_near(p) && takes_part(r.programs[p], node->node));

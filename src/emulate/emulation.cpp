@@ -359,7 +359,7 @@ class Emulation {
     if (status != "Good") refusal = method + " on " + node.name + ": " + status;
     return true;
   }
-  bool act(const PlugAction& change, sim::Duration) {
+  bool act(const MembershipAction& change, sim::Duration) {
     LiveNode& node = nodes_[change.node];
     node.is_absent = !change.joins;
     return ask_once(node, change.joins ? "Join" : "Leave");

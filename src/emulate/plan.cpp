@@ -138,11 +138,11 @@ class Planner {
         plan_.actions.push_back({at, CallAction{n, part, call.method, is_of_role ? std::optional(static_cast<std::uint8_t>(call.participant - 1)) : std::nullopt}});
       }
   }
-  void add(sim::Duration at, const scenario::ResolvedPlug& change) {
+  void add(sim::Duration at, const scenario::ResolvedMembership& change) {
     const auto found = std::find_if(plan_.nodes.begin(), plan_.nodes.end(), [&](const PlannedNode& node) {
       return node.parts.front().program == change.program && node.parts.front().candidate == change.candidate;
     });
-    plan_.actions.push_back({at, PlugAction{static_cast<std::uint32_t>(found - plan_.nodes.begin()), change.joins}});
+    plan_.actions.push_back({at, MembershipAction{static_cast<std::uint32_t>(found - plan_.nodes.begin()), change.joins}});
   }
   void add(sim::Duration at, const scenario::ResolvedLink& change) {
     const auto found = std::find_if(plan_.cables.begin(), plan_.cables.end(), [&](const Cable& cable) { return cable.link == change.link; });

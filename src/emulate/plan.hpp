@@ -47,7 +47,7 @@ struct CallAction {
   std::optional<std::uint8_t> role{};  ///< not on the node, which is the master, but on whoever has this role then
 };
 /// A candidate joins or leaves.
-struct PlugAction {
+struct MembershipAction {
   std::uint32_t node = 0;
   bool joins = false;
 };
@@ -62,7 +62,7 @@ struct HostAction {
 };
 struct Action {
   sim::Duration at;  ///< after all nodes have started
-  std::variant<CallAction, LinkAction, HostAction, PlugAction> what;
+  std::variant<CallAction, LinkAction, HostAction, MembershipAction> what;
 };
 
 struct Plan {

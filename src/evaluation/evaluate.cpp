@@ -109,7 +109,7 @@ ProgramResult result_of(const scenario::Run& run, std::size_t index, TrueTime fr
     result.violations.push_back({violation.time, std::string(handshake::name_of(violation.violation.invariant)),
                                  result.participants[violation.violation.participant], std::string(handshake::text_of(violation.violation.finding))});
   add_tree(run, index, from, result);
-  if (const scenario::PlugMonitor* const roles = run.roles(index))
+  if (const scenario::RoleMonitor* const roles = run.roles(index))
     for (const scenario::BindingRecord& record : roles->history())
       result.bindings.push_back({record.time, program.participant_names[record.role + std::size_t{1}],
                                  record.candidate ? run.resolved().topology.nodes[program.candidates()[*record.candidate].node.value].name : ""});

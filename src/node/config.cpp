@@ -152,8 +152,8 @@ class Checker {
 
   void check(const ScriptEntry& entry) {
     if (loaded_.programs.empty()) return;
-    if (entry.plug) {
-      check_plug(entry);
+    if (entry.membership) {
+      check_membership(entry);
       return;
     }
     const auto program = entry.program ? number_of(*entry.program, entry.where.at("program")) : outermost(loaded_.programs);
@@ -165,12 +165,12 @@ class Checker {
     loaded_.script.push_back({entry.at, *program, *entry.call});
   }
 
-  void check_plug(const ScriptEntry& entry) {
+  void check_membership(const ScriptEntry& entry) {
     const auto named = entry.program ? number_of(*entry.program, entry.where.at("program")) : std::nullopt;
     if (entry.program && !named) return;
     const auto offered = offered_in(loaded_.programs);
     if (offered && (!named || named == offered))
-      loaded_.script.push_back({entry.at, *offered, *entry.plug});
+      loaded_.script.push_back({entry.at, *offered, *entry.membership});
     else if (!diagnostics_.has_errors())
       diagnostics_.error(entry.where.at("plug"), "not a candidate of the program", {json::quote(config_.node), "a node that offers a skill a role needs"});
   }

@@ -54,14 +54,14 @@ struct EthernetTransport {
 using Transport = std::variant<UdpTransport, EthernetTransport>;
 
 /// What a node that offers its skills does as a whole.
-enum class Plug : std::uint8_t { join, leave };
+enum class Membership : std::uint8_t { join, leave };
 
 struct ScriptEntry {
   json::Source where;
   std::optional<std::string> program;  ///< the only one that is not nested in another of this node, if absent
   Duration at;  ///< after the start of this node
   std::optional<Method> call;          ///< or
-  std::optional<Plug> plug;
+  std::optional<Membership> membership;
   bool operator==(const ScriptEntry&) const = default;
 };
 
@@ -104,7 +104,7 @@ const json::Enumeration& describe(json::Type<ClockName>);
 const json::Object& describe(json::Type<UdpTransport>);
 const json::Object& describe(json::Type<EthernetTransport>);
 const json::Tagged& describe(json::Type<Transport>);
-const json::Enumeration& describe(json::Type<Plug>);
+const json::Enumeration& describe(json::Type<Membership>);
 const json::Object& describe(json::Type<ScriptEntry>);
 const json::Enumeration& describe(json::Type<SourceKind>);
 const json::Object& describe(json::Type<Source>);
@@ -120,7 +120,7 @@ struct LoadedProgram : wire::NodeSettings {
 struct LoadedCall {
   Duration at;
   std::size_t program = 0;  ///< in LoadedConfig::programs
-  std::variant<program::Method, Plug> what;
+  std::variant<program::Method, Membership> what;
 };
 
 /// A file that has been checked, and the endpoints that it asks for.

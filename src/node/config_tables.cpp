@@ -46,10 +46,10 @@ const json::Tagged& describe(json::Type<Transport>) {
   return table;
 }
 
-const json::Enumeration& describe(json::Type<Plug>) {
-  static constexpr json::EnumName names[] = {name(Plug::join, "join", "it announces its skills from now on"),
-                                             name(Plug::leave, "leave", "it asks to be let go, and is silent from then on")};
-  static constexpr json::Enumeration table = json::enumeration<Plug>("what a node that offers its skills does", names);
+const json::Enumeration& describe(json::Type<Membership>) {
+  static constexpr json::EnumName names[] = {name(Membership::join, "join", "it announces its skills from now on"),
+                                             name(Membership::leave, "leave", "it asks to be let go, and is silent from then on")};
+  static constexpr json::Enumeration table = json::enumeration<Membership>("what a node that offers its skills does", names);
   return table;
 }
 
@@ -57,7 +57,7 @@ const json::Object& describe(json::Type<ScriptEntry>) {
   static constexpr json::Field fields[] = {
       required<&ScriptEntry::at>("at", "After the start of this node.", {.max = 3600_s}),
       optional<&ScriptEntry::call>("call", "The method that is called here."),
-      optional<&ScriptEntry::plug>("plug", "This node joins or leaves."),
+      optional<&ScriptEntry::membership>("plug", "This node joins or leaves."),
       optional<&ScriptEntry::program>("program", "Of which program; the only one that is not nested in another of this node, if absent."),
   };
   static constexpr std::string_view members[] = {"call", "plug"};

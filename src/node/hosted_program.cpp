@@ -48,10 +48,10 @@ program::StatusCode HostedProgram::call(program::Method method) {
   return status;
 }
 
-program::StatusCode HostedProgram::plug(Plug what) {
+program::StatusCode HostedProgram::change(Membership what) {
   if (!is_candidate()) return program::StatusCode::BadInvalidState;
-  log_.plugged(now_ns(), what);
-  carry_out(what == Plug::join ? part_.join(now()) : part_.leave(now()));
+  log_.membership(now_ns(), what);
+  carry_out(what == Membership::join ? part_.join(now()) : part_.leave(now()));
   return program::StatusCode::Good;
 }
 

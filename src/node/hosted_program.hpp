@@ -39,7 +39,7 @@ class HostedProgram {
   void start();
   program::StatusCode call(program::Method method);
   /// BadInvalidState where the node offers no skills.
-  program::StatusCode plug(Plug what);
+  program::StatusCode change(Membership what);
   void finished() { carry_out(part_.finished(now())); }
   /// A message of any Program has come.
   void receive(uadp::Octets message) { carry_out(part_.receive(now(), message)); }

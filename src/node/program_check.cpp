@@ -63,7 +63,7 @@ void check_offers(const Config& config, std::span<const Program> programs, json:
 std::optional<wire::RoleSettings> roles_at(const Config& config, const Program& program, const wire::ProgramShape& shape) {
   if (program.roles.empty()) return std::nullopt;
   wire::RoleSettings roles;
-  roles.format = std::make_shared<const wire::PlugFormat>(plant::plug_shape_of(shape, program.roles, program.candidates));
+  roles.format = std::make_shared<const wire::RoleFormat>(plant::role_shape_of(shape, program.roles, program.candidates));
   roles.announce_cycle = plant::announce_every_of(program);
   roles.restarts = program.on_replacement == OnReplacement::restart;
   if (config.node == program.master) return roles;

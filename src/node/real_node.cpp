@@ -131,7 +131,7 @@ void RealNode::act(const LoadedCall& call) {
   if (const auto* const method = std::get_if<program::Method>(&call.what))
     hosted.call(*method);
   else
-    hosted.plug(std::get<Plug>(call.what));
+    hosted.change(std::get<Membership>(call.what));
 }
 
 void RealNode::take_requests() {
@@ -143,7 +143,7 @@ std::string RealNode::answer_to(std::string_view request) {
   const std::string_view word = request.substr(0, request.find(' '));
   const std::string_view of = word.size() < request.size() ? request.substr(word.size() + 1) : std::string_view();
   if (word == "status" && of.empty()) return status();
-  if (word == "join" || word == "leave") return answer_to_plug(word == "join" ? Plug::join : Plug::leave, of);
+  if (word == "join" || word == "leave") return answer_to_membership(word == "join" ? Membership::join : Membership::leave, of);
   std::string problem;
   const auto program = program_for(of, problem);
   if (!program) return fmt::format("{{\"error\": {}}}", json::quote(problem));
@@ -158,7 +158,7 @@ std::string RealNode::answer_to(std::string_view request) {
 }
 
 /// Without a name: in the only Program to which the node offers its skills.
-std::string RealNode::answer_to_plug(Plug what, std::string_view of) {
+std::string RealNode::answer_to_membership(Membership what, std::string_view of) {
   std::string problem;
   auto found = std::find_if(programs_.begin(), programs_.end(), [](const auto& program) { return program->is_candidate(); });
   if (!of.empty()) {
@@ -167,7 +167,7 @@ std::string RealNode::answer_to_plug(Plug what, std::string_view of) {
     if (!programs_[*program]->is_candidate()) found = programs_.end();
   }
   if (found == programs_.end()) return fmt::format("{{\"error\": {}}}", json::quote(config_.node + " is not a candidate for roles" + (of.empty() ? "" : " of " + std::string(of))));
-  return answer_of(**found, what == Plug::join ? "Join" : "Leave", (*found)->plug(what));
+  return answer_of(**found, what == Membership::join ? "Join" : "Leave", (*found)->change(what));
 }
 
 std::string RealNode::answer_of(const HostedProgram& hosted, std::string_view method, program::StatusCode status) const {

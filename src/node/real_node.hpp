@@ -32,7 +32,7 @@ class RealNode {
   program::StatusCode call(program::Method method, std::size_t program = 0) { return programs_[program]->call(method); }
   void finished(std::size_t program = 0) { programs_[program]->finished(); }
   /// A node that offers its skills joins or leaves.
-  program::StatusCode plug(Plug what, std::size_t program = 0) { return programs_[program]->plug(what); }
+  program::StatusCode change(Membership what, std::size_t program = 0) { return programs_[program]->change(what); }
 
   handshake::PublishedState state(std::size_t program = 0) const { return programs_[program]->state(); }
   /// State, peers and statistics as JSON.
@@ -50,7 +50,7 @@ class RealNode {
   void take_received();
   void take_requests();
   std::string answer_to(std::string_view request);
-  std::string answer_to_plug(Plug what, std::string_view of);
+  std::string answer_to_membership(Membership what, std::string_view of);
   std::string answer_of(const HostedProgram& hosted, std::string_view method, program::StatusCode status) const;
   /// The Program that a request is for; nothing, and `problem` says why, if that cannot be told.
   std::optional<std::size_t> program_for(std::string_view name, std::string& problem) const;

@@ -70,8 +70,8 @@ void TransitionLog::dropped_role(std::int64_t time) {
   names_ = program_;
 }
 
-void TransitionLog::plugged(std::int64_t time, Plug what) {
-  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"{}\"}}\n", time, program_, what == Plug::join ? "join" : "leave"));
+void TransitionLog::membership(std::int64_t time, Membership what) {
+  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"{}\"}}\n", time, program_, what == Membership::join ? "join" : "leave"));
 }
 
 void TransitionLog::ended(const NodeStatus& status) { write(file_, "{\"event\": \"end\", " + to_json(status).substr(1) + "\n"); }

@@ -27,7 +27,7 @@ class TransitionLog {
   /// This node has a role from now on, as this life, and what it does there is named with it. Or it has none any more.
   void took_role(std::int64_t time, std::string_view role, std::uint32_t life);
   void dropped_role(std::int64_t time);
-  void plugged(std::int64_t time, Plug what);
+  void membership(std::int64_t time, Membership what);
 
   void ended(const NodeStatus& status);
 

@@ -63,8 +63,8 @@ wire::EndpointSettings endpoint_settings(const Program& program, std::uint8_t pa
   return settings;
 }
 
-wire::PlugShape plug_shape_of(wire::ProgramShape program, std::span<const Role> roles, std::vector<std::string> candidates) {
-  wire::PlugShape shape;
+wire::RoleShape role_shape_of(wire::ProgramShape program, std::span<const Role> roles, std::vector<std::string> candidates) {
+  wire::RoleShape shape;
   shape.program = std::move(program);
   for (const Role& role : roles) shape.skills.push_back(handshake::skill_id(role.skill));
   shape.candidates = std::move(candidates);

@@ -9,9 +9,9 @@
 #include "handshake/participant.hpp"
 #include "plant/role.hpp"
 #include "plant/program.hpp"
-#include "wire/plug_format.hpp"
 #include "wire/program_endpoint.hpp"
 #include "wire/program_shape.hpp"
+#include "wire/role_format.hpp"
 
 namespace takt::plant {
 
@@ -30,7 +30,7 @@ wire::ProgramShape shape_of(const Program& program, std::uint16_t first_publishe
 wire::EndpointSettings endpoint_settings(const Program& program, std::uint8_t participant);
 
 /// Of a group with roles, which are the participants of `program` behind the master.
-wire::PlugShape plug_shape_of(wire::ProgramShape program, std::span<const Role> roles, std::vector<std::string> candidates);
+wire::RoleShape role_shape_of(wire::ProgramShape program, std::span<const Role> roles, std::vector<std::string> candidates);
 /// The skills that a node offers.
 std::vector<handshake::SkillId> skill_ids_of(std::span<const std::string> skills);
 

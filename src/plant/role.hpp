@@ -1,4 +1,4 @@
-// What files say of plug and produce: roles that a group needs, instead of slaves by name.
+// What files say of roles that a group needs, instead of slaves by name.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The vocabulary of plug and produce.
+// The words of roles.
 #include "plant/role.hpp"
 
 namespace takt::plant {

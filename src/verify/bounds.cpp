@@ -203,7 +203,7 @@ class Prover {
   analysis::EventsInARow all_events() const {
     analysis::EventsInARow all;
     for (const scenario::ResolvedAction& action : resolved_.script) {
-      if (std::holds_alternative<scenario::ResolvedCall>(action.what) || std::holds_alternative<scenario::ResolvedPlug>(action.what)) ++all.calls;
+      if (std::holds_alternative<scenario::ResolvedCall>(action.what) || std::holds_alternative<scenario::ResolvedMembership>(action.what)) ++all.calls;
       if (std::holds_alternative<scenario::ResolvedNode>(action.what)) ++all.faults;
     }
     return all;

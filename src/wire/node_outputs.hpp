@@ -16,7 +16,7 @@
 #include "pubsub/stack.hpp"
 #include "sim/time.hpp"
 #include "uadp/octets.hpp"
-#include "wire/plug_format.hpp"
+#include "wire/role_format.hpp"
 
 namespace takt::wire {
 

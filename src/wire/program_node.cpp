@@ -43,7 +43,7 @@ void ProgramNode::begin() {
   }
   endpoint_ ? endpoint_->forget(settings_.endpoint.handshake.incarnation) : static_cast<void>(endpoint_.emplace(settings_.endpoint));
   if (!settings_.roles) return;
-  const PlugFormat& format = *settings_.roles->format;
+  const RoleFormat& format = *settings_.roles->format;
   binder_.emplace(format.shape().skills, format.candidates(), settings_.roles->restarts);
   endpoint_->expect_nobody();
   arrivals_.resize(format.candidates());

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "handshake/binder.hpp"
-#include "wire/plug_format.hpp"
 #include "wire/program_endpoint.hpp"
+#include "wire/role_format.hpp"
 
 namespace takt::wire {
 
@@ -29,7 +29,7 @@ struct Offer {
 
 /// Of a Program whose roles are bound while it runs. Without them each participant has had its role from the beginning.
 struct RoleSettings {
-  std::shared_ptr<const PlugFormat> format;
+  std::shared_ptr<const RoleFormat> format;
   sim::Duration announce_cycle;            ///< above 0; of announcements and of the table
   bool restarts = false;                   ///< the group goes on by itself when a lost role is bound again
   std::optional<Offer> offer;              ///< the master makes none

@@ -144,9 +144,9 @@ TEST(Plan, RolesHaveCandidates) {
   const std::vector<Action>& actions = planned.plan.actions;
   ASSERT_EQ(actions.size(), 4u);
   EXPECT_EQ(std::get<CallAction>(actions[0].what).role, std::nullopt);
-  EXPECT_TRUE(std::get<PlugAction>(actions[1].what).joins);
-  EXPECT_EQ(std::get<PlugAction>(actions[1].what).node, 2u);
-  EXPECT_EQ(std::get<PlugAction>(actions[2].what).node, 1u);
+  EXPECT_TRUE(std::get<MembershipAction>(actions[1].what).joins);
+  EXPECT_EQ(std::get<MembershipAction>(actions[1].what).node, 2u);
+  EXPECT_EQ(std::get<MembershipAction>(actions[2].what).node, 1u);
   EXPECT_EQ(std::get<CallAction>(actions[3].what).node, 0u);
   EXPECT_EQ(std::get<CallAction>(actions[3].what).role, 0);
   for (const PlannedNode& node : planned.plan.nodes) {

@@ -56,7 +56,7 @@ void operate(test::WordBench& bench, Input& input) {
   switch (operation % 8) {
     case 0: bench.call(node, program::methods[input.next() % program::methods.size()].method, seat); break;
     case 1: bench.finished(node, seat); break;
-    case 2: bench.plug(node, input.next() % 2 == 0 ? node::Plug::join : node::Plug::leave); break;
+    case 2: bench.change(node, input.next() % 2 == 0 ? node::Membership::join : node::Membership::leave); break;
     case 3: bench.call(0, program::Method::Start); break;
     case 4: bench.run(milliseconds(1 + input.next() % 16)); break;
     default: forge(bench, input);
@@ -73,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   bench.run(milliseconds(20));
   for (int operations = 0; operations < most_operations && !input.is_empty(); ++operations) operate(bench, input);
   if (kind == "paper") return 0;  // whose words say too little to tell a forged one from a late one
-  for (std::size_t i = 1; i < bench.size(); ++i) bench.plug(i, node::Plug::join);
+  for (std::size_t i = 1; i < bench.size(); ++i) bench.change(i, node::Membership::join);
   bench.run(milliseconds(100));
   // A Program that has finished, or is suspended, is halted first.
   if (!bench.all_in(PublishedState::Running) && !bench.all_in(PublishedState::Halted)) bench.call(0, program::Method::Halt);

@@ -1,7 +1,7 @@
 // Who gets which role, and what becomes of the group when somebody comes or goes.
 #include <gtest/gtest.h>
 
-#include "plug.hpp"
+#include "roles.hpp"
 
 namespace takt::handshake {
 namespace {
@@ -13,9 +13,9 @@ using enum PublishedState;
 constexpr SkillId weld = 1;
 constexpr SkillId grip = 2;
 
-std::uint8_t candidate_of(const PlugGroup& group, std::size_t role) { return group.binder().binding(role).candidate; }
+std::uint8_t candidate_of(const RoleGroup& group, std::size_t role) { return group.binder().binding(role).candidate; }
 
-PlugGroup running(PlugGroup group, std::initializer_list<std::size_t> joined) {
+RoleGroup running(RoleGroup group, std::initializer_list<std::size_t> joined) {
   for (const std::size_t c : joined) group.join(c);
   group.rounds(2);
   EXPECT_EQ(group.call(0, Method::Start), StatusCode::Good) << group.describe();
@@ -24,8 +24,8 @@ PlugGroup running(PlugGroup group, std::initializer_list<std::size_t> joined) {
   return group;
 }
 
-TEST(Plug, WhoAnnouncesASkillGetsTheRole) {
-  PlugGroup group({weld, grip}, {{grip}, {weld}, {weld, grip}});
+TEST(Roles, WhoAnnouncesASkillGetsTheRole) {
+  RoleGroup group({weld, grip}, {{grip}, {weld}, {weld, grip}});
   EXPECT_EQ(group.call(0, Method::Start), StatusCode::BadInvalidState) << "nobody has a role";
   group.join(0);
   group.rounds(2);
@@ -40,8 +40,8 @@ TEST(Plug, WhoAnnouncesASkillGetsTheRole) {
   EXPECT_TRUE(group.all_in(Running)) << group.describe();
 }
 
-TEST(Plug, OneIsMovedIfThatFillsOneMoreRole) {
-  PlugGroup group({weld, grip}, {{weld, grip}, {weld}});
+TEST(Roles, OneIsMovedIfThatFillsOneMoreRole) {
+  RoleGroup group({weld, grip}, {{weld, grip}, {weld}});
   group.join(0);
   group.rounds(2);
   EXPECT_EQ(candidate_of(group, 0), 0) << "the first role, for want of others";
@@ -54,8 +54,8 @@ TEST(Plug, OneIsMovedIfThatFillsOneMoreRole) {
   EXPECT_TRUE(group.all_in(Running)) << group.describe();
 }
 
-TEST(Plug, ALateJoinerIsASpareWhileTheGroupRuns) {
-  PlugGroup group = running(PlugGroup({weld}, {{weld}, {weld}}), {0});
+TEST(Roles, ALateJoinerIsASpareWhileTheGroupRuns) {
+  RoleGroup group = running(RoleGroup({weld}, {{weld}, {weld}}), {0});
   group.join(1);
   group.rounds(3);
   EXPECT_TRUE(group.all_in(Running)) << "nobody stops for it";
@@ -63,8 +63,8 @@ TEST(Plug, ALateJoinerIsASpareWhileTheGroupRuns) {
   EXPECT_TRUE(group.binder().present(1));
 }
 
-TEST(Plug, ASpareReplacesTheSilentOneAndTheOperatorStarts) {
-  PlugGroup group = running(PlugGroup({weld, grip}, {{weld}, {grip}, {weld}}), {0, 1, 2});
+TEST(Roles, ASpareReplacesTheSilentOneAndTheOperatorStarts) {
+  RoleGroup group = running(RoleGroup({weld, grip}, {{weld}, {grip}, {weld}}), {0, 1, 2});
   group.silent(0, 0);
   group.rounds(4, 1);
   EXPECT_EQ(candidate_of(group, 0), 2) << group.describe();
@@ -79,8 +79,8 @@ TEST(Plug, ASpareReplacesTheSilentOneAndTheOperatorStarts) {
   EXPECT_TRUE(group.all_in(Running) && group.observer.violations().empty()) << group.describe();
 }
 
-TEST(Plug, OnReplacementItStartsAgainByItself) {
-  PlugGroup group = running(PlugGroup({weld, grip}, {{weld}, {grip}, {weld}}, true), {0, 1, 2});
+TEST(Roles, OnReplacementItStartsAgainByItself) {
+  RoleGroup group = running(RoleGroup({weld, grip}, {{weld}, {grip}, {weld}}, true), {0, 1, 2});
   group.silent(0, 0);
   group.rounds(10, 1);
   EXPECT_TRUE(group.all_in(Running)) << group.describe();
@@ -88,8 +88,8 @@ TEST(Plug, OnReplacementItStartsAgainByItself) {
   EXPECT_TRUE(group.observer.violations().empty()) << group.describe();
 }
 
-TEST(Plug, ButNotWithoutASpareNorAfterAHalt) {
-  PlugGroup group = running(PlugGroup({weld}, {{weld}, {weld}}, true), {0});
+TEST(Roles, ButNotWithoutASpareNorAfterAHalt) {
+  RoleGroup group = running(RoleGroup({weld}, {{weld}, {weld}}, true), {0});
   group.silent(0, 0);
   group.rounds(6, 1);
   EXPECT_EQ(group.master().state(), Halted);
@@ -100,8 +100,8 @@ TEST(Plug, ButNotWithoutASpareNorAfterAHalt) {
   EXPECT_TRUE(group.all_in(Halted)) << group.describe();
 }
 
-TEST(Plug, ALeaverIsLetGoThroughAHalt) {
-  PlugGroup group = running(PlugGroup({weld}, {{weld}, {weld}}, true), {0, 1});
+TEST(Roles, ALeaverIsLetGoThroughAHalt) {
+  RoleGroup group = running(RoleGroup({weld}, {{weld}, {weld}}, true), {0, 1});
   group.leave(0);
   group.rounds(10);
   EXPECT_EQ(candidate_of(group, 0), 1);
@@ -113,8 +113,8 @@ TEST(Plug, ALeaverIsLetGoThroughAHalt) {
   EXPECT_TRUE(group.binder().present(0)) << "it may come back as a spare";
 }
 
-TEST(Plug, ARestartedNodeIsBoundAgain) {
-  PlugGroup group = running(PlugGroup({weld}, {{weld}}), {0});
+TEST(Roles, ARestartedNodeIsBoundAgain) {
+  RoleGroup group = running(RoleGroup({weld}, {{weld}}), {0});
   group.restart(1);
   group.rounds(6);
   EXPECT_TRUE(group.all_in(Halted)) << group.describe();
@@ -123,8 +123,8 @@ TEST(Plug, ARestartedNodeIsBoundAgain) {
   EXPECT_TRUE(group.all_in(Running) && group.observer.violations().empty()) << group.describe();
 }
 
-TEST(Plug, ARestartedMasterFindsItsNodesAgain) {
-  PlugGroup group = running(PlugGroup({weld, grip}, {{weld}, {grip}}), {0, 1});
+TEST(Roles, ARestartedMasterFindsItsNodesAgain) {
+  RoleGroup group = running(RoleGroup({weld, grip}, {{weld}, {grip}}), {0, 1});
   group.restart(0);
   group.rounds(6);
   EXPECT_TRUE(group.all_in(Halted)) << group.describe();
@@ -133,15 +133,15 @@ TEST(Plug, ARestartedMasterFindsItsNodesAgain) {
   EXPECT_TRUE(group.all_in(Running) && group.observer.violations().empty()) << group.describe();
 }
 
-TEST(Plug, WordsOfOneThatWasLetGoCountNothing) {
-  PlugGroup group = running(PlugGroup({weld}, {{weld}, {weld}}), {0, 1});
-  const std::vector<PlugMessage> late = group.messages(1);
+TEST(Roles, WordsOfOneThatWasLetGoCountNothing) {
+  RoleGroup group = running(RoleGroup({weld}, {{weld}, {weld}}), {0, 1});
+  const std::vector<RoleMessage> late = group.messages(1);
   group.silent(0, 0);
   group.rounds(4, 1);
   ASSERT_EQ(group.call(0, Method::Start), StatusCode::Good) << group.describe();
   group.rounds(6, 1);
   ASSERT_TRUE(group.all_in(Running)) << group.describe();
-  for (const PlugMessage& message : late) group.deliver(message);
+  for (const RoleMessage& message : late) group.deliver(message);
   EXPECT_TRUE(group.all_in(Running)) << group.describe();
 }
 

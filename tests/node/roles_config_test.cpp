@@ -55,7 +55,7 @@ TEST(RolesConfig, OfACandidate) {
   EXPECT_EQ(loaded.roles->announce_cycle, Duration::from_ps(10'000'000'000));
   EXPECT_EQ(offered_in(load.loaded->programs), 0u);
   ASSERT_EQ(load.loaded->script.size(), 3u);
-  EXPECT_EQ(std::get<Plug>(load.loaded->script[0].what), Plug::join);
+  EXPECT_EQ(std::get<Membership>(load.loaded->script[0].what), Membership::join);
   EXPECT_EQ(std::get<program::Method>(load.loaded->script[2].what), program::Method::Halt);
 }
 

@@ -93,9 +93,9 @@ class Bench {
     EXPECT_EQ(outputs.status, program::StatusCode::Good);
     stations_[0]->carry_out(outputs);
   }
-  void plug(std::size_t station, Plug what) {
+  void change(std::size_t station, Membership what) {
     wire::ProgramNode& candidate = *stations_[station]->member;
-    stations_[station]->carry_out(what == Plug::join ? candidate.join(now_) : candidate.leave(now_));
+    stations_[station]->carry_out(what == Membership::join ? candidate.join(now_) : candidate.leave(now_));
   }
   void run(sim::Duration until) {
     while (!events_.empty() && events_.top().time <= sim::LocalTime() + until) {
@@ -171,9 +171,9 @@ TEST(SameOctets, OfMastersAndCandidates) {
   Said there = simulated();
   Said here;
   Bench bench(here);
-  bench.at(20_ms + 300_us, [&] { bench.plug(2, Plug::join); });
+  bench.at(20_ms + 300_us, [&] { bench.change(2, Membership::join); });
   bench.at(50_ms + 300_us, [&] { bench.call(program::Method::Start); });
-  bench.at(100_ms + 300_us, [&] { bench.plug(1, Plug::leave); });
+  bench.at(100_ms + 300_us, [&] { bench.change(1, Membership::leave); });
   bench.at(150_ms + 300_us, [&] { bench.call(program::Method::Suspend); });
   bench.run(200_ms);
   EXPECT_EQ(bench.bound, (std::vector<std::string>{"0a", "1c", "0b"}));

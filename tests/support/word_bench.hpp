@@ -71,8 +71,8 @@ class WordBench {
     return outputs.status;
   }
   void finished(std::size_t node, std::size_t seat = 0) { nodes_[node]->seats[seat]->carry_out(member(node, seat).finished(now_)); }
-  void plug(std::size_t node, node::Plug what) {
-    if (member(node).candidate() != nullptr) nodes_[node]->seats[0]->carry_out(what == node::Plug::join ? member(node).join(now_) : member(node).leave(now_));
+  void change(std::size_t node, node::Membership what) {
+    if (member(node).candidate() != nullptr) nodes_[node]->seats[0]->carry_out(what == node::Membership::join ? member(node).join(now_) : member(node).leave(now_));
   }
 
   void run(sim::Duration duration) {

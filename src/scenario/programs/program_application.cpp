@@ -4,7 +4,7 @@
 
 namespace takt::scenario {
 
-ProgramApplication::ProgramApplication(Settings settings, ProgramMonitor& monitor, PlugMonitor* roles, models::NodeIndex host)
+ProgramApplication::ProgramApplication(Settings settings, ProgramMonitor& monitor, RoleMonitor* roles, models::NodeIndex host)
     : state_stream_(settings.state_stream),
       role_stream_(settings.role_stream),
       data_streams_(std::move(settings.data_streams)),

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "models/host/application.hpp"
-#include "scenario/programs/plug_monitor.hpp"
 #include "scenario/programs/reply_worker.hpp"
+#include "scenario/programs/role_monitor.hpp"
 #include "wire/nesting.hpp"
 #include "wire/program_node.hpp"
 
@@ -24,7 +24,7 @@ class ProgramApplication final : public models::Application {
   };
 
   /// `roles`: null without them. `host`: the node.
-  ProgramApplication(Settings settings, ProgramMonitor& monitor, PlugMonitor* roles, models::NodeIndex host);
+  ProgramApplication(Settings settings, ProgramMonitor& monitor, RoleMonitor* roles, models::NodeIndex host);
 
   /// Joins two Programs on one host; both outlive what is returned, which outlives their use.
   static std::unique_ptr<wire::Nesting> nest(ProgramApplication& outer, models::HostServices& outer_host, ProgramApplication& inner, models::HostServices& inner_host);
@@ -68,7 +68,7 @@ class ProgramApplication final : public models::Application {
   std::vector<std::optional<models::StreamIndex>> data_streams_;
   std::optional<ReplyWorker> replies_;
   ProgramMonitor* monitor_;
-  PlugMonitor* roles_;
+  RoleMonitor* roles_;
   models::NodeIndex host_;
   wire::ProgramNode node_;
   std::vector<sim::TrueTime> heard_;   ///< by peer; the beginning for one that was never heard

@@ -104,7 +104,7 @@ class ProgramFaults {
   }
 
   void add(std::size_t, const ResolvedCall&) {}
-  void add(std::size_t, const ResolvedPlug&) {}
+  void add(std::size_t, const ResolvedMembership&) {}
   void add(std::size_t, const ResolvedGates&) {}
 
   /// Once for both directions.

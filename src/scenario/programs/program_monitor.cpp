@@ -9,7 +9,7 @@ constexpr std::uint32_t state_changed = 100;
 constexpr std::uint32_t method_called = 101;
 constexpr std::uint32_t data_received = 102;
 constexpr std::uint32_t crashed = 103;
-constexpr std::uint32_t word_changed = 105;  // 104: see plug_monitor.cpp
+constexpr std::uint32_t word_changed = 105;  // 104: see role_monitor.cpp
 
 /// All that a word says.
 std::uint64_t content_of(const handshake::Word& word) {

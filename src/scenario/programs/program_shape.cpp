@@ -10,7 +10,7 @@ ProgramFormats formats_of(const ResolvedProgram& program, const Topology& topolo
   if (!program.has_roles()) return formats;
   std::vector<std::string> candidates;
   for (const ResolvedMember& each : program.candidates()) candidates.push_back(topology.nodes[each.node.value].name);
-  formats.roles = std::make_shared<const wire::PlugFormat>(plant::plug_shape_of(shape, program.description->roles, std::move(candidates)));
+  formats.roles = std::make_shared<const wire::RoleFormat>(plant::role_shape_of(shape, program.description->roles, std::move(candidates)));
   return formats;
 }
 

@@ -4,14 +4,14 @@
 #include <memory>
 
 #include "scenario/resolve/resolved.hpp"
-#include "wire/plug_format.hpp"
+#include "wire/role_format.hpp"
 
 namespace takt::scenario {
 
 /// The messages of a program; those of roles only if it has some.
 struct ProgramFormats {
   std::shared_ptr<const wire::ProgramFormat> program;
-  std::shared_ptr<const wire::PlugFormat> roles;
+  std::shared_ptr<const wire::RoleFormat> roles;
 };
 ProgramFormats formats_of(const ResolvedProgram& program, const Topology& topology);
 

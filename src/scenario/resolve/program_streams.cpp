@@ -5,7 +5,7 @@
 #include "models/ethernet/sizes.hpp"
 #include "uadp/builtin_type.hpp"
 #include "plant/protocol.hpp"
-#include "wire/plug_format.hpp"
+#include "wire/role_format.hpp"
 
 namespace takt::scenario {
 namespace {

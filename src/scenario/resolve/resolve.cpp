@@ -22,11 +22,11 @@
 #include "scenario/resolve/known_names.hpp"
 #include "scenario/resolve/nesting.hpp"
 #include "scenario/resolve/os_profiles.hpp"
-#include "scenario/resolve/plug.hpp"
 #include "scenario/resolve/policing.hpp"
 #include "scenario/resolve/program_streams.hpp"
 #include "scenario/resolve/replies.hpp"
 #include "scenario/resolve/requirements.hpp"
+#include "scenario/resolve/roles.hpp"
 #include "scenario/resolve/stream_builder.hpp"
 #include "scenario/resolve/trace_file.hpp"
 #include "scenario/resolve/windows.hpp"
@@ -294,7 +294,7 @@ class Resolver {
       check_caller(entry);
       add_call(entry);
     }
-    if (entry.join || entry.leave) resolve_plug_action(r_, entry, diagnostics_);
+    if (entry.join || entry.leave) resolve_membership(r_, entry, diagnostics_);
     if (entry.call || (!entry.set_gates && !entry.join && !entry.leave)) return;
     for (const auto& [present, name] : {std::pair(entry.program.has_value(), "program"), std::pair(entry.on.has_value(), "on")})
       if (present) diagnostics_.error(entry.where.at(name), "does not belong to this action", {json::quote(name), "\"call\" with it"});

@@ -100,7 +100,7 @@ struct ResolvedCall {
 };
 
 /// A candidate begins to announce itself, or leaves.
-struct ResolvedPlug {
+struct ResolvedMembership {
   std::uint32_t program = 0;
   std::uint8_t candidate = 0;
   bool joins = false;
@@ -153,7 +153,7 @@ struct ResolvedClockFault {
 
 struct ResolvedAction {
   sim::TrueTime at;
-  std::variant<ResolvedCall, ResolvedPlug, ResolvedGates, ResolvedLink, ResolvedNode, ResolvedStuckGate, ResolvedRoutes, ResolvedClockFault> what;
+  std::variant<ResolvedCall, ResolvedMembership, ResolvedGates, ResolvedLink, ResolvedNode, ResolvedStuckGate, ResolvedRoutes, ResolvedClockFault> what;
 };
 
 /// The demand on one direction of a link.

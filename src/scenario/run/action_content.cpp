@@ -10,7 +10,7 @@ namespace {
 using sim::Content;
 
 Content content(const ResolvedCall& call) { return Content(call.program, call.participant, call.method); }
-Content content(const ResolvedPlug& change) { return Content(change.program, change.candidate, change.joins); }
+Content content(const ResolvedMembership& change) { return Content(change.program, change.candidate, change.joins); }
 Content content(const ResolvedLink& change) { return Content(change.link, change.up); }
 Content content(const ResolvedNode& change) { return Content(change.node.value, change.up); }
 

@@ -64,7 +64,7 @@ class Run::Script final : public sim::Component {
     else
       live.monitor->on_call(call.participant, call.method, program::StatusCode::BadInvalidState);
   }
-  void act(const ResolvedPlug& change) {
+  void act(const ResolvedMembership& change) {
     const LiveProgram& live = *run_->programs_[change.program];
     if (!change.joins && live.roles->has_role(change.candidate)) live.monitor->on_leave();
     const LiveMember& member = live.members[change.candidate + std::size_t{1}];
@@ -128,7 +128,7 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
     const auto state_of = [raw = live.get()](const handshake::Binding& binding) {
       return binding.bound() ? raw->members[binding.candidate + std::size_t{1}].application->state_of(binding.life) : std::nullopt;
     };
-    live->roles = std::make_unique<PlugMonitor>(simulation_, number, *live->monitor, formats.roles->roles(), std::move(candidates), state_of);
+    live->roles = std::make_unique<RoleMonitor>(simulation_, number, *live->monitor, formats.roles->roles(), std::move(candidates), state_of);
   }
   for (std::size_t m = 0; m < program.members.size(); ++m) {
     const ResolvedMember& member = program.members[m];

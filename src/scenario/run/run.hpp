@@ -44,7 +44,7 @@ class Run {
   const TopicApplication& application(std::size_t number) const { return *applications_[number]; }
   const DigitalOutput& signal(std::size_t number) const { return application_monitor_->signal(number); }
   /// Null for a program without roles.
-  const PlugMonitor* roles(std::size_t program) const { return programs_[program]->roles.get(); }
+  const RoleMonitor* roles(std::size_t program) const { return programs_[program]->roles.get(); }
   /// Of the master of a program with roles.
   const handshake::Binder& binder(std::size_t program) const { return *programs_[program]->members[0].application->node().binder(); }
 
@@ -60,7 +60,7 @@ class Run {
   };
   struct LiveProgram {
     std::unique_ptr<ProgramMonitor> monitor;
-    std::unique_ptr<PlugMonitor> roles;                   // only with roles
+    std::unique_ptr<RoleMonitor> roles;                   // only with roles
     std::vector<LiveMember> members;                      // by participant; with roles the master and the candidates
     /// Who is that participant now; null if nobody.
     const LiveMember* who_is(std::size_t participant) const;

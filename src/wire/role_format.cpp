@@ -1,4 +1,4 @@
-#include "wire/plug_format.hpp"
+#include "wire/role_format.hpp"
 
 #include "uadp/octets.hpp"
 
@@ -12,7 +12,7 @@ using uadp::RawField;
 constexpr std::size_t publisher_id_at = 2;
 constexpr std::size_t writer_group_at = 5;
 
-std::uint32_t version_of(const PlugShape& shape) {
+std::uint32_t version_of(const RoleShape& shape) {
   ProgramShape all = shape.program;
   for (const handshake::SkillId skill : shape.skills) all.participants.push_back(std::to_string(skill));
   all.participants.insert(all.participants.end(), shape.candidates.begin(), shape.candidates.end());
@@ -21,7 +21,7 @@ std::uint32_t version_of(const PlugShape& shape) {
 
 }  // namespace
 
-PlugFormat::PlugFormat(PlugShape shape) : shape_(std::move(shape)) {
+RoleFormat::RoleFormat(RoleShape shape) : shape_(std::move(shape)) {
   TAKT_CHECK(shape_.program.participants.size() == shape_.skills.size() + 1, "each role needs a skill");
   TAKT_CHECK(shape_.candidates.size() <= handshake::most_candidates, "a group has at most 64 candidates");
   uadp::PeriodicFixedLayout::Settings settings;
@@ -45,7 +45,7 @@ PlugFormat::PlugFormat(PlugShape shape) : shape_(std::move(shape)) {
   TAKT_CHECK(table_.front().size() == table_octets(roles(), candidates()), "a table has its length");
 }
 
-uadp::Octets PlugFormat::encode(const AnnouncementMessage& message, std::span<std::byte> target) const {
+uadp::Octets RoleFormat::encode(const AnnouncementMessage& message, std::span<std::byte> target) const {
   const uadp::PeriodicFixedLayout& layout = announcements_[message.candidate];
   layout.start(target, message.sequence);
   layout.set_header(target, 0, message.sequence);
@@ -56,7 +56,7 @@ uadp::Octets PlugFormat::encode(const AnnouncementMessage& message, std::span<st
   return target.first(layout.size());
 }
 
-uadp::Octets PlugFormat::encode(const TableMessage& message, std::span<std::byte> target) const {
+uadp::Octets RoleFormat::encode(const TableMessage& message, std::span<std::byte> target) const {
   const uadp::PeriodicFixedLayout& layout = table_.front();
   layout.start(target, message.sequence);
   layout.set_header(target, 0, message.sequence);
@@ -70,7 +70,7 @@ uadp::Octets PlugFormat::encode(const TableMessage& message, std::span<std::byte
   return target.first(layout.size());
 }
 
-auto PlugFormat::decode(uadp::Octets octets) const -> std::optional<std::variant<AnnouncementMessage, TableMessage>> {
+auto RoleFormat::decode(uadp::Octets octets) const -> std::optional<std::variant<AnnouncementMessage, TableMessage>> {
   if (octets.size() < fields_at) return std::nullopt;
   const auto group = uadp::load_little_endian<std::uint16_t>(octets.data() + writer_group_at);
   if (group == table_writer_group) {
@@ -86,7 +86,7 @@ auto PlugFormat::decode(uadp::Octets octets) const -> std::optional<std::variant
 }
 
 /// A master can say so: candidates that there are, each in one role at most, with lives that there are.
-bool PlugFormat::is_sound(const TableMessage& message) const {
+bool RoleFormat::is_sound(const TableMessage& message) const {
   std::uint64_t bound = 0;
   for (std::size_t role = 0; role < roles(); ++role) {
     const handshake::Binding& binding = message.bindings[role];
@@ -99,7 +99,7 @@ bool PlugFormat::is_sound(const TableMessage& message) const {
   return true;
 }
 
-std::optional<AnnouncementMessage> PlugFormat::decode_announcement(uadp::Octets octets, std::uint8_t candidate) const {
+std::optional<AnnouncementMessage> RoleFormat::decode_announcement(uadp::Octets octets, std::uint8_t candidate) const {
   const uadp::PeriodicFixedLayout& layout = announcements_[candidate];
   if (!layout.matches(octets)) return std::nullopt;
   AnnouncementMessage message;
@@ -114,7 +114,7 @@ std::optional<AnnouncementMessage> PlugFormat::decode_announcement(uadp::Octets 
   return message;
 }
 
-std::optional<TableMessage> PlugFormat::decode_table(uadp::Octets octets) const {
+std::optional<TableMessage> RoleFormat::decode_table(uadp::Octets octets) const {
   const uadp::PeriodicFixedLayout& layout = table_.front();
   if (!layout.matches(octets)) return std::nullopt;
   TableMessage message;

@@ -1,4 +1,4 @@
-#include "scenario/resolve/plug.hpp"
+#include "scenario/resolve/roles.hpp"
 
 #include <algorithm>
 #include <map>
@@ -108,7 +108,7 @@ void check_candidates(const Resolved& resolved, json::Diagnostics& diagnostics) 
   }
 }
 
-void resolve_plug_action(Resolved& resolved, const ScriptEntry& entry, json::Diagnostics& diagnostics) {
+void resolve_membership(Resolved& resolved, const ScriptEntry& entry, json::Diagnostics& diagnostics) {
   const std::string& name = entry.join ? *entry.join : *entry.leave;
   std::vector<std::string_view> names;
   for (std::uint32_t p = 0; p < resolved.programs.size(); ++p) {
@@ -116,7 +116,7 @@ void resolve_plug_action(Resolved& resolved, const ScriptEntry& entry, json::Dia
     for (std::size_t c = 0; c < program.candidates().size(); ++c) {
       names.push_back(resolved.topology.nodes[program.candidates()[c].node.value].name);
       if (names.back() != name) continue;
-      resolved.script.push_back({sim::TrueTime() + entry.at, ResolvedPlug{p, static_cast<std::uint8_t>(c), entry.join.has_value()}});
+      resolved.script.push_back({sim::TrueTime() + entry.at, ResolvedMembership{p, static_cast<std::uint8_t>(c), entry.join.has_value()}});
       return;
     }
   }

@@ -2,31 +2,31 @@
 #include <gtest/gtest.h>
 
 #include "support.hpp"
-#include "wire/plug_format.hpp"
+#include "wire/role_format.hpp"
 
 namespace takt::wire::test {
 namespace {
 
-PlugFormat format() {
-  PlugShape made;
+RoleFormat format() {
+  RoleShape made;
   made.program.name = "p";
   made.program.participants = {"m", "r0", "r1"};
   made.program.first_publisher_id = 0x0100;
   made.skills = {handshake::skill_id("welding"), handshake::skill_id("gripping")};
   made.candidates = {"a", "b", "c"};
-  return PlugFormat(std::move(made));
+  return RoleFormat(std::move(made));
 }
 
-TEST(PlugFormat, AnAnnouncementComesBack) {
-  const PlugFormat plug = format();
+TEST(RoleFormat, AnAnnouncementComesBack) {
+  const RoleFormat roles = format();
   AnnouncementMessage message{2, 77, {5, true, {}}};
   message.announcement.skills[0] = handshake::skill_id("welding");
   message.announcement.skills[7] = 9;
   std::array<std::byte, 200> buffer{};
-  const uadp::Octets octets = plug.encode(message, buffer);
+  const uadp::Octets octets = roles.encode(message, buffer);
   EXPECT_EQ(octets.size(), announcement_octets);
   EXPECT_EQ(announcement_octets, 57u);
-  const auto decoded = plug.decode(octets);
+  const auto decoded = roles.decode(octets);
   ASSERT_TRUE(decoded);
   const auto& back = std::get<AnnouncementMessage>(*decoded);
   EXPECT_EQ(back.candidate, 2);
@@ -35,17 +35,17 @@ TEST(PlugFormat, AnAnnouncementComesBack) {
   EXPECT_EQ(octets[2], std::byte{5}) << "0x0100, three participants, candidate 2";
 }
 
-TEST(PlugFormat, ATableComesBack) {
-  const PlugFormat plug = format();
+TEST(RoleFormat, ATableComesBack) {
+  const RoleFormat roles = format();
   TableMessage message;
   message.sequence = 3;
   message.incarnation = 0x01020304;
   message.bindings[1] = {2, 8};
   message.used_lives[0] = 6;
   std::array<std::byte, 200> buffer{};
-  const uadp::Octets octets = plug.encode(message, buffer);
+  const uadp::Octets octets = roles.encode(message, buffer);
   EXPECT_EQ(octets.size(), 24u + 2 * 5 + 3 * 4);
-  const auto decoded = plug.decode(octets);
+  const auto decoded = roles.decode(octets);
   ASSERT_TRUE(decoded);
   const auto& back = std::get<TableMessage>(*decoded);
   EXPECT_EQ(back.incarnation, 0x01020304u);
@@ -53,25 +53,25 @@ TEST(PlugFormat, ATableComesBack) {
   EXPECT_EQ(back.used_lives, message.used_lives);
 }
 
-TEST(PlugFormat, ForeignOnesAreRefused) {
-  const PlugFormat plug = format();
+TEST(RoleFormat, ForeignOnesAreRefused) {
+  const RoleFormat roles = format();
   std::array<std::byte, 200> buffer{};
-  const std::size_t size = plug.encode(AnnouncementMessage{0, 1, {1, false, {}}}, buffer).size();
+  const std::size_t size = roles.encode(AnnouncementMessage{0, 1, {1, false, {}}}, buffer).size();
   const uadp::Octets sound(buffer.data(), size);
-  ASSERT_TRUE(plug.decode(sound));
-  for (std::size_t length = 0; length < size; ++length) EXPECT_FALSE(plug.decode(sound.first(length))) << length;
+  ASSERT_TRUE(roles.decode(sound));
+  for (std::size_t length = 0; length < size; ++length) EXPECT_FALSE(roles.decode(sound.first(length))) << length;
   for (const std::size_t octet : {std::size_t{0}, std::size_t{3}, std::size_t{6}, std::size_t{8}}) {
     std::array<std::byte, 200> damaged = buffer;
     damaged[octet] ^= std::byte{0x40};
-    EXPECT_FALSE(plug.decode(uadp::Octets(damaged.data(), size))) << octet;
+    EXPECT_FALSE(roles.decode(uadp::Octets(damaged.data(), size))) << octet;
   }
   std::array<std::byte, 200> dead = buffer;
   std::fill_n(dead.begin() + fields_at, 4, std::byte{0});
-  EXPECT_FALSE(plug.decode(uadp::Octets(dead.data(), size))) << "life 0";
+  EXPECT_FALSE(roles.decode(uadp::Octets(dead.data(), size))) << "life 0";
   TableMessage table;
   table.bindings[0] = {7, 1};
-  const uadp::Octets octets = plug.encode(table, buffer);
-  EXPECT_FALSE(plug.decode(octets)) << "there is no candidate 7";
+  const uadp::Octets octets = roles.encode(table, buffer);
+  EXPECT_FALSE(roles.decode(octets)) << "there is no candidate 7";
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "roles.hpp"
 #include "schedule.hpp"
-#include "plug.hpp"
 
 namespace takt::handshake {
 namespace {
@@ -72,11 +72,11 @@ class World {
     const std::size_t c = action.a % (group.stations() - 1);
     switch (action.act) {
       case Act::Publish:
-        for (const PlugMessage& message : group.messages(station)) under_way.put(message);
+        for (const RoleMessage& message : group.messages(station)) under_way.put(message);
         break;
-      case Act::Deliver: under_way.deliver(action.a, action.b, 2 * group.stations(), [this](const PlugMessage& message) { group.deliver(message); }); break;
+      case Act::Deliver: under_way.deliver(action.a, action.b, 2 * group.stations(), [this](const RoleMessage& message) { group.deliver(message); }); break;
       case Act::Duplicate:
-        if (!under_way.empty()) group.deliver(PlugMessage(under_way[action.b % under_way.size()]));
+        if (!under_way.empty()) group.deliver(RoleMessage(under_way[action.b % under_way.size()]));
         break;
       case Act::Drop:
         if (!under_way.empty()) under_way.take(action.b % under_way.size());
@@ -94,12 +94,12 @@ class World {
       case Act::Leave: group.leave(c); break;
     }
   }
-  PlugGroup group;
-  UnderWay<PlugMessage> under_way{60};
+  RoleGroup group;
+  UnderWay<RoleMessage> under_way{60};
 };
 
 /// A start from whatever the group has come to.
-std::string start(PlugGroup& group, std::size_t silent_station, const char* when) {
+std::string start(RoleGroup& group, std::size_t silent_station, const char* when) {
   using program::Method;
   if (group.all_in(PublishedState::Running)) return {};
   const bool suspended = group.master().state() == PublishedState::Suspended;
@@ -109,7 +109,7 @@ std::string start(PlugGroup& group, std::size_t silent_station, const char* when
 }
 
 std::string judge(World& world, const std::vector<Action>& schedule, const Shape& shape, bool begin_running, bool* ran) {
-  PlugGroup& group = world.group;
+  RoleGroup& group = world.group;
   constexpr std::size_t nobody = ~std::size_t{0};
   if (begin_running) {
     for (std::size_t c = 0; c + 1 < group.stations(); ++c) group.join(c);
@@ -171,7 +171,7 @@ std::string print(const Shape& shape, const std::vector<Action>& schedule) {
   return text + handshake::print(schedule, act_names);
 }
 
-TEST(PlugSchedules, NothingBreaksAndRolesAreFilledInTheEnd) {
+TEST(RolesSchedules, NothingBreaksAndRolesAreFilledInTheEnd) {
   const std::uint64_t count = schedules_wanted(12'000, 400);
   std::uint64_t that_ran = 0;
   for (std::uint64_t seed = 1; seed <= count; ++seed) {

@@ -15,7 +15,7 @@
 namespace takt::handshake {
 
 /// An announcement, a table or a word under way. Candidate c is station c + 1, the master station 0.
-struct PlugMessage {
+struct RoleMessage {
   enum class Kind : std::uint8_t { Announcement, Table, Word };
   Kind kind = Kind::Word;
   std::size_t from = 0;
@@ -29,11 +29,11 @@ struct PlugMessage {
   std::uint32_t sent_in = 0;
 };
 
-class PlugGroup {
+class RoleGroup {
  public:
   using Member = Participant<4>;
 
-  PlugGroup(std::vector<SkillId> roles, std::vector<std::vector<SkillId>> offers, bool restarts = false)
+  RoleGroup(std::vector<SkillId> roles, std::vector<std::vector<SkillId>> offers, bool restarts = false)
       : observer(Variant::robust, roles.size() + 1), roles_(std::move(roles)), offers_(std::move(offers)), restarts_(restarts),
         master_(config(0, 1)), binder_(roles_, offers_.size(), restarts), members_(offers_.size()), role_observers_(roles_.size()),
         sequence_(offers_.size() + 1), heard_announcement_(offers_.size()), announced_(offers_.size()), heard_table_(offers_.size()), pending_(offers_.size() + 1) {
@@ -97,18 +97,18 @@ class PlugGroup {
     heard_table_[c] = {};
   }
 
-  std::vector<PlugMessage> messages(std::size_t station) {
-    std::vector<PlugMessage> made;
-    PlugMessage message;
+  std::vector<RoleMessage> messages(std::size_t station) {
+    std::vector<RoleMessage> made;
+    RoleMessage message;
     message.from = station;
     message.sequence = ++sequence_[station];
     if (station != 0) {
       const std::size_t c = station - 1;
-      message.kind = PlugMessage::Kind::Announcement;
+      message.kind = RoleMessage::Kind::Announcement;
       message.announcement = candidates_[c].announcement();
       if (candidates_[c].announces()) made.push_back(message);
       if (!members_[c]) return made;
-      message.kind = PlugMessage::Kind::Word;
+      message.kind = RoleMessage::Kind::Word;
       message.word = members_[c]->word();
       message.sender = members_[c]->config().index;
       message.sent_in = is_seen(c) ? observer.sending_run(message.sender) : 0;
@@ -116,12 +116,12 @@ class PlugGroup {
       return made;
     }
     for (message.to = 1; message.to < stations(); ++message.to) {
-      message.kind = PlugMessage::Kind::Table;
+      message.kind = RoleMessage::Kind::Table;
       message.table.assign(binder_.bindings().begin(), binder_.bindings().end());
       message.used_life = binder_.used_life(static_cast<std::uint8_t>(message.to - 1));
       message.word = master_.word();  // of a table: its incarnation
       made.push_back(message);
-      message.kind = PlugMessage::Kind::Word;
+      message.kind = RoleMessage::Kind::Word;
       message.sent_in = observer.sending_run(0);
       made.push_back(message);
       message.table.clear();
@@ -129,7 +129,7 @@ class PlugGroup {
     return made;
   }
 
-  void deliver(const PlugMessage& message) {
+  void deliver(const RoleMessage& message) {
     if (message.to == 0) deliver_to_master(message);
     else deliver_to_candidate(message, message.to - 1);
   }
@@ -145,7 +145,7 @@ class PlugGroup {
     for (std::size_t station = 0; station < stations(); ++station) {
       if (station == silent_station) continue;
       initialised(station);
-      for (const PlugMessage& message : messages(station))
+      for (const RoleMessage& message : messages(station))
         if (message.to != silent_station) deliver(message);
     }
   }
@@ -201,9 +201,9 @@ class PlugGroup {
             incarnation,     Subscription::star,                       false};
   }
 
-  void deliver_to_master(const PlugMessage& message) {
+  void deliver_to_master(const RoleMessage& message) {
     const std::size_t c = message.from - 1;
-    if (message.kind == PlugMessage::Kind::Announcement) {
+    if (message.kind == RoleMessage::Kind::Announcement) {
       if (heard_announcement_[c].take(message.announcement.life, message.sequence)) {
         announced_[c] = message.announcement;
         binder_.announced(static_cast<std::uint8_t>(c), message.announcement);
@@ -219,8 +219,8 @@ class PlugGroup {
     settle();
   }
 
-  void deliver_to_candidate(const PlugMessage& message, std::size_t c) {
-    if (message.kind == PlugMessage::Kind::Table) {
+  void deliver_to_candidate(const RoleMessage& message, std::size_t c) {
+    if (message.kind == RoleMessage::Kind::Table) {
       if (!heard_table_[c].take(message.word.incarnation, message.sequence)) return;
       const Candidate::Change change = candidates_[c].table(message.table, message.used_life);
       if (change == Candidate::Change::released) drop_member(c);
@@ -301,7 +301,7 @@ class PlugGroup {
   std::vector<std::optional<std::uint32_t>> pending_;    // by station: the run that is being initialised
 };
 
-inline std::uint64_t PlugGroup::hash() const {
+inline std::uint64_t RoleGroup::hash() const {
   std::uint64_t digest = observer.hash();
   const auto mix = [&digest](std::uint64_t value) {
     digest = (digest ^ value) * 0x9E3779B97F4A7C15ULL;

@@ -21,13 +21,13 @@ struct BindingRecord {
 
 /// A handshake::RoleObserver for each role before a ProgramMonitor. What an instant does to bindings counts from its end on, whatever else happens in it: a node
 /// that falls silent for the master when the master falls silent for it still takes its last step in its role.
-class PlugMonitor final : public sim::Component {
+class RoleMonitor final : public sim::Component {
  public:
   /// The state in which the participant of a binding's life is, if there is one.
   using StateOf = std::function<std::optional<handshake::PublishedState>(const handshake::Binding&)>;
 
   /// `nodes`: of the candidates.
-  PlugMonitor(sim::Simulation& simulation, std::uint32_t number, ProgramMonitor& program, std::size_t roles, std::vector<std::uint32_t> nodes, StateOf state_of)
+  RoleMonitor(sim::Simulation& simulation, std::uint32_t number, ProgramMonitor& program, std::size_t roles, std::vector<std::uint32_t> nodes, StateOf state_of)
       : simulation_(&simulation), number_(number), program_(&program), observers_(roles), nodes_(std::move(nodes)), state_of_(std::move(state_of)) {}
 
   void on_bound(std::size_t role, const handshake::Binding& binding);

@@ -1,4 +1,4 @@
-// The messages of plug and produce in UADP-Periodic-Fixed: announcements and the table of bindings. See README.md for the octets.
+// The messages of Programs with roles in UADP-Periodic-Fixed: announcements and the table of bindings. See README.md for the octets.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ constexpr std::uint32_t table_octets(std::size_t roles, std::size_t candidates) 
 }
 
 /// What all nodes of the group must know alike.
-struct PlugShape {
+struct RoleShape {
   ProgramShape program;                    ///< its participants are the master and the roles
   std::vector<handshake::SkillId> skills;  ///< that each role needs
   std::vector<std::string> candidates;     ///< names of the nodes that may have a role; their PublisherIds follow the participants'
@@ -43,11 +43,11 @@ struct TableMessage {
 };
 
 /// Makes and reads them. Constant, so all nodes of a simulated group may share one.
-class PlugFormat {
+class RoleFormat {
  public:
-  explicit PlugFormat(PlugShape shape);
+  explicit RoleFormat(RoleShape shape);
 
-  const PlugShape& shape() const { return shape_; }
+  const RoleShape& shape() const { return shape_; }
   std::size_t roles() const { return shape_.skills.size(); }
   std::size_t candidates() const { return announcements_.size(); }
 
@@ -61,7 +61,7 @@ class PlugFormat {
   bool is_sound(const TableMessage& message) const;
   std::optional<TableMessage> decode_table(uadp::Octets octets) const;
 
-  PlugShape shape_;
+  RoleShape shape_;
   std::vector<uadp::PeriodicFixedLayout> announcements_;  ///< by candidate
   std::vector<uadp::PeriodicFixedLayout> table_;          ///< the only one
 };

@@ -1,20 +1,20 @@
-#include "scenario/programs/plug_monitor.hpp"
+#include "scenario/programs/role_monitor.hpp"
 
 namespace takt::scenario {
 namespace {
 constexpr std::uint32_t role_bound = 104;  // kind of digest record; see program_monitor.cpp
 }
 
-void PlugMonitor::on_bound(std::size_t role, const handshake::Binding& binding) {
+void RoleMonitor::on_bound(std::size_t role, const handshake::Binding& binding) {
   if (bound_now_.empty()) simulation_->settle_later(*this);
   bound_now_.emplace_back(role, binding);
 }
 
-void PlugMonitor::settle(sim::Simulation&) {
+void RoleMonitor::settle(sim::Simulation&) {
   for (const auto& [role, binding] : std::exchange(bound_now_, {})) bind(role, binding);
 }
 
-void PlugMonitor::bind(std::size_t role, const handshake::Binding& binding) {
+void RoleMonitor::bind(std::size_t role, const handshake::Binding& binding) {
   const handshake::RoleObserver::Change change = observers_[role].on_bound(binding, state_of_(binding));
   if (!change.is_new) return;
   if (change.gone) program_->on_gone(role + 1, *change.gone);
@@ -25,20 +25,20 @@ void PlugMonitor::bind(std::size_t role, const handshake::Binding& binding) {
   history_.push_back({simulation_->now(), static_cast<std::uint8_t>(role), binding.bound() ? std::optional(binding.candidate) : std::nullopt});
 }
 
-void PlugMonitor::on_step(std::size_t role, const handshake::Binding& self, const handshake::Outputs& outputs, const handshake::Word& after) {
+void RoleMonitor::on_step(std::size_t role, const handshake::Binding& self, const handshake::Outputs& outputs, const handshake::Word& after) {
   if (observers_[role].on_step(self, after.state)) program_->on_step(role + 1, outputs, after);
 }
 
-void PlugMonitor::on_dropped(std::size_t role, const handshake::Binding& self, bool has_crashed) {
+void RoleMonitor::on_dropped(std::size_t role, const handshake::Binding& self, bool has_crashed) {
   const auto before = observers_[role].on_dropped(self);
   if (before) has_crashed ? program_->on_crash(role + 1, *before) : program_->on_gone(role + 1, *before);
 }
 
-void PlugMonitor::on_process_data(std::size_t role, const handshake::Binding& self, std::size_t from, std::uint32_t sent_in) {
+void RoleMonitor::on_process_data(std::size_t role, const handshake::Binding& self, std::size_t from, std::uint32_t sent_in) {
   if (observers_[role].counts(self)) program_->on_process_data(from, role + 1, sent_in);
 }
 
-bool PlugMonitor::has_role(std::uint8_t candidate) const {
+bool RoleMonitor::has_role(std::uint8_t candidate) const {
   for (std::size_t role = 0; role < observers_.size(); ++role)
     if (binding(role).bound() && binding(role).candidate == candidate) return true;
   return false;

@@ -10,28 +10,28 @@
 #include <tuple>
 #include <unordered_set>
 
-#include "plug.hpp"
+#include "roles.hpp"
 
 namespace takt::handshake {
 namespace {
 
 struct Budget {
   int commands = 0;
-  int plugs = 0;     ///< joins and leaves
+  int memberships = 0;     ///< joins and leaves
   int restarts = 0;
   int silences = 0;  ///< of a peer, or of announcements
 };
 
-using Register = std::tuple<PlugMessage::Kind, std::size_t, std::size_t>;  ///< kind, from, to
+using Register = std::tuple<RoleMessage::Kind, std::size_t, std::size_t>;  ///< kind, from, to
 
 struct State {
-  PlugGroup group;
-  std::map<Register, PlugMessage> registers;
+  RoleGroup group;
+  std::map<Register, RoleMessage> registers;
   Budget left;
 };
 
 void send(State& state, std::size_t station) {
-  for (PlugMessage& message : state.group.messages(station)) {
+  for (RoleMessage& message : state.group.messages(station)) {
     message.sequence = 0;  // on registers whatever is heard is the newest, or the same again
     state.registers[{message.kind, message.from, message.to}] = message;
   }
@@ -67,7 +67,7 @@ std::uint64_t hash_of(const State& state) {
     for (const Binding& binding : message.table) hash.mix(binding);
     hash.mix(message.used_life);
   }
-  hash.mix(static_cast<std::uint64_t>(state.left.commands + 16 * state.left.plugs + 256 * state.left.restarts + 4096 * state.left.silences));
+  hash.mix(static_cast<std::uint64_t>(state.left.commands + 16 * state.left.memberships + 256 * state.left.restarts + 4096 * state.left.silences));
   return hash.value();
 }
 
@@ -91,11 +91,11 @@ void successors(const State& state, const std::function<void(State&&)>& found) {
     if (station == 0) continue;
     const std::size_t candidate = station - 1;
     if (state.left.silences > 0) with([&](State& s) { --s.left.silences, s.group.announcement_missed(candidate); });
-    if (state.left.plugs == 0) continue;
+    if (state.left.memberships == 0) continue;
     if (state.group.candidate(candidate).announces())
-      with([&](State& s) { --s.left.plugs, s.group.leave(candidate); });
+      with([&](State& s) { --s.left.memberships, s.group.leave(candidate); });
     else
-      with([&](State& s) { --s.left.plugs, s.group.join(candidate); });
+      with([&](State& s) { --s.left.memberships, s.group.join(candidate); });
   }
   for (const auto& each : state.registers) with([&](State& s) { s.group.deliver(each.second); });
 }
@@ -122,7 +122,7 @@ bool settles(State state) {
 /// How many states there are; `running`: which candidates have had the role while all were Running.
 std::size_t explore(std::size_t candidates, bool restarts, const Budget& budget, std::uint64_t& running) {
   const SkillId skill = skill_id("welding");
-  State first{PlugGroup({skill}, std::vector<std::vector<SkillId>>(candidates, {skill}), restarts), {}, budget};
+  State first{RoleGroup({skill}, std::vector<std::vector<SkillId>>(candidates, {skill}), restarts), {}, budget};
   first.group.join(0);
   std::unordered_set<std::uint64_t> seen;  // hash compaction: enough for a test
   std::deque<State> open{std::move(first)};
@@ -162,9 +162,9 @@ constexpr Bound bounds[]{{1, false, {1, 2, 0, 0}, 1, 1007},  {1, true, {2, 1, 0,
 constexpr Bound bounds[]{{1, false, {1, 2, 0, 0}, 1, 1007}, {2, false, {1, 2, 0, 0}, 2, 10628}};
 #endif
 
-TEST(PlugExhaustive, NoOrderBreaksAnInvariantAndAllSettle) {
+TEST(RolesExhaustive, NoOrderBreaksAnInvariantAndAllSettle) {
   for (const Bound& bound : bounds) {
-    SCOPED_TRACE(testing::Message() << bound.candidates << " candidates, " << bound.budget.commands << " commands, " << bound.budget.plugs << " joins and leaves, " << bound.budget.restarts
+    SCOPED_TRACE(testing::Message() << bound.candidates << " candidates, " << bound.budget.commands << " commands, " << bound.budget.memberships << " joins and leaves, " << bound.budget.restarts
                                     << " restarts, " << bound.budget.silences << " silences");
     std::uint64_t running = 0;
     EXPECT_EQ(explore(bound.candidates, bound.restarts, bound.budget, running), bound.states);

@@ -12,6 +12,6 @@ void resolve_roles(const Resolved& resolved, StreamBuilder& builder, ResolvedPro
 /// After all programs have been resolved: a node offers its skills to one program.
 void check_candidates(const Resolved& resolved, json::Diagnostics& diagnostics);
 /// "join" or "leave" of the script.
-void resolve_plug_action(Resolved& resolved, const ScriptEntry& entry, json::Diagnostics& diagnostics);
+void resolve_membership(Resolved& resolved, const ScriptEntry& entry, json::Diagnostics& diagnostics);
 
 }  // namespace takt::scenario

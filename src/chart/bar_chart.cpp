@@ -1,5 +1,7 @@
 #include "chart/bar_chart.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "chart/axis.hpp"
@@ -19,16 +21,16 @@ std::string bar_chart(const std::string& title, const std::string& y_label, cons
     for (const LimitedBar& bar : group.bars) greatest = std::max({greatest, bar.value, bar.limit.value_or(0)});
   const Axis y(Scale::linear, 0, greatest * 1.05, bottom, top);
   Svg svg(std::max(right + 30, 640.0), height);
-  svg.text({left, 24}, title, {.size = 15, .bold = true});
+  svg.text({left, 24}, title, Anchor::start, Class{"title"});
   for (const Tick& tick : y.ticks()) {
-    svg.line({left, y.at(tick.value)}, {right, y.at(tick.value)}, {.colour = "#eee"});
-    svg.text({left - 8, y.at(tick.value) + 4}, tick.text, {.size = 11, .anchor = Anchor::end});
+    svg.line({left, y.at(tick.value)}, {right, y.at(tick.value)}, Class{"grid"});
+    svg.text({left - 8, y.at(tick.value) + 4}, tick.text, Anchor::end, Class{"tick"});
   }
-  svg.text({20, (top + bottom) / 2}, y_label, {.size = 11, .anchor = Anchor::middle, .upright = true});
+  svg.text({20, (top + bottom) / 2}, y_label, Anchor::middle, Class{"label"}, -90);
   double legend = left;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    svg.rectangle({legend, 36}, 12, 12, ink(k));
-    svg.text({legend + 17, 46}, kinds[k], {.size = 11});
+    svg.swatch({legend, 36}, 12, 12, palette(k));
+    svg.text({legend + 17, 46}, kinds[k], Anchor::start, Class{"label"});
     legend += 90;
   }
   const double bar_width = group_width * 0.8 / static_cast<double>(std::max<std::size_t>(1, kinds.size()));
@@ -37,22 +39,22 @@ std::string bar_chart(const std::string& title, const std::string& y_label, cons
     for (std::size_t k = 0; k < groups[g].bars.size(); ++k) {
       const LimitedBar& bar = groups[g].bars[k];
       const double x = start + bar_width * static_cast<double>(k);
-      svg.rectangle({x, y.at(bar.value)}, bar_width - 1, bottom - y.at(bar.value), ink(k));
-      if (bar.limit) svg.line({x - 1, y.at(*bar.limit)}, {x + bar_width, y.at(*bar.limit)}, {.colour = "#111", .width = 2});
+      svg.mark_rectangle({x, y.at(bar.value)}, bar_width - 1, bottom - y.at(bar.value), palette(k), fmt::format("{}, {}: {:g}", groups[g].name, kinds[k], bar.value));
+      if (bar.limit) svg.line({x - 1, y.at(*bar.limit)}, {x + bar_width, y.at(*bar.limit)}, Class{"limit"});
     }
     // Names of groups, one word below the other.
     double line = bottom + 16;
     std::string_view rest = groups[g].name;
     while (!rest.empty()) {
       const std::size_t space = rest.find(' ');
-      svg.text({start + group_width * 0.4, line}, rest.substr(0, space), {.size = 10, .anchor = Anchor::middle});
+      svg.text({start + group_width * 0.4, line}, rest.substr(0, space), Anchor::middle, Class{"tick"});
       line += 13;
       rest = space == std::string_view::npos ? std::string_view() : rest.substr(space + 1);
     }
   }
-  svg.line({left, bottom}, {right, bottom});
-  svg.line({left, top}, {left, bottom});
-  return svg.document();
+  svg.line({left, bottom}, {right, bottom}, Class{"axis"});
+  svg.line({left, top}, {left, bottom}, Class{"axis"});
+  return picture(svg.element(title));
 }
 
 }  // namespace takt::chart

@@ -48,7 +48,7 @@ void draw_legend(Svg& svg, const std::vector<std::string>& names, const std::vec
       x = left;
       y += line_height;
     }
-    svg.rectangle({x, y - 8}, 9, 9, colours[i]);
+    svg.swatch({x, y - 8}, 9, 9, colours[i]);
     svg.text({x + 13, y}, names[i], Anchor::start, Class{"legend"});
     x += needed;
   }
@@ -77,7 +77,7 @@ void draw_whisker(Svg& svg, double x, const Sample& sample, const Axis& y, const
   if (!sample.low || !sample.high || *sample.high <= *sample.low) return;
   std::string commands = fmt::format("M{} {}V{}", coordinate(x), coordinate(y.at(*sample.low)), coordinate(y.at(*sample.high)));
   for (const double end : {*sample.low, *sample.high}) commands += fmt::format("M{} {}h6", coordinate(x - 3), coordinate(y.at(end)));
-  svg.path(commands, colour.empty() ? "#222" : colour, Class{"whisker"});
+  svg.path(commands, colour.empty() ? std::string(strong) : colour, Class{"whisker"});
 }
 
 std::string title_of(const std::string& name, const std::string& x, const Sample& sample) {

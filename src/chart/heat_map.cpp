@@ -65,18 +65,18 @@ std::string draw(const HeatMap& chart) {
       const double x = x0 + width * static_cast<double>(c);
       const auto& cell = chart.cells[r][c];
       const std::string title = chart.columns[c] + ", " + chart.rows[r] + ": " + (cell ? number_text(*cell) + " " + chart.unit : "no result");
-      svg.mark_rectangle({x + 0.5, y + 0.5}, width - 1, height - 1, cell ? css(colour_at(share(*cell))) : "#ddd", title);
+      svg.mark_rectangle({x + 0.5, y + 0.5}, width - 1, height - 1, cell ? css(colour_at(share(*cell))) : std::string(faint), title);
       const std::string_view look = cell && share(*cell) > 0.45 ? "cell on-dark" : "cell";
       svg.text({x + width / 2, y + height / 2 + 4}, cell ? fmt::format("{:.4g}", *cell) : "-", Anchor::middle, Class{look});
       if (r < chart.marked.size() && c < chart.marked[r].size() && chart.marked[r][c])
-        svg.path(fmt::format("M{} {}h{}v{}h-{}z", coordinate(x + 1.5), coordinate(y + 1.5), coordinate(width - 3), coordinate(height - 3), coordinate(width - 3)), "#c0392b", Class{"curve"});
+        svg.path(fmt::format("M{} {}h{}v{}h-{}z", coordinate(x + 1.5), coordinate(y + 1.5), coordinate(width - 3), coordinate(height - 3), coordinate(width - 3)), {}, Class{"chosen"});
     }
   }
   for (std::size_t c = 0; c < chart.columns.size(); ++c) svg.text({x0 + width * (static_cast<double>(c) + 0.5), y1 + 15}, chart.columns[c].substr(0, 30), Anchor::middle, Class{"tick"});
   svg.text({(x0 + x1) / 2, y1 + 32}, chart.x_label, Anchor::middle, Class{"label"});
   svg.text({12, (y0 + y1) / 2}, chart.y_label, Anchor::middle, Class{"label"}, -90);
   if (low < high) {
-    for (int i = 0; i < 20; ++i) svg.rectangle({x0 + 6 * i, y1 + 42}, 6.2, 8, css(colour_at(i / 19.0)));
+    for (int i = 0; i < 20; ++i) svg.swatch({x0 + 6 * i, y1 + 42}, 6.2, 8, css(colour_at(i / 19.0)));
     svg.text({x0 + 126, y1 + 50}, scale, Anchor::start, Class{"note"});
   }
   return svg.element(chart.title);

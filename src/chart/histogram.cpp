@@ -1,5 +1,7 @@
 #include "chart/histogram.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,19 +18,19 @@ constexpr double plot_top = 40;
 constexpr double plot_bottom = plot_height - 55;
 
 void draw_axes(Svg& svg, const HistogramTexts& texts, const Axis& x, const Axis& y, double right) {
-  svg.text({plot_left, 24}, texts.title, {.size = 15, .bold = true});
+  svg.text({plot_left, 24}, texts.title, Anchor::start, Class{"title"});
   for (const Tick& tick : x.ticks()) {
-    svg.line({x.at(tick.value), plot_top}, {x.at(tick.value), plot_bottom}, {.colour = "#eee"});
-    svg.text({x.at(tick.value), plot_bottom + 18}, tick.text, {.size = 11, .anchor = Anchor::middle});
+    svg.line({x.at(tick.value), plot_top}, {x.at(tick.value), plot_bottom}, Class{"grid"});
+    svg.text({x.at(tick.value), plot_bottom + 18}, tick.text, Anchor::middle, Class{"tick"});
   }
   for (const Tick& tick : y.ticks()) {
-    svg.line({plot_left, y.at(tick.value)}, {right, y.at(tick.value)}, {.colour = "#eee"});
-    svg.text({plot_left - 8, y.at(tick.value) + 4}, tick.text, {.size = 11, .anchor = Anchor::end});
+    svg.line({plot_left, y.at(tick.value)}, {right, y.at(tick.value)}, Class{"grid"});
+    svg.text({plot_left - 8, y.at(tick.value) + 4}, tick.text, Anchor::end, Class{"tick"});
   }
-  svg.line({plot_left, plot_bottom}, {right, plot_bottom});
-  svg.line({plot_left, plot_top}, {plot_left, plot_bottom});
-  svg.text({(plot_left + right) / 2, plot_height - 14}, texts.x_label, {.anchor = Anchor::middle});
-  svg.text({20, (plot_top + plot_bottom) / 2}, texts.y_label, {.anchor = Anchor::middle, .upright = true});
+  svg.line({plot_left, plot_bottom}, {right, plot_bottom}, Class{"axis"});
+  svg.line({plot_left, plot_top}, {plot_left, plot_bottom}, Class{"axis"});
+  svg.text({(plot_left + right) / 2, plot_height - 14}, texts.x_label, Anchor::middle, Class{"label"});
+  svg.text({20, (plot_top + plot_bottom) / 2}, texts.y_label, Anchor::middle, Class{"label"}, -90);
 }
 
 }  // namespace
@@ -49,9 +51,9 @@ std::string histogram(const HistogramTexts& texts, const std::vector<Bar>& bars,
   for (const Bar& bar : bars) {
     const double from = x.at(bar.from);
     const double to = x.at(bar.to);
-    svg.rectangle({from, y.at(bar.height)}, std::max(0.5, to - from), plot_bottom - y.at(bar.height), ink(0));
+    svg.mark_rectangle({from, y.at(bar.height)}, std::max(0.5, to - from), plot_bottom - y.at(bar.height), palette(0), fmt::format("{:g} to {:g}: {:g}", bar.from, bar.to, bar.height));
   }
-  return svg.document();
+  return picture(svg.element(texts.title));
 }
 
 }  // namespace takt::chart

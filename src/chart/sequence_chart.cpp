@@ -27,28 +27,27 @@ std::string sequence_chart(const SequenceChart& chart) {
   const double end = first_row + row_height * static_cast<double>(rows.size());
   const double width = x_of(chart.participants.size() - 1) + 190;
   Svg svg(width, end + 20);
-  svg.text({20, 26}, chart.title, {.size = 15, .bold = true});
+  svg.text({20, 26}, chart.title, Anchor::start, Class{"title"});
   for (std::size_t p = 0; p < chart.participants.size(); ++p) {
-    svg.line({x_of(p), 80}, {x_of(p), end}, {.colour = "#999"});
-    svg.rectangle({x_of(p) - 65, 45}, 130, 36, "#eef3f8", "#1b6ca8", 4);
-    svg.text({x_of(p), 60}, chart.participants[p], {.size = 12, .anchor = Anchor::middle, .bold = true});
-    svg.text({x_of(p), 75}, chart.states[p], {.size = 11, .anchor = Anchor::middle});
+    svg.line({x_of(p), 80}, {x_of(p), end}, Class{"axis"});
+    svg.rectangle({x_of(p) - 65, 45}, 130, 36, Class{"box"}, 4);
+    svg.text({x_of(p), 60}, chart.participants[p], Anchor::middle, Class{"strong"});
+    svg.text({x_of(p), 75}, chart.states[p], Anchor::middle, Class{"label"});
   }
   for (const std::int64_t row : rows)
-    if (chart.label) svg.text({20, y_of(row) + 4}, chart.label(row), {.size = 11, .anchor = Anchor::start, .colour = "#777"});
+    if (chart.label) svg.text({20, y_of(row) + 4}, chart.label(row), Anchor::start, Class{"note"});
   for (const SequenceMessage& message : chart.messages) {
     const Point from{x_of(message.from), y_of(message.sent)};
     const Point to{x_of(message.to), y_of(message.received)};
-    svg.line(from, to, {.colour = "#333", .width = 1.2, .dashed = true, .arrow = true});
-    svg.text({(from.x + to.x) / 2, (from.y + to.y) / 2 - 9}, message.text, {.size = 11, .anchor = Anchor::middle});
+    svg.line(from, to, Class{"arrow dashed"});
+    svg.text({(from.x + to.x) / 2, (from.y + to.y) / 2 - 9}, message.text, Anchor::middle, Class{"label"});
   }
   for (const SequenceStep& step : chart.steps) {
     const bool leftmost = step.participant == 0;
-    svg.rectangle({x_of(step.participant) - 5, y_of(step.time) - 9}, 10, 18, "#1b6ca8");
-    svg.text({x_of(step.participant) + (leftmost ? -12 : 12), y_of(step.time) + 4}, step.text,
-             {.size = 12, .anchor = leftmost ? Anchor::end : Anchor::start, .bold = true});
+    svg.mark_rectangle({x_of(step.participant) - 5, y_of(step.time) - 9}, 10, 18, palette(0), step.text);
+    svg.text({x_of(step.participant) + (leftmost ? -12 : 12), y_of(step.time) + 4}, step.text, leftmost ? Anchor::end : Anchor::start, Class{"strong"});
   }
-  return svg.document();
+  return picture(svg.element(chart.title));
 }
 
 }  // namespace takt::chart

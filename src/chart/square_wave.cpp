@@ -39,22 +39,21 @@ std::string draw(const SquareWaves& waves) {
   const double height = trace_height * static_cast<double>(std::max<std::size_t>(waves.traces.size(), 1));
   const Axis time(Scale::linear, waves.from, waves.from + divisions * waves.division, traces_left, traces_left + traces_width);
   Svg svg(traces_left + traces_width + 30, traces_top + height + 50);
-  svg.text({traces_left, 26}, waves.title, {.size = 15, .bold = true});
-  svg.rectangle({traces_left, traces_top}, traces_width, height, "#12242e", "#12242e", 4);
+  svg.text({traces_left, 26}, waves.title, Anchor::start, Class{"title"});
+  svg.rectangle({traces_left, traces_top}, traces_width, height, Class{"screen"}, 4);
   for (int i = 1; i < divisions; ++i) {
     const double x = traces_left + traces_width * i / divisions;
-    svg.line({x, traces_top}, {x, traces_top + height}, {.colour = "#34505d"});
+    svg.line({x, traces_top}, {x, traces_top + height}, Class{"screen-grid"});
   }
-  static constexpr const char* colours[] = {"#f4d35e", "#7fd1c7", "#e58fb1", "#a8c686"};
   for (std::size_t i = 0; i < waves.traces.size(); ++i) {
     const double low = traces_top + trace_height * static_cast<double>(i) + 85;
-    if (i > 0) svg.line({traces_left, low - 85}, {traces_left + traces_width, low - 85}, {.colour = "#34505d"});
-    svg.text({traces_left - 8, low - swing / 2 + 4}, waves.traces[i].name, {.size = 11, .anchor = Anchor::end});
-    svg.polyline(line_of(waves.traces[i], time, low), {.colour = colours[i % std::size(colours)], .width = 1.8});
+    if (i > 0) svg.line({traces_left, low - 85}, {traces_left + traces_width, low - 85}, Class{"screen-grid"});
+    svg.text({traces_left - 8, low - swing / 2 + 4}, waves.traces[i].name, Anchor::end, Class{"label"});
+    svg.polyline(line_of(waves.traces[i], time, low), screen_palette(i), Class{"curve"});
   }
-  svg.text({traces_left, traces_top + height + 18}, fmt::format("{:g} {} a division", waves.division, waves.unit), {.size = 11});
-  svg.text({traces_left, traces_top + height + 36}, waves.note, {.size = 11, .colour = "#555"});
-  return svg.document();
+  svg.text({traces_left, traces_top + height + 18}, fmt::format("{:g} {} a division", waves.division, waves.unit), Anchor::start, Class{"label"});
+  svg.text({traces_left, traces_top + height + 36}, waves.note, Anchor::start, Class{"note"});
+  return picture(svg.element(waves.title));
 }
 
 }  // namespace takt::chart

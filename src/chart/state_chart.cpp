@@ -1,5 +1,7 @@
 #include "chart/state_chart.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,23 +25,26 @@ Point edge_of(const StateBox& box, Point target) {
 
 std::string state_chart(const std::string& title, const std::vector<StateBox>& states, const std::vector<TransitionArc>& arcs, double width, double height) {
   Svg svg(width, height);
-  svg.text({20, 26}, title, {.size = 15, .bold = true});
+  svg.text({20, 26}, title, Anchor::start, Class{"title"});
   for (const TransitionArc& arc : arcs) {
     const StateBox& a = states[arc.from];
     const StateBox& b = states[arc.to];
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     const double bow = 46;   // to the right of the way, so that there and back lie apart
     const Point control{(a.x + b.x) / 2 - (b.y - a.y) / length * bow, (a.y + b.y) / 2 + (b.x - a.x) / length * bow};
-    svg.curve(edge_of(a, control), control, edge_of(b, control), {.width = 1.4, .dashed = arc.dashed, .arrow = true});
+    const Point from = edge_of(a, control);
+    const Point to = edge_of(b, control);
+    svg.path(fmt::format("M{} {}Q{} {} {} {}", coordinate(from.x), coordinate(from.y), coordinate(control.x), coordinate(control.y), coordinate(to.x), coordinate(to.y)), {},
+             Class{arc.dashed ? "arrow dashed" : "arrow"});
     const Point label{(a.x + b.x) / 4 + control.x / 2, (a.y + b.y) / 4 + control.y / 2};
-    svg.rectangle({label.x - 3.6 * static_cast<double>(arc.text.size()), label.y - 9}, 7.2 * static_cast<double>(arc.text.size()), 16, "#fff");
-    svg.text({label.x, label.y + 4}, arc.text, {.size = 11, .anchor = Anchor::middle});
+    svg.rectangle({label.x - 3.6 * static_cast<double>(arc.text.size()), label.y - 9}, 7.2 * static_cast<double>(arc.text.size()), 16, Class{"paper"});
+    svg.text({label.x, label.y + 4}, arc.text, Anchor::middle, Class{"label"});
   }
   for (const StateBox& state : states) {
-    svg.rectangle({state.x - half_width, state.y - half_height}, 2 * half_width, 2 * half_height, "#eef3f8", "#1b6ca8", 10);
-    svg.text({state.x, state.y + 5}, state.name, {.size = 14, .anchor = Anchor::middle, .bold = true});
+    svg.rectangle({state.x - half_width, state.y - half_height}, 2 * half_width, 2 * half_height, Class{"box"}, 10);
+    svg.text({state.x, state.y + 5}, state.name, Anchor::middle, Class{"strong"});
   }
-  return svg.document();
+  return picture(svg.element(title));
 }
 
 }  // namespace takt::chart

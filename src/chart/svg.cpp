@@ -10,11 +10,6 @@ namespace {
 
 constexpr std::array<std::string_view, 3> anchors = {"start", "middle", "end"};
 
-std::string attributes(const Stroke& stroke) {
-  return fmt::format(R"(fill="none" stroke="{}" stroke-width="{:.1f}"{}{})", stroke.colour, stroke.width, stroke.dashed ? R"( stroke-dasharray="6 4")" : "",
-                     stroke.arrow ? R"-( marker-end="url(#arrow)")-" : "");
-}
-
 std::string ends(Point from, Point to) {
   return fmt::format(R"(x1="{}" y1="{}" x2="{}" y2="{}")", coordinate(from.x), coordinate(from.y), coordinate(to.x), coordinate(to.y));
 }
@@ -48,37 +43,25 @@ std::string coordinate(double value) {
   return text == "-0" ? "0" : text;
 }
 
-void Svg::line(Point from, Point to, const Stroke& stroke) { body_ += fmt::format("<line {} {}/>\n", ends(from, to), attributes(stroke)); }
-
 void Svg::line(Point from, Point to, Class look) { body_ += fmt::format("<line {} class=\"{}\"/>\n", ends(from, to), look.name); }
 
-void Svg::polyline(const std::vector<Point>& points, const Stroke& stroke) {
+void Svg::polyline(const std::vector<Point>& points, std::string_view colour, Class look) {
   body_ += "<polyline points=\"";
   for (const Point& point : points) body_ += coordinate(point.x) + "," + coordinate(point.y) + " ";
-  body_ += fmt::format("\" {}/>\n", attributes(stroke));
-}
-
-void Svg::curve(Point from, Point control, Point to, const Stroke& stroke) {
-  body_ += fmt::format("<path d=\"M{} {} Q{} {} {} {}\" {}/>\n", coordinate(from.x), coordinate(from.y), coordinate(control.x), coordinate(control.y), coordinate(to.x),
-                       coordinate(to.y), attributes(stroke));
+  body_ += fmt::format("\" stroke=\"{}\" class=\"{}\"/>\n", colour, look.name);
 }
 
 void Svg::path(std::string_view commands, std::string_view colour, Class look) {
-  body_ += fmt::format(R"(<path d="{}" stroke="{}" class="{}"/>)" "\n", commands, colour, look.name);
+  body_ += fmt::format(R"(<path d="{}"{} class="{}"/>)" "\n", commands, colour.empty() ? "" : fmt::format(R"( stroke="{}")", colour), look.name);
 }
 
-void Svg::rectangle(Point corner, double width, double height, std::string_view fill, std::string_view edge, double round) {
-  body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{}\" fill=\"{}\" stroke=\"{}\"/>\n", coordinate(corner.x), coordinate(corner.y), coordinate(width),
-                       coordinate(height), coordinate(round), fill, edge);
+void Svg::rectangle(Point corner, double width, double height, Class look, double round) {
+  body_ += fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}" rx="{}" class="{}"/>)" "\n", coordinate(corner.x), coordinate(corner.y), coordinate(width), coordinate(height),
+                       coordinate(round), look.name);
 }
 
-void Svg::circle(Point centre, double radius, std::string_view fill, std::string_view edge) {
-  body_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\" stroke=\"{}\"/>\n", coordinate(centre.x), coordinate(centre.y), coordinate(radius), fill, edge);
-}
-
-void Svg::text(Point at, std::string_view text, const TextStyle& style) {
-  body_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{:.0f}\" text-anchor=\"{}\" fill=\"{}\"{}{}>{}</text>\n", coordinate(at.x), coordinate(at.y), style.size,
-                       anchors[static_cast<std::size_t>(style.anchor)], style.colour, style.bold ? " font-weight=\"bold\"" : "", turned(style.upright ? -90 : 0, at), escaped(text));
+void Svg::swatch(Point corner, double width, double height, std::string_view colour) {
+  body_ += fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}" fill="{}"/>)" "\n", coordinate(corner.x), coordinate(corner.y), coordinate(width), coordinate(height), colour);
 }
 
 void Svg::text(Point at, std::string_view text, Anchor anchor, Class look, double turn) {
@@ -96,34 +79,33 @@ void Svg::mark_rectangle(Point corner, double width, double height, std::string_
                        coordinate(height), colour, escaped(title));
 }
 
-std::string Svg::document() const {
-  return fmt::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\">\n"
-             "<defs><marker id=\"arrow\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"8\" markerHeight=\"8\" markerUnits=\"userSpaceOnUse\" orient=\"auto\">"
-             "<path d=\"M0 0 L10 5 L0 10 z\" fill=\"#333\"/></marker></defs>\n"
-             "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#fff\"/>\n",
-             width_, height_) +
-         body_ + "</svg>\n";
-}
-
 std::string Svg::element(std::string_view label) const {
   return fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" role="img" aria-label="{2}">)" "\n{3}</svg>\n", coordinate(width_),
                      coordinate(height_), escaped(label), body_);
 }
 
 std::string_view style_sheet() {
-  return "svg text{font:11px system-ui,sans-serif;fill:#333}svg .title{font-weight:600;font-size:12px}svg .axis{stroke:#666;stroke-width:1}"
-         "svg .grid{stroke:#e4e4e4;stroke-width:1}svg .limit{stroke:#c0392b;stroke-width:1.5;stroke-dasharray:5 4}svg .whisker{fill:none;stroke-width:1}"
-         "svg .curve{fill:none;stroke-width:1.8}svg .area{stroke:none;opacity:.15}svg .note{fill:#555;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}svg .mark{cursor:default}svg .on-dark{fill:#fff}\n";
+  return "svg text{font:11px system-ui,sans-serif;fill:#333}svg .title{font-weight:600;font-size:12px}svg .strong{font-weight:600;font-size:12px}svg .axis{stroke:#666;stroke-width:1}"
+         "svg .grid{stroke:#e4e4e4;stroke-width:1}svg .limit{fill:none;stroke:#c0392b;stroke-width:1.5;stroke-dasharray:5 4}svg .whisker{fill:none;stroke-width:1}"
+         "svg .curve{fill:none;stroke-width:1.8}svg .chosen{fill:none;stroke:#c0392b;stroke-width:1.8}svg .area{stroke:none;opacity:.15}svg .arrow{fill:none;stroke:#333;stroke-width:1.3;marker-end:url(#arrow)}"
+         "svg .dashed{stroke-dasharray:6 4}svg .box{fill:#eef3f8;stroke:#0072b2}svg .paper{fill:#fff}svg .screen{fill:#12242e}svg .screen-grid{stroke:#34505d}"
+         "svg .note{fill:#555;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}svg .mark{cursor:default}svg .on-dark{fill:#fff}\n";
 }
 
-std::string_view ink(std::size_t number) {
-  static constexpr std::array<std::string_view, 8> colours = {"#1b6ca8", "#d1495b", "#2e8b57", "#e09f3e", "#6a4c93", "#3d405b", "#00798c", "#9c6644"};
-  return colours[number % colours.size()];
+std::string picture(std::string element) {
+  return element.insert(element.find('>') + 1, "<style>" + std::string(style_sheet()) +
+                                                   "</style><defs><marker id=\"arrow\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"8\" markerHeight=\"8\" "
+                                                   "markerUnits=\"userSpaceOnUse\" orient=\"auto\"><path d=\"M0 0 L10 5 L0 10 z\" fill=\"#333\"/></marker></defs>"
+                                                   "<rect width=\"100%\" height=\"100%\" class=\"paper\"/>");
 }
 
 std::string_view palette(std::size_t number) {
   static constexpr std::array<std::string_view, 8> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#999933"};
+  return colours[number % colours.size()];
+}
+
+std::string_view screen_palette(std::size_t number) {
+  static constexpr std::array<std::string_view, 4> colours = {"#f4d35e", "#7fd1c7", "#e58fb1", "#a8c686"};
   return colours[number % colours.size()];
 }
 

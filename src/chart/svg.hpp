@@ -1,5 +1,5 @@
-// A drawing as SVG text: elements in a given order. How they look stands in attributes (pictures that are files) or is left to a style sheet's class
-// (pictures in a page).
+// A drawing as SVG text: elements in a given order. How they look is left to the classes of one style sheet, which a page has once and a picture that is a file
+// brings along.
 #pragma once
 
 #include <string>
@@ -16,21 +16,6 @@ struct Point {
 
 enum class Anchor { start, middle, end };
 
-struct Stroke {
-  std::string_view colour = "#333";
-  double width = 1;
-  bool dashed = false;
-  bool arrow = false;   ///< at its end
-};
-
-struct TextStyle {
-  double size = 12;
-  Anchor anchor = Anchor::start;
-  std::string_view colour = "#222";
-  bool bold = false;
-  bool upright = false;  ///< reads from bottom to top
-};
-
 /// The look is what the style sheet says of this class.
 struct Class {
   std::string_view name;
@@ -45,24 +30,19 @@ class Svg {
  public:
   Svg(double width, double height) : width_(width), height_(height) {}
 
-  void line(Point from, Point to, const Stroke& stroke = {});
   void line(Point from, Point to, Class look);
-  void polyline(const std::vector<Point>& points, const Stroke& stroke);
-  /// A quadratic curve.
-  void curve(Point from, Point control, Point to, const Stroke& stroke);
-  /// A path of SVG commands.
+  void polyline(const std::vector<Point>& points, std::string_view colour, Class look);
+  /// A path of SVG commands; without a colour in that of its class.
   void path(std::string_view commands, std::string_view colour, Class look);
-  void rectangle(Point corner, double width, double height, std::string_view fill, std::string_view edge = "none", double round = 0);
-  void circle(Point centre, double radius, std::string_view fill, std::string_view edge = "none");
-  void text(Point at, std::string_view text, const TextStyle& style = {});
+  void rectangle(Point corner, double width, double height, Class look, double round = 0);
+  /// A piece of a legend.
+  void swatch(Point corner, double width, double height, std::string_view colour);
   /// Turned by so many degrees.
   void text(Point at, std::string_view text, Anchor anchor, Class look, double turn = 0);
   /// Marks stand for figures: they have the class `mark`, and `title` is shown when the mouse rests on them.
   void mark_circle(Point centre, double radius, std::string_view colour, std::string_view title);
   void mark_rectangle(Point corner, double width, double height, std::string_view colour, std::string_view title);
 
-  /// A document of its own, on white, with a line end after each line.
-  std::string document() const;
   /// One <svg> element for a page; `label` is what a screen reader reads.
   std::string element(std::string_view label) const;
 
@@ -72,12 +52,17 @@ class Svg {
   std::string body_;
 };
 
-/// What classes look like, once for a page (or for a file of one picture).
+/// What classes look like, once for a page.
 std::string_view style_sheet();
+/// An element as a file of its own: with the style sheet, and white behind it.
+std::string picture(std::string element);
 
-/// Colours of pictures that are files, again from the first on when they are used up.
-std::string_view ink(std::size_t number);
-/// Colours of series in a page; told apart by people who see few colours too (Okabe and Ito).
+/// Colours of series, again from the first on when they are used up; told apart by people who see few colours too (Okabe and Ito).
 std::string_view palette(std::size_t number);
+/// The same on the dark of a screen.
+std::string_view screen_palette(std::size_t number);
+/// What stands behind or before series.
+inline constexpr std::string_view faint = "#b8c4cc";
+inline constexpr std::string_view strong = "#222";
 
 }  // namespace takt::chart

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "chart/chart.hpp"
+#include "chart/svg.hpp"
 #include "study/effects.hpp"
 
 namespace takt::study {
@@ -186,11 +187,11 @@ std::string pareto_chart(const Content& content, std::size_t a, std::size_t b) {
   if (front.empty()) return {};
   const std::vector<Summary> of_a = by_variant(content, a);
   const std::vector<Summary> of_b = by_variant(content, b);
-  chart::Series all{"variants", {}, false, "#b8c4cc"};
+  chart::Series all{"variants", {}, false, std::string(chart::faint)};
   const std::size_t step = std::max<std::size_t>(1, content.variants.size() / most_points_shown);
   for (std::size_t v = 0; v < content.variants.size(); v += step)
     if (of_a[v].count > 0 && of_b[v].count > 0) all.samples.push_back({of_a[v].mean, of_b[v].mean, std::nullopt, std::nullopt});
-  chart::Series best{"Pareto front", {}, true, "#d55e00"};
+  chart::Series best{"Pareto front", {}, true, std::string(chart::palette(1))};
   for (const std::uint32_t v : front) best.samples.push_back({of_a[v].mean, of_b[v].mean, std::nullopt, std::nullopt});
   chart::LineChart line;
   line.title = content.measures[a].name + " against " + content.measures[b].name;

@@ -95,7 +95,7 @@ TEST(HeatMap, HasACellForEachPair) {
   map.marked = {{true, false, false}, {false, false, false}};
   const std::string svg = draw(map);
   EXPECT_EQ(count(svg, "class=\"mark\""), 6u);
-  EXPECT_EQ(count(svg, "class=\"curve\""), 1u);
+  EXPECT_EQ(count(svg, "class=\"chosen\""), 1u);
   EXPECT_NE(svg.find("no result"), std::string::npos);
 }
 

@@ -29,16 +29,16 @@ TEST(FixedAxis, TicksAreRound) {
   EXPECT_EQ(decades[3].text, "1000");
 }
 
-TEST(Svg, TextOfDocumentsIsEscaped) {
+TEST(Svg, TextIsEscaped) {
   Svg svg(10, 10);
-  svg.text({0, 0}, "a < b & \"c\"");
-  EXPECT_NE(svg.document().find("a &lt; b &amp; &quot;c&quot;"), std::string::npos);
+  svg.text({0, 0}, "a < b & \"c\"", Anchor::start, Class{"label"});
+  EXPECT_NE(svg.element("t").find("a &lt; b &amp; &quot;c&quot;"), std::string::npos);
 }
 
 TEST(Histogram, ABarForEachBucket) {
   const std::string drawn = histogram({"t", "x", "y"}, {{0.2, 0.3, 1}, {0.3, 0.4, 1000}}, 0.2, 0.7);
   std::size_t bars = 0;
-  for (std::size_t at = drawn.find("#1b6ca8"); at != std::string::npos; at = drawn.find("#1b6ca8", at + 1)) ++bars;
+  for (std::size_t at = drawn.find("class=\"mark\""); at != std::string::npos; at = drawn.find("class=\"mark\"", at + 1)) ++bars;
   EXPECT_EQ(bars, 2u);
 }
 
@@ -56,7 +56,7 @@ TEST(SequenceChart, MessagesGoFromRowToRow) {
 TEST(LimitedBars, WithoutALimitThereIsNoLine) {
   const auto lines = [](const std::string& text) {
     std::size_t count = 0;
-    for (std::size_t at = text.find("#111"); at != std::string::npos; at = text.find("#111", at + 1)) ++count;
+    for (std::size_t at = text.find("class=\"limit\""); at != std::string::npos; at = text.find("class=\"limit\"", at + 1)) ++count;
     return count;
   };
   EXPECT_EQ(lines(bar_chart("t", "y", {"k"}, {{"g", {{1, 2}}}})), 1u);

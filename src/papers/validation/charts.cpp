@@ -16,12 +16,6 @@ using chart::LineChart;
 using chart::Sample;
 using chart::Series;
 
-/// A picture in a file of its own: the style that a page would have, and white behind it.
-std::string file_of(std::string element) {
-  const std::size_t end = element.find('>') + 1;
-  return element.insert(end, "<style>" + std::string(chart::style_sheet()) + "</style><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>");
-}
-
 Figure ratios(const Validation& made) {
   LineChart chart;
   chart.title = "takt's figures as multiples of the published ones (those that must be at most or at least that much stand apart)";
@@ -40,7 +34,7 @@ Figure ratios(const Validation& made) {
     }
     chart.series.push_back(std::move(series));
   }
-  return {"ratios", file_of(draw(chart))};
+  return {"ratios", chart::picture(draw(chart))};
 }
 
 /// The place of each row: from the least to the greatest by what is published.
@@ -92,10 +86,10 @@ Figure rows_of(const Validation& made, std::size_t source) {
       if (each->kind == kinds[k] && each->takt_value) samples.push_back({places.at(each->row), *each->takt_value, {}, {}});
     add_curve(chart, "takt: " + kinds[k], std::string(chart::palette(k)), std::move(samples));
   }
-  Series marks{"published", {}, false, "#222"};
+  Series marks{"published", {}, false, std::string(chart::strong)};
   for (const auto& [x, y] : published) marks.samples.push_back({x, y, {}, {}});
   chart.series.push_back(std::move(marks));
-  return {made.sources[source].id, file_of(draw(chart))};
+  return {made.sources[source].id, chart::picture(draw(chart))};
 }
 
 }  // namespace

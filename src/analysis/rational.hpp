@@ -1,4 +1,7 @@
 // Exact fractions, for known answers of network calculus: no rounding anywhere.
+//
+// Our own, since boost::rational of 128 bits does not see that it overflows, and over Boost.Multiprecision, which does, each file that includes this would compile for
+// 2.7 s instead of 0.3 s; reading and writing fractions would stay here in any case.
 #pragma once
 
 #include <compare>

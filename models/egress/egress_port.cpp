@@ -23,8 +23,9 @@ void EgressPort::connect(sim::Simulation& simulation, Shared& shared, const Port
   config_ = &config;
   clock_ = &clock;
   incoming_ = &incoming;
+  ranked_ = static_cast<ClassSet>(~config.shaping.shared());
   if (!config.shaping.is_plain()) make_shaping();
-  if (config.preemption || config.cut_through != 0 || config.untagged) make_extras();
+  if (config.preemption || config.cut_through != 0 || config.untagged || ranked_ != every_class) make_extras();
   if (config.preemption) extras_->merge = std::make_unique<MacMerge>(*config.preemption, octet_time);
   if (config.cut_through != 0) link_.check_arrivals();
 }
@@ -299,10 +300,10 @@ EgressPort::First EgressPort::first_of(TrafficClass q) const {
 }
 
 /// Of these classes the most urgent one that may start, now or `delay` later. No lower one is blocked by a higher one that may not (IEEE
-/// 802.1Q 8.6.8).
+/// 802.1Q 8.6.8). Classes that share bandwidth come behind all others.
 EgressPort::Selection EgressPort::select(sim::TrueTime now, ClassSet classes, sim::Duration delay) {
   Selection selection;
-  for (ClassSet left = candidates() & classes; left != 0 && !selection.found; left = without(left, selection.traffic_class)) {
+  for (ClassSet left = candidates() & classes & ranked_; left != 0 && !selection.found; left = without(left, selection.traffic_class)) {
     selection.traffic_class = highest_class(left);
     selection.first = first_of(selection.traffic_class);
     const FrameIndex frame = selection.first.frame;
@@ -310,6 +311,7 @@ EgressPort::Selection EgressPort::select(sim::TrueTime now, ClassSet classes, si
     selection.found = ready == now;
     if (!selection.found) selection.ask_again = std::min(selection.ask_again, ready);
   }
+  if (!selection.found && ranked_ != every_class) select_by_share(now, candidates() & classes & static_cast<ClassSet>(~ranked_), delay, selection);
   return selection;
 }
 

@@ -121,7 +121,7 @@ class alignas(64) EgressPort final : public sim::Component {
     merging,   ///< it starts; it may be cut later, or is express; nothing else has a say, nothing waits
     general,   ///< frames wait already, or there is more to consider
   };
-  /// What few ports have besides shaping.
+  /// What few ports have besides gates and shapers. Ports whose classes share bandwidth have it too, so that they take the general path.
   struct Extras {
     std::unique_ptr<MacMerge> merge;
     bool expects_headers = false;
@@ -165,6 +165,7 @@ class alignas(64) EgressPort final : public sim::Component {
   ClassSet candidates() const;
   First first_of(TrafficClass q) const;
   Selection select(sim::TrueTime now, ClassSet classes, sim::Duration delay = {});
+  void select_by_share(sim::TrueTime now, ClassSet classes, sim::Duration delay, Selection& selection);
   Selection select_at_free_medium(sim::TrueTime now);
   Selection select_rest(sim::TrueTime now, const MacMerge::Rest& rest);
   sim::TrueTime look_while_busy(sim::Simulation& simulation);
@@ -197,6 +198,8 @@ class alignas(64) EgressPort final : public sim::Component {
   TrafficClass class_of(FrameIndex frame) const {
     return config_->traffic_class_of_priority[shared_->traffic->frame(frame).queue_priority];
   }
+  /// Preamble and gap included.
+  std::int64_t octets_on_medium(FrameIndex frame) const { return wire_length(Octets{shared_->traffic->frame(frame).length}).count; }
   sim::LocalTime eligible_of(FrameIndex frame) const {
     const Frame& record = shared_->traffic->frame(frame);
     return record.marked ? record.eligible : sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min());
@@ -207,6 +210,7 @@ class alignas(64) EgressPort final : public sim::Component {
   bool has_arrival_ = false;
   Path path_ = Path::plain;
   TrafficClass sending_ = 0;                 // the class of the frame under way, if there is shaping
+  ClassSet ranked_ = every_class;            // those that do not share bandwidth: the most urgent one goes first
   Link link_;
   // Touched when frames wait.
   Arrival arrival_;                          // the first of this instant

@@ -1,4 +1,4 @@
-// What few ports do: preemption and cut-through.
+// What few ports do: preemption, cut-through, and sharing bandwidth.
 #include <algorithm>
 
 #include "models/egress/egress_port.hpp"
@@ -18,6 +18,31 @@ void EgressPort::start_with_extras(sim::Simulation& simulation, FrameIndex frame
     merge->express_started();
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({now, static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, TransmissionDetail{record.length, q}.pack()});
+}
+
+/// Of classes that share bandwidth the one whose turn it is among those that may start. What is selected for the present instant starts, and pays; for a later one the question is only
+/// whether it is worth cutting another frame.
+void EgressPort::select_by_share(sim::TrueTime now, ClassSet classes, sim::Duration delay, Selection& selection) {
+  DeficitRoundRobin::PerClass first{};
+  for (ClassSet left = classes; left != 0;) {
+    const TrafficClass q = highest_class(left);
+    left = without(left, q);
+    const FrameIndex frame = first_of(q).frame;
+    const sim::TrueTime ready = shaping_->ready_time(now, q, {shared_->traffic->frame(frame).length, {}}, delay);
+    if (ready == now) {
+      selection.found = true;
+      first[q] = octets_on_medium(frame);
+    } else {
+      selection.ask_again = std::min(selection.ask_again, ready);
+    }
+  }
+  if (!selection.found) return;
+  selection.traffic_class = shaping_->round()->choose(first);
+  selection.first = first_of(selection.traffic_class);
+  if (delay > sim::Duration()) return;
+  const auto is_alike = [&](const Arrival& arrival) { return class_of(arrival.frame) == selection.traffic_class; };
+  const auto frames = queues_.frames(selection.traffic_class) + static_cast<std::size_t>(std::count_if(more_arrivals_.begin(), more_arrivals_.end(), is_alike));
+  shaping_->round()->started(selection.traffic_class, first[selection.traffic_class], frames == 1);
 }
 
 EgressPort::Selection EgressPort::select_rest(sim::TrueTime now, const MacMerge::Rest& rest) {
@@ -89,6 +114,11 @@ bool EgressPort::settle_headers(sim::Simulation& simulation) {
       started = true;
       const TrafficClass q = class_of(header.frame);
       if (shaping_) shaping_->frame_waits(simulation.now(), q);
+      if (!contains(ranked_, q)) {   // it is the only one
+        DeficitRoundRobin::PerClass first{};
+        first[q] = octets_on_medium(header.frame);
+        shaping_->round()->started(shaping_->round()->choose(first), first[q], true);
+      }
       ++extras_->frames_cut_through;
       if (shared_->traffic->frame(header.frame).bad_fcs) ++extras_->bad_fcs_forwarded;
       start_selected(simulation, header.frame, q, true);

@@ -11,6 +11,7 @@
 
 #include "models/clock/local_clock.hpp"
 #include "models/egress/credit_based_selection.hpp"
+#include "models/egress/deficit_round_robin.hpp"
 #include "models/egress/gate_schedule.hpp"
 #include "models/egress/shaping_config.hpp"
 #include "models/ethernet/sizes.hpp"
@@ -49,6 +50,7 @@ class PortShaping {
   }
   /// The frame that waited was dropped, and no other waits.
   void none_waits(sim::TrueTime now, TrafficClass q) {
+    if (round_) round_->emptied(q);
     if (CreditBasedShaper* const credit = credit_of(q, now)) credit->queue_emptied(now);
   }
   /// A frame of the class starts; `queue_is_empty`: none of the class is left.
@@ -63,6 +65,9 @@ class PortShaping {
   void resumed(sim::TrueTime now, TrafficClass q, std::uint32_t remaining) {
     if (CreditBasedShaper* const credit = credit_of(q, now)) credit->transmission_resumed(now, occupancy(remaining));
   }
+
+  /// Whose turn it is among classes that share bandwidth; null without such classes.
+  DeficitRoundRobin* round() { return round_.get(); }
 
   /// A broken gate: from now on it is open, or closed, whatever the list says; nothing: it works again.
   void force_gate(sim::TrueTime now, TrafficClass q, std::optional<bool> open);
@@ -94,7 +99,7 @@ class PortShaping {
   /// On the heap, so that the algorithms of all classes lie in two lines of the cache.
   using CreditPtr = std::unique_ptr<CreditBasedSelection>;
   /// The algorithm of a class with what it must remember.
-  using Selection = std::variant<StrictPriority, CreditPtr, TimeBased>;
+  using Selection = std::variant<StrictPriority, CreditPtr, TimeBased, EnhancedTransmissionSelection>;
 
   sim::Duration occupancy(std::uint32_t length) const { return octet_time_ * wire_length(Octets{length}).count; }
   sim::TrueTime gate_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t length, sim::Duration delay);
@@ -121,6 +126,7 @@ class PortShaping {
   GateSchedule gates_;
   std::vector<std::unique_ptr<GateControlList>> lists_;  // all that were ever requested; spans point to them
   std::array<Selection, traffic_class_count> selection_;
+  std::unique_ptr<DeficitRoundRobin> round_;
   std::array<std::uint64_t, traffic_class_count> transmission_overrun_{};
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -43,7 +44,12 @@ struct CreditBased {
 struct TimeBased {
   bool operator==(const TimeBased&) const = default;
 };
-using SelectionAlgorithm = std::variant<StrictPriority, CreditBased, TimeBased>;
+/// 8.6.8.3: the class shares what all classes with other algorithms leave with the others that have this one.
+struct EnhancedTransmissionSelection {
+  std::uint8_t bandwidth = 0;   ///< percent, 1 to 100; those of a port sum to 100
+  bool operator==(const EnhancedTransmissionSelection&) const = default;
+};
+using SelectionAlgorithm = std::variant<StrictPriority, CreditBased, TimeBased, EnhancedTransmissionSelection>;
 
 /// Frame preemption of a port (IEEE 802.1Q 6.7.2, 12.30; IEEE 802.3 clause 99).
 struct PreemptionConfig {
@@ -64,6 +70,14 @@ struct ShapingConfig {
   bool is_plain() const { return *this == ShapingConfig{}; }
   /// Null without a credit-based shaper.
   const CreditBased* shaper_of(TrafficClass q) const { return std::get_if<CreditBased>(&selection[q]); }
+  bool is_shared(TrafficClass q) const { return std::holds_alternative<EnhancedTransmissionSelection>(selection[q]); }
+  /// The classes that share bandwidth (ETS).
+  ClassSet shared() const {
+    ClassSet set = 0;
+    for (TrafficClass q = 0; q < traffic_class_count; ++q)
+      if (is_shared(q)) set = with(set, q);
+    return set;
+  }
   /// Its frames wait for a time of their own.
   bool is_timed(TrafficClass q) const {
     const CreditBased* const shaper = shaper_of(q);

@@ -1,4 +1,4 @@
-// The analysis of one port, class by class. For port_bound.cpp, port_schedule.cpp and port_windows.cpp alone; everybody else calls bound_port().
+// The analysis of one port, class by class. For port_bound.cpp, port_schedule.cpp, port_shares.cpp and port_windows.cpp alone; everybody else calls bound_port().
 #pragma once
 
 #include <algorithm>
@@ -37,8 +37,9 @@ class PortAnalysis {
     if (model_.cqf) bound_cqf();
     // Express classes first: preemptable ones wait for all of them.
     for (const bool preemptable : {false, true})
-      for (models::TrafficClass q = models::traffic_class_count; q-- > 0;)
-        if (is_preemptable(q) == preemptable) bound_class(q);
+      for (const bool shared : {false, true})   // those that share bandwidth wait for all others
+        for (models::TrafficClass q = models::traffic_class_count; q-- > 0;)
+          if (is_preemptable(q) == preemptable && is_shared(q) == shared) bound_class(q);
     for (models::TrafficClass q = models::traffic_class_count; q-- > 0;) refine_by_phases(q);
     return std::move(bound_);
   }
@@ -46,6 +47,9 @@ class PortAnalysis {
  private:
   bool is_preemptable(models::TrafficClass q) const { return config_.preemption && models::contains(config_.preemption->preemptable, q); }
   bool is_shaped(models::TrafficClass q) const { return config_.shaping.shaper_of(q) != nullptr; }
+  /// It shares what the others leave (ETS).
+  bool is_shared(models::TrafficClass q) const { return config_.shaping.is_shared(q); }
+  bool shares(models::TrafficClass h, models::TrafficClass q) const { return is_shared(h) && is_shared(q) && is_preemptable(h) == is_preemptable(q); }
   bool is_in_cqf(models::TrafficClass q) const { return model_.cqf && models::contains(model_.cqf->classes, q); }
   bool is_gated(models::TrafficClass q) const {
     return std::any_of(gates_.begin(), gates_.end(), [&](const GateCycle& gates) { return !gates.is_always_open(q); });
@@ -60,10 +64,10 @@ class PortAnalysis {
     if (holds_late_ && is_preemptable(a) != is_preemptable(b)) return true;
     return gates_.empty() || std::any_of(gates_.begin(), gates_.end(), [&](const GateCycle& gates) { return gates.overlap(a, b); });
   }
-  /// Frames of h go before waiting ones of q.
+  /// Frames of h go before waiting ones of q; of classes that share bandwidth, those of each may.
   bool goes_before(models::TrafficClass h, models::TrafficClass q) const {
     if (is_preemptable(h) != is_preemptable(q)) return !is_preemptable(h);
-    return h > q;
+    return is_shared(q) || (!is_shared(h) && h > q);
   }
 
   /// The longest frame of another class that may be under way when a frame of class q could start.
@@ -93,12 +97,12 @@ class PortAnalysis {
     return longest;
   }
 
-  /// What classes that go before q send in an interval of that length in which q waits: closed at its end.
+  /// What classes that go before q send in an interval of that length in which q waits: closed at its end. Those with which it shares bandwidth do not count.
   Ps interference(models::TrafficClass q, Ps length) const {
     Ps all = 0;
     for (models::TrafficClass h = 0; h < models::traffic_class_count; ++h) {
       const ClassDemand& demand = demands_[h];
-      if (h == q || demand.is_empty() || !goes_before(h, q) || !overlap(q, h) || (is_in_cqf(h) && is_in_cqf(q))) continue;
+      if (h == q || demand.is_empty() || !goes_before(h, q) || !overlap(q, h) || (is_in_cqf(h) && is_in_cqf(q)) || shares(h, q)) continue;
       // Who has waited for a gate or for credit may have a backlog when the interval begins; but what is sent has come within its delay.
       const Ps reach = is_work_conserving(h) ? length : sum(length, class_delay_[h]);
       Ps work = demand.work(reach);
@@ -137,6 +141,7 @@ class PortAnalysis {
     bool is_shaped = false;
     double idle_share = 0;                   // of the port's rate while the gate is open
     double credit = 0;                       // the greatest, in time on the medium
+    bool by_turns = false;                   // what others send with whom it shares bandwidth is bounded by their turns, not by what comes
   };
 
   Ps through_gates(const Service& service, Ps need) const {
@@ -145,13 +150,14 @@ class PortAnalysis {
     return longest;
   }
 
-  /// When work that comes after `before` has been sent can start, counted from the start of a busy period. Unbounded if that is not found.
-  Ps start(models::TrafficClass q, const Service& service, Ps before) const {
+  /// When work that comes after `before` has been sent can start, counted from the start of a busy period. Unbounded if that is not found. `own`: that with the frame that starts.
+  Ps start(models::TrafficClass q, const Service& service, Ps before, Ps own) const {
     if (!is_bounded(before)) return unbounded_ps;
     Ps time = 0;
     for (int step = 0; step < most_steps; ++step) {
       Ps need = service.is_shaped ? rounded_up((static_cast<double>(sum(before, cuts(q, time))) + service.credit) / service.idle_share)
                                   : sum(service.blocked, before, interference(q, time));
+      if (is_shared(q)) need = sum(need, sent_by_sharers(q, service, time, own));
       if (models::contains(model_.unordered, q)) need = sum(need - std::min(before, need), std::max(before, demands_[q].work(time)));
       const Ps next = through_gates(service, need);
       if (next > longest_search_ps) return unbounded_ps;
@@ -198,7 +204,12 @@ class PortAnalysis {
   std::optional<Service> service_of(models::TrafficClass q, std::string& reason);
   bool make_shaped(models::TrafficClass q, Service& service, std::string& reason);
   void bound_class(models::TrafficClass q);
-  std::vector<Ps> delays_in_busy_period(models::TrafficClass q, std::string& reason);
+  std::vector<Ps> delays_in_busy_period(models::TrafficClass q, std::string& reason, bool by_turns);
+  Ps quantum(models::TrafficClass q) const;
+  Ps sent_by_sharers(models::TrafficClass q, const Service& service, Ps length, Ps own) const;
+  void take_turns(models::TrafficClass q, Service& service) const;
+  double taken_by(models::TrafficClass q, const Service& service) const;
+  std::vector<Ps> delays_in_shares(models::TrafficClass q, std::string& reason);
   std::optional<SequenceBound> sequence_of(models::TrafficClass q, std::string& reason) const;
   SequenceWindows windows_of(const GateCycle& gates, models::TrafficClass q) const;
   std::vector<Ps> delays_in_windows(models::TrafficClass q) const;

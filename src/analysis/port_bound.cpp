@@ -188,7 +188,8 @@ void PortAnalysis::bound_class(TrafficClass q) {
   std::vector<Ps> delays;
   const Ps by_room = wait_in_full_queue(q);
   // Frames that have their windows to themselves wait for nothing else: no other argument says more.
-  if (!sequence || !sequence->is_exact) delays = delays_in_busy_period(q, bound.reason);
+  if (is_shared(q)) delays = delays_in_shares(q, bound.reason);
+  else if (!sequence || !sequence->is_exact) delays = delays_in_busy_period(q, bound.reason, false);
   if (delays.empty() && !sequence) delays = delays_in_windows(q);
   if (delays.empty()) {
     if (!sequence && !is_bounded(by_room)) {
@@ -231,7 +232,7 @@ void PortAnalysis::bound_class(TrafficClass q) {
 Ps PortAnalysis::wait_in_full_queue(TrafficClass q) {
   const models::QueueLimit& limit = config_.queue_limits[q];
   constexpr models::QueueLimit any;
-  if ((limit.frames == any.frames && limit.octets == any.octets) || is_preemptable(q) || is_in_cqf(q) || config_.shaping.is_timed(q) || !model_.counts_packets) return unbounded_ps;
+  if ((limit.frames == any.frames && limit.octets == any.octets) || is_preemptable(q) || is_in_cqf(q) || config_.shaping.is_timed(q) || is_shared(q) || !model_.counts_packets) return unbounded_ps;
   const ClassDemand& demand = demands_[q];
   const Ps around = octet_ * models::wire_length(sim::Octets{0}).count;   // preamble and gap
   const Ps by_octets = limit.octets / std::max<Ps>(1, (demand.shortest() - around) / octet_);
@@ -261,7 +262,7 @@ Ps PortAnalysis::wait_in_full_queue(TrafficClass q) {
 /// A class with all of the link, or of its windows, may never be done. But if in each L, a multiple of all periods, no more comes than is sent, a frame that comes L after another one waits for no longer: what has
 /// come before it is more by as much as is sent in L. So nobody who comes later than L, and after links have ceased to limit what comes, need be looked at.
 std::optional<Ps> PortAnalysis::repeats_after(TrafficClass q, const Service& service) const {
-  if (service.is_shaped || is_preemptable(q) || config_.shaping.is_timed(q)) return std::nullopt;
+  if (service.is_shaped || is_preemptable(q) || config_.shaping.is_timed(q) || is_shared(q)) return std::nullopt;
   std::optional<Ps> length = demands_[q].common_period(1, longest_search_ps);
   std::vector<TrafficClass> classes{q};
   for (TrafficClass h = 0; h < traffic_class_count; ++h) {
@@ -291,16 +292,14 @@ std::optional<Ps> PortAnalysis::repeats_after(TrafficClass q, const Service& ser
 }
 
 /// By flow of the port; empty if there is none, with the reason.
-std::vector<Ps> PortAnalysis::delays_in_busy_period(TrafficClass q, std::string& reason) {
-  const std::optional<Service> service = service_of(q, reason);
+std::vector<Ps> PortAnalysis::delays_in_busy_period(TrafficClass q, std::string& reason, bool by_turns) {
+  std::optional<Service> service = service_of(q, reason);
   if (!service) return {};
+  if (by_turns) take_turns(q, *service);
   // In the long run there must be room, or the search for a busy period goes on for ever.
   double room = service->is_shaped ? service->idle_share : 1;
   for (const PeriodicSupply& windows : service->windows) room = std::min(room, windows.share() * (service->is_shaped ? service->idle_share : 1));
-  double taken = demands_[q].rate();
-  if (!service->is_shaped)
-    for (TrafficClass h = 0; h < traffic_class_count; ++h)
-      if (h != q && !demands_[h].is_empty() && goes_before(h, q) && overlap(q, h)) taken += is_shaped(h) ? std::min(shaped_rate_[h], demands_[h].rate()) : demands_[h].rate();
+  const double taken = taken_by(q, *service);
   const std::optional<Ps> repeats = repeats_after(q, *service);
   if (!repeats && !(taken <= room)) {
     reason = !(taken < 1e300) ? "a stream without a least gap between its frames"
@@ -311,7 +310,7 @@ std::vector<Ps> PortAnalysis::delays_in_busy_period(TrafficClass q, std::string&
   // The longest busy period: until all that has come since its start is sent.
   Ps busy = 0;
   for (int step = 0; step < most_steps; ++step) {
-    const Ps next = start(q, *service, demands_[q].work(busy));
+    const Ps next = start(q, *service, demands_[q].work(busy), demands_[q].work(busy));
     if (!is_bounded(next)) {
       reason = "a class before it is unbounded, or the link is too full to tell";
       return {};
@@ -343,11 +342,11 @@ std::vector<Ps> PortAnalysis::delays_in_busy_period(TrafficClass q, std::string&
       const Ps all = demand.work(sum(seen, look_ahead));
       Ps done;
       if (is_preemptable(q) && service->is_shaped)
-        done = sum(start(q, *service, std::max<Ps>(0, all - works[i])), transmission(q, works[i]));
+        done = sum(start(q, *service, std::max<Ps>(0, all - works[i]), all), transmission(q, works[i]));
       else if (is_preemptable(q))
-        done = start(q, *service, std::max<Ps>(0, all - gap_));   // it may be cut until its last bit
+        done = start(q, *service, std::max<Ps>(0, all - gap_), all);   // it may be cut until its last bit
       else
-        done = sum(start(q, *service, std::max<Ps>(0, all - works[i])), model_.counts_packets ? last_bit : 0);
+        done = sum(start(q, *service, std::max<Ps>(0, all - works[i]), all), model_.counts_packets ? last_bit : 0);
       longest[i] = std::max(longest[i], is_bounded(done) ? done - at : unbounded_ps);
     }
   };
@@ -392,7 +391,7 @@ void PortAnalysis::bound_cqf() {
   std::string reason = "what comes in a cycle does not fit into one";
   for (TrafficClass h = 0; h < traffic_class_count; ++h) {
     if (is_in_cqf(h) || demands_[h].is_empty()) continue;
-    if (h > highest)
+    if (goes_before(h, highest))
       needed = sum(needed, is_work_conserving(h) ? demands_[h].work(cqf.cycle) : unbounded_ps, demands_[h].longest());
     else
       blocked = std::max(blocked, demands_[h].longest());
@@ -405,7 +404,7 @@ void PortAnalysis::bound_cqf() {
   const Ps waits = std::max<Ps>(0, cqf.cycle * (cqf.buffers - 2) - cqf.offset - cqf.forwarding_delay - 2 * model_.clock.error);
   if (config_.preemption) reason = "cyclic queuing and forwarding with preemption";
   bool is_held_back = false;  // by more than its cycle
-  for (TrafficClass q = 0; q < traffic_class_count; ++q) is_held_back = is_held_back || (is_in_cqf(q) && (is_shaped(q) || config_.shaping.is_timed(q)));
+  for (TrafficClass q = 0; q < traffic_class_count; ++q) is_held_back = is_held_back || (is_in_cqf(q) && (is_shaped(q) || is_shared(q) || config_.shaping.is_timed(q)));
   if (is_held_back) reason = "cyclic queuing and forwarding in classes with a shaper";
   const bool holds = fits && all_use_it && model_.clock.is_synchronised && !config_.preemption && !is_held_back;
   for (TrafficClass q = 0; q < traffic_class_count; ++q) {

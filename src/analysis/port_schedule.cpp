@@ -144,7 +144,7 @@ std::vector<Ps> PortAnalysis::waits_at_phases(TrafficClass q, const Service& ser
 
 /// A port that does nothing but send the highest class first, in which phases say who can meet whom.
 bool PortAnalysis::phases_count(TrafficClass q) const {
-  if (!gates_.empty() || config_.preemption || model_.cqf || !model_.counts_packets || model_.unordered != 0 || busy_[q] == 0 || !is_bounded(class_delay_[q])) return false;
+  if (!gates_.empty() || config_.preemption || model_.cqf || !model_.counts_packets || model_.unordered != 0 || config_.shaping.shared() != 0 || busy_[q] == 0 || !is_bounded(class_delay_[q])) return false;
   for (TrafficClass above = q; above < traffic_class_count; ++above)
     if (is_shaped(above) || config_.shaping.is_timed(above)) return false;
   return std::none_of(traffic_.links.begin(), traffic_.links.end(), [](const IncomingLink& link) { return link.is_mixed; }) &&

@@ -34,6 +34,7 @@ std::string SeparatedFlows::objection(const Hop& hop) const {
   if (!hop.unsupported.empty()) return hop.unsupported;
   if (config.shaping.gates || !model.more_gates.empty()) return "gates";
   if (config.preemption) return "preemption";
+  if (config.shaping.shared() != 0) return "enhanced transmission selection";
   if (model.cqf) return "cyclic queuing and forwarding";
   if (hop.lowest_class != hop.highest_class) return "a stream in several classes";
   if (hop.parents.size() > 1 || hop.is_copied_here) return "copies for redundancy";

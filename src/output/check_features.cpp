@@ -68,12 +68,20 @@ std::string preemption_text(const models::PreemptionConfig& preemption) {
   return text;
 }
 
+std::string shares_text(const models::ShapingConfig& shaping) {
+  std::string text = "ETS:";
+  for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
+    if (const auto* const share = std::get_if<models::EnhancedTransmissionSelection>(&shaping.selection[q])) text += fmt::format(" {} ({} %)", q, share->bandwidth);
+  return text;
+}
+
 std::string port_text(const models::PortConfig& config, bool is_host) {
   Line line;
   if (config.shaping.gates) line.add(gates_text(*config.shaping.gates));
   for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
     if (const models::CreditBased* const shaper = config.shaping.shaper_of(q))
       line.add(fmt::format("shaper of class {}: {}{}", q, json::to_text(shaper->idle_slope), shaper->of_whole_cycle ? "" : " while open"));
+  if (config.shaping.shared() != 0) line.add(shares_text(config.shaping));
   if (const models::ClassSet timed = config.shaping.timed(); timed != 0) line.add((is_host ? "launch times:" : "ATS:") + classes(timed));
   for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
     if (config.shaping.queue_max_sdu[q].count > 0) line.add(fmt::format("SDU of class {}: at most {} B", q, config.shaping.queue_max_sdu[q].count));

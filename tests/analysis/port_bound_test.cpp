@@ -158,6 +158,54 @@ TEST(PortBound, ACreditBasedShaperWaitsWithCreditForSoLong) {
   EXPECT_LE(port.bound().flows[0].delay, 67'200 * ns + 5'760 * ns + 20);
 }
 
+// Class 2 and class 1 have half each. The short frame waits for the long one, which may go before it; the long one for one short one.
+TEST(PortBound, ClassesThatShareWaitForEachOther) {
+  Port port;
+  port.config.shaping.selection[2] = models::EnhancedTransmissionSelection{50};
+  port.config.shaping.selection[1] = models::EnhancedTransmissionSelection{50};
+  port.traffic.flows = {flow(64, 2, 1000 * us), flow(1518, 1, 1000 * us)};
+  EXPECT_EQ(port.bound().flows[0].delay, 123'040 * ns + 5'760 * ns);
+  EXPECT_EQ(port.bound().flows[1].delay, 6'720 * ns + 122'080 * ns);
+  // All other classes go before both, even the lowest; they wait for one frame at most.
+  port.traffic.flows.push_back(flow(1518, 0, 1000 * us));
+  EXPECT_EQ(port.bound().flows[0].delay, 2 * 123'040 * ns + 5'760 * ns);
+  EXPECT_EQ(port.bound().flows[2].delay, 123'040 * ns + 122'080 * ns);
+}
+
+// More comes to class 1 than the link carries. Class 2 keeps its share: 84 octets need two rounds of 50, in which class 1 is given 100, beside up to 1,537 that it may have left; and a frame of 1,538 octets may be under way.
+TEST(PortBound, AClassKeepsItsShare) {
+  Port port;
+  port.config.shaping.selection[2] = models::EnhancedTransmissionSelection{50};
+  port.config.shaping.selection[1] = models::EnhancedTransmissionSelection{50};
+  port.traffic.flows = {flow(64, 2, 1000 * us), flow(1518, 1, 100 * us)};
+  const PortBound bound = port.bound();
+  EXPECT_EQ(bound.flows[0].delay, 123'040 * ns + (100 + 1'537) * octet + 5'760 * ns);
+  EXPECT_FALSE(is_bounded(bound.flows[1].delay));
+  EXPECT_FALSE(bound.classes[1].reason.empty());
+  // With nine tenths it needs one round, in which class 1 is given 10.
+  port.config.shaping.selection[2] = models::EnhancedTransmissionSelection{90};
+  port.config.shaping.selection[1] = models::EnhancedTransmissionSelection{10};
+  EXPECT_EQ(port.bound().flows[0].delay, 123'040 * ns + (10 + 1'537) * octet + 5'760 * ns);
+  // No more than its share: 64 octets every 10 us are two thirds of the link, and half of it is its own.
+  port.config.shaping.selection[2] = models::EnhancedTransmissionSelection{50};
+  port.traffic.flows[0] = flow(64, 2, 10 * us);
+  port.config.shaping.selection[1] = models::EnhancedTransmissionSelection{50};
+  EXPECT_FALSE(is_bounded(port.bound().flows[0].delay));
+}
+
+// Turns behind gates have no bound, and say so.
+TEST(PortBound, SharesBehindGates) {
+  Port port;
+  port.config.shaping.selection[1] = models::EnhancedTransmissionSelection{50};
+  port.config.shaping.selection[0] = models::EnhancedTransmissionSelection{50};
+  port.config.shaping.gates = one_in_ten();
+  port.traffic.flows = {flow(64, 7, 1000 * us), flow(64, 1, 1000 * us), flow(1518, 0, 2000 * us)};
+  const PortBound bound = port.bound();
+  EXPECT_EQ(bound.flows[0].delay, 905'760 * ns + 2 * 960 * ns + 5'760 * ns);
+  EXPECT_FALSE(is_bounded(bound.flows[1].delay));
+  EXPECT_EQ(bound.classes[1].reason, "classes that share bandwidth (ETS) behind gates");
+}
+
 TEST(GateWindows, TheWorstPhase) {
   const GateCycle gates(one_in_ten());
   const PeriodicSupply supply(gates, 7, 0, 10 * us, 0, 0);

@@ -208,6 +208,7 @@ class Check(FeaturesTest):
         self.assertEqual(self.row(self.page("tsn/preemption-on-a-line"), CHECKED_PORTS, "sw1:0 to sw2"), "shaper of class 4: 20Mbps; preemptable: 0 1 2 3 4 5")
         self.assertEqual(self.row(self.page("validation/launch-time"), CHECKED_PORTS, "talker:0 to listener"), "launch times: 1")
         self.assertEqual(self.row(self.page("tsn/ats"), CHECKED_PORTS, "sw1:0 to sw2"), "ATS: 5")
+        self.assertEqual(self.row(self.page("tsn/ets"), CHECKED_PORTS, "sw1:0 to sw2"), "ETS: 1 (30 %) 2 (70 %)")
 
     def test_ingress(self):
         self.assertEqual(self.row(self.page("tsn/policing"), INGRESS, "switch"), "3 stream filters; 1 stream gate; 2 flow meters")

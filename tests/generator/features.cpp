@@ -21,6 +21,7 @@ std::span<const FeatureEntry> features() {
       {automatic_gates, "automatic_gates", "network_gates.plan=auto"},
       {listed_gates, "listed_gates", "network_gates.lists"},
       {shapers, "shapers", "egress.shapers"},
+      {ets, "ets", "egress.ets"},
       {max_sdu, "max_sdu", "egress.max_sdu"},
       {preemption, "preemption", "egress.preemption"},
       {cut_through, "cut_through", "egress.cut_through"},

@@ -30,7 +30,7 @@ std::vector<int> taken(const Scope& s, std::string_view key) {
 }
 
 bool wants_egress(const Maker& m) {
-  for (const Feature each : {Feature::gates, Feature::hold, Feature::shapers, Feature::max_sdu, Feature::preemption, Feature::cut_through, Feature::untagged, Feature::ats})
+  for (const Feature each : {Feature::gates, Feature::hold, Feature::shapers, Feature::ets, Feature::max_sdu, Feature::preemption, Feature::cut_through, Feature::untagged, Feature::ats})
     if (m.wants(each)) return true;
   return false;
 }
@@ -76,6 +76,36 @@ Made shaped_classes(Maker& m, const Scope& s) {
   return made;
 }
 
+/// Two classes or more without another algorithm; of a host that launches frames none. The number of a share holds its class and percentage.
+Made shares(Maker& m, const Scope& s) {
+  if (s.around("host") != nullptr && m.wants(Feature::launch)) return std::nullopt;
+  std::vector<int> others = taken(s, "shapers");
+  for (const int q : taken(s, "ats")) others.push_back(q);
+  const std::vector<int> some = m.classes(2, others);
+  if (some.size() < 2) return std::nullopt;
+  Node made = Node::array();
+  std::size_t left = 100;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const std::size_t share = i + 1 == some.size() ? left : 1 + m.draw.below(left - (some.size() - i - 1));
+    made.items.push_back(m.object("share", &s, {}, static_cast<std::size_t>(some[i]) * 1000 + share));
+    left -= share;
+  }
+  return made;
+}
+
+/// Classes that share bandwidth are all preemptable or all express.
+Made preemptable_classes(Maker& m, const Scope& s) {
+  const std::vector<int> shared = taken(*s.around("egress"), "ets");
+  std::vector<int> without = shared;
+  if (m.wants(Feature::gptp)) without.push_back(7);   // gPTP has priority 7
+  const bool may_share = !m.wants(Feature::gptp) || std::ranges::find(shared, 7) == shared.end();
+  std::vector<int> some = m.classes(2, without);
+  if (!shared.empty() && may_share && (some.empty() || m.draw.one_in(2))) some.insert(some.end(), shared.begin(), shared.end());
+  for (int q = 0; q < 8 && some.size() < (shared.empty() ? 2 : 1); ++q)
+    if (std::ranges::find(without, q) == without.end()) some.push_back(q);
+  return numbers(some);
+}
+
 Made own_number(Maker&, const Scope& s) { return number(s.number); }
 
 Made port_of_a_node(Maker& m, const Scope&) { return text(m.draw.any(!m.world.switches.empty() && !m.draw.one_in(6) ? m.world.switches : m.world.nodes())); }
@@ -117,6 +147,7 @@ std::span<const Rule> port_rules() {
          if (some.empty()) return std::nullopt;
          return numbers(some);
        }},
+      {.key = "egress.ets", .feature = Feature::ets, .percent = 80, .make = shares},
       {.key = "egress.preemption", .feature = Feature::preemption, .percent = 80},
       {.key = "egress.cut_through", .feature = Feature::cut_through, .percent = 80, .make = [](Maker& m, const Scope& s) -> Made {
          if (s.around("host") != nullptr) return std::nullopt;
@@ -151,12 +182,11 @@ std::span<const Rule> port_rules() {
          for (const Feature each : {Feature::gates, Feature::hold, Feature::cqf, Feature::set_gates, Feature::automatic_gates, Feature::listed_gates}) gated |= m.wants(each);
          return m.word(m.is_slow() ? "1Mbps 1500kbps 2Mbps" : gated ? "3Mbps 7Mbps 10Mbps 10666667bps" : "10Mbps 33Mbps 7Mbps 20Mbps 75Mbps");
        }},
+      {.key = "share.class", .make = [](Maker&, const Scope& s) -> Made { return number(s.number / 1000); }},
+      {.key = "share.bandwidth", .make = [](Maker&, const Scope& s) -> Made { return number(s.number % 1000); }},
       {.key = "max_sdu.class", .make = own_number},
       {.key = "max_sdu.size", .words = "100B 500B 1000B 1500B"},
-      {.key = "preemption.preemptable", .make = [](Maker& m, const Scope&) -> Made {
-         const std::vector<int> some = m.classes(2, m.wants(Feature::gptp) ? std::vector<int>{7} : std::vector<int>{});   // gPTP has priority 7
-         return numbers(some.empty() ? std::vector<int>{0, 1} : some);
-       }},
+      {.key = "preemption.preemptable", .make = preemptable_classes},
       {.key = "preemption.add_frag_size", .percent = 50, .words = "0 1 2 3"},
       {.key = "preemption.hold_advance", .percent = 25, .words = "0ns 5us 30us"},
       {.key = "preemption.release_advance", .percent = 25, .words = "1us 10us"},

@@ -20,6 +20,14 @@ std::string with_host_egress(const std::string& text) {
 )" + text + "]}}, \"links\": [" + two_links + "]}}";
 }
 
+/// The same with a stream of priority 3 from there, in line 3.
+std::string with_host_egress_and_launch(const std::string& text) {
+  std::string scenario = with_host_egress(text);
+  scenario.pop_back();
+  return scenario + R"(, "streams": [
+{"name": "s", "from": "a", "to": "b", "payload": "1B", "every": "1ms", "pcp": 3, "launch": "1us"}]})";
+}
+
 const BadCase cases[] = {
     {"PreemptionOfNothing", with_egress(R"({"preemption": {"preemptable": []}})"),
      R"(2:32: error at /network/nodes/sw/egress/0/preemption/preemptable: too few items: found 0, expected 1 to 8 items)"},
@@ -49,6 +57,22 @@ const BadCase cases[] = {
     {"AtsClasses", with_egress(R"({"ats": [3, 3, 9]})"),
      R"(2:13: error at /network/nodes/sw/egress/0/ats/1: occurs twice: found the number 3, expected items that differ
 2:16: error at /network/nodes/sw/egress/0/ats/2: out of range: found the number 9, expected an integer from 0 to 7)"},
+    {"SharesOfNinetyPercent", with_egress(R"({"ets": [{"class": 1, "bandwidth": 30}, {"class": 0, "bandwidth": 60}]})"),
+     R"(2:9: error at /network/nodes/sw/egress/0/ets: shares that are not all of the bandwidth: found 90 percent in all, expected percentages that sum to 100)"},
+    {"SharesOutOfRange", with_egress(R"({"ets": [{"class": 8, "bandwidth": 0}, {"class": 1}]})"),
+     R"(2:20: error at /network/nodes/sw/egress/0/ets/0/class: out of range: found the number 8, expected an integer from 0 to 7
+2:36: error at /network/nodes/sw/egress/0/ets/0/bandwidth: out of range: found the number 0, expected an integer from 1 to 100
+2:40: error at /network/nodes/sw/egress/0/ets/1: the field "bandwidth" is missing)"},
+    {"TwoSharesOfAClass", with_egress(R"({"ets": [{"class": 1, "bandwidth": 50}, {"class": 1, "bandwidth": 50}]})"),
+     R"(2:51: error at /network/nodes/sw/egress/0/ets/1/class: a class with two shares: found class 1 a second time, expected one share for a class)"},
+    {"ShareAndShaper", with_egress(R"({"shapers": [{"class": 3, "idle_slope": "10Mbps"}], "ets": [{"class": 3, "bandwidth": 50}, {"class": 1, "bandwidth": 50}]})"),
+     R"(2:71: error at /network/nodes/sw/egress/0/ets/0/class: two transmission selection algorithms: found class 3 with ETS and a credit-based shaper, expected one for a class)"},
+    {"ShareAndAts", with_egress(R"({"ats": [1], "ets": [{"class": 3, "bandwidth": 50}, {"class": 1, "bandwidth": 50}]})"),
+     R"(2:63: error at /network/nodes/sw/egress/0/ets/1/class: two transmission selection algorithms: found class 1 with ETS and ATS, expected one for a class)"},
+    {"ShareAndLaunchTimes", with_host_egress_and_launch(R"({"ets": [{"class": 3, "bandwidth": 50}, {"class": 1, "bandwidth": 50}]})"),
+     R"(3:92: error at /streams/0/launch: two transmission selection algorithms: found class 3 of "a" with ETS and launch times, expected one for a class)"},
+    {"SharesOfExpressAndPreemptable", with_egress(R"({"ets": [{"class": 3, "bandwidth": 50}, {"class": 1, "bandwidth": 50}], "preemption": {"preemptable": [0, 1]}})"),
+     R"(2:9: error at /network/nodes/sw/egress/0/ets: express classes that share bandwidth with preemptable ones, which they cut: found class 1 preemptable, class 3 express, expected classes that are all express or all preemptable)"},
     {"CutThroughClasses", with_egress(R"({"cut_through": [7, 7, 8]})"),
      R"(2:21: error at /network/nodes/sw/egress/0/cut_through/1: occurs twice: found the number 7, expected items that differ
 2:24: error at /network/nodes/sw/egress/0/cut_through/2: out of range: found the number 8, expected an integer from 0 to 7)"},

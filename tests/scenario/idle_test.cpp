@@ -77,6 +77,13 @@ const IdleCase cases[] = {
     {"AtsOfNoClass", egress(R"("ats": [5])"), "/network/nodes/sw1/egress/0/ats/0: ATS of a class that no stream has: class 5 at sw1:1: no stream goes there" + in_use},
     {"AtsWithoutScheduler", egress(R"("ats": [7])"),
      "/network/nodes/sw1/egress/0/ats/0: ATS without a scheduler: class 7 at sw1:1: its streams meet no ATS scheduler in the switch | a filter with \"ats\" in its \"ingress\"\n"},
+    {"ShareOfNoClass", egress(R"("ets": [{"class": 1, "bandwidth": 50}, {"class": 5, "bandwidth": 50}])"),
+     "/network/nodes/sw1/egress/0/ets/0/class: a share of the bandwidth beside no other: class 1 at sw1:1: no other class with a share is in use there | a share for another class, or none\n"
+     "/network/nodes/sw1/egress/0/ets/1/class: a share of the bandwidth of a class that no stream has: class 5 at sw1:1: no stream goes there" + in_use},
+    {"SharesThatAct", egress(R"("ets": [{"class": 1, "bandwidth": 50}, {"class": 7, "bandwidth": 50}])"), ""},
+    {"SharesBehindALowerClass", egress(R"("ets": [{"class": 5, "bandwidth": 50}, {"class": 7, "bandwidth": 50}])", both + R"(, {"name": "video", "from": "a", "to": "b", "payload": "100B", "every": "500us", "pcp": 5})"),
+     "/network/nodes/sw1/egress/0/ets/0/class: a share of the bandwidth that lower classes leave: class 1 at sw1:1 without a share, and so before class 5 | shares for the lowest classes\n"
+     "/network/nodes/sw1/egress/0/ets/1/class: a share of the bandwidth that lower classes leave: class 1 at sw1:1 without a share, and so before class 7 | shares for the lowest classes\n"},
     {"CutThroughOfNoClass", egress(R"("cut_through": [0])"),
      "/network/nodes/sw1/egress/0/cut_through/0: cut-through of a class that no stream has: class 0 at sw1:1: no stream goes there; priority 0 is class 1" + in_use},
     {"CutThroughThatActs", egress(R"("cut_through": [7])"), ""},

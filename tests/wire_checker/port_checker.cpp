@@ -11,7 +11,7 @@ using models::traffic_class_count;
 
 PortChecker::PortChecker(std::string name, const models::PortConfig& config, sim::DataRate rate, Violations& violations)
     : name_(std::move(name)), config_(config), violations_(violations), octet_(rate.octet_time().ps()),
-      gates_(ListEntry{{}, config.shaping.admin_gate_states, 0, {}, {}}), has_gates_(config.shaping.admin_gate_states != models::all_gates_open) {
+      gates_(ListEntry{{}, config.shaping.admin_gate_states, 0, {}, {}}), has_gates_(config.shaping.admin_gate_states != models::all_gates_open), shares_(config.shaping) {
   for (TrafficClass q = 0; q < traffic_class_count; ++q)
     if (const models::CreditBased* const shaper = config.shaping.shaper_of(q)) credits_[q].emplace(rate.bits_per_second, *shaper, q);
   // An express frame waits for at most 8 + 123 + 12 octets, and 64 more for each addFragSize.
@@ -39,6 +39,8 @@ void PortChecker::begin(Ps now) {
     if (next < now) settle_gates();
   }
   started_class_.reset();
+  turn_.reset();
+  somebody_dropped_ = false;
   check_credits();
 }
 
@@ -83,9 +85,32 @@ void PortChecker::check_start(const Item& item, TrafficClass q, std::uint32_t oc
 
 void PortChecker::check_nobody_is_passed_over(const Item& item, TrafficClass q) {
   for (TrafficClass p = 0; p < traffic_class_count; ++p) {
-    if (p == q || rank_of(p) < rank_of(q) || queues_[p].empty() || !is_ready(p, queues_[p].front())) continue;
+    if (p == q || !comes_before(p, q) || queues_[p].empty() || !is_ready(p, queues_[p].front())) continue;
     fail(item, "of class " + std::to_string(q) + " starts although " + wire_checker::name_of(queues_[p].front().stream, queues_[p].front().sequence) + " of class " + std::to_string(p) + " is ready");
   }
+}
+
+/// What a class with a share met when it started. Frames of the instant are queued afterwards, see enqueued().
+void PortChecker::note_turn(const Item& item, TrafficClass q) {
+  if (!is_shared(q)) return;
+  turn_.emplace();
+  for (TrafficClass p = 0; p < traffic_class_count; ++p) {
+    if (!is_shared(p) || is_preemptable(p) != is_preemptable(q)) continue;
+    if (p == q) (*turn_)[p] = models::wire_length(models::Octets{item.length}).count;
+    else if (!queues_[p].empty() && is_ready(p, queues_[p].front())) (*turn_)[p] = models::wire_length(models::Octets{queues_[p].front().length}).count;
+  }
+}
+
+/// Whether it was the turn of the class that started; who has nothing left to send keeps nothing.
+void PortChecker::check_turn() {
+  if (turn_) {
+    const TrafficClass due = shares_.next(*turn_);
+    if (due != *started_class_) fail(started_item_, "of class " + std::to_string(*started_class_) + " starts although it is the turn of class " + std::to_string(due));
+    shares_.pay(*started_class_, (*turn_)[*started_class_]);
+    turn_.reset();
+  }
+  for (TrafficClass q = 0; q < traffic_class_count; ++q)
+    if (queues_[q].empty()) shares_.empty(q);
 }
 
 void PortChecker::transmit(const Fragment& fragment) {
@@ -122,6 +147,7 @@ void PortChecker::started(const SeenFrame& seen, models::TransmissionDetail deta
   if (config_.shaping.queue_max_sdu[q].count != 0 && msdu > config_.shaping.queue_max_sdu[q].count) fail(item, "is longer than queueMaxSDU");
   if (is_preemptable(q) && rest_) fail(item, "is preemptable and starts before the rest of " + wire_checker::name_of(rest_->item.stream, rest_->item.sequence));
   check_nobody_is_passed_over(item, q);
+  note_turn(item, q);
   transmit({item, q, now_, item.length, 0});
   tell_credit(q);
 }
@@ -135,12 +161,15 @@ void PortChecker::enqueued(const SeenFrame& seen, TrafficClass q) {
   const bool is_head = place == queue.begin();
   queue.insert(place, item);
   octets_[q] += item.length;
+  // One that comes behind another that was dropped for want of room did not stand first.
+  if (turn_ && is_head && !somebody_dropped_ && is_shared(q) && q != *started_class_ && is_preemptable(q) == is_preemptable(*started_class_) && is_ready(q, item))
+    (*turn_)[q] = models::wire_length(models::Octets{item.length}).count;
   const models::QueueLimit& limit = config_.queue_limits[q];
   if (queue.size() > limit.frames || octets_[q] > limit.octets)
     fail(item, "is one too many: " + std::to_string(queue.size()) + " frames, " + std::to_string(octets_[q]) + " octets wait in class " + std::to_string(q));
   // Of the frames of an instant the most urgent one leaves; the others are queued afterwards.
   const bool rest_was_right = started_is_rest_ && is_preemptable(q);
-  if (started_class_ && is_head && !rest_was_right && rank_of(*started_class_) < rank_of(q) && is_ready(q, item))
+  if (started_class_ && is_head && !rest_was_right && comes_before(q, *started_class_) && is_ready(q, item))
     fail(item, "of class " + std::to_string(q) + " has to wait for " + wire_checker::name_of(started_item_.stream, started_item_.sequence) + " of class " + std::to_string(*started_class_));
   tell_credit(q);
 }
@@ -168,6 +197,7 @@ void PortChecker::drop_pending() {
 }
 
 bool PortChecker::dropped(models::FrameIndex handle) {
+  somebody_dropped_ = true;
   if (pending_ && pending_->item.handle == handle) {
     tell_credit(pending_->q);
     pending_.reset();
@@ -222,6 +252,7 @@ void PortChecker::resumed(const SeenFrame& seen, models::TransmissionDetail deta
 
 void PortChecker::end() {
   drop_pending();
+  check_turn();
   if (cut_wants_reason_) {
     bool express_waits = hold_at(now_, gates_).asked || !up_;
     for (TrafficClass q = 0; q < traffic_class_count; ++q) express_waits = express_waits || (!is_preemptable(q) && !queues_[q].empty());

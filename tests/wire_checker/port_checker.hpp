@@ -12,6 +12,7 @@
 #include "models/ethernet/traffic.hpp"
 #include "tests/wire_checker/credit_account.hpp"
 #include "tests/wire_checker/list_machine.hpp"
+#include "tests/wire_checker/share_account.hpp"
 #include "tests/wire_checker/violations.hpp"
 
 namespace takt::wire_checker {
@@ -88,13 +89,19 @@ class PortChecker {
   models::TrafficClass class_of(const models::Frame& frame) const;
   bool is_timed(models::TrafficClass q) const { return config_.shaping.is_timed(q); }
   Ps duration_of(std::uint32_t octets) const { return octet_ * (models::preamble_and_sfd.count + Ps{octets}); }
-  /// Express frames come before preemptable ones.
-  int rank_of(models::TrafficClass q) const { return q + (is_preemptable(q) ? 0 : 8); }
+  bool is_shared(models::TrafficClass q) const { return config_.shaping.is_shared(q); }
+  /// Express frames come before preemptable ones, and classes that share bandwidth behind all others. Among these nobody comes first.
+  bool comes_before(models::TrafficClass p, models::TrafficClass q) const {
+    if (is_preemptable(p) != is_preemptable(q)) return !is_preemptable(p);
+    return !is_shared(p) && (is_shared(q) || p > q);
+  }
   void fail(const std::string& what) { violations_.add(now_, name_, what); }
   void fail(const Item& item, const std::string& what) { fail(wire_checker::name_of(item.stream, item.sequence) + " " + what); }
   void check_start(const Item& item, models::TrafficClass q, std::uint32_t octets);
   void check_nobody_is_passed_over(const Item& item, models::TrafficClass q);
   void transmit(const Fragment& fragment);
+  void note_turn(const Item& item, models::TrafficClass q);
+  void check_turn();
   void tell_credit(models::TrafficClass q);
   void drop_pending();
   void check_credits();
@@ -126,6 +133,9 @@ class PortChecker {
   Ps hold_advance_ = 0;
   std::array<std::optional<bool>, models::traffic_class_count> forced_{};
   std::array<std::optional<CreditAccount>, models::traffic_class_count> credits_;
+  ShareAccount shares_;
+  std::optional<ShareAccount::PerClass> turn_;   // at this instant a class with a share has started: what could have
+  bool somebody_dropped_ = false;                // at this instant
   std::array<Ps, models::traffic_class_count> longest_occupation_{};
   std::uint8_t classes_seen_ = 0;
   std::array<std::vector<Item>, models::traffic_class_count> queues_;

@@ -173,6 +173,22 @@ TEST(PortRules, EligibilityTimes) {
   EXPECT_FOUND(Port(config).frame('a', 5, 100, 500 * ns).frame('b', 5, 100, 400 * ns).at(0).wait('a').wait('b').at(500 * ns).leave('a').start('a').until(2'000 * ns), "leaves its queue before");
 }
 
+// Frames of 100 octets occupy 120, 960 ns. Class 2 has 75 of them after a round and 150 after the second, when class 1 has 25: so class 2 goes first, and then, with 30 left, once more before class 1.
+TEST(PortRules, ClassesThatShareTakeTurns) {
+  PortConfig config;
+  config.shaping.selection[2] = models::EnhancedTransmissionSelection{75};
+  config.shaping.selection[1] = models::EnhancedTransmissionSelection{25};
+  const auto port = [&] { return Port(config).frame('a', 7).frame('b', 2).frame('c', 2).frame('x', 1).frame('y', 0).at(0).start('a').wait('b').wait('c').wait('x'); };
+  EXPECT_NOTHING(port().at(960 * ns).leave('b').start('b').at(1'920 * ns).leave('c').start('c').at(2'880 * ns).leave('x').start('x').until(9'000 * ns));
+  EXPECT_FOUND(port().at(960 * ns).leave('x').start('x').until(1'000 * ns), "of class 1 starts although it is the turn of class 2");
+  EXPECT_FOUND(port().at(960 * ns).leave('b').start('b').at(1'920 * ns).leave('x').start('x').until(2'000 * ns), "of class 1 starts although it is the turn of class 2");
+  // A class without a share goes before them.
+  EXPECT_FOUND(port().wait('y').at(960 * ns).leave('b').start('b').until(1'000 * ns), "of class 0 is ready");
+  // Those that come in the instant count, too.
+  EXPECT_NOTHING(Port(config).frame('x', 1).frame('b', 2).at(0).start('b').wait('x').at(960 * ns).leave('x').start('x').until(9'000 * ns));
+  EXPECT_FOUND(Port(config).frame('x', 1).frame('b', 2).at(0).start('x').wait('b').until(900 * ns), "although it is the turn of class 2");
+}
+
 // A frame of 1000 octets in class 0, which may be cut; an express one comes. 60 octets of data are the least: 8 + 60 octets = 544 ns.
 TEST(PortRules, CutsAreLegal) {
   const auto port = [] { return Port(with_preemption()).frame('a', 0, 1'000).frame('x', 7).frame('b', 0); };

@@ -122,6 +122,14 @@ struct Shaper {
   bool operator==(const Shaper&) const = default;
 };
 
+/// What a class gets of the bandwidth that classes without a share leave.
+struct Share {
+  json::Source where;
+  std::uint8_t traffic_class = 0;
+  std::uint8_t bandwidth = 0;   ///< percent
+  bool operator==(const Share&) const = default;
+};
+
 struct MaxSdu {
   json::Source where;
   std::uint8_t traffic_class = 0;
@@ -147,6 +155,7 @@ struct Egress {
   std::vector<Shaper> shapers;
   std::vector<MaxSdu> max_sdu;
   std::vector<std::uint8_t> ats;
+  std::vector<Share> ets;
   std::optional<Preemption> preemption;
   std::vector<std::uint8_t> cut_through;
   bool untagged = false;
@@ -391,6 +400,7 @@ const json::Object& describe(json::Type<GateEntry>);
 const json::Object& describe(json::Type<Gates>);
 const json::Enumeration& describe(json::Type<SlopeOf>);
 const json::Object& describe(json::Type<Shaper>);
+const json::Object& describe(json::Type<Share>);
 const json::Object& describe(json::Type<MaxSdu>);
 const json::Object& describe(json::Type<Preemption>);
 const json::Object& describe(json::Type<Egress>);

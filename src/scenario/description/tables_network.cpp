@@ -127,6 +127,15 @@ const json::Object& describe(json::Type<Shaper>) {
   return table;
 }
 
+const json::Object& describe(json::Type<Share>) {
+  static constexpr json::Field fields[] = {
+      required<&Share::traffic_class>("class", "The traffic class.", {.max = 7}),
+      required<&Share::bandwidth>("bandwidth", "Percent of the bandwidth that is shared; those of a port sum to 100.", {.min = 1, .max = 100}),
+  };
+  static constexpr json::Object table = json::object<Share>("share", "The share of a class by enhanced transmission selection (IEEE 802.1Q 8.6.8.3).", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<MaxSdu>) {
   static constexpr json::Field fields[] = {
       required<&MaxSdu::traffic_class>("class", "The traffic class.", {.max = 7}),
@@ -156,6 +165,8 @@ const json::Object& describe(json::Type<Egress>) {
       optional<&Egress::max_sdu>("max_sdu", "Longest SDU of single classes.", {.max_items = 8}),
       optional<&Egress::ats>("ats", "The traffic classes that send by the eligibility times of ATS schedulers (Qcr).",
                              {.max_items = 8, .unique = true, .items = {.max = 7}}),
+      optional<&Egress::ets>("ets", "Enhanced transmission selection (Qaz): these traffic classes share, in proportion to their percentages, what all others leave, whatever their numbers. A class that has nothing to send leaves its share to the others.",
+                             {.max_items = 8}),
       optional<&Egress::preemption>("preemption", "Which frames may be cut for others."),
       optional<&Egress::cut_through>("cut_through", "The traffic classes whose frames begin to leave before they have wholly come, where the port is free and the link they come from as fast.",
                                      {.max_items = 8, .unique = true, .items = {.max = 7}}),

@@ -172,6 +172,7 @@ class Extraction {
     std::string problem;
     if (models::contains(config.cut_through, q)) problem = "cut-through at " + port + ", which makes its delays depend on other traffic";
     if (!std::holds_alternative<models::StrictPriority>(config.shaping.selection[q])) problem = "a shaper of its class at " + port;
+    if (config.shaping.is_shared(q)) problem = "a share of the bandwidth (ETS) for its class at " + port + ", which makes its delays depend on other traffic";
     if (config.preemption && models::contains(config.preemption->preemptable, q)) problem = "a preemptable class at " + port;
     if (!problem.empty()) return refuse(stream, problem), false;
     const models::StreamPlan& plan = plan_of(stream);

@@ -18,6 +18,7 @@ class EgressTeller {
     for (const Shaper& each : egress_.shapers) shaper(each);
     for (const MaxSdu& each : egress_.max_sdu) max_sdu(each);
     for (std::size_t i = 0; i < egress_.ats.size(); ++i) ats(i);
+    for (const Share& each : egress_.ets) share(each);
     for (std::size_t i = 0; i < egress_.cut_through.size(); ++i) cut_through(i);
     if (egress_.untagged) untagged();
   }
@@ -134,6 +135,19 @@ class EgressTeller {
     if (!at.filter) return false;
     const Resolved& r = usage_.resolved();
     return !r.plan.ingress_configs[*r.plan.nodes[at.node].ingress].stream_filters[*at.filter].ats_scheduler.is_none();
+  }
+
+  void share(const Share& share) {
+    const models::TrafficClass q = share.traffic_class;
+    const json::Place place = share.where.at("class");
+    if (told_unused(q, place, "a share of the bandwidth")) return;
+    const bool is_alone = std::all_of(ports_.begin(), ports_.end(), [&](const PortUse* port) { return !port->uses(q) || models::is_one_class(static_cast<models::ClassSet>(port->classes & port->config->shaping.shared())); });
+    if (is_alone) return warn(place, "a share of the bandwidth beside no other", {"class " + std::to_string(q) + " at " + usage_.name(ports_) + ": no other class with a share is in use there", "a share for another class, or none"});
+    for (const PortUse* port : ports_) {
+      const auto below = static_cast<models::ClassSet>(port->classes & ~port->config->shaping.shared() & (models::only(q) - 1));
+      if (port->uses(q) && below != 0)
+        return warn(place, "a share of the bandwidth that lower classes leave", {"class " + text_of_classes(below) + " at " + usage_.name({port}) + " without a share, and so before class " + std::to_string(q), "shares for the lowest classes"});
+    }
   }
 
   void cut_through(std::size_t i) {

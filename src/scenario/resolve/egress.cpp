@@ -74,17 +74,41 @@ class EgressResolver {
     return (gates && diagnostics_.is_refused(gates->where.place())) || diagnostics_.is_refused(shaper.where.place()) || (!shaper.where.is_known() && diagnostics_.has_errors());
   }
 
+  static std::string classes(models::ClassSet set) {
+    std::string text = "class";
+    for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
+      if (models::contains(set, q)) text += " " + std::to_string(q);
+    return text;
+  }
+
+  /// The classes that share bandwidth: each once, with nothing else that selects, and all of the port.
+  void check_shares(const Egress& egress, const models::PortConfig& config, models::ClassSet ats) {
+    if (egress.ets.empty()) return;
+    const bool is_read = !diagnostics_.is_refused(egress.where.at("ets"));
+    models::ClassSet shared = 0;
+    unsigned sum = 0;
+    for (const Share& share : egress.ets) {
+      const models::TrafficClass q = share.traffic_class & 7u;
+      const bool is_shaped = std::any_of(egress.shapers.begin(), egress.shapers.end(), [q](const Shaper& shaper) { return shaper.traffic_class == q; });
+      if (models::contains(shared, q))
+        diagnostics_.error_unless(!is_read, share.where.at("class"), "a class with two shares", {"class " + std::to_string(q) + " a second time", "one share for a class"});
+      if (is_shaped || models::contains(ats, q))
+        diagnostics_.error_unless(!is_read, share.where.at("class"), "two transmission selection algorithms", {classes(models::only(q)) + " with ETS and " + (is_shaped ? "a credit-based shaper" : "ATS"), "one for a class"});
+      shared = models::with(shared, q);
+      sum += share.bandwidth;
+    }
+    if (sum != 100) diagnostics_.error_unless(!is_read, egress.where.at("ets"), "shares that are not all of the bandwidth", {std::to_string(sum) + " percent in all", "percentages that sum to 100"});
+    const auto preemptable = static_cast<models::ClassSet>(config.preemption ? config.preemption->preemptable & shared : 0);
+    if (preemptable != 0 && preemptable != shared)
+      diagnostics_.error_unless(!is_read || diagnostics_.is_refused(egress.preemption->where.place()), egress.where.at("ets"), "express classes that share bandwidth with preemptable ones, which they cut",
+                                {classes(preemptable) + " preemptable, " + classes(static_cast<models::ClassSet>(shared & ~preemptable)) + " express", "classes that are all express or all preemptable"});
+  }
+
   /// What cannot be, with the reason.
   void check_combinations(const Egress& egress, const models::PortConfig& config, const TopologyNode& node, const TopologyNode& peer) {
     if (!reported_.insert(&egress).second && !egress.untagged) return;  // once for all ports that it configures
     const auto refuse = [&](std::string_view key, const std::string& what, const std::string& found, const std::string& expected) {
       diagnostics_.error(egress.where.at(key), what, {found, expected});
-    };
-    const auto classes = [](models::ClassSet set) {
-      std::string text = "class";
-      for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
-        if (models::contains(set, q)) text += " " + std::to_string(q);
-      return text;
     };
     if (egress.untagged && !peer.is_host())
       refuse("untagged", "tags taken off before a switch", "a port to the switch " + json::quote(peer.name) + ", which would forget the priorities", "ports to hosts");
@@ -97,6 +121,7 @@ class EgressResolver {
     const models::ClassSet ats = set_of(egress.ats);
     if (const auto both = static_cast<models::ClassSet>(ats & config.cut_through); both != 0)
       refuse("cut_through", "cut-through of a class with ATS", classes(both) + ", whose eligibility times count from the last bit", "classes without ATS");
+    check_shares(egress, config, ats);
     models::ClassSet shaped = 0;
     for (const Shaper& shaper : egress.shapers) shaped = models::with(shaped, shaper.traffic_class & 7u);
     if (const auto both = static_cast<models::ClassSet>(ats & shaped); both != 0)
@@ -129,6 +154,7 @@ class EgressResolver {
     }
     for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
       if (models::contains(set_of(egress.ats), q)) config.selection[q] = models::TimeBased{};
+    for (const Share& share : egress.ets) config.selection[share.traffic_class & 7u] = models::EnhancedTransmissionSelection{share.bandwidth};
     for (const MaxSdu& max_sdu : egress.max_sdu) config.queue_max_sdu[max_sdu.traffic_class] = max_sdu.size;
     return config;
   }
@@ -162,11 +188,11 @@ models::GateConfig gate_config_of(const Gates& gates, json::Diagnostics& diagnos
 
 void resolve_egress(Resolved& resolved, json::Diagnostics& diagnostics) { EgressResolver(resolved, diagnostics).run(); }
 
-void add_launch_classes(Resolved& r) {
-  std::map<std::uint32_t, std::set<std::uint8_t>> priorities;  // of frames with a launch time, by talker
+void add_launch_classes(Resolved& r, json::Diagnostics& diagnostics) {
+  std::map<std::uint32_t, std::map<std::uint8_t, models::StreamIndex>> priorities;  // of frames with a launch time, by talker
   for (const models::TalkerPlan& talker : r.plan.talkers) {
     const models::StreamPlan& stream = r.plan.streams[talker.stream.value];
-    if (talker.launch) priorities[stream.talker.value].insert(stream.priority.value_or(0));
+    if (talker.launch) priorities[stream.talker.value].try_emplace(stream.priority.value_or(0), talker.stream);
   }
   if (priorities.empty()) return;
   for (models::LinkPlan& link : r.plan.links) {
@@ -174,8 +200,12 @@ void add_launch_classes(Resolved& r) {
       const auto found = priorities.find(end->node.value);
       if (found == priorities.end()) continue;
       models::PortConfig config = r.plan.port_configs[end->port_config.value_or(r.plan.nodes[end->node.value].port_config)];
-      for (const std::uint8_t priority : found->second) {
-        models::SelectionAlgorithm& selection = config.shaping.selection[config.traffic_class_of_priority[priority]];
+      for (const auto& [priority, stream] : found->second) {
+        const models::TrafficClass q = config.traffic_class_of_priority[priority];
+        models::SelectionAlgorithm& selection = config.shaping.selection[q];
+        const json::Place place = r.streams[stream.value].where.at("launch");
+        if (config.shaping.is_shared(q))
+          diagnostics.error_unless(diagnostics.is_refused(place), place, "two transmission selection algorithms", {"class " + std::to_string(q) + " of " + json::quote(r.topology.nodes[end->node.value].name) + " with ETS and launch times", "one for a class"});
         if (auto* const shaper = std::get_if<models::CreditBased>(&selection)) shaper->has_launch_times = true;
         else selection = models::TimeBased{};
       }

@@ -12,8 +12,8 @@ models::GateConfig gate_config_of(const Gates& gates, json::Diagnostics& diagnos
 /// link, a neighbour that is none and a class configured twice are diagnostics.
 void resolve_egress(Resolved& resolved, json::Diagnostics& diagnostics);
 
-/// The classes of streams with a launch time wait for it at their talkers. To be called when the talkers are there.
-void add_launch_classes(Resolved& resolved);
+/// The classes of streams with a launch time wait for it at their talkers; they cannot share bandwidth. To be called when the talkers are there.
+void add_launch_classes(Resolved& resolved, json::Diagnostics& diagnostics);
 
 /// Whether credit can grow as fast as an idle slope of the whole cycle asks for while the gate is open.
 bool slope_is_possible(const models::CreditBased& shaper, models::TrafficClass q, const models::GateConfig& gates, DataRate rate);

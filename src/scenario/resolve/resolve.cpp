@@ -64,7 +64,7 @@ class Resolver {
     resolve_gates(r_, diagnostics_);
     check_cut_through(r_, diagnostics_);
     check_slopes(r_, diagnostics_);
-    add_launch_classes(r_);
+    add_launch_classes(r_, diagnostics_);
     for (const ScriptEntry& entry : r_.scenario.script)
       if (is_read(entry)) add_action(entry);
     resolve_faults(r_, diagnostics_);

@@ -1,6 +1,6 @@
 #include "models/bridge/bridge.hpp"
 
-#include <algorithm>
+#include "sim/insertion_sort.hpp"
 
 namespace takt::models {
 
@@ -72,7 +72,7 @@ void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
 }
 
 void Bridge::settle(sim::Simulation& simulation) {
-  std::stable_sort(arrived_.begin(), arrived_.end(), [](const Arrived& a, const Arrived& b) { return a.port < b.port; });
+  sim::insertion_sort(arrived_, [](const Arrived& a, const Arrived& b) { return a.port < b.port; });
   for (const Arrived& arrived : arrived_)
     for (const FrameIndex passed : chain_->pass(simulation, {arrived.frame, arrived.port, simulation.now() - forwarding_delay_}))
       forward(simulation, passed, arrived.port, arrived.only_header ? &arrived.header : nullptr);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "models/gptp/codec.hpp"
+#include "sim/insertion_sort.hpp"
 
 namespace takt::models::gptp {
 namespace {
@@ -210,7 +211,7 @@ void Station::receive(sim::Simulation& simulation, FrameIndex frame, std::uint16
 }
 
 void Station::take_in_all() {
-  std::stable_sort(arrived_.begin(), arrived_.end(),
+  sim::insertion_sort(arrived_,
                    [](const Arrived& a, const Arrived& b) { return a.last_bit != b.last_bit ? a.last_bit < b.last_bit : a.port < b.port; });
   for (const Arrived& arrived : arrived_) take_in(arrived);
   arrived_.clear();

@@ -30,7 +30,7 @@ ExitStatus run_emulation(const ScenarioOptions& options, const std::string& keep
     std::fprintf(stderr, "takt: cannot emulate %s here: %s\n", resolved->scenario.name.c_str(), problem.c_str());
     return ExitStatus::internal_error;
   }
-  std::fputs((options.is_json() ? to_json(result, resolved->scenario.name) : to_text(result, resolved->scenario.name)).c_str(), stdout);
+  std::fputs((options.is_json() ? emulate::to_json({resolved->scenario.name, result}) : to_text(result, resolved->scenario.name)).c_str(), stdout);
   if (result.interrupted) return ExitStatus::interrupted;
   return result.is_same() ? ExitStatus::pass : ExitStatus::requirement_failed;
 }

@@ -39,7 +39,7 @@ ExitStatus run_applications(const std::string& file, bool is_check) {
   std::fflush(stdout);
   host->run([](const void* guard) { return static_cast<const InterruptGuard*>(guard)->requested(); }, &interrupt);
   const auto statistics = host->statistics();
-  const std::string json = node::to_json(loaded->config.node, statistics);
+  const std::string json = node::to_json({loaded->config.node, statistics});
   std::printf("{\"event\": \"end\", %s\n", json.substr(1).c_str());
   std::fflush(stdout);
   std::fputs(node::to_text(statistics).c_str(), stderr);

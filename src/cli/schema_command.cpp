@@ -7,11 +7,14 @@
 
 #include "analysis/report_record.hpp"
 #include "cli/commands.hpp"
+#include "emulate/emulation.hpp"
 #include "explore/report/report.hpp"
 #include "json/record.hpp"
 #include "json/reference.hpp"
 #include "node/applications/config.hpp"
+#include "node/applications/host.hpp"
 #include "node/config.hpp"
+#include "node/node_status.hpp"
 #include "results/run_result.hpp"
 #include "scenario/description/description.hpp"
 #include "study/compare.hpp"
@@ -49,6 +52,9 @@ constexpr std::array file_kinds{
     written_as<verify::Report>("verify", "takt verify --format json"),
     written_as<explore::Exploration>("explore", "takt explore --format json"),
     written_as<study::Comparison>("compare", "takt compare --format json"),
+    written_as<node::NodeStatus>("status", "takt ctl NODE status --format json"),
+    written_as<node::ApplicationsReport>("statistics", "takt node: statistics of applications"),
+    written_as<emulate::Report>("emulate", "takt emulate --format json"),
 };
 
 struct Options {
@@ -62,7 +68,7 @@ std::string text_for(const Options& options) {
   if (kind.record != nullptr)
     return json::record_reference(*kind.record(), kind.title,
                                   fmt::format("Made by `takt schema {} --reference` from the tables that the output is written by; `takt schema {}` prints its JSON Schema. Keys that end with "
-                                              "`_ps`, and all times, are whole picoseconds.",
+                                              "`_ps`, and times without another unit, are whole picoseconds.",
                                               kind.name, kind.name));
   return json::reference(kind.schema(kind.title), fmt::format("All keys of such a file. Made by `takt schema {} --reference` from the tables that the loader reads by; every mistake in a file is "
                                            "reported with its place and what was expected, and `takt schema {}` prints the JSON Schema for editors.",
@@ -76,7 +82,7 @@ void add_schema_command(Command app, ExitStatus& status) {
   const auto options = std::make_shared<Options>();
   std::vector<std::string> names;
   for (const FileKind& kind : file_kinds) names.emplace_back(kind.name);
-  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result, bound, verify, explore or compare (takt check --format json writes a scenario)").one_of(names);
+  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result, bound, verify, explore, compare, status, statistics (of a node of applications) or emulate (takt check --format json writes a scenario)").one_of(names);
   command.add_flag("--reference", options->as_reference, "Markdown for people instead: every key with unit, range, default and meaning");
   command.footer("Examples:\n  takt schema > scenarios/takt.schema.json\n  takt schema study > scenarios/studies/takt-study.schema.json\n  takt schema scenario --reference | less");
   command.callback([options, &status] {

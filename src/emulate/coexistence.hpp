@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "json/type.hpp"
+
 namespace takt::emulate {
 
 /// The intervals of the tables, in ms, as their columns.
@@ -47,6 +49,10 @@ struct CoexistenceSettings {
   bool (*stop_requested)(const void* context) = nullptr;
   const void* context = nullptr;
 };
+
+const json::Record& describe(json::Type<MeasuredThread>);
+const json::Record& describe(json::Type<MeasuredBuffer>);
+const json::Record& describe(json::Type<MeasuredCoexistence>);
 
 /// In network namespaces with a bridge between them; over loopback where that is not permitted, which `machine` says. Nothing, and `problem` says
 /// why, if a node failed or it was stopped. Nothing is left on the machine in any case.

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "emulate/coexistence.hpp"
-#include "json/document.hpp"
+#include "json/record.hpp"
 
 namespace takt::emulate {
 namespace {
@@ -31,36 +31,8 @@ std::string table(const char* title, const std::vector<MeasuredThread>& rows) {
   return out;
 }
 
-json::Node percents(const std::array<std::optional<double>, 4>& values) {
-  json::Node node = json::Node::array();
-  for (const auto& value : values) node.items.push_back(value ? json::Node::of_double(*value) : json::Node());
-  return node;
-}
-
-template <class Integer>
-json::Node number(Integer value) {
-  return json::Node::of_integer(static_cast<sim::int128>(value));
-}
-
-json::Node rows_of(const std::vector<MeasuredThread>& rows) {
-  json::Node all = json::Node::array();
-  for (const MeasuredThread& row : rows) {
-    json::Node node = json::Node::object();
-    node.add("protocol", json::Node::of_string(row.protocol));
-    node.add("node", json::Node::of_string(row.node));
-    node.add("operation", json::Node::of_string(row.operation));
-    node.add("success_percent", percents(row.success));
-    if (row.operation == "subscribe") node.add("buffered_percent", percents(row.buffered));
-    json::Node& tests = node.add("tests", json::Node::array());
-    for (const std::uint64_t each : row.tests) tests.items.push_back(number(each));
-    json::Node& discarded = node.add("discarded", json::Node::array());
-    for (const std::uint64_t each : row.discarded) discarded.items.push_back(number(each));
-    json::Node& late = node.add("late_p99_us", json::Node::array());
-    for (const double each : row.late_p99_us) late.items.push_back(json::Node::of_double(each));
-    all.items.push_back(std::move(node));
-  }
-  return all;
-}
+bool subscribes(const MeasuredThread& thread) { return thread.operation == "subscribe"; }
+const std::array<int, 4>& intervals_of(const MeasuredCoexistence&) { return coexistence_intervals; }
 
 }  // namespace
 
@@ -76,26 +48,47 @@ std::string to_text(const MeasuredCoexistence& measured) {
   return out;
 }
 
-std::string to_json(const MeasuredCoexistence& measured) {
-  json::Node root = json::Node::object();
-  root.add("machine", json::Node::of_string(measured.machine));
-  json::Node& intervals = root.add("intervals_ms", json::Node::array());
-  for (const int each : coexistence_intervals) intervals.items.push_back(number(each));
-  root.add("mirror", rows_of(measured.mirror));
-  root.add("gateway", rows_of(measured.gateway));
-  json::Node& buffers = root.add("buffers", json::Node::array());
-  for (const auto& buffer : measured.buffers) {
-    json::Node node = json::Node();
-    if (buffer) {
-      node = json::Node::object();
-      node.add("received", number(buffer->received));
-      node.add("forwarded", number(buffer->forwarded));
-      node.add("overwritten", number(buffer->overwritten));
-      node.add("mean_age_us", json::Node::of_double(buffer->mean_age_us));
-    }
-    buffers.items.push_back(std::move(node));
-  }
-  return json::pretty(root);
+const json::Record& describe(json::Type<MeasuredThread>) {
+  using T = MeasuredThread;
+  static constexpr json::Output outputs[] = {
+      json::output<&T::protocol>("protocol", "DDS or OPC UA; of the gateway gateway."),
+      json::output<&T::node>("node", "Where it runs."),
+      json::output<&T::operation>("operation", "publish or subscribe."),
+      json::output<&T::success>("success_percent", "Criterion 1 at each interval; null: not measured.", {.unit = "%"}),
+      json::only_if<&subscribes>(json::output<&T::buffered>("buffered_percent", "Criterion 2 at each interval.", {.unit = "%"}), "of a thread that subscribes"),
+      json::output<&T::tests>("tests", "Windows."),
+      json::output<&T::discarded>("discarded", "Windows at whose end the scheduler was not let run."),
+      json::output<&T::late_p99_us>("late_p99_us", "From an activation to waking up, the 99th percentile.", {.unit = "us"}),
+  };
+  static constexpr json::Record record{"thread", "A thread at each interval.", outputs};
+  return record;
 }
+
+const json::Record& describe(json::Type<MeasuredBuffer>) {
+  using B = MeasuredBuffer;
+  static constexpr json::Output outputs[] = {
+      json::output<&B::received>("received", "Values that came."),
+      json::output<&B::forwarded>("forwarded", "Values that were sent on."),
+      json::output<&B::overwritten>("overwritten", "Values that made room for a newer one."),
+      json::output<&B::mean_age_us>("mean_age_us", "How long they waited.", {.unit = "us"}),
+  };
+  static constexpr json::Record record{"buffer", "The shared buffer of the gateway.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<MeasuredCoexistence>) {
+  using M = MeasuredCoexistence;
+  static constexpr json::Output outputs[] = {
+      json::output<&M::machine>("machine", "Kernel, processors, network."),
+      json::output<&intervals_of>("intervals_ms", "The columns.", {.unit = "ms"}),
+      json::output<&M::mirror>("mirror", "Case study 1."),
+      json::output<&M::gateway>("gateway", "Case study 2."),
+      json::output<&M::buffers>("buffers", "Of case study 2, at each interval."),
+  };
+  static constexpr json::Record record{"coexistence", "The mirror architecture as it was measured on a machine.", outputs};
+  return record;
+}
+
+std::string to_json(const MeasuredCoexistence& measured) { return json::write(measured); }
 
 }  // namespace takt::emulate

@@ -7,6 +7,7 @@
 #include "emulate/comparison.hpp"
 #include "emulate/invariant_check.hpp"
 #include "emulate/plan.hpp"
+#include "json/type.hpp"
 
 namespace takt::emulate {
 
@@ -49,8 +50,15 @@ struct Settings {
 /// False, and `problem` says why, if the machine does not permit it or a node failed. Nothing is left on the machine in any case.
 bool emulate(const scenario::Resolved& resolved, const Plan& plan, const Settings& settings, Result& result, std::string& problem);
 
+/// What `takt emulate` writes.
+struct Report {
+  std::string scenario;
+  const Result& result;
+};
+const json::Record& describe(json::Type<Report>);
+
 /// For people, and for machines.
 std::string to_text(const Result& result, const std::string& scenario);
-std::string to_json(const Result& result, const std::string& scenario);
+std::string to_json(const Report& report);
 
 }  // namespace takt::emulate

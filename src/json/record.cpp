@@ -109,12 +109,16 @@ std::string words_of(const Output& output) {
   return fmt::format("{} ({})", output.help, more);
 }
 
-/// Calls `use` with each output that stands in a record, those of spread ones among them.
+/// Calls `use` with each output that stands in a record, those of spread ones among them, which are there only if what was spread is.
 template <class Use>
-void each_output(const Record& record, Use use) {
-  for (const Output& output : record.outputs) {
+void each_output(const Record& record, Use use, const Output* spread = nullptr) {
+  for (Output output : record.outputs) {
+    if (spread != nullptr && spread->is_there != nullptr && output.is_there == nullptr) {
+      output.is_there = spread->is_there;
+      output.only = spread->only;
+    }
     if (output.is_spread)
-      each_output(output.shape->record(), use);
+      each_output(output.shape->record(), use, &output);
     else
       use(output);
   }

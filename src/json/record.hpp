@@ -10,9 +10,10 @@
 //     return record;
 //   }
 //
-// A value may be a bool, integer, double, text, time (in ps), a described struct, or std::optional (null), std::vector, or a vector of names and these.
+// A value may be a bool, integer, double, text, time (in ps), a described struct, or std::optional (null), std::vector or array, or a vector of names and these.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <functional>
@@ -138,6 +139,11 @@ struct ShapeOf<std::vector<T>> {
     for (const T& value : values) array.items.push_back(ShapeOf<T>::write(value));
     return array;
   }
+};
+template <class T, std::size_t count>
+struct ShapeOf<std::array<T, count>> {
+  static constexpr Shape shape{Shape::Kind::list, {}, nullptr, &ShapeOf<T>::shape};
+  static Node write(const std::array<T, count>& values) { return ShapeOf<std::vector<T>>::write({values.begin(), values.end()}); }
 };
 template <class T>
 struct ShapeOf<std::vector<std::pair<std::string, T>>> {

@@ -55,7 +55,7 @@ class HostedProgram {
   const std::string& name() const { return loaded_.program.name; }
   handshake::PublishedState state() const { return part_.state(); }
   bool is_candidate() const { return part_.candidate() != nullptr; }
-  ProgramStatus status() const { return {loaded_.program, part_, cycles_, peers_}; }
+  ProgramStatus status(sim::LocalTime now, std::uint64_t send_failures) const { return {&loaded_.program, &part_, &cycles_, &peers_, now, send_failures}; }
 
  private:
   /// In order. What an application does in between comes behind it.

@@ -1,4 +1,4 @@
-// What a node says about itself: state, peers, statistics; as JSON for machines and as text for people.
+// What a node says about itself: state, peers, statistics; as JSON for machines and as text for people. `takt schema status --reference` describes it.
 #pragma once
 
 #include <string>
@@ -12,21 +12,22 @@ namespace takt::node {
 
 /// All parts are the node's own.
 struct ProgramStatus {
-  const Program& program;
-  const wire::ProgramNode& node;
-  const CycleStatistics& cycles;
-  const PeerWatch& peers;
+  const Program* program = nullptr;
+  const wire::ProgramNode* node = nullptr;
+  const CycleStatistics* cycles = nullptr;
+  const PeerWatch* peers = nullptr;
+  sim::LocalTime now;
+  std::uint64_t send_failures = 0;      ///< of the node's socket
 };
 struct NodeStatus {
-  const std::string& node;
+  std::string node;
   std::vector<ProgramStatus> programs;  ///< at least one
-  std::uint64_t send_failures = 0;      ///< of the node's socket
-  sim::LocalTime now;
   std::int64_t time_ns = 0;             ///< now, on the node's clock
 };
+const json::Record& describe(json::Type<ProgramStatus>);
+const json::Record& describe(json::Type<NodeStatus>);
 
-/// {"node": ..., "program": ..., "state": ..., "peers": [...], "statistics": {...}}, on one line without a newline. Of several Programs
-/// {"node": ..., "programs": [...]}, each as above. A master of roles has "roles" and "candidates", a candidate "bound_to".
+/// On one line without a newline. What it says of a Program stands among the rest if the node has one only.
 std::string to_json(const NodeStatus& status);
 /// Some lines of text from what to_json made; the text itself if it is something else.
 std::string status_text(const std::string& json);

@@ -96,9 +96,9 @@ void RealNode::run(bool (*stop_requested)(const void* context), const void* cont
 
 NodeStatus RealNode::status_now(std::optional<std::size_t> only) const {
   const sim::LocalTime time = clock_.now();
-  NodeStatus status{config_.node, {}, socket_->send_failures(), time, clock_.nanoseconds_at(time)};
+  NodeStatus status{config_.node, {}, clock_.nanoseconds_at(time)};
   for (std::size_t i = 0; i < programs_.size(); ++i)
-    if (!only || *only == i) status.programs.push_back(programs_[i]->status());
+    if (!only || *only == i) status.programs.push_back(programs_[i]->status(time, socket_->send_failures()));
   return status;
 }
 

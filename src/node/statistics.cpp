@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "json/record.hpp"
+
 namespace takt::node {
 namespace {
 std::int64_t ns_between(sim::LocalTime from, sim::LocalTime to) { return (to - from).ps() / 1000; }
@@ -12,6 +14,8 @@ bool has_reached(const handshake::Intent& known, const handshake::Intent& intent
   const handshake::Standing standing = handshake::standing_of(known, intent);
   return standing == handshake::Standing::same || standing == handshake::Standing::later;
 }
+
+std::int64_t p99(const Distribution& distribution) { return distribution.percentile(99); }
 
 }  // namespace
 
@@ -46,6 +50,18 @@ std::int64_t Distribution::percentile(double percent) const {
     if (below >= wanted && below > 0) return std::clamp(upper_end_of(bucket), least(), greatest());
   }
   return greatest();
+}
+
+const json::Record& describe(json::Type<Distribution>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&Distribution::count>("count", "How many."),
+      json::output<&Distribution::least>("min_ns", "The least; 0 of none.", {.unit = "ns"}),
+      json::output<&Distribution::mean>("mean_ns", "The mean; 0 of none.", {.unit = "ns"}),
+      json::output<&p99>("p99_ns", "The 99th percentile, to an eighth of its value.", {.unit = "ns"}),
+      json::output<&Distribution::greatest>("max_ns", "The greatest; 0 of none.", {.unit = "ns"}),
+  };
+  static constexpr json::Record record{"distribution", "Times that were measured.", outputs};
+  return record;
 }
 
 void PeerWatch::published(const handshake::Word& word, sim::LocalTime now) {

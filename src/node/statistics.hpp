@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "handshake/word.hpp"
+#include "json/type.hpp"
 #include "sim/time.hpp"
 
 namespace takt::node {
@@ -33,6 +34,8 @@ class Distribution {
   std::int64_t greatest_ = 0;
   std::array<std::uint32_t, 64 * steps> buckets_{};
 };
+
+const json::Record& describe(json::Type<Distribution>);
 
 /// How the cycle was kept. A cycle is missed if nothing was published in it. Of those missed at once as many are the code's fault as the
 /// thread has used whole cycles of CPU time since it published last; in the others the operating system did not let it run. (A hypervisor

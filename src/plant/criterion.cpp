@@ -2,11 +2,28 @@
 
 #include <algorithm>
 
+#include "json/record.hpp"
+
 namespace takt::plant {
 
 std::optional<double> CriterionFigures::percent() const {
   if (expected == 0) return std::nullopt;
   return 100.0 * static_cast<double>(counted) / static_cast<double>(expected);
+}
+
+const json::Record& describe(json::Type<CriterionFigures>) {
+  using F = CriterionFigures;
+  static constexpr json::Output outputs[] = {
+      json::output<&F::tests>("tests", "Whole windows that were judged."),
+      json::output<&F::expected>("expected", "What was expected in all of them."),
+      json::output<&F::counted>("counted", "What happened, at most the expected ones of each window."),
+      json::output<&F::beyond>("beyond", "What happened beyond what was expected."),
+      json::output<&F::windows_below>("windows_below", "Windows in which less happened than was expected."),
+      json::output<&F::discarded>("discarded", "Windows that were no tests, since the scheduler itself was not let run."),
+      json::output_if_any<&F::percent>("percent", "Of what was expected.", "with a test", {.unit = "%"}),
+  };
+  static constexpr json::Record record{"criterion", "Whether a thread did what was expected of it, window by window.", outputs};
+  return record;
 }
 
 void Criterion::begin(std::int64_t now) {

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "json/type.hpp"
+
 namespace takt::plant {
 
 /// As many happenings count as were expected in a window; more are noted as beyond.
@@ -19,6 +21,7 @@ struct CriterionFigures {
   std::optional<double> percent() const;
   bool operator==(const CriterionFigures&) const = default;
 };
+const json::Record& describe(json::Type<CriterionFigures>);
 
 /// Window k lasts from phase + k * length to phase + (k + 1) * length of the clock, and each whole window is a test. What happens belongs to the window
 /// in which the activation was due that it answers, so it does not matter how late the scheduler looks. A look that is later than the

@@ -124,8 +124,8 @@ class WordBench {
   std::string ask() {
     std::string all;
     for (const auto& each : nodes_) {
-      node::NodeStatus status{each->loaded.config.node, {}, 0, now_, now_.since_start().ps() / 1000};
-      for (const auto& seat : each->seats) status.programs.push_back({seat->of.program, seat->member, seat->cycles, seat->peers});
+      node::NodeStatus status{each->loaded.config.node, {}, now_.since_start().ps() / 1000};
+      for (const auto& seat : each->seats) status.programs.push_back({&seat->of.program, &seat->member, &seat->cycles, &seat->peers, now_, 0});
       const std::string json = node::to_json(status);
       all += json + "\n" + node::status_text(json);
       node::TransitionLog(sink_.get()).ended(status);

@@ -42,6 +42,15 @@ struct ApplicationStatistics {
   std::optional<gateway::ChannelFigures> channel;  ///< of a gateway
 };
 
+/// What a node has to say at its end.
+struct ApplicationsReport {
+  std::string node;
+  std::vector<ApplicationStatistics> all;
+};
+const json::Record& describe(json::Type<ThreadStatistics>);
+const json::Record& describe(json::Type<ApplicationStatistics>);
+const json::Record& describe(json::Type<ApplicationsReport>);
+
 class ApplicationHost {
  public:
   /// Null, and `problem` says why, if the machine does not give what the file asks for. What it can do without is a line of `warnings`.
@@ -76,8 +85,8 @@ class ApplicationHost {
   std::atomic<bool> is_over_{false};
 };
 
-/// One JSON object.
-std::string to_json(const std::string& node, const std::vector<ApplicationStatistics>& statistics);
+/// One JSON object, as `takt schema statistics` describes it.
+std::string to_json(const ApplicationsReport& report);
 /// For people.
 std::string to_text(const std::vector<ApplicationStatistics>& statistics);
 

@@ -85,7 +85,7 @@ TEST(ApplicationHost, AChainOfThreeRolesTakesWhatItPublishes) {
       EXPECT_EQ(thread.call_windows.expected, 2 * thread.call_windows.tests);
       EXPECT_LE(thread.call_windows.counted, thread.call_windows.expected);
     }
-  const std::string json = to_json("all", statistics);
+  const std::string json = to_json({"all", statistics});
   EXPECT_NE(json.find("\"criterion_1\""), std::string::npos);
 }
 

@@ -26,7 +26,7 @@ TESTS = {
     "takt_frer_test": {"RC_PARAMS": "seed=2026 max_success=20"},
     "takt_preemption_test": {},
     "takt_regression_test": {},
-    "takt_judges_test": {},
+    "takt_evaluation_test": {},
     "takt_network_property_test": {"RC_PARAMS": "seed=2026 max_success=20"},
     "takt_determinism_property_test": {"RC_PARAMS": "seed=2026 max_success=10"},
     "takt_feature_pairs_test": {"GTEST_FILTER": "*Triples*", "RC_PARAMS": "seed=2026 max_success=100"},

@@ -1,6 +1,6 @@
 // Requirements are judged as they read.
 #include "evaluation/evaluate.hpp"
-#include "support.hpp"
+#include "tests/scenario/support.hpp"
 
 namespace takt::scenario::test {
 namespace {

@@ -3,7 +3,7 @@
 #include "evaluation/evaluate.hpp"
 #include "results/result_json.hpp"
 #include "scenario/figures/requirement.hpp"
-#include "support.hpp"
+#include "tests/scenario/support.hpp"
 
 namespace takt::scenario::test {
 namespace {

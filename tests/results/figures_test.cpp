@@ -7,7 +7,7 @@
 #include "evaluation/evaluate.hpp"
 #include "results/result_json.hpp"
 #include "scenario/figures/known_figures.hpp"
-#include "support.hpp"
+#include "tests/scenario/support.hpp"
 
 namespace takt::scenario::test {
 namespace {
@@ -16,7 +16,7 @@ using results::RequirementResult;
 using results::RunResult;
 using results::Verdict;
 
-// a --- sw --- b as in requirements_test.cpp: 11 frames from 0 to 10 ms, 10 of them delivered after 2.564 us each.
+// a --- sw --- b as in tests/evaluation/requirements_test.cpp: 11 frames from 0 to 10 ms, 10 of them delivered after 2.564 us each.
 std::string frames(const std::string& requirement) {
   return over_one_switch(R"(, "streams": [{"name": "camera", "from": "a", "to": "b", "payload": "100B", "every": "1ms"}], "require": [)" + requirement + "]");
 }

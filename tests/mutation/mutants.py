@@ -63,7 +63,8 @@ class Build:
     def command(self, output):
         words = shlex.split(self.asked("commands", "-s", output).splitlines()[-1])
         words = [word for word in words if word not in (":", "&&")]
-        return words[1:] if pathlib.Path(words[0]).name == "ccache" else words
+        names = [pathlib.Path(word).name for word in words]
+        return words[names.index("ccache") + 1:] if "ccache" in names else words  # what is compiled once needs no cache
 
     def compiled(self, output, changed, folder, made):
         """`output`: the object as the build names it; made of the `changed` sources and headers below `folder` where there are such."""

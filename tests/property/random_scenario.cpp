@@ -33,7 +33,7 @@ class Draw {
   sim::RandomStream chance_;
 };
 
-std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+std::string in_quotes(const std::string& text) { return "\"" + text + "\""; }
 std::string list(const std::vector<int>& numbers) {
   std::string text;
   for (const int number : numbers) text += (text.empty() ? "" : ", ") + std::to_string(number);
@@ -43,7 +43,7 @@ std::string list(const std::vector<int>& numbers) {
 class Parts {
  public:
   void add(const std::string& part) { text_ += (text_.empty() ? "" : ", ") + part; }
-  void add(const char* key, const std::string& value) { add(quoted(key) + ": " + value); }
+  void add(const char* key, const std::string& value) { add(in_quotes(key) + ": " + value); }
   bool empty() const { return text_.empty(); }
   std::string object() const { return "{" + text_ + "}"; }
   std::string array() const { return "[" + text_ + "]"; }
@@ -79,7 +79,7 @@ class Maker {
     if (const Parts script = script_of(); !script.empty()) text += ",\n  \"script\": " + script.lines();
     if (const Parts faults = faults_of(); !faults.empty()) {
       text += ",\n  \"faults\": " + faults.lines();
-      if (has(Feature::rerouting)) text += ",\n  \"rerouting\": " + quoted(Draw(w_.seed, "rerouting").any({"0ns", "10us", "200us", "1ms"}));
+      if (has(Feature::rerouting)) text += ",\n  \"rerouting\": " + in_quotes(Draw(w_.seed, "rerouting").any({"0ns", "10us", "200us", "1ms"}));
     }
     return text + "\n}\n";
   }
@@ -97,15 +97,15 @@ class Maker {
     const auto link = [&](const std::string& a, const std::string& b) {
       Draw draw(w_.seed, "link " + a + " " + b);
       Parts one;
-      one.add("ends", "[" + quoted(a) + ", " + quoted(b) + "]");
+      one.add("ends", "[" + in_quotes(a) + ", " + in_quotes(b) + "]");
       std::string rate = "100Mbps";
       if (has(Feature::rates)) rate = draw.any({"10Mbps", "100Mbps", "100Mbps", "1Gbps"});
       slow_ = slow_ || rate == "10Mbps";
-      one.add("rate", quoted(rate));
-      one.add("delay", quoted(draw.any({"0ns", "50ns", "500ns", "3us"})));
+      one.add("rate", in_quotes(rate));
+      one.add("delay", in_quotes(draw.any({"0ns", "50ns", "500ns", "3us"})));
       links.add(one.object());
-      if (a.starts_with("sw") && b.starts_with("sw")) trunks_.push_back("[" + quoted(a) + ", " + quoted(b) + "]");
-      else edges_.push_back("[" + quoted(a) + ", " + quoted(b) + "]");
+      if (a.starts_with("sw") && b.starts_with("sw")) trunks_.push_back("[" + in_quotes(a) + ", " + in_quotes(b) + "]");
+      else edges_.push_back("[" + in_quotes(a) + ", " + in_quotes(b) + "]");
     };
     for (std::size_t s = 1; s < w_.switches; ++s) link(switch_name(s - 1), switch_name(s));
     if (is_ring()) link(switch_name(w_.switches - 1), switch_name(0));
@@ -116,8 +116,8 @@ class Maker {
   std::string gate_entry(Draw& draw, const std::vector<int>& open, const std::string& duration) const {
     Parts entry;
     entry.add("open", list(open));
-    entry.add("for", quoted(duration));
-    if (has(Feature::hold) && draw.one_in(2)) entry.add("mac", quoted(draw.any({"hold", "release"})));
+    entry.add("for", in_quotes(duration));
+    if (has(Feature::hold) && draw.one_in(2)) entry.add("mac", in_quotes(draw.any({"hold", "release"})));
     return entry.object();
   }
   /// Some entries, then one that is open to all and long enough for the longest frame.
@@ -130,9 +130,9 @@ class Maker {
     if (draw.one_in(2)) entries.add(gate_entry(draw, draw.classes(2), "30us"));
     Parts all;
     all.add("entries", entries.array());
-    all.add("base_time", quoted(draw.any({"0ns", "0ns", "-1ms", "37us", "500us", "-123456789ps"})));
-    if (draw.one_in(3)) all.add("extension", quoted(draw.any({"20us", "100us", "1ms"})));
-    if (draw.one_in(4)) all.add("cycle", quoted(slow_ ? "3ms" : draw.any({"1ms", "500us", "700us"})));
+    all.add("base_time", in_quotes(draw.any({"0ns", "0ns", "-1ms", "37us", "500us", "-123456789ps"})));
+    if (draw.one_in(3)) all.add("extension", in_quotes(draw.any({"20us", "100us", "1ms"})));
+    if (draw.one_in(4)) all.add("cycle", in_quotes(slow_ ? "3ms" : draw.any({"1ms", "500us", "700us"})));
     return all.object();
   }
 
@@ -154,20 +154,20 @@ class Maker {
     // Over a whole cycle of which the gate is open for a part a slope is several times as steep.
     const bool gated = has(Feature::gates) || has(Feature::hold) || has(Feature::cqf) || has(Feature::set_gates);
     for (const int q : shaped)
-      shapers.add("{\"class\": " + std::to_string(q) + ", \"idle_slope\": " + quoted(gated && !slow_ ? draw.any({"3Mbps", "7Mbps", "10Mbps", "10666667bps"}) : slow_ ? draw.any({"1Mbps", "3Mbps", "2500000bps"}) : draw.any({"10Mbps", "33Mbps", "7Mbps", "20Mbps", "75Mbps"})) +
-                  ", \"of\": " + quoted(draw.any({"cycle", "window"})) + "}");
+      shapers.add("{\"class\": " + std::to_string(q) + ", \"idle_slope\": " + in_quotes(gated && !slow_ ? draw.any({"3Mbps", "7Mbps", "10Mbps", "10666667bps"}) : slow_ ? draw.any({"1Mbps", "3Mbps", "2500000bps"}) : draw.any({"10Mbps", "33Mbps", "7Mbps", "20Mbps", "75Mbps"})) +
+                  ", \"of\": " + in_quotes(draw.any({"cycle", "window"})) + "}");
     if (!shapers.empty()) parts.add("shapers", shapers.array());
     if (!ats.empty()) parts.add("ats", list(ats));
     if (!preemptable.empty()) {
       Parts preemption;
       preemption.add("preemptable", list(preemptable));
       preemption.add("add_frag_size", std::to_string(draw.below(4)));
-      if (draw.one_in(4)) preemption.add("hold_advance", quoted(draw.any({"0ns", "5us", "30us"})));
-      if (draw.one_in(4)) preemption.add("release_advance", quoted(draw.any({"1us", "10us"})));
+      if (draw.one_in(4)) preemption.add("hold_advance", in_quotes(draw.any({"0ns", "5us", "30us"})));
+      if (draw.one_in(4)) preemption.add("release_advance", in_quotes(draw.any({"1us", "10us"})));
       parts.add("preemption", preemption.object());
     }
     if (!cut.empty()) parts.add("cut_through", list(cut));
-    if (has(Feature::max_sdu)) parts.add("max_sdu", "[{\"class\": " + std::to_string(draw.below(8)) + ", \"size\": " + quoted(draw.any({"100B", "500B", "1000B"})) + "}, {\"class\": 0, \"size\": \"1200B\"}]");
+    if (has(Feature::max_sdu)) parts.add("max_sdu", "[{\"class\": " + std::to_string(draw.below(8)) + ", \"size\": " + in_quotes(draw.any({"100B", "500B", "1000B"})) + "}, {\"class\": 0, \"size\": \"1200B\"}]");
     return parts.empty() ? "" : parts.object();
   }
 
@@ -175,7 +175,7 @@ class Maker {
     Draw draw(w_.seed, "queues " + element);
     Parts parts;
     if (draw.one_in(2)) parts.add("frames", std::to_string(1 + draw.below(4)));
-    if (draw.one_in(2)) parts.add("octets", quoted(draw.any({"700B", "2000B", "3100B"})));
+    if (draw.one_in(2)) parts.add("octets", in_quotes(draw.any({"700B", "2000B", "3100B"})));
     return parts.object();
   }
 
@@ -185,22 +185,22 @@ class Maker {
     for (std::size_t i = 0; i < w_.streams; ++i) {
       Draw mine(w_.seed, "filter " + switch_name(s) + stream_name(i));
       Parts filter;
-      filter.add("stream", quoted(stream_name(i)));
+      filter.add("stream", in_quotes(stream_name(i)));
       const bool polices = has(Feature::policing) && !mine.one_in(3);
-      if (polices && mine.one_in(3)) filter.add("max_sdu", quoted(mine.any({"200B", "600B", "1400B"})));
-      if (polices && mine.one_in(2)) filter.add("gate", quoted(mine.any({"g0", "g1"})));
+      if (polices && mine.one_in(3)) filter.add("max_sdu", in_quotes(mine.any({"200B", "600B", "1400B"})));
+      if (polices && mine.one_in(2)) filter.add("gate", in_quotes(mine.any({"g0", "g1"})));
       else if (has(Feature::cqf) && mine.one_in(2)) filter.add("gate", "\"cqf\"");
-      if (polices && mine.one_in(2)) filter.add("meter", quoted(mine.any({"m0", "m1"})));
-      if (has(Feature::ats) && !mine.one_in(4)) filter.add("ats", quoted("a" + std::to_string(mine.below(3))));
+      if (polices && mine.one_in(2)) filter.add("meter", in_quotes(mine.any({"m0", "m1"})));
+      if (has(Feature::ats) && !mine.one_in(4)) filter.add("ats", in_quotes("a" + std::to_string(mine.below(3))));
       filters.add(filter.object());
     }
     if (has(Feature::ats)) {
       for (int i = 0; i < 3; ++i)
-        schedulers.add("{\"name\": \"a" + std::to_string(i) + "\", \"rate\": " + quoted(slow_ ? draw.any({"1Mbps", "3Mbps"}) : draw.any({"5Mbps", "12Mbps", "33333333bps"})) + ", \"burst\": " +
-                       quoted(draw.any({"1550B", "2000B", "5000B"})) + ", \"length\": " + quoted(draw.any({"wire", "frame"})) + (draw.one_in(3) ? ", \"group\": \"all\"" : "") + "}");
+        schedulers.add("{\"name\": \"a" + std::to_string(i) + "\", \"rate\": " + in_quotes(slow_ ? draw.any({"1Mbps", "3Mbps"}) : draw.any({"5Mbps", "12Mbps", "33333333bps"})) + ", \"burst\": " +
+                       in_quotes(draw.any({"1550B", "2000B", "5000B"})) + ", \"length\": " + in_quotes(draw.any({"wire", "frame"})) + (draw.one_in(3) ? ", \"group\": \"all\"" : "") + "}");
       parts.add("ats", schedulers.array());
       parts.add("ats_groups", "[{\"name\": \"all\", \"max_residence_time\": \"800us\"}]");
-      if (draw.one_in(2)) parts.add("max_residence_time", quoted(draw.any({"100us", "500us", "2ms"})));
+      if (draw.one_in(2)) parts.add("max_residence_time", in_quotes(draw.any({"100us", "500us", "2ms"})));
     }
     if (has(Feature::policing)) {
       for (int i = 0; i < 2; ++i) {
@@ -208,12 +208,12 @@ class Maker {
         const std::size_t count = 1 + draw.below(3);
         for (std::size_t e = 0; e < count; ++e) {
           const bool open = e == 0 || draw.one_in(2);
-          entries.add(std::string("{\"open\": ") + (open ? "true" : "false") + ", \"for\": " + quoted(draw.any({"40us", "100us", "77us"})) +
+          entries.add(std::string("{\"open\": ") + (open ? "true" : "false") + ", \"for\": " + in_quotes(draw.any({"40us", "100us", "77us"})) +
                       (open && draw.one_in(2) ? ", \"ipv\": " + std::to_string(draw.below(8)) : "") + (open && draw.one_in(3) ? ", \"octets\": \"1600B\"" : "") + "}");
         }
-        gate_lists.add("{\"name\": \"g" + std::to_string(i) + "\", \"entries\": " + entries.array() + ", \"base_time\": " + quoted(draw.any({"0ns", "13us", "-5us"})) +
+        gate_lists.add("{\"name\": \"g" + std::to_string(i) + "\", \"entries\": " + entries.array() + ", \"base_time\": " + in_quotes(draw.any({"0ns", "13us", "-5us"})) +
                        (draw.one_in(5) ? ", \"block_invalid_rx\": true" : "") + (draw.one_in(5) ? ", \"block_octets_exceeded\": true" : "") + "}");
-        meters.add("{\"name\": \"m" + std::to_string(i) + "\", \"cir\": " + quoted(slow_ ? "2Mbps" : draw.any({"5Mbps", "20Mbps"})) + ", \"cbs\": \"1600B\", \"eir\": " + quoted(slow_ ? "1Mbps" : draw.any({"3Mbps", "0bps"})) +
+        meters.add("{\"name\": \"m" + std::to_string(i) + "\", \"cir\": " + in_quotes(slow_ ? "2Mbps" : draw.any({"5Mbps", "20Mbps"})) + ", \"cbs\": \"1600B\", \"eir\": " + in_quotes(slow_ ? "1Mbps" : draw.any({"3Mbps", "0bps"})) +
                    ", \"ebs\": \"1600B\"" + (draw.one_in(2) ? ", \"drop_on_yellow\": true" : "") + (draw.one_in(2) ? ", \"coupling\": true" : "") + (draw.one_in(2) ? ", \"color_aware\": true" : "") + (draw.one_in(6) ? ", \"block_red\": true" : "") + "}");
       }
       parts.add("gates", gate_lists.array());
@@ -222,7 +222,7 @@ class Maker {
     if (!filters.empty()) parts.add("filters", filters.array());
     if (has(Feature::cqf)) {
       Draw all(w_.seed, "cqf");
-      parts.add("cqf", "{\"cycle\": " + quoted(slow_ ? "2ms" : all.any({"250us", "300us"})) + ", \"classes\": " + (all.one_in(2) ? "[5, 6]" : "[4, 5, 6]") + ", \"pcp\": [5, 6]}");
+      parts.add("cqf", "{\"cycle\": " + in_quotes(slow_ ? "2ms" : all.any({"250us", "300us"})) + ", \"classes\": " + (all.one_in(2) ? "[5, 6]" : "[4, 5, 6]") + ", \"pcp\": [5, 6]}");
     }
     return parts.object();
   }
@@ -232,13 +232,13 @@ class Maker {
     Draw draw(w_.seed, "node " + name);
     Parts node, egresses;
     node.add("kind", "\"switch\"");
-    node.add("forwarding_delay", quoted(draw.any({"0ns", "1us", "500ns", "3us"})));
+    node.add("forwarding_delay", in_quotes(draw.any({"0ns", "1us", "500ns", "3us"})));
     if (has(Feature::identity_classes)) node.add("traffic_classes", "\"identity\"");
     if (has(Feature::queue_limits)) node.add("queues", queues(name));
     if (const std::string all = egress(name, true); !all.empty()) egresses.add(all);
     if (has(Feature::untagged) && draw.one_in(2)) {
       for (std::size_t h = 0; h < w_.hosts; ++h)
-        if (switch_of(h) == s) egresses.add("{\"to\": " + quoted(host_name(h)) + ", \"untagged\": true" + (has(Feature::gates) && !has(Feature::cqf) ? ", \"gates\": " + gates(name + host_name(h)) : "") + "}");
+        if (switch_of(h) == s) egresses.add("{\"to\": " + in_quotes(host_name(h)) + ", \"untagged\": true" + (has(Feature::gates) && !has(Feature::cqf) ? ", \"gates\": " + gates(name + host_name(h)) : "") + "}");
     }
     if (!egresses.empty()) node.add("egress", egresses.array());
     if (has(Feature::ats) || has(Feature::policing) || has(Feature::cqf)) node.add("ingress", ingress(s));
@@ -263,39 +263,39 @@ class Maker {
     Parts parts;
     const std::size_t from = draw.below(w_.hosts);
     const std::size_t to = (from + 1 + draw.below(w_.hosts - 1)) % w_.hosts;
-    parts.add("name", quoted(stream_name(s)));
-    parts.add("from", quoted(host_name(from)));
+    parts.add("name", in_quotes(stream_name(s)));
+    parts.add("from", in_quotes(host_name(from)));
     const bool redundant = has(Feature::redundancy) && is_ring() && switch_of(from) != switch_of(to) && !draw.one_in(3);
-    std::string receivers = quoted(host_name(to));
+    std::string receivers = in_quotes(host_name(to));
     if (has(Feature::multicast) && !redundant)
       for (std::size_t h = 0; h < w_.hosts; ++h)
-        if (h != from && h != to && draw.one_in(2)) receivers += ", " + quoted(host_name(h));
+        if (h != from && h != to && draw.one_in(2)) receivers += ", " + in_quotes(host_name(h));
     parts.add("to", "[" + receivers + "]");
-    parts.add("payload", quoted(draw.any({"18B", "60B", "100B", "200B", "500B", "900B", "1200B", "1400B"})));
+    parts.add("payload", in_quotes(draw.any({"18B", "60B", "100B", "200B", "500B", "900B", "1200B", "1400B"})));
     if (draw.one_in(4)) parts.add("encapsulation", "\"ethernet\"");
     if (!draw.one_in(6)) parts.add("pcp", std::to_string(draw.below(8)));
     switch (draw.below(4)) {
       case 0:
-        parts.add("exponential", quoted(draw.any({"100us", "200us", "500us"})));
+        parts.add("exponential", in_quotes(draw.any({"100us", "200us", "500us"})));
         break;
       case 1:
-        parts.add("burst", "{\"frames\": " + std::to_string(1 + draw.below(6)) + ", \"every\": \"1ms\", \"spacing\": " + quoted(draw.any({"0ns", "6720ns", "50us"})) + "}");
+        parts.add("burst", "{\"frames\": " + std::to_string(1 + draw.below(6)) + ", \"every\": \"1ms\", \"spacing\": " + in_quotes(draw.any({"0ns", "6720ns", "50us"})) + "}");
         break;
       default:
-        parts.add("every", quoted(draw.any({"100us", "125us", "250us", "333us", "1ms"})));
-        if (draw.one_in(2)) parts.add("jitter", quoted(draw.any({"10us", "100us"})));
-        if (has(Feature::launch) && draw.one_in(2)) parts.add("launch", quoted(draw.any({"0ns", "10us", "100us"})));
+        parts.add("every", in_quotes(draw.any({"100us", "125us", "250us", "333us", "1ms"})));
+        if (draw.one_in(2)) parts.add("jitter", in_quotes(draw.any({"10us", "100us"})));
+        if (has(Feature::launch) && draw.one_in(2)) parts.add("launch", in_quotes(draw.any({"0ns", "10us", "100us"})));
     }
-    if (draw.one_in(2)) parts.add("offset", quoted(draw.any({"1us", "10us", "100us", "37us"})));
+    if (draw.one_in(2)) parts.add("offset", in_quotes(draw.any({"1us", "10us", "100us", "37us"})));
     if (redundant)
-      parts.add("redundancy", "{\"count\": 2, \"history\": " + std::to_string(2 + draw.below(30)) + ", \"reset_timeout\": " + quoted(draw.any({"1ms", "200us", "1s"})) + (draw.one_in(4) ? ", \"individual\": true" : "") +
-                                  (draw.one_in(4) ? ", \"algorithm\": \"match\"" : "") + (draw.one_in(4) ? ", \"keep_tag\": true" : "") + (draw.one_in(4) ? ", \"split\": " + quoted(switch_name(switch_of(from))) : "") + "}");
+      parts.add("redundancy", "{\"count\": 2, \"history\": " + std::to_string(2 + draw.below(30)) + ", \"reset_timeout\": " + in_quotes(draw.any({"1ms", "200us", "1s"})) + (draw.one_in(4) ? ", \"individual\": true" : "") +
+                                  (draw.one_in(4) ? ", \"algorithm\": \"match\"" : "") + (draw.one_in(4) ? ", \"keep_tag\": true" : "") + (draw.one_in(4) ? ", \"split\": " + in_quotes(switch_name(switch_of(from))) : "") + "}");
     return parts.object();
   }
 
   std::string port_of_a_switch(Draw& draw) const {
     const std::size_t s = draw.below(w_.switches);
-    return "\"node\": " + quoted(switch_name(s)) + (w_.switches > 1 && draw.one_in(2) ? ", \"to\": " + quoted(switch_name(s == 0 ? 1 : s - 1)) : "");
+    return "\"node\": " + in_quotes(switch_name(s)) + (w_.switches > 1 && draw.one_in(2) ? ", \"to\": " + in_quotes(switch_name(s == 0 ? 1 : s - 1)) : "");
   }
   Parts script_of() const {
     Parts script;
@@ -303,10 +303,10 @@ class Maker {
     Draw draw(w_.seed, "script");
     const std::size_t count = 1 + draw.below(3);
     for (std::size_t i = 0; i < count; ++i)
-      script.add("{\"at\": " + quoted(draw.any({"300us", "1ms", "1100us", "1234567ns", "2ms"})) + ", \"set_gates\": {" + port_of_a_switch(draw) + ", \"gates\": " + gates("script " + std::to_string(i)) + "}}");
+      script.add("{\"at\": " + in_quotes(draw.any({"300us", "1ms", "1100us", "1234567ns", "2ms"})) + ", \"set_gates\": {" + port_of_a_switch(draw) + ", \"gates\": " + gates("script " + std::to_string(i)) + "}}");
     return script;
   }
-  std::string when(Draw& draw) const { return "\"at\": " + quoted(draw.any({"0ns", "500us", "777us", "1ms", "1500us"})) + (draw.one_in(3) ? "" : ", \"for\": " + quoted(draw.any({"10us", "300us", "1ms"}))); }
+  std::string when(Draw& draw) const { return "\"at\": " + in_quotes(draw.any({"0ns", "500us", "777us", "1ms", "1500us"})) + (draw.one_in(3) ? "" : ", \"for\": " + in_quotes(draw.any({"10us", "300us", "1ms"}))); }
   std::string any_link(Draw& draw) const {
     const std::size_t n = draw.below(trunks_.size() + edges_.size());
     return n < trunks_.size() ? trunks_[n] : edges_[n - trunks_.size()];
@@ -320,14 +320,14 @@ class Maker {
       for (std::size_t i = 0; i < count; ++i) faults.add(make());
     };
     repeat(Feature::link_down, [&] { return "{\"kind\": \"link-down\", \"link\": " + any_link(draw) + ", " + when(draw) + "}"; });
-    repeat(Feature::crash, [&] { return "{\"kind\": \"crash\", \"node\": " + quoted(draw.one_in(2) ? switch_name(draw.below(w_.switches)) : host_name(draw.below(w_.hosts))) + ", " + when(draw) + "}"; });
+    repeat(Feature::crash, [&] { return "{\"kind\": \"crash\", \"node\": " + in_quotes(draw.one_in(2) ? switch_name(draw.below(w_.switches)) : host_name(draw.below(w_.hosts))) + ", " + when(draw) + "}"; });
     repeat(Feature::frame_errors, [&] {
       return "{\"kind\": \"frame-errors\", \"link\": " + any_link(draw) + ", " + draw.any({"\"loss\": 0.1", "\"corruption\": 0.2", "\"duplication\": 0.2", "\"loss\": 0.05, \"corruption\": 0.05, \"duplication\": 0.05", "\"bit_error_rate\": 0.00001"}) + ", " + when(draw) + "}";
     });
     repeat(Feature::stuck_gate, [&] {
-      return "{\"kind\": \"stuck-gate\", " + port_of_a_switch(draw) + ", \"class\": " + std::to_string(draw.below(8)) + ", \"state\": " + quoted(draw.any({"open", "closed"})) + ", " + when(draw) + "}";
+      return "{\"kind\": \"stuck-gate\", " + port_of_a_switch(draw) + ", \"class\": " + std::to_string(draw.below(8)) + ", \"state\": " + in_quotes(draw.any({"open", "closed"})) + ", " + when(draw) + "}";
     });
-    repeat(Feature::babble, [&] { return "{\"kind\": \"babble\", \"stream\": " + quoted(stream_name(draw.below(w_.streams))) + ", " + when(draw) + (draw.one_in(2) ? ", \"every\": \"20us\"" : "") + "}"; });
+    repeat(Feature::babble, [&] { return "{\"kind\": \"babble\", \"stream\": " + in_quotes(stream_name(draw.below(w_.streams))) + ", " + when(draw) + (draw.one_in(2) ? ", \"every\": \"20us\"" : "") + "}"; });
     return faults;
   }
 

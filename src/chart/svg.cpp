@@ -87,14 +87,14 @@ std::string Svg::element(std::string_view label) const {
 std::string_view style_sheet() {
   return "svg text{font:11px system-ui,sans-serif;fill:#333}svg .title{font-weight:600;font-size:12px}svg .strong{font-weight:600;font-size:12px}svg .axis{stroke:#666;stroke-width:1}"
          "svg .grid{stroke:#e4e4e4;stroke-width:1}svg .limit{fill:none;stroke:#c0392b;stroke-width:1.5;stroke-dasharray:5 4}svg .whisker{fill:none;stroke-width:1}"
-         "svg .curve{fill:none;stroke-width:1.8}svg .chosen{fill:none;stroke:#c0392b;stroke-width:1.8}svg .area{stroke:none;opacity:.15}svg .arrow{fill:none;stroke:#333;stroke-width:1.3;marker-end:url(#arrow)}"
+         "svg .curve{fill:none;stroke-width:1.8}svg .chosen{fill:none;stroke:#c0392b;stroke-width:1.8}svg .area{stroke:none;opacity:.15}svg .arrow{fill:none;stroke:#333;stroke-width:1.3}"
          "svg .dashed{stroke-dasharray:6 4}svg .box{fill:#eef3f8;stroke:#0072b2}svg .paper{fill:#fff}svg .screen{fill:#12242e}svg .screen-grid{stroke:#34505d}"
          "svg .note{fill:#555;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}svg .mark{cursor:default}svg .on-dark{fill:#fff}\n";
 }
 
 std::string picture(std::string element) {
   return element.insert(element.find('>') + 1, "<style>" + std::string(style_sheet()) +
-                                                   "</style><defs><marker id=\"arrow\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"8\" markerHeight=\"8\" "
+                                                   "svg .arrow{marker-end:url(#arrow)}</style><defs><marker id=\"arrow\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"8\" markerHeight=\"8\" "
                                                    "markerUnits=\"userSpaceOnUse\" orient=\"auto\"><path d=\"M0 0 L10 5 L0 10 z\" fill=\"#333\"/></marker></defs>"
                                                    "<rect width=\"100%\" height=\"100%\" class=\"paper\"/>");
 }

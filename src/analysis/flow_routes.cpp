@@ -101,13 +101,12 @@ class RouteMaker {
       const std::uint32_t hop = known->second;
       if (is_new) {
         const bool r_tagged = is_member || (was_merged && redundancy->description->keep_tag);
-        const bool has_tag = tagged || (is_member && redundancy->members[number].vlan != 0 && plan.priority.has_value());
         Hop made;
         made.flow = flow;
         made.port = port;
-        made.frame = models::frame_length(plan.headers + stream.largest_payload, has_tag, r_tagged);
+        made.frame = models::frame_length(plan.headers + stream.largest_payload, tagged, r_tagged);
         made.msdu = plan.headers + stream.largest_payload + (r_tagged ? models::r_tag : sim::Octets{0});
-        made.shortest = models::frame_length(plan.headers + smallest_payload(stream), has_tag, r_tagged);
+        made.shortest = models::frame_length(plan.headers + smallest_payload(stream), tagged, r_tagged);
         made.is_copied_here = splits;
         const models::AddressIndex address = is_member && !splits ? redundancy->members[number].destination : plan.destination;
         const std::uint16_t in_port = at > 0 ? *r_.topology.port_towards(path[at], path[at - 1]) : std::uint16_t{0};

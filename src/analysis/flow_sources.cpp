@@ -75,7 +75,9 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, b
   if (talker.launch) {
     flow.launches = true;
     flow.worst_source = longest(talker.launch->ps(), clock) + 2 * clock.error;
-    flow.best_source = std::max<Ps>(0, shortest(talker.launch->ps(), clock) - 2 * clock.error);
+    // The clock is read in whole picoseconds: up to one of them is over already.
+    const Ps unread = clock.slowest_ppt == 0 && clock.fastest_ppt == 0 ? 0 : 1;
+    flow.best_source = std::max<Ps>(0, shortest(std::max<Ps>(0, talker.launch->ps() - unread), clock) - 2 * clock.error);
     flow.may_miss_launch = os.transmit.greatest().ps() > flow.best_source;
   } else {
     flow.worst_source = os.transmit.greatest().ps();

@@ -31,7 +31,7 @@ class DdsTopicWriter final : public TopicWriter {
 class DdsTopicReader final : public TopicReader {
  public:
   explicit DdsTopicReader(DdsReader& reader) : reader_(reader) {}
-  bool take(std::vector<std::byte>& value) override { return reader_.take(value); }
+  std::span<const std::vector<std::byte>> take() override { return reader_.take(); }
 
  private:
   DdsReader& reader_;

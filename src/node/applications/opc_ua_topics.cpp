@@ -12,8 +12,6 @@ using namespace sim::literals;  // NOLINT
 
 // Threads say when something is published, by setting the DataSet. A PublishingInterval would say it again when it is over.
 constexpr sim::Duration seldom = 90 * 24 * 3600_s;
-constexpr std::size_t most_waiting = 65'536;  // values that no thread has taken
-
 constexpr std::uint16_t data_set_writer = 1;  // alone in its group
 
 pubsub::WriterGroupSettings group_settings(std::uint16_t writer_group) {
@@ -39,7 +37,7 @@ struct OpcUaTopics::Shared {
   Shared(std::unique_ptr<Socket> given, std::int64_t (*clock)()) : socket(std::move(given)), now_ns(clock), epoch_ns(clock()) {}
 
   sim::LocalTime now() const { return sim::LocalTime::from_ps((now_ns() - epoch_ns) * 1000); }
-  /// Gives what the socket holds to all readers. With the lock held.
+  /// Gives what the socket holds to all readers, `most_taken` messages at most. With the lock held.
   void distribute();
 
   std::mutex mutex;  ///< of all that is below
@@ -85,7 +83,7 @@ class OpcUaTopics::Reader final : public TopicReader {
       subscriber_.add_data_set(names_.back(), values_, {.data_set_writer_id = data_set_writer}, group);
     }
     values_.on_received([this] {
-      if (waiting_.size() == most_waiting) waiting_.pop_front();
+      if (waiting_.size() == most_taken) waiting_.pop_front();
       const uadp::Octets octets = values_.octets();
       waiting_.emplace_back(octets.begin(), octets.end());
     });
@@ -93,13 +91,12 @@ class OpcUaTopics::Reader final : public TopicReader {
     communication_.enable(shared.now());
   }
 
-  bool take(std::vector<std::byte>& value) override {
+  std::span<const std::vector<std::byte>> take() override {
     const std::lock_guard lock(shared_.mutex);
     shared_.distribute();
-    if (waiting_.empty()) return false;
-    value = std::move(waiting_.front());
-    waiting_.pop_front();
-    return true;
+    taken_.assign(std::make_move_iterator(waiting_.begin()), std::make_move_iterator(waiting_.end()));
+    waiting_.clear();
+    return taken_;
   }
   std::uint64_t lost() const override {
     std::uint64_t sum = 0;
@@ -116,12 +113,16 @@ class OpcUaTopics::Reader final : public TopicReader {
   pubsub::Subscriber subscriber_;
   std::vector<std::string> names_;  ///< of its readers, one for each WriterGroup
   pubsub::Communication communication_;
-  std::deque<std::vector<std::byte>> waiting_;
+  std::deque<std::vector<std::byte>> waiting_;  ///< the newest that no thread has taken
+  std::vector<std::vector<std::byte>> taken_;
 };
 
 void OpcUaTopics::Shared::distribute() {
-  for (uadp::Octets message = socket->next(); !message.empty(); message = socket->next())
+  for (std::size_t i = 0; i < most_taken; ++i) {
+    const uadp::Octets message = socket->next();
+    if (message.empty()) return;
     for (const auto& reader : readers) reader->received(message);
+  }
 }
 
 OpcUaTopics::OpcUaTopics(std::unique_ptr<Socket> socket, std::int64_t (*now_ns)()) : shared_(std::make_unique<Shared>(std::move(socket), now_ns)) {}

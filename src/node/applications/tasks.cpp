@@ -83,13 +83,13 @@ class Subscribing final : public Work {
 
   CallResult call(std::int64_t) override {
     CallResult result;
-    while (reader_.take(value_)) {
+    for (const std::vector<std::byte>& value : reader_.take()) {
       // What is not of the type that was agreed is no value.
-      if (mapping_ && mapping_->to_fields(value_, fields_) != gateway::MappingError::none) continue;
+      if (mapping_ && mapping_->to_fields(value, fields_) != gateway::MappingError::none) continue;
+      if (is_copied_) newest_.put(name_, mapping_ ? fields_ : value);
       ++result.taken;
     }
     result.buffered = std::min(result.taken, buffer_);
-    if (result.taken > 0 && is_copied_) newest_.put(name_, mapping_ ? fields_ : value_);
     return result;
   }
   std::uint64_t lost() const override { return reader_.lost(); }
@@ -101,7 +101,6 @@ class Subscribing final : public Work {
   std::uint32_t buffer_;
   bool is_copied_;
   std::optional<gateway::TypeMapping> mapping_;
-  std::vector<std::byte> value_;
   std::vector<std::byte> fields_;
 };
 
@@ -111,12 +110,10 @@ class Receiving final : public Work {
 
   CallResult call(std::int64_t now) override {
     CallResult result;
-    while (reader_.take(value_)) {
-      const std::lock_guard lock(channel_.mutex);
-      channel_.channel.receive(value_, channel_.local(now));
-      ++result.taken;
-    }
-    result.buffered = result.taken;
+    const std::span<const std::vector<std::byte>> values = reader_.take();
+    const std::lock_guard lock(channel_.mutex);
+    for (const std::vector<std::byte>& value : values) channel_.channel.receive(value, channel_.local(now));
+    result.taken = result.buffered = static_cast<std::uint32_t>(values.size());
     return result;
   }
   std::uint64_t lost() const override { return reader_.lost(); }
@@ -124,7 +121,6 @@ class Receiving final : public Work {
  private:
   TopicReader& reader_;
   SharedChannel& channel_;
-  std::vector<std::byte> value_;
 };
 
 class Sending final : public Work {

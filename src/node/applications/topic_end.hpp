@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,8 @@ class TopicWriter {
 class TopicReader {
  public:
   virtual ~TopicReader() = default;
-  /// The next value that has come, oldest first; false if there is none.
-  virtual bool take(std::vector<std::byte>& value) = 0;
+  /// The values that had come, oldest first, `most_taken` of them at most. They are valid until the next call.
+  virtual std::span<const std::vector<std::byte>> take() = 0;
   /// Values that were sent, as their numbers show, and did not come; 0 where the protocol does not tell.
   virtual std::uint64_t lost() const { return 0; }
 };

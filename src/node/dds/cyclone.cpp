@@ -6,6 +6,7 @@
 #include <dds/ddsi/q_radmin.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -216,13 +217,21 @@ class CycloneWriter final : public DdsWriter {
 class CycloneReader final : public DdsReader {
  public:
   explicit CycloneReader(dds_entity_t reader) : reader_(reader) {}
-  bool take(std::vector<std::byte>& payload) override {
-    for (;;) {
-      void* sample = &payload;
-      dds_sample_info_t info;
-      if (dds_take(reader_, &sample, &info, 1, 1) != 1) return false;
-      if (info.valid_data && payload.size() >= header_octets) return true;  // the others say that a writer has gone
+  std::span<const std::vector<std::byte>> take() override {
+    constexpr std::uint32_t at_once = 256;
+    std::size_t count = 0;
+    for (std::int32_t taken = at_once; taken == at_once && count + at_once <= most_taken;) {
+      if (payloads_.size() < count + at_once) payloads_.resize(count + at_once);
+      std::array<void*, at_once> samples;
+      for (std::size_t i = 0; i < at_once; ++i) samples[i] = &payloads_[count + i];
+      std::array<dds_sample_info_t, at_once> infos;
+      taken = dds_take(reader_, samples.data(), infos.data(), at_once, at_once);
+      const std::size_t first = count;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(std::max(taken, 0)); ++i)
+        // The others say that a writer has gone.
+        if (infos[i].valid_data && payloads_[first + i].size() >= header_octets) std::swap(payloads_[count++], payloads_[first + i]);
     }
+    return std::span(payloads_).first(count);
   }
   std::uint32_t matched() const override {
     dds_subscription_matched_status_t status = {};
@@ -231,6 +240,7 @@ class CycloneReader final : public DdsReader {
 
  private:
   dds_entity_t reader_;
+  std::vector<std::vector<std::byte>> payloads_;
 };
 
 class CycloneParticipant final : public DdsParticipant {

@@ -1,7 +1,9 @@
 // DDS as a real node sees it: serialized payloads go in and come out. Behind it stands an implementation of others.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,12 +26,15 @@ class DdsWriter {
   virtual std::uint32_t matched() const = 0;
 };
 
+/// No call takes more at once, so that it ends however fast others send.
+inline constexpr std::size_t most_taken = 65'536;
+
 /// Takes samples of one topic.
 class DdsReader {
  public:
   virtual ~DdsReader() = default;
-  /// The next sample, oldest first; false if there is none.
-  virtual bool take(std::vector<std::byte>& payload) = 0;
+  /// The samples that had come, oldest first, `most_taken` of them at most. They are valid until the next call.
+  virtual std::span<const std::vector<std::byte>> take() = 0;
   /// Writers that it has found.
   virtual std::uint32_t matched() const = 0;
 };

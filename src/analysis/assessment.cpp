@@ -69,6 +69,7 @@ class Assessor {
       }
       if (const auto* const fault = std::get_if<scenario::ResolvedClockFault>(&action.what)) {
         over = std::max(over, action.at.since_start());
+        jumps_at_start_ = jumps_at_start_ || action.at == sim::TrueTime();
         if (fault->offset) ledger_.violate(Assumption::no_disturbance, "the clock of " + name_of(fault->node) + " gets another frequency at " + to_text(action.at.since_start()));
       }
     }
@@ -86,7 +87,8 @@ class Assessor {
     Duration last;
     for (const Assumption each : {Assumption::clock_error, Assumption::gates_in_force, Assumption::gates_do_not_change, Assumption::no_disturbance})
       if (graph_.assumptions.contains(each)) last = std::max(last, ledger_[each].holds_from);
-    if (last == Duration()) {
+    // What a talker sends that a jump has made late comes at that very instant.
+    if (last == Duration() && !jumps_at_start_) {
       ledger_.discharge(Assumption::drained, "everything holds from the start");
       return;
     }
@@ -98,6 +100,7 @@ class Assessor {
   const FlowGraph& graph_;
   const BoundOptions& options_;
   AssumptionLedger ledger_;
+  bool jumps_at_start_ = false;   // a clock
 };
 
 }  // namespace

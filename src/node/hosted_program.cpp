@@ -59,7 +59,7 @@ void HostedProgram::carry_out(wire::NodeOutputs& outputs) {
   bool& is_busy = side_ == handshake::Side::inner ? other_->carries_out_ : carries_out_;
   if (is_busy) return;  // who is at it takes these, too
   is_busy = true;
-  while (const auto output = outputs.next())
+  while (const auto* const output = outputs.next())
     std::visit([&](const auto& what) { (output->side == side_ ? this : other_)->act(what); }, output->what);
   is_busy = false;
 }

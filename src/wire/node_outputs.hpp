@@ -14,6 +14,7 @@
 #include "handshake/io.hpp"
 #include "program/status.hpp"
 #include "pubsub/stack.hpp"
+#include "sim/check.hpp"
 #include "sim/time.hpp"
 #include "uadp/octets.hpp"
 #include "wire/role_format.hpp"
@@ -77,6 +78,7 @@ using Output = std::variant<SetAlarm, Publish, Heard, Stepped, ProcessDataMessag
 class NodeOutputs {
  public:
   struct Entry {
+    Entry(auto&& output, handshake::Side of) : what(std::forward<decltype(output)>(output)), side(of) {}
     Output what;
     handshake::Side side = handshake::Side::outer;  ///< which of two nested Programs of the node it is for (nesting.hpp)
   };
@@ -84,16 +86,19 @@ class NodeOutputs {
   /// Of a call; Good for every other turn.
   program::StatusCode status = program::StatusCode::Good;
 
-  /// The next one; nothing when all have been taken.
-  std::optional<Entry> next() {
-    if (taken_ < entries_.size()) return entries_[taken_++];
+  /// The next one, which lasts until the next turn; null when all have been taken.
+  const Entry* next() {
+    if (taken_ < entries_.size()) return &entries_[taken_++];
     entries_.clear();
     taken_ = 0;
     messages_used_ = 0;
-    return std::nullopt;
+    return nullptr;
   }
 
-  void add(handshake::Side side, const Output& what) { entries_.push_back({what, side}); }
+  void add(handshake::Side side, auto&& what) {
+    TAKT_CHECK(taken_ == 0, "outputs are carried out before the next turn");
+    entries_.emplace_back(std::forward<decltype(what)>(what), side);
+  }
   /// Where a message is written that an output publishes.
   std::span<std::byte> message() {
     if (messages_used_ == messages_.size()) messages_.emplace_back();

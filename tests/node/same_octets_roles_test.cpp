@@ -136,7 +136,7 @@ class Bench {
       alarms.resize(member->alarm_count());
     }
     void carry_out(wire::NodeOutputs& outputs) {
-      while (const auto output = outputs.next()) std::visit([this](const auto& what) { act(what); }, output->what);
+      while (const auto* const output = outputs.next()) std::visit([this](const auto& what) { act(what); }, output->what);
     }
     void act(const wire::SetAlarm& set) {
       const std::uint64_t setting = ++alarms[set.alarm];

@@ -195,7 +195,7 @@ TEST_F(Endpoint, SaysWhatIsToBeDoneInOrder) {
   EXPECT_EQ(outputs.status, program::StatusCode::Good);
   EXPECT_EQ(&node.receive(sim::LocalTime(), state(1, 0)), &outputs);  // another turn before they have been taken: they come behind
   std::vector<Output> all;
-  while (const auto output = outputs.next()) all.push_back(output->what);
+  while (const auto* const output = outputs.next()) all.push_back(output->what);
   const auto at = [&](auto is) { return std::find_if(all.begin(), all.end(), is) - all.begin(); };
   EXPECT_EQ(std::get<Stepped>(all.at(0)).after.state, PublishedState::HaltedInit);
   EXPECT_EQ(std::get<SetAlarm>(all.at(1)).alarm, 1u);

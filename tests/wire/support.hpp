@@ -48,7 +48,7 @@ struct Bench {
   const EndpointCounts& counts() const { return node.endpoint()->counts(); }
 
   void carry_out(NodeOutputs& outputs) {
-    while (const auto output = outputs.next()) std::visit([this](const auto& what) { act(what); }, output->what);
+    while (const auto* const output = outputs.next()) std::visit([this](const auto& what) { act(what); }, output->what);
   }
   void act(const SetAlarm& set) { alarms[set.alarm] = set.time; }
   void act(const Publish& message) {

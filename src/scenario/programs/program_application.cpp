@@ -69,7 +69,7 @@ void ProgramApplication::wake(models::HostServices& host, models::AlarmId alarm)
 }
 
 void ProgramApplication::carry_out(models::HostServices& host, wire::NodeOutputs& outputs) {
-  while (const auto output = outputs.next())
+  while (const auto* const output = outputs.next())
     std::visit([&](const auto& what) { output->side == side_ ? act(host, what) : other_->act(*host_of_other_, what); }, output->what);
 }
 
@@ -109,7 +109,7 @@ void ProgramApplication::end_work(models::HostServices& host) {
     const ResolvedReply& reply = replies[i];
     if (reply.to != done.request.data_set || !replies_->is_own(reply)) continue;
     wire::NodeOutputs& outputs = node_.publish_data(host.now(), reply.with);
-    while (const auto output = outputs.next()) {
+    while (const auto* const output = outputs.next()) {
       const auto& message = std::get<wire::Publish>(output->what);
       act(host, message);
       monitor_->on_replied(i, message.sequence, done.request.sequence);

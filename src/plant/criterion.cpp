@@ -26,10 +26,23 @@ const json::Record& describe(json::Type<CriterionFigures>) {
   return record;
 }
 
+namespace {
+constexpr std::int64_t most_room = 4'096;   // windows
+}
+
+/// The open window, those that begin within the tolerance, that in which it ends, and one that begins while the scheduler looks.
+Criterion::Criterion(const Settings& settings) : settings_(settings), happened_(static_cast<std::size_t>(std::min(settings.tolerance / settings.length + 3, most_room))) {}
+
+Criterion::Happened& Criterion::happened_in(std::int64_t window) {
+  Happened& place = happened_[static_cast<std::size_t>(window) % happened_.size()];
+  if (place.window != window) place = {window, 0};
+  return place;
+}
+
 void Criterion::begin(std::int64_t now) {
   const std::int64_t since = std::max({now, settings_.after, settings_.phase}) - settings_.phase;
   number_ = (since + settings_.length - 1) / settings_.length;
-  happened_ = 0;
+  happened_in(number_).count = 0;
   has_begun_ = true;
 }
 
@@ -45,27 +58,28 @@ std::optional<Criterion::Window> Criterion::open() const {
 }
 
 void Criterion::add(std::int64_t due, std::uint64_t count) {
-  if (const auto window = open(); window && due >= window->from && due < window->to) happened_ += count;
+  if (const auto window = open(); window && due >= window->from) happened_in((due - settings_.phase) / settings_.length).count += count;
 }
 
 void Criterion::look(std::int64_t now) {
   const auto window = open();
   if (!window || now < window->to) return;
-  if (now - window->to > settings_.tolerance) {
+  const bool is_forgotten = happened_[static_cast<std::size_t>(number_) % happened_.size()].window > number_;
+  if (is_forgotten || now - window->to > settings_.tolerance) {
     // What began before this look is discarded, but for the window that is open now.
     const std::int64_t number = (now - settings_.phase) / settings_.length;
     figures_.discarded += static_cast<std::uint64_t>(number - number_);
     number_ = number;
   } else {
+    const std::uint64_t happened = happened_in(number_).count;
     ++figures_.tests;
     figures_.expected += settings_.expected;
-    figures_.counted += std::min(happened_, settings_.expected);
-    figures_.beyond += happened_ - std::min(happened_, settings_.expected);
-    figures_.windows_below += happened_ < settings_.expected ? 1 : 0;
-    figures_.windows_above += happened_ > settings_.expected ? 1 : 0;
+    figures_.counted += std::min(happened, settings_.expected);
+    figures_.beyond += happened - std::min(happened, settings_.expected);
+    figures_.windows_below += happened < settings_.expected ? 1 : 0;
+    figures_.windows_above += happened > settings_.expected ? 1 : 0;
     ++number_;
   }
-  happened_ = 0;
 }
 
 }  // namespace takt::plant

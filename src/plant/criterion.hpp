@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "json/type.hpp"
 
@@ -42,7 +43,7 @@ class Criterion {
     std::int64_t to = 0;
     bool operator==(const Window&) const = default;
   };
-  explicit Criterion(const Settings& settings) : settings_(settings) {}
+  explicit Criterion(const Settings& settings);
 
   /// The first window is the next that begins.
   void begin(std::int64_t now);
@@ -50,7 +51,7 @@ class Criterion {
   void end();
   /// The window that is open; nothing before the beginning, and when all tests are done.
   std::optional<Window> open() const;
-  /// So many for the activation that was due then; one that was not in the open window counts nowhere.
+  /// So many for the activation that was due then; one before the open window counts nowhere.
   void add(std::int64_t due, std::uint64_t count = 1);
   /// The scheduler looks. If the open window is over, it has been a test or is discarded.
   void look(std::int64_t now);
@@ -58,10 +59,16 @@ class Criterion {
   const CriterionFigures& figures() const { return figures_; }
 
  private:
+  struct Happened {
+    std::int64_t window = 0;
+    std::uint64_t count = 0;
+  };
+  Happened& happened_in(std::int64_t window);
+
   Settings settings_;
   bool has_begun_ = false;
   std::int64_t number_ = 0;       // of the open window
-  std::uint64_t happened_ = 0;    // in it
+  std::vector<Happened> happened_;  // in the newest windows, at their numbers modulo the room: the scheduler may look when later ones have begun
   CriterionFigures figures_;
 };
 

@@ -29,6 +29,7 @@ const Prefixes cli = {"cli/"};
 const Prefixes node = {"node/"};
 const Prefixes emulate = {"emulate/"};
 const Prefixes plant = {"plant/"};
+const Prefixes application = {"application/"};
 const Prefixes papers = {"papers/"};
 
 Prefixes all_of(std::initializer_list<Prefixes> parts) {
@@ -48,10 +49,11 @@ const std::vector<Layer>& layers() {
     std::vector<Layer> list = {{"sim/", kernel}, {"models/", all_of({kernel, models})}};
     for (const std::string& folder : protocol) list.push_back({"src/" + folder, all_of({base, protocol})});
     list.push_back({"src/plant/", all_of({base, protocol, plant, json})});
-    list.push_back({"src/node/", all_of({base, protocol, plant, node, json})});
+    list.push_back({"src/application/", all_of({base, protocol, plant, application})});
+    list.push_back({"src/node/", all_of({base, protocol, plant, application, node, json})});
     list.push_back({"src/json/", all_of({base, json})});
     list.push_back({"src/results/", all_of({base, json, results})});
-    const Prefixes below = all_of({kernel, models, protocol, plant, json, results, scenario});
+    const Prefixes below = all_of({kernel, models, protocol, plant, application, json, results, scenario});
     list.push_back({"src/scenario/", below});
     // Beside the questions, but its points are results as result.json has them, and its report is drawn.
     list.push_back({"src/study/", all_of({below, questions, evaluation, output, chart, study})});
@@ -88,7 +90,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, output, cli, node, emulate, plant, chart, papers, study, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, output, cli, node, emulate, plant, application, chart, papers, study, {"property/"}});
   return roots;
 }
 

@@ -37,6 +37,32 @@ TEST(Criterion, CountsAgainstWhatWasExpected) {
   EXPECT_NEAR(*calls.figures().percent(), 83.3333, 1e-3);
 }
 
+// The scheduler looks late, but in time: what was due in the next window by then counts there, and what was due before the open one nowhere.
+TEST(Criterion, CallsOfLaterWindowsAreKept) {
+  Criterion criterion({.length = 10, .expected = 2, .tolerance = 15});
+  criterion.begin(0);
+  for (const std::int64_t due : {0, 5, 10, 15, 20}) criterion.add(due);
+  criterion.look(25);
+  EXPECT_EQ(criterion.figures(), (CriterionFigures{.tests = 1, .expected = 2, .counted = 2}));
+  criterion.add(5);
+  criterion.look(25);
+  EXPECT_EQ(criterion.figures(), (CriterionFigures{.tests = 2, .expected = 4, .counted = 4}));
+  criterion.look(30);
+  EXPECT_EQ(criterion.figures(), (CriterionFigures{.tests = 3, .expected = 6, .counted = 5, .windows_below = 1}));
+}
+
+// So many windows have begun since that nothing is known of the open one: it is no test.
+TEST(Criterion, WhatIsForgottenIsNoTest) {
+  constexpr std::int64_t windows = 10'000;
+  Criterion criterion({.length = 1, .expected = 1, .tolerance = 100'000});
+  criterion.begin(0);
+  for (std::int64_t due = 0; due <= windows; ++due) criterion.add(due);
+  criterion.look(windows);
+  EXPECT_EQ(criterion.figures(), (CriterionFigures{.discarded = windows}));
+  criterion.look(windows + 1);
+  EXPECT_EQ(criterion.figures(), (CriterionFigures{.tests = 1, .expected = 1, .counted = 1, .discarded = windows}));
+}
+
 // The scheduler slept until 34: the windows of 0, 10 and 20 are no tests, that of 30 is.
 TEST(Criterion, WhatTheSchedulerSleptThroughIsDiscarded) {
   Criterion criterion = five_in_ten();

@@ -8,29 +8,9 @@
 #include "node/dds/participant.hpp"
 #include "sim/check.hpp"
 #include "plant/keys.hpp"
-#include "plant/protocol.hpp"
 
 namespace takt::node {
 namespace {
-
-TopicShape shape_of(const Topic& topic, std::size_t position) {
-  TopicShape shape;
-  shape.publisher_id = topic.publisher_id.value_or(static_cast<std::uint16_t>(position + 1));
-  shape.domain = topic.domain.value_or(0);
-  shape.type.name = topic.type.value_or(topic.name);
-  for (const auto& [name, field] : topic.fields) {
-    const bool is_array = field.count != 1;
-    shape.fields.push_back({name, {built_in_type_of(field.type), is_array, is_array ? field.count : 0U, 0}});
-    std::string problem;
-    const auto member = gateway::idl_member_of(shape.fields.back(), problem);
-    TAKT_CHECK(member.has_value(), "all types of the vocabulary are mapped");
-    shape.type.members.push_back(*member);
-  }
-  for (std::size_t f = 0; f < topic.fields.size(); ++f)
-    if (std::find(topic.keys.begin(), topic.keys.end(), topic.fields[f].first) != topic.keys.end()) shape.key_fields.push_back(f);
-  shape.value_field = plant::value_field(topic.fields, topic.keys);
-  return shape;
-}
 
 /// OMG DDS 1.4, annex B, and '/', which implementations take too.
 bool is_dds_name(const std::string& name) {
@@ -66,7 +46,7 @@ class Checker {
       for (const Thread& thread : application.threads)
         if (thread.publish) loaded_.writer_groups[{application.name, thread.name}] = ++counts[*thread.publish];
     for (const plant::Gateway& gateway : config_.gateways) loaded_.writer_groups[{gateway.name, sending_thread}] = ++counts[gateway.to];
-    for (std::size_t i = 0; i < config_.topics.size(); ++i) loaded_.shapes[i].writer_groups = std::max<std::uint16_t>(1, counts[config_.topics[i].name]);
+    for (std::size_t i = 0; i < config_.topics.size(); ++i) loaded_.topics[i].writer_groups = std::max<std::uint16_t>(1, counts[config_.topics[i].name]);
   }
 
   void check_topics() {
@@ -75,10 +55,12 @@ class Checker {
     for (std::size_t i = 0; i < config_.topics.size(); ++i) {
       const Topic& topic = config_.topics[i];
       if (!names.insert(topic.name).second) diagnostics_.error(topic.where.at("name"), "duplicate name", {json::quote(topic.name), "a name of its own for each topic"});
-      loaded_.shapes.push_back(shape_of(topic, i));
+      LoadedTopic& loaded = loaded_.topics.emplace_back();
+      loaded.publisher_id = topic.publisher_id.value_or(static_cast<std::uint16_t>(i + 1));
+      loaded.domain = topic.domain.value_or(0);
       const bool is_dds = topic.protocol == Protocol::dds;
-      if (!is_dds && !ids.insert(loaded_.shapes.back().publisher_id).second)
-        diagnostics_.error(topic.where.at("publisher_id"), "a PublisherId twice", {std::to_string(loaded_.shapes.back().publisher_id), "one of its own for each topic"});
+      if (!is_dds && !ids.insert(loaded.publisher_id).second)
+        diagnostics_.error(topic.where.at("publisher_id"), "a PublisherId twice", {std::to_string(loaded.publisher_id), "one of its own for each topic"});
       if (is_dds && topic.publisher_id) diagnostics_.error(topic.where.at("publisher_id"), "not of DDS", {"a PublisherId", "a topic of OPC UA"});
       for (const auto& [is_there, key] : {std::pair{!topic.keys.empty(), "keys"}, std::pair{topic.type.has_value(), "type"}, std::pair{topic.domain.has_value(), "domain"}, std::pair{topic.qos.has_value(), "qos"},
                                         std::pair{topic.publication.has_value(), "publication"}, std::pair{topic.flow_control.has_value(), "flow_control"}})
@@ -90,7 +72,8 @@ class Checker {
         diagnostics_.error(topic.where.at("publication"), "not on a real node", {"asynchronous publication, which is not asked of Cyclone DDS", "\"synchronous\""});
       const std::size_t errors_before = diagnostics_.errors();
       if (is_dds) plant::check_keys(topic.where, topic.keys, topic.fields, diagnostics_);
-      if (is_dds && diagnostics_.errors() == errors_before) loaded_.shapes.back().key = gateway::KeyLayout(loaded_.shapes.back().type, topic.keys);
+      const bool has_sound_keys = is_dds && diagnostics_.errors() == errors_before;
+      loaded.shape = application::shape_of(topic, has_sound_keys ? topic.keys : std::vector<std::string>());
     }
   }
 
@@ -148,12 +131,7 @@ class Checker {
     if (!from) return;
     const bool is_taken = std::any_of(application.threads.begin(), application.threads.end(), [&](const Thread& each) { return each.subscribe == payload.copy_of; });
     if (!is_taken) diagnostics_.error(place, "not subscribed to", {json::quote(*payload.copy_of), "a topic that a thread of this application subscribes to"});
-    const auto types_of = [this](std::size_t topic) {
-      std::vector<uadp::RawField> types;
-      for (const auto& field : loaded_.shapes[topic].fields) types.push_back(field.type);
-      return types;
-    };
-    if (types_of(*from) != types_of(to)) diagnostics_.error(place, "other fields", {json::quote(*payload.copy_of), "a topic with fields of the same types in the same order"});
+    if (!application::have_same_types(loaded_.topics[*from].shape, loaded_.topics[to].shape)) diagnostics_.error(place, "other fields", {json::quote(*payload.copy_of), "a topic with fields of the same types in the same order"});
   }
 
   void check_gateway(const plant::Gateway& gateway, std::set<std::string>& names) {
@@ -170,7 +148,7 @@ class Checker {
       return;
     }
     std::vector<std::string> problems;
-    mapping_between(loaded_.shapes[*from], loaded_.shapes[*to], config_.topics[*to].protocol == Protocol::dds ? gateway::Direction::to_dds : gateway::Direction::to_opc_ua, problems);
+    application::mapping_between(loaded_.topics[*from].shape, loaded_.topics[*to].shape, problems);
     for (const std::string& problem : problems) diagnostics_.error(gateway.where.at("to"), "types do not map", {problem, "in both topics fields of the same names and types; what is more in \"from\" is left out"});
   }
 
@@ -187,13 +165,6 @@ std::size_t LoadedApplications::topic(const std::string& name) const {
   const auto found = std::find_if(config.topics.begin(), config.topics.end(), [&](const Topic& each) { return each.name == name; });
   TAKT_CHECK(found != config.topics.end(), "names have been checked");
   return static_cast<std::size_t>(found - config.topics.begin());
-}
-
-std::optional<gateway::TypeMapping> mapping_between(const TopicShape& from, const TopicShape& to, gateway::Direction direction, std::vector<std::string>& problems) {
-  const bool to_dds = direction == gateway::Direction::to_dds;
-  const TopicShape& opc_ua = to_dds ? from : to;
-  const TopicShape& dds = to_dds ? to : from;
-  return gateway::TypeMapping::make(direction, opc_ua.fields, dds.type, {}, problems);
 }
 
 bool is_applications_file(const std::string& path) {

@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "gateway/key_layout.hpp"
-#include "gateway/type_mapping.hpp"
+#include "application/topic_shape.hpp"
 #include "node/config.hpp"
 #include "plant/application.hpp"
 #include "plant/dds.hpp"
@@ -53,28 +52,21 @@ const json::Object& describe(json::Type<ApplicationsConfig>);
 inline constexpr const char* sending_thread = "send";
 
 /// A topic that has been checked.
-struct TopicShape {
-  std::vector<gateway::DataSetField> fields;
-  gateway::IdlStruct type;
+struct LoadedTopic {
+  application::TopicShape shape;
   std::uint16_t publisher_id = 1;
   std::uint16_t writer_groups = 1;            ///< of OPC UA: publications of the topic in the file, wherever they are; at least 1
   std::uint16_t domain = 0;
-  gateway::KeyLayout key;                     ///< of DDS
-  std::vector<std::size_t> key_fields;
-  std::size_t value_field = 0;                ///< the first that is no key
 };
 
 /// A file that has been checked. What is on other nodes is no longer in `config`.
 struct LoadedApplications {
   ApplicationsConfig config;
-  std::vector<TopicShape> shapes;  ///< by topic
+  std::vector<LoadedTopic> topics;  ///< as in the file
   /// By application and thread: which of the publications of its topic it is, for topics of OPC UA.
   std::map<std::pair<std::string, std::string>, std::uint16_t> writer_groups;
   std::size_t topic(const std::string& name) const;
 };
-
-/// From a topic of one protocol to one of the other: fields and members are found by their names.
-std::optional<gateway::TypeMapping> mapping_between(const TopicShape& from, const TopicShape& to, gateway::Direction direction, std::vector<std::string>& problems);
 
 /// Whether a file is one of these and not one of a Program. A file that cannot be read is none.
 bool is_applications_file(const std::string& path);

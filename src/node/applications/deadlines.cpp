@@ -2,8 +2,6 @@
 
 #include <time.h>
 
-#include "sim/check.hpp"
-
 namespace takt::node {
 namespace {
 
@@ -28,12 +26,8 @@ void DeadlineClock::wait_until(std::int64_t time) const {
   ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
 }
 
-Deadlines::Deadlines(std::int64_t every, std::int64_t offset, std::int64_t now) : every_(every), offset_(offset), number_((now - offset) / every + 1) {
-  TAKT_CHECK(every > 0 && offset >= 0 && offset < every && now >= offset, "a phase within the interval, and a clock that has run");
-}
-
 void Deadlines::awake(std::int64_t now) {
-  const std::int64_t last_due = (now - offset_) / every_;
+  const std::int64_t last_due = grid_.latest_at(now);
   if (last_due <= number_) return;
   missed_ += static_cast<std::uint64_t>(last_due - number_);
   number_ = last_due;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "application/activation_grid.hpp"
 #include "node/config.hpp"
 
 namespace takt::node {
@@ -18,12 +19,12 @@ class DeadlineClock {
   ClockName name_;
 };
 
-/// The activations of a thread: number n is due at offset + n * every of the clock.
+/// The activations of a thread, from the next one that is due on.
 class Deadlines {
  public:
-  Deadlines(std::int64_t every, std::int64_t offset, std::int64_t now);
+  Deadlines(const application::ActivationGrid& grid, std::int64_t now) : grid_(grid), number_(grid.latest_at(now) + 1) {}
 
-  std::int64_t due() const { return offset_ + number_ * every_; }
+  std::int64_t due() const { return grid_.due(number_); }
   std::int64_t number() const { return number_; }
   /// The thread is awake, at `due` or later. Activations that were over before count as missed; the last that was due is the one to answer now.
   void awake(std::int64_t now);
@@ -32,8 +33,7 @@ class Deadlines {
   std::uint64_t missed() const { return missed_; }
 
  private:
-  std::int64_t every_;
-  std::int64_t offset_;
+  application::ActivationGrid grid_;
   std::int64_t number_;
   std::uint64_t missed_ = 0;
 };

@@ -1,8 +1,8 @@
 #include "node/applications/host.hpp"
 
 #include <algorithm>
+#include <mutex>
 
-#include "node/applications/activity.hpp"
 #include "node/applications/deadlines.hpp"
 #include "node/applications/tasks.hpp"
 #include "node/applications/thread_group.hpp"
@@ -50,8 +50,8 @@ struct ApplicationHost::Task {
   Duration every;
   Duration offset;
   std::optional<std::uint64_t> tests;
-  ActivityLog log;
   ThreadStatistics statistics;  ///< the thread's own until it has ended
+  std::mutex mutex;                        ///< of the criteria: the thread adds, the scheduler looks
   std::optional<plant::Criterion> calls;   ///< since the scheduler runs, and so the next
   std::optional<plant::Criterion> values;  ///< of those that take
 
@@ -61,20 +61,23 @@ struct ApplicationHost::Task {
   void begin_tests(const Scheduler& scheduler, std::int64_t now) {
     const std::int64_t length = window_of(scheduler);
     const auto expected = static_cast<std::uint64_t>(length / ns_of(every));
+    const std::lock_guard lock(mutex);
     calls.emplace(plant::Criterion::Settings{length, ns_of(offset), expected, now + ns_of(scheduler.after), tests ? tests : scheduler.tests, ns_of(scheduler.tolerance)});
     calls->begin(now);
     if (statistics.role == "subscribe" || statistics.role == "receive") values = calls;
   }
 
+  /// There was a call for the activation that was due then, and so many values of it are in the buffer.
+  void add(std::int64_t due, std::uint32_t buffered) {
+    const std::lock_guard lock(mutex);
+    if (calls) calls->add(due);
+    if (values) values->add(due, buffered);
+  }
+
   void look(std::int64_t now) {
-    const auto window = calls->open();
-    if (!window || now < window->to) return;
-    const ActivityLog::Sum sum = log.take(window->from, window->to);
-    calls->add(window->from, sum.calls);
+    const std::lock_guard lock(mutex);
     calls->look(now);
-    if (!values) return;
-    values->add(window->from, sum.values);
-    values->look(now);
+    if (values) values->look(now);
   }
 };
 
@@ -132,19 +135,21 @@ DdsParticipant* ApplicationHost::participant_of(std::uint16_t domain, std::strin
 
 TopicWriter* ApplicationHost::writer_of(const std::string& topic, std::uint16_t writer_group, const std::optional<plant::Qos>& qos, std::string& problem) {
   const std::size_t index = loaded_.topic(topic);
-  const TopicShape& shape = loaded_.shapes[index];
-  if (loaded_.config.topics[index].protocol == Protocol::opc_ua) return &opc_ua_->add_writer(shape, writer_group);
-  DdsParticipant* const participant = participant_of(shape.domain, problem);
-  DdsWriter* const writer = participant == nullptr ? nullptr : participant->add_writer({topic, shape.type.name, plant::merged(loaded_.config.topics[index].qos, qos), shape.key}, problem);
+  const LoadedTopic& loaded = loaded_.topics[index];
+  if (!loaded.shape.is_dds) return &opc_ua_->add_writer(loaded, writer_group);
+  DdsParticipant* const participant = participant_of(loaded.domain, problem);
+  DdsWriter* const writer =
+      participant == nullptr ? nullptr : participant->add_writer({topic, loaded.shape.type.name, plant::merged(loaded_.config.topics[index].qos, qos), loaded.shape.key}, problem);
   return writer == nullptr ? nullptr : dds_writers_.emplace_back(std::make_unique<DdsTopicWriter>(*writer)).get();
 }
 
 TopicReader* ApplicationHost::reader_of(const std::string& topic, const std::optional<plant::Qos>& qos, std::string& problem) {
   const std::size_t index = loaded_.topic(topic);
-  const TopicShape& shape = loaded_.shapes[index];
-  if (loaded_.config.topics[index].protocol == Protocol::opc_ua) return &opc_ua_->add_reader(shape);
-  DdsParticipant* const participant = participant_of(shape.domain, problem);
-  DdsReader* const reader = participant == nullptr ? nullptr : participant->add_reader({topic, shape.type.name, plant::merged(loaded_.config.topics[index].qos, qos), shape.key}, problem);
+  const LoadedTopic& loaded = loaded_.topics[index];
+  if (!loaded.shape.is_dds) return &opc_ua_->add_reader(loaded);
+  DdsParticipant* const participant = participant_of(loaded.domain, problem);
+  DdsReader* const reader =
+      participant == nullptr ? nullptr : participant->add_reader({topic, loaded.shape.type.name, plant::merged(loaded_.config.topics[index].qos, qos), loaded.shape.key}, problem);
   return reader == nullptr ? nullptr : dds_readers_.emplace_back(std::make_unique<DdsTopicReader>(*reader)).get();
 }
 
@@ -154,27 +159,24 @@ bool ApplicationHost::add_application(const plant::Application& application, std
   watched.scheduler = application.scheduler;
   for (const Thread& thread : application.threads) {
     const std::string& topic = thread.publish ? *thread.publish : *thread.subscribe;
-    const std::size_t index = loaded_.topic(topic);
-    const TopicEnd end = {&loaded_.shapes[index], loaded_.config.topics[index].protocol == Protocol::dds};
+    const application::TopicShape& shape = loaded_.topics[loaded_.topic(topic)].shape;
     if (thread.publish) {
       TopicWriter* const writer = writer_of(topic, loaded_.writer_groups.at({application.name, thread.name}), thread.qos, problem);
       if (writer == nullptr) return false;
-      watched.add(make_publishing(end, *writer, thread.payload, watched.newest), thread.every, thread.offset, "publish", thread.name, topic).tests = thread.tests;
+      watched.add(make_publishing(shape, *writer, thread.payload.value_or(Payload{}), watched.newest), thread.every, thread.offset, "publish", thread.name, topic).tests = thread.tests;
     } else {
       TopicReader* const reader = reader_of(topic, thread.qos, problem);
       if (reader == nullptr) return false;
       const bool is_copied = std::any_of(application.threads.begin(), application.threads.end(), [&](const Thread& each) { return each.payload && each.payload->copy_of == topic; });
-      watched.add(make_subscribing(topic, end, *reader, thread.buffer.value_or(1), is_copied, watched.newest), thread.every, thread.offset, "subscribe", thread.name, topic).tests = thread.tests;
+      watched.add(make_subscribing(topic, shape, *reader, thread.buffer.value_or(1), is_copied, watched.newest), thread.every, thread.offset, "subscribe", thread.name, topic).tests = thread.tests;
     }
   }
   return true;
 }
 
 bool ApplicationHost::add_gateway(const plant::Gateway& given, std::string& problem) {
-  const std::size_t to = loaded_.topic(given.to);
-  const auto direction = loaded_.config.topics[to].protocol == Protocol::dds ? gateway::Direction::to_dds : gateway::Direction::to_opc_ua;
   std::vector<std::string> problems;
-  auto mapping = mapping_between(loaded_.shapes[loaded_.topic(given.from)], loaded_.shapes[to], direction, problems);
+  auto mapping = application::mapping_between(loaded_.topics[loaded_.topic(given.from)].shape, loaded_.topics[loaded_.topic(given.to)].shape, problems);
   TAKT_CHECK(mapping.has_value(), "mappings have been checked");
   TopicReader* const reader = reader_of(given.from, std::nullopt, problem);
   TopicWriter* const writer = reader == nullptr ? nullptr : writer_of(given.to, loaded_.writer_groups.at({given.name, sending_thread}), std::nullopt, problem);
@@ -190,7 +192,7 @@ bool ApplicationHost::add_gateway(const plant::Gateway& given, std::string& prob
 
 void ApplicationHost::run_task(Task& task) {
   const DeadlineClock clock(loaded_.config.clock);
-  Deadlines deadlines(ns_of(task.every), ns_of(task.offset), clock.now());
+  Deadlines deadlines({ns_of(task.every), ns_of(task.offset)}, clock.now());
   ThreadStatistics& statistics = task.statistics;
   while (!is_over_.load(std::memory_order_relaxed)) {
     std::int64_t now = clock.now();
@@ -202,7 +204,7 @@ void ApplicationHost::run_task(Task& task) {
     deadlines.awake(now);
     const CallResult result = task.work->call(now);
     // A call that ends when the next activation is due already is that one's delay, not this one's failure.
-    task.log.add(deadlines.due(), result.buffered);
+    task.add(deadlines.due(), result.buffered);
     ++statistics.calls;
     statistics.sent += result.sent;
     statistics.timed_out += result.timed_out;

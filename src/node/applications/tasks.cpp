@@ -2,23 +2,10 @@
 
 #include <algorithm>
 
-#include "gateway/field_values.hpp"
-#include "sim/check.hpp"
-#include "uadp/store_number.hpp"
-#include "plant/keys.hpp"
+#include "application/topic_values.hpp"
 
 namespace takt::node {
 namespace {
-
-using gateway::Direction;
-
-std::optional<gateway::TypeMapping> own_mapping(const TopicEnd& topic, Direction direction) {
-  if (!topic.is_dds) return std::nullopt;
-  std::vector<std::string> problems;
-  auto mapping = gateway::TypeMapping::make(direction, topic.shape->fields, topic.shape->type, {}, problems);
-  TAKT_CHECK(mapping.has_value(), "the members of a topic are made from its fields");
-  return mapping;
-}
 
 CallResult result_of(SendOutcome outcome) {
   return {.sent = outcome == SendOutcome::sent ? 1U : 0U, .timed_out = outcome == SendOutcome::timed_out ? 1U : 0U, .not_sent = outcome == SendOutcome::failed ? 1U : 0U};
@@ -26,67 +13,35 @@ CallResult result_of(SendOutcome outcome) {
 
 class Publishing final : public Work {
  public:
-  Publishing(const TopicEnd& topic, TopicWriter& writer, const std::optional<Payload>& payload, NewestSamples& newest)
-      : writer_(writer), newest_(newest), payload_(payload.value_or(Payload{})), mapping_(own_mapping(topic, Direction::to_dds)) {
-    const gateway::FieldValues zeros(topic.shape->fields);
-    const uadp::Octets octets = zeros.octets();
-    fields_.assign(octets.begin(), octets.end());
-    value_ = place_of(*topic.shape, topic.shape->value_field);
-    for (const std::size_t key : topic.shape->key_fields) keys_.push_back(place_of(*topic.shape, key));
-  }
+  Publishing(const application::TopicShape& topic, TopicWriter& writer, const Payload& payload, NewestSamples& newest)
+      : writer_(writer), newest_(newest), copy_of_(payload.copy_of), publication_(topic, payload) {}
 
   CallResult call(std::int64_t) override {
-    if (payload_.copy_of) {
-      if (!newest_.get(*payload_.copy_of, fields_)) return {};
-    } else {
-      ++count_;
-      for (const Place& key : keys_) store(key, plant::instance_of(payload_, count_));
-      store(value_, payload_.pattern == Pattern::alternate ? count_ % 2 : count_);
-    }
-    if (mapping_ && mapping_->to_cdr(fields_, payload_octets_) != gateway::MappingError::none) return {};
-    return result_of(writer_.write(mapping_ ? payload_octets_ : fields_));
+    if (!copy_of_) return result_of(writer_.write(publication_.next()));
+    if (!newest_.get(*copy_of_, copied_)) return {};
+    const auto value = publication_.copy(copied_);
+    return value ? result_of(writer_.write(*value)) : CallResult{};
   }
 
  private:
-  /// The first value of a field among the Variants.
-  struct Place {
-    std::size_t at = 0;
-    uadp::BuiltInType type = uadp::BuiltInType::Double;
-  };
-  static Place place_of(const TopicShape& shape, std::size_t field) {
-    std::size_t at = 0;
-    // Each is the octet of its type, the length of an array, and the values.
-    const auto header = [&](std::size_t f) { return std::size_t{shape.fields[f].type.is_array ? 5U : 1U}; };
-    for (std::size_t f = 0; f < field; ++f) at += header(f) + uadp::fixed_octets(shape.fields[f].type.type) * (shape.fields[f].type.is_array ? shape.fields[f].type.array_length : 1);
-    return {at + header(field), shape.fields[field].type.type};
-  }
-  void store(const Place& place, std::uint64_t number) {
-    const bool is_number = uadp::store_number(place.type, fields_.data() + place.at, number);
-    TAKT_CHECK(is_number, "fields of topics are numbers");
-  }
-
   TopicWriter& writer_;
   NewestSamples& newest_;
-  Payload payload_;
-  std::optional<gateway::TypeMapping> mapping_;
-  std::vector<std::byte> fields_;
-  std::vector<std::byte> payload_octets_;
-  Place value_;
-  std::vector<Place> keys_;
-  std::uint64_t count_ = 0;
+  std::optional<std::string> copy_of_;
+  application::Publication publication_;
+  std::vector<std::byte> copied_;
 };
 
 class Subscribing final : public Work {
  public:
-  Subscribing(const std::string& name, const TopicEnd& topic, TopicReader& reader, std::uint32_t buffer, bool is_copied, NewestSamples& newest)
-      : name_(name), reader_(reader), newest_(newest), buffer_(buffer), is_copied_(is_copied), mapping_(own_mapping(topic, Direction::to_opc_ua)) {}
+  Subscribing(const std::string& name, const application::TopicShape& topic, TopicReader& reader, std::uint32_t buffer, bool is_copied, NewestSamples& newest)
+      : name_(name), reader_(reader), newest_(newest), buffer_(buffer), is_copied_(is_copied), subscription_(topic) {}
 
   CallResult call(std::int64_t) override {
     CallResult result;
     for (const std::vector<std::byte>& value : reader_.take()) {
-      // What is not of the type that was agreed is no value.
-      if (mapping_ && mapping_->to_fields(value, fields_) != gateway::MappingError::none) continue;
-      if (is_copied_) newest_.put(name_, mapping_ ? fields_ : value);
+      const auto fields = subscription_.take(value);
+      if (!fields) continue;
+      if (is_copied_) newest_.put(name_, *fields);
       ++result.taken;
     }
     result.buffered = std::min(result.taken, buffer_);
@@ -100,8 +55,7 @@ class Subscribing final : public Work {
   NewestSamples& newest_;
   std::uint32_t buffer_;
   bool is_copied_;
-  std::optional<gateway::TypeMapping> mapping_;
-  std::vector<std::byte> fields_;
+  application::Subscription subscription_;
 };
 
 class Receiving final : public Work {
@@ -145,9 +99,9 @@ class Sending final : public Work {
 
 }  // namespace
 
-void NewestSamples::put(const std::string& topic, const std::vector<std::byte>& fields) {
+void NewestSamples::put(const std::string& topic, uadp::Octets fields) {
   const std::lock_guard lock(mutex_);
-  samples_[topic] = fields;
+  samples_[topic].assign(fields.begin(), fields.end());
 }
 
 bool NewestSamples::get(const std::string& topic, std::vector<std::byte>& fields) const {
@@ -158,10 +112,10 @@ bool NewestSamples::get(const std::string& topic, std::vector<std::byte>& fields
   return true;
 }
 
-std::unique_ptr<Work> make_publishing(const TopicEnd& topic, TopicWriter& writer, const std::optional<Payload>& payload, NewestSamples& newest) {
+std::unique_ptr<Work> make_publishing(const application::TopicShape& topic, TopicWriter& writer, const Payload& payload, NewestSamples& newest) {
   return std::make_unique<Publishing>(topic, writer, payload, newest);
 }
-std::unique_ptr<Work> make_subscribing(const std::string& name, const TopicEnd& topic, TopicReader& reader, std::uint32_t buffer, bool is_copied, NewestSamples& newest) {
+std::unique_ptr<Work> make_subscribing(const std::string& name, const application::TopicShape& topic, TopicReader& reader, std::uint32_t buffer, bool is_copied, NewestSamples& newest) {
   return std::make_unique<Subscribing>(name, topic, reader, buffer, is_copied, newest);
 }
 std::unique_ptr<Work> make_receiving(TopicReader& reader, SharedChannel& channel) { return std::make_unique<Receiving>(reader, channel); }

@@ -33,7 +33,7 @@ class Work {
 /// The newest sample of each topic that an application has taken, as fields: what its publishing threads may copy.
 class NewestSamples {
  public:
-  void put(const std::string& topic, const std::vector<std::byte>& fields);
+  void put(const std::string& topic, uadp::Octets fields);
   /// False before the first one.
   bool get(const std::string& topic, std::vector<std::byte>& fields) const;
 
@@ -42,15 +42,10 @@ class NewestSamples {
   std::map<std::string, std::vector<std::byte>> samples_;
 };
 
-/// Fields of a topic become what its protocol carries, and back. For OPC UA that is the same.
-struct TopicEnd {
-  const TopicShape* shape = nullptr;
-  bool is_dds = false;
-};
-
-std::unique_ptr<Work> make_publishing(const TopicEnd& topic, TopicWriter& writer, const std::optional<Payload>& payload, NewestSamples& newest);
+/// The topic outlives it, here and below.
+std::unique_ptr<Work> make_publishing(const application::TopicShape& topic, TopicWriter& writer, const Payload& payload, NewestSamples& newest);
 /// `is_copied`: some thread publishes what this one takes.
-std::unique_ptr<Work> make_subscribing(const std::string& name, const TopicEnd& topic, TopicReader& reader, std::uint32_t buffer, bool is_copied, NewestSamples& newest);
+std::unique_ptr<Work> make_subscribing(const std::string& name, const application::TopicShape& topic, TopicReader& reader, std::uint32_t buffer, bool is_copied, NewestSamples& newest);
 
 /// The channel of a gateway, which its two threads share.
 struct SharedChannel {

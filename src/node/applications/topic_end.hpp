@@ -35,8 +35,8 @@ class OpcUaTopics {
   ~OpcUaTopics();
 
   /// Both are its own and live as long as it does. Each writer of a topic has a WriterGroup of its own; readers hear all of them.
-  TopicWriter& add_writer(const TopicShape& topic, std::uint16_t writer_group = 1);
-  TopicReader& add_reader(const TopicShape& topic);
+  TopicWriter& add_writer(const LoadedTopic& topic, std::uint16_t writer_group = 1);
+  TopicReader& add_reader(const LoadedTopic& topic);
 
   std::uint64_t send_failures() const;
 

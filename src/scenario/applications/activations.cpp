@@ -9,16 +9,10 @@ using sim::LocalTime;
 
 Activations::Activations(Duration every, Duration offset, const sim::Distribution& response, std::uint64_t seed, std::string_view path,
                          std::span<const Duration> instants)
-    : every_(every), offset_(offset), response_(&response), chance_(seed, path, "response"), counts_(instants) {
+    : every_(every), grid_{every.ps(), offset.ps()}, response_(&response), chance_(seed, path, "response"), counts_(instants) {
   counts_.for_each([](Counts& counts, LocalTime first) {
     if (first >= LocalTime()) counts.from = first;
   });
-}
-
-/// The number of the last activation that is due by then.
-std::int64_t Activations::latest_at(LocalTime now) const {
-  const std::int64_t since = now.ps() - offset_.ps();
-  return since >= 0 ? since / every_.ps() : -((-since + every_.ps() - 1) / every_.ps());
 }
 
 void Activations::begin(LocalTime now) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "application/activation_grid.hpp"
 #include "scenario/figures/accounts.hpp"
 #include "sim/distribution.hpp"
 #include "sim/random.hpp"
@@ -45,12 +46,12 @@ class Activations {
 
  private:
   static constexpr int most_draws = 64;   // in one go, so that a response that is always too long does not hang
-  sim::LocalTime due(std::int64_t activation) const { return sim::LocalTime::from_ps(offset_.ps() + activation * every_.ps()); }
-  std::int64_t latest_at(sim::LocalTime now) const;
+  sim::LocalTime due(std::int64_t activation) const { return sim::LocalTime::from_ps(grid_.due(activation)); }
+  std::int64_t latest_at(sim::LocalTime now) const { return grid_.latest_at(now.ps()); }
   void plan();
 
   sim::Duration every_;
-  sim::Duration offset_;
+  application::ActivationGrid grid_;      // ps
   const sim::Distribution* response_;
   sim::RandomStream chance_;
   std::int64_t first_ = 0;                // activation since the last begin

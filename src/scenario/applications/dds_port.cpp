@@ -10,8 +10,8 @@ namespace takt::scenario {
 dds::WriterConfig writer_config(const ResolvedTopic& topic, const ResolvedThread& thread) {
   dds::WriterConfig config;
   config.topic = topic.description->name;
-  config.type = topic.description->type.value_or(topic.description->name);
-  config.has_key = topic.key.has_key();
+  config.type = topic.shape.type.name;
+  config.has_key = topic.shape.key.has_key();
   config.qos = writer_qos(thread.qos, thread.transport_priority);
   config.asynchronous = topic.description->publication == Publication::asynchronous;
   if (topic.description->flow_control) config.flow_controller = topic.description->name;
@@ -21,20 +21,20 @@ dds::WriterConfig writer_config(const ResolvedTopic& topic, const ResolvedThread
 dds::ReaderConfig reader_config(const ResolvedTopic& topic, const ResolvedThread& thread) {
   dds::ReaderConfig config;
   config.topic = topic.description->name;
-  config.type = topic.description->type.value_or(topic.description->name);
-  config.has_key = topic.key.has_key();
+  config.type = topic.shape.type.name;
+  config.has_key = topic.shape.key.has_key();
   config.qos = reader_qos(thread.qos, thread.buffer);
   if (config.has_key)
-    config.key_of = [&key = topic.key](dds::PayloadKind kind, dds::Octets payload) { return kind == dds::PayloadKind::data ? key.of_data(payload) : key.of_key(payload); };
+    config.key_of = [&key = topic.shape.key](dds::PayloadKind kind, dds::Octets payload) { return kind == dds::PayloadKind::data ? key.of_data(payload) : key.of_key(payload); };
   return config;
 }
 
 dds::DurableTopic durable_topic(const ResolvedTopic& topic, const ResolvedService::Kept& kept) {
-  return {topic.description->name, topic.description->type.value_or(topic.description->name), topic.key.has_key(), writer_qos(kept.qos, kept.transport_priority)};
+  return {topic.description->name, topic.shape.type.name, topic.shape.key.has_key(), writer_qos(kept.qos, kept.transport_priority)};
 }
 
 DdsWriter::DdsWriter(DdsNode& node, const ResolvedTopic& topic, const ResolvedThread& thread, std::uint32_t thread_number)
-    : node_(&node), layout_(topic.layout), key_(&topic.key), config_(writer_config(topic, thread)), payload_(layout_.octets()) {
+    : node_(&node), key_(&topic.shape.key), config_(writer_config(topic, thread)) {
   config_.storage = node.storage(thread.qos.durability.value_or(plant::Durability::volatile_));
   if (config_.storage != nullptr) config_.persistence_guid = node.persistence_guid(thread_number);
 }
@@ -45,17 +45,18 @@ void DdsWriter::start(models::HostServices& host) {
   handle_ = *made.handle;
 }
 
-WriteOutcome DdsWriter::try_write(models::HostServices& host) {
-  const dds::WriteResult result = node_->participant().write(handle_, key_->of_data(payload_), payload_, host.now());
+WriteOutcome DdsWriter::try_write(models::HostServices& host, uadp::Octets payload) {
+  const dds::WriteResult result = node_->participant().write(handle_, key_->of_data(payload), payload, host.now());
   is_blocked_ = result.verdict == dds::WriteVerdict::would_block;
   if (is_blocked_) return WriteOutcome::waits;
   return result.verdict == dds::WriteVerdict::refused ? WriteOutcome::refused : WriteOutcome::published;
 }
 
-WriteOutcome DdsWriter::write(models::HostServices& host, uadp::Octets sample) {
+WriteOutcome DdsWriter::write(models::HostServices& host, uadp::Octets payload) {
   if (is_blocked_) return WriteOutcome::refused;
-  layout_.encode(sample, payload_);
-  return try_write(host);
+  const WriteOutcome outcome = try_write(host, payload);
+  if (is_blocked_) payload_.assign(payload.begin(), payload.end());
+  return outcome;
 }
 
 std::optional<WriteOutcome> DdsWriter::go_on(models::HostServices& host) {
@@ -65,12 +66,12 @@ std::optional<WriteOutcome> DdsWriter::go_on(models::HostServices& host) {
     return WriteOutcome::timed_out;
   }
   if (!node_->take_writable(handle_)) return std::nullopt;
-  const WriteOutcome outcome = try_write(host);
+  const WriteOutcome outcome = try_write(host, payload_);
   return outcome == WriteOutcome::waits ? std::nullopt : std::optional(outcome);
 }
 
 DdsReader::DdsReader(DdsNode& node, const ResolvedTopic& topic, const ResolvedThread& thread, std::uint32_t thread_number)
-    : node_(&node), layout_(topic.layout), config_(reader_config(topic, thread)), sample_(topic.layout.zeros()) {
+    : node_(&node), config_(reader_config(topic, thread)) {
   config_.storage = node.storage(thread.qos.durability.value_or(plant::Durability::volatile_));
   if (config_.storage != nullptr) config_.persistence_guid = node.persistence_guid(thread_number);
 }
@@ -82,16 +83,16 @@ void DdsReader::start(models::HostServices& host) {
 }
 
 std::optional<uadp::Octets> DdsReader::next(models::HostServices& host) {
-  while (const std::optional<dds::Sample> sample = node_->participant().take(handle_, host.now())) {
-    if (!sample->info.valid_data) continue;
-    const auto [last, is_first] = last_.try_emplace(sample->info.writer, sample->info.number);
-    if (!is_first && sample->info.number > last->second) {
-      gaps_ += static_cast<std::uint64_t>(sample->info.number.value - last->second.value - 1);
-      last->second = sample->info.number;
-    }
-    if (layout_.decode(sample->payload, sample_)) return sample_;
+  do {
+    sample_ = node_->participant().take(handle_, host.now());
+    if (!sample_) return std::nullopt;
+  } while (!sample_->info.valid_data);
+  const auto [last, is_first] = last_.try_emplace(sample_->info.writer, sample_->info.number);
+  if (!is_first && sample_->info.number > last->second) {
+    gaps_ += static_cast<std::uint64_t>(sample_->info.number.value - last->second.value - 1);
+    last->second = sample_->info.number;
   }
-  return std::nullopt;
+  return sample_->payload;
 }
 
 std::uint64_t DdsReader::lost() const { return lost_ + (node_->is_running() ? node_->participant().reader(handle_).rtps.sample_lost().total_count : 0); }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "dds/persistence/persistence_service.hpp"
-#include "scenario/applications/cdr_layout.hpp"
 #include "scenario/applications/dds_node.hpp"
 #include "scenario/applications/topic_port.hpp"
 
@@ -19,20 +18,19 @@ class DdsWriter final : public TopicWriter {
   DdsWriter(DdsNode& node, const ResolvedTopic& topic, const ResolvedThread& thread, std::uint32_t thread_number);
 
   void start(models::HostServices& host) override;
-  WriteOutcome write(models::HostServices& host, uadp::Octets sample) override;
+  WriteOutcome write(models::HostServices& host, uadp::Octets payload) override;
   void crash() override { is_blocked_ = false; }
   std::optional<WriteOutcome> go_on(models::HostServices& host) override;
 
  private:
-  WriteOutcome try_write(models::HostServices& host);
+  WriteOutcome try_write(models::HostServices& host, uadp::Octets payload);
 
   DdsNode* node_;
-  CdrLayout layout_;
   const gateway::KeyLayout* key_;
   dds::WriterConfig config_;
   dds::WriterHandle handle_;
-  std::vector<std::byte> payload_;   // of the last sample
-  bool is_blocked_ = false;          // it waits for room
+  std::vector<std::byte> payload_;   // that waits for room
+  bool is_blocked_ = false;
 };
 
 class DdsReader final : public TopicReader {
@@ -48,10 +46,9 @@ class DdsReader final : public TopicReader {
 
  private:
   DdsNode* node_;
-  CdrLayout layout_;
   dds::ReaderConfig config_;
   dds::ReaderHandle handle_;
-  Sample sample_;
+  std::optional<dds::Sample> sample_;              // that was taken last
   std::map<dds::Guid, dds::SequenceNumber> last_;  // that was taken
   std::uint64_t gaps_ = 0;                         // numbers that were passed over
   std::uint64_t lost_ = 0;                         // before the last crash

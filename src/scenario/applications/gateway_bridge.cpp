@@ -10,15 +10,9 @@ namespace {
 // The values have the same order.
 static_assert(static_cast<gateway::Overflow>(plant::Overflow::keep_latest) == gateway::Overflow::keep_latest);
 
-std::vector<gateway::DataSetField> fields_of(const ResolvedTopic& topic) {
-  std::vector<gateway::DataSetField> fields;
-  for (const SampleLayout::Field& field : topic.layout.fields()) fields.push_back({field.name, {field.type, field.count > 1, field.count > 1 ? field.count : 0, 0}});
-  return fields;
-}
-
-gateway::TypeMapping sound_mapping(const ResolvedTopic& from, const ResolvedTopic& to) {
+gateway::TypeMapping sound_mapping(const application::TopicShape& from, const application::TopicShape& to) {
   std::vector<std::string> problems;
-  auto mapping = mapping_between(from, to, problems);
+  auto mapping = application::mapping_between(from, to, problems);
   TAKT_CHECK(mapping.has_value(), "a mapping that was checked");
   return std::move(*mapping);
 }
@@ -40,43 +34,11 @@ void add(gateway::ChannelFigures& sum, const gateway::ChannelFigures& more) {
 
 }  // namespace
 
-gateway::IdlStruct idl_struct_of(const ResolvedTopic& topic, std::vector<std::string>& problems) {
-  gateway::IdlStruct type;
-  type.name = topic.description->name;
-  for (const gateway::DataSetField& field : fields_of(topic)) {
-    std::string problem;
-    std::optional<gateway::IdlMember> member = gateway::idl_member_of({field.name, {field.type.type, false, 0, 0}}, problem);
-    if (!member) {
-      problems.push_back(problem);
-      continue;
-    }
-    if (field.type.is_array) {
-      member->collection = gateway::IdlCollection::array;
-      member->length = field.type.array_length;
-    }
-    type.members.push_back(std::move(*member));
-  }
-  return type;
-}
-
-std::optional<gateway::TypeMapping> mapping_between(const ResolvedTopic& from, const ResolvedTopic& to, std::vector<std::string>& problems) {
-  const bool to_dds = to.description->protocol == Protocol::dds;
-  const gateway::IdlStruct type = idl_struct_of(to_dds ? to : from, problems);
-  if (!problems.empty()) return std::nullopt;
-  return gateway::TypeMapping::make(to_dds ? gateway::Direction::to_dds : gateway::Direction::to_opc_ua, fields_of(to_dds ? from : to), type, {}, problems);
-}
-
-GatewayBridge::GatewayBridge(const ResolvedGateway& settings, const ResolvedTopic& from, const ResolvedTopic& to)
-    : settings_(&settings),
-      mapping_(sound_mapping(from, to)),
-      to_dds_(to.description->protocol == Protocol::dds),
-      cdr_((to_dds_ ? to : from).layout),
-      fields_((to_dds_ ? from : to).layout),
-      out_(to.layout.zeros()) {}
+GatewayBridge::GatewayBridge(const ResolvedGateway& settings, const application::TopicShape& from, const application::TopicShape& to)
+    : settings_(&settings), mapping_(sound_mapping(from, to)) {}
 
 void GatewayBridge::start() {
-  channel_ = std::make_unique<gateway::Channel>(
-      mapping_, gateway::BufferSettings{settings_->capacity, static_cast<gateway::Overflow>(settings_->overflow), settings_->stale_after});
+  channel_.emplace(mapping_, gateway::BufferSettings{settings_->capacity, static_cast<gateway::Overflow>(settings_->overflow), settings_->stale_after});
 }
 
 void GatewayBridge::crash() {
@@ -84,34 +46,9 @@ void GatewayBridge::crash() {
   channel_.reset();
 }
 
-void GatewayBridge::receive(uadp::Octets sample, sim::LocalTime now) {
-  if (to_dds_) {
-    fields_.set(sample);
-    octets_.resize(sample.size() + 8 * fields_.field_count());
-    uadp::Writer writer(octets_);
-    for (std::size_t i = 0; i < fields_.field_count(); ++i) fields_.put(writer, i);
-    octets_.resize(writer.position());
-  } else {
-    octets_.resize(cdr_.octets());
-    cdr_.encode(sample, octets_);
-  }
-  channel_->receive(octets_, now);
-}
-
 std::optional<uadp::Octets> GatewayBridge::pull(sim::LocalTime now) {
   const auto value = channel_->pull(now);
-  if (!value) return std::nullopt;
-  if (to_dds_) {
-    const bool sound = cdr_.decode(value->octets, out_);
-    TAKT_CHECK(sound, "a payload of the mapping is one of the topic");
-    return out_;
-  }
-  uadp::Reader reader(value->octets);
-  for (std::size_t i = 0; i < fields_.field_count(); ++i) {
-    const bool taken = fields_.take(i, uadp::get_variant(reader));
-    TAKT_CHECK(taken, "fields of the mapping are those of the topic");
-  }
-  return fields_.get();
+  return value ? std::optional<uadp::Octets>(value->octets) : std::nullopt;
 }
 
 gateway::ChannelFigures GatewayBridge::figures() const {

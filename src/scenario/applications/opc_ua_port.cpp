@@ -3,30 +3,11 @@
 #include "sim/check.hpp"
 
 namespace takt::scenario {
+
+using application::OpcUaAddress;
+using application::TopicShape;
+
 namespace {
-
-using namespace sim::literals;
-
-// The threads say when something is published, by setting the DataSet; no PublishingInterval comes round in a simulation.
-constexpr sim::Duration never = 106 * 24 * 3600_s;
-
-class NoInput final : public pubsub::SubscribedData {
- public:
-  uadp::Octets next() override { return {}; }
-};
-
-class NoOutput final : public pubsub::PublishedData {
- public:
-  void publish(uadp::Octets, const pubsub::Destination&) override {}
-};
-
-pubsub::WriterGroupSettings group_of(const OpcUaAddress& address) {
-  pubsub::WriterGroupSettings settings;
-  settings.writer_group_id = address.writer_group_id;
-  settings.publishing_interval = never;
-  settings.publish_on_change = true;
-  return settings;
-}
 
 /// Messages that wait in a socket: as many as a socket buffer of 208 KiB, the usual size on Linux, holds of small ones.
 class Inbox {
@@ -57,41 +38,20 @@ class Inbox {
 
 }  // namespace
 
-OpcUaAddress address_of(const ResolvedTopic& topic, const ResolvedThread& publication) { return {topic.publisher_id, publication.writer_group, 1}; }
+OpcUaAddress address_of(const ResolvedTopic& topic, const ResolvedThread& publication) { return {topic.publisher_id, publication.writer_group}; }
 
-struct OpcUaWriter::Publishing {
-  Publishing(const SampleLayout& layout, const OpcUaAddress& address, pubsub::PublishedData& stack)
-      : data_set(layout), publisher(uadp::PublisherId::uint16(address.publisher_id)), communication(stack, input) {
-    const std::uint16_t group = publisher.add_writer_group(group_of(address));
-    pubsub::DataSetWriterSettings writer;
-    writer.data_set_writer_id = address.data_set_writer_id;
-    const bool added = publisher.add_data_set("sample", data_set, writer, group);
-    TAKT_CHECK(added, "a writer that is alone in its group");
-    communication.add_publisher(publisher);
-  }
+OpcUaWriter::OpcUaWriter(const TopicShape& topic, const OpcUaAddress& address, std::optional<models::StreamIndex> stream) : topic_(&topic), address_(address), stream_(stream) {}
 
-  SampleDataSet data_set;
-  pubsub::Publisher publisher;
-  NoInput input;
-  pubsub::Communication communication;
-};
+void OpcUaWriter::start(models::HostServices& host) { start(host.now()); }
 
-OpcUaWriter::OpcUaWriter(const SampleLayout& layout, const OpcUaAddress& address, std::optional<models::StreamIndex> stream)
-    : layout_(&layout), address_(address), stream_(stream) {}
-OpcUaWriter::~OpcUaWriter() = default;
+void OpcUaWriter::start(sim::LocalTime now) { publication_.reset(new application::OpcUaPublication(*topic_, address_, *this, now)); }
 
-void OpcUaWriter::start(models::HostServices& host) {
-  pubsub::PublishedData& stack = *this;
-  publishing_ = std::make_unique<Publishing>(*layout_, address_, stack);
-  publishing_->communication.enable(host.now());
-}
+void OpcUaWriter::crash() { publication_.reset(); }
 
-void OpcUaWriter::crash() { publishing_.reset(); }
-
-WriteOutcome OpcUaWriter::write(models::HostServices& host, uadp::Octets sample) {
+WriteOutcome OpcUaWriter::write(models::HostServices& host, uadp::Octets value) {
   host_ = &host;
-  publishing_->data_set.set(sample);
-  publishing_->communication.advance(host.now());
+  const bool published = publication_->publish(value, host.now());
+  TAKT_CHECK(published, "values have the fields of their topic");
   host_ = nullptr;
   return WriteOutcome::published;
 }
@@ -101,49 +61,22 @@ void OpcUaWriter::publish(uadp::Octets network_message, const pubsub::Destinatio
   if (host_ != nullptr && stream_) host_->send(*stream_, network_message);
 }
 
-std::size_t OpcUaWriter::message_octets(const SampleLayout& layout, const OpcUaAddress& address) {
-  OpcUaWriter writer(layout, address, std::nullopt);
-  pubsub::PublishedData& stack = writer;
-  writer.publishing_ = std::make_unique<Publishing>(layout, address, stack);
-  writer.publishing_->communication.enable(sim::LocalTime());
-  writer.publishing_->data_set.set(layout.zeros());
-  writer.publishing_->communication.advance(sim::LocalTime());
+std::size_t OpcUaWriter::message_octets(const TopicShape& topic, const OpcUaAddress& address) {
+  OpcUaWriter writer(topic, address, std::nullopt);
+  writer.start(sim::LocalTime());
+  writer.publication_->publish(topic.zeros(), sim::LocalTime());
   return writer.octets_;
 }
 
 struct OpcUaReader::Subscribing {
-  Subscribing(const SampleLayout& layout, std::span<const OpcUaAddress> heard) : data_set(layout), communication(output, input) {
-    for (const OpcUaAddress& address : heard) {
-      subscribers.push_back(std::make_unique<pubsub::Subscriber>(uadp::PublisherId::uint16(address.publisher_id)));
-      const std::size_t group = subscribers.back()->add_reader_group(address.writer_group_id);
-      pubsub::DataSetReaderSettings reader;
-      reader.data_set_writer_id = address.data_set_writer_id;
-      subscribers.back()->add_data_set("sample", data_set, reader, group);
-      communication.add_subscriber(*subscribers.back());
-    }
-  }
-
-  std::uint64_t lost() const {
-    std::uint64_t sum = 0;
-    for (const auto& each : subscribers) sum += each->reader("sample")->missed();
-    return sum;
-  }
-
-  SampleDataSet data_set;
-  NoOutput output;
-  NoInput input;
-  pubsub::Communication communication;
-  std::vector<std::unique_ptr<pubsub::Subscriber>> subscribers;
-  Inbox inbox;
+  application::OpcUaSubscription subscription;
+  Inbox inbox = {};
 };
 
-OpcUaReader::OpcUaReader(const SampleLayout& layout, std::vector<OpcUaAddress> heard) : layout_(&layout), heard_(std::move(heard)) {}
+OpcUaReader::OpcUaReader(const TopicShape& topic, std::vector<OpcUaAddress> heard) : topic_(&topic), heard_(std::move(heard)) {}
 OpcUaReader::~OpcUaReader() = default;
 
-void OpcUaReader::start(models::HostServices& host) {
-  subscribing_ = std::make_unique<Subscribing>(*layout_, heard_);
-  subscribing_->communication.enable(host.now());
-}
+void OpcUaReader::start(models::HostServices& host) { subscribing_.reset(new Subscribing{{*topic_, heard_, host.now()}}); }
 
 void OpcUaReader::crash() {
   lost_ = lost();
@@ -155,14 +88,11 @@ void OpcUaReader::receive(models::HostServices&, uadp::Octets message) {
 }
 
 std::optional<uadp::Octets> OpcUaReader::next(models::HostServices& host) {
-  const std::uint64_t taken = subscribing_->data_set.taken();
-  for (uadp::Octets message = subscribing_->inbox.take(); !message.empty(); message = subscribing_->inbox.take()) {
-    subscribing_->communication.received(message, host.now());
-    if (subscribing_->data_set.taken() != taken) return subscribing_->data_set.get();
-  }
+  for (uadp::Octets message = subscribing_->inbox.take(); !message.empty(); message = subscribing_->inbox.take())
+    if (const auto value = subscribing_->subscription.receive(message, host.now())) return value;
   return std::nullopt;
 }
 
-std::uint64_t OpcUaReader::lost() const { return lost_ + (subscribing_ ? subscribing_->lost() : 0); }
+std::uint64_t OpcUaReader::lost() const { return lost_ + (subscribing_ ? subscribing_->subscription.lost() : 0); }
 
 }  // namespace takt::scenario

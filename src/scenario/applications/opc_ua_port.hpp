@@ -1,12 +1,11 @@
-// Publications and subscriptions over OPC UA PubSub: one NetworkMessage a sample, by the code that real nodes run.
+// Publications and subscriptions over OPC UA PubSub on a simulated host: one NetworkMessage a sample, by the code that real nodes run.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "pubsub/communication.hpp"
+#include "application/opc_ua_topic.hpp"
 #include "scenario/applications/resolved_applications.hpp"
-#include "scenario/applications/sample_data_set.hpp"
 #include "scenario/applications/topic_port.hpp"
 
 namespace takt::scenario {
@@ -14,44 +13,36 @@ namespace takt::scenario {
 /// The port of UADP over UDP (OPC 10000-14, 7.3.2.2; IANA: opcua-udp).
 inline constexpr std::uint16_t opc_ua_udp_port = 4840;
 
-/// Who publishes, numbered as real nodes do it: a Publisher for each topic, and a WriterGroup with one DataSetWriter for each thread that publishes to it.
-struct OpcUaAddress {
-  std::uint16_t publisher_id = 0;
-  std::uint16_t writer_group_id = 0;
-  std::uint16_t data_set_writer_id = 0;
-};
-
-OpcUaAddress address_of(const ResolvedTopic& topic, const ResolvedThread& publication);
+application::OpcUaAddress address_of(const ResolvedTopic& topic, const ResolvedThread& publication);
 
 class OpcUaWriter final : public TopicWriter, private pubsub::PublishedData {
  public:
-  /// The layout outlives it. Without a stream nobody hears it, and nothing is sent.
-  OpcUaWriter(const SampleLayout& layout, const OpcUaAddress& address, std::optional<models::StreamIndex> stream);
-  ~OpcUaWriter() override;
+  /// The topic outlives it. Without a stream nobody hears it, and nothing is sent.
+  OpcUaWriter(const application::TopicShape& topic, const application::OpcUaAddress& address, std::optional<models::StreamIndex> stream);
 
   /// Octets of a NetworkMessage; 0 if a sample is too long for one.
-  static std::size_t message_octets(const SampleLayout& layout, const OpcUaAddress& address);
+  static std::size_t message_octets(const application::TopicShape& topic, const application::OpcUaAddress& address);
 
   void start(models::HostServices& host) override;
-  WriteOutcome write(models::HostServices& host, uadp::Octets sample) override;
+  WriteOutcome write(models::HostServices& host, uadp::Octets value) override;
   void crash() override;
 
  private:
-  struct Publishing;
+  void start(sim::LocalTime now);
   void publish(uadp::Octets network_message, const pubsub::Destination& destination) override;
 
-  const SampleLayout* layout_;
-  OpcUaAddress address_;
+  const application::TopicShape* topic_;
+  application::OpcUaAddress address_;
   std::optional<models::StreamIndex> stream_;
   models::HostServices* host_ = nullptr;        // of the present call
   std::size_t octets_ = 0;                      // of the last message
-  std::unique_ptr<Publishing> publishing_;      // what a crash loses
+  std::unique_ptr<application::OpcUaPublication> publication_;  // what a crash loses
 };
 
 class OpcUaReader final : public TopicReader {
  public:
-  /// The layout outlives it.
-  OpcUaReader(const SampleLayout& layout, std::vector<OpcUaAddress> heard);
+  /// The topic outlives it.
+  OpcUaReader(const application::TopicShape& topic, std::vector<application::OpcUaAddress> heard);
   ~OpcUaReader() override;
 
   void start(models::HostServices& host) override;
@@ -62,8 +53,8 @@ class OpcUaReader final : public TopicReader {
 
  private:
   struct Subscribing;
-  const SampleLayout* layout_;
-  std::vector<OpcUaAddress> heard_;
+  const application::TopicShape* topic_;
+  std::vector<application::OpcUaAddress> heard_;
   std::unique_ptr<Subscribing> subscribing_;    // what a crash loses
   std::uint64_t lost_ = 0;                      // before the last crash
 };

@@ -9,7 +9,6 @@
 #include "models/ethernet/sizes.hpp"
 #include "scenario/applications/dds_qos.hpp"
 #include "scenario/applications/expected_values.hpp"
-#include "scenario/applications/gateway_bridge.hpp"
 #include "scenario/applications/opc_ua_port.hpp"
 #include "scenario/applications/resolve_dds.hpp"
 #include "scenario/applications/resolved_dds.hpp"
@@ -102,12 +101,10 @@ class ApplicationResolver {
     const std::size_t errors_before = diagnostics_.errors();
     if (!diagnostics_.is_refused(topic.where.at("fields"))) plant::check_keys(topic.where, topic.keys, topic.fields, diagnostics_);
     const bool has_sound_keys = !topic.keys.empty() && topic.protocol == Protocol::dds && diagnostics_.errors() == errors_before;
-    made.layout = SampleLayout(topic.fields, has_sound_keys ? topic.keys : std::vector<std::string>());
-    std::vector<std::string> problems;
-    if (has_sound_keys) made.key = gateway::KeyLayout(idl_struct_of(made, problems), topic.keys);
+    made.shape = application::shape_of(topic, has_sound_keys ? topic.keys : std::vector<std::string>());
     r_.topics.push_back(std::move(made));
-    if (topic.protocol == Protocol::opc_ua && !topic.fields.empty() && OpcUaWriter::message_octets(r_.topics.back().layout, {1, 1, 1}) == 0)
-      diagnostics_.error(topic.where.at("fields"), "a sample too long for a NetworkMessage", {std::to_string(r_.topics.back().layout.octets()) + " octets of values", "fields that fit 1472 octets with their headers"});
+    if (topic.protocol == Protocol::opc_ua && !topic.fields.empty() && OpcUaWriter::message_octets(r_.topics.back().shape, {1, 1}) == 0)
+      diagnostics_.error(topic.where.at("fields"), "a sample too long for a NetworkMessage", {std::to_string(r_.topics.back().shape.octets()) + " octets of values", "fields that fit 1472 octets with their headers"});
   }
 
   void refuse_of_dds(const json::Place& place, std::string_view key) {
@@ -188,7 +185,6 @@ class ApplicationResolver {
       if (thread.qos && one.topic < r_.topics.size() && !diagnostics_.is_refused(r_.topics[one.topic].description->where.at("protocol")) && r_.topics[one.topic].description->protocol == Protocol::opc_ua) refuse_of_dds(thread.where.at("qos"), "qos");
       if (one.topic < r_.topics.size()) one.qos = plant::merged(r_.topics[one.topic].description->qos, thread.qos);
       one.own_qos = thread.qos ? &*thread.qos : nullptr;
-      if (one.publishes) one.pattern = thread.payload ? thread.payload->pattern : Pattern::counter;
       if (thread.payload && one.publishes) {
         one.payload = *thread.payload;
         if (one.topic < r_.topics.size() && !diagnostics_.is_refused(r_.topics[one.topic].description->where.at("keys")))
@@ -218,7 +214,6 @@ class ApplicationResolver {
       subscribed.push_back(*application.threads[t].subscribe);
       if (subscribed.back() != *payload.copy_of) continue;
       made.threads[thread].copies = t;
-      made.threads[thread].pattern.reset();
     }
     if (!made.threads[thread].copies) {
       const bool is_unclear = std::any_of(application.threads.begin(), application.threads.end(), [&](const Thread& each) { return !each.where.is_known() || diagnostics_.is_refused(each.where.at("subscribe")); });
@@ -227,9 +222,7 @@ class ApplicationResolver {
       return;
     }
     if (made.threads[*made.threads[thread].copies].topic == unknown_topic || made.threads[thread].topic == unknown_topic) return;
-    const auto& from = r_.topics[made.threads[*made.threads[thread].copies].topic].layout.fields();
-    const auto& to = r_.topics[made.threads[thread].topic].layout.fields();
-    if (!std::equal(from.begin(), from.end(), to.begin(), to.end(), [](const auto& a, const auto& b) { return a.same_type(b); }))
+    if (!application::have_same_types(r_.topics[made.threads[*made.threads[thread].copies].topic].shape, r_.topics[made.threads[thread].topic].shape))
       diagnostics_.error_unless(topics_are_refused(), payload.where.at("copy_of"), "a copy of other fields", {"fields of other types or numbers", "the same types in the same order as in " + json::quote(r_.topics[made.threads[thread].topic].description->name)});
   }
 
@@ -286,7 +279,7 @@ class ApplicationResolver {
 
   void check_mapping(const Gateway& gateway, const ResolvedTopic& from, const ResolvedTopic& to) {
     std::vector<std::string> problems;
-    if (mapping_between(from, to, problems)) return;
+    if (application::mapping_between(from.shape, to.shape, problems)) return;
     if (topics_are_refused()) return diagnostics_.consequence();
     for (const std::string& problem : problems)
       diagnostics_.error(gateway.where.at("to"), "fields that do not map", {problem, "in both topics fields of the same names and types; what is more in \"from\" is left out"});
@@ -373,7 +366,7 @@ class ApplicationResolver {
       wanted.headers = models::ipv4_and_udp_headers;
       wanted.is_group = true;
       wanted.udp_port = opc_ua_udp_port;
-      wanted.payload = Octets{static_cast<std::uint32_t>(OpcUaWriter::message_octets(r_.topics[topic].layout, address_of(r_.topics[topic], thread)))};
+      wanted.payload = Octets{static_cast<std::uint32_t>(OpcUaWriter::message_octets(r_.topics[topic].shape, address_of(r_.topics[topic], thread)))};
       const auto index = builder_.add(wanted);
       if (!index) continue;
       thread.stream = *index;

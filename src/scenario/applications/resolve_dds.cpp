@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "application/topic_values.hpp"
 #include "dds/participant/participant.hpp"
 #include "json/suggest.hpp"
 #include "models/ethernet/sizes.hpp"
@@ -353,7 +354,7 @@ class DdsResolver {
         }
         const Topic& topic = *r_.topics[one.topic].description;
         StreamDemand& demand = samples[class_of(topic)];
-        const auto payload = static_cast<std::uint32_t>(CdrLayout(r_.topics[one.topic].layout).octets());
+        const auto payload = static_cast<std::uint32_t>(application::Publication(r_.topics[one.topic].shape, {}).next().size());
         demand.frames_per_second += one.per_second;
         demand.wire_bits_per_second +=
             one.per_second * 8.0 *

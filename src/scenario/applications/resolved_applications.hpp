@@ -6,18 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "gateway/key_layout.hpp"
+#include "application/topic_shape.hpp"
 #include "models/ethernet/frame.hpp"
 #include "scenario/applications/description_applications.hpp"
-#include "scenario/applications/sample_layout.hpp"
 #include "sim/distribution.hpp"
 
 namespace takt::scenario {
 
 struct ResolvedTopic {
   const Topic* description = nullptr;
-  SampleLayout layout;
-  gateway::KeyLayout key;                       ///< of DDS; in a payload
+  application::TopicShape shape;
   std::uint16_t publisher_id = 0;               ///< of OPC UA
 };
 
@@ -36,8 +34,7 @@ struct ResolvedThread {
   Duration offset;
   sim::Distribution response = sim::Distribution::constant({});
   std::optional<std::uint64_t> tests;           ///< at most, of the scheduler
-  std::optional<Pattern> pattern;               ///< of what it publishes
-  Payload payload;                              ///< of a pattern: its instances
+  Payload payload;                              ///< of what it publishes
   std::optional<std::uint32_t> copies;          ///< instead: the subscribing thread of the application whose last sample it publishes
   std::uint32_t buffer = 1;
   std::optional<std::uint32_t> signal;          ///< that it drives

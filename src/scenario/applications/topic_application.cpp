@@ -6,7 +6,6 @@
 #include "scenario/applications/dds_node.hpp"
 #include "scenario/applications/gateway_bridge.hpp"
 #include "sim/check.hpp"
-#include "plant/keys.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -19,12 +18,15 @@ plant::Criterion::Settings window_of(const ResolvedThread& thread, const Resolve
 
 }  // namespace
 
-TopicApplication::Live::Live(const ResolvedThread& thread, const Settings& of, const SampleLayout& topic_layout)
+TopicApplication::Live::Live(const ResolvedThread& thread, const Settings& of, const application::TopicShape& shape)
     : settings(&thread),
-      layout(&topic_layout),
+      topic(&shape),
       activations(thread.every, thread.offset, thread.response, of.seed, of.path + "/" + thread.name, of.instants),
-      sample(topic_layout.zeros()),
       seen(of.instants) {
+  if (thread.publishes)
+    publication.emplace(shape, thread.payload);
+  else
+    subscription.emplace(shape);
   const ResolvedApplication& application = *of.application;
   for (const sim::Duration from : of.instants) {
     windows.push_back({from,
@@ -40,7 +42,7 @@ TopicApplication::TopicApplication(Settings settings, ApplicationMonitor& monito
   const ResolvedApplication& application = *settings.application;
   for (std::size_t t = 0; t < application.threads.size(); ++t) {
     const ResolvedThread& thread = application.threads[t];
-    Live& live = threads_.emplace_back(thread, settings, (*settings.topics)[thread.topic].layout);
+    Live& live = threads_.emplace_back(thread, settings, (*settings.topics)[thread.topic].shape);
     live.writer = std::move(settings.writers[t]);
     live.reader = std::move(settings.readers[t]);
     TAKT_CHECK((live.writer != nullptr) == thread.publishes && (live.reader != nullptr) != thread.publishes, "a thread publishes or subscribes");
@@ -64,8 +66,8 @@ void TopicApplication::start(models::HostServices& host) {
   for (Live& live : threads_) {
     if (live.writer) live.writer->start(host);
     if (live.reader) live.reader->start(host);
-    live.has_sample = false;
-    live.publications = 0;
+    live.newest.clear();
+    if (live.publication) live.publication->restart();
     live.activations.begin(now);
     live.tell_windows([&](WindowCounter& windows) { windows.begin(now); });
   }
@@ -163,20 +165,14 @@ void TopicApplication::call(models::HostServices& host, std::uint32_t thread, si
 }
 
 void TopicApplication::publish(models::HostServices& host, Live& live, sim::LocalTime now, sim::LocalTime due) {
-  if (bridge_) {
-    const auto sample = bridge_->pull(now);
-    if (!sample) return;
-    std::copy(sample->begin(), sample->end(), live.sample.begin());
-  } else if (live.settings->copies) {
-    const Live& source = threads_[*live.settings->copies];
-    if (!source.has_sample) return;
-    live.sample = source.sample;
-  } else {
-    ++live.publications;
-    live.layout->set_keys(live.sample, plant::instance_of(live.settings->payload, live.publications));
-    live.layout->set_first(live.sample, live.settings->pattern == Pattern::alternate ? live.publications % 2 : live.publications);
-  }
-  count(live, due, live.writer->write(host, live.sample));
+  if (const auto value = next_of(live, now)) count(live, due, live.writer->write(host, *value));
+}
+
+std::optional<uadp::Octets> TopicApplication::next_of(Live& live, sim::LocalTime now) {
+  if (bridge_) return bridge_->pull(now);
+  if (!live.settings->copies) return live.publication->next();
+  const Live& source = threads_[*live.settings->copies];
+  return source.newest.empty() ? std::nullopt : live.publication->copy(source.newest);
 }
 
 void TopicApplication::count(Live& live, sim::LocalTime began, WriteOutcome outcome) {
@@ -198,11 +194,15 @@ void TopicApplication::take(models::HostServices& host, std::uint32_t thread, si
     seen.displaced_before = live.reader->displaced();
   });
   std::uint64_t count = 0;
-  while (const auto sample = live.reader->next(host)) {
+  while (const auto value = live.reader->next(host)) {
+    if (bridge_) {
+      bridge_->receive(*value, now);
+    } else {
+      const auto fields = live.subscription->take(*value);
+      if (!fields) continue;
+      live.newest.assign(fields->begin(), fields->end());
+    }
     ++count;
-    live.has_sample = true;
-    std::copy(sample->begin(), sample->end(), live.sample.begin());
-    if (bridge_) bridge_->receive(*sample, now);
   }
   if (count == 0) return;
   const std::uint64_t kept = std::min<std::uint64_t>(count, live.settings->buffer);
@@ -213,7 +213,7 @@ void TopicApplication::take(models::HostServices& host, std::uint32_t thread, si
   });
   for (Live::Windows& each : live.windows) each.values->add(due, kept);
   monitor_->on_values(number_, thread, count);
-  if (live.settings->signal) monitor_->set_signal(*live.settings->signal, !live.layout->first_is_zero(live.sample));
+  if (live.settings->signal) monitor_->set_signal(*live.settings->signal, !live.topic->is_zero(live.newest));
 }
 
 ThreadFigures TopicApplication::figures(std::size_t thread, sim::LocalTime now, sim::Duration from) const {

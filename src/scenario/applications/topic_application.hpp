@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "application/topic_values.hpp"
 #include "models/host/application.hpp"
 #include "scenario/applications/activations.hpp"
 #include "scenario/applications/application_monitor.hpp"
@@ -67,7 +68,7 @@ class TopicApplication final : public models::Application {
 
  private:
   struct Live {
-    Live(const ResolvedThread& thread, const Settings& of, const SampleLayout& topic_layout);
+    Live(const ResolvedThread& thread, const Settings& of, const application::TopicShape& shape);
     /// The windows of all accounts are told the same.
     template <class Tell>
     void tell_windows(Tell&& tell) {
@@ -78,7 +79,7 @@ class TopicApplication final : public models::Application {
     }
 
     const ResolvedThread* settings;
-    const SampleLayout* layout;
+    const application::TopicShape* topic;
     Activations activations;
     struct Windows {
       sim::Duration from;
@@ -88,9 +89,9 @@ class TopicApplication final : public models::Application {
     std::vector<Windows> windows;         // by instant
     std::unique_ptr<TopicWriter> writer;
     std::unique_ptr<TopicReader> reader;
-    Sample sample;                        // the last that was taken, or room for the next to publish
-    bool has_sample = false;
-    std::uint64_t publications = 0;       // since the start
+    std::optional<application::Publication> publication;    // of the two that which the thread has
+    std::optional<application::Subscription> subscription;
+    std::vector<std::byte> newest;        // fields that were taken last; empty before
     /// What was seen, and what the protocol had lost when that began.
     struct Seen {
       ThreadFigures figures;
@@ -102,6 +103,8 @@ class TopicApplication final : public models::Application {
 
   void call(models::HostServices& host, std::uint32_t thread, sim::LocalTime now, sim::Duration response);
   void publish(models::HostServices& host, Live& live, sim::LocalTime now, sim::LocalTime due);
+  /// What the thread publishes now, if anything.
+  std::optional<uadp::Octets> next_of(Live& live, sim::LocalTime now);
   static void count(Live& live, sim::LocalTime began, WriteOutcome outcome);
   /// What participants want to send is sent, and they are woken when they want to be.
   void settle(models::HostServices& host);

@@ -22,8 +22,8 @@ class TopicWriter {
  public:
   virtual ~TopicWriter() = default;
   virtual void start(models::HostServices& host) = 0;
-  /// Encodes and sends a sample, or hands it to the protocol, which does.
-  virtual WriteOutcome write(models::HostServices& host, uadp::Octets sample) = 0;
+  /// Sends a value, as its protocol carries it, or hands it to the protocol, which does.
+  virtual WriteOutcome write(models::HostServices& host, uadp::Octets value) = 0;
   /// The protocol was woken or has received something: what becomes of the sample that waits, if any; nothing while it still does.
   virtual std::optional<WriteOutcome> go_on(models::HostServices&) { return std::nullopt; }
   virtual void crash() = 0;
@@ -36,7 +36,7 @@ class TopicReader {
   virtual void start(models::HostServices& host) = 0;
   /// A message has come to the host: it waits until the thread asks.
   virtual void receive(models::HostServices& host, uadp::Octets message) = 0;
-  /// The next sample that has come, oldest first. The octets last until the next call.
+  /// The next value that has come, oldest first, as its protocol carries it. The octets last until the next call.
   virtual std::optional<uadp::Octets> next(models::HostServices& host) = 0;
   /// Samples that were sent, as their numbers show, and did not come, or came where no room was left.
   virtual std::uint64_t lost() const = 0;

@@ -172,12 +172,12 @@ void Run::add_ports(std::uint32_t number, const ResolvedApplication& application
       continue;
     }
     if (thread.publishes) {
-      settings.writers.back() = std::make_unique<OpcUaWriter>(topic.layout, address(number, t), thread.stream);
+      settings.writers.back() = std::make_unique<OpcUaWriter>(topic.shape, address(number, t), thread.stream);
       continue;
     }
-    std::vector<OpcUaAddress> heard;
+    std::vector<application::OpcUaAddress> heard;
     for (const ResolvedInput& input : thread.inputs) heard.push_back(address(input.application, input.thread));
-    settings.readers.back() = std::make_unique<OpcUaReader>(topic.layout, std::move(heard));
+    settings.readers.back() = std::make_unique<OpcUaReader>(topic.shape, std::move(heard));
   }
 }
 
@@ -191,7 +191,7 @@ void Run::add_application(std::uint32_t number, const ResolvedApplication& appli
   settings.instants = instants_;
   add_ports(number, application, settings);
   if (application.gateway)
-    settings.bridge = std::make_unique<GatewayBridge>(*application.gateway, resolved_->topics[application.threads[0].topic], resolved_->topics[application.threads[1].topic]);
+    settings.bridge = std::make_unique<GatewayBridge>(*application.gateway, resolved_->topics[application.threads[0].topic].shape, resolved_->topics[application.threads[1].topic].shape);
   auto live = std::make_unique<TopicApplication>(std::move(settings), *application_monitor_);
   applications_.push_back(live.get());
   models::Process& process = network_.add_process(application.node, application.name, std::move(live));

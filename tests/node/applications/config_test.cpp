@@ -54,11 +54,11 @@ TEST_F(ApplicationsFile, OnlyWhatIsOnThisNodeIsKept) {
   ASSERT_TRUE(loaded) << said_.size();
   ASSERT_EQ(loaded->config.applications.size(), 1u);
   EXPECT_EQ(loaded->config.applications[0].name, "here");
-  EXPECT_EQ(loaded->shapes[0].publisher_id, 1);
-  EXPECT_EQ(loaded->shapes[1].publisher_id, 9);
-  EXPECT_EQ(loaded->shapes[0].fields[1].type, (uadp::RawField{uadp::BuiltInType::Double, true, 2, 0}));
-  EXPECT_EQ(text_of(loaded->shapes[0].type.members[1]), "double[2]");
-  EXPECT_EQ(loaded->shapes[0].type.name, "x");
+  EXPECT_EQ(loaded->topics[0].publisher_id, 1);
+  EXPECT_EQ(loaded->topics[1].publisher_id, 9);
+  EXPECT_EQ(loaded->topics[0].shape.fields[1].type, (uadp::RawField{uadp::BuiltInType::Double, true, 2, 0}));
+  EXPECT_EQ(text_of(loaded->topics[0].shape.type.members[1]), "double[2]");
+  EXPECT_EQ(loaded->topics[0].shape.type.name, "x");
 }
 
 TEST_F(ApplicationsFile, AllMistakesAreNamedAtOnce) {
@@ -88,8 +88,8 @@ TEST_F(ApplicationsFile, AGatewayNeedsTypesThatMap) {
   };
   const auto loaded = load(with(R"("v": "Double", "n": "UInt32")"));
   ASSERT_TRUE(loaded) << said_.front();
-  EXPECT_EQ(loaded->shapes[1].type.name, "A::B");
-  EXPECT_EQ(loaded->shapes[1].domain, 4);
+  EXPECT_EQ(loaded->topics[1].shape.type.name, "A::B");
+  EXPECT_EQ(loaded->topics[1].domain, 4);
   EXPECT_TRUE(load(with(R"("n": "UInt32")"))) << "what is more is left out";
   EXPECT_FALSE(load(with(R"("n": "UInt32", "other": "Double")")));
   EXPECT_EQ(said_, Lines{"/gateways/0/to: types do not map"});

@@ -87,8 +87,8 @@ std::vector<Message> real() {
   std::vector<std::unique_ptr<Work>> works;
   for (const plant::Application& application : loaded->config.applications)
     for (const Thread& thread : application.threads) {
-      const TopicShape& shape = loaded->shapes[loaded->topic(*thread.publish)];
-      works.push_back(make_publishing({&shape, false}, topics.add_writer(shape, loaded->writer_groups.at({application.name, thread.name})), thread.payload, newest));
+      const LoadedTopic& topic = loaded->topics[loaded->topic(*thread.publish)];
+      works.push_back(make_publishing(topic.shape, topics.add_writer(topic, loaded->writer_groups.at({application.name, thread.name})), thread.payload.value_or(Payload{}), newest));
     }
   for (std::size_t round = 0; round < rounds; ++round)
     for (const auto& work : works) EXPECT_EQ(work->call(0).sent, 1u);

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/resolve/port_configs.hpp"
 #include "scenario/resolve/stream_at_port.hpp"
 
 namespace takt::scenario {
@@ -30,7 +31,7 @@ Usage::Usage(const Resolved& resolved) : r_(resolved), streams_(streams_at_ports
       use.port = end->port;
       use.peer = peer->node.value;
       use.link = &link;
-      use.config = &port_config_of(r_, *end);
+      use.config = &port_config_of(r_.plan, *end);
       if (use.config->shaping.gates) use.gates.push_back(&*use.config->shaping.gates);
     }
   for (const ResolvedAction& action : r_.script)

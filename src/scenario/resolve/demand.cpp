@@ -18,7 +18,7 @@ std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share);
 
 }  // namespace
 
-void resolve_demand(Resolved& r, json::Diagnostics& diagnostics) {
+std::vector<PortDemand> demands_of(const Resolved& r, json::Diagnostics& diagnostics) {
   std::map<Key, PortDemand> ports;
   for (const models::LinkPlan& link : r.plan.links) {
     const auto rate = static_cast<double>(link.rate.bits_per_second);
@@ -36,6 +36,7 @@ void resolve_demand(Resolved& r, json::Diagnostics& diagnostics) {
     for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
       if (models::contains(at.classes, q)) ports[{at.node, at.port}].class_bits_per_second[q] += bits / classes;
   }
+  std::vector<PortDemand> all;
   for (auto& [key, port] : ports) {
     const double share = port.share();
     if (share <= 0) continue;
@@ -50,8 +51,9 @@ void resolve_demand(Resolved& r, json::Diagnostics& diagnostics) {
       diagnostics.warning(r.scenario.network.where.place(), "an overloaded link", {details.found});
     else if (share > 0.9)
       diagnostics.warning(r.scenario.network.where.place(), "a link that is nearly full", {details.found});
-    r.ports.push_back(port);
+    all.push_back(port);
   }
+  return all;
 }
 
 }  // namespace takt::scenario

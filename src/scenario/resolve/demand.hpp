@@ -5,8 +5,8 @@
 
 namespace takt::scenario {
 
-/// Fills resolved.ports. A direction of a link that is asked for more than its rate is an error, or a warning if the
-/// scenario allows overload; above 90 % it is a warning.
-void resolve_demand(Resolved& resolved, json::Diagnostics& diagnostics);
+/// Of the directions of links that carry something; nodes, ports, streams and ingress are there. One that is asked for more than its rate is an error, or a
+/// warning if the scenario allows overload; above 90 % it is a warning.
+std::vector<PortDemand> demands_of(const Resolved& resolved, json::Diagnostics& diagnostics);
 
 }  // namespace takt::scenario

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "scenario/resolve/control_list.hpp"
+#include "scenario/resolve/port_configs.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -52,10 +53,7 @@ class EgressResolver {
     config.cut_through = set_of(chosen->cut_through);
     config.untagged = chosen->untagged;
     check_combinations(*chosen, config, node, r_.topology.nodes[peer.node.value]);
-    auto& known = r_.plan.port_configs;
-    const auto found = std::find(known.begin(), known.end(), config);
-    end.port_config = static_cast<std::uint32_t>(found - known.begin());
-    if (found == known.end()) known.push_back(std::move(config));
+    end.port_config = port_config_index(r_.plan, config);
   }
 
   static models::ClassSet set_of(const std::vector<std::uint8_t>& classes) {
@@ -199,7 +197,7 @@ void add_launch_classes(Resolved& r, json::Diagnostics& diagnostics) {
     for (models::LinkPlan::End* end : {&link.a, &link.b}) {
       const auto found = priorities.find(end->node.value);
       if (found == priorities.end()) continue;
-      models::PortConfig config = r.plan.port_configs[end->port_config.value_or(r.plan.nodes[end->node.value].port_config)];
+      models::PortConfig config = port_config_of(r.plan, *end);
       for (const auto& [priority, stream] : found->second) {
         const models::TrafficClass q = config.traffic_class_of_priority[priority];
         models::SelectionAlgorithm& selection = config.shaping.selection[q];
@@ -209,8 +207,7 @@ void add_launch_classes(Resolved& r, json::Diagnostics& diagnostics) {
         if (auto* const shaper = std::get_if<models::CreditBased>(&selection)) shaper->has_launch_times = true;
         else selection = models::TimeBased{};
       }
-      end->port_config = static_cast<std::uint32_t>(r.plan.port_configs.size());
-      r.plan.port_configs.push_back(std::move(config));
+      end->port_config = port_config_index(r.plan, config);
     }
   }
 }

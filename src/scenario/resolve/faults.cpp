@@ -19,18 +19,23 @@ models::Probability probability(double value) { return models::Probability::from
 
 class FaultResolver {
  public:
-  FaultResolver(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics) {}
+  FaultResolver(const Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics) {}
 
-  void run() {
+  FaultPlan run() {
     for (const Fault& fault : r_.scenario.faults) std::visit([this](const auto& each) { add(each); }, fault);
-    if (!r_.scenario.rerouting) return;
-    if (r_.scenario.faults.empty() && !diagnostics_.is_refused(r_.scenario.where.at("faults")))
-      diagnostics_.warning(r_.scenario.rerouting->where.place(), "nothing to reroute for", {"no \"faults\"", "a fault that takes a link down"});
-    std::stable_sort(outages_.begin(), outages_.end(), [](const Outage& a, const Outage& b) { return a.at < b.at; });
-    if (!diagnostics_.has_errors()) plan_rerouting(r_, outages_, r_.scenario.rerouting->delay);
+    if (r_.scenario.rerouting) reroute();
+    return std::move(made_);
   }
 
  private:
+  void reroute() {
+    if (r_.scenario.faults.empty() && !diagnostics_.is_refused(r_.scenario.where.at("faults")))
+      diagnostics_.warning(r_.scenario.rerouting->where.place(), "nothing to reroute for", {"no \"faults\"", "a fault that takes a link down"});
+    std::stable_sort(outages_.begin(), outages_.end(), [](const Outage& a, const Outage& b) { return a.at < b.at; });
+    if (diagnostics_.has_errors()) return;
+    for (ResolvedAction& action : plan_rerouting(r_, outages_, r_.scenario.rerouting->delay)) made_.actions.push_back(std::move(action));
+  }
+
   template <class F>
   sim::TrueTime begin_of(const F& fault) {
     if (r_.scenario.duration > Duration() && fault.at > r_.scenario.duration)
@@ -102,11 +107,11 @@ class FaultResolver {
     const auto link = link_named(fault.link, fault.where);
     const sim::TrueTime begin = begin_of(fault);
     if (!link) return;
-    r_.plan.links[*link].may_fail = true;
-    r_.script.push_back({begin, ResolvedLink{*link, false}});
+    made_.failing_links.insert(*link);
+    made_.actions.push_back({begin, ResolvedLink{*link, false}});
     outages_.push_back({begin, {*link}, false});
     if (const auto end = end_of(fault)) {
-      r_.script.push_back({*end, ResolvedLink{*link, true}});
+      made_.actions.push_back({*end, ResolvedLink{*link, true}});
       outages_.push_back({*end, {*link}, true});
     }
   }
@@ -126,8 +131,8 @@ class FaultResolver {
     impairment.from = begin_of(fault);
     impairment.until = end_of(fault).value_or(sim::TrueTime::never());
     if (!link) return;
-    models::LinkPlan& plan = r_.plan.links[*link];
-    plan.may_fail = true;
+    const models::LinkPlan& plan = r_.plan.links[*link];
+    made_.failing_links.insert(*link);
     std::optional<bool> only_from_a;
     if (fault.towards) {
       const auto to = node_named(*fault.towards, fault.where.at("towards"));
@@ -138,8 +143,8 @@ class FaultResolver {
       }
       only_from_a = *to == plan.b.node.value;
     }
-    if (only_from_a.value_or(true)) r_.plan.impairments.push_back({*link, true, impairment});
-    if (!only_from_a.value_or(false)) r_.plan.impairments.push_back({*link, false, impairment});
+    if (only_from_a.value_or(true)) made_.impairments.push_back({*link, true, impairment});
+    if (!only_from_a.value_or(false)) made_.impairments.push_back({*link, false, impairment});
   }
 
   void add(const Crash& fault) {
@@ -149,15 +154,15 @@ class FaultResolver {
     const models::NodeIndex index{*node};
     std::vector<std::uint32_t> links;
     for (std::uint32_t l = 0; l < r_.plan.links.size(); ++l) {
-      models::LinkPlan& link = r_.plan.links[l];
+      const models::LinkPlan& link = r_.plan.links[l];
       if (link.a.node != index && link.b.node != index) continue;
-      link.may_fail = true;
+      made_.failing_links.insert(l);
       links.push_back(l);
     }
-    r_.script.push_back({begin, ResolvedNode{index, false}});
+    made_.actions.push_back({begin, ResolvedNode{index, false}});
     outages_.push_back({begin, links, false});
     if (const auto end = end_of(fault)) {
-      r_.script.push_back({*end, ResolvedNode{index, true}});
+      made_.actions.push_back({*end, ResolvedNode{index, true}});
       outages_.push_back({*end, links, true});
     }
   }
@@ -189,7 +194,7 @@ class FaultResolver {
         diagnostics_.error(fault.where.place(), "a talker that babbles twice at a time", {json::quote(fault.stream) + ", which babbles from " + json::to_text(other.begin.since_start()) + " on already", "times that do not overlap"});
     if (has_times(fault)) babbling_.push_back({fault.stream, begin, over});
     talker.name = plan.name + "/babble";
-    r_.plan.talkers.push_back(std::move(talker));
+    made_.babblers.push_back(std::move(talker));
   }
 
   void add(const StuckGate& fault) {
@@ -201,12 +206,10 @@ class FaultResolver {
       if (fault.to && r_.topology.nodes[neighbour.node].name != *fault.to) continue;
       found = true;
       const models::NodeIndex index{*node};
-      for (models::LinkPlan& link : r_.plan.links)
-        for (models::LinkPlan::End* end : {&link.a, &link.b})
-          if (end->node == index && end->port == neighbour.port) end->gates_may_stick = true;
+      made_.stuck_ports.insert({*node, neighbour.port});
       refuse_overlap(fault, {*node, neighbour.port, fault.traffic_class}, begin);
-      r_.script.push_back({begin, ResolvedStuckGate{index, neighbour.port, fault.traffic_class, fault.state == GateFault::open}});
-      if (const auto end = end_of(fault)) r_.script.push_back({*end, ResolvedStuckGate{index, neighbour.port, fault.traffic_class, std::nullopt}});
+      made_.actions.push_back({begin, ResolvedStuckGate{index, neighbour.port, fault.traffic_class, fault.state == GateFault::open}});
+      if (const auto end = end_of(fault)) made_.actions.push_back({*end, ResolvedStuckGate{index, neighbour.port, fault.traffic_class, std::nullopt}});
     }
     if (!found) report_no_neighbour(r_.topology, fault.to.value_or(fault.node), fault.node, fault.where.at(fault.to ? "to" : "node"), diagnostics_);
   }
@@ -219,7 +222,7 @@ class FaultResolver {
       diagnostics_.error_unless(diagnostics_.is_refused(r_.scenario.where.at("clocks")), fault.where.at("node"), "a clock fault without a clock", {json::quote(fault.node) + ", which knows true time", "a node with a clock of its own, see \"clocks\""});
       return;
     }
-    r_.script.push_back({begin, ResolvedClockFault{models::NodeIndex{*node}, fault.step, fault.offset}});
+    made_.actions.push_back({begin, ResolvedClockFault{models::NodeIndex{*node}, fault.step, fault.offset}});
   }
 
   /// A gate is stuck in one way at a time.
@@ -239,7 +242,8 @@ class FaultResolver {
     sim::TrueTime begin;
     sim::TrueTime end;
   };
-  Resolved& r_;
+  const Resolved& r_;
+  FaultPlan made_;
   json::Diagnostics& diagnostics_;
   struct Babbling {
     std::string stream;
@@ -253,6 +257,6 @@ class FaultResolver {
 
 }  // namespace
 
-void resolve_faults(Resolved& resolved, json::Diagnostics& diagnostics) { FaultResolver(resolved, diagnostics).run(); }
+FaultPlan plan_faults(const Resolved& resolved, json::Diagnostics& diagnostics) { return FaultResolver(resolved, diagnostics).run(); }
 
 }  // namespace takt::scenario

@@ -5,6 +5,7 @@
 
 #include "scenario/gates/layout.hpp"
 #include "scenario/resolve/egress.hpp"
+#include "scenario/resolve/port_configs.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -107,22 +108,9 @@ class GateResolver {
       return;
     }
     const models::GateConfig gates = gate_config_of(set.gates, diagnostics_);
-    bool found = false;
-    bool twice = false;
-    for (models::LinkPlan& link : r_.plan.links)
-      for (auto [end, peer] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
-        if (end->node.value != *node || (set.to && r_.topology.nodes[peer->node.value].name != *set.to)) continue;
-        found = true;
-        models::PortConfig config = r_.plan.port_configs[end->port_config.value_or(r_.plan.nodes[*node].port_config)];
-        twice = twice || config.shaping.gates.has_value();
-        config.shaping.gates = gates;
-        auto& known = r_.plan.port_configs;
-        const auto same = std::find(known.begin(), known.end(), config);
-        end->port_config = static_cast<std::uint32_t>(same - known.begin());
-        if (same == known.end()) known.push_back(std::move(config));
-      }
-    if (!found) report_no_neighbour(r_.topology, set.to.value_or(set.node), set.node, where.at(set.to ? "to" : "node"), diagnostics_);
-    if (twice) diagnostics_.error(gates_.where.at("lists", index), "a port configured twice", {"gates of " + json::quote(set.node) + " that are there already", "one list for a port"});
+    const GatesSet done = set_gates(r_.plan, models::NodeIndex{*node}, gates, [&](models::NodeIndex peer) { return !set.to || r_.topology.nodes[peer.value].name == *set.to; });
+    if (!done.found) report_no_neighbour(r_.topology, set.to.value_or(set.node), set.node, where.at(set.to ? "to" : "node"), diagnostics_);
+    if (done.twice) diagnostics_.error(gates_.where.at("lists", index), "a port configured twice", {"gates of " + json::quote(set.node) + " that are there already", "one list for a port"});
   }
 
   Resolved& r_;

@@ -9,6 +9,7 @@
 #include "scenario/resolve/cqf.hpp"
 #include "scenario/resolve/ingress_tables.hpp"
 #include "scenario/resolve/known_names.hpp"
+#include "scenario/resolve/port_configs.hpp"
 #include "scenario/resolve/redundancy.hpp"
 
 namespace takt::scenario {
@@ -183,21 +184,8 @@ class NodeIngress {
   }
 
   void set_port_gates(const Cqf& cqf) {
-    const models::GateConfig gates = cqf_port_gates(cqf, times_);
-    bool twice = false;
-    for (models::LinkPlan& link : r_.plan.links) {
-      for (models::LinkPlan::End* const end : {&link.a, &link.b}) {
-        if (end->node.value != node_) continue;
-        models::PortConfig config = r_.plan.port_configs[end->port_config.value_or(r_.plan.nodes[node_].port_config)];
-        twice = twice || config.shaping.gates.has_value();
-        config.shaping.gates = gates;
-        auto& known = r_.plan.port_configs;
-        const auto found = std::find(known.begin(), known.end(), config);
-        end->port_config = static_cast<std::uint32_t>(found - known.begin());
-        if (found == known.end()) known.push_back(std::move(config));
-      }
-    }
-    if (twice) diagnostics_.error(cqf.where.place(), "a port configured twice", {"gates in \"egress\" beside CQF, which makes them", "one of the two"});
+    const GatesSet done = set_gates(r_.plan, models::NodeIndex{node_}, cqf_port_gates(cqf, times_), [](models::NodeIndex) { return true; });
+    if (done.twice) diagnostics_.error(cqf.where.place(), "a port configured twice", {"gates in \"egress\" beside CQF, which makes them", "one of the two"});
   }
 
   void add_cqf_filters(const Cqf& cqf) {

@@ -35,9 +35,10 @@ std::string name_of(const Requirement& requirement) {
 
 class Requirements {
  public:
-  Requirements(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics), streams_(resolved, diagnostics) {}
+  Requirements(const Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics), streams_(resolved, diagnostics) {}
 
   void translate(const Requirement& requirement);
+  std::vector<RequiredFigure> take() { return std::move(made_); }
 
  private:
   struct Spelling;
@@ -50,7 +51,7 @@ class Requirements {
 
   /// A limit on the figure at these steps of result.json.
   RequiredFigure& add(RequirementKind kind, const std::string& subject, std::vector<std::string> steps, std::string text) {
-    RequiredFigure& made = r_.requirements.emplace_back();
+    RequiredFigure& made = made_.emplace_back();
     made.kind = made.taken_as = kind;
     made.subject = subject;
     made.figure.steps = std::move(steps);
@@ -226,7 +227,8 @@ class Requirements {
     return names;
   }
 
-  Resolved& r_;
+  const Resolved& r_;
+  std::vector<RequiredFigure> made_;
   json::Diagnostics& diagnostics_;
   StreamNames streams_;
   const Requirement* asked_ = nullptr;
@@ -285,10 +287,11 @@ const Program* find_program(const Scenario& scenario, const std::string& name, c
   return nullptr;
 }
 
-void resolve_requirements(Resolved& resolved, json::Diagnostics& diagnostics) {
+std::vector<RequiredFigure> requirements_of(const Resolved& resolved, json::Diagnostics& diagnostics) {
   Requirements requirements(resolved, diagnostics);
   for (const Requirement& requirement : resolved.scenario.require)
     if (requirement.where.is_known() || !diagnostics.has_errors()) requirements.translate(requirement);
+  return requirements.take();
 }
 
 }  // namespace takt::scenario

@@ -7,8 +7,8 @@
 
 namespace takt::scenario {
 
-/// Makes Resolved::requirements; all else is resolved by then.
-void resolve_requirements(Resolved& resolved, json::Diagnostics& diagnostics);
+/// All else is resolved by then.
+std::vector<RequiredFigure> requirements_of(const Resolved& resolved, json::Diagnostics& diagnostics);
 
 /// The Program of that name; nothing and a diagnostic at `place` if there is none.
 const Program* find_program(const Scenario& scenario, const std::string& name, const json::Place& place, json::Diagnostics& diagnostics);

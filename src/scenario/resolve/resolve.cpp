@@ -23,6 +23,7 @@
 #include "scenario/resolve/nesting.hpp"
 #include "scenario/resolve/os_profiles.hpp"
 #include "scenario/resolve/policing.hpp"
+#include "scenario/resolve/port_configs.hpp"
 #include "scenario/resolve/program_streams.hpp"
 #include "scenario/resolve/replies.hpp"
 #include "scenario/resolve/requirements.hpp"
@@ -59,7 +60,7 @@ class Resolver {
     resolve_nesting(r_, diagnostics_);
     check_candidates(r_, diagnostics_);
     resolve_ingress(r_, diagnostics_);
-    resolve_demand(r_, diagnostics_);
+    r_.ports = demands_of(r_, diagnostics_);
     check_policing(r_, diagnostics_);
     resolve_gates(r_, diagnostics_);
     check_cut_through(r_, diagnostics_);
@@ -67,10 +68,10 @@ class Resolver {
     add_launch_classes(r_, diagnostics_);
     for (const ScriptEntry& entry : r_.scenario.script)
       if (is_read(entry)) add_action(entry);
-    resolve_faults(r_, diagnostics_);
+    take(plan_faults(r_, diagnostics_));
     check_windows(r_, diagnostics_);
     std::stable_sort(r_.script.begin(), r_.script.end(), [](const ResolvedAction& a, const ResolvedAction& b) { return a.at < b.at; });
-    resolve_requirements(r_, diagnostics_);
+    r_.requirements = requirements_of(r_, diagnostics_);
     if (!diagnostics_.has_errors()) tell_idle(r_, diagnostics_);
     builder_ = nullptr;
   }
@@ -91,7 +92,7 @@ class Resolver {
       plan.name = node.name;
       if (const auto* host = std::get_if<HostNode>(&node.description)) {
         plan.kind = models::NodeKind::host;
-        plan.port_config = port_config_index(host->traffic_classes, host->queues);
+        plan.port_config = port_config_of_node(host->traffic_classes, host->queues);
         auto found = std::find(systems.begin(), systems.end(), host->os);
         if (found == systems.end()) {
           r_.plan.os_latencies.push_back(os_latency_of(host->os, diagnostics_));
@@ -104,7 +105,7 @@ class Resolver {
         plan.kind = models::NodeKind::bridge;
         plan.forwarding_delay = bridge.forwarding_delay;
         plan.cut_through_header = bridge.cut_through_header;
-        plan.port_config = port_config_index(bridge.traffic_classes, bridge.queues);
+        plan.port_config = port_config_of_node(bridge.traffic_classes, bridge.queues);
       }
       r_.plan.nodes.push_back(std::move(plan));
     }
@@ -113,7 +114,7 @@ class Resolver {
       diagnostics_.error_unless(!r_.topology.has_all_nodes, network.where.place(), "a network without nodes", {"no nodes", "\"nodes\" or \"generate\""});
   }
 
-  std::uint32_t port_config_index(TrafficClasses classes, const Queues& queues) {
+  std::uint32_t port_config_of_node(TrafficClasses classes, const Queues& queues) {
     models::PortConfig config;
     if (classes == TrafficClasses::identity) config.traffic_class_of_priority = models::identity_traffic_classes;
     for (models::QueueLimit& limit : config.queue_limits) {
@@ -125,11 +126,16 @@ class Resolver {
       if (one.frames) limit.frames = *one.frames;
       if (one.octets) limit.octets = one.octets->count;
     }
-    auto& known = r_.plan.port_configs;
-    const auto found = std::find(known.begin(), known.end(), config);
-    if (found != known.end()) return static_cast<std::uint32_t>(found - known.begin());
-    known.push_back(config);
-    return static_cast<std::uint32_t>(known.size() - 1);
+    return port_config_index(r_.plan, config);
+  }
+
+  void take(FaultPlan faults) {
+    std::ranges::move(faults.actions, std::back_inserter(r_.script));
+    std::ranges::move(faults.impairments, std::back_inserter(r_.plan.impairments));
+    std::ranges::move(faults.babblers, std::back_inserter(r_.plan.talkers));
+    for (const std::uint32_t link : faults.failing_links) r_.plan.links[link].may_fail = true;
+    for (models::LinkPlan& link : r_.plan.links)
+      for (models::LinkPlan::End* const end : {&link.a, &link.b}) end->gates_may_stick = faults.stuck_ports.contains({end->node.value, end->port});
   }
 
   void check_names() {
@@ -294,7 +300,8 @@ class Resolver {
       check_caller(entry);
       add_call(entry);
     }
-    if (entry.join || entry.leave) resolve_membership(r_, entry, diagnostics_);
+    if (entry.join || entry.leave)
+      if (const auto action = membership_of(r_, entry, diagnostics_)) r_.script.push_back(*action);
     if (entry.call || (!entry.set_gates && !entry.join && !entry.leave)) return;
     for (const auto& [present, name] : {std::pair(entry.program.has_value(), "program"), std::pair(entry.on.has_value(), "on")})
       if (present) diagnostics_.error(entry.where.at(name), "does not belong to this action", {json::quote(name), "\"call\" with it"});

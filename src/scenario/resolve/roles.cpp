@@ -108,7 +108,7 @@ void check_candidates(const Resolved& resolved, json::Diagnostics& diagnostics) 
   }
 }
 
-void resolve_membership(Resolved& resolved, const ScriptEntry& entry, json::Diagnostics& diagnostics) {
+std::optional<ResolvedAction> membership_of(const Resolved& resolved, const ScriptEntry& entry, json::Diagnostics& diagnostics) {
   const std::string& name = entry.join ? *entry.join : *entry.leave;
   std::vector<std::string_view> names;
   for (std::uint32_t p = 0; p < resolved.programs.size(); ++p) {
@@ -116,8 +116,7 @@ void resolve_membership(Resolved& resolved, const ScriptEntry& entry, json::Diag
     for (std::size_t c = 0; c < program.candidates().size(); ++c) {
       names.push_back(resolved.topology.nodes[program.candidates()[c].node.value].name);
       if (names.back() != name) continue;
-      resolved.script.push_back({sim::TrueTime() + entry.at, ResolvedMembership{p, static_cast<std::uint8_t>(c), entry.join.has_value()}});
-      return;
+      return ResolvedAction{sim::TrueTime() + entry.at, ResolvedMembership{p, static_cast<std::uint8_t>(c), entry.join.has_value()}};
     }
   }
   // A program that was refused has no candidates.
@@ -126,6 +125,7 @@ void resolve_membership(Resolved& resolved, const ScriptEntry& entry, json::Diag
   const bool may_be_candidate = node ? programs_are_refused || resolved.topology.nodes[*node].is_of_unknown_kind || diagnostics.is_refused(resolved.topology.nodes[*node].where.at("offers"))
                                      : !resolved.topology.has_all_nodes;
   diagnostics.error_unless(may_be_candidate, entry.where.at(entry.join ? "join" : "leave"), "not a candidate of a program", {json::quote(name), "a host that offers a skill a role needs", json::suggest(name, names)});
+  return std::nullopt;
 }
 
 }  // namespace takt::scenario

@@ -11,7 +11,7 @@ namespace takt::scenario {
 void resolve_roles(const Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program, json::Diagnostics& diagnostics);
 /// After all programs have been resolved: a node offers its skills to one program.
 void check_candidates(const Resolved& resolved, json::Diagnostics& diagnostics);
-/// "join" or "leave" of the script.
-void resolve_membership(Resolved& resolved, const ScriptEntry& entry, json::Diagnostics& diagnostics);
+/// "join" or "leave" of the script; nothing if nobody of that name may (reported).
+std::optional<ResolvedAction> membership_of(const Resolved& resolved, const ScriptEntry& entry, json::Diagnostics& diagnostics);
 
 }  // namespace takt::scenario

@@ -5,6 +5,8 @@
 
 #include "models/ethernet/sizes.hpp"
 
+#include "scenario/resolve/port_configs.hpp"
+
 namespace takt::scenario {
 namespace {
 
@@ -52,7 +54,7 @@ class Walker {
       if (redundancy != nullptr && path[i] == redundancy->split) is_member = r_tagged = true;
       if (is_member) made.member = number;
       if (!seen_.insert({made.member ? number + 1 : 0, path[i], port}).second) continue;
-      const models::PortConfig& config = port_config_of(r_, *ends_.at({path[i], port}));
+      const models::PortConfig& config = port_config_of(r_.plan, *ends_.at({path[i], port}));
       // Hosts send frames as they were made.
       const bool tagged = frame.tagged && !(config.untagged && i > 0);
       made.frame = models::frame_length(msdu, tagged, r_tagged);
@@ -73,10 +75,6 @@ class Walker {
 }  // namespace
 
 std::vector<StreamAtPort> streams_at_ports(const Resolved& resolved) { return Walker(resolved).run(); }
-
-const models::PortConfig& port_config_of(const Resolved& r, const models::LinkPlan::End& end) {
-  return r.plan.port_configs[end.port_config.value_or(r.plan.nodes[end.node.value].port_config)];
-}
 
 models::ClassSet IngressClasses::classes(std::uint32_t node, const models::PortConfig& port, std::optional<std::uint32_t> filter, models::Priority priority) const {
   const models::TrafficClass own = port.traffic_class_of_priority[priority];

@@ -36,9 +36,6 @@ struct StreamAtPort {
 /// ingress of switches is there (resolve_ingress).
 std::vector<StreamAtPort> streams_at_ports(const Resolved& resolved);
 
-/// The configuration of a port.
-const models::PortConfig& port_config_of(const Resolved& resolved, const models::LinkPlan::End& end);
-
 /// Which class frames wait in at the ports of switches, after what the ingress there does.
 class IngressClasses {
  public:

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/resolve/port_configs.hpp"
 #include "scenario/resolve/stream_at_port.hpp"
 
 namespace takt::scenario {
@@ -37,7 +38,7 @@ std::map<Key, PortGates> gates_of_ports(const Resolved& r) {
     for (const models::LinkPlan::End* end : {&link.a, &link.b}) {
       PortGates& port = ports[{end->node.value, end->port}];
       port.link = &link;
-      const std::optional<models::GateConfig>& gates = port_config_of(r, *end).shaping.gates;
+      const std::optional<models::GateConfig>& gates = port_config_of(r.plan, *end).shaping.gates;
       // A list that begins when the run is over does not act.
       if (gates && (r.scenario.duration == Duration() || gates->admin_base_time.since_start() < r.scenario.duration)) add(port, *gates);
       else port.is_open_without_list = true;

@@ -51,7 +51,8 @@ Tables tables_of(const Resolved& r, const Topology& topology, const std::set<std
 
 }  // namespace
 
-void plan_rerouting(Resolved& r, const std::vector<Outage>& outages, Duration delay) {
+std::vector<ResolvedAction> plan_rerouting(const Resolved& r, const std::vector<Outage>& outages, Duration delay) {
+  std::vector<ResolvedAction> actions;
   std::set<std::string_view> fixed;
   for (const Stream& stream : r.scenario.streams)
     if (stream.path || stream.redundancy) fixed.insert(stream.name);
@@ -70,8 +71,9 @@ void plan_rerouting(Resolved& r, const std::vector<Outage>& outages, Duration de
       routes.entries.push_back({models::NodeIndex{bridge}, vlan, models::AddressIndex{address}, {ports.begin(), ports.end()}});
     }
     for (const ResolvedRoutes::Entry& entry : routes.entries) tables[{entry.bridge.value, entry.vlan, entry.address.value}] = {entry.ports.begin(), entry.ports.end()};
-    if (!routes.entries.empty()) r.script.push_back({outages[i].at.plus_saturated(delay), std::move(routes)});
+    if (!routes.entries.empty()) actions.push_back({outages[i].at.plus_saturated(delay), std::move(routes)});
   }
+  return actions;
 }
 
 }  // namespace takt::scenario

@@ -12,8 +12,8 @@ struct Outage {
   bool up = false;
 };
 
-/// Adds to resolved.script, `delay` after each outage, the entries of the filtering databases that lead along the shortest paths that are left then. Streams
-/// with a given path keep it, and so does a receiver that cannot be reached. The outages are in the order of time.
-void plan_rerouting(Resolved& resolved, const std::vector<Outage>& outages, Duration delay);
+/// `delay` after each outage, the entries of the filtering databases that lead along the shortest paths that are left then. Streams with a given path keep it,
+/// and so does a receiver that cannot be reached. The outages are in the order of time.
+std::vector<ResolvedAction> plan_rerouting(const Resolved& resolved, const std::vector<Outage>& outages, Duration delay);
 
 }  // namespace takt::scenario

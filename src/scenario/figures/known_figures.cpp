@@ -48,7 +48,7 @@ class FigureWalk {
     if (what.kind == Kind::map) return shape(*what.item, path + key_step(meaning.keys), meaning);
     using enum FigureKind;
     const FigureKind kind = meaning.is_judgement ? verdict : what.kind == Kind::text ? text : meaning.is_zero_if_absent ? counter : number;
-    if (figures_.empty() || figures_.back().pattern != path) figures_.push_back({kind, path, meaning.counts_from_start});
+    if (figures_.empty() || figures_.back().pattern != path) figures_.push_back({kind, path, steps_of(path), meaning.counts_from_start});
   }
 
   std::vector<KnownFigure>& figures_;
@@ -86,29 +86,25 @@ std::vector<std::string> steps_of(std::string_view pointer) {
 std::string_view placeholder_of(std::string_view step) { return step.starts_with('<') ? step.substr(1, step.size() - 2) : std::string_view(); }
 
 Lookup look_up(const std::vector<std::string>& steps) {
-  struct Candidate {
-    const KnownFigure* figure;
-    std::vector<std::string> steps;
-  };
-  std::vector<Candidate> candidates;
-  for (const KnownFigure& figure : known_figures()) candidates.push_back({&figure, steps_of(figure.pattern)});
+  std::vector<const KnownFigure*> candidates;
+  for (const KnownFigure& figure : known_figures()) candidates.push_back(&figure);
   Lookup lookup;
   for (std::size_t i = 0; i <= steps.size(); ++i) {
-    std::vector<Candidate> left;
-    for (const Candidate& candidate : candidates)
-      if (i == steps.size() ? candidate.steps.size() == i : candidate.steps.size() > i && matches(candidate.steps[i], steps[i])) left.push_back(candidate);
+    std::vector<const KnownFigure*> left;
+    for (const KnownFigure* const candidate : candidates)
+      if (i == steps.size() ? candidate->steps.size() == i : candidate->steps.size() > i && matches(candidate->steps[i], steps[i])) left.push_back(candidate);
     if (left.empty()) {
       lookup.wrong_step = i;
-      for (const Candidate& candidate : candidates) {
-        if (candidate.steps.size() <= i) continue;
-        std::string text = candidate.steps[i] == "[]" ? "an index or *" : candidate.steps[i];
+      for (const KnownFigure* const candidate : candidates) {
+        if (candidate->steps.size() <= i) continue;
+        std::string text = candidate->steps[i] == "[]" ? "an index or *" : candidate->steps[i];
         if (std::find(lookup.expected.begin(), lookup.expected.end(), text) == lookup.expected.end()) lookup.expected.push_back(std::move(text));
       }
       return lookup;
     }
     candidates = std::move(left);
   }
-  for (const Candidate& candidate : candidates) lookup.figures.push_back(candidate.figure);
+  lookup.figures = std::move(candidates);
   return lookup;
 }
 

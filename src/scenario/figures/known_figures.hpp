@@ -18,7 +18,8 @@ enum class FigureKind : std::uint8_t {
 struct KnownFigure {
   FigureKind kind;
   std::string pattern;
-  bool is_of_whole_run = false;   ///< counts from the start: no account of it is kept from a later instant on
+  std::vector<std::string> steps;   ///< of the pattern
+  bool is_of_whole_run = false;     ///< counts from the start: no account of it is kept from a later instant on
 };
 
 /// Every value that is no object and no array: a walk over the tables of results (json/record.hpp) and of GraphFigures.

@@ -76,7 +76,7 @@ bool requires_losses_separately(const Resolved& resolved, const std::string& str
 std::optional<UnknownName> unknown_name(const Figure& figure, const Resolved& resolved) {
   const Lookup lookup = look_up(figure.steps);
   if (lookup.figures.empty()) return std::nullopt;
-  const std::vector<std::string> pattern = steps_of(lookup.figures.front()->pattern);
+  const std::vector<std::string>& pattern = lookup.figures.front()->steps;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
     const std::string_view kind = placeholder_of(pattern[i]);
     if (kind.empty() || figure.steps[i] == "*") continue;

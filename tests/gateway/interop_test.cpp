@@ -27,6 +27,25 @@ using testing::sample_of;
 
 constexpr std::uint32_t samples = 60;
 
+/// The samples of a reader, each when it has come.
+class OneByOne {
+ public:
+  explicit OneByOne(node::DdsReader& reader) : reader_(reader) {}
+  const std::vector<std::byte>& next() {
+    while (at_ == taken_.size()) {
+      taken_ = reader_.take();
+      at_ = 0;
+      if (taken_.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return taken_[at_++];
+  }
+
+ private:
+  node::DdsReader& reader_;
+  std::span<const std::vector<std::byte>> taken_;
+  std::size_t at_ = 0;
+};
+
 /// A stock program, whose lines are read here.
 class Stock {
  public:
@@ -205,10 +224,9 @@ TEST(Interoperability, WhatAStockPublisherWritesComesOutOfTheGatewayAsUadp) {
   receiving.add_subscriber(subscriber);
   receiving.enable(now());
 
-  std::vector<std::byte> payload;
+  OneByOne samples_taken(*reader);
   for (std::uint32_t n = 1; n <= samples; ++n) {
-    while (!reader->take(payload)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    ASSERT_EQ(channel.receive(payload, now()), MappingError::none);
+    ASSERT_EQ(channel.receive(samples_taken.next(), now()), MappingError::none);
     const auto value = channel.pull(now());
     ASSERT_TRUE(value);
     ASSERT_TRUE(left.assign(value->octets));
@@ -282,11 +300,10 @@ TEST(Interoperability, SamplesOfManyFragmentsComeFromAStockPublisher) {
   Stock stock({place() + "/stock_publisher", "Blob", std::to_string(domain()), std::to_string(blobs), "1"});
   ASSERT_EQ(stock.line(), "matched");
   TypeMapping mapping = blob_mapping(Direction::to_opc_ua);
-  std::vector<std::byte> payload;
+  OneByOne samples_taken(*reader);
   std::vector<std::byte> fields;
   for (std::uint32_t n = 1; n <= blobs; ++n) {
-    while (!reader->take(payload)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    ASSERT_EQ(mapping.to_fields(payload, fields), MappingError::none);
+    ASSERT_EQ(mapping.to_fields(samples_taken.next(), fields), MappingError::none);
     ASSERT_EQ(fields, fields_of(blob_of(n))) << n;
   }
   EXPECT_EQ(stock.wait(), 0);

@@ -26,24 +26,26 @@ std::map<std::string_view, const T*> by_name(const json::NameMap<T>& nodes) {
 
 class ClockResolver {
  public:
-  ClockResolver(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), clocks_(resolved.scenario.clocks), diagnostics_(diagnostics) {}
+  ClockResolver(const Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), clocks_(resolved.scenario.clocks), diagnostics_(diagnostics) {}
 
-  void run() {
+  ClockPlans run() {
     const bool free_running = clocks_.model == ClockModel::free_running || clocks_.all || clocks_.gptp;
     if (clocks_.all) check(*clocks_.all);
     for (const auto& [name, clock] : clocks_.nodes) {
       node_named(name, clocks_.where.at("nodes"));
       check(clock);
     }
-    if (!free_running && clocks_.nodes.empty()) return;
+    if (!free_running && clocks_.nodes.empty()) return {};
+    made_.of_nodes.resize(r_.plan.nodes.size());
     const auto own = by_name(clocks_.nodes);
     for (std::uint32_t n = 0; n < r_.plan.nodes.size(); ++n) {
       const auto found = own.find(r_.plan.nodes[n].name);
       const Clock* clock = found != own.end() ? found->second : clocks_.all ? &*clocks_.all : nullptr;
       if (clock != nullptr ? clock->ideal && !clocks_.gptp : !free_running) continue;
-      r_.plan.nodes[n].clock = plan_of(clock != nullptr ? *clock : Clock{}, r_.plan.nodes[n].name);
+      made_.of_nodes[n] = plan_of(clock != nullptr ? *clock : Clock{}, r_.plan.nodes[n].name);
     }
     if (clocks_.gptp) plan_gptp(*clocks_.gptp);
+    return std::move(made_);
   }
 
  private:
@@ -123,13 +125,13 @@ class ClockResolver {
     for (std::size_t i = 0; i < gptp.without.size(); ++i) node_named(gptp.without[i], gptp.where.at("without", i));
     check_classes();
     if (diagnostics_.has_errors()) return;
-    r_.plan.gptp.resize(r_.plan.nodes.size());
+    made_.gptp.resize(r_.plan.nodes.size());
     std::vector<Instance> instances{{0, by_name(gptp.nodes)}};
     for (const GptpDomain& domain : gptp.domains) instances.push_back({domain.domain, by_name(domain.nodes)});
     for (std::uint32_t n = 0; n < r_.plan.nodes.size(); ++n) {
       if (without.contains(r_.plan.nodes[n].name) || r_.topology.neighbours[n].empty()) continue;
-      r_.plan.gptp[n] = static_cast<std::uint32_t>(r_.plan.gptp_stations.size());
-      r_.plan.gptp_stations.push_back(station_of(gptp, instances, n));
+      made_.gptp[n] = static_cast<std::uint32_t>(made_.gptp_stations.size());
+      made_.gptp_stations.push_back(station_of(gptp, instances, n));
     }
   }
 
@@ -210,13 +212,14 @@ class ClockResolver {
     return config;
   }
 
-  Resolved& r_;
+  const Resolved& r_;
+  ClockPlans made_;
   const Clocks& clocks_;
   json::Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
-void resolve_clocks(Resolved& resolved, json::Diagnostics& diagnostics) { ClockResolver(resolved, diagnostics).run(); }
+ClockPlans plan_clocks(const Resolved& resolved, json::Diagnostics& diagnostics) { return ClockResolver(resolved, diagnostics).run(); }
 
 }  // namespace takt::scenario

@@ -5,8 +5,13 @@
 
 namespace takt::scenario {
 
-/// Gives every node in resolved.plan its clock and its gPTP. To be called when nodes and links are there. Unknown nodes, roles that
-/// cannot be, domains twice and the like are diagnostics.
-void resolve_clocks(Resolved& resolved, json::Diagnostics& diagnostics);
+/// As NetworkPlan has them; empty without clocks, without gPTP.
+struct ClockPlans {
+  std::vector<std::optional<models::NodeClockPlan>> of_nodes;
+  std::vector<std::optional<std::uint32_t>> gptp;
+  std::vector<models::gptp::StationPlan> gptp_stations;
+};
+/// Of the nodes and links of the plan. Unknown nodes, roles that cannot be, domains twice and the like are diagnostics.
+ClockPlans plan_clocks(const Resolved& resolved, json::Diagnostics& diagnostics);
 
 }  // namespace takt::scenario

@@ -46,7 +46,7 @@ class Resolver {
     plan_nodes();
     r_.plan.links = r_.topology.links;
     resolve_egress(r_, diagnostics_);
-    resolve_clocks(r_, diagnostics_);
+    take(plan_clocks(r_, diagnostics_));
     StreamBuilder builder(r_, diagnostics_);
     builder_ = &builder;
     check_names();
@@ -127,6 +127,12 @@ class Resolver {
       if (one.octets) limit.octets = one.octets->count;
     }
     return port_config_index(r_.plan, config);
+  }
+
+  void take(ClockPlans clocks) {
+    for (std::size_t n = 0; n < clocks.of_nodes.size(); ++n) r_.plan.nodes[n].clock = std::move(clocks.of_nodes[n]);
+    r_.plan.gptp = std::move(clocks.gptp);
+    r_.plan.gptp_stations = std::move(clocks.gptp_stations);
   }
 
   void take(FaultPlan faults) {

@@ -16,7 +16,7 @@ Network::Network(sim::Simulation& simulation, NetworkPlan plan) : simulation_(&s
   }
   add_streams();
   for (const FilteringPlan& entry : plan_.filtering)
-    bridges_[entry.bridge.value]->filtering_database().add(entry.vlan, entry.address, entry.port);
+    bridges_[entry.node.value]->filtering_database().add(entry.vlan, entry.address, entry.port);
   set_up_ingress();
   set_up_redundancy();
   set_up_faults();
@@ -235,8 +235,8 @@ void Network::force_gate(NodeIndex node, std::uint16_t port, TrafficClass q, std
   mutable_ports(node)[port].force_gate(*simulation_, q, open);
 }
 
-void Network::reroute(NodeIndex bridge, VlanId vlan, AddressIndex address, std::span<const std::uint16_t> ports) {
-  bridges_[bridge.value]->filtering_database().assign(vlan, address, ports);
+void Network::reroute(NodeIndex node, VlanId vlan, AddressIndex address, std::span<const std::uint16_t> ports) {
+  bridges_[node.value]->filtering_database().assign(vlan, address, ports);
 }
 
 void Network::number_ports() {
@@ -255,26 +255,35 @@ void Network::make_nodes() {
   outputs_.resize(plan_.nodes.size());
   for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
     const NodePlan& node = plan_.nodes[n];
-    if (node.kind == NodeKind::host) {
-      hosts_[n] = std::make_unique<Host>(*simulation_, traffic_, NodeIndex{n}, plan_.os_latencies[node.os_latency], node.name,
-                                         mutable_ports(NodeIndex{n}), clock_of(NodeIndex{n}));
-      if (!mutable_ports(NodeIndex{n}).empty()) outputs_[n] = std::make_unique<HostOutput>(traffic_, mutable_ports(NodeIndex{n}));
-    } else {
-      bridges_[n] = std::make_unique<Bridge>(traffic_, mutable_ports(NodeIndex{n}), node.forwarding_delay);
-      bridges_[n]->set_id(simulation_->add(*bridges_[n]));
-    }
+    const std::span<EgressPort> ports = mutable_ports(NodeIndex{n});
+    if (chooses_ports(NodeIndex{n})) bridges_[n] = std::make_unique<Bridge>(traffic_, ports, node.forwarding_delay);
+    if (node.forwards()) bridges_[n]->set_id(simulation_->add(*bridges_[n]));
+    if (!node.is_end_station()) continue;
+    hosts_[n] = std::make_unique<Host>(*simulation_, traffic_, NodeIndex{n}, plan_.os_latencies[node.os_latency], node.name, ports, clock_of(NodeIndex{n}),
+                                       chooses_ports(NodeIndex{n}));
+    if (!ports.empty()) outputs_[n] = std::make_unique<HostOutput>(traffic_, ports);
+    if (!chooses_ports(NodeIndex{n})) continue;
+    if (node.forwards())
+      bridges_[n]->set_host(*hosts_[n]);
+    else
+      bridges_[n]->set_id(hosts_[n]->id());
+    if (!ports.empty()) outputs_[n]->choose_by(*bridges_[n]);
   }
 }
 
+/// What leaves the node leaves by a filtering entry.
+bool Network::chooses_ports(NodeIndex node) const { return plan_.nodes[node.value].forwards() || ports(node).size() > 1; }
+
 sim::Duration Network::fixed_delay_of(NodeIndex node) const {
   const NodePlan& plan = plan_.nodes[node.value];
-  if (plan.kind == NodeKind::bridge) return plan.forwarding_delay;
+  if (plan.forwards()) return plan.forwarding_delay;
+  if (chooses_ports(node)) return {};
   const sim::Distribution& receive = plan_.os_latencies[plan.os_latency].receive;
   return receive.is_constant() ? receive.greatest() : sim::Duration();
 }
 
 sim::ComponentId Network::component_of(NodeIndex node) const {
-  return hosts_[node.value] ? hosts_[node.value]->id() : bridges_[node.value]->id();
+  return plan_.nodes[node.value].forwards() ? bridges_[node.value]->id() : hosts_[node.value]->id();
 }
 
 void Network::connect(const LinkPlan::End& from, const LinkPlan::End& to, const LinkPlan& link) {

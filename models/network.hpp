@@ -52,8 +52,8 @@ class Network final : private LinkLocalSender {
   /// A node's clock jumps, or its oscillator gets another offset. Precondition: the node has a clock of its own.
   void step_clock(NodeIndex node, sim::Duration by);
   void set_frequency_offset(NodeIndex node, sim::FrequencyOffset offset);
-  /// Another static filtering entry: frames to the address leave `bridge` through these ports.
-  void reroute(NodeIndex bridge, VlanId vlan, AddressIndex address, std::span<const std::uint16_t> ports);
+  /// Another static filtering entry: frames to the address leave the node, which forwards or has several ports, through these ports.
+  void reroute(NodeIndex node, VlanId vlan, AddressIndex address, std::span<const std::uint16_t> ports);
 
   sim::Simulation& simulation() { return *simulation_; }
   Traffic& traffic() { return traffic_; }
@@ -64,6 +64,7 @@ class Network final : private LinkLocalSender {
   std::span<const EgressPort> ports(NodeIndex node) const {
     return {ports_.get() + first_port_[node.value], first_port_[node.value + 1] - first_port_[node.value]};
   }
+  /// Precondition: it forwards, or has several ports.
   const Bridge& bridge(NodeIndex node) const { return *bridges_[node.value]; }
   /// What the node shows as time.
   const LocalClock& clock(NodeIndex node) const { return clocks_[node.value] ? clocks_[node.value]->disciplined() : ideal_clock_; }
@@ -73,7 +74,7 @@ class Network final : private LinkLocalSender {
   const gptp::Station* station(NodeIndex node) const { return stations_[node.value].get(); }
   /// The stream in which all gPTP messages are counted, if there is gPTP.
   std::optional<StreamIndex> gptp_stream() const { return gptp_stream_; }
-  /// The ingress chain of a bridge, or null.
+  /// The ingress chain of a node that forwards, or null.
   IngressPipeline* ingress(NodeIndex node) const { return ingress_[node.value].get(); }
   /// Null for bridges.
   Host* host(NodeIndex node) const { return hosts_[node.value].get(); }
@@ -99,6 +100,7 @@ class Network final : private LinkLocalSender {
   void set_up_faults();
   void announce_cut_through();
   const PortConfig& port_config_of(const LinkPlan::End& end) const;
+  bool chooses_ports(NodeIndex node) const;
   sim::Duration fixed_delay_of(NodeIndex node) const;
   sim::ComponentId component_of(NodeIndex node) const;
   HostOutput& output_of_host(NodeIndex host);
@@ -124,7 +126,7 @@ class Network final : private LinkLocalSender {
   std::vector<std::size_t> first_port_;               // ports of node n: first_port_[n] .. first_port_[n + 1]
   std::unique_ptr<EgressPort[]> ports_;
   std::vector<std::unique_ptr<Host>> hosts_;          // by node; null for bridges
-  std::vector<std::unique_ptr<Bridge>> bridges_;      // by node; null for hosts
+  std::vector<std::unique_ptr<Bridge>> bridges_;      // by node; null for hosts with one port
   std::vector<std::unique_ptr<HostOutput>> outputs_;  // by node; null for bridges
   std::vector<std::unique_ptr<IngressPipeline>> ingress_;  // by node; null where there is none
   std::vector<std::uint32_t> reasons_down_;           // by link: how many reasons it has to be down

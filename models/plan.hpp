@@ -19,17 +19,20 @@
 
 namespace takt::models {
 
-enum class NodeKind : std::uint8_t { host, bridge };
+/// A host sends and receives, a bridge forwards, a station does both.
+enum class NodeKind : std::uint8_t { host, bridge, station };
 
 struct NodePlan {
   std::string name;
   NodeKind kind = NodeKind::host;
-  sim::Duration forwarding_delay;   ///< bridges: last bit in to the egress queue
+  bool forwards() const { return kind != NodeKind::host; }
+  bool is_end_station() const { return kind != NodeKind::bridge; }
+  sim::Duration forwarding_delay;   ///< if it forwards: last bit in to the egress queue, or to the host in the station
   std::uint32_t port_config = 0;    ///< index into NetworkPlan::port_configs
-  std::uint32_t os_latency = 0;     ///< hosts: index into NetworkPlan::os_latencies
+  std::uint32_t os_latency = 0;     ///< end stations: index into NetworkPlan::os_latencies
   std::optional<NodeClockPlan> clock = {};    ///< its own clock; true time if absent
-  std::optional<std::uint32_t> ingress = {};  ///< bridges: index into NetworkPlan::ingress_configs
-  Octets cut_through_header{22};    ///< bridges: octets, preamble included, of an untagged frame that must be in before it is cut through
+  std::optional<std::uint32_t> ingress = {};  ///< if it forwards: index into NetworkPlan::ingress_configs
+  Octets cut_through_header{22};    ///< if it forwards: octets, preamble included, of an untagged frame that must be in before it is cut through
 };
 
 struct LinkPlan {
@@ -67,9 +70,10 @@ struct StreamPlan {
   std::uint32_t ip_group = 0;       ///< IPv4 multicast address to which it goes; 0: takt's choice
 };
 
-/// Static filtering entries: at `bridge`, frames of (vlan, address) leave through `port`.
+/// Static filtering entries: at `node`, frames of (vlan, address) leave through `port`. Those of a node with several ports
+/// hold for what it sends itself, too. At a station `internal_port` leads to its own host.
 struct FilteringPlan {
-  NodeIndex bridge;
+  NodeIndex node;
   VlanId vlan = 0;
   AddressIndex address;
   std::uint16_t port = 0;

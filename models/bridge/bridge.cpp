@@ -3,6 +3,9 @@
 #include "sim/insertion_sort.hpp"
 
 namespace takt::models {
+namespace {
+constexpr auto stored_for_host = static_cast<sim::EventKind>(NodeEvent::first_free);
+}
 
 /// The way of nearly every frame: it calls nothing but what it ends with.
 inline void Bridge::pass_on(sim::Simulation& simulation, ArrivalArgument arrival) {
@@ -15,8 +18,12 @@ inline void Bridge::pass_on(sim::Simulation& simulation, ArrivalArgument arrival
 }
 
 void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
-  TAKT_CHECK(event.kind() == static_cast<sim::EventKind>(NodeEvent::frame_arrived), "a bridge receives frames only");
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
+  if (event.kind() != static_cast<sim::EventKind>(NodeEvent::frame_arrived)) [[unlikely]] {
+    TAKT_CHECK(event.kind() == stored_for_host && host_ != nullptr, "a bridge receives frames only");
+    take_stored(simulation, arrival);
+    return;
+  }
   if (looks_closer_ || arrival.flags != 0) [[unlikely]]
     receive_flagged(simulation, arrival);
   else
@@ -79,50 +86,72 @@ void Bridge::settle(sim::Simulation& simulation) {
   arrived_.clear();
 }
 
-void Bridge::forward(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header) {
+void Bridge::forward(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, const Header* header) {
   const Frame& record = traffic_->frame(frame);
   if (record.link_local && link_local_ != nullptr) {
-    link_local_->receive(simulation, frame, from, simulation.now() - forwarding_delay_);
+    link_local_->receive(simulation, frame, static_cast<std::uint16_t>(rank), simulation.now() - forwarding_delay_);
     return;
   }
   const FilteringDatabase::Entry entry = filtering_database_.find(record.vlan, record.destination);
   const std::uint16_t one = entry.port();
   if (!entry.found())
-    forward_to_many(simulation, frame, from, {}, header);
+    forward_to_many(simulation, frame, rank, {}, header);
   else
-    forward_to_many(simulation, frame, from, entry.is_one_port() ? std::span(&one, 1) : filtering_database_.ports_of(entry), header);
+    forward_to_many(simulation, frame, rank, entry.is_one_port() ? std::span(&one, 1) : filtering_database_.ports_of(entry), header);
 }
 
-void Bridge::forward_to_many(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, std::span<const std::uint16_t> egress,
+void Bridge::forward_to_many(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, std::span<const std::uint16_t> egress,
                              const Header* header) {
   // The last port gets the frame itself, so that nobody looks at a record that has been released.
   std::uint16_t last = 0;
   bool found = false;
   for (const std::uint16_t port : egress) {
-    TAKT_CHECK(port < port_count_, "a filtering entry names a port of its bridge");
-    if (port == from) continue;
+    TAKT_CHECK(port < port_count_ || (port == internal_port && host_ != nullptr), "a filtering entry names a port of its bridge");
+    if (port == rank || (port == internal_port && rank >= rank_of_own(0))) continue;
     if (found) {
       traffic_->copy(frame);
-      hand_over(simulation, frame, from, ports_[last], header);
+      hand_over(simulation, frame, rank, last, header);
     }
     last = port;
     found = true;
   }
   if (found)
-    hand_over(simulation, frame, from, ports_[last], header);
+    hand_over(simulation, frame, rank, last, header);
   else
     traffic_->drop(frame, DropReason::no_filtering_entry, id_, simulation);
 }
 
-void Bridge::hand_over(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, EgressPort& port, const Header* header) {
+void Bridge::hand_over(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, std::uint16_t number, const Header* header) {
+  if (number == internal_port) {
+    hand_to_host(simulation, frame, static_cast<std::uint16_t>(rank), header);
+    return;
+  }
+  EgressPort& port = ports_[number];
   if (port.untags() && traffic_->frame(frame).tagged) {
     frame = traffic_->own(frame);
     traffic_->set_tags(frame, false, traffic_->frame(frame).r_tagged);
   }
   if (header != nullptr)
-    port.offer_header(simulation, frame, from, header->stored, *header->link);
+    port.offer_header(simulation, frame, rank, header->stored, *header->link);
   else
-    port.offer(simulation, frame, from);
+    port.offer(simulation, frame, rank);
+}
+
+/// A host gets whole frames.
+void Bridge::hand_to_host(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header) {
+  if (header == nullptr) {
+    host_->receive_internally(simulation, frame, from);
+    return;
+  }
+  header->link->passed_on(simulation.now(), frame, traffic_->frame(frame), header->stored);
+  simulation.schedule(source_, header->stored, sim::Phase::arrival, id_, stored_for_host, ArrivalArgument::pack(frame, from));
+}
+
+void Bridge::take_stored(sim::Simulation& simulation, ArrivalArgument arrival) {
+  if (traffic_->frame(arrival.frame).bad_fcs)
+    traffic_->drop(arrival.frame, DropReason::bad_fcs, id_, simulation);
+  else
+    host_->receive_internally(simulation, arrival.frame, arrival.port);
 }
 
 }  // namespace takt::models

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "models/bridge/filtering_database.hpp"
+#include "models/bridge/internal_port.hpp"
 #include "models/egress/egress_port.hpp"
 #include "models/ingress/ingress_chain.hpp"
 #include "sim/simulation.hpp"
@@ -13,6 +14,8 @@ namespace takt::models {
 
 /// Takes a frame when its last bit has come and the forwarding delay is over (both are in the event's time), looks its
 /// address up and hands it to the egress ports. It never sends a frame back through the port by which it came.
+/// In a station it shares the ports with a host, which sends through it and gets what is forwarded to the internal port. A host with several
+/// interfaces chooses among them by such a bridge as well, by which nothing comes in.
 class alignas(64) Bridge final : public sim::Component {
  public:
   Bridge(Traffic& traffic, std::span<EgressPort> ports, sim::Duration forwarding_delay)
@@ -31,6 +34,18 @@ class alignas(64) Bridge final : public sim::Component {
   void set_link_local_receiver(LinkLocalReceiver* receiver) { link_local_ = receiver; }
   /// Some port takes tags off.
   void set_untags() { looks_closer_ = true; }
+  /// The host of the station; it outlives the bridge.
+  void set_host(InternalReceiver& host) {
+    host_ = &host;
+    source_ = sim::EventSource(id_);
+  }
+
+  /// A frame of the node itself, at the present instant: it leaves by the ports of its filtering entry, without a forwarding delay.
+  void send(sim::Simulation& simulation, FrameIndex frame, std::uint32_t sender) { forward(simulation, frame, rank_of_own(sender), nullptr); }
+  /// The same by a certain port.
+  void send_by(sim::Simulation& simulation, FrameIndex frame, std::uint32_t sender, std::uint16_t port) {
+    hand_over(simulation, frame, rank_of_own(sender), port, nullptr);
+  }
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
   /// What the chain does to frames of one instant depends on their order: it sees them by port number.
@@ -52,9 +67,12 @@ class alignas(64) Bridge final : public sim::Component {
   void pass_on(sim::Simulation& simulation, ArrivalArgument arrival);
   [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, ArrivalArgument arrival);
   void look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
-  void forward(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header);
-  void forward_to_many(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, std::span<const std::uint16_t> egress, const Header* header);
-  void hand_over(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, EgressPort& port, const Header* header);
+  // `rank` is the number of the port by which the frame came, or greater than that of any port.
+  void forward(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, const Header* header);
+  void forward_to_many(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, std::span<const std::uint16_t> egress, const Header* header);
+  void hand_over(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, std::uint16_t port, const Header* header);
+  void hand_to_host(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header);
+  void take_stored(sim::Simulation& simulation, ArrivalArgument arrival);
 
   // What every frame touches lies in the first cache line.
   Traffic* traffic_;
@@ -67,6 +85,8 @@ class alignas(64) Bridge final : public sim::Component {
   sim::Duration forwarding_delay_;
   sim::ComponentId id_;
   std::vector<Arrived> arrived_;          // at this instant; waits for the chain
+  InternalReceiver* host_ = nullptr;      // of a station
+  sim::EventSource source_;               // of a station: what waits for the rest of a frame for the host
 };
 
 }  // namespace takt::models

@@ -1,6 +1,7 @@
 #include "models/bridge/filtering_database.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace takt::models {
 
@@ -17,22 +18,28 @@ void FilteringDatabase::grow() {
     if (word != empty_word) word_for(word & key_mask) = word;
 }
 
+void FilteringDatabase::make_set(std::uint64_t& word, std::vector<std::uint16_t> ports) {
+  TAKT_CHECK(sets_.size() < 0xFFFF, "at most 65535 multicast entries in a bridge");
+  sets_.push_back(std::move(ports));
+  word = (word & key_mask) | several | (sets_.size() - 1);
+}
+
 void FilteringDatabase::add(VlanId vlan, AddressIndex address, std::uint16_t port) {
   TAKT_CHECK(port < (1u << 15) && !address.is_none() && vlan < 4095, "a filtering entry for a port, an address and a VLAN that exist");
   if (2 * (entries_ + 1) > words_.size()) grow();
   const std::uint64_t key = key_of(vlan, address);
   std::uint64_t& word = word_for(key);
   if (word == empty_word) {
-    word = key | port;
     ++entries_;
+    word = key | port;
+    if (port != internal_port) return;
+    make_set(word, {port});   // nobody finds it at once
     return;
   }
   const Entry entry(word);
   if (entry.is_one_port()) {
     if (entry.port() == port) return;
-    TAKT_CHECK(sets_.size() < 0xFFFF, "at most 65535 multicast entries in a bridge");
-    sets_.push_back({entry.port()});
-    word = key | several | (sets_.size() - 1);
+    make_set(word, {entry.port()});
   }
   std::vector<std::uint16_t>& ports = sets_[Entry(word).port()];
   const auto at = std::lower_bound(ports.begin(), ports.end(), port);
@@ -43,11 +50,7 @@ void FilteringDatabase::assign(VlanId vlan, AddressIndex address, std::span<cons
   if (find(vlan, address).found()) {
     const std::uint64_t key = key_of(vlan, address);
     std::uint64_t& word = word_for(key);
-    if (Entry(word).is_one_port()) {
-      TAKT_CHECK(sets_.size() < 0xFFFF, "at most 65535 multicast entries in a bridge");
-      sets_.emplace_back();
-      word = key | several | (sets_.size() - 1);
-    }
+    if (Entry(word).is_one_port()) make_set(word, {});
     sets_[Entry(word).port()].clear();
   }
   for (const std::uint16_t port : ports) add(vlan, address, port);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "models/bridge/internal_port.hpp"
 #include "models/ethernet/frame.hpp"
 #include "sim/check.hpp"
 
@@ -70,6 +71,8 @@ class FilteringDatabase {
   /// Fibonacci hashing: the high bits of one product.
   std::size_t home_of(std::uint64_t key) const { return static_cast<std::size_t>(((key >> 20) * 0x9E3779B97F4A7C15ULL) >> 32) & mask_; }
   std::uint64_t& word_for(std::uint64_t key);
+  /// The entry becomes one of a set of ports.
+  void make_set(std::uint64_t& word, std::vector<std::uint16_t> ports);
   void grow();
 
   std::vector<std::uint64_t> words_;

@@ -24,12 +24,8 @@ StreamSplit* TalkerRedundancy::find(StreamIndex stream) {
 }
 
 std::span<const TalkerRedundancy::Outgoing> TalkerRedundancy::send(Traffic& traffic, FrameIndex frame) {
-  if (outgoing_.empty()) outgoing_.resize(1);
   StreamSplit* const split = find(traffic.frame(frame).stream);
-  if (split == nullptr) {
-    outgoing_[0] = {frame, 0};
-    return {outgoing_.data(), 1};
-  }
+  TAKT_CHECK(split != nullptr, "only frames of streams that are split here");
   const std::span<const FrameIndex> frames = split->split(traffic, frame);
   for (std::size_t i = 0; i < frames.size(); ++i) outgoing_[i] = {frames[i], split->config().members[i].port};
   return {outgoing_.data(), frames.size()};

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/insertion_sort.hpp"
+
 namespace takt::models {
 namespace {
 constexpr auto deliver_now = static_cast<sim::EventKind>(NodeEvent::first_free);
@@ -9,11 +11,13 @@ constexpr std::size_t few_listeners = 4;  // to go through them is faster than t
 }
 
 Host::Host(sim::Simulation& simulation, Traffic& traffic, NodeIndex node, const OsLatency& latency, std::string_view path,
-           std::span<EgressPort> ports, const LocalClock& clock)
+           std::span<EgressPort> ports, const LocalClock& clock, bool has_several_ways)
     : traffic_(&traffic),
       source_(simulation.add(*this)),
       node_(node),
-      receives_at_once_(latency.receive.is_constant()),
+      receives_at_once_(latency.receive.is_constant() && !has_several_ways),
+      looks_closer_(has_several_ways),
+      has_several_ways_(has_several_ways),
       receive_(latency.receive, simulation.seed(), path, "os receive"),
       ports_(ports),
       clock_(&clock),
@@ -62,6 +66,10 @@ void Host::receive_flagged(sim::Simulation& simulation, sim::EventKind kind, Arr
     const std::optional<FrameIndex> frame = look_closer(simulation, arrival);
     if (!frame) return;
     arrival.frame = *frame;
+    if (has_several_ways_ && !traffic_->frame(*frame).link_local) {
+      gather(simulation, {*frame, arrival.port});
+      return;
+    }
   } else if (!up_) {
     traffic_->drop(arrival.frame, DropReason::node_down, id(), simulation);
     return;
@@ -84,10 +92,34 @@ std::optional<FrameIndex> Host::look_closer(sim::Simulation& simulation, Arrival
     traffic_->drop(frame, up_ ? DropReason::bad_fcs : DropReason::node_down, id(), simulation);
     return std::nullopt;
   }
+  return has_several_ways_ ? frame : recover(simulation, frame, arrival.port);
+}
+
+std::optional<FrameIndex> Host::recover(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port) {
   if (redundancy_.is_empty()) return frame;
-  const std::optional<FrameIndex> passed = redundancy_.receive(*traffic_, frame, arrival.port, clock_->unstepped_at(simulation.now() - fixed_receive_));
+  const std::optional<FrameIndex> passed = redundancy_.receive(*traffic_, frame, port, clock_->unstepped_at(simulation.now() - fixed_receive_));
   if (!passed) traffic_->drop(frame, DropReason::duplicate, id(), simulation);
   return passed;
+}
+
+void Host::receive_internally(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port) {
+  if (!up_)
+    traffic_->drop(frame, DropReason::node_down, id(), simulation);
+  else
+    gather(simulation, {frame, port});
+}
+
+void Host::gather(sim::Simulation& simulation, const Arrived& arrived) {
+  if (arrived_.empty()) simulation.settle_later(*this);
+  arrived_.push_back(arrived);
+}
+
+void Host::settle(sim::Simulation& simulation) {
+  sim::insertion_sort(arrived_, [](const Arrived& a, const Arrived& b) { return a.port < b.port; });
+  for (const Arrived& arrived : arrived_)
+    if (const std::optional<FrameIndex> frame = recover(simulation, arrived.frame, arrived.port))
+      simulation.schedule(source_, receive_.pass(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(*frame, arrived.port));
+  arrived_.clear();
 }
 
 void Host::prefetch(const sim::Event& event, Ahead ahead) const {

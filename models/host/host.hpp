@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "models/bridge/internal_port.hpp"
 #include "models/egress/egress_port.hpp"
 #include "models/frer/host_redundancy.hpp"
 #include "models/host/os_latency.hpp"
@@ -12,11 +13,12 @@
 
 namespace takt::models {
 
-class Host final : public sim::Component {
+class Host final : public sim::Component, public InternalReceiver {
  public:
-  /// `ports` are its network interfaces.
+  /// `ports` are its network interfaces. Frames that come by several ways, by several interfaces or through the bridge of a station, may come
+  /// at one instant: the receive latency begins when the instant is complete, in the order of the ports, and lies in no event's time before.
   Host(sim::Simulation& simulation, Traffic& traffic, NodeIndex node, const OsLatency& latency, std::string_view path, std::span<EgressPort> ports,
-       const LocalClock& clock);
+       const LocalClock& clock, bool has_several_ways);
 
   /// This host takes frames of the stream; `process`, if any, gets their octets. Frames of other streams are dropped.
   /// Further calls for a stream add processes, each of which gets them.
@@ -42,6 +44,8 @@ class Host final : public sim::Component {
   }
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
+  void settle(sim::Simulation& simulation) override;
+  void receive_internally(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port) override;
   void prefetch(const sim::Event& event, Ahead ahead) const override;
   sim::ComponentId id() const { return source_.id(); }
 
@@ -51,7 +55,13 @@ class Host final : public sim::Component {
     Process* process = nullptr;
     sim::Digest::Key delivery;       ///< Traffic::delivery_key of the stream here
   };
+  struct Arrived {
+    FrameIndex frame;
+    std::uint16_t port = 0;
+  };
   std::optional<FrameIndex> look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
+  std::optional<FrameIndex> recover(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port);
+  void gather(sim::Simulation& simulation, const Arrived& arrived);
   void take_in(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
   [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
   void note_delivery(sim::Simulation& simulation, FrameIndex frame);
@@ -66,12 +76,14 @@ class Host final : public sim::Component {
   bool looks_closer_ = false;
   bool up_ = true;
   bool keeps_book_ = false;
+  bool has_several_ways_;
   LatencyLine receive_;
   std::span<EgressPort> ports_;
   const LocalClock* clock_;
   LinkLocalReceiver* link_local_ = nullptr;
   sim::Duration fixed_receive_;      // that latency
   ListenerRedundancy redundancy_;
+  std::vector<Arrived> arrived_;     // at this instant, by several ways
 };
 
 }  // namespace takt::models

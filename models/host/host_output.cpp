@@ -8,13 +8,19 @@ void HostOutput::offer(sim::Simulation& simulation, FrameIndex frame, std::uint3
     traffic_->drop(frame, up_ ? DropReason::late_launch : DropReason::node_down, port().id(), simulation);
     return;
   }
-  if (redundancy_.is_empty()) {
-    port().offer(simulation, frame, rank);
+  if (redundancy_.is_empty() || redundancy_.find(record.stream) == nullptr) {
+    if (bridge_ != nullptr)
+      bridge_->send(simulation, frame, rank);
+    else
+      port().offer(simulation, frame, rank);
     return;
   }
   for (const TalkerRedundancy::Outgoing& outgoing : redundancy_.send(*traffic_, frame)) {
     TAKT_CHECK(outgoing.port < ports_.size(), "a member stream leaves by an interface that exists");
-    ports_[outgoing.port].offer(simulation, outgoing.frame, rank);
+    if (bridge_ != nullptr)
+      bridge_->send_by(simulation, outgoing.frame, rank, outgoing.port);
+    else
+      ports_[outgoing.port].offer(simulation, outgoing.frame, rank);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "models/bridge/bridge.hpp"
 #include "models/egress/egress_port.hpp"
 #include "models/frer/host_redundancy.hpp"
 
@@ -23,6 +24,11 @@ class HostOutput {
   /// `local_now` is dropped, as is every frame of a host that is down.
   void offer(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, sim::LocalTime local_now);
 
+  /// The host has several interfaces, or those of a station: who chooses among them. The bridge outlives this.
+  void choose_by(Bridge& bridge) {
+    bridge_ = &bridge;
+    plain_ = false;
+  }
   /// A stream of this host is split into member streams (IEEE 802.1CB).
   void split(StreamIndex stream, const StreamSplitConfig& config) {
     redundancy_.add(stream, config);
@@ -37,6 +43,7 @@ class HostOutput {
  private:
   Traffic* traffic_;
   std::span<EgressPort> ports_;
+  Bridge* bridge_ = nullptr;
   bool plain_ = true;
   bool up_ = true;
   TalkerRedundancy redundancy_;

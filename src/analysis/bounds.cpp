@@ -94,15 +94,17 @@ class StreamBounds {
   void take(const Flow& flow, StreamBound& bound) {
     const models::StreamPlan& plan = r_.plan.streams[bound.index.value];
     for (std::size_t l = 0; l < flow.last.size(); ++l) {
-      const sim::Distribution& receive = r_.plan.os_latencies[r_.plan.nodes[plan.listeners[l].value].os_latency].receive;
+      const models::NodePlan& listener = r_.plan.nodes[plan.listeners[l].value];
+      const sim::Distribution& receive = r_.plan.os_latencies[listener.os_latency].receive;
+      const Ps to_host = listener.forwarding_delay.ps();   // in a station
       for (const std::uint32_t last : flow.last[l]) {
         const HopResult& hop = network_.hops[last];
         const Ps propagation = graph_.ports[graph_.hops[last].port].propagation;
-        const Ps latency = sum(hop.worst_left, propagation, receive.greatest().ps());
-        const Ps least = sum(hop.best_left, propagation, receive.least().ps());
+        const Ps latency = sum(hop.worst_left, propagation, to_host, receive.greatest().ps());
+        const Ps least = sum(hop.best_left, propagation, to_host, receive.least().ps());
         bound.least = std::min(bound.least, Duration::from_ps(least));
         const SeparatedFlowBound separated = separated_.bound(last);
-        const Ps second = sum(separated.latency, receive.greatest().ps());
+        const Ps second = sum(separated.latency, to_host, receive.greatest().ps());
         if (bound.separated_flow_reason.empty()) bound.separated_flow_reason = separated.reason;
         bound.separated_flow = later_of(bound.separated_flow, duration_of(second));
         bound.by_listener[l] = later_of(bound.by_listener[l], duration_of(std::min(latency, second)));

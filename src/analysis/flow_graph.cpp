@@ -66,11 +66,11 @@ PortModel model_of(const scenario::Resolved& r, const GraphPort& port, const Bou
   model.clock = clock_quality(r, port.node, options);
   model.counts_packets = options.counts_packets;
   const models::NodePlan& node = r.plan.nodes[port.node.value];
-  if (node.kind == models::NodeKind::bridge) model.late_by = node.forwarding_delay.ps();
+  if (node.forwards()) model.late_by = node.forwarding_delay.ps();
   for (const scenario::ResolvedAction& action : r.script)
     if (const auto* const gates = std::get_if<scenario::ResolvedGates>(&action.what); gates != nullptr && gates->node == port.node && gates->port == port.number)
       model.more_gates.push_back(gates->gates);
-  const auto* const bridge = std::get_if<scenario::SwitchNode>(&r.topology.nodes[port.node.value].description);
+  const scenario::Relay* const bridge = scenario::relay_of(r.topology.nodes[port.node.value].description);
   if (bridge != nullptr && bridge->ingress && bridge->ingress->cqf) {
     const scenario::Cqf& cqf = *bridge->ingress->cqf;
     const scenario::CqfTimes times = scenario::cqf_times(cqf, r.topology, port.node.value);
@@ -82,14 +82,13 @@ PortModel model_of(const scenario::Resolved& r, const GraphPort& port, const Bou
 }
 
 /// In a class that is sent by eligibility times, frames without one go before those that wait for theirs.
-void note_unordered_classes(const scenario::Resolved& r, FlowGraph& graph) {
+void note_unordered_classes(FlowGraph& graph) {
   for (std::size_t p = 0; p < graph.ports.size(); ++p) {
     const models::ClassSet timed = graph.models[p].config->shaping.timed();
-    const bool is_host = r.plan.nodes[graph.ports[p].node.value].kind == models::NodeKind::host;
     for (const std::uint32_t h : graph.ports[p].hops) {
       const Hop& hop = graph.hops[h];
       // By flow, not by stream: what a talker sends that babbles has no launch times.
-      const bool has_times = is_host ? graph.flows[hop.flow].launches : hop.ats && hop.ats->is_minded;
+      const bool has_times = hop.parents.empty() ? graph.flows[hop.flow].launches : hop.ats && hop.ats->is_minded;
       for (models::TrafficClass q = hop.lowest_class; q <= hop.highest_class; ++q)
         if (models::contains(timed, q) && !has_times) graph.models[p].unordered = models::with(graph.models[p].unordered, q);
     }
@@ -163,7 +162,7 @@ FlowGraph make_flow_graph(const scenario::Resolved& resolved, const BoundOptions
   for (const GraphPort& port : graph.ports) graph.models.push_back(model_of(resolved, port, options));
   add_flows(resolved, options, graph);
   add_routes(resolved, graph);
-  note_unordered_classes(resolved, graph);
+  note_unordered_classes(graph);
   note_assumptions(resolved, options, graph);
   return graph;
 }

@@ -8,6 +8,7 @@
 #include "models/egress/class_set.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "scenario/resolve/cqf.hpp"
+#include "scenario/resolve/port_configs.hpp"
 #include "sim/check.hpp"
 
 namespace takt::analysis {
@@ -95,7 +96,7 @@ class RouteMaker {
       }
       const std::uint32_t port = port_at_.at({path[at], port_number});
       const models::PortConfig& config = r_.plan.port_configs[graph_.ports[port].config];
-      if (config.untagged && at > 0) tagged = false;
+      if (scenario::strips_tags(r_.topology, config, path[at], at == 0)) tagged = false;
       const std::size_t member = is_rerouted ? number_of_prefix(path, at) : is_member ? number + 1 : 0;
       const auto [known, is_new] = hop_at_.try_emplace({member, path[at], port_number}, static_cast<std::uint32_t>(graph_.hops.size()));
       const std::uint32_t hop = known->second;
@@ -110,7 +111,8 @@ class RouteMaker {
         made.is_copied_here = splits;
         const models::AddressIndex address = is_member && !splits ? redundancy->members[number].destination : plan.destination;
         const std::uint16_t in_port = at > 0 ? *r_.topology.port_towards(path[at], path[at - 1]) : std::uint16_t{0};
-        set_class(made, config, plan, path[at], in_port, address);
+        made.lowest_class = made.highest_class = config.traffic_class_of_priority[plan.priority.value_or(0)];
+        if (at > 0) pass_ingress(made, config, plan, path[at], in_port, address);   // what a station sends itself does not come in
         made.headers_come_first = at > 0 && cuts_through(path[at], plan.priority.value_or(0));
         graph_.hops.push_back(std::move(made));
         graph_.ports[port].hops.push_back(hop);
@@ -148,10 +150,9 @@ class RouteMaker {
     return false;
   }
 
-  /// The class of the flow at a port, after what the ingress of the node says.
-  void set_class(Hop& hop, const models::PortConfig& config, const models::StreamPlan& plan, std::uint32_t node, std::uint16_t in_port, models::AddressIndex address) {
+  /// What the ingress of the node makes of the flow, its class among it.
+  void pass_ingress(Hop& hop, const models::PortConfig& config, const models::StreamPlan& plan, std::uint32_t node, std::uint16_t in_port, models::AddressIndex address) {
     const models::Priority priority = plan.priority.value_or(0);
-    hop.lowest_class = hop.highest_class = config.traffic_class_of_priority[priority];
     const models::NodePlan& node_plan = r_.plan.nodes[node];
     if (!node_plan.ingress) return;
     const models::IngressConfig& ingress = r_.plan.ingress_configs[*node_plan.ingress];

@@ -4,6 +4,8 @@
 #include <map>
 #include <set>
 
+#include "models/bridge/internal_port.hpp"
+
 namespace takt::analysis {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr std::size_t most_paths = 64;
 
 bool happens(const scenario::Resolved& r, const scenario::ResolvedAction& action) { return action.at.since_start() < r.scenario.duration; }
 
-/// By bridge, the ports that the stream's frames leave by at any time.
+/// By node, the ports that the stream's frames leave by at any time.
 using Ports = std::map<std::uint32_t, std::set<std::uint16_t>>;
 
 class PathFinder {
@@ -20,8 +22,12 @@ class PathFinder {
 
   std::optional<std::vector<PossiblePath>> find() {
     scenario::Path path{plan_.talker.value};
-    for (const scenario::Neighbour& neighbour : r_.topology.neighbours[plan_.talker.value])
-      if (!follow(path, neighbour.node)) return std::nullopt;
+    if (r_.topology.chooses_ports[plan_.talker.value]) {
+      if (!pass(path, plan_.talker.value)) return std::nullopt;
+    } else {
+      for (const scenario::Neighbour& neighbour : r_.topology.neighbours[plan_.talker.value])
+        if (!follow(path, neighbour.node)) return std::nullopt;
+    }
     return std::move(found_);
   }
 
@@ -29,9 +35,15 @@ class PathFinder {
   bool follow(scenario::Path& path, std::uint32_t node) {
     if (std::find(path.begin(), path.end(), node) != path.end()) return false;
     path.push_back(node);
-    const bool is_fine = r_.plan.nodes[node].kind == models::NodeKind::host ? arrive(path, node) : pass(path, node);
+    const models::NodePlan& plan = r_.plan.nodes[node];
+    const bool is_fine = (!is_taken_in(node) || arrive(path, node)) && (!plan.forwards() || pass(path, node));
     path.pop_back();
     return is_fine;
+  }
+  bool is_taken_in(std::uint32_t node) const {
+    if (!r_.plan.nodes[node].forwards()) return true;
+    const auto entry = ports_.find(node);
+    return entry != ports_.end() && entry->second.contains(models::internal_port);
   }
   bool arrive(const scenario::Path& path, std::uint32_t node) {
     const auto listener = std::find(plan_.listeners.begin(), plan_.listeners.end(), models::NodeIndex{node});
@@ -82,13 +94,13 @@ std::optional<std::vector<PossiblePath>> rerouted_paths(const scenario::Resolved
     if (routes == nullptr || !happens(resolved, action)) continue;
     for (const scenario::ResolvedRoutes::Entry& entry : routes->entries)
       if (entry.vlan == plan.vlan && entry.address == plan.destination) {
-        ports[entry.bridge.value].insert(entry.ports.begin(), entry.ports.end());
+        ports[entry.node.value].insert(entry.ports.begin(), entry.ports.end());
         is_rerouted = true;
       }
   }
   if (!is_rerouted) return std::vector<PossiblePath>();
   for (const models::FilteringPlan& entry : resolved.plan.filtering)
-    if (entry.vlan == plan.vlan && entry.address == plan.destination) ports[entry.bridge.value].insert(entry.port);
+    if (entry.vlan == plan.vlan && entry.address == plan.destination) ports[entry.node.value].insert(entry.port);
   return PathFinder(resolved, plan, ports).find();
 }
 

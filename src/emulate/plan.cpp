@@ -38,7 +38,7 @@ class Planner {
     std::vector<std::uint32_t> root(topology.nodes.size());
     std::iota(root.begin(), root.end(), 0U);
     const std::function<std::uint32_t(std::uint32_t)> root_of = [&](std::uint32_t node) { return root[node] == node ? node : root[node] = root_of(root[node]); };
-    for (const scenario::TopologyNode& node : topology.nodes) plan_.is_bridge.push_back(!node.is_host());
+    for (const scenario::TopologyNode& node : topology.nodes) plan_.is_bridge.push_back(node.forwards());
     std::vector<std::uint32_t> interfaces(topology.nodes.size());
     for (std::uint32_t l = 0; l < topology.links.size(); ++l) {
       const std::uint32_t a = topology.links[l].a.node.value;
@@ -165,9 +165,8 @@ class Planner {
   void note_what_is_left_out() {
     const scenario::Scenario& scenario = resolved_.scenario;
     for (const scenario::TopologyNode& node : resolved_.topology.nodes) {
-      const auto& egress = std::visit([](const auto& description) -> const auto& { return description.egress; }, node.description);
-      if (!egress.empty()) left_out_.insert("gates, shapers and preemption");
-      if (const auto* const bridge = std::get_if<scenario::SwitchNode>(&node.description); bridge != nullptr && bridge->ingress) left_out_.insert("policing at the ingress");
+      if (!scenario::ports_of(node.description).egress.empty()) left_out_.insert("gates, shapers and preemption");
+      if (const scenario::Relay* const bridge = scenario::relay_of(node.description); bridge != nullptr && bridge->ingress) left_out_.insert("policing at the ingress");
     }
     if (!scenario.streams.empty()) left_out_.insert("streams");
     if (scenario.clocks.gptp) left_out_.insert("gPTP (all nodes share CLOCK_MONOTONIC)");

@@ -38,26 +38,31 @@ namespace takt::json {
 namespace detail {
 template <auto Member>
 struct MemberOf;
-template <class Struct, class Value, Value Struct::*Member>
+template <class Of, class Value, Value Of::*Member>
 struct MemberOf<Member> {
+  using Struct = Of;
   using Type = Value;
-  static void* get(void* object) { return &(static_cast<Struct*>(object)->*Member); }
+  /// A member of a base is found through the struct that has it: the base need not lie at its beginning.
+  template <class Owner>
+  static void* get(void* object) {
+    return &(static_cast<Owner*>(object)->*Member);
+  }
 };
 template <auto Member>
 using LimitsOf = typename CodecOf<typename MemberOf<Member>::Type>::Limits;
 }  // namespace detail
 
-/// A field that must be written.
-template <auto Member>
+/// A field that must be written. Of a member of a base the struct that the table describes is told as `Owner`.
+template <auto Member, class Owner = typename detail::MemberOf<Member>::Struct>
 constexpr Field required(std::string_view name, std::string_view help, const detail::LimitsOf<Member>& limits = {}) {
   using Value = typename detail::MemberOf<Member>::Type;
-  return {name, help, true, bounds_of<Value>(limits), &CodecOf<Value>::codec, &detail::MemberOf<Member>::get};
+  return {name, help, true, bounds_of<Value>(limits), &CodecOf<Value>::codec, &detail::MemberOf<Member>::template get<Owner>};
 }
 
 /// A field that keeps its initialiser if it is not written.
-template <auto Member>
+template <auto Member, class Owner = typename detail::MemberOf<Member>::Struct>
 constexpr Field optional(std::string_view name, std::string_view help, const detail::LimitsOf<Member>& limits = {}) {
-  Field field = required<Member>(name, help, limits);
+  Field field = required<Member, Owner>(name, help, limits);
   field.is_required = false;
   return field;
 }

@@ -96,7 +96,7 @@ std::string ports_page(const Resolved& r, std::size_t most_rows) {
   const auto add = [&](const models::LinkPlan::End& end, const models::LinkPlan::End& peer) {
     const models::NodePlan& node = r.plan.nodes[end.node.value];
     page.add(fmt::format("{}:{} to {}", node.name, end.port, r.plan.nodes[peer.node.value].name),
-             port_text(r.plan.port_configs[end.port_config.value_or(node.port_config)], node.kind == models::NodeKind::host));
+             port_text(r.plan.port_configs[end.port_config.value_or(node.port_config)], !node.forwards()));
   };
   for (const models::LinkPlan& link : r.plan.links) {
     add(link.a, link.b);
@@ -133,8 +133,8 @@ std::string ingress_page(const Resolved& r, std::size_t most_rows) {
     if (!r.plan.nodes[n].ingress) continue;
     const models::IngressConfig& config = r.plan.ingress_configs[*r.plan.nodes[n].ingress];
     Line line;
-    const auto* const node = std::get_if<scenario::SwitchNode>(&r.topology.nodes[n].description);
-    if (node != nullptr && node->ingress && node->ingress->cqf) line.add(cqf_text(*node->ingress->cqf));
+    const scenario::Relay* const relay = scenario::relay_of(r.topology.nodes[n].description);
+    if (relay != nullptr && relay->ingress && relay->ingress->cqf) line.add(cqf_text(*relay->ingress->cqf));
     line.count(config.stream_filters.size(), "stream filter", "stream filters");
     line.count(config.stream_gates.size(), "stream gate", "stream gates");
     line.count(config.flow_meters.size(), "flow meter", "flow meters");

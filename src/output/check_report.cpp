@@ -35,10 +35,12 @@ std::string more(std::size_t all) { return all > rows_of_page ? fmt::format("  .
 }  // namespace
 
 std::string check_report(const Resolved& r) {
-  std::size_t hosts = 0;
-  for (const scenario::TopologyNode& node : r.topology.nodes) hosts += node.is_host() ? 1 : 0;
-  std::string out = fmt::format("{}: {}, {}, {}, {}, {}, {}, {} to simulate\n", r.scenario.name, counted(hosts, "host"),
-                                counted(r.topology.nodes.size() - hosts, "switch"), counted(r.topology.links.size(), "link"),
+  const auto count = [&](models::NodeKind kind) {
+    return static_cast<std::size_t>(std::ranges::count(r.plan.nodes, kind, &models::NodePlan::kind));
+  };
+  const std::size_t stations = count(models::NodeKind::station);
+  std::string out = fmt::format("{}: {}, {}, {}{}, {}, {}, {}, {} to simulate\n", r.scenario.name, counted(count(models::NodeKind::host), "host"),
+                                counted(count(models::NodeKind::bridge), "switch"), stations > 0 ? counted(stations, "station") + ", " : "", counted(r.topology.links.size(), "link"),
                                 counted(r.plan.streams.size(), "stream"), counted(r.programs.size(), "program"),
                                 counted(r.scenario.require.size(), "requirement"), readable(r.scenario.duration));
 
@@ -46,10 +48,14 @@ std::string check_report(const Resolved& r) {
   for (std::size_t n = 0; n < std::min(rows_of_page, r.topology.nodes.size()); ++n) {
     const scenario::TopologyNode& node = r.topology.nodes[n];
     std::string what;
-    if (const auto* host = std::get_if<scenario::HostNode>(&node.description))
-      what = fmt::format("host, os {}", scenario::spelling(host->os.profile));
+    const scenario::EndStation* const end_station = scenario::end_station_of(node.description);
+    const scenario::Relay* const relay = scenario::relay_of(node.description);
+    if (relay == nullptr)
+      what = fmt::format("host, os {}", scenario::spelling(end_station->os.profile));
+    else if (end_station == nullptr)
+      what = fmt::format("switch, forwarding delay {}", readable(relay->forwarding_delay));
     else
-      what = fmt::format("switch, forwarding delay {}", readable(std::get<scenario::SwitchNode>(node.description).forwarding_delay));
+      what = fmt::format("station, os {}, forwarding {}", scenario::spelling(end_station->os.profile), readable(relay->forwarding_delay));
     std::string neighbours;
     for (std::size_t i = 0; i < std::min<std::size_t>(6, r.topology.neighbours[n].size()); ++i) {
       const scenario::Neighbour& neighbour = r.topology.neighbours[n][i];

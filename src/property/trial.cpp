@@ -61,7 +61,7 @@ class Builder {
   void crash(std::uint32_t where, Duration at, Duration lasts) {
     std::vector<std::string> hosts;
     for (const scenario::TopologyNode& node : resolved_.topology.nodes)
-      if (node.is_host()) hosts.push_back(node.name);
+      if (node.is_end_station()) hosts.push_back(node.name);
     if (hosts.empty() || !taken_.insert({Trouble::Kind::crash, where % hosts.size()}).second) return;
     scenario::Crash fault;
     fault.node = hosts[where % hosts.size()];

@@ -184,7 +184,7 @@ std::vector<std::pair<std::string, std::string>> switch_links(const scenario::Ne
   std::set<std::pair<std::string, std::string>> seen;
   for (std::uint32_t node = 0; node < topology.nodes.size(); ++node)
     for (const scenario::Neighbour& neighbour : topology.neighbours[node]) {
-      if (neighbour.node < node || topology.nodes[node].is_host() || topology.nodes[neighbour.node].is_host()) continue;
+      if (neighbour.node < node || !topology.nodes[node].forwards() || !topology.nodes[neighbour.node].forwards()) continue;
       std::pair<std::string, std::string> link(topology.nodes[node].name, topology.nodes[neighbour.node].name);
       if (seen.insert(link).second) links.push_back(std::move(link));
     }

@@ -164,13 +164,13 @@ void add_latencies(const models::OsLatency& os, FreeVariable::Kind kind, std::si
 void add_latencies(const scenario::Resolved& r, std::vector<FreeVariable>& found) {
   const auto& nodes = r.scenario.network.nodes;
   for (std::size_t n = 0; n < nodes.size(); ++n)
-    if (const auto node = r.topology.find(nodes[n].first); node && std::holds_alternative<scenario::HostNode>(nodes[n].second))
+    if (const auto node = r.topology.find(nodes[n].first); node && scenario::end_station_of(nodes[n].second) != nullptr)
       add_latencies(r.plan.os_latencies[r.plan.nodes[*node].os_latency], FreeVariable::Kind::host_latency, n, nodes[n].first, found);
   const auto& generate = r.scenario.network.generate;
   for (std::size_t g = 0; g < generate.size(); ++g) {
     // Any host of it stands for all.
     const auto host = std::find_if(r.topology.nodes.begin(), r.topology.nodes.end(), [&](const scenario::TopologyNode& node) {
-      const auto* const description = std::get_if<scenario::HostNode>(&node.description);
+      const scenario::EndStation* const description = scenario::end_station_of(node.description);
       const bool is_listed = std::any_of(nodes.begin(), nodes.end(), [&](const auto& listed) { return listed.first == node.name; });
       return description != nullptr && !is_listed && description->os == generate[g].os;
     });
@@ -220,7 +220,7 @@ Scenario scenario_of(const Scenario& scenario, std::span<const FreeVariable> var
         break;
       case FreeVariable::Kind::call: made.script[variable.item].at += value; break;
       case FreeVariable::Kind::fault: std::visit([&](auto& fault) { fault.at += value; }, made.faults[variable.item]); break;
-      case FreeVariable::Kind::host_latency: fix(std::get<scenario::HostNode>(made.network.nodes[variable.item].second).os, variable, value); break;
+      case FreeVariable::Kind::host_latency: fix(scenario::end_station_of(made.network.nodes[variable.item].second)->os, variable, value); break;
       case FreeVariable::Kind::generator_latency: fix(made.network.generate[variable.item].os, variable, value); break;
       case FreeVariable::Kind::jitter:
         made.streams[variable.item].offset = made.streams[variable.item].offset.value_or(Duration()) + value;

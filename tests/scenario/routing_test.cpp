@@ -132,7 +132,7 @@ TEST(Routing, FilteringEntriesAreConsistent) {
   const auto r = sound(generated(grid(4, 4), R"(, "streams": [)" + streams + R"(, {"name": "group", "from": "h1", "to": ["h4", "h13", "h16", "h6"],
  "payload": "50B", "every": "1s"}])"));
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::set<std::uint16_t>> ports;
-  for (const models::FilteringPlan& entry : r->plan.filtering) ports[{entry.bridge.value, entry.vlan, entry.address.value}].insert(entry.port);
+  for (const models::FilteringPlan& entry : r->plan.filtering) ports[{entry.node.value, entry.vlan, entry.address.value}].insert(entry.port);
   for (const auto& [key, out] : ports) {
     const bool is_unicast = std::get<2>(key) < r->plan.nodes.size();
     if (!is_unicast) continue;

@@ -33,7 +33,7 @@ void begin_later(scenario::Scheduler& scheduler, sim::Duration by) { scheduler.a
 
 void use_real_time_linux(scenario::Scenario& scenario) {
   for (auto& [name, node] : scenario.network.nodes) {
-    auto* host = std::get_if<scenario::HostNode>(&node);
+    scenario::EndStation* const host = scenario::end_station_of(node);
     if (host == nullptr) continue;
     if (host->os.profile == scenario::OsProfile::general_purpose) host->os.profile = scenario::OsProfile::preempt_rt_arm;
     if (host->os.profile == scenario::OsProfile::virtual_machine) host->os.profile = scenario::OsProfile::virtual_machine_rt;

@@ -162,29 +162,56 @@ struct Egress {
   bool operator==(const Egress&) const = default;
 };
 
-struct HostNode {
-  json::Source where;
-  OperatingSystem os;
+/// What the ports of a node do.
+struct NodePorts {
   TrafficClasses traffic_classes = TrafficClasses::standard;
   Queues queues;
   std::vector<Egress> egress;
+  bool operator==(const NodePorts&) const = default;
+};
+
+/// The part of a node in which Programs, applications and talkers are.
+struct EndStation {
+  OperatingSystem os;
   std::optional<Processing> processing = {};
   std::vector<std::string> offers = {};
+  bool operator==(const EndStation&) const = default;
+};
+
+/// The part of a node that forwards what is not for it.
+struct Relay {
+  Duration forwarding_delay;
+  Octets cut_through_header{22};
+  std::optional<Ingress> ingress = {};
+  bool operator==(const Relay&) const = default;
+};
+
+struct HostNode : NodePorts, EndStation {
+  json::Source where;
   bool operator==(const HostNode&) const = default;
 };
 
-struct SwitchNode {
+struct SwitchNode : NodePorts, Relay {
   json::Source where;
-  Duration forwarding_delay;
-  Octets cut_through_header{22};
-  TrafficClasses traffic_classes = TrafficClasses::standard;
-  Queues queues;
-  std::vector<Egress> egress;
-  std::optional<Ingress> ingress = {};
   bool operator==(const SwitchNode&) const = default;
 };
 
-using Node = std::variant<HostNode, SwitchNode>;
+/// A bridged end station: an end station whose interface is a bridge of several ports.
+struct StationNode : NodePorts, EndStation, Relay {
+  json::Source where;
+  bool operator==(const StationNode&) const = default;
+};
+
+using Node = std::variant<HostNode, SwitchNode, StationNode>;
+
+/// The parts of a node; null if it has none of that kind.
+const EndStation* end_station_of(const Node& node);
+EndStation* end_station_of(Node& node);
+const Relay* relay_of(const Node& node);
+Relay* relay_of(Node& node);
+const NodePorts& ports_of(const Node& node);
+NodePorts& ports_of(Node& node);
+const json::Source& source_of(const Node& node);
 
 struct Link {
   json::Source where;
@@ -221,6 +248,8 @@ struct Generator {
   std::optional<std::uint64_t> teeth = {};
   std::optional<double> degree = {};
   std::optional<std::uint64_t> seed = {};
+  std::optional<std::uint64_t> stations = {};
+  std::string station_prefix = "st";
   bool operator==(const Generator&) const = default;
 };
 
@@ -406,6 +435,7 @@ const json::Object& describe(json::Type<Preemption>);
 const json::Object& describe(json::Type<Egress>);
 const json::Object& describe(json::Type<HostNode>);
 const json::Object& describe(json::Type<SwitchNode>);
+const json::Object& describe(json::Type<StationNode>);
 const json::Tagged& describe(json::Type<Node>);
 const json::Object& describe(json::Type<Link>);
 const json::Enumeration& describe(json::Type<Shape>);

@@ -176,14 +176,37 @@ const json::Object& describe(json::Type<Egress>) {
   return table;
 }
 
+namespace {
+
+// The fields of the parts of a node, wherever they are.
+template <class Owner>
+constexpr json::Field os_field = optional<&EndStation::os, Owner>("os", "The operating system: a profile's name or an object.");
+template <class Owner>
+constexpr json::Field processing_field = optional<&EndStation::processing, Owner>("processing", "How long Programs work at process data before they reply.");
+template <class Owner>
+constexpr json::Field offers_field =
+    optional<&EndStation::offers, Owner>("offers", "Skills that the node announces to programs with roles that need one of them.", {.max_items = 8});
+template <class Owner>
+constexpr json::Field traffic_classes_field = optional<&NodePorts::traffic_classes, Owner>("traffic_classes", "Which priority is sent in which queue.");
+template <class Owner>
+constexpr json::Field forwarding_delay_field =
+    optional<&Relay::forwarding_delay, Owner>("forwarding_delay", "From the last bit in (cut through: the header) to the egress queue.", {.max = 1_s});
+template <class Owner>
+constexpr json::Field cut_through_header_field = optional<&Relay::cut_through_header, Owner>(
+    "cut_through_header", "What must be in of an untagged frame before it is cut through, preamble included; tags add to it.", {.min = Octets{14}, .max = Octets{72}});
+template <class Owner>
+constexpr json::Field ingress_field = optional<&Relay::ingress, Owner>("ingress", "Policing, ATS and CQF of frames that come in.");
+
+}  // namespace
+
 const json::Object& describe(json::Type<HostNode>) {
   static constexpr json::Field fields[] = {
-      optional<&HostNode::os>("os", "The operating system: a profile's name or an object."),
-      optional<&HostNode::traffic_classes>("traffic_classes", "Which priority is sent in which queue."),
-      optional<&HostNode::queues>("queues", "The queues of the network interface."),
-      optional<&HostNode::egress>("egress", "Gates and shapers of the network interfaces.", {.max_items = 16}),
-      optional<&HostNode::processing>("processing", "How long Programs work at process data before they reply."),
-      optional<&HostNode::offers>("offers", "Skills that the node announces to programs with roles that need one of them.", {.max_items = 8}),
+      os_field<HostNode>,
+      traffic_classes_field<HostNode>,
+      optional<&NodePorts::queues, HostNode>("queues", "The queues of each network interface."),
+      optional<&NodePorts::egress, HostNode>("egress", "Gates and shapers of the network interfaces.", {.max_items = 16}),
+      processing_field<HostNode>,
+      offers_field<HostNode>,
   };
   static constexpr json::Object table = json::object<HostNode>("host", "An end station.", fields);
   return table;
@@ -191,21 +214,37 @@ const json::Object& describe(json::Type<HostNode>) {
 
 const json::Object& describe(json::Type<SwitchNode>) {
   static constexpr json::Field fields[] = {
-      optional<&SwitchNode::forwarding_delay>("forwarding_delay", "From the last bit in (cut through: the header) to the egress queue.", {.max = 1_s}),
-      optional<&SwitchNode::cut_through_header>("cut_through_header", "What must be in of an untagged frame before it is cut through, preamble included; tags add to it.",
-                                                {.min = Octets{14}, .max = Octets{72}}),
-      optional<&SwitchNode::traffic_classes>("traffic_classes", "Which priority is sent in which queue."),
-      optional<&SwitchNode::queues>("queues", "The queues of each port."),
-      optional<&SwitchNode::egress>("egress", "Gates and shapers of ports; an entry for a neighbour takes the place of one for all.", {.max_items = 4096}),
-      optional<&SwitchNode::ingress>("ingress", "Policing, ATS and CQF of frames that come in."),
+      forwarding_delay_field<SwitchNode>,
+      cut_through_header_field<SwitchNode>,
+      traffic_classes_field<SwitchNode>,
+      optional<&NodePorts::queues, SwitchNode>("queues", "The queues of each port."),
+      optional<&NodePorts::egress, SwitchNode>("egress", "Gates and shapers of ports; an entry for a neighbour takes the place of one for all.", {.max_items = 4096}),
+      ingress_field<SwitchNode>,
   };
   static constexpr json::Object table = json::object<SwitchNode>("switch", "A bridge: stores and forwards, or cuts through.", fields);
   return table;
 }
 
+const json::Object& describe(json::Type<StationNode>) {
+  static constexpr json::Field fields[] = {
+      os_field<StationNode>,
+      forwarding_delay_field<StationNode>,
+      cut_through_header_field<StationNode>,
+      traffic_classes_field<StationNode>,
+      optional<&NodePorts::queues, StationNode>("queues", "The queues of each port."),
+      optional<&NodePorts::egress, StationNode>("egress", "Gates and shapers of ports; an entry for a neighbour takes the place of one for all.", {.max_items = 16}),
+      ingress_field<StationNode>,
+      processing_field<StationNode>,
+      offers_field<StationNode>,
+  };
+  static constexpr json::Object table = json::object<StationNode>(
+      "station", "A bridged end station: a host whose interface is a bridge of up to eight ports, with one clock and one power supply. What it sends itself competes with what it forwards.", fields);
+  return table;
+}
+
 const json::Tagged& describe(json::Type<Node>) {
-  static constexpr auto kinds = json::options<Node>({"host", "switch"});
-  static constexpr json::Tagged table = json::tagged<Node>("node", "A host or a switch.", "kind", kinds);
+  static constexpr auto kinds = json::options<Node>({"host", "switch", "station"});
+  static constexpr json::Tagged table = json::tagged<Node>("node", "A host, a switch, or a station that is both.", "kind", kinds);
   return table;
 }
 
@@ -250,18 +289,20 @@ const json::Object& describe(json::Type<Generator>) {
       optional<&Generator::teeth>("teeth", "Switches of each tooth (comb).", {.max = most}),
       optional<&Generator::degree>("degree", "Mean number of links of a switch to others (random).", {.min = 1.0, .max = 1000.0}),
       optional<&Generator::seed>("seed", "The seed of the graph (random); 1 if absent."),
+      optional<&Generator::stations>("stations", "Instead of switches and hosts: so many bridged end stations (line, ring).", {.min = 1, .max = most}),
       optional<&Generator::hosts_per_switch>("hosts_per_switch", "Hosts at each switch (tree: at each leaf; star and dual-star: not at the cores).", {.max = most}),
       optional<&Generator::switch_prefix>("switch_prefix", "Switches are named by it and a number from 1.", {.min_length = 1, .max_length = 64}),
       optional<&Generator::host_prefix>("host_prefix", "Hosts are named by it and a number from 1.", {.min_length = 1, .max_length = 64}),
+      optional<&Generator::station_prefix>("station_prefix", "Stations are named by it and a number from 1.", {.min_length = 1, .max_length = 64}),
       optional<&Generator::rate>("rate", "Rate of the links.", {.min = DataRate{10'000'000}, .max = DataRate{100'000'000'000}}),
       optional<&Generator::host_rate>("host_rate", "Rate of the links to hosts, if it differs.", {.min = DataRate{10'000'000}, .max = DataRate{100'000'000'000}}),
       optional<&Generator::length>("length", "Length of each link.", {.max = Length{100'000'000}}),
-      optional<&Generator::forwarding_delay>("forwarding_delay", "Of the switches.", {.max = 1_s}),
-      optional<&Generator::os>("os", "Of the hosts."),
+      optional<&Generator::forwarding_delay>("forwarding_delay", "Of the switches or stations.", {.max = 1_s}),
+      optional<&Generator::os>("os", "Of the hosts or stations."),
       optional<&Generator::queues>("queues", "Of all ports."),
       optional<&Generator::traffic_classes>("traffic_classes", "Of all ports."),
-      optional<&Generator::egress>("egress", "Gates and shapers of all ports of the switches.", {.max_items = 1}),
-      optional<&Generator::ingress>("ingress", "Policing, ATS and CQF of the switches."),
+      optional<&Generator::egress>("egress", "Gates and shapers of all ports of the switches or stations.", {.max_items = 1}),
+      optional<&Generator::ingress>("ingress", "Policing, ATS and CQF of the switches or stations."),
   };
   static constexpr json::Object table = json::object<Generator>("generator", "A whole topology.", fields);
   return table;
@@ -269,7 +310,7 @@ const json::Object& describe(json::Type<Generator>) {
 
 const json::Object& describe(json::Type<NetworkSection>) {
   static constexpr json::Field fields[] = {
-      optional<&NetworkSection::nodes>("nodes", "Hosts and switches by name.", {.max_items = most_names}),
+      optional<&NetworkSection::nodes>("nodes", "Hosts, switches and stations by name.", {.max_items = most_names}),
       optional<&NetworkSection::links>("links", "The cables between them.", {.max_items = most_names}),
       optional<&NetworkSection::generate>("generate", "Generated topologies; nodes and links may add to them.", {.max_items = 64}),
   };

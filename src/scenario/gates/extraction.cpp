@@ -7,6 +7,7 @@
 #include "models/ethernet/sizes.hpp"
 #include "scenario/description/promises.hpp"
 #include "scenario/resolve/gates.hpp"
+#include "scenario/resolve/port_configs.hpp"
 #include "scenario/resolve/stream_at_port.hpp"
 
 namespace takt::scenario {
@@ -159,7 +160,7 @@ class Extraction {
   }
 
   std::string check_node(std::uint32_t node) const {
-    const auto* const bridge = std::get_if<SwitchNode>(&r_.topology.nodes[node].description);
+    const Relay* const bridge = relay_of(r_.topology.nodes[node].description);
     if (bridge == nullptr || !bridge->ingress) return {};
     return "a way over " + json::quote(r_.topology.nodes[node].name) + ", whose \"ingress\" may change classes and times";
   }
@@ -176,8 +177,7 @@ class Extraction {
     if (config.preemption && models::contains(config.preemption->preemptable, q)) problem = "a preemptable class at " + port;
     if (!problem.empty()) return refuse(stream, problem), false;
     const models::StreamPlan& plan = plan_of(stream);
-    // Hosts send frames as they were made; ports of switches may take the tag off.
-    const bool tagged = plan.priority.has_value() && !(config.untagged && previous);
+    const bool tagged = plan.priority.has_value() && !strips_tags(r_.topology, config, from, !previous);
     const Octets frame = models::frame_length(plan.headers + stream.largest_payload, tagged);
     const Duration octet = at.link->rate.octet_time();
     ScheduledHop hop;

@@ -175,7 +175,7 @@ class EgressTeller {
     const Topology& topology = usage_.resolved().topology;
     bool strips = false;
     for (const PortUse* port : ports_)
-      for (const StreamAtPort* at : port->streams) strips = strips || (!topology.nodes[port->node].is_host() && usage_.plan(*at).priority);
+      for (const StreamAtPort* at : port->streams) strips = strips || (topology.chooses_ports[port->node] && usage_.plan(*at).priority);
     if (!strips) warn(egress_.where.at("untagged"), "tags taken off that no frame has", {"no tagged stream leaves a switch through " + usage_.name(ports_), "streams with \"pcp\""});
   }
 

@@ -92,10 +92,9 @@ void tell_idle_queues(const Usage& usage, json::Diagnostics& diagnostics) {
     warn_once(diagnostics, one->where.at("class"), "a limit of a queue that no stream uses", {"class " + std::to_string(q) + " at " + usage.name(ports) + ": " + usage.why_unused(q, ports), usage.classes_in_use(ports)});
   }
   for (const TopologyNode& node : r.topology.nodes) {
-    const auto* const bridge = std::get_if<SwitchNode>(&node.description);
-    if (bridge == nullptr || !bridge->where.has("cut_through_header")) continue;
-    if (std::all_of(bridge->egress.begin(), bridge->egress.end(), [](const Egress& egress) { return egress.cut_through.empty(); }))
-      warn_once(diagnostics, bridge->where.at("cut_through_header"), "a header where nothing is cut through", {"no \"cut_through\" in \"egress\" of " + json::quote(node.name), "classes that are cut through"});
+    if (!node.forwards() || !node.where.has("cut_through_header")) continue;
+    if (std::ranges::all_of(ports_of(node.description).egress, [](const Egress& egress) { return egress.cut_through.empty(); }))
+      warn_once(diagnostics, node.where.at("cut_through_header"), "a header where nothing is cut through", {"no \"cut_through\" in \"egress\" of " + json::quote(node.name), "classes that are cut through"});
   }
 }
 

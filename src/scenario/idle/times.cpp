@@ -60,15 +60,15 @@ void tell_idle_script(const Usage& usage, json::Diagnostics& diagnostics) {
     if (!is_started) warn_once(diagnostics, program.where.at("name"), "a program that nobody starts", {json::quote(program.name), "\"call\": \"Start\" in \"script\""});
   }
   for (const TopologyNode& node : r.topology.nodes) {
-    const auto* const host = std::get_if<HostNode>(&node.description);
+    const EndStation* const host = end_station_of(node.description);
     if (host == nullptr) continue;
     for (std::size_t i = 0; i < host->offers.size(); ++i)
-      if (!needed.contains(host->offers[i])) warn_once(diagnostics, host->where.at("offers", i), "a skill that no role needs", {json::quote(host->offers[i]), "the \"skill\" of a role of a program"});
+      if (!needed.contains(host->offers[i])) warn_once(diagnostics, node.where.at("offers", i), "a skill that no role needs", {json::quote(host->offers[i]), "the \"skill\" of a role of a program"});
     const auto replies = [&](const ResolvedProgram& program) {
       return !program.replies.empty() && std::ranges::any_of(program.members, [&](const ResolvedMember& each) { return r.topology.nodes[each.node.value].name == node.name; });
     };
     if (host->processing && std::none_of(r.programs.begin(), r.programs.end(), replies))
-      warn_once(diagnostics, host->where.at("processing"), "a time of processing without replies", {json::quote(node.name) + " is in no program with \"replies\"", "\"replies\""});
+      warn_once(diagnostics, node.where.at("processing"), "a time of processing without replies", {json::quote(node.name) + " is in no program with \"replies\"", "\"replies\""});
   }
 }
 

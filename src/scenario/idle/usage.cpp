@@ -12,9 +12,7 @@ namespace takt::scenario {
 namespace {
 
 
-const std::vector<Egress>& egress_of(const TopologyNode& node) {
-  return std::visit([](const auto& n) -> const std::vector<Egress>& { return n.egress; }, node.description);
-}
+const std::vector<Egress>& egress_of(const TopologyNode& node) { return ports_of(node.description).egress; }
 
 /// What tells one object of a file from others: generated nodes are copies of one.
 std::string key_of(const json::Source& where, const void* object) {
@@ -63,13 +61,14 @@ void Usage::add_rerouted() {
         frame.priority = plan.priority.value_or(0);
         frame.tagged = plan.priority.has_value();
         for (const std::uint16_t port : entry.ports) {
-          if (!known.insert({entry.bridge.value, port, stream.index.value}).second) continue;
-          const PortUse& use = ports_.at({entry.bridge.value, port});
+          if (port == models::internal_port) continue;
+          if (!known.insert({entry.node.value, port, stream.index.value}).second) continue;
+          const PortUse& use = ports_.at({entry.node.value, port});
           const Octets msdu = plan.headers + stream.largest_payload;
           StreamAtPort at{stream.index, {}, use.node, port, use.peer};
-          at.filter = ingress.filter(use.node, frame);
+          if (use.node != plan.talker.value) at.filter = ingress.filter(use.node, frame);
           at.classes = ingress.classes(use.node, *use.config, at.filter, frame.priority);
-          at.frame = at.policed_frame = models::frame_length(msdu, frame.tagged && !use.config->untagged);
+          at.frame = at.policed_frame = models::frame_length(msdu, frame.tagged && !strips_tags(r_.topology, *use.config, use.node, use.node == plan.talker.value));
           at.msdu = at.policed_msdu = msdu;
           streams_.push_back(at);
         }
@@ -112,7 +111,7 @@ void Usage::add_egress() {
 void Usage::add_ingress() {
   std::map<std::string, std::size_t> known;
   for (std::uint32_t n = 0; n < r_.topology.nodes.size(); ++n) {
-    const auto* const bridge = std::get_if<SwitchNode>(&r_.topology.nodes[n].description);
+    const Relay* const bridge = relay_of(r_.topology.nodes[n].description);
     if (bridge == nullptr || !bridge->ingress) continue;
     const auto [found, is_new] = known.emplace(key_of(bridge->ingress->where, &*bridge->ingress), ingress_.size());
     if (is_new) ingress_.push_back({&*bridge->ingress, {}});

@@ -81,9 +81,9 @@ class ProgramFaults {
 
   void add(std::size_t i, const ResolvedNode& action) {
     if (action.up || !nodes_.contains(action.node.value)) return;
-    const bool is_bridge = r_.plan.nodes[action.node.value].kind == models::NodeKind::bridge;
+    const bool is_member = std::ranges::any_of(program_.members, [&](const ResolvedMember& each) { return each.node == action.node; });
     ProgramFault fault{r_.script[i].at, until<ResolvedNode>(i, [&](const ResolvedNode& other) { return other.node == action.node; }), name(action.node) + " crashes",
-                       name(action.node) + " is back", is_bridge ? handshake::Cause::cut : handshake::Cause::crash};
+                       name(action.node) + " is back", is_member ? handshake::Cause::crash : handshake::Cause::cut};
     silence(fault, [&](const Path& path) { return path.back() != action.node.value && std::find(path.begin(), path.end(), action.node.value) != path.end(); });
     made_.push_back(std::move(fault));
   }

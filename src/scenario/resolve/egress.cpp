@@ -10,9 +10,7 @@
 namespace takt::scenario {
 namespace {
 
-const std::vector<Egress>& egress_of(const TopologyNode& node) {
-  return std::visit([](const auto& n) -> const std::vector<Egress>& { return n.egress; }, node.description);
-}
+const std::vector<Egress>& egress_of(const TopologyNode& node) { return ports_of(node.description).egress; }
 
 class EgressResolver {
  public:
@@ -108,12 +106,12 @@ class EgressResolver {
     const auto refuse = [&](std::string_view key, const std::string& what, const std::string& found, const std::string& expected) {
       diagnostics_.error(egress.where.at(key), what, {found, expected});
     };
-    if (egress.untagged && !peer.is_host())
-      refuse("untagged", "tags taken off before a switch", "a port to the switch " + json::quote(peer.name) + ", which would forget the priorities", "ports to hosts");
+    if (egress.untagged && peer.forwards())
+      refuse("untagged", "tags taken off before a switch", "a port to " + json::quote(peer.name) + ", which would forget the priorities", "ports to hosts");
     if (egress.untagged && config.cut_through != 0)
       refuse("cut_through", "cut-through where tags are taken off", "\"untagged\" too: such frames are stored", "one of them");
-    if (node.is_host() && config.cut_through != 0) refuse("cut_through", "cut-through in a host", "a host, which forwards nothing", "a switch");
-    if (node.is_host() && !egress.ats.empty()) refuse("ats", "ATS in a host", "a host, whose frames meet no ATS scheduler", "a switch; \"launch\" of a stream for a host");
+    if (!node.forwards() && config.cut_through != 0) refuse("cut_through", "cut-through in a host", "a host, which forwards nothing", "a switch");
+    if (!node.forwards() && !egress.ats.empty()) refuse("ats", "ATS in a host", "a host, whose frames meet no ATS scheduler", "a switch; \"launch\" of a stream for a host");
     if (const models::ClassSet both = config.preemption ? static_cast<models::ClassSet>(config.preemption->preemptable & config.cut_through) : models::ClassSet{0}; both != 0)
       refuse("cut_through", "cut-through of a preemptable class", classes(both) + ", whose frames may be cut while they come", "express classes");
     const models::ClassSet ats = set_of(egress.ats);
@@ -245,7 +243,7 @@ void check_cut_through(const Resolved& r, json::Diagnostics& diagnostics) {
   for (const ResolvedRedundancy& redundancy : r.redundancies) {
     const TopologyNode& merge = r.topology.nodes[redundancy.merge];
     for (const Egress& egress : egress_of(merge))
-      if (!egress.cut_through.empty())
+      if (!egress.cut_through.empty() && !redundancy.merges_in_host)
         diagnostics.error(egress.where.at("cut_through"), "cut-through where a redundant stream is merged",
                           {json::quote(merge.name) + ", where a damaged frame would take the place of its good copy", "a switch that merges nothing"});
   }

@@ -21,11 +21,15 @@ struct Crossing {
   std::vector<const ResolvedRedundancy*> redundancies;     // of those streams
 };
 
-/// The ingress of one switch.
+/// Whether the bridge of that node does it.
+bool splits_at(const ResolvedRedundancy& redundancy, std::uint32_t node) { return redundancy.split == node && !redundancy.splits_in_host; }
+bool merges_at(const ResolvedRedundancy& redundancy, std::uint32_t node) { return redundancy.merge == node && !redundancy.merges_in_host; }
+
+/// The ingress of one switch or station.
 class NodeIngress {
  public:
   NodeIngress(Resolved& resolved, std::uint32_t node, const Crossing& crossing, json::Diagnostics& diagnostics)
-      : r_(resolved), node_(node), crossing_(crossing), description_(std::get<SwitchNode>(resolved.topology.nodes[node].description).ingress), diagnostics_(diagnostics) {
+      : r_(resolved), node_(node), crossing_(crossing), description_(relay_of(resolved.topology.nodes[node].description)->ingress), diagnostics_(diagnostics) {
     config_.traffic_class_of_priority = r_.plan.port_configs[r_.plan.nodes[node].port_config].traffic_class_of_priority;
     for (const models::LinkPlan& link : r_.plan.links)
       if (link.a.node.value == node || link.b.node.value == node) fastest_ = std::max(fastest_, link.rate);
@@ -33,7 +37,7 @@ class NodeIngress {
 
   models::IngressConfig build() {
     for (const ResolvedRedundancy* const redundancy : crossing_.redundancies)
-      if (redundancy->split == node_ || redundancy->merge == node_) add_redundancy(*redundancy);
+      if (splits_at(*redundancy, node_) || merges_at(*redundancy, node_)) add_redundancy(*redundancy);
     if (description_) add_description();
     return std::move(config_);
   }
@@ -43,8 +47,8 @@ class NodeIngress {
 
   void add_redundancy(const ResolvedRedundancy& redundancy) {
     const models::StreamHandle handle = handle_of(redundancy.stream.value);
-    if (redundancy.split == node_) config_.splits.push_back({handle, {redundancy.members}});
-    if (redundancy.merge == node_) config_.recoveries.push_back({handle, recovery_config(r_, redundancy, diagnostics_)});
+    if (splits_at(redundancy, node_)) config_.splits.push_back({handle, {redundancy.members}});
+    if (merges_at(redundancy, node_)) config_.recoveries.push_back({handle, recovery_config(r_, redundancy, diagnostics_)});
   }
 
   /// The handle of a stream of the plan; identified by its address, and by those of its members.
@@ -55,11 +59,11 @@ class NodeIngress {
     config_.streams.push_back(plan.name);
     config_.stream_identity_table.push_back({at->second, models::AddressIdentification{plan.destination, models::Tagged::all, plan.vlan}});
     for (const ResolvedRedundancy* const redundancy : crossing_.redundancies) {
-      if (redundancy->stream.value != stream || redundancy->split == node_) continue;
+      if (redundancy->stream.value != stream || splits_at(*redundancy, node_)) continue;
       for (std::size_t i = 0; i < redundancy->members.size(); ++i) {
         const models::StreamMember& member = redundancy->members[i];
         models::StreamIdentityEntry entry{at->second, models::AddressIdentification{member.destination, models::Tagged::all, member.vlan}};
-        if (redundancy->merge == node_) entry.member = static_cast<std::uint16_t>(i);
+        if (merges_at(*redundancy, node_)) entry.member = static_cast<std::uint16_t>(i);
         config_.stream_identity_table.push_back(entry);
       }
     }
@@ -230,15 +234,15 @@ std::vector<Crossing> crossings_of(const Resolved& r) {
 void resolve_ingress(Resolved& r, json::Diagnostics& diagnostics) {
   const std::vector<Crossing> crossings = crossings_of(r);
   for (const ResolvedRedundancy& redundancy : r.redundancies) {
-    if (r.topology.nodes[redundancy.split].is_host()) r.plan.host_splits.push_back({redundancy.stream, {redundancy.members}});
-    if (r.topology.nodes[redundancy.merge].is_host())
+    if (redundancy.splits_in_host) r.plan.host_splits.push_back({redundancy.stream, {redundancy.members}});
+    if (redundancy.merges_in_host)
       r.plan.host_recoveries.push_back({models::NodeIndex{redundancy.merge}, redundancy.stream, recovery_config(r, redundancy, diagnostics)});
   }
   for (std::uint32_t n = 0; n < r.topology.nodes.size(); ++n) {
-    if (r.topology.nodes[n].is_host()) continue;
+    if (!r.topology.nodes[n].forwards()) continue;
     const bool has_functions = std::any_of(crossings[n].redundancies.begin(), crossings[n].redundancies.end(),
-                                           [&](const ResolvedRedundancy* redundancy) { return redundancy->split == n || redundancy->merge == n; });
-    if (!has_functions && !std::get<SwitchNode>(r.topology.nodes[n].description).ingress) continue;
+                                           [&](const ResolvedRedundancy* redundancy) { return splits_at(*redundancy, n) || merges_at(*redundancy, n); });
+    if (!has_functions && !relay_of(r.topology.nodes[n].description)->ingress) continue;
     models::IngressConfig config = NodeIngress(r, n, crossings[n], diagnostics).build();
     r.plan.nodes[n].ingress = static_cast<std::uint32_t>(r.plan.ingress_configs.size());
     r.plan.ingress_configs.push_back(std::move(config));

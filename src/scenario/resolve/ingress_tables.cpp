@@ -36,7 +36,7 @@ std::optional<models::MacAddress> mac_address(std::string_view text) {
 
 std::optional<models::AddressIndex> address_of_host(const Resolved& r, const std::string& name, const json::Place& place, json::Diagnostics& diagnostics) {
   const auto node = r.topology.find(name);
-  if (node && r.topology.nodes[*node].is_host()) return models::AddressIndex{*node};
+  if (node && r.topology.nodes[*node].is_end_station()) return models::AddressIndex{*node};
   if (!node) report_unknown_node(r.topology, name, place, "the name of a host", diagnostics);
   else diagnostics.error_unless(r.topology.nodes[*node].is_of_unknown_kind, place, "not a host", {json::quote(name), "the name of a host"});
   return std::nullopt;

@@ -21,7 +21,7 @@ class Policing {
   void run() {
     for (const StreamAtPort& at : streams_at_ports(r_)) {
       if (!at.filter) continue;
-      const auto& description = std::get<SwitchNode>(r_.topology.nodes[at.node].description).ingress;
+      const auto& description = relay_of(r_.topology.nodes[at.node].description)->ingress;
       if (!description || diagnostics_.is_refused(description->where.at("filters"))) continue;
       const models::IngressConfig& config = r_.plan.ingress_configs[*r_.plan.nodes[at.node].ingress];
       const models::StreamFilterConfig& filter = config.stream_filters[*at.filter];
@@ -60,7 +60,7 @@ class Policing {
   void check_rate(std::uint32_t node, std::uint32_t number, double asked) {
     const DataRate rate = r_.plan.ingress_configs[*r_.plan.nodes[node].ingress].ats_schedulers[number].committed_information_rate;
     if (asked > static_cast<double>(rate.bits_per_second) * (1 + 1e-9))
-      diagnostics_.warning(std::get<SwitchNode>(r_.topology.nodes[node].description).ingress->ats[number].where.at("rate"), "a scheduler slower than its streams",
+      diagnostics_.warning(relay_of(r_.topology.nodes[node].description)->ingress->ats[number].where.at("rate"), "a scheduler slower than its streams",
                            {json::to_text(rate) + " for " + json::to_text(DataRate{static_cast<std::uint64_t>(asked)}), "a rate that carries them"});
   }
 

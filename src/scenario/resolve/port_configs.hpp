@@ -2,12 +2,18 @@
 #pragma once
 
 #include "models/plan.hpp"
+#include "scenario/topology/topology.hpp"
 
 namespace takt::scenario {
 
 const models::PortConfig& port_config_of(const models::NetworkPlan& plan, const models::LinkPlan::End& end);
 /// The entry of such a configuration, which is made if there is none.
 std::uint32_t port_config_index(models::NetworkPlan& plan, const models::PortConfig& config);
+
+/// Whether the port takes C-tags off. What a host with one interface sends leaves as it was made.
+inline bool strips_tags(const Topology& topology, const models::PortConfig& config, std::uint32_t node, bool is_talker) {
+  return config.untagged && (!is_talker || topology.chooses_ports[node]);
+}
 
 /// Which ports got gates.
 struct GatesSet {

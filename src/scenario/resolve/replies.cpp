@@ -63,7 +63,7 @@ class Replies {
   std::vector<ResolvedReply> made_;
 };
 
-ResolvedProcessing processing_of(const HostNode& host, json::Diagnostics& diagnostics) {
+ResolvedProcessing processing_of(const EndStation& host, json::Diagnostics& diagnostics) {
   ResolvedProcessing made;
   if (host.processing && host.processing->per_message) made.per_message = distribution_of(*host.processing->per_message, diagnostics);
   if (host.processing && host.processing->per_field) made.per_field = distribution_of(*host.processing->per_field, diagnostics);
@@ -74,7 +74,7 @@ ResolvedProcessing processing_of(const HostNode& host, json::Diagnostics& diagno
 
 void check_processing(const Topology& topology, json::Diagnostics& diagnostics) {
   for (const TopologyNode& node : topology.nodes)
-    if (const auto* const host = std::get_if<HostNode>(&node.description)) processing_of(*host, diagnostics);
+    if (const EndStation* const host = end_station_of(node.description)) processing_of(*host, diagnostics);
 }
 
 void check_replies(const Program& program, json::Diagnostics& diagnostics) { Replies(program, diagnostics).run(); }
@@ -84,7 +84,7 @@ void resolve_replies(const Topology& topology, ResolvedProgram& program) {
   json::Diagnostics reported;   // by check_replies and check_processing
   program.replies = Replies(*program.description, reported).run();
   for (const ResolvedMember& each : program.members)
-    program.processing.push_back(processing_of(std::get<HostNode>(topology.nodes[each.node.value].description), reported));
+    program.processing.push_back(processing_of(*end_station_of(topology.nodes[each.node.value].description), reported));
 }
 
 }  // namespace takt::scenario

@@ -90,9 +90,9 @@ class Resolver {
     for (const TopologyNode& node : r_.topology.nodes) {
       models::NodePlan plan;
       plan.name = node.name;
-      if (const auto* host = std::get_if<HostNode>(&node.description)) {
-        plan.kind = models::NodeKind::host;
-        plan.port_config = port_config_of_node(host->traffic_classes, host->queues);
+      plan.kind = !node.forwards() ? models::NodeKind::host : node.is_end_station() ? models::NodeKind::station : models::NodeKind::bridge;
+      plan.port_config = port_config_of_node(ports_of(node.description));
+      if (const EndStation* const host = end_station_of(node.description)) {
         auto found = std::find(systems.begin(), systems.end(), host->os);
         if (found == systems.end()) {
           r_.plan.os_latencies.push_back(os_latency_of(host->os, diagnostics_));
@@ -100,12 +100,10 @@ class Resolver {
           found = systems.end() - 1;
         }
         plan.os_latency = static_cast<std::uint32_t>(found - systems.begin());
-      } else {
-        const auto& bridge = std::get<SwitchNode>(node.description);
-        plan.kind = models::NodeKind::bridge;
-        plan.forwarding_delay = bridge.forwarding_delay;
-        plan.cut_through_header = bridge.cut_through_header;
-        plan.port_config = port_config_of_node(bridge.traffic_classes, bridge.queues);
+      }
+      if (const Relay* const bridge = relay_of(node.description)) {
+        plan.forwarding_delay = bridge->forwarding_delay;
+        plan.cut_through_header = bridge->cut_through_header;
       }
       r_.plan.nodes.push_back(std::move(plan));
     }
@@ -114,9 +112,10 @@ class Resolver {
       diagnostics_.error_unless(!r_.topology.has_all_nodes, network.where.place(), "a network without nodes", {"no nodes", "\"nodes\" or \"generate\""});
   }
 
-  std::uint32_t port_config_of_node(TrafficClasses classes, const Queues& queues) {
+  std::uint32_t port_config_of_node(const NodePorts& ports) {
     models::PortConfig config;
-    if (classes == TrafficClasses::identity) config.traffic_class_of_priority = models::identity_traffic_classes;
+    const Queues& queues = ports.queues;
+    if (ports.traffic_classes == TrafficClasses::identity) config.traffic_class_of_priority = models::identity_traffic_classes;
     for (models::QueueLimit& limit : config.queue_limits) {
       if (queues.frames) limit.frames = *queues.frames;
       if (queues.octets) limit.octets = queues.octets->count;

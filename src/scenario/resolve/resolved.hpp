@@ -136,7 +136,7 @@ struct ResolvedStuckGate {
 /// Other entries of filtering databases.
 struct ResolvedRoutes {
   struct Entry {
-    models::NodeIndex bridge;
+    models::NodeIndex node;
     models::VlanId vlan = 0;
     models::AddressIndex address;
     std::vector<std::uint16_t> ports;
@@ -177,6 +177,8 @@ struct ResolvedRedundancy {
   std::uint32_t split = 0;                     ///< node
   std::uint32_t merge = 0;                     ///< node
   std::vector<models::StreamMember> members;   ///< by path
+  bool splits_in_host = false;                 ///< at the talker, not by what a bridge does to frames that come in
+  bool merges_in_host = false;                 ///< at the listener
 };
 
 /// A scenario as it runs. Its parts point into one another (programs and redundancies into the scenario, streams by number into the plan), so it stays where

@@ -37,7 +37,7 @@ class RoleResolver {
     std::set<std::string_view> offered;
     for (std::uint32_t n = 0; n < r_.topology.nodes.size(); ++n) {
       const TopologyNode& node = r_.topology.nodes[n];
-      const auto* const host = std::get_if<HostNode>(&node.description);
+      const EndStation* const host = end_station_of(node.description);
       if (host == nullptr || n == master || (!listed.empty() && !listed.contains(node.name))) continue;
       if (std::none_of(host->offers.begin(), host->offers.end(), [&](const std::string& skill) { return needed.contains(skill); })) {
         if (listed.contains(node.name)) refuse_idle(node.name);

@@ -44,7 +44,7 @@ class Walker {
       frame.vlan = is_member ? redundancy->members[number].vlan : plan.vlan;
       frame.priority = plan.priority.value_or(0);
       frame.tagged = plan.priority.has_value();
-      made.filter = ingress_.filter(path[i], frame);
+      if (i > 0) made.filter = ingress_.filter(path[i], frame);   // what a station sends itself does not come in
       if (redundancy != nullptr && is_member && path[i] == redundancy->merge) {
         is_member = false;
         r_tagged = keeps;
@@ -55,8 +55,7 @@ class Walker {
       if (is_member) made.member = number;
       if (!seen_.insert({made.member ? number + 1 : 0, path[i], port}).second) continue;
       const models::PortConfig& config = port_config_of(r_.plan, *ends_.at({path[i], port}));
-      // Hosts send frames as they were made.
-      const bool tagged = frame.tagged && !(config.untagged && i > 0);
+      const bool tagged = frame.tagged && !strips_tags(r_.topology, config, path[i], i == 0);
       made.frame = models::frame_length(msdu, tagged, r_tagged);
       made.msdu = msdu + (r_tagged ? models::r_tag : Octets{0});
       made.classes = ingress_.classes(path[i], config, made.filter, frame.priority);

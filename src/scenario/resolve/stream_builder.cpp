@@ -5,6 +5,7 @@
 
 #include "models/ethernet/sizes.hpp"
 #include "scenario/description/limits.hpp"
+#include "scenario/topology/filtering.hpp"
 #include "scenario/topology/named_path.hpp"
 
 namespace takt::scenario {
@@ -15,8 +16,8 @@ std::optional<std::uint32_t> StreamBuilder::host(const std::string& name, const 
     report_unknown_node(r_.topology, name, place, "the name of a host", diagnostics_);
     return std::nullopt;
   }
-  if (!r_.topology.nodes[*node].is_host()) {
-    diagnostics_.error_unless(r_.topology.nodes[*node].is_of_unknown_kind, place, "not a host", {"the switch " + json::quote(name), "the name of a host"});
+  if (!r_.topology.nodes[*node].is_end_station()) {
+    diagnostics_.error_unless(r_.topology.nodes[*node].is_of_unknown_kind, place, "not a host", {"the switch " + json::quote(name), "the name of a host or station"});
     return std::nullopt;
   }
   return node;
@@ -144,6 +145,8 @@ void StreamBuilder::add_members(const NewStream& wanted, const MemberPaths& memb
   made.description = wanted.redundancy;
   made.split = members.paths.front()[members.split];
   made.merge = members.paths.front()[members.merge(members.paths.front())];
+  made.splits_in_host = members.split == 0;
+  made.merges_in_host = members.after_merge == 0;
   const models::AddressIndex compound = r_.plan.streams[index.value].destination;
   for (std::size_t i = 0; i < members.paths.size(); ++i) {
     const Path& path = members.paths[i];
@@ -152,28 +155,28 @@ void StreamBuilder::add_members(const NewStream& wanted, const MemberPaths& memb
     member.vlan = wanted.redundancy->vlans.empty() ? wanted.vlan : wanted.redundancy->vlans[i];
     member.port = *r_.topology.port_towards(path[0], path[1]);
     // Before the split and behind the merge there is one stream; the node that splits forwards members already, the one that
-    // merges the stream.
-    for (std::size_t at = 1; at + 1 < path.size(); ++at) {
-      const bool is_member = at >= members.split && at < members.merge(path);
-      add_hop(path, at, is_member ? member.vlan : wanted.vlan, is_member ? member.destination : compound);
-    }
+    // merges the stream: but a host at the end of the path gets members, and merges them itself.
+    for_each_entry(r_.topology, path, [&](std::size_t at, std::uint16_t port) {
+      const bool is_member = at >= members.split && (at < members.merge(path) || made.merges_in_host);
+      add_entry(path[at], port, is_member ? member.vlan : wanted.vlan, is_member ? member.destination : compound);
+    });
     made.members.push_back(member);
   }
   r_.redundancies.push_back(std::move(made));
 }
 
-void StreamBuilder::add_hop(const Path& path, std::size_t at, models::VlanId vlan, models::AddressIndex address) {
-  r_.plan.filtering.push_back({models::NodeIndex{path[at]}, vlan, address, *r_.topology.port_towards(path[at], path[at + 1])});
+void StreamBuilder::add_entry(std::uint32_t node, std::uint16_t port, models::VlanId vlan, models::AddressIndex address) {
+  r_.plan.filtering.push_back({models::NodeIndex{node}, vlan, address, port});
 }
 
 void StreamBuilder::add_filtering(const Path& path, models::VlanId vlan, models::AddressIndex address) {
-  for (std::size_t at = 1; at + 1 < path.size(); ++at) add_hop(path, at, vlan, address);
+  for_each_entry(r_.topology, path, [&](std::size_t at, std::uint16_t port) { add_entry(path[at], port, vlan, address); });
 }
 
 /// Streams that an ingress names are told apart by their addresses, so each has one of its own.
 void StreamBuilder::note_identified_streams() {
   for (const TopologyNode& node : r_.topology.nodes) {
-    const auto* const bridge = std::get_if<SwitchNode>(&node.description);
+    const Relay* const bridge = relay_of(node.description);
     if (bridge == nullptr || !bridge->ingress) continue;
     for (const StreamFilterEntry& filter : bridge->ingress->filters)
       if (filter.stream) identified_.insert(*filter.stream);

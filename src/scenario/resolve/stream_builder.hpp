@@ -51,7 +51,7 @@ class StreamBuilder {
   std::optional<MemberPaths> member_paths(const NewStream& wanted);
   models::AddressIndex new_group();
   void add_members(const NewStream& wanted, const MemberPaths& members, models::StreamIndex index);
-  void add_hop(const Path& path, std::size_t at, models::VlanId vlan, models::AddressIndex address);
+  void add_entry(std::uint32_t node, std::uint16_t port, models::VlanId vlan, models::AddressIndex address);
   void note_identified_streams();
   void add_filtering(const Path& path, models::VlanId vlan, models::AddressIndex address);
 

@@ -31,7 +31,7 @@ Content content(const ResolvedStuckGate& change) {
 Content content(const ResolvedRoutes& change) {
   Content all;
   for (const ResolvedRoutes::Entry& entry : change.entries) {
-    all.add(static_cast<std::uint64_t>(entry.bridge.value) << 32 | entry.address.value);
+    all.add(static_cast<std::uint64_t>(entry.node.value) << 32 | entry.address.value);
     all.add(static_cast<std::uint64_t>(entry.vlan) << 32 | entry.ports.size());
     for (const std::uint16_t port : entry.ports) all.add(port);
   }

@@ -82,7 +82,7 @@ class Run::Script final : public sim::Component {
     if (fault.offset) run_->network_.set_frequency_offset(fault.node, *fault.offset);
   }
   void act(const ResolvedRoutes& change) {
-    for (const ResolvedRoutes::Entry& entry : change.entries) run_->network_.reroute(entry.bridge, entry.vlan, entry.address, entry.ports);
+    for (const ResolvedRoutes::Entry& entry : change.entries) run_->network_.reroute(entry.node, entry.vlan, entry.address, entry.ports);
   }
 
   Run* run_;

@@ -32,7 +32,7 @@ class FlowNetwork {
       return topology.neighbours[host].size() == 1 && topology.neighbours[host].front().node == n;
     };
     for (std::uint32_t n = 0; n < topology.nodes.size(); ++n)
-      if (!topology.nodes[n].is_host() || is_end(n))
+      if (topology.nodes[n].forwards() || is_end(n))
         add(way_in(n), way_out(n), is_end(n) || is_only_way(from, n) || is_only_way(to, n) ? count : count_at_switch, 0);
     // One link more costs more than any choice among equally many.
     const Cost cost_of_link = static_cast<Cost>(topology.nodes.size()) * static_cast<Cost>(topology.links.size()) + 1;
@@ -42,7 +42,7 @@ class FlowNetwork {
       const std::uint32_t a = link.a.node.value;
       const std::uint32_t b = link.b.node.value;
       number += 1;
-      if ((topology.nodes[a].is_host() && !is_end(a)) || (topology.nodes[b].is_host() && !is_end(b))) continue;
+      if ((!topology.nodes[a].forwards() && !is_end(a)) || (!topology.nodes[b].forwards() && !is_end(b))) continue;
       if (!joined.insert(std::minmax(a, b)).second) continue;
       for (const auto& [x, y] : {std::pair(a, b), std::pair(b, a)}) {
         if (y == from || x == to) continue;

@@ -76,6 +76,28 @@ class Checker {
   bool failed_ = false;
 };
 
+/// Stations take the place of the switches that would have hosts.
+Skeleton stations_of(const Generator& g, Checker& check) {
+  check.forbid(g.switches, "switches");
+  switch (g.shape) {
+    case Shape::line:
+      return {check.need(g.stations, "stations"), 0};
+    case Shape::ring:
+      return {check.need(g.stations, "stations", 3), 0};
+    case Shape::star:
+      return {static_cast<int128>(check.need(g.stations, "stations")) + 1, 1};
+    case Shape::dual_star:
+      return {static_cast<int128>(check.need(g.stations, "stations")) + 2, 2};
+    case Shape::tree:
+    case Shape::mesh:
+    case Shape::comb:
+    case Shape::random:
+      check.forbid(g.stations, "stations");
+      break;
+  }
+  return {};
+}
+
 Skeleton skeleton_of(const Generator& g, Checker& check) {
   if (g.shape != Shape::tree) {
     check.forbid(g.depth, "depth");
@@ -90,6 +112,7 @@ Skeleton skeleton_of(const Generator& g, Checker& check) {
     check.forbid(g.degree, "degree");
     check.forbid(g.seed, "seed");
   }
+  if (g.stations) return stations_of(g, check);
   switch (g.shape) {
     case Shape::line:
       return {check.need(g.switches, "switches"), 0};
@@ -214,22 +237,26 @@ Generated generate(const Generator& g, std::uint64_t room, json::Diagnostics& di
   const Skeleton skeleton = skeleton_of(g, check);
   if (check.failed()) return {};
   const int128 with_hosts = skeleton.switches - skeleton.first_with_hosts;
-  const int128 hosts = with_hosts * static_cast<int128>(g.hosts_per_switch);
+  const int128 hosts = g.stations ? int128{0} : with_hosts * static_cast<int128>(g.hosts_per_switch);
   if (skeleton.switches + hosts > static_cast<int128>(room)) {
     diagnostics.error(g.where.place(), "too many nodes",
-                      {json::to_text(skeleton.switches) + " switches and " + json::to_text(hosts) + " hosts",
+                      {json::to_text(skeleton.switches) + (g.stations ? " switches and stations and " : " switches and ") + json::to_text(hosts) + " hosts",
                        "at most " + std::to_string(most_nodes) + " nodes in a scenario, 600 switches in a full mesh"});
     return {};
   }
   Generated made;
   const auto n = static_cast<std::uint32_t>(skeleton.switches);
-  for (std::uint32_t i = 0; i < n; ++i) made.nodes.push_back({g.switch_prefix + std::to_string(i + 1), false});
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const bool is_station = g.stations && i >= skeleton.first_with_hosts;
+    const std::uint32_t first = is_station ? skeleton.first_with_hosts : 0;
+    made.nodes.push_back({(is_station ? g.station_prefix : g.switch_prefix) + std::to_string(i - first + 1), is_station ? models::NodeKind::station : models::NodeKind::bridge});
+  }
   for (const auto& [a, b] : edges_of(g, n)) made.links.push_back({a, b, false});
   std::uint64_t host = 0;
-  for (std::uint32_t i = skeleton.first_with_hosts; i < n; ++i) {
+  for (std::uint32_t i = skeleton.first_with_hosts; i < n && !g.stations; ++i) {
     for (std::uint64_t k = 0; k < g.hosts_per_switch; ++k) {
       made.links.push_back({i, static_cast<std::uint32_t>(made.nodes.size()), true});
-      made.nodes.push_back({g.host_prefix + std::to_string(++host), true});
+      made.nodes.push_back({g.host_prefix + std::to_string(++host), models::NodeKind::host});
     }
   }
   return made;

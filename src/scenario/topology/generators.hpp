@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "models/plan.hpp"
 #include "scenario/description/description.hpp"
 
 namespace takt::scenario {
@@ -13,7 +14,7 @@ namespace takt::scenario {
 struct Generated {
   struct Node {
     std::string name;
-    bool is_host = false;
+    models::NodeKind kind = models::NodeKind::host;
   };
   struct Link {
     std::uint32_t a = 0;  ///< index into nodes

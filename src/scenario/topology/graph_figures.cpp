@@ -19,11 +19,11 @@ SwitchGraph switches_of(const Topology& topology) {
   std::vector<std::size_t> number(topology.nodes.size(), 0);
   std::size_t count = 0;
   for (std::size_t i = 0; i < topology.nodes.size(); ++i)
-    if (!topology.nodes[i].is_host()) number[i] = count++;
+    if (topology.nodes[i].forwards()) number[i] = count++;
   SwitchGraph graph(count);
   for (std::uint32_t a = 0; a < topology.nodes.size(); ++a)
     for (const Neighbour& neighbour : topology.neighbours[a])
-      if (neighbour.node > a && !topology.nodes[a].is_host() && !topology.nodes[neighbour.node].is_host())
+      if (neighbour.node > a && topology.nodes[a].forwards() && topology.nodes[neighbour.node].forwards())
         boost::add_edge(number[a], number[neighbour.node], boost::num_edges(graph), graph);
   return graph;
 }

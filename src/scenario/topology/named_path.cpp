@@ -23,8 +23,8 @@ std::optional<Path> named_path(const Topology& topology, std::span<const std::st
     }
     if (!seen.insert(*node).second) diagnostics.error(place, "a node twice in one path", {json::quote(name), "each node once"});
     const bool inner = i > 0 && i + 1 < names.size();
-    if (inner && topology.nodes[*node].is_host())
-      diagnostics.error_unless(topology.nodes[*node].is_of_unknown_kind, place, "a host inside a path", {json::quote(name), "a switch, since hosts do not forward"});
+    if (inner && !topology.nodes[*node].forwards())
+      diagnostics.error_unless(topology.nodes[*node].is_of_unknown_kind, place, "a host inside a path", {json::quote(name), "a switch or a station, since hosts do not forward"});
     if (!path.empty() && !follows_a_gap && !topology.port_towards(path.back(), *node))
       diagnostics.error_unless(!topology.has_all_links, place, "no link", {"none between " + json::quote(topology.nodes[path.back()].name) + " and " + json::quote(name), "neighbours along the path"});
     follows_a_gap = false;

@@ -6,12 +6,13 @@
 #include <tuple>
 #include <utility>
 
+#include "scenario/topology/filtering.hpp"
 #include "scenario/topology/routing.hpp"
 
 namespace takt::scenario {
 namespace {
 
-/// (bridge, vlan, address) -> ports.
+/// (node, vlan, address) -> ports.
 using Tables = std::map<std::tuple<std::uint32_t, models::VlanId, std::uint32_t>, std::set<std::uint16_t>>;
 
 Topology without_links(const Topology& topology, const std::vector<std::uint32_t>& reasons_down) {
@@ -39,8 +40,7 @@ Tables tables_of(const Resolved& r, const Topology& topology, const std::set<std
     for (const models::NodeIndex listener : plan.listeners) {
       const auto path = plan.listeners.size() == 1 ? router.to_host(plan.talker.value, listener.value) : router.from_host(plan.talker.value, listener.value);
       cut_off |= !path;
-      for (std::size_t i = 1; path && i + 1 < path->size(); ++i)
-        tables[{(*path)[i], plan.vlan, plan.destination.value}].insert(*topology.port_towards((*path)[i], (*path)[i + 1]));
+      if (path) for_each_entry(topology, *path, [&](std::size_t at, std::uint16_t port) { tables[{(*path)[at], plan.vlan, plan.destination.value}].insert(port); });
     }
     if (!cut_off) continue;
     for (const auto& [key, ports] : before)
@@ -58,19 +58,19 @@ std::vector<ResolvedAction> plan_rerouting(const Resolved& r, const std::vector<
     if (stream.path || stream.redundancy) fixed.insert(stream.name);
   std::vector<std::uint32_t> reasons_down(r.plan.links.size(), 0);
   Tables tables;
-  for (const models::FilteringPlan& entry : r.plan.filtering) tables[{entry.bridge.value, entry.vlan, entry.address.value}].insert(entry.port);
+  for (const models::FilteringPlan& entry : r.plan.filtering) tables[{entry.node.value, entry.vlan, entry.address.value}].insert(entry.port);
   for (std::size_t i = 0; i < outages.size(); ++i) {
     for (const std::uint32_t link : outages[i].links) reasons_down[link] += outages[i].up ? -1u : 1u;
     if (i + 1 < outages.size() && outages[i + 1].at == outages[i].at) continue;
     const Tables next = tables_of(r, without_links(r.topology, reasons_down), fixed, tables);
     ResolvedRoutes routes;
     for (const auto& [key, ports] : next) {
-      const auto& [bridge, vlan, address] = key;
+      const auto& [node, vlan, address] = key;
       const auto known = tables.find(key);
       if (known != tables.end() && known->second == ports) continue;
-      routes.entries.push_back({models::NodeIndex{bridge}, vlan, models::AddressIndex{address}, {ports.begin(), ports.end()}});
+      routes.entries.push_back({models::NodeIndex{node}, vlan, models::AddressIndex{address}, {ports.begin(), ports.end()}});
     }
-    for (const ResolvedRoutes::Entry& entry : routes.entries) tables[{entry.bridge.value, entry.vlan, entry.address.value}] = {entry.ports.begin(), entry.ports.end()};
+    for (const ResolvedRoutes::Entry& entry : routes.entries) tables[{entry.node.value, entry.vlan, entry.address.value}] = {entry.ports.begin(), entry.ports.end()};
     if (!routes.entries.empty()) actions.push_back({outages[i].at.plus_saturated(delay), std::move(routes)});
   }
   return actions;

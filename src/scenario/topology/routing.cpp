@@ -1,8 +1,6 @@
 #include "scenario/topology/routing.hpp"
 
 #include <algorithm>
-#include <boost/graph/adjacency_list.hpp>
-#include <boost/graph/breadth_first_search.hpp>
 
 namespace takt::scenario {
 namespace {
@@ -10,60 +8,51 @@ constexpr std::uint32_t nowhere = 0xFFFF'FFFF;
 constexpr std::size_t most_tree_entries = 50'000'000;
 }
 
-// Only the switches are vertices; the edges of a vertex stand in the order of the links.
-struct Router::Graph {
-  using List = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
-  List list;
-  std::vector<std::uint32_t> vertex_of_node;
-  std::vector<std::uint32_t> node_of_vertex;
-};
-
-Router::Router(const Topology& topology) : topology_(topology), graph_(std::make_unique<Graph>()) {
-  graph_->vertex_of_node.assign(topology.nodes.size(), nowhere);
-  for (std::uint32_t n = 0; n < topology.nodes.size(); ++n) {
-    if (topology.nodes[n].is_host()) continue;
-    graph_->vertex_of_node[n] = static_cast<std::uint32_t>(graph_->node_of_vertex.size());
-    graph_->node_of_vertex.push_back(n);
-  }
-  graph_->list = Graph::List(graph_->node_of_vertex.size());
-  for (const models::LinkPlan& link : topology.links) {
-    const std::uint32_t a = graph_->vertex_of_node[link.a.node.value];
-    const std::uint32_t b = graph_->vertex_of_node[link.b.node.value];
-    if (a != nowhere && b != nowhere) boost::add_edge(a, b, graph_->list);
-  }
-}
-
-Router::~Router() = default;
-
-const std::vector<std::uint32_t>& Router::tree_of(std::uint32_t root) {
+const Router::Tree& Router::tree_of(std::uint32_t root) {
   // Trees are kept for the next stream with the same root, but not without bound.
-  if (trees_.size() * graph_->node_of_vertex.size() > most_tree_entries) trees_.clear();
+  if (trees_.size() * topology_.nodes.size() > most_tree_entries) trees_.clear();
   auto [at, is_new] = trees_.try_emplace(root);
-  std::vector<std::uint32_t>& parents = at->second;
-  if (!is_new) return parents;
-  parents.assign(graph_->node_of_vertex.size(), nowhere);
-  parents[root] = root;
-  boost::breadth_first_search(graph_->list, root,
-                              boost::visitor(boost::make_bfs_visitor(boost::record_predecessors(parents.data(), boost::on_tree_edge()))));
-  return parents;
+  Tree& tree = at->second;
+  if (!is_new) return tree;
+  tree.assign(topology_.nodes.size(), {nowhere, 0});
+  tree[root] = {root, 0};
+  std::vector<std::uint32_t> reached{root};
+  for (std::size_t next = 0; next < reached.size(); ++next) {
+    const std::uint32_t node = reached[next];
+    for (const Neighbour& neighbour : topology_.neighbours[node]) {
+      if (tree[neighbour.node].parent != nowhere || !topology_.nodes[neighbour.node].forwards()) continue;
+      tree[neighbour.node] = {node, tree[node].depth + 1};
+      reached.push_back(neighbour.node);
+    }
+  }
+  return tree;
 }
 
-std::optional<Path> Router::between(std::uint32_t root_host, std::uint32_t leaf_host) {
-  if (topology_.neighbours[root_host].empty() || topology_.neighbours[leaf_host].empty()) return std::nullopt;
-  const std::uint32_t root_neighbour = topology_.neighbours[root_host].front().node;
-  const std::uint32_t leaf_neighbour = topology_.neighbours[leaf_host].front().node;
-  if (root_neighbour == leaf_host) return Path{leaf_host, root_host};
-  const std::uint32_t root = graph_->vertex_of_node[root_neighbour];
-  const std::uint32_t leaf = graph_->vertex_of_node[leaf_neighbour];
-  if (root == nowhere || leaf == nowhere) return std::nullopt;
-  const std::vector<std::uint32_t>& parents = tree_of(root);
-  if (parents[leaf] == nowhere) return std::nullopt;
-  Path path{leaf_host};
-  for (std::uint32_t at = leaf;; at = parents[at]) {
-    path.push_back(graph_->node_of_vertex[at]);
-    if (at == root) break;
+/// Where the tree for an end begins: at the end itself if it has a choice, else at its only neighbour, so that many hosts share a tree.
+std::uint32_t Router::start_of(std::uint32_t end) const {
+  const std::vector<Neighbour>& neighbours = topology_.neighbours[end];
+  const bool has_choice = topology_.nodes[end].forwards() || neighbours.size() != 1 || !topology_.nodes[neighbours.front().node].forwards();
+  return has_choice ? end : neighbours.front().node;
+}
+
+std::optional<Path> Router::between(std::uint32_t root, std::uint32_t leaf) {
+  const std::uint32_t start = start_of(root);
+  const Tree& tree = tree_of(start);
+  std::uint32_t last = nowhere;   // of the tree
+  if (topology_.nodes[leaf].forwards()) {
+    last = leaf;
+  } else {
+    for (const Neighbour& neighbour : topology_.neighbours[leaf])
+      if (tree[neighbour.node].parent != nowhere && (last == nowhere || tree[neighbour.node].depth < tree[last].depth)) last = neighbour.node;
   }
-  path.push_back(root_host);
+  if (last == nowhere || tree[last].parent == nowhere) return std::nullopt;
+  Path path;
+  if (last != leaf) path.push_back(leaf);
+  for (std::uint32_t at = last;; at = tree[at].parent) {
+    path.push_back(at);
+    if (at == start) break;
+  }
+  if (start != root) path.push_back(root);
   return path;
 }
 

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -14,14 +13,11 @@ namespace takt::scenario {
 /// Node indices from the sender to one receiver, both included.
 using Path = std::vector<std::uint32_t>;
 
-/// Shortest paths by number of links. Hosts do not forward. Among equally short paths the one is taken that uses links
+/// Shortest paths by number of links, over nodes that forward. Among equally short paths the one is taken that uses links
 /// written (or generated) earlier, near the root of the search; so it is the same in every run and on every machine.
 class Router {
  public:
-  explicit Router(const Topology& topology);
-  ~Router();
-  Router(const Router&) = delete;
-  Router& operator=(const Router&) = delete;
+  explicit Router(const Topology& topology) : topology_(topology) {}
 
   /// The path that the filtering database takes for the unicast address of `to`: for one destination all paths form a tree.
   std::optional<Path> to_host(std::uint32_t from, std::uint32_t to);
@@ -29,14 +25,18 @@ class Router {
   std::optional<Path> from_host(std::uint32_t from, std::uint32_t to);
 
  private:
-  struct Graph;
-  /// The parent of each switch in the tree of shortest paths that is rooted at this switch.
-  const std::vector<std::uint32_t>& tree_of(std::uint32_t root);
-  std::optional<Path> between(std::uint32_t root_host, std::uint32_t leaf_host);
+  struct Branch {
+    std::uint32_t parent = 0;
+    std::uint32_t depth = 0;
+  };
+  using Tree = std::vector<Branch>;   // by node
+  /// The shortest paths from the root to all nodes that forward.
+  const Tree& tree_of(std::uint32_t root);
+  std::uint32_t start_of(std::uint32_t end) const;
+  std::optional<Path> between(std::uint32_t root, std::uint32_t leaf);
 
   const Topology& topology_;
-  std::unique_ptr<Graph> graph_;
-  std::map<std::uint32_t, std::vector<std::uint32_t>> trees_;
+  std::map<std::uint32_t, Tree> trees_;
 };
 
 }  // namespace takt::scenario

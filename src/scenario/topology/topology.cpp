@@ -33,7 +33,9 @@ class Builder {
         if (end->port) claim_named(*end, *link.link);
     for (const GeneratedLink& link : generated_links_) join({link.a, {}, 0}, {link.b, {}, 0}, link.rate, link.delay);
     for (const ParsedLink& link : parsed) join(link.a, link.b, link.link->rate, delay_of(*link.link));
-    check_hosts();
+    for (std::uint32_t n = 0; n < topology_.nodes.size(); ++n)
+      topology_.chooses_ports.push_back(topology_.nodes[n].forwards() || std::ranges::any_of(topology_.neighbours[n], [](const Neighbour& neighbour) { return neighbour.port > 0; }));
+    check_port_counts();
     return std::move(topology_);
   }
 
@@ -93,11 +95,7 @@ class Builder {
     std::vector<std::optional<std::uint32_t>> indices;
     indices.reserve(made.nodes.size());
     for (const Generated::Node& node : made.nodes) {
-      if (node.is_host)
-        indices.push_back(add(node.name, HostNode{generator.where, generator.os, generator.traffic_classes, generator.queues, {}},
-                              generator.where, generator.where.place()));
-      else
-        indices.push_back(add(node.name, switch_of(generator), generator.where, generator.where.place()));
+      indices.push_back(add(node.name, node_of(node.kind, generator), generator.where, generator.where.place()));
     }
     const Duration delay = Duration::from_ps(generator.length.millimetres * ps_per_millimetre);
     for (const Generated::Link& link : made.links) {
@@ -108,19 +106,23 @@ class Builder {
     }
   }
 
-  static SwitchNode switch_of(const Generator& generator) {
-    SwitchNode made;
-    made.where = generator.where;
-    made.forwarding_delay = generator.forwarding_delay;
-    made.traffic_classes = generator.traffic_classes;
-    made.queues = generator.queues;
-    made.egress = generator.egress;
-    made.ingress = generator.ingress;
-    return made;
+  static Node node_of(models::NodeKind kind, const Generator& generator) {
+    const NodePorts ports{generator.traffic_classes, generator.queues, generator.egress};
+    const EndStation end_station{generator.os};
+    const Relay relay{.forwarding_delay = generator.forwarding_delay, .ingress = generator.ingress};
+    switch (kind) {
+      case models::NodeKind::host:
+        return HostNode{{generator.traffic_classes, generator.queues, {}}, end_station, generator.where};
+      case models::NodeKind::bridge:
+        return SwitchNode{ports, relay, generator.where};
+      case models::NodeKind::station:
+        break;
+    }
+    return StationNode{ports, end_station, relay, generator.where};
   }
 
   void add_written(const std::string& name, const Node& node) {
-    const json::Source where = std::visit([](const auto& n) { return n.where; }, node);
+    const json::Source& where = source_of(node);
     if (name.empty() || name.find_first_of(":/") != std::string::npos) {
       diagnostics_.error(where.place(), "not a name for a node", {json::quote(name), "at least one character, no ':' and no '/'"});
       topology_.has_all_nodes = topology_.has_all_links = false;
@@ -171,8 +173,8 @@ class Builder {
   }
 
   void claim_named(const End& end, const Link& link) {
-    if (topology_.nodes[end.node].is_host() && !topology_.nodes[end.node].is_of_unknown_kind && *end.port != 0) {
-      diagnostics_.error(link.where.at("ends", end.which), "a host has one port", {"port " + std::to_string(*end.port), "port 0"});
+    if (const std::size_t most = most_ports_of(topology_.nodes[end.node]); *end.port >= most) {
+      diagnostics_.error(link.where.at("ends", end.which), "not a port of this node", {"port " + std::to_string(*end.port), "ports 0 to " + std::to_string(most - 1)});
       return;
     }
     if (!used_ports_[end.node].insert(*end.port).second)
@@ -183,7 +185,7 @@ class Builder {
   std::uint16_t take_port(const End& end) {
     if (end.port) return *end.port;
     std::set<std::uint16_t>& used = used_ports_[end.node];
-    if (used.size() >= most_ports) return 0;  // check_hosts() reports the node
+    if (used.size() >= most_ports) return 0;  // check_port_counts() reports the node
     std::uint16_t port = next_port_.size() > end.node ? next_port_[end.node] : std::uint16_t{0};
     while (used.contains(port)) ++port;
     used.insert(port);
@@ -211,18 +213,19 @@ class Builder {
     return Duration::from_ps(link.length.value_or(Length{10'000}).millimetres * ps_per_millimetre);
   }
 
-  void check_hosts() {
+  static std::size_t most_ports_of(const TopologyNode& node) {
+    return node.is_end_station() && !node.is_of_unknown_kind ? most_end_station_ports : std::size_t{most_ports};
+  }
+
+  void check_port_counts() {
     for (std::uint32_t n = 0; n < topology_.nodes.size(); ++n) {
       const TopologyNode& node = topology_.nodes[n];
       const std::size_t count = topology_.neighbours[n].size();
-      if (count > most_ports)
-        diagnostics_.error(node.where.place(), "too many links at one node", {std::to_string(count), "at most " + std::to_string(most_ports)});
-      if (!node.is_host() || node.is_of_unknown_kind) continue;
-      if (count > 1)
-        diagnostics_.error(node.where.place(), "two links on one port",
-                           {std::to_string(count) + " links at host " + json::quote(node.name), "one link, since a host has one port"});
-      else if (count == 0 && topology_.has_all_links)
-        diagnostics_.warning(node.where.place(), "a host without a link", {json::quote(node.name)});
+      if (const std::size_t most = most_ports_of(node); count > most)
+        diagnostics_.error(node.where.place(), "too many links at one node",
+                           {std::to_string(count) + " at " + json::quote(node.name), "at most " + std::to_string(most) + (node.is_end_station() ? node.forwards() ? " at a station" : " at a host" : "")});
+      if (node.is_end_station() && !node.is_of_unknown_kind && count == 0 && topology_.has_all_links)
+        diagnostics_.warning(node.where.place(), node.forwards() ? "a station without a link" : "a host without a link", {json::quote(node.name)});
     }
   }
 

@@ -15,9 +15,10 @@ namespace takt::scenario {
 
 struct TopologyNode {
   std::string name;
-  Node description;     ///< HostNode or SwitchNode
+  Node description;
   json::Source where;
-  bool is_host() const { return std::holds_alternative<HostNode>(description); }
+  bool is_end_station() const { return end_station_of(description) != nullptr; }
+  bool forwards() const { return relay_of(description) != nullptr; }
   bool is_of_unknown_kind = false;   ///< its "kind" was refused
 };
 
@@ -32,6 +33,8 @@ struct Topology {
   std::vector<TopologyNode> nodes;
   std::vector<models::LinkPlan> links;
   std::vector<std::vector<Neighbour>> neighbours;      ///< of each node, in the order of the links
+  /// Of each node whether what leaves it needs a filtering entry: it forwards, or has several interfaces.
+  std::vector<bool> chooses_ports;
   std::map<std::string, std::uint32_t, std::less<>> index;
   /// False if nodes or links were refused: that a name or a way is missing may be a consequence then, which is not told.
   bool has_all_nodes = true;

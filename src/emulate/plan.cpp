@@ -55,6 +55,8 @@ class Planner {
       cable.link = l;
       plan_.cables.push_back(std::move(cable));
     }
+    for (std::uint32_t n = 0; n < topology.nodes.size(); ++n)
+      if (!plan_.is_bridge[n] && interfaces[n] > 1) plan_.refusals.push_back("host " + topology.nodes[n].name + " has several interfaces, but a real node has one transport");
   }
 
   void add_program(std::uint32_t number) {
@@ -121,7 +123,7 @@ class Planner {
     file.add("programs", std::move(programs));
     json::Node& transport = file.add("transport", json::Node::object());
     transport.add("kind", json::Node::of_string("ethernet"));
-    transport.add("interface", json::Node::of_string("eth0"));
+    transport.add("interface", json::Node::of_string(plan_.is_bridge[node.host] ? "br0" : "eth0"));
     transport.add("vlan", json::Node::of_integer(first.description->vlan));
     transport.add("pcp", json::Node::of_integer(first.description->pcp));
     file.add("control", json::Node::of_string(control_mark));
@@ -153,7 +155,8 @@ class Planner {
     if (plan_.is_bridge[change.node.value]) {
       for (std::uint32_t c = 0; c < plan_.cables.size(); ++c)
         if (plan_.cables[c].a.node == change.node.value || plan_.cables[c].b.node == change.node.value) plan_.actions.push_back({at, LinkAction{c, change.up}});
-    } else {
+    }
+    if (resolved_.topology.nodes[change.node.value].is_end_station()) {
       plan_.actions.push_back({at, HostAction{change.node.value, change.up}});
     }
   }

@@ -66,7 +66,7 @@ struct Action {
 };
 
 struct Plan {
-  std::vector<bool> is_bridge;      ///< by node of the topology
+  std::vector<bool> is_bridge;      ///< by node of the topology: a switch or a station
   std::vector<Cable> cables;
   std::vector<PlannedNode> nodes;
   std::vector<Action> actions;      ///< by time

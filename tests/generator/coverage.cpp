@@ -52,7 +52,10 @@ class Walk {
   void tagged(const Node& node, const std::string& name) {
     for (const std::string& tag : schema_.options(name)) {
       const Definition& option = schema_.definition(tag == "clock" ? "clock-fault" : tag);
-      if (const Node* const kind = node.find(option.tag_key); kind != nullptr && kind->text == tag) return object(node, option);
+      if (const Node* const kind = node.find(option.tag_key); kind != nullptr && kind->text == tag) {
+        keys_.insert(name + "=" + tag);
+        return object(node, option);
+      }
     }
   }
 

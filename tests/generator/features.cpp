@@ -11,6 +11,7 @@ std::span<const FeatureEntry> features() {
   using enum Feature;
   static const std::vector<FeatureEntry> all = {
       {generated, "generated", "network.generate"},
+      {stations, "stations", "node=station generator.stations"},
       {rates, "rates", "link.rate"},
       {latencies, "latencies", "host.os generator.os"},
       {queue_limits, "queue_limits", "queues.frames"},

@@ -65,10 +65,11 @@ std::vector<std::string> keys_without_rule();
 
 /// The nodes and links of the scenario, generated ones too.
 struct World {
-  std::vector<std::string> switches, hosts;
+  std::vector<std::string> switches, hosts;   ///< stations are in both
   std::vector<std::pair<std::string, std::string>> links;
   std::map<std::string, std::vector<std::string>> neighbours;
   std::vector<std::string> nodes() const;
+  bool forwards(const std::string& node) const;
   /// A path without loops; empty if `from` and `to` are not connected. `avoid` are nodes that it leaves out.
   std::vector<std::string> path(Draw& draw, const std::string& from, const std::string& to, const std::set<std::string>& avoid = {}) const;
 };

@@ -43,6 +43,7 @@ Made residence(Maker& m, const Scope&) { return m.word("100us 500us 2ms"); }
 
 std::span<const Rule> ingress_rules() {
   static const Rule rules[] = {
+      {.key = "station.ingress", .percent = 85, .make = [](Maker& m, const Scope& s) -> Made { return wants_ingress(m) ? Made(m.object("ingress", &s)) : std::nullopt; }},
       {.key = "switch.ingress", .percent = 85, .make = [](Maker& m, const Scope& s) -> Made { return wants_ingress(m) ? Made(m.object("ingress", &s)) : std::nullopt; }},
       {.key = "generator.ingress", .percent = 85, .make = [](Maker& m, const Scope& s) -> Made { return wants_ingress(m) ? Made(m.object("ingress", &s)) : std::nullopt; }},
       {.key = "ingress.streams", .feature = Feature::identification, .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return m.objects("identified_stream", m.draw.between(1, 2), s); }},

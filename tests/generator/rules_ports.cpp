@@ -15,7 +15,7 @@ Node numbers(const std::vector<int>& values) {
 }
 
 bool to_hosts(Maker& m, const Scope& s) {
-  return s.has("to") ? std::ranges::find(m.world.hosts, s.text("to")) != m.world.hosts.end() : m.world.switches.size() == 1;
+  return s.has("to") ? !m.world.forwards(s.text("to")) : m.world.switches.size() == 1;
 }
 
 std::vector<int> taken(const Scope& s, std::string_view key) {
@@ -39,12 +39,13 @@ bool wants_egress(const Maker& m) {
 Made egress_of_switch(Maker& m, const Scope& s) {
   if (!wants_egress(m)) return std::nullopt;
   Node made = Node::array();
-  if (!m.draw.one_in(4)) made.items.push_back(m.object("egress", &s, s.name, 0));
+  const bool apart = m.wants(Feature::cut_through) && m.wants(Feature::untagged);   // they meet at one switch, but not at one port
+  if (!apart && !m.draw.one_in(4)) made.items.push_back(m.object("egress", &s, s.name, 0));
   const auto known = m.world.neighbours.find(s.name);
   if (known != m.world.neighbours.end()) {
     std::set<std::string> seen;
     for (std::size_t n = 0; n < known->second.size(); ++n)
-      if ((made.items.empty() || m.draw.one_in(3)) && seen.insert(known->second[n]).second) made.items.push_back(m.object("egress", &s, s.name, n + 1));
+      if ((apart || made.items.empty() || m.draw.one_in(3)) && seen.insert(known->second[n]).second) made.items.push_back(m.object("egress", &s, s.name, n + 1));
   }
   std::erase_if(made.items, [](const Node& each) { return each.members.size() == (each.find("to") != nullptr ? 1u : 0u); });
   if (made.items.empty()) return std::nullopt;
@@ -116,6 +117,7 @@ Made neighbour_of_node(Maker& m, const Scope& s) { return text(m.draw.any(m.worl
 std::span<const Rule> port_rules() {
   static const Rule rules[] = {
       {.key = "switch.egress", .percent = 90, .make = egress_of_switch},
+      {.key = "station.egress", .percent = 90, .make = egress_of_switch},
       {.key = "host.egress", .percent = 30, .make = [](Maker& m, const Scope& s) -> Made {
          if (!wants_egress(m)) return std::nullopt;
          Node made = m.object("egress", &s, s.name, 0);

@@ -21,8 +21,14 @@ Node node(std::string_view kind) {
 }
 
 /// A shape with few switches.
-Node any_shape(Draw& draw, bool wants_circles, bool wants_one) {
+Node any_shape(Draw& draw, bool wants_circles, bool wants_one, bool wants_stations) {
   Node made = Node::object();
+  if (wants_stations && !wants_one) {
+    const std::string of_stations = draw.word(wants_circles ? "ring dual-star" : "line ring star dual-star");
+    made.add("topology", text(of_stations));
+    made.add("stations", number(draw.between(3, 5)));
+    return made;
+  }
   if (wants_one) {
     made.add("topology", text("line"));
     made.add("switches", number(1));
@@ -59,7 +65,7 @@ Node any_shape(Draw& draw, bool wants_circles, bool wants_one) {
 }
 
 /// Switches in a row, a circle or a star, and hosts that hang on them; two hosts without a switch now and then.
-Node any_network(Draw& draw, bool wants_circles, std::size_t least_hosts) {
+Node any_network(Draw& draw, bool wants_circles, std::size_t least_hosts, bool wants_stations) {
   Node nodes = Node::object();
   Node links = Node::array();
   const std::size_t switches = wants_circles ? draw.between(3, 5) : draw.one_in(12) && least_hosts <= 2 ? 0 : draw.between(1, 4);
@@ -68,13 +74,16 @@ Node any_network(Draw& draw, bool wants_circles, std::size_t least_hosts) {
   const auto host = [](std::size_t h) { return "h" + std::to_string(h); };
   const bool is_star = draw.one_in(3) && !wants_circles;
   for (std::size_t s = 0; s < switches; ++s) {
-    nodes.add(sw(s), node("switch"));
+    const bool is_station = wants_stations && (s == 0 || draw.one_in(2));
+    nodes.add(sw(s), node(is_station ? "station" : "switch"));
     if (s > 0) links.items.push_back(link(sw(is_star ? 0 : s - 1), sw(s)));
   }
   if (switches > 2 && !is_star && (wants_circles || draw.one_in(3))) links.items.push_back(link(sw(switches - 1), sw(0)));
   for (std::size_t h = 0; h < hosts; ++h) {
     nodes.add(host(h), node("host"));
     if (switches > 0) links.items.push_back(link(host(h), sw(h % switches)));
+    // Attached twice, with a way of its own to each.
+    if (wants_stations && switches > 1 && draw.one_in(3)) links.items.push_back(link(host(h), sw((h + 1) % switches)));
   }
   if (switches == 0) links.items.push_back(link(host(0), host(1)));
   Node network = Node::object();
@@ -83,15 +92,18 @@ Node any_network(Draw& draw, bool wants_circles, std::size_t least_hosts) {
   return network;
 }
 
-Node generated_network(Draw& draw, bool wants_circles, bool wants_one) {
+Node generated_network(Draw& draw, bool wants_circles, bool wants_one, bool wants_stations) {
   Node network = Node::object();
-  network.add("generate", list({any_shape(draw, wants_circles, wants_one)}));
+  network.add("generate", list({any_shape(draw, wants_circles, wants_one, wants_stations)}));
   // Written nodes add to it.
   Node nodes = Node::object();
   nodes.add("plc", node("host"));
   nodes.add("panel", node("host"));
   network.add("nodes", std::move(nodes));
-  network.add("links", list({link("plc", "sw1"), link("panel", "sw1")}));
+  const Node& made = network.find("generate")->items.front();
+  const bool has_switch = made.find("stations") == nullptr || made.find("topology")->text.ends_with("star");
+  const std::string first = has_switch ? "sw1" : "st1";
+  network.add("links", list({link("plc", first), link("panel", first)}));
   return network;
 }
 
@@ -99,9 +111,11 @@ Node generated_network(Draw& draw, bool wants_circles, bool wants_one) {
 
 std::vector<std::string> World::nodes() const {
   std::vector<std::string> all = switches;
-  all.insert(all.end(), hosts.begin(), hosts.end());
+  std::ranges::copy_if(hosts, std::back_inserter(all), [&](const std::string& host) { return !forwards(host); });
   return all;
 }
+
+bool World::forwards(const std::string& node) const { return std::ranges::find(switches, node) != switches.end(); }
 
 std::vector<std::string> World::path(Draw& draw, const std::string& from, const std::string& to, const std::set<std::string>& avoid) const {
   std::vector<std::string> way = {from};
@@ -111,7 +125,7 @@ std::vector<std::string> World::path(Draw& draw, const std::string& from, const 
   while (!way.empty() && way.back() != to) {
     std::vector<std::string> next;
     for (const std::string& each : neighbours.at(way.back()))
-      if (!seen.contains(each) && (each == to || std::ranges::find(switches, each) != switches.end())) next.push_back(each);
+      if (!seen.contains(each) && (each == to || forwards(each))) next.push_back(each);
     if (next.empty()) {
       way.pop_back();
       continue;
@@ -125,8 +139,8 @@ std::vector<std::string> World::path(Draw& draw, const std::string& from, const 
 void Maker::lay_out() {
   const bool wants_circles = wants(Feature::redundancy) || wants(Feature::rerouting) ? !draw.one_in(8) : false;
   // Generated switches untag all of their ports or none: those without a neighbour that is a switch.
-  skeleton = wants(Feature::generated) ? generated_network(draw, wants_circles, wants(Feature::untagged) && !wants_circles && draw.one_in(2))
-                                       : any_network(draw, wants_circles, wants(Feature::nesting) ? 4 : 2);
+  skeleton = wants(Feature::generated) ? generated_network(draw, wants_circles, wants(Feature::untagged) && !wants_circles && draw.one_in(2), wants(Feature::stations))
+                                       : any_network(draw, wants_circles, wants(Feature::nesting) ? 4 : 2, wants(Feature::stations));
   Node whole = Node::object();
   whole.add("name", text("skeleton"));
   whole.add("duration", text("1ms"));
@@ -136,7 +150,8 @@ void Maker::lay_out() {
   TAKT_CHECK(resolved != nullptr, ("the skeleton of a network is sound: " + diagnostics.to_text() + json::pretty(skeleton)).c_str());
   for (std::size_t n = 0; n < resolved->topology.nodes.size(); ++n) {
     const scenario::TopologyNode& each = resolved->topology.nodes[n];
-    (each.is_host() ? world.hosts : world.switches).push_back(each.name);
+    if (each.is_end_station()) world.hosts.push_back(each.name);
+    if (each.forwards()) world.switches.push_back(each.name);
     for (const scenario::Neighbour& other : resolved->topology.neighbours[n]) world.neighbours[each.name].push_back(resolved->topology.nodes[other.node].name);
   }
   for (const models::LinkPlan& each : resolved->topology.links)
@@ -199,6 +214,12 @@ std::optional<Node> generators_of(Maker& m, const Scope& scope) {
   return made;
 }
 
+std::optional<Node> offered_skills(Maker& m, const Scope&) {
+  std::vector<Node> offered;
+  for (const std::string& skill : m.draw.some(m.skills, m.draw.between(1, 2))) offered.push_back(text(skill));
+  return list(std::move(offered));
+}
+
 /// Known from the skeleton.
 std::optional<Node> never(Maker&, const Scope&) { return std::nullopt; }
 
@@ -227,6 +248,7 @@ std::span<const Rule> network_rules() {
       {.key = "link.delay", .words = "0ns 50ns 500ns 3us"},
       {.key = "generator.topology", .make = shape_of_skeleton},
       {.key = "generator.switches", .make = never},
+      {.key = "generator.stations", .make = never},
       {.key = "generator.depth", .make = never},
       {.key = "generator.fanout", .make = never},
       {.key = "generator.rows", .make = never},
@@ -236,6 +258,7 @@ std::span<const Rule> network_rules() {
       {.key = "generator.seed", .make = never},
       {.key = "generator.hosts_per_switch", .make = never},
       {.key = "generator.switch_prefix", .percent = 20, .words = "sw"},
+      {.key = "generator.station_prefix", .percent = 20, .words = "st"},
       {.key = "generator.host_prefix", .percent = 20, .words = "h"},
       {.key = "generator.rate", .words = "100Mbps 1Gbps"},
       {.key = "generator.host_rate", .words = "100Mbps 1Gbps"},
@@ -248,12 +271,14 @@ std::span<const Rule> network_rules() {
       {.key = "host.traffic_classes", .feature = Feature::identity_classes, .percent = 50},
       {.key = "host.queues", .feature = Feature::queue_limits, .percent = 50},
       {.key = "host.processing", .feature = Feature::replies, .percent = 50},
-      {.key = "host.offers", .feature = Feature::roles, .percent = 85,
-       .make = [](Maker& m, const Scope&) -> std::optional<Node> {
-         std::vector<Node> offered;
-         for (const std::string& skill : m.draw.some(m.skills, m.draw.between(1, 2))) offered.push_back(text(skill));
-         return list(std::move(offered));
-       }},
+      {.key = "host.offers", .feature = Feature::roles, .percent = 85, .make = offered_skills},
+      {.key = "station.os", .feature = Feature::latencies, .percent = 70},
+      {.key = "station.forwarding_delay", .percent = 70, .words = "0ns 500ns 1us 3us"},
+      {.key = "station.cut_through_header", .feature = Feature::cut_through, .percent = 30, .words = "14B 22B 30B 72B"},
+      {.key = "station.traffic_classes", .feature = Feature::identity_classes, .percent = 80},
+      {.key = "station.queues", .feature = Feature::queue_limits, .percent = 80},
+      {.key = "station.processing", .feature = Feature::replies, .percent = 50},
+      {.key = "station.offers", .feature = Feature::roles, .percent = 85, .make = offered_skills},
       {.key = "switch.forwarding_delay", .percent = 70, .words = "0ns 500ns 1us 3us"},
       {.key = "switch.cut_through_header", .feature = Feature::cut_through, .percent = 30, .words = "14B 22B 30B 72B"},
       {.key = "switch.traffic_classes", .feature = Feature::identity_classes, .percent = 80},

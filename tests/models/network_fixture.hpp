@@ -45,6 +45,9 @@ class PlanBuilder {
   NodeIndex bridge(const std::string& name, Duration forwarding_delay = {}, std::uint32_t port_config = 0) {
     return add({name, NodeKind::bridge, forwarding_delay, port_config, 0});
   }
+  NodeIndex station(const std::string& name, Duration forwarding_delay = {}, std::uint32_t port_config = 0, std::uint32_t os_latency = 0) {
+    return add({name, NodeKind::station, forwarding_delay, port_config, os_latency});
+  }
   void link(NodeIndex a, NodeIndex b, DataRate rate = 1_Gbps, Duration delay = {}) {
     plan.links.push_back({{a, ports_[a.value]++}, {b, ports_[b.value]++}, rate, delay});
   }
@@ -65,8 +68,9 @@ class PlanBuilder {
     for (const NodeIndex listener : listeners) {
       const std::vector<Step> steps = unicast ? path_from_tree_of(listener, talker) : path_to_tree_of(talker, listener);
       for (const Step& step : steps)
-        if (plan.nodes[step.node.value].kind == NodeKind::bridge)
+        if (plan.nodes[step.node.value].forwards() || ports_[step.node.value] > 1)
           plan.filtering.push_back({step.node, options.vlan, address, step.port});
+      if (plan.nodes[listener.value].forwards()) plan.filtering.push_back({listener, options.vlan, address, internal_port});
     }
     plan.streams.push_back({"stream" + std::to_string(plan.streams.size()), talker, address, options.vlan, options.priority,
                             options.headers, std::move(listeners)});
@@ -108,7 +112,7 @@ class PlanBuilder {
     std::deque<NodeIndex> open{root};
     for (; !open.empty(); open.pop_front()) {
       const NodeIndex here = open.front();
-      if (here != root && plan.nodes[here.value].kind == NodeKind::host) continue;
+      if (here != root && !plan.nodes[here.value].forwards()) continue;
       for (const LinkPlan& each : plan.links) {
         for (const auto& [from, to] : {std::pair(each.a, each.b), std::pair(each.b, each.a)}) {
           if (from.node != here || !tree[to.node.value].next.is_none()) continue;

@@ -38,8 +38,8 @@ Facts facts_of(const Generator& generator) {
   EXPECT_EQ(diagnostics.to_text(), "");
   Facts facts;
   for (const Generated::Node& node : made.nodes) {
-    std::size_t& count = node.is_host ? facts.hosts : facts.switches;
-    EXPECT_EQ(node.name, (node.is_host ? "h" : "sw") + std::to_string(++count));
+    std::size_t& count = node.kind == models::NodeKind::host ? facts.hosts : facts.switches;
+    EXPECT_EQ(node.name, (node.kind == models::NodeKind::host ? "h" : "sw") + std::to_string(++count));
   }
   facts.links = made.links.size();
   facts.degree.resize(facts.switches);
@@ -52,8 +52,8 @@ Facts facts_of(const Generator& generator) {
   std::vector<std::uint32_t> links_of_host(made.nodes.size());
   for (const Generated::Link& link : made.links) {
     EXPECT_NE(link.a, link.b);
-    EXPECT_FALSE(made.nodes[link.a].is_host);
-    EXPECT_EQ(link.to_host, made.nodes[link.b].is_host);
+    EXPECT_EQ(made.nodes[link.a].kind, models::NodeKind::bridge);
+    EXPECT_EQ(link.to_host, made.nodes[link.b].kind == models::NodeKind::host);
     set[root(link.a)] = root(link.b);
     if (link.to_host) {
       ++links_of_host[link.b];
@@ -65,7 +65,7 @@ Facts facts_of(const Generator& generator) {
   facts.is_connected = true;
   for (std::uint32_t n = 0; n < made.nodes.size(); ++n) {
     facts.is_connected = facts.is_connected && root(n) == root(0);
-    EXPECT_EQ(links_of_host[n], made.nodes[n].is_host ? 1u : 0u);
+    EXPECT_EQ(links_of_host[n], made.nodes[n].kind == models::NodeKind::host ? 1u : 0u);
   }
   return facts;
 }
@@ -213,7 +213,7 @@ TEST(Generators, PrefixesRatesAndLengths) {
   EXPECT_TRUE(resolved->topology.find("bridge-2"));
   EXPECT_TRUE(resolved->topology.find("io2"));
   for (const models::LinkPlan& link : resolved->topology.links) {
-    const bool to_host = resolved->topology.nodes[link.b.node.value].is_host();
+    const bool to_host = resolved->topology.nodes[link.b.node.value].is_end_station();
     EXPECT_EQ(link.rate.bits_per_second, to_host ? 100'000'000u : 10'000'000'000u);
     EXPECT_EQ(link.delay.ps(), 35'000);  // 7 m at 5 ns/m
   }

@@ -28,7 +28,7 @@ std::vector<std::size_t> distances(const Topology& topology, std::uint32_t from)
   while (!open.empty()) {
     const std::uint32_t n = open.front();
     open.pop();
-    if (n != from && topology.nodes[n].is_host()) continue;
+    if (n != from && !topology.nodes[n].forwards()) continue;
     for (const Neighbour& next : topology.neighbours[n]) {
       if (distance[next.node] != SIZE_MAX) continue;
       distance[next.node] = distance[n] + 1;
@@ -46,7 +46,7 @@ TEST(Routing, PathsOfAGridAreShortest) {
   const auto r = sound(generated(grid(4, 5)));
   Router router(r->topology);
   for (std::uint32_t from = 20; from < 40; ++from) {
-    ASSERT_TRUE(r->topology.nodes[from].is_host());
+    ASSERT_TRUE(r->topology.nodes[from].is_end_station());
     const std::vector<std::size_t> distance = distances(r->topology, from);
     for (std::uint32_t to = 20; to < 40; ++to) {
       if (to == from) continue;
@@ -56,7 +56,7 @@ TEST(Routing, PathsOfAGridAreShortest) {
         EXPECT_EQ(path->front(), from);
         EXPECT_EQ(path->back(), to);
         for (std::size_t i = 1; i < path->size(); ++i) EXPECT_TRUE(r->topology.port_towards((*path)[i - 1], (*path)[i]));
-        for (std::size_t i = 1; i + 1 < path->size(); ++i) EXPECT_FALSE(r->topology.nodes[(*path)[i]].is_host());
+        for (std::size_t i = 1; i + 1 < path->size(); ++i) EXPECT_TRUE(r->topology.nodes[(*path)[i]].forwards());
       }
     }
   }

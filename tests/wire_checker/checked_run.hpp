@@ -27,8 +27,9 @@ inline Directory directory_of(const models::Network& network) {
   Directory directory;
   const models::NetworkPlan& plan = network.plan();
   for (std::uint32_t n = 0; n < plan.nodes.size(); ++n) {
-    const bool is_host = plan.nodes[n].kind == models::NodeKind::host;
-    directory.nodes.push_back(is_host ? network.host({n})->id() : network.bridge({n}).id());
+    directory.nodes.emplace_back();
+    if (plan.nodes[n].forwards()) directory.nodes.back().push_back(network.bridge({n}).id());
+    if (plan.nodes[n].is_end_station()) directory.nodes.back().push_back(network.host({n})->id());
     directory.ports.emplace_back();
     for (const models::EgressPort& port : network.ports({n})) directory.ports.back().push_back(port.id());
   }

@@ -88,7 +88,7 @@ class Records {
     return *this;
   }
   void check(Ps end) {
-    const Directory directory{{{0}, {1}, {2}}, {{{h1_port}}, {{sw_to_h1}, {sw_to_h2}}, {{13}}}};
+    const Directory directory{{{{0}}, {{1}}, {{2}}}, {{{h1_port}}, {{sw_to_h1}, {sw_to_h2}}, {{13}}}};
     checker_ = std::make_shared<WireChecker>(builder_.plan, changes_, directory, [this](models::FrameIndex) -> const models::Frame& { return present_; });
     for (const Line& line : lines_) {
       present_ = line.frame;

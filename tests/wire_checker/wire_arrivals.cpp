@@ -71,13 +71,11 @@ void WireChecker::attribute(Ps now, std::vector<Recorded>& batch) {
     nodes.insert(direction.from);
   }
   for (const std::uint32_t node : nodes) {
-    if (nodes_[node]->is_host)
-      settle_host(node, now);
-    else
-      settle_bridge(node, now);
+    if (nodes_[node]->forwards) settle_bridge(node, now);
+    if (nodes_[node]->is_end_station) settle_host(node, now);
     for (const Node::Outcome& outcome : nodes_[node]->outcomes) {
       Recorded& recorded = batch[outcome.recorded];
-      if (!nodes_[node]->ingress) {  // a launch time
+      if (!nodes_[node]->ingress || is_own(node, outcome.stream, outcome.direction)) {  // a launch time
         if (recorded.frame.marked) recorded.eligible = recorded.frame.eligible.ps();
         continue;
       }
@@ -103,10 +101,21 @@ void WireChecker::attribute(Ps now, std::vector<Recorded>& batch) {
   }
 }
 
+/// A frame that the node has made itself leaves it.
+bool WireChecker::is_own(std::uint32_t node, models::StreamIndex stream, std::uint32_t direction) const {
+  return nodes_[node]->is_end_station && direction != 0xFFFF'FFFF && plan_.streams[stream.value].talker.value == node;
+}
+
+/// Whether the frame is for the host: in a station only what it listens to.
+bool WireChecker::is_taken_in(std::uint32_t node, const Arrival& arrival) const {
+  const std::vector<models::NodeIndex>& listeners = plan_.streams[arrival.frame.stream.value].listeners;
+  return !nodes_[node]->forwards || std::find(listeners.begin(), listeners.end(), models::NodeIndex{node}) != listeners.end();
+}
+
 void WireChecker::settle_host(std::uint32_t index, Ps now) {
   Node& node = *nodes_[index];
   for (Arrival& arrival : node.arrivals) {
-    if (arrival.complete != now) continue;
+    if (arrival.complete != now || !is_taken_in(index, arrival)) continue;
     arrival.has_outcome = true;
     if (arrival.lost) continue;
     const auto dropped = std::find_if(node.outcomes.begin(), node.outcomes.end(), [&](const Node::Outcome& outcome) {
@@ -124,6 +133,7 @@ void WireChecker::settle_host(std::uint32_t index, Ps now) {
   }
   for (const Node::Outcome& outcome : node.outcomes) {
     if (outcome.direction == 0xFFFF'FFFF) continue;  // of a frame that waited for the operating system
+    if (node.forwards && !is_own(index, outcome.stream, outcome.direction)) continue;
     if (outcome.sequence >= accounts_[outcome.stream.value].produced)
       violations_.add(now, node.name, wire_checker::name_of(outcome.stream, outcome.sequence) + " leaves a host that has not produced it");
     if (plan_.streams[outcome.stream.value].talker.value != index)
@@ -134,7 +144,8 @@ void WireChecker::settle_host(std::uint32_t index, Ps now) {
 void WireChecker::settle_bridge(std::uint32_t index, Ps now) {
   Node& node = *nodes_[index];
   for (const Node::Outcome& outcome : node.outcomes) {
-    bool found = false;
+    if (is_own(index, outcome.stream, outcome.direction)) continue;
+    bool found = node.is_end_station && outcome.drop == DropReason::node_down;   // of a frame that waited for the operating system
     for (Arrival& arrival : node.arrivals) {
       if (!is_same(arrival.frame, outcome.stream, outcome.sequence) || (arrival.looked_at != now && arrival.complete != now) || arrival.lost) continue;
       found = arrival.has_outcome = true;

@@ -14,9 +14,10 @@ WireChecker::WireChecker(const models::NetworkPlan& plan, std::vector<Change> ch
     const models::NodePlan& node = plan.nodes[n];
     auto made = std::make_unique<Node>();
     made->name = node.name;
-    made->is_host = node.kind == models::NodeKind::host;
+    made->is_end_station = node.is_end_station();
+    made->forwards = node.forwards();
     const sim::Distribution& receive = plan.os_latencies[node.os_latency].receive;
-    made->fixed_delay = !made->is_host ? node.forwarding_delay.ps() : receive.is_constant() ? receive.greatest().ps() : 0;
+    made->fixed_delay = made->forwards ? node.forwarding_delay.ps() : receive.is_constant() ? receive.greatest().ps() : 0;
     if (node.ingress) made->ingress = std::make_unique<IngressOracle>(plan.ingress_configs[*node.ingress], static_cast<std::uint32_t>(plan.nodes.size()));
     nodes_.push_back(std::move(made));
   }
@@ -38,7 +39,8 @@ WireChecker::WireChecker(const models::NetworkPlan& plan, std::vector<Change> ch
     if (places_.size() <= component.index) places_.resize(component.index + std::size_t{1});
     return places_[component.index];
   };
-  for (std::uint32_t n = 0; n < directory.nodes.size(); ++n) place_of(directory.nodes[n]).node = n;
+  for (std::uint32_t n = 0; n < directory.nodes.size(); ++n)
+    for (const sim::ComponentId part : directory.nodes[n]) place_of(part).node = n;
   for (std::uint32_t n = 0; n < directory.ports.size(); ++n)
     for (std::size_t p = 0; p < directory.ports[n].size(); ++p)
       if (p < direction_of_port_[n].size()) place_of(directory.ports[n][p]).direction = direction_of_port_[n][p];
@@ -62,7 +64,7 @@ void WireChecker::connect(const models::LinkPlan& link, const models::LinkPlan::
 /// Which priorities' headers a bridge looks at: those that another port of it cuts through, and no port of it sends by eligibility times.
 void WireChecker::announce_cut_through() {
   for (const std::unique_ptr<Direction>& incoming : directions_) {
-    if (nodes_[incoming->to]->is_host) continue;
+    if (!nodes_[incoming->to]->forwards) continue;
     unsigned cut = 0, timed = 0;
     for (std::size_t port = 0; port < direction_of_port_[incoming->to].size(); ++port) {
       const models::PortConfig& config = directions_[direction_of_port_[incoming->to][port]]->checker.config();
@@ -215,6 +217,8 @@ void WireChecker::finish(Ps end) {
 void WireChecker::compare(std::span<const models::Stream> streams) {
   bool has_latencies = false;
   bool cuts_through = false;
+  for (const models::NodePlan& node : plan_.nodes)
+    has_latencies |= node.kind == models::NodeKind::station && plan_.os_latencies[node.os_latency].receive.greatest() != sim::Duration();
   for (const models::OsLatency& latency : plan_.os_latencies)
     has_latencies |= !latency.receive.is_constant() || !latency.transmit.is_constant() || latency.transmit.greatest() != sim::Duration();
   for (const models::PortConfig& config : plan_.port_configs) cuts_through |= config.cut_through != 0;

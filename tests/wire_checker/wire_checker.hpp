@@ -29,7 +29,7 @@ struct Change {
 
 /// Which component of the simulation is which part of the plan.
 struct Directory {
-  std::vector<sim::ComponentId> nodes;                        ///< by node
+  std::vector<std::vector<sim::ComponentId>> nodes;           ///< by node: its bridge, its host
   std::vector<std::vector<sim::ComponentId>> ports;           ///< by node and port
 };
 
@@ -80,6 +80,8 @@ class WireChecker final : public sim::TraceSink {
   void instant(Ps now);
   void apply(const Change& change);
   void attribute(Ps now, std::vector<Recorded>& batch);
+  bool is_own(std::uint32_t node, models::StreamIndex stream, std::uint32_t direction) const;
+  bool is_taken_in(std::uint32_t node, const Arrival& arrival) const;
   void settle_host(std::uint32_t node, Ps now);
   void settle_bridge(std::uint32_t node, Ps now);
   void run_ingress(std::uint32_t node, Ps now, std::vector<Arrival*>& arrived);

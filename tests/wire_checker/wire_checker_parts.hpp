@@ -44,7 +44,8 @@ struct WireChecker::Node {
     std::size_t recorded = 0;                        // its place in the batch
   };
   std::string name;
-  bool is_host = true;
+  bool is_end_station = true;
+  bool forwards = false;
   Ps fixed_delay = 0;
   std::unique_ptr<IngressOracle> ingress;
   std::map<std::uint32_t, const models::StreamRecoveryConfig*> recoveries;   // of a host, by stream

@@ -42,10 +42,6 @@ class alignas(64) Bridge final : public sim::Component {
 
   /// A frame of the node itself, at the present instant: it leaves by the ports of its filtering entry, without a forwarding delay.
   void send(sim::Simulation& simulation, FrameIndex frame, std::uint32_t sender) { forward(simulation, frame, rank_of_own(sender), nullptr); }
-  /// The same by a certain port.
-  void send_by(sim::Simulation& simulation, FrameIndex frame, std::uint32_t sender, std::uint16_t port) {
-    hand_over(simulation, frame, rank_of_own(sender), port, nullptr);
-  }
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
   /// What the chain does to frames of one instant depends on their order: it sees them by port number.

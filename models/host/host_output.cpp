@@ -18,7 +18,7 @@ void HostOutput::offer(sim::Simulation& simulation, FrameIndex frame, std::uint3
   for (const TalkerRedundancy::Outgoing& outgoing : redundancy_.send(*traffic_, frame)) {
     TAKT_CHECK(outgoing.port < ports_.size(), "a member stream leaves by an interface that exists");
     if (bridge_ != nullptr)
-      bridge_->send_by(simulation, outgoing.frame, rank, outgoing.port);
+      bridge_->send(simulation, outgoing.frame, rank);   // members have entries of their own
     else
       ports_[outgoing.port].offer(simulation, outgoing.frame, rank);
   }

@@ -41,7 +41,8 @@ class RouteMaker {
       return;
     }
     for (std::size_t i = 0; i < stream.paths.size(); ++i) {
-      note_last(flow, redundancy != nullptr ? 0 : i, walk(flow, stream.paths[i], redundancy, i, false));
+      const std::size_t members = redundancy != nullptr ? redundancy->members.size() : 1;
+      note_last(flow, i / members, walk(flow, stream.paths[i], redundancy, i % members, false));
     }
   }
 

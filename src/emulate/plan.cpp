@@ -66,6 +66,10 @@ class Planner {
     same.publisher_id = program.first_publisher_id;
     same.within.reset();
     same.candidates.clear();
+    same.redundancy.reset();
+    same.paths.clear();
+    if (program.description->redundancy) left_out_.insert("copies of messages");
+    if (!program.description->paths.empty()) left_out_.insert("paths");
     for (const scenario::ResolvedMember& each : program.candidates()) same.candidates.push_back(name_of(each));
     same.absent.clear();  // as each node says of itself: it may have been told to join before it starts again
     programs_.push_back(std::move(same));

@@ -151,8 +151,9 @@ std::string redundancy_page(const Resolved& r, std::size_t most_rows) {
   for (const scenario::ResolvedRedundancy& redundancy : r.redundancies) {
     const scenario::Redundancy& description = *redundancy.description;
     const std::string& name = r.plan.streams[redundancy.stream.value].name;
+    const bool has_trees = redundancy.merge == scenario::ResolvedRedundancy::nobody;
     std::string what = fmt::format("{} members, split at {}, merged at {}, {} recovery", redundancy.members.size(), r.topology.nodes[redundancy.split].name,
-                                   r.topology.nodes[redundancy.merge].name, scenario::spelling(description.algorithm));
+                                   has_trees ? "each receiver" : r.topology.nodes[redundancy.merge].name, scenario::spelling(description.algorithm));
     if (description.algorithm == scenario::Recovery::vector) what += fmt::format(" of {} numbers", description.history);
     if (description.individual) what += ", individual recovery";
     if (description.latent_errors) what += ", latent errors tested every " + readable(description.latent_errors->period);

@@ -83,6 +83,8 @@ struct Program {
   std::optional<std::uint16_t> publisher_id = {};  ///< of the master, those of the others follow; the next that are free if absent
   std::vector<ProcessData> process_data;
   std::vector<Reply> replies = {};
+  std::optional<std::uint32_t> redundancy = {};    ///< copies of each message (IEEE 802.1CB)
+  std::vector<std::vector<std::string>> paths = {};  ///< of messages between two members, in either direction
   bool operator==(const Program&) const = default;
 };
 

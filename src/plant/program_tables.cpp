@@ -136,6 +136,11 @@ const json::Object& describe(json::Type<Program>) {
       optional<&Program::violations>("violations", "What a violated invariant means for the verdict."),
       optional<&Program::publisher_id>("publisher_id", "PublisherId of the master; the others have the next ones. Those behind the program before it if absent.", {.min = 1, .max = 65471}),
       optional<&Program::process_data>("process_data", "Data sets that the participants exchange.", {.max_items = 256}),
+      optional<&Program::redundancy>("redundancy",
+                                     "So many copies of each message take ways that share as little as the network allows (IEEE 802.1CB); hosts and stations send them and take out the later ones.",
+                                     {.min = 2, .max = 2}),
+      optional<&Program::paths>("paths", "Ways of messages, each from the node of one member to that of another: all nodes in order, taken in both directions. The other messages find their own.",
+                                {.min_items = 1, .max_items = 4096, .items = {.min_items = 2, .max_items = 4096}}),
       optional<&Program::replies>("replies", "Process data that answers other process data at once.", {.max_items = 256}),
   };
   static constexpr std::string_view members[] = {"slaves", "roles"};

@@ -6,9 +6,9 @@ namespace {
 
 const BadCase nodes_cases[] = {
     {"UnknownKind", with_node(R"({"kind": "hosst"})"),
-     R"(2:15: error at /network/nodes/a/kind: unknown kind: found "hosst", expected "host" or "switch" (did you mean "host"?))"},
+     R"(2:15: error at /network/nodes/a/kind: unknown kind: found "hosst", expected "host", "switch" or "station" (did you mean "host"?))"},
     {"NoKind", with_node(R"({})"),
-     R"(2:6: error at /network/nodes/a: the field "kind" is missing: expected "host" or "switch")"},
+     R"(2:6: error at /network/nodes/a: the field "kind" is missing: expected "host", "switch" or "station")"},
     {"UnknownOperatingSystem", with_node(R"({"kind": "host", "os": "preempt_rt"})"),
      R"(2:29: error at /network/nodes/a/os: unknown name for an operating system: found "preempt_rt", expected "none", "preempt-rt", "preempt-rt-isolated", "preempt-rt-arm", "general-purpose", "virtual-machine" or "virtual-machine-rt" (did you mean "preempt-rt"?))"},
     {"FieldOfAnotherKind", with_node(R"({"kind": "host", "forwarding_delay": "1us"})"),
@@ -58,10 +58,10 @@ const BadCase nodes_cases[] = {
     {"TwoLinksAtAHost", with_links(R"({"ends": ["a", "sw"]},
 {"ends": ["b", "sw"]},
 {"ends": ["b", "sw"]})"),
-     R"(1:84: error at /network/nodes/b: two links on one port: found 2 links at host "b", expected one link, since a host has one port)"},
-    {"SecondPortOfAHost", with_links(R"({"ends": ["a:1", "sw"]},
+     R"(4:10: error at /network/links/2/ends: a second link to one neighbour: found two links between "b" and "sw", expected interfaces of a host or station that lead to different nodes)"},
+    {"NinthPortOfAHost", with_links(R"({"ends": ["a:8", "sw"]},
 {"ends": ["b", "sw"]})"),
-     R"(2:11: error at /network/links/0/ends/0: a host has one port: found port 1, expected port 0)"},
+     R"(2:11: error at /network/links/0/ends/0: not a port of this node: found port 8, expected ports 0 to 7)"},
     {"NotAPort", with_links(R"({"ends": ["a", "sw:x"]},
 {"ends": ["b", "sw:4096"]})"),
      R"(2:16: error at /network/links/0/ends/1: not a port: found "x", expected a number from 0 to 4095 after the ':'

@@ -241,9 +241,10 @@ void check_slopes(const Resolved& r, json::Diagnostics& diagnostics) {
 
 void check_cut_through(const Resolved& r, json::Diagnostics& diagnostics) {
   for (const ResolvedRedundancy& redundancy : r.redundancies) {
+    if (redundancy.merges_in_host) continue;   // hosts get whole frames
     const TopologyNode& merge = r.topology.nodes[redundancy.merge];
     for (const Egress& egress : egress_of(merge))
-      if (!egress.cut_through.empty() && !redundancy.merges_in_host)
+      if (!egress.cut_through.empty())
         diagnostics.error(egress.where.at("cut_through"), "cut-through where a redundant stream is merged",
                           {json::quote(merge.name) + ", where a damaged frame would take the place of its good copy", "a switch that merges nothing"});
   }

@@ -236,7 +236,8 @@ void resolve_ingress(Resolved& r, json::Diagnostics& diagnostics) {
   for (const ResolvedRedundancy& redundancy : r.redundancies) {
     if (redundancy.splits_in_host) r.plan.host_splits.push_back({redundancy.stream, {redundancy.members}});
     if (redundancy.merges_in_host)
-      r.plan.host_recoveries.push_back({models::NodeIndex{redundancy.merge}, redundancy.stream, recovery_config(r, redundancy, diagnostics)});
+      for (const models::NodeIndex listener : r.plan.streams[redundancy.stream.value].listeners)
+        r.plan.host_recoveries.push_back({listener, redundancy.stream, recovery_config(r, redundancy, diagnostics)});
   }
   for (std::uint32_t n = 0; n < r.topology.nodes.size(); ++n) {
     if (!r.topology.nodes[n].forwards()) continue;

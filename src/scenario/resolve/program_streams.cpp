@@ -5,6 +5,7 @@
 #include "models/ethernet/sizes.hpp"
 #include "uadp/builtin_type.hpp"
 #include "plant/protocol.hpp"
+#include "scenario/topology/named_path.hpp"
 #include "wire/role_format.hpp"
 
 namespace takt::scenario {
@@ -12,9 +13,17 @@ namespace {
 
 class ProgramStreams {
  public:
-  ProgramStreams(Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program) : r_(resolved), builder_(builder), program_(program), description_(*program.description) {}
+  ProgramStreams(Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program, json::Diagnostics& diagnostics)
+      : r_(resolved), builder_(builder), program_(program), description_(*program.description), diagnostics_(diagnostics) {}
 
   bool lay() {
+    if (!check_paths()) return false;
+    if (description_.redundancy) {
+      Redundancy redundancy;
+      redundancy.where = description_.where;
+      redundancy.count = description_.redundancy;
+      program_.redundancy = std::make_shared<const Redundancy>(std::move(redundancy));
+    }
     const Octets state{wire::state_octets(description_.variant)};
     const Octets table{wire::table_octets(description_.roles.size(), program_.candidates().size())};
     for (std::size_t m = 0; m < program_.members.size(); ++m) {
@@ -29,6 +38,34 @@ class ProgramStreams {
   }
 
  private:
+  /// Each is a way between two members.
+  bool check_paths() {
+    const std::size_t errors_before = diagnostics_.errors();
+    if (description_.redundancy && !description_.paths.empty())
+      diagnostics_.error(description_.where.at("paths"), "paths of redundant messages", {"\"paths\" beside \"redundancy\"", "one of them: redundant messages take two trees"});
+    for (std::size_t i = 0; i < description_.paths.size(); ++i) {
+      const std::vector<std::string>& names = description_.paths[i];
+      const json::Place here = description_.where.at("paths", i);
+      const auto place_of = [&](std::size_t n) {
+        json::Place place = here;
+        place.pointer += json::pointer_step(n);
+        return place;
+      };
+      const auto member = [&](std::size_t n) -> std::optional<std::uint32_t> {
+        const auto node = r_.topology.find(names[n]);
+        if (node && std::ranges::any_of(program_.members, [&](const ResolvedMember& each) { return each.node.value == *node; })) return node;
+        if (!node) report_unknown_node(r_.topology, names[n], place_of(n), "the node of a member of the program", diagnostics_);
+        else diagnostics_.error(place_of(n), "not a member", {json::quote(names[n]), "the node of a member of the program at each end of a path"});
+        return std::nullopt;
+      };
+      if (names.size() < 2 || diagnostics_.is_refused(here)) continue;
+      const auto from = member(0);
+      const auto to = member(names.size() - 1);
+      if (from && to) named_path(r_.topology, names, *from, *to, here, place_of, diagnostics_);
+    }
+    return diagnostics_.errors() == errors_before;
+  }
+
   void add(const ProcessData& data) {
     ResolvedProcessData made;
     made.name = data.name;
@@ -60,6 +97,8 @@ class ProgramStreams {
     wanted.payload = payload;
     wanted.of_program = true;
     wanted.ether_type = wire::uadp_ether_type;
+    wanted.redundancy = program_.redundancy.get();
+    if (!description_.paths.empty()) wanted.ways = &description_.paths;
     const auto index = builder_.add(wanted);
     has_failed_ = has_failed_ || !index;
     if (!index) return {};
@@ -75,11 +114,14 @@ class ProgramStreams {
   StreamBuilder& builder_;
   ResolvedProgram& program_;
   const Program& description_;
+  json::Diagnostics& diagnostics_;
   bool has_failed_ = false;
 };
 
 }  // namespace
 
-bool lay_program_streams(Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program) { return ProgramStreams(resolved, builder, program).lay(); }
+bool lay_program_streams(Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program, json::Diagnostics& diagnostics) {
+  return ProgramStreams(resolved, builder, program, diagnostics).lay();
+}
 
 }  // namespace takt::scenario

@@ -7,6 +7,6 @@
 namespace takt::scenario {
 
 /// Lays the streams of a program whose members and their skills are known, and notes its process data. False if one cannot be laid (reported).
-bool lay_program_streams(Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program);
+bool lay_program_streams(Resolved& resolved, StreamBuilder& builder, ResolvedProgram& program, json::Diagnostics& diagnostics);
 
 }  // namespace takt::scenario

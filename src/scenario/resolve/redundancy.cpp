@@ -1,6 +1,7 @@
 #include "scenario/resolve/redundancy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "models/ethernet/sizes.hpp"
 #include "scenario/topology/disjoint_paths.hpp"
 #include "scenario/topology/named_path.hpp"
+#include "scenario/topology/redundant_trees.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -141,6 +143,63 @@ class MemberLayer {
   json::Diagnostics& diagnostics_;
 };
 
+/// Two trees to several receivers, or why not.
+class TreeLayer {
+ public:
+  TreeLayer(const Resolved& resolved, const Redundancy& redundancy, std::uint32_t from, json::Diagnostics& diagnostics)
+      : r_(resolved), redundancy_(redundancy), from_(from), trees_(resolved.topology, from), diagnostics_(diagnostics) {}
+
+  std::optional<MemberPaths> lay(const std::vector<std::pair<std::uint32_t, json::Place>>& to) {
+    const std::size_t errors_before = diagnostics_.errors();
+    const auto refuse = [&](std::string_view key, const std::string& expected) {
+      diagnostics_.error(redundancy_.where.at(key), "redundancy for several receivers", {"\"" + std::string(key) + "\" of a stream to " + std::to_string(to.size()), expected});
+    };
+    if (redundancy_.paths) refuse("paths", "\"count\", for which two trees are laid");
+    if (redundancy_.count.value_or(2) != 2) refuse("count", "2");
+    if (redundancy_.split) refuse("split", "the sender, which splits");
+    if (redundancy_.merge) refuse("merge", "the receivers, each of which merges");
+    if (diagnostics_.errors() != errors_before) return std::nullopt;
+    MemberPaths members;
+    for (const auto& [node, place] : to) add(node, place, members);
+    if (diagnostics_.errors() != errors_before) return std::nullopt;
+    return members;
+  }
+
+ private:
+  std::string name(std::uint32_t node) const { return json::quote(r_.topology.nodes[node].name); }
+  bool has_one_link(std::uint32_t node) const { return r_.topology.neighbours[node].size() == 1; }
+
+  void add(std::uint32_t node, const json::Place& place, MemberPaths& members) {
+    const auto paths = trees_.to(node);
+    if (!paths) {
+      diagnostics_.error_unless(!r_.topology.has_all_links, place, "no path", {name(node) + " cannot be reached from " + name(from_), "links that join them over switches"});
+      return;
+    }
+    // What has one link has no choice.
+    const std::size_t needed = (has_one_link(from_) ? 1u : 0u) + (has_one_link(node) ? 1u : 0u);
+    if (shared_links((*paths)[0], (*paths)[1]) > needed)
+      diagnostics_.error_unless(!r_.topology.has_all_links, place, "not enough disjoint paths", {"1 between " + name(from_) + " and " + name(node), "2 paths that share no link between switches"});
+    warn_of_shared_nodes(*paths);
+    members.paths.insert(members.paths.end(), paths->begin(), paths->end());
+  }
+
+  void warn_of_shared_nodes(const std::array<Path, 2>& paths) {
+    for (std::size_t i = 1; i + 1 < paths[0].size(); ++i) {
+      const std::uint32_t node = paths[0][i];
+      const bool is_attachment = (i == 1 && has_one_link(from_)) || (i + 2 == paths[0].size() && has_one_link(paths[0].back()));
+      if (is_attachment || std::ranges::find(paths[1], node) == paths[1].end() || !warned_.insert(node).second) continue;
+      diagnostics_.warning(redundancy_.where.place(), "redundant paths that meet in a switch", {name(node), "links around it"});
+    }
+  }
+
+  const Resolved& r_;
+  const Redundancy& redundancy_;
+  std::uint32_t from_;
+  RedundantTrees trees_;
+  json::Diagnostics& diagnostics_;
+  std::set<std::uint32_t> warned_;
+};
+
 /// From the first bit leaving the split to the last bit at the merge, if nothing is in the way.
 Duration undisturbed_delay(const Resolved& r, const Path& path, std::uint32_t split, std::uint32_t merge, Octets frame) {
   Duration delay;
@@ -163,6 +222,11 @@ Duration undisturbed_delay(const Resolved& r, const Path& path, std::uint32_t sp
 std::optional<MemberPaths> lay_members(const Resolved& resolved, const Redundancy& redundancy, std::uint32_t from, std::uint32_t to,
                                        json::Diagnostics& diagnostics) {
   return MemberLayer(resolved, redundancy, from, to, diagnostics).lay();
+}
+
+std::optional<MemberPaths> lay_member_trees(const Resolved& resolved, const Redundancy& redundancy, std::uint32_t from,
+                                            const std::vector<std::pair<std::uint32_t, json::Place>>& to, json::Diagnostics& diagnostics) {
+  return TreeLayer(resolved, redundancy, from, diagnostics).lay(to);
 }
 
 models::StreamRecoveryConfig recovery_config(const Resolved& r, const ResolvedRedundancy& redundancy, json::Diagnostics& diagnostics) {
@@ -188,7 +252,7 @@ models::StreamRecoveryConfig recovery_config(const Resolved& r, const ResolvedRe
   Duration least = Duration::max();
   Duration greatest;
   for (const Path& path : resolved.paths) {
-    const Duration delay = undisturbed_delay(r, path, redundancy.split, redundancy.merge, frame);
+    const Duration delay = undisturbed_delay(r, path, redundancy.split, redundancy.merges_in_host ? path.back() : redundancy.merge, frame);
     least = std::min(least, delay);
     greatest = std::max(greatest, delay);
   }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "scenario/resolve/resolved.hpp"
@@ -21,6 +23,10 @@ struct MemberPaths {
 /// The paths that the description asks for, from host to host. Nothing if there are none (reported, with the reason).
 std::optional<MemberPaths> lay_members(const Resolved& resolved, const Redundancy& redundancy, std::uint32_t from, std::uint32_t to,
                                        json::Diagnostics& diagnostics);
+
+/// The same for several receivers: two trees. The paths to the first receiver come first.
+std::optional<MemberPaths> lay_member_trees(const Resolved& resolved, const Redundancy& redundancy, std::uint32_t from,
+                                            const std::vector<std::pair<std::uint32_t, json::Place>>& to, json::Diagnostics& diagnostics);
 
 /// What the description says of recovery; `compound` is what frames are addressed to behind it. A history that is shorter than the
 /// lead that one path may have is a warning.

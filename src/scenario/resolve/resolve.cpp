@@ -261,7 +261,7 @@ class Resolver {
     }
     resolved.first_publisher_id = static_cast<std::uint16_t>(publishers_ + 1);
     publishers_ += wanted;
-    if (!lay_program_streams(r_, *builder_, resolved)) return;
+    if (!lay_program_streams(r_, *builder_, resolved, diagnostics_)) return;
     resolve_replies(r_.topology, resolved);
     r_.programs.push_back(std::move(resolved));
   }

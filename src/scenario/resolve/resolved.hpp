@@ -30,11 +30,12 @@ struct StreamDemand {
 
 struct ResolvedStream {
   models::StreamIndex index;         ///< in plan.streams
-  std::vector<Path> paths;           ///< one for each listener
+  std::vector<Path> paths;           ///< one for each listener; of a redundant stream for each listener one for each member
   StreamDemand demand;
   json::Source where;
   bool of_program = false;
   Octets largest_payload{0};
+  bool finds_its_way = true;         ///< rerouting may lay other paths
 };
 
 struct ResolvedProcessData {
@@ -74,6 +75,7 @@ struct ResolvedProgram {
   std::vector<ResolvedReply> replies;                   ///< as in the description
   std::vector<ResolvedProcessing> processing;           ///< by participant; empty without replies
   std::vector<Duration> phases;                         ///< of publishing, by participant
+  std::shared_ptr<const Redundancy> redundancy = {};    ///< of its messages; null: none
   Duration receive_timeout;
   std::uint16_t first_publisher_id = 1;                 ///< of the master
   Duration announce_every = {};                         ///< with roles
@@ -170,12 +172,13 @@ struct PortDemand {
   }
 };
 
-/// A stream that is split into members and made one again. Its ResolvedStream has a path for each member.
+/// A stream that is split into members and made one again. Its ResolvedStream has a path for each member to each listener.
 struct ResolvedRedundancy {
   models::StreamIndex stream;
   const Redundancy* description = nullptr;
   std::uint32_t split = 0;                     ///< node
-  std::uint32_t merge = 0;                     ///< node
+  std::uint32_t merge = 0;                     ///< node; of several listeners, each of which merges for itself, none
+  static constexpr std::uint32_t nobody = 0xFFFF'FFFF;
   std::vector<models::StreamMember> members;   ///< by path
   bool splits_in_host = false;                 ///< at the talker, not by what a bridge does to frames that come in
   bool merges_in_host = false;                 ///< at the listener

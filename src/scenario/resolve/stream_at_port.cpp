@@ -22,7 +22,7 @@ class Walker {
     for (const ResolvedStream& stream : r_.streams) {
       const auto redundant = redundancies_.find(stream.index.value);
       seen_.clear();
-      for (std::size_t i = 0; i < stream.paths.size(); ++i) walk(stream, stream.paths[i], redundant == redundancies_.end() ? nullptr : redundant->second, i);
+      for (std::size_t i = 0; i < stream.paths.size(); ++i) walk(stream, stream.paths[i], redundant == redundancies_.end() ? nullptr : redundant->second, redundant == redundancies_.end() ? i : i % redundant->second->members.size());
     }
     return std::move(found_);
   }

@@ -1,6 +1,7 @@
 #include "scenario/resolve/stream_builder.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "models/ethernet/sizes.hpp"
@@ -49,7 +50,8 @@ std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
     return std::nullopt;
   }
 
-  const bool is_group = wanted.to.size() > 1 || wanted.is_group || wanted.path != nullptr || members || identified_.contains(wanted.name);
+  const bool is_on_a_way = std::ranges::any_of(wanted.to, [&](const auto& receiver) { return way_between(wanted, receiver.first).has_value(); });
+  const bool is_group = wanted.to.size() > 1 || wanted.is_group || wanted.path != nullptr || is_on_a_way || members || identified_.contains(wanted.name);
   const models::AddressIndex address = is_group ? new_group() : models::AddressIndex{wanted.to.front().first};
   models::StreamPlan plan;
   plan.name = wanted.name;
@@ -68,7 +70,7 @@ std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
 
   const models::StreamIndex index{static_cast<std::uint32_t>(r_.plan.streams.size())};
   r_.plan.streams.push_back(std::move(plan));
-  r_.streams.push_back({index, std::move(paths), {}, wanted.where, wanted.of_program, wanted.payload});
+  r_.streams.push_back({index, std::move(paths), {}, wanted.where, wanted.of_program, wanted.payload, wanted.path == nullptr && !is_on_a_way && !members});
   if (members) add_members(wanted, *members, index);
   return index;
 }
@@ -103,14 +105,40 @@ std::vector<Path> StreamBuilder::paths_of(const NewStream& wanted) {
     return paths;
   }
   for (const auto& [to, place] : wanted.to) {
-    auto path = wanted.to.size() == 1 ? router_.to_host(*wanted.from, to) : router_.from_host(*wanted.from, to);
+    auto path = way_between(wanted, to);
+    if (!path) path = wanted.to.size() == 1 ? router_.to_host(*wanted.from, to) : router_.from_host(*wanted.from, to);
     if (path)
       paths.push_back(std::move(*path));
     else
       diagnostics_.error_unless(!r_.topology.has_all_links, place, "no path", {json::quote(r_.topology.nodes[to].name) + " cannot be reached from " + json::quote(r_.topology.nodes[*wanted.from].name),
                                             "links that join them over switches"});
   }
+  if (wanted.ways != nullptr) check_tree(wanted, paths);
   return paths;
+}
+
+std::optional<Path> StreamBuilder::way_between(const NewStream& wanted, std::uint32_t to) const {
+  if (wanted.ways == nullptr) return std::nullopt;
+  for (const std::vector<std::string>& names : *wanted.ways) {
+    Path path;
+    for (const std::string& name : names) path.push_back(*r_.topology.find(name));
+    if (path.front() == to && path.back() == *wanted.from) std::ranges::reverse(path);
+    if (path.front() == *wanted.from && path.back() == to) return path;
+  }
+  return std::nullopt;
+}
+
+/// Frames to several receivers are copied where their ways part; ways that meet again would bring copies.
+void StreamBuilder::check_tree(const NewStream& wanted, const std::vector<Path>& paths) {
+  std::map<std::uint32_t, std::uint32_t> before;
+  for (const Path& path : paths)
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const auto [known, is_new] = before.try_emplace(path[i], path[i - 1]);
+      if (is_new || known->second == path[i - 1]) continue;
+      diagnostics_.error(wanted.where.at("paths"), "ways that meet again",
+                         {"those of " + json::quote(wanted.name) + " at " + json::quote(r_.topology.nodes[path[i]].name), "ways from " + json::quote(r_.topology.nodes[path[0]].name) + " that part and do not meet, as of a tree"});
+      return;
+    }
 }
 
 std::optional<Path> StreamBuilder::explicit_path(const NewStream& wanted) {
@@ -124,16 +152,15 @@ std::optional<Path> StreamBuilder::explicit_path(const NewStream& wanted) {
 
 std::optional<MemberPaths> StreamBuilder::member_paths(const NewStream& wanted) {
   const Redundancy& redundancy = *wanted.redundancy;
-  if (wanted.to.size() != 1)
-    diagnostics_.error(redundancy.where.place(), "redundancy for several receivers", {std::to_string(wanted.to.size()) + " receivers", "one receiver"});
   if (wanted.path != nullptr)
     diagnostics_.error(wanted.where.at("path"), "a path of a redundant stream", {"\"path\" beside \"redundancy\"", "\"paths\" in \"redundancy\""});
   if (!redundancy.vlans.empty() && !wanted.priority)
     diagnostics_.error(redundancy.where.at("vlans"), "a VLAN without a priority", {"\"vlans\" of an untagged stream", "\"pcp\" too, since the tag carries both"});
-  if (wanted.to.size() != 1 || wanted.path != nullptr) return std::nullopt;
-  std::optional<MemberPaths> members = lay_members(r_, redundancy, *wanted.from, wanted.to.front().first, diagnostics_);
-  if (members && !redundancy.vlans.empty() && redundancy.vlans.size() != members->paths.size())
-    diagnostics_.error(redundancy.where.at("vlans"), "not a VLAN for each path", {std::to_string(redundancy.vlans.size()), std::to_string(members->paths.size())});
+  if (wanted.path != nullptr) return std::nullopt;
+  std::optional<MemberPaths> members = wanted.to.size() == 1 ? lay_members(r_, redundancy, *wanted.from, wanted.to.front().first, diagnostics_)
+                                                             : lay_member_trees(r_, redundancy, *wanted.from, wanted.to, diagnostics_);
+  if (const std::size_t count = members ? members->paths.size() / wanted.to.size() : 0; members && !redundancy.vlans.empty() && redundancy.vlans.size() != count)
+    diagnostics_.error(redundancy.where.at("vlans"), "not a VLAN for each path", {std::to_string(redundancy.vlans.size()), std::to_string(count)});
   return members;
 }
 
@@ -144,23 +171,26 @@ void StreamBuilder::add_members(const NewStream& wanted, const MemberPaths& memb
   made.stream = index;
   made.description = wanted.redundancy;
   made.split = members.paths.front()[members.split];
-  made.merge = members.paths.front()[members.merge(members.paths.front())];
+  made.merge = wanted.to.size() == 1 ? members.paths.front()[members.merge(members.paths.front())] : ResolvedRedundancy::nobody;
   made.splits_in_host = members.split == 0;
   made.merges_in_host = members.after_merge == 0;
   const models::AddressIndex compound = r_.plan.streams[index.value].destination;
-  for (std::size_t i = 0; i < members.paths.size(); ++i) {
-    const Path& path = members.paths[i];
+  for (std::size_t i = 0; i < members.paths.size() / wanted.to.size(); ++i) {
     models::StreamMember member;
     member.destination = new_group();
     member.vlan = wanted.redundancy->vlans.empty() ? wanted.vlan : wanted.redundancy->vlans[i];
-    member.port = *r_.topology.port_towards(path[0], path[1]);
+    member.port = *r_.topology.port_towards(members.paths[i][0], members.paths[i][1]);
+    made.members.push_back(member);
+  }
+  for (std::size_t i = 0; i < members.paths.size(); ++i) {
+    const Path& path = members.paths[i];
+    const models::StreamMember& member = made.members[i % made.members.size()];
     // Before the split and behind the merge there is one stream; the node that splits forwards members already, the one that
     // merges the stream: but a host at the end of the path gets members, and merges them itself.
     for_each_entry(r_.topology, path, [&](std::size_t at, std::uint16_t port) {
       const bool is_member = at >= members.split && (at < members.merge(path) || made.merges_in_host);
       add_entry(path[at], port, is_member ? member.vlan : wanted.vlan, is_member ? member.destination : compound);
     });
-    made.members.push_back(member);
   }
   r_.redundancies.push_back(std::move(made));
 }

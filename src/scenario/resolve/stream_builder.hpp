@@ -23,6 +23,7 @@ struct NewStream {
   Octets headers{0};
   Octets payload{0};                                          ///< the greatest
   const std::vector<std::string>* path = nullptr;             ///< names of all nodes, for one receiver
+  const std::vector<std::vector<std::string>>* ways = nullptr;  ///< sound paths, of which those are taken that join the sender and a receiver, in either direction
   const Redundancy* redundancy = nullptr;                     ///< or null
   bool of_program = false;
   std::uint16_t ether_type = 0;                               ///< see models::StreamPlan
@@ -47,6 +48,8 @@ class StreamBuilder {
   bool check_size(const NewStream& wanted);
   void check_names_of_paths(const NewStream& wanted);
   std::vector<Path> paths_of(const NewStream& wanted);
+  std::optional<Path> way_between(const NewStream& wanted, std::uint32_t to) const;
+  void check_tree(const NewStream& wanted, const std::vector<Path>& paths);
   std::optional<Path> explicit_path(const NewStream& wanted);
   std::optional<MemberPaths> member_paths(const NewStream& wanted);
   models::AddressIndex new_group();

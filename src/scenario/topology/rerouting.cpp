@@ -30,12 +30,12 @@ Topology without_links(const Topology& topology, const std::vector<std::uint32_t
 }
 
 /// The entries of all streams that find their own path; `before` are those in force, which a receiver keeps that is cut off.
-Tables tables_of(const Resolved& r, const Topology& topology, const std::set<std::string_view>& fixed, const Tables& before) {
+Tables tables_of(const Resolved& r, const Topology& topology, const Tables& before) {
   Router router(topology);
   Tables tables;
   for (const ResolvedStream& stream : r.streams) {
     const models::StreamPlan& plan = r.plan.streams[stream.index.value];
-    if (fixed.contains(plan.name)) continue;
+    if (!stream.finds_its_way) continue;
     bool cut_off = false;
     for (const models::NodeIndex listener : plan.listeners) {
       const auto path = plan.listeners.size() == 1 ? router.to_host(plan.talker.value, listener.value) : router.from_host(plan.talker.value, listener.value);
@@ -53,16 +53,13 @@ Tables tables_of(const Resolved& r, const Topology& topology, const std::set<std
 
 std::vector<ResolvedAction> plan_rerouting(const Resolved& r, const std::vector<Outage>& outages, Duration delay) {
   std::vector<ResolvedAction> actions;
-  std::set<std::string_view> fixed;
-  for (const Stream& stream : r.scenario.streams)
-    if (stream.path || stream.redundancy) fixed.insert(stream.name);
   std::vector<std::uint32_t> reasons_down(r.plan.links.size(), 0);
   Tables tables;
   for (const models::FilteringPlan& entry : r.plan.filtering) tables[{entry.node.value, entry.vlan, entry.address.value}].insert(entry.port);
   for (std::size_t i = 0; i < outages.size(); ++i) {
     for (const std::uint32_t link : outages[i].links) reasons_down[link] += outages[i].up ? -1u : 1u;
     if (i + 1 < outages.size() && outages[i + 1].at == outages[i].at) continue;
-    const Tables next = tables_of(r, without_links(r.topology, reasons_down), fixed, tables);
+    const Tables next = tables_of(r, without_links(r.topology, reasons_down), tables);
     ResolvedRoutes routes;
     for (const auto& [key, ports] : next) {
       const auto& [node, vlan, address] = key;

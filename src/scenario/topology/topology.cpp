@@ -32,7 +32,11 @@ class Builder {
       for (End* end : {&link.a, &link.b})
         if (end->port) claim_named(*end, *link.link);
     for (const GeneratedLink& link : generated_links_) join({link.a, {}, 0}, {link.b, {}, 0}, link.rate, link.delay);
-    for (const ParsedLink& link : parsed) join(link.a, link.b, link.link->rate, delay_of(*link.link));
+    for (const ParsedLink& link : parsed) {
+      join(link.a, link.b, link.link->rate, delay_of(*link.link));
+      parsed_where_.push_back(link.link->where);
+    }
+    check_pairs();
     for (std::uint32_t n = 0; n < topology_.nodes.size(); ++n)
       topology_.chooses_ports.push_back(topology_.nodes[n].forwards() || std::ranges::any_of(topology_.neighbours[n], [](const Neighbour& neighbour) { return neighbour.port > 0; }));
     check_port_counts();
@@ -78,7 +82,7 @@ class Builder {
 
   /// Whether it is known what nodes a generator makes.
   bool has_shape(const Generator& generator) const {
-    constexpr std::string_view keys[] = {"topology", "switches", "depth", "fanout", "rows", "columns", "hosts_per_switch", "switch_prefix", "host_prefix", "teeth", "degree", "seed"};
+    constexpr std::string_view keys[] = {"topology", "switches", "stations", "station_prefix", "depth", "fanout", "rows", "columns", "hosts_per_switch", "switch_prefix", "host_prefix", "teeth", "degree", "seed"};
     const bool is_read = generator.where.is_known() || !diagnostics_.has_errors();
     return is_read && std::none_of(std::begin(keys), std::end(keys), [&](std::string_view key) { return diagnostics_.is_refused(generator.where.at(key)); });
   }
@@ -217,13 +221,26 @@ class Builder {
     return node.is_end_station() && !node.is_of_unknown_kind ? most_end_station_ports : std::size_t{most_ports};
   }
 
+  /// Paths are told by their nodes, so an end station that has two links to one neighbour would never use the second.
+  void check_pairs() {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> joined;
+    for (std::size_t l = generated_links_.size(); l < topology_.links.size(); ++l) {
+      const std::uint32_t a = topology_.links[l].a.node.value;
+      const std::uint32_t b = topology_.links[l].b.node.value;
+      const bool has_end_station = topology_.nodes[a].is_end_station() || topology_.nodes[b].is_end_station();
+      if (joined.insert(std::minmax(a, b)).second || !has_end_station || topology_.nodes[a].is_of_unknown_kind || topology_.nodes[b].is_of_unknown_kind) continue;
+      diagnostics_.error(parsed_where_[l - generated_links_.size()].at("ends"), "a second link to one neighbour",
+                         {"two links between " + json::quote(topology_.nodes[a].name) + " and " + json::quote(topology_.nodes[b].name), "interfaces of a host or station that lead to different nodes"});
+    }
+  }
+
   void check_port_counts() {
     for (std::uint32_t n = 0; n < topology_.nodes.size(); ++n) {
       const TopologyNode& node = topology_.nodes[n];
       const std::size_t count = topology_.neighbours[n].size();
       if (const std::size_t most = most_ports_of(node); count > most)
         diagnostics_.error(node.where.place(), "too many links at one node",
-                           {std::to_string(count) + " at " + json::quote(node.name), "at most " + std::to_string(most) + (node.is_end_station() ? node.forwards() ? " at a station" : " at a host" : "")});
+                           {std::to_string(count), "at most " + std::to_string(most) + (!node.is_end_station() ? "" : node.forwards() ? " of a station" : " of a host")});
       if (node.is_end_station() && !node.is_of_unknown_kind && count == 0 && topology_.has_all_links)
         diagnostics_.warning(node.where.place(), node.forwards() ? "a station without a link" : "a host without a link", {json::quote(node.name)});
     }
@@ -235,6 +252,7 @@ class Builder {
   std::vector<std::set<std::uint16_t>> used_ports_;
   std::vector<std::uint16_t> next_port_;  // below it all ports of the node are used
   std::vector<GeneratedLink> generated_links_;
+  std::vector<json::Source> parsed_where_;   // of the links behind them
 };
 
 }  // namespace

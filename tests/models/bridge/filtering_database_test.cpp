@@ -34,12 +34,23 @@ Ports ports_of(const FilteringDatabase& database, VlanId vlan, std::uint32_t add
 TEST(FilteringDatabase, KnowsOnePortAtOnce) {
   FilteringDatabase database;
   EXPECT_EQ(database.port_at_once(1, AddressIndex{5}), FilteringDatabase::not_at_once);
-  database.add(1, AddressIndex{5}, 0x7FFF);
-  EXPECT_EQ(database.port_at_once(1, AddressIndex{5}), 0x7FFFu);
+  database.add(1, AddressIndex{5}, 0x7FFE);
+  EXPECT_EQ(database.port_at_once(1, AddressIndex{5}), 0x7FFEu);
   EXPECT_EQ(database.port_at_once(2, AddressIndex{5}), FilteringDatabase::not_at_once);
   EXPECT_EQ(database.port_at_once(1, AddressIndex{4}), FilteringDatabase::not_at_once);
   database.add(1, AddressIndex{5}, 3);
   EXPECT_EQ(database.port_at_once(1, AddressIndex{5}), FilteringDatabase::not_at_once);
+}
+
+// The internal port of a station is none of those that a frame is handed to at once.
+TEST(FilteringDatabase, NeverKnowsTheInternalPortAtOnce) {
+  FilteringDatabase database;
+  database.add(1, AddressIndex{5}, internal_port);
+  EXPECT_EQ(database.port_at_once(1, AddressIndex{5}), FilteringDatabase::not_at_once);
+  EXPECT_EQ(database.entries(), 1u);
+  EXPECT_EQ(ports_of(database, 1, 5), Ports{internal_port});
+  database.add(1, AddressIndex{5}, 2);
+  EXPECT_EQ(ports_of(database, 1, 5), (Ports{2, internal_port}));
 }
 
 TEST(FilteringDatabase, EmptyKnowsNothing) {

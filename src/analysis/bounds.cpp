@@ -11,6 +11,7 @@
 #include "analysis/program_assessment.hpp"
 #include "analysis/program_reactions.hpp"
 #include "analysis/separated_flow.hpp"
+#include "analysis/surviving_copies.hpp"
 #include "results/run_result.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "sim/check.hpp"
@@ -80,6 +81,8 @@ class StreamBounds {
       bounds[s].loses_nothing = true;
     }
     for (const Flow& flow : graph_.flows) take(flow, bounds[flow.stream.value]);
+    for (StreamBound& bound : bounds) bound.reaches_all = bound.loses_nothing;
+    for (const scenario::ResolvedRedundancy& redundancy : r_.redundancies) look_for_copies(redundancy, bounds[redundancy.stream.value]);
     for (StreamBound& bound : bounds)
       if (bound.least == Duration::max()) {
         bound.least = Duration();
@@ -127,14 +130,38 @@ class StreamBounds {
     if (bound.loss_reason.empty()) bound.loss_reason = std::move(why);
   }
 
+  std::string name_of(const GraphPort& port) const { return r_.plan.nodes[port.node.value].name + ":" + std::to_string(port.number); }
+
+  /// What loses frames there although nothing has failed; empty: nothing.
+  std::string own_loss(const Hop& hop) const {
+    const GraphPort& port = graph_.ports[hop.port];
+    if (!has_room(hop)) return "a full queue may drop frames at " + name_of(port);
+    if (network_.hops[static_cast<std::size_t>(&hop - graph_.hops.data())].may_drop) return "a stream filter may drop frames before " + name_of(port);
+    return {};
+  }
+  std::string chance_loss(const Hop& hop) const {
+    const GraphPort& port = graph_.ports[hop.port];
+    for (const models::ImpairmentPlan& each : r_.plan.impairments)
+      if (each.link == port.link && each.from_a_to_b == port.from_a && (each.impairment.loss || each.impairment.corruption)) return "chance loses frames on the link of " + name_of(port);
+    return {};
+  }
+
   void look_for_losses(const Hop& hop, StreamBound& bound) const {
     const GraphPort& port = graph_.ports[hop.port];
-    const auto at = [&] { return r_.plan.nodes[port.node.value].name + ":" + std::to_string(port.number); };
-    if (!has_room(hop)) lose(bound, "a full queue may drop frames at " + at());
-    if (network_.hops[static_cast<std::size_t>(&hop - graph_.hops.data())].may_drop) lose(bound, "a stream filter may drop frames before " + at());
-    if (outages_.takes_link(port.link)) lose(bound, "the link of " + at() + " goes down", true);
-    for (const models::ImpairmentPlan& each : r_.plan.impairments)
-      if (each.link == port.link && each.from_a_to_b == port.from_a && (each.impairment.loss || each.impairment.corruption)) lose(bound, "chance loses frames on the link of " + at(), true);
+    if (std::string why = own_loss(hop); !why.empty()) lose(bound, std::move(why));
+    if (outages_.takes_link(port.link)) lose(bound, "the link of " + name_of(port) + " goes down", true);
+    if (std::string why = chance_loss(hop); !why.empty()) lose(bound, std::move(why), true);
+  }
+
+  void look_for_copies(const scenario::ResolvedRedundancy& redundancy, StreamBound& bound) const {
+    const auto flow = std::ranges::find(graph_.flows, redundancy.stream, &Flow::stream);
+    if (bound.loses_nothing || flow == graph_.flows.end() || flow->may_miss_launch || std::ranges::count(graph_.flows, redundancy.stream, &Flow::stream) != 1) return;
+    const std::string why = why_copies_may_be_lost(r_, graph_, *flow, redundancy, bound, outages_, [this](const Hop& hop) {
+      std::string own = own_loss(hop);
+      return own.empty() ? chance_loss(hop) : own;
+    });
+    bound.reaches_all = why.empty();
+    if (!why.empty()) bound.loss_reason = why;
   }
 
   /// The hops of the slowest way to this one.
@@ -200,7 +227,7 @@ void withdraw(Bounds& bounds) {
     if (why.empty()) continue;
     stream.latency = stream.total_flow = stream.separated_flow = std::nullopt;
     std::fill(stream.by_listener.begin(), stream.by_listener.end(), std::nullopt);
-    stream.loses_nothing = false;
+    stream.loses_nothing = stream.reaches_all = false;
     stream.loss_reason = why;
     stream.reason = why;
   }
@@ -264,7 +291,7 @@ class RequirementBounds {
     using handshake::Cause;
     if (cause) return bound.cause == (*cause == Cause::nested || *cause == Cause::mismatch ? Cause::command : *cause);   // these spread as a call does
     if (bound.cause == Cause::command) return true;
-    const std::vector<Cause> causes = causes_of_halts(r_, bound.program, bound.of_tree);
+    const std::vector<Cause> causes = causes_of_halts(r_, bounds_, bound.program, bound.of_tree);
     return std::find(causes.begin(), causes.end(), bound.cause) != causes.end();
   }
 

@@ -42,8 +42,9 @@ struct StreamBound {
   std::vector<std::optional<sim::Duration>> by_listener;   ///< as in the plan
   std::vector<HopBound> hops;                 ///< to that listener
   bool loses_nothing = false;                 ///< queues have room for every backlog and nothing else drops its frames
+  bool reaches_all = false;                   ///< each frame comes to each listener: nothing is lost, or a copy is left
   bool loses_by_faults_only = true;           ///< would lose nothing if nothing failed
-  std::string loss_reason;                    ///< what may drop them
+  std::string loss_reason;                    ///< what may drop them, or the copies
   std::string reason;                         ///< why there is no bound
   Assumptions assumptions;
 };

@@ -103,8 +103,10 @@ class FigureBounder {
       if (figure_.steps.size() < 3 || (figure_.steps[1] != "*" && figure_.steps[1] != stream.name)) continue;
       if (has_steps(figure_, {"streams", "?", "latency_ps", "?"}))
         add_latency(stream);
-      else if (has_steps(figure_, {"streams", "?", "lost"}) || has_steps(figure_, {"streams", "?", "dropped", "?"}))
-        add_losses(stream);
+      else if (has_steps(figure_, {"streams", "?", "lost"}))
+        add_losses(stream, stream.reaches_all);
+      else if (has_steps(figure_, {"streams", "?", "dropped", "?"}))
+        add_losses(stream, stream.loses_nothing);
       else if (has_steps(figure_, {"streams", "?", "delivered"}))
         add_delivered(stream);
     }
@@ -119,13 +121,13 @@ class FigureBounder {
       values_.add(number(stream.least), number(stream.latency), stream.reason);
   }
 
-  void add_losses(const StreamBound& stream) {
+  void add_losses(const StreamBound& stream, bool is_without) {
     values_.rest_on(stream.assumptions);
-    values_.add(0, stream.loses_nothing ? std::optional(0.0) : std::nullopt, stream.loss_reason);
+    values_.add(0, is_without ? std::optional(0.0) : std::nullopt, stream.loss_reason);
   }
 
   void add_all_drops() {
-    for (const StreamBound& stream : bounds_.streams) add_losses(stream);
+    for (const StreamBound& stream : bounds_.streams) add_losses(stream, stream.loses_nothing);
     if (!r_.plan.gptp.empty()) values_.add(0, std::nullopt, "takt has no bound for what is dropped of gPTP");
   }
 
@@ -177,7 +179,7 @@ DeliveredFrames frames_delivered(const scenario::Resolved& resolved, const Strea
   const Duration shortest = Duration::from_ps(stream->every->ps() - scaled_up(stream->every->ps(), clock.rate_ppt, 1'000'000'000'000));
   const Duration longest = Duration::from_ps(scaled_up(stream->every->ps(), 1'000'000'000'000 + clock.rate_ppt, 1'000'000'000'000));
   const Duration unsure = Duration::from_ps(2 * clock.error);
-  if (!bound.loses_nothing || !bound.latency) {
+  if (!bound.reaches_all || !bound.latency) {
     frames.least = 0;
     frames.reason = !bound.reason.empty() ? bound.reason : bound.loss_reason;
   } else {

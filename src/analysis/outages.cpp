@@ -68,7 +68,7 @@ class PathFinder {
 
 }  // namespace
 
-Outages::Outages(const scenario::Resolved& resolved) : links_(resolved.plan.links.size()), nodes_(resolved.plan.nodes.size()) {
+Outages::Outages(const scenario::Resolved& resolved) : resolved_(&resolved), links_(resolved.plan.links.size()), nodes_(resolved.plan.nodes.size()) {
   for (const scenario::ResolvedAction& action : resolved.script) {
     if (!happens(resolved, action)) continue;
     if (const auto* const link = std::get_if<scenario::ResolvedLink>(&action.what)) {
@@ -83,6 +83,33 @@ Outages::Outages(const scenario::Resolved& resolved) : links_(resolved.plan.link
     const models::LinkPlan& link = resolved.plan.links[l];
     if (nodes_[link.a.node.value] || nodes_[link.b.node.value]) links_[l] = true;
   }
+}
+
+std::vector<Outage> Outages::of_link(std::uint32_t link) const {
+  std::vector<Outage> found;
+  if (!links_[link]) return found;
+  const models::LinkPlan& plan = resolved_->plan.links[link];
+  // Up again when the last of several faults ends.
+  const auto note = [&](const auto& is_cause) {
+    std::size_t reasons = 0;
+    for (const scenario::ResolvedAction& action : resolved_->script) {
+      const std::optional<bool> up = happens(*resolved_, action) ? is_cause(action) : std::nullopt;
+      if (!up) continue;
+      if (!*up && reasons++ == 0) found.push_back({action.at});
+      if (*up && --reasons == 0) found.back().up = action.at;
+    }
+  };
+  note([&](const scenario::ResolvedAction& action) -> std::optional<bool> {
+    const auto* const change = std::get_if<scenario::ResolvedLink>(&action.what);
+    return change != nullptr && change->link == link ? std::optional(change->up) : std::nullopt;
+  });
+  for (const models::NodeIndex end : {plan.a.node, plan.b.node}) {
+    note([&](const scenario::ResolvedAction& action) -> std::optional<bool> {
+      const auto* const change = std::get_if<scenario::ResolvedNode>(&action.what);
+      return change != nullptr && change->node == end ? std::optional(change->up) : std::nullopt;
+    });
+  }
+  return found;
 }
 
 std::optional<std::vector<PossiblePath>> rerouted_paths(const scenario::Resolved& resolved, const scenario::ResolvedStream& stream) {

@@ -10,6 +10,12 @@
 
 namespace takt::analysis {
 
+/// From when to when something is down; to the end if it does not come back.
+struct Outage {
+  sim::TrueTime down;
+  sim::TrueTime up = sim::TrueTime::never();
+};
+
 /// Within the simulated time; what the script does at its end or later is left out.
 class Outages {
  public:
@@ -18,9 +24,12 @@ class Outages {
   bool any() const { return any_; }
   /// The link, or one of its ends, is down at some time.
   bool takes_link(std::uint32_t link) const { return links_[link]; }
+  /// When: of the link itself, and of the nodes at its ends.
+  std::vector<Outage> of_link(std::uint32_t link) const;
   bool takes_node(models::NodeIndex node) const { return nodes_[node.value]; }
 
  private:
+  const scenario::Resolved* resolved_;
   bool any_ = false;
   std::vector<bool> links_;
   std::vector<bool> nodes_;

@@ -82,13 +82,13 @@ void assess_programs(const scenario::Resolved& resolved, Bounds& bounds) {
   for (std::size_t p = 0; p < resolved.programs.size(); ++p) {
     const scenario::ResolvedProgram& program = resolved.programs[p];
     for (const scenario::ResolvedMember& each : program.participants())
-      if (const StreamBound& state = bounds.streams[each.state.value]; !state.loses_nothing) bounds.ledger.leave_open(Assumption::no_loss, state.name + ": " + state.loss_reason);
+      if (const StreamBound& state = bounds.streams[each.state.value]; !state.reaches_all) bounds.ledger.leave_open(Assumption::no_loss, state.name + ": " + state.loss_reason);
     if (program.has_roles() && !resolved.script.empty()) {
       bounds.ledger.leave_open(Assumption::program_publishes, "who has a role in " + program.name + " is settled while it runs");
       continue;
     }
     if (program.description->publish != scenario::Publish::on_change) continue;
-    const bool may_lose = std::ranges::any_of(program.participants(), [&](const scenario::ResolvedMember& each) { return !bounds.streams[each.state.value].loses_nothing; });
+    const bool may_lose = std::ranges::any_of(program.participants(), [&](const scenario::ResolvedMember& each) { return !bounds.streams[each.state.value].reaches_all; });
     if (may_lose) bounds.ledger.leave_open(Assumption::program_publishes, "lost messages may halt " + program.name + " at any time");
     std::optional<Duration> rest = time_to_rest(resolved, bounds, p);
     if (rest) *rest += program.description->cycle;

@@ -60,7 +60,7 @@ class GroupMaker {
     made_.of_faults = made_.assumptions;
     for (const scenario::ResolvedMember& each : program_.members) {
       const StreamBound& state = bounds_.streams[each.state.value];
-      if (state.loses_nothing) continue;
+      if (state.reaches_all) continue;
       made_.assumptions.add(Assumption::no_loss);
       // Whom a crash or a cut keeps words from finds that out by its own time-out.
       if (!state.loses_by_faults_only || !r_.plan.impairments.empty()) made_.of_faults.add(Assumption::no_loss);
@@ -250,15 +250,17 @@ class ScenarioReactions {
 
 }  // namespace
 
-std::vector<Cause> causes_of_halts(const scenario::Resolved& resolved, std::size_t program, bool of_tree) {
+std::vector<Cause> causes_of_halts(const scenario::Resolved& resolved, const Bounds& bounds, std::size_t program, bool of_tree) {
   std::vector<Cause> causes;
+  const bool loses_no_word = std::ranges::all_of(resolved.programs[program].members, [&](const scenario::ResolvedMember& each) { return bounds.streams[each.state.value].reaches_all; });
   for (const scenario::ProgramFault& fault : scenario::faults_of(resolved, resolved.programs[program])) {
+    if (fault.cause == Cause::cut && loses_no_word) continue;   // a copy is left
     causes.push_back(fault.cause.value_or(Cause::silence));
     if (fault.cause == Cause::crash && fault.until != sim::TrueTime::never()) causes.push_back(Cause::restart);
   }
   for (std::size_t inner = 0; of_tree && inner < resolved.programs.size(); ++inner)
     if (const auto& outer = resolved.programs[inner].outer; outer && outer->program == program) {
-      const std::vector<Cause> more = causes_of_halts(resolved, inner, true);
+      const std::vector<Cause> more = causes_of_halts(resolved, bounds, inner, true);
       causes.insert(causes.end(), more.begin(), more.end());
     }
   std::sort(causes.begin(), causes.end());

@@ -5,10 +5,10 @@
 
 namespace takt::analysis {
 
-/// `bounds` has its streams.
-/// What the faults of the scenario can halt the program by, or a tree of which it is the outermost one. Ascending.
-std::vector<handshake::Cause> causes_of_halts(const scenario::Resolved& resolved, std::size_t program, bool of_tree);
+/// What the faults of the scenario can halt the program by, or a tree of which it is the outermost one. Ascending. `bounds` has its streams.
+std::vector<handshake::Cause> causes_of_halts(const scenario::Resolved& resolved, const Bounds& bounds, std::size_t program, bool of_tree);
 
+/// `bounds` has its streams.
 void add_reactions(const scenario::Resolved& resolved, const BoundOptions& options, Bounds& bounds);
 
 }  // namespace takt::analysis

@@ -19,6 +19,7 @@ std::string separated_flow_reason_of(const ReportedStream& stream) { return stre
 Duration least_of(const ReportedStream& stream) { return stream.bound->least; }
 std::string reason_of_stream(const ReportedStream& stream) { return stream.bound->reason; }
 bool loses_nothing(const ReportedStream& stream) { return stream.bound->loses_nothing; }
+bool reaches_all(const ReportedStream& stream) { return stream.bound->reaches_all; }
 const std::vector<HopBound>& hops_of(const ReportedStream& stream) { return stream.bound->hops; }
 std::vector<std::string> assumptions_of_stream(const ReportedStream& stream) { return names_of(stream.bound->assumptions); }
 
@@ -102,6 +103,7 @@ const json::Record& describe(json::Type<ReportedStream>) {
       json::output<&ReportedStream::listener>("listener", "The listener that the bound is of."),
       json::output<&reason_of_stream>("reason", reason_help),
       json::output<&loses_nothing>("loses_nothing", "Queues have room for every backlog and nothing else drops its frames."),
+      json::output<&reaches_all>("reaches_all", "Each frame comes to each listener: nothing is lost, or of a redundant stream a copy is left whatever fails."),
       json::output<&hops_of>("hops", "To that listener."),
       json::output<&assumptions_of_stream>("assumptions", assumptions_help),
   };

@@ -53,7 +53,7 @@ class Prover {
     if (!proof.time || *proof.time > *required.longest) return;
     const bool is_of_stream = required.kind == RequirementKind::latency || required.kind == RequirementKind::jitter;
     if (is_of_stream && !scenario::requires_losses_separately(resolved_, required.subject, proof.from))
-      if (const analysis::StreamBound* const stream = stream_named(required.subject); stream == nullptr || !stream->loses_nothing) {
+      if (const analysis::StreamBound* const stream = stream_named(required.subject); stream == nullptr || !stream->reaches_all) {
         proof.reason = "frames may be lost, and no requirement \"dropped\" says how many" + (stream == nullptr ? std::string() : ": " + stream->loss_reason);
         return;
       }
@@ -161,7 +161,7 @@ class Prover {
     for (const auto& [stream, cycle, timeout] : messages_of(program)) {
       const analysis::StreamBound& state = bounds_.streams[stream.value];
       proof.assumptions.add(state.assumptions);
-      if (!state.loses_nothing && !is_lost_with_its_ends(program, state)) proof.assumptions.add(analysis::Assumption::no_loss);
+      if (!state.reaches_all && !is_lost_with_its_ends(program, state)) proof.assumptions.add(analysis::Assumption::no_loss);
       if (!is_heard_in_time(cycle, timeout, state)) {
         proof.reason = "a participant may be taken for silent: the time-out " + std::to_string(timeout.ps() / 1'000'000) + " us is not longer than a cycle and the bound of " + state.name;
         return proof;
@@ -175,12 +175,15 @@ class Prover {
     return proof;
   }
 
-  /// Nothing but crashes of participants loses its frames: that is what the explored crashes stand for.
+  /// Nothing but crashes of participants loses its frames: that is what the explored crashes stand for. One that forwards its frames cuts others off besides.
   bool is_lost_with_its_ends(const scenario::ResolvedProgram& program, const analysis::StreamBound& state) const {
     return state.loses_by_faults_only && resolved_.plan.impairments.empty() && std::all_of(resolved_.script.begin(), resolved_.script.end(), [&](const scenario::ResolvedAction& action) {
       const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what);
       const bool is_participant = node != nullptr && std::ranges::any_of(program.members, [&](const scenario::ResolvedMember& each) { return each.node == node->node; });
-      return is_participant || (node == nullptr && !std::holds_alternative<scenario::ResolvedLink>(action.what));
+      const bool forwards = is_participant && std::ranges::any_of(resolved_.streams[state.index.value].paths, [&](const scenario::Path& path) {
+        return path.front() != node->node.value && path.back() != node->node.value && std::ranges::find(path, node->node.value) != path.end();
+      });
+      return (is_participant && !forwards) || (node == nullptr && !std::holds_alternative<scenario::ResolvedLink>(action.what));
     });
   }
 

@@ -63,7 +63,7 @@ std::string contradiction_of_streams(const scenario::Resolved& resolved, const a
     const results::StreamResult& stream = result.streams[bound.index.value];
     if (bound.latency && stream.latency && stream.latency->max > *bound.latency) return exceeded("latency of " + bound.name, stream.latency->max, *bound.latency);
     if (bound.latency && stream.latency && stream.latency->min < bound.least) return exceeded("fastest frame of " + bound.name, stream.latency->min, bound.least);
-    if (bound.loses_nothing && stream.lost > 0) return bound.name + ": a run lost " + std::to_string(stream.lost) + " frames, though nothing can be lost";
+    if (bound.reaches_all && stream.lost > 0) return bound.name + ": a run lost " + std::to_string(stream.lost) + " frames, though nothing can be lost";
   }
   return {};
 }

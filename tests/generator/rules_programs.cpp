@@ -111,6 +111,17 @@ Made phases(Maker& m, const Scope& s) {
   return made;
 }
 
+/// A way between the master and another member.
+Made paths(Maker& m, const Scope& s) {
+  if (s.has("roles") || s.has("redundancy")) return std::nullopt;
+  const std::vector<std::string> all = members_of(*s.made);
+  const std::vector<std::string> nodes = m.world.path(m.draw, all.back(), all.front());
+  if (all.size() < 2 || all.front() == all.back() || nodes.size() < 2) return std::nullopt;
+  Node way = Node::array();
+  for (const std::string& each : nodes) way.items.push_back(text(each));
+  return list({std::move(way)});
+}
+
 Made process_data(Maker& m, const Scope& s) { return m.objects("process_data", m.wants(Feature::replies) ? 2 : m.draw.between(1, 3), s); }
 
 Made publisher(Maker& m, const Scope& s) {
@@ -218,6 +229,8 @@ std::span<const Rule> program_rules() {
          return m.draw.one_in(3) ? m.word("0 3 5 6 7") : Made();
        }},
       {.key = "program.vlan", .percent = 15, .words = "0 10"},
+      {.key = "program.redundancy", .feature = Feature::redundancy, .percent = 60, .words = "2"},
+      {.key = "program.paths", .feature = Feature::explicit_path, .percent = 50, .make = paths},
       {.key = "program.violations", .percent = 20},
       {.key = "program.publisher_id", .percent = 20, .make = [](Maker&, const Scope& s) -> Made { return number(1000 + 100 * s.number); }},
       {.key = "program.process_data", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return m.wants(Feature::replies) || m.draw.one_in(2) ? process_data(m, s) : std::nullopt; }},

@@ -43,13 +43,15 @@ Made path(Maker& m, const Scope& s) {
 
 bool is_redundant(Maker& m, const Scope& s) {
   const std::vector<std::string> listeners = receivers(s);
-  return m.world.switches.size() > 2 && listeners.size() == 1 && m.world.neighbours.at(s.text("from"))[0] != m.world.neighbours.at(listeners[0])[0] && !s.has("path");
+  if (listeners.size() > 1) return m.world.switches.size() > 2 && !s.has("path") && m.draw.one_in(2);   // over two trees
+  return m.world.switches.size() > 2 && m.world.neighbours.at(s.text("from"))[0] != m.world.neighbours.at(listeners[0])[0] && !s.has("path");
 }
 
 /// Two paths that share no switch but the first and the last one.
 Made paths(Maker& m, const Scope& s) {
   const Scope* const stream = s.around("stream");
   const std::vector<std::string> listeners = receivers(*stream);
+  if (listeners.size() > 1) return std::nullopt;
   const std::string from = stream->text("from"), last = listeners.at(0);
   const std::vector<std::string> first = m.world.path(m.draw, from, last);
   if (first.size() < 4) return std::nullopt;
@@ -65,6 +67,7 @@ Made paths(Maker& m, const Scope& s) {
 /// A place at the end of the paths.
 Made end_of_paths(Maker& m, const Scope& s, bool at_talker) {
   const Scope* const stream = s.around("stream");
+  if (receivers(*stream).size() > 1) return std::nullopt;
   const std::string host = at_talker ? stream->text("from") : receivers(*stream).at(0);
   return text(m.draw.one_in(2) ? host : m.world.neighbours.at(host)[0]);
 }

@@ -88,7 +88,7 @@ std::size_t RedundantTrees::place_of(std::uint32_t node) const { return static_c
 void RedundantTrees::insert(std::uint32_t root, std::vector<std::uint32_t> ear) {
   TAKT_CHECK(ear.size() >= 3, "an ear has a node of its own");
   const bool ends_earlier = ear.back() != root && ear.front() != root && place_of(ear.back()) < place_of(ear.front());
-  if (ends_earlier || ear.back() == root) std::ranges::reverse(ear);   // from the root, or from the earlier end
+  if (ends_earlier || (ear.back() == root && ear.front() != root)) std::ranges::reverse(ear);   // from the root, or from the earlier end
   const bool begins_at_root = ear.front() == root;
   const std::size_t at = begins_at_root ? 0 : place_of(ear.front()) + 1;
   for (std::size_t i = 1; i + 1 < ear.size(); ++i) parents_[ear[i]] = Parents{{ear[i - 1], ear[i + 1]}};

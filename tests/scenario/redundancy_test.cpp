@@ -15,6 +15,8 @@ std::vector<std::string> names(const Resolved& r, const Path& path) {
 }
 using Names = std::vector<std::string>;
 
+std::string mistakes(const std::string& text) { return load(text).diagnostics.to_text(); }
+
 /// source - s1 - {s2a, s2b} - s3 - destination, with that redundancy.
 std::string diamond(const std::string& redundancy, const std::string& more_links = {}) {
   return R"({"name": "t", "duration": "20ms", "network": {"nodes": {"source": {"kind": "host"}, "destination": {"kind": "host"},
@@ -58,6 +60,96 @@ TEST(Redundancy, HostsSplitAndMerge) { expect_each_frame_once(diamond(R"({"split
 TEST(Redundancy, AHostSplitsAndASwitchMerges) { expect_each_frame_once(diamond(R"({"split": "source"})")); }
 TEST(Redundancy, ASwitchSplitsAndAHostMerges) { expect_each_frame_once(diamond(R"({"merge": "destination", "individual": true, "algorithm": "match"})")); }
 TEST(Redundancy, MembersMayHaveVlansOfTheirOwn) { expect_each_frame_once(diamond(R"({"count": 2, "vlans": [11, 12], "keep_tag": true})")); }
+
+/// Hosts that are attached to two switches each, or stations in a ring.
+std::string attached_twice(const std::string& kind, const std::string& redundancy) {
+  return R"({"name": "t", "duration": "20ms", "network": {"nodes": {"source": {"kind": ")" + kind + R"("}, "destination": {"kind": ")" + kind + R"("},
+ "a": {"kind": "switch"}, "b": {"kind": "switch"}},
+ "links": [{"ends": ["source", "a"]}, {"ends": ["source", "b"]}, {"ends": ["a", "destination"]}, {"ends": ["b", "destination"]}]},
+ "streams": [{"name": "s", "from": "source", "to": "destination", "payload": "200B", "every": "1ms", "pcp": 4, "redundancy": )" + redundancy + "}]}";
+}
+
+TEST(Redundancy, HostsSendAndTakeByBothTheirInterfaces) {
+  const auto r = sound(attached_twice("host", "2"));
+  EXPECT_EQ(names(*r, r->streams[0].paths[0]), (Names{"source", "a", "destination"}));
+  EXPECT_EQ(names(*r, r->streams[0].paths[1]), (Names{"source", "b", "destination"}));
+  EXPECT_EQ(r->plan.host_splits.size(), 1u);
+  EXPECT_EQ(r->plan.host_recoveries.size(), 1u);
+  expect_each_frame_once(attached_twice("host", "2"));
+}
+TEST(Redundancy, StationsSendAndTakeByBothTheirPorts) { expect_each_frame_once(attached_twice("station", "2")); }
+
+/// Five stations in a ring; what the first sends goes to the others.
+std::string ring_of_stations(const std::string& more) {
+  return R"({"name": "t", "duration": "20ms", "network": {"generate": [{"topology": "ring", "stations": 5, "forwarding_delay": "1us"}]},
+ "streams": [{"name": "s", "from": "st1", "to": ["st2", "st3", "st4", "st5"], "payload": "200B", "every": "1ms", "pcp": 4, "redundancy": 2)" + more + "}]}";
+}
+
+// Both ways around: each station gets each frame twice, and once is enough.
+TEST(Redundancy, GoesToSeveralReceiversOverTwoTrees) {
+  const auto r = sound(ring_of_stations(""));
+  ASSERT_EQ(r->streams[0].paths.size(), 8u);
+  EXPECT_EQ(names(*r, r->streams[0].paths[2]), (Names{"st1", "st2", "st3"}));
+  EXPECT_EQ(names(*r, r->streams[0].paths[3]), (Names{"st1", "st5", "st4", "st3"}));
+  LiveRun run(*r);
+  run.advance();
+  const models::Stream& stream = run.network().traffic().streams()[0];
+  EXPECT_EQ(stream.delivered, 80u);
+  EXPECT_EQ(stream.dropped[static_cast<std::size_t>(models::DropReason::duplicate)], 80u);
+  EXPECT_EQ(stream.dropped_in_all(), 80u);
+  EXPECT_EQ(digest_of(*r, 5), digest_of(*r));
+}
+
+// Whichever cable is cut from 5 to 10 ms, each station gets each of the 20 frames.
+TEST(Redundancy, ACutCableCostsNoReceiverAFrame) {
+  for (int cut = 1; cut <= 5; ++cut) {
+    std::string text = ring_of_stations("");
+    text.pop_back();
+    text += R"(, "faults": [{"kind": "link-down", "link": ["st)" + std::to_string(cut) + R"(", "st)" + std::to_string(cut % 5 + 1) + R"("], "at": "5ms", "for": "5ms"}]})";
+    const auto r = sound(text);
+    LiveRun run(*r);
+    run.advance();
+    EXPECT_EQ(run.network().traffic().streams()[0].delivered, 80u) << cut;
+  }
+}
+
+// A line has no second way.
+TEST(Redundancy, SeveralReceiversNeedTwoWaysToEach) {
+  const std::string text = R"({"name": "t", "duration": "20ms", "network": {"generate": [{"topology": "line", "stations": 3}]},
+ "streams": [{"name": "s", "from": "st1", "to": ["st2", "st3"], "payload": "200B", "every": "1ms", "pcp": 4, "redundancy": {"count": 3}}]})";
+  EXPECT_NE(mistakes(text).find("redundancy for several receivers: found \"count\" of a stream to 2, expected 2"), std::string::npos) << mistakes(text);
+  std::string two = text;
+  two.replace(two.find("{\"count\": 3}"), 12, "2");
+  EXPECT_NE(mistakes(two).find("not enough disjoint paths: found 1 between \"st1\" and \"st2\", expected 2 paths that share no link between switches"), std::string::npos) << mistakes(two);
+}
+
+/// A Program on a ring of stations.
+std::string program(const std::string& more) {
+  return R"({"name": "t", "duration": "20ms", "network": {"generate": [{"topology": "ring", "stations": 4}]},
+ "programs": [{"name": "p", "master": "st1", "slaves": ["st2", "st3"], "cycle": "1ms")" + more + R"(}],
+ "script": [{"at": "2ms", "program": "p", "call": "Start"}]})";
+}
+
+TEST(Redundancy, OfAProgramIsThatOfAllItsMessages) {
+  const auto r = sound(program(R"(, "redundancy": 2, "process_data": [{"name": "d", "from": "st3", "fields": {"x": "Double"}}])"));
+  ASSERT_EQ(r->redundancies.size(), 4u);
+  for (const ResolvedRedundancy& each : r->redundancies) {
+    EXPECT_TRUE(each.splits_in_host);
+    EXPECT_TRUE(each.merges_in_host);
+  }
+}
+
+TEST(Redundancy, ProgramsTakeTheWaysThatTheyAreGiven) {
+  const auto r = sound(program(R"(, "paths": [["st3", "st4", "st1"]])"));
+  const auto way = [&](std::size_t stream, std::size_t path) { return names(*r, r->streams[stream].paths[path]); };
+  EXPECT_EQ(way(0, 0), (Names{"st1", "st2"}));
+  EXPECT_EQ(way(0, 1), (Names{"st1", "st4", "st3"}));   // the other way round
+  EXPECT_EQ(way(2, 0), (Names{"st3", "st4", "st1"}));
+  EXPECT_NE(mistakes(program(R"(, "paths": [["st2", "st3", "st4", "st1"], ["st3", "st2", "st1"]])")).find("ways that meet again"), std::string::npos);
+  EXPECT_NE(mistakes(program(R"(, "paths": [["st4", "st1"]])")).find("not a member: found \"st4\""), std::string::npos);
+  EXPECT_NE(mistakes(program(R"(, "paths": [["st3", "st1"]])")).find("no link"), std::string::npos);
+  EXPECT_NE(mistakes(program(R"(, "redundancy": 2, "paths": [["st3", "st4", "st1"]])")).find("paths of redundant messages"), std::string::npos);
+}
 
 // One path is longer by a switch: its copies come later and are the ones that are taken out.
 TEST(Redundancy, GivenPathsAreTaken) {

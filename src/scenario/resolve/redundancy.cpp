@@ -177,7 +177,7 @@ class TreeLayer {
     }
     // What has one link has no choice.
     const std::size_t needed = (has_one_link(from_) ? 1u : 0u) + (has_one_link(node) ? 1u : 0u);
-    if (shared_links((*paths)[0], (*paths)[1]) > needed)
+    if ((*paths)[0] == (*paths)[1] || shared_links((*paths)[0], (*paths)[1]) > needed)
       diagnostics_.error_unless(!r_.topology.has_all_links, place, "not enough disjoint paths", {"1 between " + name(from_) + " and " + name(node), "2 paths that share no link between switches"});
     warn_of_shared_nodes(*paths);
     members.paths.insert(members.paths.end(), paths->begin(), paths->end());

@@ -168,13 +168,13 @@ class Checks {
       if (!stands(bound.assumptions) || !stream.latency) continue;
       expect(stream.latency->min >= bound.least, [&] { return bound.name + " took " + took(stream.latency->min) + ", the least is " + took(bound.least); });
       if (bound.latency) expect(stream.latency->max <= *bound.latency, [&] { return bound.name + " took " + took(stream.latency->max) + ", the bound is " + took(*bound.latency); });
-      if (bound.loses_nothing && bound.latency) expect(stream.lost == 0, [&] { return bound.name + " loses nothing, but " + std::to_string(stream.lost) + " frames"; });
+      if (bound.reaches_all && bound.latency) expect(stream.lost == 0, [&] { return bound.name + " loses nothing, but " + std::to_string(stream.lost) + " frames"; });
     }
     for (const analysis::ReactionBound& bound : bounds.reactions)
-      if (bound.bound && stands(bound.assumptions)) reactions(bound);
+      if (bound.cause == handshake::Cause::command && bound.bound && stands(bound.assumptions)) reactions(bound);
   }
 
-  /// Those that nothing else came across.
+  /// Those to a call that nothing else came across.
   void reactions(const analysis::ReactionBound& bound) {
     const results::ProgramResult& program = result_->programs[bound.program];
     const std::vector<results::ReactionResult>& all = bound.of_tree ? program.tree_reactions : program.reactions;

@@ -149,7 +149,9 @@ DisjointPaths disjoint_paths(const Topology& topology, std::uint32_t from, std::
   const std::vector<Neighbour>& first = topology.neighbours[from];
   const std::vector<Neighbour>& last = topology.neighbours[to];
   if (first.empty() || last.empty()) return result;
-  if (first.size() == 1 && last.size() == 1 && (first.front().node == last.front().node || first.front().node == to)) {
+  const bool meet_at_once = first.size() == 1 && last.size() == 1 && first.front().node == last.front().node;
+  const bool is_only_link = (first.size() == 1 && first.front().node == to) || (last.size() == 1 && last.front().node == from);
+  if (meet_at_once || is_only_link) {
     result.found = 1;
     return result;
   }

@@ -1,6 +1,8 @@
 // A live network: nodes, ports, talkers and processes, built from a plan on top of one simulation.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -45,6 +47,8 @@ class Network final : private LinkLocalSender {
   // Faults, at the present instant.
   /// A link goes down or comes back. What is down for several reasons is up when the last one ends. Precondition: it may_fail.
   void set_link(std::uint32_t link, bool up);
+  /// The bypass relay of a station that is down joins the cables at its ports 0 and 1, or parts them. Precondition: their links may_fail and have one rate.
+  void set_bypass(NodeIndex node, bool joins);
   /// A node crashes, or starts again: with empty queues, its programs without memory. Its links, which may_fail, go with it.
   void set_node(NodeIndex node, bool up);
   /// See PortShaping::force_gate.
@@ -82,6 +86,19 @@ class Network final : private LinkLocalSender {
   HostOutput* output(NodeIndex node) const { return outputs_[node.value].get(); }
 
  private:
+  /// Two ports whose cables bypasses have joined.
+  struct JoinedEnd {
+    LinkPlan::End end;
+    Link::Reception before;
+    bool operator==(const JoinedEnd& other) const { return end.node == other.end.node && end.port == other.end.port; }
+  };
+  struct Joint {
+    std::array<JoinedEnd, 2> ends;
+    std::vector<NodeIndex> over;   ///< the nodes that are bypassed
+    sim::Duration delay;
+    bool is_up = false;
+    bool operator==(const Joint& other) const { return ends == other.ends; }
+  };
   std::span<EgressPort> mutable_ports(NodeIndex node) {
     return {ports_.get() + first_port_[node.value], first_port_[node.value + 1] - first_port_[node.value]};
   }
@@ -98,6 +115,13 @@ class Network final : private LinkLocalSender {
   void set_up_ingress();
   void set_up_redundancy();
   void set_up_faults();
+  void change_link(std::uint32_t link, bool up);
+  void set_port(const LinkPlan::End& end, bool up);
+  std::optional<Joint> joint_at(NodeIndex node) const;
+  void refresh_joints();
+  void join(Joint& joint);
+  void set_joint(Joint& joint, bool up);
+  void take_apart(const std::function<bool(const Joint&)>& which);
   void announce_cut_through();
   const PortConfig& port_config_of(const LinkPlan::End& end) const;
   bool chooses_ports(NodeIndex node) const;
@@ -129,6 +153,9 @@ class Network final : private LinkLocalSender {
   std::vector<std::unique_ptr<Bridge>> bridges_;      // by node; null for hosts with one port
   std::vector<std::unique_ptr<HostOutput>> outputs_;  // by node; null for bridges
   std::vector<std::unique_ptr<IngressPipeline>> ingress_;  // by node; null where there is none
+  std::vector<bool> bypassed_;                        // by node; empty until a bypass acts
+  std::vector<Joint> joints_;                         // one that is down stays until another link takes its place: frames that it has lost have not all come to their end
+  std::vector<std::uint32_t> cuts_;                   // by link: those of the reasons that are its own
   std::vector<std::uint32_t> reasons_down_;           // by link: how many reasons it has to be down
   std::vector<std::uint32_t> crashes_;                // by node: how many crashes it has not come back from
   std::vector<std::unique_ptr<Talker>> talkers_;

@@ -42,6 +42,8 @@ class alignas(64) EgressPort final : public sim::Component {
   const Link& link() const { return link_; }
   /// The other direction, by which the node receives.
   Link& incoming() const { return *incoming_; }
+  /// The node receives by another link from now on. Precondition: both are down.
+  void receive_by(Link& incoming) { incoming_ = &incoming; }
 
   /// Hands the port a frame at the present instant. Frames that come at one instant are put into a canonical order, by
   /// `rank` (the ingress port in a bridge, the talker in a host), so that it does not matter which was handed over first.

@@ -6,14 +6,19 @@ namespace takt::models {
 
 void Link::connect(sim::ComponentId sender, Traffic& traffic, sim::Duration octet_time, LinkEnd far_end) {
   TAKT_CHECK(octet_time.ps() > 0 && octet_time.ps() < (1 << 20), "an octet lasts between 1 ps and 1 us");
-  TAKT_CHECK(far_end.delay.ps() >= 0 && far_end.delay.ps() < (std::int64_t{1} << 44), "a link and its far node delay a frame by at most 17 s");
   source_ = sim::EventSource(sender);
   traffic_ = &traffic;
   octet_time_ps_ = static_cast<std::uint32_t>(octet_time.ps());
-  order_ = sim::Event::order_of(sim::Phase::arrival, far_end.node, sender);
+  redirect({far_end});
+}
+
+void Link::redirect(const Reception& reception) {
+  const LinkEnd& far_end = reception.far_end;
+  TAKT_CHECK(far_end.delay.ps() >= 0 && far_end.delay.ps() < (std::int64_t{1} << 44), "a link and its far node delay a frame by at most 17 s");
+  order_ = sim::Event::order_of(sim::Phase::arrival, far_end.node, sender());
   port_ = far_end.port;
   delay_ps_ = static_cast<std::uint64_t>(far_end.delay.ps()) & 0xFFF'FFFF'FFFF;
-  node_delay_ = far_end.node_delay;
+  reception_ = reception;
 }
 
 void Link::expect_faults(const sim::Simulation& simulation, std::string_view path) {
@@ -25,7 +30,7 @@ sim::TrueTime Link::transmit_any(sim::Simulation& simulation, FrameIndex frame, 
   unsigned flags = checks_ || record.marked || record.bad_fcs ? unsigned{ArrivalArgument::check} : is_preemptable ? unsigned{ArrivalArgument::preemptable} : 0u;
   Octets told_after = preamble_and_sfd + Octets{record.length};
   // A header that is as long as the frame is a frame that is stored.
-  if (!is_preemptable && (noticed_priorities_ >> record.priority & 1) != 0 && header_notice(record) < told_after) {
+  if (!is_preemptable && (reception_.noticed_priorities >> record.priority & 1) != 0 && header_notice(record) < told_after) {
     told_after = header_notice(record);
     flags |= ArrivalArgument::header_only | ArrivalArgument::check;
   }
@@ -65,8 +70,9 @@ bool Link::passes_faults(sim::Simulation& simulation, FrameIndex& frame, std::ui
   const Frame& record = traffic_->frame(frame);
   const Octets length{record.length};
   const Octets octets = (flags & ArrivalArgument::header_only) != 0 ? header_notice(record) : preamble_and_sfd + length;
-  const sim::TrueTime last_bit = now - node_delay_;  // of what has come
-  const sim::TrueTime start = last_bit - (delay() - node_delay_) - octet_time() * octets.count;
+  const sim::Duration node_delay = reception_.far_end.node_delay;
+  const sim::TrueTime last_bit = now - node_delay;  // of what has come
+  const sim::TrueTime start = last_bit - (delay() - node_delay) - octet_time() * octets.count;
   if (fault_->went_down_within(start, last_bit)) {
     lose(simulation, frame, DropReason::link_down);
     return false;

@@ -53,9 +53,19 @@ struct LinkEnd {
 
 class Link {
  public:
+  /// Who receives, and what of.
+  struct Reception {
+    LinkEnd far_end;
+    std::uint8_t noticed_priorities = 0;   ///< see notice_headers()
+    Octets noticed_header{0};
+  };
+
   /// `sender` is the port that sends; `traffic` outlives the link.
   void connect(sim::ComponentId sender, Traffic& traffic, sim::Duration octet_time, LinkEnd far_end);
   bool is_connected() const { return traffic_ != nullptr; }
+  const Reception& reception() const { return reception_; }
+  /// Another node receives from now on. Precondition: the link is down, and what was on it has been lost.
+  void redirect(const Reception& reception);
   sim::Duration octet_time() const { return sim::Duration::from_ps(octet_time_ps_); }
   /// The sending port.
   sim::ComponentId sender() const { return source_.id(); }
@@ -63,8 +73,8 @@ class Link {
   /// The receiver may cut frames of these priorities through: tell it when so many octets from the preamble on have come (so many
   /// more if the frame has a VLAN tag or an R-TAG).
   void notice_headers(std::uint8_t priorities, Octets header) {
-    noticed_priorities_ = priorities;
-    noticed_header_ = header;
+    reception_.noticed_priorities = priorities;
+    reception_.noticed_header = header;
   }
   /// The sender marks frames, changes their tags, or may pass on damaged ones: the receiver looks at each.
   void check_arrivals() { checks_ = true; }
@@ -73,7 +83,7 @@ class Link {
   /// Precondition: expect_faults().
   void add_impairment(const Impairment& impairment) { fault_->add(impairment); }
   /// Nothing of all that: transmit() will do.
-  bool is_plain() const { return !checks_ && noticed_priorities_ == 0; }
+  bool is_plain() const { return !checks_ && reception_.noticed_priorities == 0; }
 
   // The sending port.
   /// When the medium is free for the next frame: the gap after the last one is over.
@@ -117,7 +127,7 @@ class Link {
   }
   /// The frame is being passed on although the node has it wholly at `complete` only.
   void passed_on(sim::TrueTime now, FrameIndex frame, const Frame& record, sim::TrueTime complete) {
-    if (fault_) fault_->cut_through(frame, record, now, complete - node_delay_);
+    if (fault_) fault_->cut_through(frame, record, now, complete - reception_.far_end.node_delay);
   }
 
   // Faults. Precondition: expect_faults().
@@ -143,7 +153,7 @@ class Link {
   void lose(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
   /// How many octets of a frame, preamble included, have come when the receiver is told of its header.
   Octets header_notice(const Frame& frame) const {
-    return noticed_header_ + (frame.tagged ? vlan_tag : Octets{0}) + (frame.r_tagged ? r_tag : Octets{0});
+    return reception_.noticed_header + (frame.tagged ? vlan_tag : Octets{0}) + (frame.r_tagged ? r_tag : Octets{0});
   }
   std::uint16_t port() const { return static_cast<std::uint16_t>(port_); }
   sim::Duration delay() const { return sim::Duration::from_ps(static_cast<std::int64_t>(delay_ps_)); }
@@ -158,13 +168,11 @@ class Link {
   std::uint32_t octet_time_ps_ = 0;
   // The rest.
   Traffic* traffic_ = nullptr;
-  sim::Duration node_delay_;
+  Reception reception_;
   std::uint64_t other_events_ = 0;
   std::uint64_t frames_lost_ = 0;
   std::unique_ptr<LinkFault> fault_;
   std::vector<Withdrawn> withdrawn_;
-  Octets noticed_header_{0};
-  std::uint8_t noticed_priorities_ = 0;
   bool checks_ = false;
 };
 

@@ -67,6 +67,8 @@ class Assessor {
         std::erase(stuck, place);
         if (gate->open) stuck.push_back(place);
       }
+      if (const auto* const bypass = std::get_if<scenario::ResolvedBypass>(&action.what))
+        ledger_.violate(Assumption::no_disturbance, "the bypass of " + name_of(bypass->node) + " joins its neighbours at " + to_text(action.at.since_start()) + ", and no bound follows frames over it");
       if (const auto* const fault = std::get_if<scenario::ResolvedClockFault>(&action.what)) {
         over = std::max(over, action.at.since_start());
         jumps_at_start_ = jumps_at_start_ || action.at == sim::TrueTime();

@@ -104,7 +104,7 @@ void note_assumptions(const scenario::Resolved& r, const BoundOptions& options, 
   if (!r.scenario.faults.empty()) all.add(Assumption::listed_faults_only);
   for (const scenario::ResolvedAction& action : r.script) {
     if (std::holds_alternative<scenario::ResolvedGates>(action.what)) all.add(Assumption::gates_do_not_change);
-    if (std::holds_alternative<scenario::ResolvedStuckGate>(action.what) || std::holds_alternative<scenario::ResolvedClockFault>(action.what)) all.add(Assumption::no_disturbance);
+    if (std::holds_alternative<scenario::ResolvedStuckGate>(action.what) || std::holds_alternative<scenario::ResolvedClockFault>(action.what) || std::holds_alternative<scenario::ResolvedBypass>(action.what)) all.add(Assumption::no_disturbance);
   }
   if (!graph.uncertain_paths.empty()) all.add(Assumption::no_disturbance);
   if (GateBeginning(r, options).latest_of_all() > sim::Duration()) all.add(Assumption::gates_in_force);

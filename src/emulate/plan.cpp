@@ -164,6 +164,7 @@ class Planner {
       plan_.actions.push_back({at, HostAction{change.node.value, change.up}});
     }
   }
+  void add(sim::Duration, const scenario::ResolvedBypass&) { left_out_.insert("bypass relays"); }
   void add(sim::Duration, const scenario::ResolvedGates&) { left_out_.insert("gate lists"); }
   void add(sim::Duration, const scenario::ResolvedStuckGate&) { left_out_.insert("stuck gates"); }
   void add(sim::Duration, const scenario::ResolvedClockFault&) { left_out_.insert("faults of clocks"); }

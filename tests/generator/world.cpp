@@ -277,6 +277,8 @@ std::span<const Rule> network_rules() {
       {.key = "station.cut_through_header", .feature = Feature::cut_through, .percent = 30, .words = "14B 22B 30B 72B"},
       {.key = "station.traffic_classes", .feature = Feature::identity_classes, .percent = 80},
       {.key = "station.queues", .feature = Feature::queue_limits, .percent = 80},
+      {.key = "station.bypass", .feature = Feature::crash, .percent = 60, .words = "true"},
+      {.key = "station.bypass_switching", .feature = Feature::crash, .percent = 50, .words = "200us 500us 1ms"},
       {.key = "station.processing", .feature = Feature::replies, .percent = 50},
       {.key = "station.offers", .feature = Feature::roles, .percent = 85, .make = offered_skills},
       {.key = "switch.forwarding_delay", .percent = 70, .words = "0ns 500ns 1us 3us"},

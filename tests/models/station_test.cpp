@@ -172,6 +172,83 @@ TEST(Station, ACrashTakesBothParts) {
   EXPECT_EQ(run.stream(in).delivered, 2u);
 }
 
+// Down from 40 us; from 60 us on the relay makes one cable of 100 ns of two: 1008 + 100 ns, without a forwarding delay. From 150 us on all is dark again, and from
+// 170 us on the station forwards.
+TEST(Station, ABypassJoinsTheCablesOfOneThatIsDown) {
+  Chain chain;
+  for (LinkPlan& link : chain.builder.plan.links) link.may_fail = true;
+  const StreamIndex there = chain.builder.stream(chain.left, {chain.right});
+  const StreamIndex back = chain.builder.stream(chain.right, {chain.left});
+  const StreamIndex in = chain.builder.stream(chain.left, {chain.station});
+  for (const StreamIndex stream : {there, back}) chain.builder.send_at(stream, 100_B, {0_us, 50_us, 70_us, 160_us, 200_us});
+  chain.builder.send_at(in, 100_B, {80_us});
+  NetworkRun run(chain.builder.plan);
+  const auto at_the_time = [&](Duration time, const auto& what) {
+    run.until(time);
+    what();
+  };
+  at_the_time(40_us, [&] { run.network->set_node(chain.station, false); });
+  at_the_time(60_us, [&] { run.network->set_bypass(chain.station, true); });
+  at_the_time(150_us, [&] { run.network->set_bypass(chain.station, false); });
+  at_the_time(170_us, [&] { run.network->set_node(chain.station, true); });
+  run.until(1_ms);
+  for (const StreamIndex stream : {there, back}) {
+    EXPECT_EQ(run.stream(stream).delivered, 3u);
+    EXPECT_EQ(run.stream(stream).latency.minimum(), frame + 2 * cable);                                // 1108 ns
+    EXPECT_EQ(run.stream(stream).latency.maximum(), frame + cable + forwarding + frame + cable);       // 2616 ns
+    EXPECT_EQ(run.stream(stream).dropped[static_cast<std::size_t>(DropReason::link_down)], 2u);
+  }
+  EXPECT_EQ(run.stream(in).delivered, 0u);   // there is nobody; the frame comes to the right host, which it is not for
+  EXPECT_EQ(run.stream(in).dropped[static_cast<std::size_t>(DropReason::no_filtering_entry)], 1u);
+}
+
+// A frame on the way through the relay is lost when that opens.
+TEST(Station, ABypassThatOpensCutsWhatIsOnIt) {
+  Chain chain;
+  for (LinkPlan& link : chain.builder.plan.links) link.may_fail = true;
+  const StreamIndex there = chain.builder.stream(chain.left, {chain.right});
+  chain.builder.send_at(there, 100_B, {70_us, 71104_ns});
+  NetworkRun run(chain.builder.plan);
+  run.until(10_us);
+  run.network->set_node(chain.station, false);
+  run.until(20_us);
+  run.network->set_bypass(chain.station, true);
+  run.until(72_us);   // the second frame has begun and not ended
+  run.network->set_bypass(chain.station, false);
+  run.until(1_ms);
+  EXPECT_EQ(run.stream(there).delivered, 1u);
+  EXPECT_EQ(run.stream(there).dropped[static_cast<std::size_t>(DropReason::link_down)], 1u);
+}
+
+// Two stations that are down side by side: three cables are one. A cut of any of them is a cut of all.
+TEST(Station, BypassesJoinInARow) {
+  PlanBuilder builder;
+  const NodeIndex left = builder.host("left"), one = builder.station("one", forwarding), two = builder.station("two", forwarding), right = builder.host("right");
+  builder.link(left, one, 1_Gbps, cable);
+  builder.link(one, two, 1_Gbps, cable);
+  builder.link(two, right, 1_Gbps, cable);
+  for (LinkPlan& link : builder.plan.links) link.may_fail = true;
+  const StreamIndex there = builder.stream(left, {right});
+  builder.send_at(there, 100_B, {50_us, 150_us, 250_us, 350_us});
+  NetworkRun run(builder.plan);
+  run.until(1_us);
+  for (const NodeIndex node : {one, two}) run.network->set_node(node, false);
+  for (const NodeIndex node : {two, one}) run.network->set_bypass(node, true);
+  run.until(100_us);
+  EXPECT_EQ(run.stream(there).latency.maximum(), frame + 3 * cable);
+  run.network->set_link(1, false);
+  run.until(200_us);
+  EXPECT_EQ(run.stream(there).delivered, 1u);
+  run.network->set_link(1, true);
+  run.until(300_us);
+  EXPECT_EQ(run.stream(there).delivered, 2u);
+  run.network->set_bypass(two, false);   // one joins left to two, which is back
+  run.network->set_node(two, true);
+  run.until(1_ms);
+  EXPECT_EQ(run.stream(there).delivered, 3u);
+  EXPECT_EQ(run.stream(there).latency.maximum(), frame + 2 * cable + forwarding + frame + cable);
+}
+
 // A host with two interfaces chooses by its filtering entries, and does not forward between them.
 TEST(HostWithTwoInterfaces, SendsByTheOneThatLeadsThere) {
   PlanBuilder builder;

@@ -84,15 +84,15 @@ const BadCase cases[] = {
      R"(3:15: error at /streams/0/redundancy: not enough disjoint paths: found 2 between "h1" and "h2", over the links "sw1" - "sw2", "sw1" - "sw3", expected 3 paths that share no link between switches)"},
     {"BothHostsAtOneSwitch", with_redundancy(R"(2)", R"("x")"),
      R"(3:15: error at /streams/0/redundancy: not enough disjoint paths: found both hosts at "sw1", expected 2 paths that share no link between switches)"},
-    {"RedundancyForSeveral", with_redundancy(R"(2)", R"(["h2", "h3"])"),
-     R"(3:15: error at /streams/0/redundancy: redundancy for several receivers: found 2 receivers, expected one receiver)"},
+    {"ThreePathsToSeveral", with_redundancy(R"({"count": 3})", R"(["h2", "h3"])"),
+     R"(3:25: error at /streams/0/redundancy/count: redundancy for several receivers: found "count" of a stream to 2, expected 2)"},
     {"RedundancyBesideAPath", with_redundancy(R"(2)", R"("h2")", R"(, "path": ["h1", "sw1", "sw2", "h2"])"),
      R"(2:98: error at /streams/0/path: a path of a redundant stream: found "path" beside "redundancy", expected "paths" in "redundancy")"},
     {"NumberAndPaths", with_redundancy(R"({"count": 2, "paths": [["h1", "sw1", "sw2", "h2"], ["h1", "sw1", "sw3", "sw2", "h2"]]})"),
      R"(3:37: error at /streams/0/redundancy/paths: fields that exclude each other: found "paths" beside "count", expected at most one of "count" or "paths")"},
     {"PathsThatAreNone", with_redundancy(R"({"paths": [["h1", "sw1", "sw2"], ["h1", "sw1", "h3", "sw2", "h2"]]})"),
      R"(3:26: error at /streams/0/redundancy/paths/0: a path between other nodes: found "h1" to "sw2", expected "h1" to "h2"
-3:48: error at /streams/0/redundancy/paths/1/2: a host inside a path: found "h3", expected a switch, since hosts do not forward
+3:48: error at /streams/0/redundancy/paths/1/2: a host inside a path: found "h3", expected a switch or a station, since hosts do not forward
 3:48: error at /streams/0/redundancy/paths/1/2: no link: found none between "sw1" and "h3", expected neighbours along the path
 3:48: error at /streams/0/redundancy/paths/1/3: no link: found none between "h3" and "sw2", expected neighbours along the path)"},
     {"APathTwice", with_redundancy(R"({"paths": [["h1", "sw1", "sw2", "h2"], ["h1", "sw1", "sw2", "h2"]]})"),

@@ -6,9 +6,9 @@ namespace {
 
 const BadCase streams_cases[] = {
     {"UnknownSender", with_streams(R"({"name": "s", "from": "A", "to": "b", "payload": "100B", "every": "1ms"})"),
-     R"(2:23: error at /streams/0/from: unknown node: found "A", expected the name of a host (did you mean "a"?))"},
+     R"(2:23: error at /streams/0/from: unknown node: found "A", expected the name of a host or station (did you mean "a"?))"},
     {"SwitchAsReceiver", with_streams(R"({"name": "s", "from": "a", "to": "sw", "payload": "100B", "every": "1ms"})"),
-     R"(2:34: error at /streams/0/to: not a host: found the switch "sw", expected the name of a host)"},
+     R"(2:34: error at /streams/0/to: not a host: found the switch "sw", expected the name of a host or station)"},
     {"ReceiverTwice", with_streams(R"({"name": "s", "from": "a", "to": ["b", "b"], "payload": "100B", "every": "1ms"})"),
      R"(2:40: error at /streams/0/to/1: a receiver twice: found "b", expected each receiver once)"},
     {"NoReceivers", with_streams(R"({"name": "s", "from": "a", "to": [], "payload": "100B", "every": "1ms"})"),
@@ -49,7 +49,7 @@ const BadCase streams_cases[] = {
     {"MissingTrace", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "100B", "trace": "none.csv"})"),
      R"(2:67: error at /streams/0/trace: cannot read the trace: found "none.csv", expected a CSV file)"},
     {"PathOverAHost", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms", "path": ["a", "sw", "b", "sw"]})"),
-     R"(2:94: error at /streams/0/path/2: a host inside a path: found "b", expected a switch, since hosts do not forward
+     R"(2:94: error at /streams/0/path/2: a host inside a path: found "b", expected a switch or a station, since hosts do not forward
 2:99: error at /streams/0/path/3: a node twice in one path: found "sw", expected each node once)"},
     {"PathWithAGap", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms", "path": ["a", "b"]})"),
      R"(2:88: error at /streams/0/path/1: no link: found none between "a" and "b", expected neighbours along the path)"},
@@ -63,13 +63,13 @@ const BadCase streams_cases[] = {
 
 const BadCase programs_cases[] = {
     {"UnknownSlave", with_programs(R"({"name": "p", "master": "a", "slaves": ["bb"], "cycle": "1ms"})"),
-     R"(2:41: error at /programs/0/slaves/0: unknown node: found "bb", expected the name of a host (did you mean "b"?))"},
+     R"(2:41: error at /programs/0/slaves/0: unknown node: found "bb", expected the name of a host or station (did you mean "b"?))"},
     {"HostTwice", with_programs(R"({"name": "p", "master": "a", "slaves": ["b", "a"], "cycle": "1ms"})"),
      R"(2:46: error at /programs/0/slaves/1: a node twice in one program: found "a", which is the master, expected each participant on a node of its own)"},
     {"NoSlaves", with_programs(R"({"name": "p", "master": "a", "slaves": [], "cycle": "1ms"})"),
      R"(2:40: error at /programs/0/slaves: too few items: found 0, expected 1 to 64 items)"},
     {"SwitchAsMaster", with_programs(R"({"name": "p", "master": "sw", "slaves": ["b"], "cycle": "1ms"})"),
-     R"(2:25: error at /programs/0/master: not a host: found the switch "sw", expected the name of a host)"},
+     R"(2:25: error at /programs/0/master: not a host: found the switch "sw", expected the name of a host or station)"},
     {"TwoProgramsOfOneName", with_programs(R"({"name": "p", "master": "a", "slaves": ["b"], "cycle": "1ms"},
 {"name": "p", "master": "a", "slaves": ["b"], "cycle": "1ms"})"),
      R"(3:10: error at /programs/1/name: duplicate name: found "p" a second time, expected a name of its own for each stream, program and application)"},
@@ -123,7 +123,7 @@ const BadCase programs_cases[] = {
     {"UnknownStream", with_requirement(R"({"stream": "p/state/c", "latency": "1ms"})"),
      R"(2:12: error at /require/0/stream: unknown stream: found "p/state/c", expected the name of a stream (did you mean "p/state/a"?))"},
     {"StreamOfAProgramWithAMistake", scenario_with(R"("programs": [{"name": "p", "master": "a", "slaves": ["x"], "cycle": "1ms"}], "require": [{"stream": "p/state/a", "latency": "1ms"}])"),
-     R"(2:54: error at /programs/0/slaves/0: unknown node: found "x", expected the name of a host)"},
+     R"(2:54: error at /programs/0/slaves/0: unknown node: found "x", expected the name of a host or station)"},
 };
 
 INSTANTIATE_TEST_SUITE_P(BadStream, BadInput, testing::ValuesIn(streams_cases), name_of_case);

@@ -98,6 +98,8 @@ TEST(ActionContent, DiffersWhereActionsDiffer) {
       {at, ResolvedClockFault{n1, sim::Duration::from_ps(1), std::nullopt}},
       {at, ResolvedClockFault{n1, std::nullopt, sim::FrequencyOffset{1}}},
       {at, ResolvedClockFault{n1, sim::Duration::from_ps(2), std::nullopt}},
+      {at, ResolvedBypass{n1, true}},
+      {at, ResolvedBypass{n1, false}},
   };
   std::set<std::uint64_t> contents;
   for (const ResolvedAction& action : actions) contents.insert(content_of(action));

@@ -84,7 +84,7 @@ TEST(Monitor, RunsThatABoundExcludes) {
   bound = right;
   seen.result.streams[0].lost = 2;
   EXPECT_EQ(seen.contradiction(), "s: a run lost 2 frames, though nothing can be lost");
-  bound.loses_nothing = false;
+  bound.reaches_all = false;
   EXPECT_EQ(seen.contradiction(), "");
   // What is not claimed is not contradicted.
   bound = right;

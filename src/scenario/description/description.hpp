@@ -199,6 +199,8 @@ struct SwitchNode : NodePorts, Relay {
 /// A bridged end station: an end station whose interface is a bridge of several ports.
 struct StationNode : NodePorts, EndStation, Relay {
   json::Source where;
+  bool bypass = false;                   ///< a relay joins ports 0 and 1 while the station is down
+  Duration bypass_switching = 10_ms;     ///< how long it takes to join or to part them
   bool operator==(const StationNode&) const = default;
 };
 

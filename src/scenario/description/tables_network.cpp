@@ -234,6 +234,8 @@ const json::Object& describe(json::Type<StationNode>) {
       optional<&NodePorts::queues, StationNode>("queues", "The queues of each port."),
       optional<&NodePorts::egress, StationNode>("egress", "Gates and shapers of ports; an entry for a neighbour takes the place of one for all.", {.max_items = 16}),
       ingress_field<StationNode>,
+      optional<&StationNode::bypass>("bypass", "A relay joins the cables at ports 0 and 1 while the station is down."),
+      optional<&StationNode::bypass_switching>("bypass_switching", "How long the relay takes, after the crash and when the station is back; all is dark meanwhile.", {.min = 1_us, .max = 10_s}),
       processing_field<StationNode>,
       offers_field<StationNode>,
   };

@@ -103,6 +103,11 @@ class ProgramFaults {
     if (is_ours) made_.push_back({r_.script[i].at, sim::TrueTime::never(), "streams are rerouted"});
   }
 
+  void add(std::size_t i, const ResolvedBypass& action) {
+    if (!nodes_.contains(action.node.value)) return;
+    made_.push_back({r_.script[i].at, sim::TrueTime::never(), name(action.node) + (action.joins ? " is bypassed" : " is bypassed no more")});
+  }
+
   void add(std::size_t, const ResolvedCall&) {}
   void add(std::size_t, const ResolvedMembership&) {}
   void add(std::size_t, const ResolvedGates&) {}

@@ -161,9 +161,55 @@ class FaultResolver {
     }
     made_.actions.push_back({begin, ResolvedNode{index, false}});
     outages_.push_back({begin, links, false});
-    if (const auto end = end_of(fault)) {
+    const auto* const station = std::get_if<StationNode>(&r_.topology.nodes[*node].description);
+    std::optional<sim::TrueTime> end = end_of(fault);
+    if (station != nullptr && station->bypass) end = bypass(*station, index, begin, end);
+    if (end) {
       made_.actions.push_back({*end, ResolvedNode{index, true}});
       outages_.push_back({*end, links, true});
+    }
+  }
+
+  /// The relay joins the cables once it has switched, and the station is back when it has switched again.
+  std::optional<sim::TrueTime> bypass(const StationNode& station, models::NodeIndex node, sim::TrueTime begin, std::optional<sim::TrueTime> end) {
+    check_bypass(station, node);
+    const sim::TrueTime joined = begin.plus_saturated(station.bypass_switching);
+    if (end && *end <= joined) return end;
+    made_.actions.push_back({joined, ResolvedBypass{node, true}});
+    if (!end) return std::nullopt;
+    made_.actions.push_back({*end, ResolvedBypass{node, false}});
+    return end->plus_saturated(station.bypass_switching);
+  }
+
+  void check_bypass(const StationNode& station, models::NodeIndex node) {
+    if (!checked_bypasses_.insert(node.value).second) return;
+    const json::Place place = station.where.at("bypass");
+    std::vector<const models::LinkPlan*> cables;
+    Duration slowest;
+    for (const models::LinkPlan& link : r_.plan.links) {
+      slowest = slowest + link.delay;
+      for (const models::LinkPlan::End* const end : {&link.a, &link.b})
+        if (end->node == node && end->port < 2) cables.push_back(&link);
+    }
+    if (cables.size() != 2) {
+      diagnostics_.error_unless(!r_.topology.has_all_links, place, "a bypass of one cable", {"no links at both port 0 and port 1 of " + json::quote(r_.topology.nodes[node.value].name), "two links"});
+      return;
+    }
+    if (cables[0]->rate != cables[1]->rate)
+      diagnostics_.error(place, "a bypass between links of different rates", {json::to_text(cables[0]->rate) + " and " + json::to_text(cables[1]->rate), "links of one rate"});
+    // A frame that was on its way to or in a node has come to its end before another link takes its place.
+    Duration in_nodes;
+    for (const models::NodePlan& each : r_.plan.nodes) {
+      const sim::Distribution& receive = r_.plan.os_latencies[each.os_latency].receive;
+      in_nodes = std::max(in_nodes, std::max(each.forwarding_delay, receive.is_constant() ? receive.greatest() : Duration()));
+    }
+    if (station.bypass_switching <= slowest + in_nodes)
+      diagnostics_.error(station.where.at("bypass_switching"), "a bypass that switches faster than frames pass", {json::to_text(station.bypass_switching), "more than " + json::to_text(slowest + in_nodes) + ", the cables and the slowest node"});
+    for (const Fault& fault : r_.scenario.faults) {
+      const auto* const errors = std::get_if<FrameErrors>(&fault);
+      if (errors == nullptr || errors->link.size() != 2) continue;
+      const bool is_beside = std::ranges::any_of(errors->link, [&](const std::string& end) { return end.substr(0, end.find(':')) == r_.topology.nodes[node.value].name; });
+      if (is_beside) diagnostics_.error(errors->where.at("link"), "frame errors on a cable that a bypass joins to another", {"a link of " + json::quote(r_.topology.nodes[node.value].name), "another link, or no \"bypass\""});
     }
   }
 
@@ -253,6 +299,7 @@ class FaultResolver {
   std::vector<Babbling> babbling_;
   std::vector<Stuck> stuck_;
   std::vector<Outage> outages_;
+  std::set<std::uint32_t> checked_bypasses_;   // by node
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ class MemberLayer {
   std::optional<MemberPaths> lay() {
     MemberPaths members;
     members.paths = redundancy_.paths ? given() : found();
-    if (members.paths.empty()) return std::nullopt;
+    if (members.paths.size() < 2) return std::nullopt;   // reported, or refused by the table
     members.split = common(members.paths, [](const Path& path, std::size_t i) { return path[i]; }) - 1;
     members.after_merge = common(members.paths, [](const Path& path, std::size_t i) { return path[path.size() - 1 - i]; }) - 1;
     warn_of_shared_links(members);

@@ -153,9 +153,15 @@ struct ResolvedClockFault {
   std::optional<sim::FrequencyOffset> offset;
 };
 
+/// The bypass relay of a station that is down joins its ports, or parts them.
+struct ResolvedBypass {
+  models::NodeIndex node;
+  bool joins = false;
+};
+
 struct ResolvedAction {
   sim::TrueTime at;
-  std::variant<ResolvedCall, ResolvedMembership, ResolvedGates, ResolvedLink, ResolvedNode, ResolvedStuckGate, ResolvedRoutes, ResolvedClockFault> what;
+  std::variant<ResolvedCall, ResolvedMembership, ResolvedGates, ResolvedLink, ResolvedNode, ResolvedStuckGate, ResolvedRoutes, ResolvedClockFault, ResolvedBypass> what;
 };
 
 /// The demand on one direction of a link.

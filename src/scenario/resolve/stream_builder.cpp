@@ -14,7 +14,7 @@ namespace takt::scenario {
 std::optional<std::uint32_t> StreamBuilder::host(const std::string& name, const json::Place& place) {
   const auto node = r_.topology.find(name);
   if (!node) {
-    report_unknown_node(r_.topology, name, place, "the name of a host", diagnostics_);
+    report_unknown_node(r_.topology, name, place, "the name of a host or station", diagnostics_);
     return std::nullopt;
   }
   if (!r_.topology.nodes[*node].is_end_station()) {

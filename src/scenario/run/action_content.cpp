@@ -43,6 +43,8 @@ Content content(const ResolvedClockFault& fault) {
                  fault.offset.value_or(sim::FrequencyOffset()).parts_per_trillion);
 }
 
+Content content(const ResolvedBypass& change) { return Content(change.node.value, change.joins); }
+
 }  // namespace
 
 std::uint64_t content_of(const ResolvedAction& action) {

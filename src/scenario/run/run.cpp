@@ -76,6 +76,7 @@ class Run::Script final : public sim::Component {
     if (!change.up) run_->crash_programs(change.node);
     run_->network_.set_node(change.node, change.up);
   }
+  void act(const ResolvedBypass& change) { run_->network_.set_bypass(change.node, change.joins); }
   void act(const ResolvedStuckGate& change) { run_->network_.force_gate(change.node, change.port, change.traffic_class, change.open); }
   void act(const ResolvedClockFault& fault) {
     if (fault.step) run_->network_.step_clock(fault.node, *fault.step);

@@ -253,6 +253,12 @@ void EgressPort::settle_all_classes(sim::Simulation& simulation) {
     admit_arrivals(simulation);
     if (merge != nullptr) next = look_while_busy(simulation);
   }
+  if (has_new_head_) [[unlikely]] {
+    // What was selected, or asked to come again, knew other heads: those of now may start although the ones before them might not.
+    has_new_head_ = false;
+    settle_all_classes(simulation);
+    return;
+  }
   find_path();
   if (!queues_.empty() || merge != nullptr) wake_at(simulation, next);
 }
@@ -417,7 +423,7 @@ void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
   const Frame& record = shared_->traffic->frame(frame);
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
   DropReason reason{};
-  if (!queues_.has_room(q, record.length, config_->queue_limits[q], reason)) {
+  if (!queues_.has_room(q, record.length, config_->queue_limits[q], reason) && !make_room(simulation, q, record.length, reason)) {
     give_up(simulation, frame, reason);
     if (shaping_ && queues_.frames(q) == 0) shaping_->none_waits(simulation.now(), q);
     return;
@@ -428,6 +434,16 @@ void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
     queues_.push(q, frame, record.length, shared_->entries);
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::enqueued), id(), frame.value, q});
+}
+
+/// Drops the oldest frames of a full queue until one of this length fits, if it is to be so, and if the frame fits at all.
+bool EgressPort::make_room(sim::Simulation& simulation, TrafficClass q, std::uint32_t length, DropReason& reason) {
+  const QueueLimit& limit = config_->queue_limits[q];
+  if (!limit.drops_oldest || limit.frames == 0 || length > limit.octets) return false;
+  do give_up(simulation, pop(simulation, q), reason);
+  while (!queues_.has_room(q, length, limit, reason));
+  has_new_head_ = shaping_ != nullptr;   // without gates and shapers every head is ready
+  return true;
 }
 
 void EgressPort::give_up(sim::Simulation& simulation, FrameIndex frame, DropReason reason) {

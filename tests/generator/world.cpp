@@ -283,6 +283,8 @@ std::span<const Rule> network_rules() {
       {.key = "latency_tail.per_million", .percent = 70, .words = "1 1000 100000.5"},
       {.key = "queues.frames", .percent = 60, .words = "1 2 4 50"},
       {.key = "queues.octets", .percent = 50, .words = "700B 2000B 3100B 20000B"},
+      {.key = "queues.drop", .percent = 40},
+      {.key = "queue_of_class.drop", .percent = 30},
       {.key = "queues.classes", .percent = 40, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return m.objects("queue_of_class", m.draw.between(1, 2), s); }},
       {.key = "queue_of_class.class", .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return number(4 * s.number + m.draw.below(4)); }},
       {.key = "queue_of_class.frames", .percent = 50, .words = "1 3 100"},

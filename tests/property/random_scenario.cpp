@@ -176,6 +176,7 @@ class Maker {
     Parts parts;
     if (draw.one_in(2)) parts.add("frames", std::to_string(1 + draw.below(4)));
     if (draw.one_in(2)) parts.add("octets", in_quotes(draw.any({"700B", "2000B", "3100B"})));
+    if (Draw(w_.seed, "drop " + element).one_in(3)) parts.add("drop", "\"oldest\"");
     return parts.object();
   }
 

@@ -97,6 +97,10 @@ const IdleCase cases[] = {
      "/network/nodes/sw1/egress/0/gates/extension: an extension that nothing needs: no other list for sw1:1 | a \"set_gates\" of the script\n"},
     {"LimitOfAnUnusedQueue", line(R"("queues": {"classes": [{"class": 4, "frames": 3}]})", both),
      "/network/nodes/sw1/queues/classes/0/class: a limit of a queue that no stream uses: class 4 at the 2 ports of sw1: no stream goes there | one of the classes in use there: 1, 7\n"},
+    {"DropsOfUnlimitedQueues", line(R"("queues": {"drop": "oldest", "classes": [{"class": 7, "drop": "oldest"}]})", both),
+     "/network/nodes/sw1/queues/drop: what a full queue loses, of queues that are never full: neither \"frames\" nor \"octets\" | a limit\n"
+     "/network/nodes/sw1/queues/classes/0/drop: what a full queue loses, of queues that are never full: neither \"frames\" nor \"octets\" | a limit\n"},
+    {"DropsOfLimitedQueues", line(R"("queues": {"drop": "oldest", "classes": [{"class": 7, "frames": 3}, {"class": 1, "frames": 3, "drop": "newest"}]})", both), ""},
     {"HeaderWithoutCutThrough", line(R"("cut_through_header": "30B")", both),
      "/network/nodes/sw1/cut_through_header: a header where nothing is cut through: no \"cut_through\" in \"egress\" of \"sw1\" | classes that are cut through\n"},
     {"FilterOfNothing", ingress(R"("filters": [{"pcp": 3, "meter": "m"}], "meters": [{"name": "m", "cir": "1Mbps", "cbs": "2000B"}])"),

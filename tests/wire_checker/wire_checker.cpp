@@ -168,7 +168,8 @@ void WireChecker::feed(const Recorded& recorded) {
       send(index, recorded, detail.octets);
       break;
     case Occurrence::drop:
-      if (recorded.is_of_queue) direction.checker.dropped(seen.handle);
+      if (recorded.is_of_queue) direction.checker.dropped(seen.handle, static_cast<DropReason>(record.detail));
+      else direction.checker.refused(seen, static_cast<DropReason>(record.detail));
       break;
     default:
       break;

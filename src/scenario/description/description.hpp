@@ -73,17 +73,22 @@ struct Processing {
 
 enum class TrafficClasses : std::uint8_t { standard, identity };
 
+/// Which frame is lost when a queue is full.
+enum class FullQueue : std::uint8_t { newest, oldest };
+
 /// What the eight queues of a port may hold.
 struct Queues {
   json::Source where;
   std::optional<std::uint32_t> frames;
   std::optional<Octets> octets;
+  FullQueue drop = FullQueue::newest;
   /// Other limits for single classes.
   struct PerClass {
     json::Source where;
     std::uint8_t traffic_class = 0;
     std::optional<std::uint32_t> frames;
     std::optional<Octets> octets;
+    std::optional<FullQueue> drop = {};
     bool operator==(const PerClass&) const = default;
   };
   std::vector<PerClass> classes;
@@ -393,6 +398,7 @@ const json::Object& describe(json::Type<Processing>);
 const json::Enumeration& describe(json::Type<OsProfile>);
 const json::Object& describe(json::Type<OperatingSystem>);
 const json::Enumeration& describe(json::Type<TrafficClasses>);
+const json::Enumeration& describe(json::Type<FullQueue>);
 const json::Object& describe(json::Type<Queues>);
 const json::Object& describe(json::Type<Queues::PerClass>);
 const json::Enumeration& describe(json::Type<MacOperation>);

@@ -56,11 +56,21 @@ const json::Enumeration& describe(json::Type<TrafficClasses>) {
   return table;
 }
 
+const json::Enumeration& describe(json::Type<FullQueue>) {
+  static constexpr json::EnumName names[] = {
+      name(FullQueue::newest, "newest", "the frame that comes (tail drop)"),
+      name(FullQueue::oldest, "oldest", "those at the head of the queue, until the one that comes has room; in a class that sends by eligibility times those with the earliest ones"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<FullQueue>("which frame is lost when a queue is full", names);
+  return table;
+}
+
 const json::Object& describe(json::Type<Queues::PerClass>) {
   static constexpr json::Field fields[] = {
       required<&Queues::PerClass::traffic_class>("class", "The traffic class, 7 is the most urgent.", {.max = 7}),
       optional<&Queues::PerClass::frames>("frames", "Most frames that wait.", {.min = 1}),
       optional<&Queues::PerClass::octets>("octets", "Most octets that wait, DA to FCS.", {.min = Octets{64}}),
+      optional<&Queues::PerClass::drop>("drop", "Which frame is lost when the queue is full; as in the other queues if absent."),
   };
   static constexpr json::Object table = json::object<Queues::PerClass>("queue_of_class", "The limits of one queue.", fields);
   return table;
@@ -70,6 +80,7 @@ const json::Object& describe(json::Type<Queues>) {
   static constexpr json::Field fields[] = {
       optional<&Queues::frames>("frames", "Most frames that wait in each queue; no limit if absent.", {.min = 1}),
       optional<&Queues::octets>("octets", "Most octets that wait in each queue, DA to FCS; no limit if absent.", {.min = Octets{64}}),
+      optional<&Queues::drop>("drop", "Which frame is lost when a queue is full."),
       optional<&Queues::classes>("classes", "Other limits for single traffic classes.", {.max_items = 8}),
   };
   static constexpr json::Object table = json::object<Queues>("queues", "What the eight queues of a port hold. The frame that is being sent does not count.", fields);

@@ -73,11 +73,26 @@ void tell_idle_gates(const Usage& usage, json::Diagnostics& diagnostics) {
     for (const SetGates& set : scenario.gates->lists) teller.run(set.gates, ports_of(usage, set), {});
 }
 
+/// What is to be dropped where nothing ever is.
+void tell_idle_drops(const Queues& queues, json::Diagnostics& diagnostics) {
+  const auto tell = [&](const json::Source& where) {
+    if (where.has("drop")) warn_once(diagnostics, where.at("drop"), "what a full queue loses, of queues that are never full", {"neither \"frames\" nor \"octets\"", "a limit"});
+  };
+  const bool are_limited = queues.frames || queues.octets;
+  bool acts = are_limited;
+  for (const Queues::PerClass& one : queues.classes) {
+    if (!one.frames && !one.octets && !are_limited) tell(one.where);
+    else acts = acts || !one.drop;
+  }
+  if (!acts) tell(queues.where);
+}
+
 void tell_idle_queues(const Usage& usage, json::Diagnostics& diagnostics) {
   const Resolved& r = usage.resolved();
   std::map<std::string, std::pair<const Queues::PerClass*, Ports>> limits;   // by place: generated nodes share theirs
   for (std::uint32_t n = 0; n < r.topology.nodes.size(); ++n) {
     const Queues& queues = std::visit([](const auto& node) -> const Queues& { return node.queues; }, r.topology.nodes[n].description);
+    tell_idle_drops(queues, diagnostics);
     for (const Queues::PerClass& one : queues.classes) {
       auto& [limit, ports] = limits[one.where.place().pointer];
       limit = &one;

@@ -120,12 +120,16 @@ class Resolver {
     for (models::QueueLimit& limit : config.queue_limits) {
       if (queues.frames) limit.frames = *queues.frames;
       if (queues.octets) limit.octets = queues.octets->count;
+      limit.drops_oldest = queues.drop == FullQueue::oldest;
     }
     for (const Queues::PerClass& one : queues.classes) {
       models::QueueLimit& limit = config.queue_limits[one.traffic_class];
       if (one.frames) limit.frames = *one.frames;
       if (one.octets) limit.octets = one.octets->count;
+      if (one.drop) limit.drops_oldest = *one.drop == FullQueue::oldest;
     }
+    for (models::QueueLimit& limit : config.queue_limits)
+      if (!limit.is_finite()) limit.drops_oldest = false;   // so that ports which act alike share their configuration
     return port_config_index(r_.plan, config);
   }
 

@@ -59,6 +59,10 @@ sim::LocalTime Talker::time_of_next() {
                  [&](const BurstSchedule& s) {
                    return instant(s.offset, s.period, count / s.frames).plus_saturated(s.spacing * (count % s.frames));
                  },
+                 [&](const RandomGapSchedule& s) {
+                   const LocalTime from = count == 0 ? LocalTime() + s.offset : last_;
+                   return from.plus_saturated(s.gap->draw(chance_));
+                 },
                  [&](const TraceSchedule& s) {
                    return count_ < s.entries.size() ? s.entries[count_].time : LocalTime::never();
                  }},
@@ -86,6 +90,7 @@ void Talker::start(sim::Simulation& simulation) {
   };
   std::visit(Overloaded{[&](const PeriodicSchedule& s) { count_ = first(s.offset, s.period); },
                         [&](ExponentialSchedule& s) { s.offset = std::max(s.offset, begin - sim::LocalTime()); },
+                        [&](RandomGapSchedule& s) { s.offset = std::max(s.offset, begin - sim::LocalTime()); },
                         [&](const BurstSchedule& s) { count_ = first(s.offset, s.period) * s.frames; },
                         [&](const TraceSchedule& s) {
                           while (count_ < s.entries.size() && s.entries[count_].time < begin) ++count_;

@@ -277,7 +277,11 @@ class Maker {
     if (!draw.one_in(6)) parts.add("pcp", std::to_string(draw.below(8)));
     switch (draw.below(4)) {
       case 0:
-        parts.add("exponential", in_quotes(draw.any({"100us", "200us", "500us"})));
+        if (Draw gaps(w_.seed, "gaps " + stream_name(s)); gaps.one_in(2))
+          parts.add("normal", "{\"mean\": " + in_quotes(gaps.any({"400us", "700us"})) + ", \"deviation\": " + in_quotes(gaps.any({"1us", "100us", "1ms"})) + ", \"min\": " + in_quotes(gaps.any({"120us", "250us", "399us"})) +
+                                  (gaps.one_in(2) ? ", \"max\": \"900us\"" : "") + "}");
+        else
+          parts.add("exponential", in_quotes(draw.any({"100us", "200us", "500us"})));
         break;
       case 1:
         parts.add("burst", "{\"frames\": " + std::to_string(1 + draw.below(6)) + ", \"every\": \"1ms\", \"spacing\": " + in_quotes(draw.any({"0ns", "6720ns", "50us"})) + "}");

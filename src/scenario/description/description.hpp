@@ -243,6 +243,15 @@ struct ExponentialGaps {
   Duration mean;
   bool operator==(const ExponentialGaps&) const = default;
 };
+/// Random gaps of a normal distribution that is cut off.
+struct NormalGaps {
+  json::Source where;
+  Duration mean;
+  Duration deviation;
+  Duration min;
+  std::optional<Duration> max;
+  bool operator==(const NormalGaps&) const = default;
+};
 struct Bursts {
   std::uint32_t frames = 1;
   Duration every;
@@ -267,6 +276,7 @@ struct Stream {
   std::uint16_t vlan = 0;
   std::optional<Duration> every;
   std::optional<ExponentialGaps> exponential;
+  std::optional<NormalGaps> normal;
   std::optional<Bursts> burst;
   std::optional<std::string> trace;
   std::optional<Duration> offset;    ///< 0 in a run; absent, it is nothing that the plant promises
@@ -419,6 +429,7 @@ const json::Object& describe(json::Type<Generator>);
 const json::Object& describe(json::Type<NetworkSection>);
 const json::Enumeration& describe(json::Type<Encapsulation>);
 const json::Object& describe(json::Type<ExponentialGaps>);
+const json::Object& describe(json::Type<NormalGaps>);
 const json::Object& describe(json::Type<Bursts>);
 const json::Custom& describe(json::Type<Names>);
 const json::Object& describe(json::Type<Stream>);

@@ -199,6 +199,7 @@ class Resolver {
     if (stream.jitter > Duration())
       diagnostics_.error(stream.where.at("jitter"), "jitter belongs to a periodic stream", {"\"jitter\" without \"every\"", "\"every\""});
     if (stream.exponential) return models::ExponentialSchedule{stream.offset.value_or(Duration()), stream.exponential->mean};
+    if (stream.normal) return normal_gaps_of(stream, *stream.normal);
     if (stream.burst) {
       if (stream.burst->frames > 1 && stream.burst->spacing > stream.burst->every / static_cast<std::int64_t>(stream.burst->frames - 1))
         diagnostics_.error(stream.where.at("burst"), "a burst longer than its period",
@@ -214,6 +215,19 @@ class Resolver {
     return models::PeriodicSchedule{{}, 1_s, {}};  // none of them: the table has reported it
   }
 
+  models::TalkerSchedule normal_gaps_of(const Stream& stream, const NormalGaps& normal) {
+    const Duration longest = normal.max.value_or(Duration::max());
+    const auto is_sound = [&](std::string_view key) { return !diagnostics_.is_refused(normal.where.at(key)); };
+    if (!is_sound("mean") || !is_sound("deviation") || !is_sound("min") || !is_sound("max")) return models::PeriodicSchedule{{}, 1_s, {}};
+    if (normal.min > normal.mean || normal.mean > longest)
+      diagnostics_.error(normal.where.at("mean"), "a mean outside of what is left of the distribution", {json::to_text(normal.mean), normal.max ? json::to_text(normal.min) + " to " + json::to_text(*normal.max) : "at least " + json::to_text(normal.min)});
+    else if (normal.min == longest)
+      diagnostics_.error(normal.where.at("max"), "gaps that are all alike", {"\"min\" and \"max\" of " + json::to_text(longest), "a \"max\" above, or \"every\""});
+    else
+      return models::RandomGapSchedule{stream.offset.value_or(Duration()), std::make_shared<const sim::Distribution>(sim::Distribution::truncated_normal(normal.mean, normal.deviation, normal.min, longest))};
+    return models::PeriodicSchedule{{}, 1_s, {}};
+  }
+
   StreamDemand demand_of(const models::TalkerSchedule& schedule, const Stream& stream, models::StreamIndex index) const {
     const models::StreamPlan& plan = r_.plan.streams[index.value];
     const auto wire_bits = [&](Octets payload) {
@@ -224,6 +238,7 @@ class Resolver {
     StreamDemand demand;
     if (const auto* periodic = std::get_if<models::PeriodicSchedule>(&schedule)) demand.frames_per_second = per_second(1, periodic->period);
     if (const auto* random = std::get_if<models::ExponentialSchedule>(&schedule)) demand.frames_per_second = per_second(1, random->mean);
+    if (const auto* random = std::get_if<models::RandomGapSchedule>(&schedule)) demand.frames_per_second = per_second(1, random->gap->truncated_mean());
     if (const auto* burst = std::get_if<models::BurstSchedule>(&schedule)) demand.frames_per_second = per_second(burst->frames, burst->period);
     demand.wire_bits_per_second = demand.frames_per_second * wire_bits(stream.payload);
     if (const auto* trace = std::get_if<models::TraceSchedule>(&schedule); trace != nullptr) {

@@ -97,6 +97,9 @@ const IdleCase cases[] = {
      "/network/nodes/sw1/egress/0/gates/extension: an extension that nothing needs: no other list for sw1:1 | a \"set_gates\" of the script\n"},
     {"LimitOfAnUnusedQueue", line(R"("queues": {"classes": [{"class": 4, "frames": 3}]})", both),
      "/network/nodes/sw1/queues/classes/0/class: a limit of a queue that no stream uses: class 4 at the 2 ports of sw1: no stream goes there | one of the classes in use there: 1, 7\n"},
+    {"RunningListThatBeginsAnyhow", egress(R"("gates": {"running": true, "base_time": "-400us", "entries": [{"open": [7], "for": "100us"}, {"open": [1], "for": "100us"}]})"),
+     "/network/nodes/sw1/egress/0/gates/running: a list that begins at the start in any case: \"base_time\" of -400us and a cycle of 200us | a \"base_time\" in the middle of a cycle\n"},
+    {"RunningListInItsCycle", egress(R"("gates": {"running": true, "base_time": "-450us", "entries": [{"open": [7], "for": "100us"}, {"open": [1], "for": "100us"}]})"), ""},
     {"DropsOfUnlimitedQueues", line(R"("queues": {"drop": "oldest", "classes": [{"class": 7, "drop": "oldest"}]})", both),
      "/network/nodes/sw1/queues/drop: what a full queue loses, of queues that are never full: neither \"frames\" nor \"octets\" | a limit\n"
      "/network/nodes/sw1/queues/classes/0/drop: what a full queue loses, of queues that are never full: neither \"frames\" nor \"octets\" | a limit\n"},

@@ -16,12 +16,19 @@ PortChecker::PortChecker(std::string name, const models::PortConfig& config, sim
     if (const models::CreditBased* const shaper = config.shaping.shaper_of(q)) credits_[q].emplace(rate.bits_per_second, *shaper, q);
   // An express frame waits for at most 8 + 123 + 12 octets, and 64 more for each addFragSize.
   if (config.preemption) hold_advance_ = config.preemption->hold_advance ? config.preemption->hold_advance->ps() : octet_ * (143 + 64 * config.preemption->add_frag_size.value());
-  if (config.shaping.gates) request_gates(list_config_of(*config.shaping.gates));
+  if (config.shaping.gates) {
+    note_gates(list_config_of(*config.shaping.gates));
+    gates_.start_with(list_config_of(*config.shaping.gates), config.shaping.gates->is_running);
+  }
   settle_gates();
 }
 
 void PortChecker::request_gates(const ListConfig& gates) {
   gates_.request(now_, gates);
+  note_gates(gates);
+}
+
+void PortChecker::note_gates(const ListConfig& gates) {
   has_gates_ = true;
   may_hold_ = may_hold_ || std::any_of(gates.list.begin(), gates.list.end(), [](const ListEntry& entry) { return entry.operation != models::GateOperation::set_gate_states; });
 }

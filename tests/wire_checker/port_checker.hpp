@@ -94,6 +94,7 @@ class PortChecker {
   Item item_of(const SeenFrame& seen) const;
   std::optional<models::DropReason> why_no_room(models::TrafficClass q, std::uint64_t frames, std::uint64_t octets, const Item& item) const;
   void check_displacing();
+  void note_gates(const ListConfig& gates);
   models::TrafficClass class_of(const models::Frame& frame) const;
   bool is_timed(models::TrafficClass q) const { return config_.shaping.is_timed(q); }
   Ps duration_of(std::uint32_t octets) const { return octet_ * (models::preamble_and_sfd.count + Ps{octets}); }

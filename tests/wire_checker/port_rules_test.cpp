@@ -156,6 +156,18 @@ TEST(PortRules, NothingWaitsInVain) {
   EXPECT_FOUND(Port(config).frame('a', 0).at(0).wait('a').until(12'000 * ns), "the medium is idle");
 }
 
+// 3 us of a cycle of 10 are over, and 2 of them were open.
+TEST(PortRules, ListsThatAreRunning) {
+  PortConfig config = with_gates({entry(0xFF, 2'000 * ns), entry(0x00, 8'000 * ns)});
+  config.shaping.gates->admin_base_time = sim::LocalTime::from_ps(-3'000 * ns);
+  EXPECT_NOTHING(Port(config).frame('a', 0).at(0).start('a').until(900 * ns));
+  config.shaping.gates->is_running = true;
+  EXPECT_FOUND(Port(config).frame('a', 0).at(0).start('a').until(900 * ns), "starts while its gate is closed");
+  EXPECT_NOTHING(Port(config).frame('a', 0).at(0).wait('a').at(7'000 * ns).leave('a').start('a').until(9'000 * ns));
+  config.shaping.gates->admin_base_time = sim::LocalTime::from_ps(-10'003'000 * ns);
+  EXPECT_NOTHING(Port(config).frame('a', 0).at(0).wait('a').at(7'000 * ns).leave('a').start('a').until(9'000 * ns));
+}
+
 TEST(PortRules, QueuesHaveLimits) {
   PortConfig config;
   config.queue_limits[0] = {2, 250};

@@ -113,6 +113,7 @@ struct Gates {
   Duration base_time;
   Duration extension;
   std::vector<GateEntry> entries;
+  bool running = false;
   bool operator==(const Gates&) const = default;
 };
 

@@ -111,6 +111,7 @@ const json::Object& describe(json::Type<Gates>) {
   static constexpr json::Field fields[] = {
       optional<&Gates::cycle>("cycle", "AdminCycleTime; the sum of the entries if absent.", {.min = 1_ns, .max = 3600_s}),
       optional<&Gates::base_time>("base_time", "AdminBaseTime, when the first cycle begins; may lie in the past.", {.min = -(3600_s), .max = 3600_s}),
+      optional<&Gates::running>("running", "The list was set long before the start: if its base time lies in the past it is in force from the start, somewhere in its cycle. Otherwise it begins with the first cycle after the start, as one that is set then does."),
       optional<&Gates::extension>("extension", "AdminCycleTimeExtension: how much the last cycle before a change may be longer.", {.max = 3600_s}),
       required<&Gates::entries>("entries", "The gate control list.", {.min_items = 1, .max_items = models::CyclicIntervals::entry_limit}),
   };

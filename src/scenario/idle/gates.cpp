@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "scenario/idle/usage.hpp"
+#include "scenario/resolve/control_list.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -22,6 +23,9 @@ class GatesTeller {
     const bool is_changed = std::any_of(ports.begin(), ports.end(), [](const PortUse* port) { return port->gates.size() > 1; });
     if (gates.extension > Duration() && !is_changed)
       warn_once(diagnostics_, gates.where.at("extension"), "an extension that nothing needs", {"no other list for " + usage_.name(ports), "a \"set_gates\" of the script"});
+    const bool is_exact = std::all_of(ports.begin(), ports.end(), [&](const PortUse* port) { return !usage_.resolved().plan.nodes[port->node].clock; });
+    if (gates.running && is_exact && begins_at_the_start(gates, cycle_of(gates)))
+      warn_once(diagnostics_, gates.where.at("running"), "a list that begins at the start in any case", {"\"base_time\" of " + json::to_text(gates.base_time) + " and a cycle of " + json::to_text(cycle_of(gates)), "a \"base_time\" in the middle of a cycle"});
     const bool is_cut = std::any_of(ports.begin(), ports.end(), [](const PortUse* port) { return port->config->preemption.has_value(); });
     for (const GateEntry& entry : gates.entries)
       if (entry.mac != MacOperation::none && !is_cut) {
@@ -32,6 +36,12 @@ class GatesTeller {
   }
 
  private:
+  static Duration cycle_of(const Gates& gates) {
+    Duration sum;
+    for (const GateEntry& entry : gates.entries) sum += entry.interval;
+    return gates.cycle.value_or(sum);
+  }
+
   void closing(const Gates& gates, const Ports& ports) {
     models::ClassSet closed = 0;
     for (const GateEntry& entry : gates.entries) {

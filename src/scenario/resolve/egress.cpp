@@ -181,6 +181,8 @@ models::GateConfig gate_config_of(const Gates& gates, json::Diagnostics& diagnos
                         {"entries of " + json::to_text(*sum) + " in a cycle of " + json::to_text(config.admin_cycle_time), "entries that fit into the cycle"});
   config.admin_cycle_time_extension = gates.extension;
   config.admin_base_time = sim::LocalTime() + gates.base_time;
+  config.is_running = gates.running;
+  check_running(gates, diagnostics);
   return config;
 }
 

@@ -340,6 +340,8 @@ class Resolver {
       report_unknown_node(r_.topology, set.node, set.where.at("node"), "the name of a node", diagnostics_);
       return;
     }
+    if (set.gates.running)
+      diagnostics_.error(set.gates.where.at("running"), "a list that is running before it is set", {"\"running\" of a list that the script sets", "a \"base_time\" alone, which may lie in the past"});
     const models::GateConfig gates = gate_config_of(set.gates, diagnostics_);
     bool found = false;
     for (const Neighbour& neighbour : r_.topology.neighbours[*node]) {

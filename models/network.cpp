@@ -127,9 +127,12 @@ void Network::add_talker(const TalkerPlan& talker) {
     for (auto [other, end] = babblers_.equal_range(talker.stream.value); other != end; ++other) other->second->share_latency(*talkers_.back());
   }
   if (followers_[stream.talker.value]) followers_[stream.talker.value]->talkers.push_back(talkers_.back().get());
-  if (!talker.launch) return;
-  talkers_.back()->set_launch(*talker.launch);
-  output.look_closer();
+  if (stream.host_priority) talkers_.back()->set_host_priority(*stream.host_priority);
+  if (!talker.launch && !stream.host_priority) return;
+  if (talker.launch) {
+    talkers_.back()->set_launch(*talker.launch);
+    output.look_closer();
+  }
   for (EgressPort& port : mutable_ports(stream.talker)) port.link().check_arrivals();
 }
 

@@ -69,6 +69,9 @@ struct StreamPlan {
 
 /// Static filtering entries: at `bridge`, frames of (vlan, address) leave through `port`.
 struct FilteringPlan {
+  std::optional<Priority> host_priority = {};  ///< untagged: by which the talker's own interfaces queue it; it is not on the wire
+  /// What decides about the queue at the talker.
+  Priority priority_at_talker() const { return host_priority.value_or(priority.value_or(0)); }
   NodeIndex bridge;
   VlanId vlan = 0;
   AddressIndex address;

@@ -150,7 +150,7 @@ class RouteMaker {
 
   /// The class of the flow at a port, after what the ingress of the node says.
   void set_class(Hop& hop, const models::PortConfig& config, const models::StreamPlan& plan, std::uint32_t node, std::uint16_t in_port, models::AddressIndex address) {
-    const models::Priority priority = plan.priority.value_or(0);
+    const models::Priority priority = plan.talker.value == node ? plan.priority_at_talker() : plan.priority.value_or(0);
     hop.lowest_class = hop.highest_class = config.traffic_class_of_priority[priority];
     const models::NodePlan& node_plan = r_.plan.nodes[node];
     if (!node_plan.ingress) return;

@@ -64,7 +64,7 @@ std::string check_report(const Resolved& r) {
   if (!r.streams.empty()) out += "\nStreams and their paths\n";
   for (std::size_t s = 0; s < std::min(rows_of_page, r.streams.size()); ++s) {
     const models::StreamPlan& plan = r.plan.streams[r.streams[s].index.value];
-    const std::string tag = plan.priority ? fmt::format("PCP {} VLAN {}", *plan.priority, plan.vlan) : std::string("untagged");
+    const std::string tag = plan.priority ? fmt::format("PCP {} VLAN {}", *plan.priority, plan.vlan) : plan.host_priority ? fmt::format("untagged, host {}", *plan.host_priority) : std::string("untagged");
     out += fmt::format("  {:<32} {:<16} {:>10.1f} frames/s {:>9.3f} Mb/s\n", plan.name, tag, r.streams[s].demand.frames_per_second,
                        r.streams[s].demand.wire_bits_per_second / 1e6);
     for (std::size_t p = 0; p < std::min<std::size_t>(4, r.streams[s].paths.size()); ++p) out += "      " + path_text(r, r.streams[s].paths[p]) + "\n";

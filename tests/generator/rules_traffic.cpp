@@ -89,6 +89,7 @@ std::span<const Rule> traffic_rules() {
          // What windows are laid out for comes at known times.
          return m.word(m.wants(Feature::automatic_gates) && !s.has("every") ? "0 1 2 3 4 5 7" : "0 1 2 3 4 5 6 7 6 6");
        }},
+      {.key = "stream.host_priority", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return s.has("pcp") || m.wants(Feature::automatic_gates) ? Made() : m.word("0 1 3 5 7"); }},
       {.key = "stream.vlan", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return s.has("pcp") ? m.word("0 1 10 4094") : Made(); }},
       {.key = "stream.every", .percent = 60, .make = every},
       {.key = "stream.exponential", .percent = 15},

@@ -49,6 +49,8 @@ const BadCase streams_cases[] = {
      R"(2:67: error at /streams/0/burst: a burst longer than its period: found 12 frames 100us apart, expected at most 1ms)"},
     {"VlanWithoutPriority", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms", "vlan": 5})"),
      R"(2:82: error at /streams/0/vlan: a VLAN without a priority: found "vlan" alone, expected "pcp" too, since the tag carries both)"},
+    {"TwoPriorities", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms", "pcp": 3, "host_priority": 5})"),
+     R"(2:101: error at /streams/0/host_priority: two priorities: found "host_priority" beside "pcp", expected "pcp" alone, by which the host queues tagged frames, too)"},
     {"PriorityThatIsNone", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms", "pcp": 8})"),
      R"(2:81: error at /streams/0/pcp: out of range: found the number 8, expected an integer from 0 to 7)"},
     {"OverloadedLink", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "1472B", "every": "12us"})"),

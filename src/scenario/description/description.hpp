@@ -276,6 +276,7 @@ struct Stream {
   std::optional<std::uint8_t> pcp;
   std::uint16_t vlan = 0;
   std::optional<Duration> every;
+  std::optional<std::uint8_t> host_priority;
   std::optional<ExponentialGaps> exponential;
   std::optional<NormalGaps> normal;
   std::optional<Bursts> burst;

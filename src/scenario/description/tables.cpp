@@ -104,6 +104,7 @@ const json::Object& describe(json::Type<Stream>) {
       optional<&Stream::payload>("payload", "Octets of user data in each frame.", {.max = Octets{1500}}),
       optional<&Stream::encapsulation>("encapsulation", "What stands before the payload."),
       optional<&Stream::pcp>("pcp", "Priority in a VLAN tag; untagged, priority 0, if absent.", {.max = 7}),
+      optional<&Stream::host_priority>("host_priority", "Priority by which the sender's own interface queues untagged frames; they do not bear it, so that switches take them for priority 0.", {.max = 7}),
       optional<&Stream::vlan>("vlan", "VLAN identifier in the tag; 0 is a priority tag.", {.max = 4094}),
       optional<&Stream::every>("every", "Period.", {.min = 1_ns, .max = longest_step}),
       optional<&Stream::exponential>("exponential", "Random gaps with this mean."),

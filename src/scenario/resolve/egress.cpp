@@ -192,7 +192,7 @@ void add_launch_classes(Resolved& r, json::Diagnostics& diagnostics) {
   std::map<std::uint32_t, std::map<std::uint8_t, models::StreamIndex>> priorities;  // of frames with a launch time, by talker
   for (const models::TalkerPlan& talker : r.plan.talkers) {
     const models::StreamPlan& stream = r.plan.streams[talker.stream.value];
-    if (talker.launch) priorities[stream.talker.value].try_emplace(stream.priority.value_or(0), talker.stream);
+    if (talker.launch) priorities[stream.talker.value].try_emplace(stream.priority_at_talker(), talker.stream);
   }
   if (priorities.empty()) return;
   for (models::LinkPlan& link : r.plan.links) {

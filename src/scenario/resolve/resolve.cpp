@@ -199,8 +199,11 @@ class Resolver {
     if (stream.jitter > Duration())
       diagnostics_.error(stream.where.at("jitter"), "jitter belongs to a periodic stream", {"\"jitter\" without \"every\"", "\"every\""});
     if (stream.exponential) return models::ExponentialSchedule{stream.offset.value_or(Duration()), stream.exponential->mean};
+    if (stream.host_priority && stream.pcp)
+      diagnostics_.error(stream.where.at("host_priority"), "two priorities", {"\"host_priority\" beside \"pcp\"", "\"pcp\" alone, by which the host queues tagged frames, too"});
     if (stream.normal) return normal_gaps_of(stream, *stream.normal);
     if (stream.burst) {
+    if (!stream.pcp) r_.plan.streams[index->value].host_priority = stream.host_priority;
       if (stream.burst->frames > 1 && stream.burst->spacing > stream.burst->every / static_cast<std::int64_t>(stream.burst->frames - 1))
         diagnostics_.error(stream.where.at("burst"), "a burst longer than its period",
                            {std::to_string(stream.burst->frames) + " frames " + json::to_text(stream.burst->spacing) + " apart",

@@ -60,7 +60,7 @@ class Walker {
       const bool tagged = frame.tagged && !(config.untagged && i > 0);
       made.frame = models::frame_length(msdu, tagged, r_tagged);
       made.msdu = msdu + (r_tagged ? models::r_tag : Octets{0});
-      made.classes = ingress_.classes(path[i], config, made.filter, frame.priority);
+      made.classes = ingress_.classes(path[i], config, made.filter, i == 0 ? plan.priority_at_talker() : frame.priority);
       found_.push_back(made);
     }
   }

@@ -212,8 +212,12 @@ DeliveredFrames frames_delivered(const scenario::Resolved& resolved, const Strea
     frames.reason = !bound.reason.empty() ? bound.reason : bound.loss_reason;
   } else {
     // Whatever has been produced so early that it must have come; one more than whole periods if the first frame comes with the first instant.
-    const Duration last = resolved.scenario.duration - *bound.latency - stream->jitter - stream->offset.value_or(Duration()) - from - unsure;
-    const std::int64_t begun = from == Duration() ? 1 : 0;
+    // A clock that is ahead at the start has passed the instants before, and one that is behind shows the first one later.
+    const std::optional<models::NodeClockPlan>& own = resolved.plan.nodes[plan.talker.value].clock;
+    const Duration first = stream->offset.value_or(Duration()) - (own ? own->initial_offset : Duration());
+    const Duration wait = Duration::from_ps(scaled_up(std::max(first, Duration()).ps(), one_ppt + clock.rate_ppt, one_ppt));
+    const Duration last = resolved.scenario.duration - *bound.latency - stream->jitter - wait - from - unsure;
+    const std::int64_t begun = from == Duration() && first >= Duration() ? 1 : 0;
     frames.least = last < Duration() ? 0 : static_cast<std::uint64_t>(last.ps() / longest.ps() + begun) * listeners;
   }
   const bool may_be_more = !resolved.plan.impairments.empty() || !resolved.redundancies.empty() || !resolved.scenario.faults.empty() || shortest <= Duration();

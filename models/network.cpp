@@ -265,6 +265,10 @@ void Network::make_nodes() {
     } else {
       bridges_[n] = std::make_unique<Bridge>(traffic_, mutable_ports(NodeIndex{n}), node.forwarding_delay);
       bridges_[n]->set_id(simulation_->add(*bridges_[n]));
+      if (node.forwarding_jitter) {
+        jitters_.push_back(std::make_unique<ForwardingJitter>(*node.forwarding_jitter, simulation_->seed(), node.name, mutable_ports(NodeIndex{n}).size()));
+        bridges_[n]->set_jitter(jitters_.back().get());
+      }
     }
   }
 }

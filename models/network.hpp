@@ -125,6 +125,7 @@ class Network final : private LinkLocalSender {
   std::unique_ptr<EgressPort[]> ports_;
   std::vector<std::unique_ptr<Host>> hosts_;          // by node; null for bridges
   std::vector<std::unique_ptr<Bridge>> bridges_;      // by node; null for hosts
+  std::vector<std::unique_ptr<ForwardingJitter>> jitters_;   // of bridges that have one
   std::vector<std::unique_ptr<HostOutput>> outputs_;  // by node; null for bridges
   std::vector<std::unique_ptr<IngressPipeline>> ingress_;  // by node; null where there is none
   std::vector<std::uint32_t> reasons_down_;           // by link: how many reasons it has to be down

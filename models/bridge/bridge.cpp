@@ -3,6 +3,9 @@
 #include "sim/insertion_sort.hpp"
 
 namespace takt::models {
+namespace {
+constexpr auto leaves_now = static_cast<sim::EventKind>(NodeEvent::first_free);   // a frame is through the part of the bridge that takes a random time
+}
 
 /// The way of nearly every frame: it calls nothing but what it ends with.
 inline void Bridge::pass_on(sim::Simulation& simulation, ArrivalArgument arrival) {
@@ -15,8 +18,12 @@ inline void Bridge::pass_on(sim::Simulation& simulation, ArrivalArgument arrival
 }
 
 void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
-  TAKT_CHECK(event.kind() == static_cast<sim::EventKind>(NodeEvent::frame_arrived), "a bridge receives frames only");
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
+  if (event.kind() != static_cast<sim::EventKind>(NodeEvent::frame_arrived)) [[unlikely]] {
+    TAKT_CHECK(event.kind() == leaves_now, "an event of another component");
+    jitter_->leave(arrival.port, [&](FrameIndex frame) { forward(simulation, frame, arrival.port, nullptr); });
+    return;
+  }
   if (looks_closer_ || arrival.flags != 0) [[unlikely]]
     receive_flagged(simulation, arrival);
   else
@@ -64,7 +71,7 @@ void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
     record.queue_priority = record.priority;
   }
   if (chain_ == nullptr) {
-    forward(simulation, frame, arrival.port, only_header ? &header : nullptr);
+    pass_through(simulation, std::span(&frame, 1), arrival.port, only_header ? &header : nullptr);
     return;
   }
   if (arrived_.empty()) simulation.settle_first(*this);
@@ -74,9 +81,18 @@ void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
 void Bridge::settle(sim::Simulation& simulation) {
   sim::insertion_sort(arrived_, [](const Arrived& a, const Arrived& b) { return a.port < b.port; });
   for (const Arrived& arrived : arrived_)
-    for (const FrameIndex passed : chain_->pass(simulation, {arrived.frame, arrived.port, simulation.now() - forwarding_delay_}))
-      forward(simulation, passed, arrived.port, arrived.only_header ? &arrived.header : nullptr);
+    pass_through(simulation, chain_->pass(simulation, {arrived.frame, arrived.port, simulation.now() - forwarding_delay_}), arrived.port, arrived.only_header ? &arrived.header : nullptr);
   arrived_.clear();
+}
+
+/// What has come in by one arrival goes on, at once or when its random time is over.
+void Bridge::pass_through(sim::Simulation& simulation, std::span<const FrameIndex> frames, std::uint16_t from, const Header* header) {
+  if (jitter_ == nullptr) {
+    for (const FrameIndex frame : frames) forward(simulation, frame, from, header);
+    return;
+  }
+  TAKT_CHECK(header == nullptr, "a bridge with jitter cuts nothing through");
+  if (!frames.empty()) simulation.schedule(source_, jitter_->enter(from, simulation.now(), frames), sim::Phase::arrival, id_, leaves_now, ArrivalArgument::pack(frames[0], from));
 }
 
 void Bridge::forward(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "models/bridge/filtering_database.hpp"
+#include "models/bridge/forwarding_jitter.hpp"
 #include "models/egress/egress_port.hpp"
 #include "models/ingress/ingress_chain.hpp"
 #include "sim/simulation.hpp"
@@ -18,7 +19,10 @@ class alignas(64) Bridge final : public sim::Component {
   Bridge(Traffic& traffic, std::span<EgressPort> ports, sim::Duration forwarding_delay)
       : traffic_(&traffic), ports_(ports.data()), port_count_(ports.size()), forwarding_delay_(forwarding_delay) {}
 
-  void set_id(sim::ComponentId id) { id_ = id; }
+  void set_id(sim::ComponentId id) {
+    id_ = id;
+    source_ = sim::EventSource(id);
+  }
   sim::ComponentId id() const { return id_; }
   FilteringDatabase& filtering_database() { return filtering_database_; }
   const FilteringDatabase& filtering_database() const { return filtering_database_; }
@@ -29,6 +33,11 @@ class alignas(64) Bridge final : public sim::Component {
   }
   /// Takes the link-local frames.
   void set_link_local_receiver(LinkLocalReceiver* receiver) { link_local_ = receiver; }
+  /// Frames take that much longer, besides the fixed delay. Nothing is cut through then. `jitter` outlives the bridge.
+  void set_jitter(ForwardingJitter* jitter) {
+    jitter_ = jitter;
+    looks_closer_ = true;
+  }
   /// Some port takes tags off.
   void set_untags() { looks_closer_ = true; }
 
@@ -52,6 +61,7 @@ class alignas(64) Bridge final : public sim::Component {
   void pass_on(sim::Simulation& simulation, ArrivalArgument arrival);
   [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, ArrivalArgument arrival);
   void look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
+  void pass_through(sim::Simulation& simulation, std::span<const FrameIndex> frames, std::uint16_t from, const Header* header);
   void forward(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header);
   void forward_to_many(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, std::span<const std::uint16_t> egress, const Header* header);
   void hand_over(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, EgressPort& port, const Header* header);
@@ -66,6 +76,8 @@ class alignas(64) Bridge final : public sim::Component {
   LinkLocalReceiver* link_local_ = nullptr;
   sim::Duration forwarding_delay_;
   sim::ComponentId id_;
+  sim::EventSource source_;               // of its own events
+  ForwardingJitter* jitter_ = nullptr;
   std::vector<Arrived> arrived_;          // at this instant; waits for the chain
 };
 

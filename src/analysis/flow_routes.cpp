@@ -164,6 +164,7 @@ class RouteMaker {
       }
       if (null->destination == address && handle.is_none()) handle = entry.stream;
     }
+    if (node_plan.forwarding_jitter) hop.unsupported = "a forwarding delay with jitter behind filters";
     const auto filter = std::find_if(ingress.stream_filters.begin(), ingress.stream_filters.end(), [&](const models::StreamFilterConfig& f) {
       return (!f.stream_handle || (!handle.is_none() && *f.stream_handle == handle)) && (!f.priority || *f.priority == priority);
     });

@@ -49,7 +49,8 @@ std::string check_report(const Resolved& r) {
     if (const auto* host = std::get_if<scenario::HostNode>(&node.description))
       what = fmt::format("host, os {}", scenario::spelling(host->os.profile));
     else
-      what = fmt::format("switch, forwarding delay {}", readable(std::get<scenario::SwitchNode>(node.description).forwarding_delay));
+      what = fmt::format("switch, forwarding delay {}{}", readable(r.plan.nodes[n].least_forwarding_delay()),
+                         r.plan.nodes[n].forwarding_jitter ? " to " + readable(r.plan.nodes[n].greatest_forwarding_delay()) : std::string());
     std::string neighbours;
     for (std::size_t i = 0; i < std::min<std::size_t>(6, r.topology.neighbours[n].size()); ++i) {
       const scenario::Neighbour& neighbour = r.topology.neighbours[n][i];

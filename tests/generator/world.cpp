@@ -200,6 +200,23 @@ std::optional<Node> generators_of(Maker& m, const Scope& scope) {
 }
 
 /// Known from the skeleton.
+/// Not where frames are cut through, or come to a buffer at known times.
+std::optional<Node> jitter_of_switch(Maker& m, const Scope&) {
+  for (const Feature each : {Feature::cut_through, Feature::cqf, Feature::automatic_gates})
+    if (m.wants(each)) return std::nullopt;
+  Node ends = Node::object(), made = Node::object();
+  if (m.draw.one_in(4)) {
+    ends.add("mean", text("100ns"));
+    made.add("exponential", std::move(ends));
+    made.add("max", text("2us"));
+    return made;
+  }
+  ends.add("from", m.word("0ns 20ns"));
+  ends.add("to", m.word("20ns 160ns 5us"));
+  made.add("uniform", std::move(ends));
+  return made;
+}
+
 std::optional<Node> never(Maker&, const Scope&) { return std::nullopt; }
 
 std::optional<Node> name_of_skeleton(Maker&, const Scope&) { return list({text("?"), text("?")}); }
@@ -255,6 +272,8 @@ std::span<const Rule> network_rules() {
          return list(std::move(offered));
        }},
       {.key = "switch.forwarding_delay", .percent = 70, .words = "0ns 500ns 1us 3us"},
+      {.key = "switch.forwarding_jitter", .percent = 30, .make = jitter_of_switch},
+      {.key = "generator.forwarding_jitter", .percent = 20, .make = jitter_of_switch},
       {.key = "switch.cut_through_header", .feature = Feature::cut_through, .percent = 30, .words = "14B 22B 30B 72B"},
       {.key = "switch.traffic_classes", .feature = Feature::identity_classes, .percent = 80},
       {.key = "switch.queues", .feature = Feature::queue_limits, .percent = 80},

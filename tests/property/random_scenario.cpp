@@ -234,6 +234,8 @@ class Maker {
     Parts node, egresses;
     node.add("kind", "\"switch\"");
     node.add("forwarding_delay", in_quotes(draw.any({"0ns", "1us", "500ns", "3us"})));
+    if (Draw jitter(w_.seed, "jitter " + name); !has(Feature::cut_through) && !has(Feature::cqf) && !has(Feature::policing) && !has(Feature::ats) && jitter.one_in(4))
+      node.add("forwarding_jitter", "{\"uniform\": {\"from\": \"10ns\", \"to\": " + in_quotes(jitter.any({"170ns", "5us", "20us"})) + "}}");
     if (has(Feature::identity_classes)) node.add("traffic_classes", "\"identity\"");
     if (has(Feature::queue_limits)) node.add("queues", queues(name));
     if (const std::string all = egress(name, true); !all.empty()) egresses.add(all);

@@ -100,6 +100,9 @@ const IdleCase cases[] = {
     {"RunningListThatBeginsAnyhow", egress(R"("gates": {"running": true, "base_time": "-400us", "entries": [{"open": [7], "for": "100us"}, {"open": [1], "for": "100us"}]})"),
      "/network/nodes/sw1/egress/0/gates/running: a list that begins at the start in any case: \"base_time\" of -400us and a cycle of 200us | a \"base_time\" in the middle of a cycle\n"},
     {"RunningListInItsCycle", egress(R"("gates": {"running": true, "base_time": "-450us", "entries": [{"open": [7], "for": "100us"}, {"open": [1], "for": "100us"}]})"), ""},
+    {"JitterOfNothing", line(R"("forwarding_jitter": "0ns")", both), "/network/nodes/sw1/forwarding_jitter: a jitter of nothing: at most 0s | a time\n"},
+    {"HostPriorityLikeAnyOther", line(R"("forwarding_delay": "1us")", R"({"name": "control", "from": "a", "to": "b", "payload": "40B", "every": "250us", "host_priority": 0}, {"name": "bulk", "from": "a", "to": "b", "payload": "972B", "every": "500us", "pcp": 5})"),
+     "/streams/0/host_priority: a priority that makes no difference: 0, whose class at \"a\" is that of priority 0 | a priority of another class\n"},
     {"DropsOfUnlimitedQueues", line(R"("queues": {"drop": "oldest", "classes": [{"class": 7, "drop": "oldest"}]})", both),
      "/network/nodes/sw1/queues/drop: what a full queue loses, of queues that are never full: neither \"frames\" nor \"octets\" | a limit\n"
      "/network/nodes/sw1/queues/classes/0/drop: what a full queue loses, of queues that are never full: neither \"frames\" nor \"octets\" | a limit\n"},

@@ -81,6 +81,7 @@ class WireChecker final : public sim::TraceSink {
   void apply(const Change& change);
   void attribute(Ps now, std::vector<Recorded>& batch);
   void settle_host(std::uint32_t node, Ps now);
+  void check_nobody_overtakes(std::uint32_t index, Ps now);
   void settle_bridge(std::uint32_t node, Ps now);
   void run_ingress(std::uint32_t node, Ps now, std::vector<Arrival*>& arrived);
   void check_order(const Arrival& arrival, Ps now);

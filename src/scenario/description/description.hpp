@@ -182,6 +182,7 @@ struct HostNode {
 struct SwitchNode {
   json::Source where;
   Duration forwarding_delay;
+  std::optional<Latency> forwarding_jitter = {};
   Octets cut_through_header{22};
   TrafficClasses traffic_classes = TrafficClasses::standard;
   Queues queues;
@@ -227,6 +228,7 @@ struct Generator {
   std::optional<std::uint64_t> teeth = {};
   std::optional<double> degree = {};
   std::optional<std::uint64_t> seed = {};
+  std::optional<Latency> forwarding_jitter = {};
   bool operator==(const Generator&) const = default;
 };
 
@@ -274,9 +276,9 @@ struct Stream {
   Octets payload{0};
   Encapsulation encapsulation = Encapsulation::udp;
   std::optional<std::uint8_t> pcp;
+  std::optional<std::uint8_t> host_priority;
   std::uint16_t vlan = 0;
   std::optional<Duration> every;
-  std::optional<std::uint8_t> host_priority;
   std::optional<ExponentialGaps> exponential;
   std::optional<NormalGaps> normal;
   std::optional<Bursts> burst;

@@ -204,6 +204,7 @@ const json::Object& describe(json::Type<HostNode>) {
 const json::Object& describe(json::Type<SwitchNode>) {
   static constexpr json::Field fields[] = {
       optional<&SwitchNode::forwarding_delay>("forwarding_delay", "From the last bit in (cut through: the header) to the egress queue.", {.max = 1_s}),
+      optional<&SwitchNode::forwarding_jitter>("forwarding_jitter", "A random time besides, of at most 1 s, drawn for each frame. Frames that come in by one port do not overtake each other: one that has drawn less waits for those before it."),
       optional<&SwitchNode::cut_through_header>("cut_through_header", "What must be in of an untagged frame before it is cut through, preamble included; tags add to it.",
                                                 {.min = Octets{14}, .max = Octets{72}}),
       optional<&SwitchNode::traffic_classes>("traffic_classes", "Which priority is sent in which queue."),
@@ -269,6 +270,7 @@ const json::Object& describe(json::Type<Generator>) {
       optional<&Generator::host_rate>("host_rate", "Rate of the links to hosts, if it differs.", {.min = DataRate{10'000'000}, .max = DataRate{100'000'000'000}}),
       optional<&Generator::length>("length", "Length of each link.", {.max = Length{100'000'000}}),
       optional<&Generator::forwarding_delay>("forwarding_delay", "Of the switches.", {.max = 1_s}),
+      optional<&Generator::forwarding_jitter>("forwarding_jitter", "Of the switches: a random time besides, drawn for each frame."),
       optional<&Generator::os>("os", "Of the hosts."),
       optional<&Generator::queues>("queues", "Of all ports."),
       optional<&Generator::traffic_classes>("traffic_classes", "Of all ports."),

@@ -160,6 +160,7 @@ class Extraction {
 
   std::string check_node(std::uint32_t node) const {
     const auto* const bridge = std::get_if<SwitchNode>(&r_.topology.nodes[node].description);
+    if (bridge != nullptr && r_.plan.nodes[node].forwarding_jitter) return "a way over " + json::quote(r_.topology.nodes[node].name) + ", whose forwarding delay has jitter";
     if (bridge == nullptr || !bridge->ingress) return {};
     return "a way over " + json::quote(r_.topology.nodes[node].name) + ", whose \"ingress\" may change classes and times";
   }
@@ -175,9 +176,9 @@ class Extraction {
     if (config.shaping.is_shared(q)) problem = "a share of the bandwidth (ETS) for its class at " + port + ", which makes its delays depend on other traffic";
     if (config.preemption && models::contains(config.preemption->preemptable, q)) problem = "a preemptable class at " + port;
     const models::StreamPlan& plan = plan_of(stream);
-    // Hosts send frames as they were made; ports of switches may take the tag off.
     if (plan.host_priority) problem = "a priority that its frames have at " + port + " and not behind it";
     if (!problem.empty()) return refuse(stream, problem), false;
+    // Hosts send frames as they were made; ports of switches may take the tag off.
     const bool tagged = plan.priority.has_value() && !(config.untagged && previous);
     const Octets frame = models::frame_length(plan.headers + stream.largest_payload, tagged);
     const Duration octet = at.link->rate.octet_time();

@@ -118,6 +118,8 @@ void tell_idle_queues(const Usage& usage, json::Diagnostics& diagnostics) {
   }
   for (const TopologyNode& node : r.topology.nodes) {
     const auto* const bridge = std::get_if<SwitchNode>(&node.description);
+    if (bridge != nullptr && bridge->forwarding_jitter && !r.plan.nodes[static_cast<std::size_t>(&node - r.topology.nodes.data())].forwarding_jitter)
+      warn_once(diagnostics, bridge->forwarding_jitter->where.place(), "a jitter of nothing", {"at most 0s", "a time"});
     if (bridge == nullptr || !bridge->where.has("cut_through_header")) continue;
     if (std::all_of(bridge->egress.begin(), bridge->egress.end(), [](const Egress& egress) { return egress.cut_through.empty(); }))
       warn_once(diagnostics, bridge->where.at("cut_through_header"), "a header where nothing is cut through", {"no \"cut_through\" in \"egress\" of " + json::quote(node.name), "classes that are cut through"});

@@ -105,6 +105,7 @@ class Resolver {
         plan.kind = models::NodeKind::bridge;
         plan.forwarding_delay = bridge.forwarding_delay;
         plan.cut_through_header = bridge.cut_through_header;
+        plan.forwarding_jitter = jitter_of(bridge);
         plan.port_config = port_config_of_node(bridge.traffic_classes, bridge.queues);
       }
       r_.plan.nodes.push_back(std::move(plan));
@@ -112,6 +113,20 @@ class Resolver {
     const NetworkSection& network = r_.scenario.network;
     if (network.nodes.empty() && network.generate.empty())
       diagnostics_.error_unless(!r_.topology.has_all_nodes, network.where.place(), "a network without nodes", {"no nodes", "\"nodes\" or \"generate\""});
+  }
+
+  /// Nothing if there is none; one that is not limited, or stands where the delay must be known, is refused.
+  std::optional<sim::Distribution> jitter_of(const SwitchNode& bridge) {
+    if (!bridge.forwarding_jitter) return std::nullopt;
+    const json::Source& where = bridge.forwarding_jitter->where;
+    if (diagnostics_.is_refused(where.place())) return std::nullopt;   // generated switches share theirs
+    const sim::Distribution jitter = distribution_of(*bridge.forwarding_jitter, diagnostics_);
+    if (jitter.greatest() > 1_s)
+      diagnostics_.error(where.place(), "a jitter without a limit", {"up to " + json::to_text(jitter.greatest()), "a \"max\" of at most 1s"});
+    const bool cuts = std::any_of(bridge.egress.begin(), bridge.egress.end(), [](const Egress& egress) { return !egress.cut_through.empty(); });
+    if (cuts) diagnostics_.error(where.place(), "jitter where frames are cut through", {"\"cut_through\" in \"egress\"", "one of them"});
+    if (bridge.ingress && bridge.ingress->cqf) diagnostics_.error(where.place(), "jitter beside cyclic queuing", {"\"cqf\", whose buffers frames reach at known times", "one of them"});
+    return jitter.greatest() > Duration() ? std::optional(jitter) : std::nullopt;
   }
 
   std::uint32_t port_config_of_node(TrafficClasses classes, const Queues& queues) {
@@ -184,8 +199,11 @@ class Resolver {
     wanted.payload = stream.payload;
     if (const auto* trace = std::get_if<models::TraceSchedule>(&schedule))
       for (const auto& entry : trace->entries) wanted.payload = std::max(wanted.payload, entry.payload);
+    if (stream.host_priority && stream.pcp)
+      diagnostics_.error(stream.where.at("host_priority"), "two priorities", {"\"host_priority\" beside \"pcp\"", "\"pcp\" alone, by which the host queues tagged frames, too"});
     const auto index = builder_->add(wanted);
     if (!index) return;
+    if (!stream.pcp) r_.plan.streams[index->value].host_priority = stream.host_priority;
     r_.streams[index->value].demand = demand_of(schedule, stream, *index);
     r_.plan.talkers.push_back({*index, stream.payload, std::move(schedule), stream.launch});
   }
@@ -199,11 +217,8 @@ class Resolver {
     if (stream.jitter > Duration())
       diagnostics_.error(stream.where.at("jitter"), "jitter belongs to a periodic stream", {"\"jitter\" without \"every\"", "\"every\""});
     if (stream.exponential) return models::ExponentialSchedule{stream.offset.value_or(Duration()), stream.exponential->mean};
-    if (stream.host_priority && stream.pcp)
-      diagnostics_.error(stream.where.at("host_priority"), "two priorities", {"\"host_priority\" beside \"pcp\"", "\"pcp\" alone, by which the host queues tagged frames, too"});
     if (stream.normal) return normal_gaps_of(stream, *stream.normal);
     if (stream.burst) {
-    if (!stream.pcp) r_.plan.streams[index->value].host_priority = stream.host_priority;
       if (stream.burst->frames > 1 && stream.burst->spacing > stream.burst->every / static_cast<std::int64_t>(stream.burst->frames - 1))
         diagnostics_.error(stream.where.at("burst"), "a burst longer than its period",
                            {std::to_string(stream.burst->frames) + " frames " + json::to_text(stream.burst->spacing) + " apart",

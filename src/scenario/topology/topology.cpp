@@ -112,6 +112,7 @@ class Builder {
     SwitchNode made;
     made.where = generator.where;
     made.forwarding_delay = generator.forwarding_delay;
+    made.forwarding_jitter = generator.forwarding_jitter;
     made.traffic_classes = generator.traffic_classes;
     made.queues = generator.queues;
     made.egress = generator.egress;

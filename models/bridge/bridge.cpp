@@ -4,7 +4,7 @@
 
 namespace takt::models {
 namespace {
-constexpr auto leaves_now = static_cast<sim::EventKind>(NodeEvent::first_free);   // a frame is through the part of the bridge that takes a random time
+constexpr auto leaves_now = static_cast<sim::EventKind>(NodeEvent::first_free);
 }
 
 /// The way of nearly every frame: it calls nothing but what it ends with.
@@ -19,15 +19,18 @@ inline void Bridge::pass_on(sim::Simulation& simulation, ArrivalArgument arrival
 
 void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
-  if (event.kind() != static_cast<sim::EventKind>(NodeEvent::frame_arrived)) [[unlikely]] {
-    TAKT_CHECK(event.kind() == leaves_now, "an event of another component");
-    jitter_->leave(arrival.port, [&](FrameIndex frame) { forward(simulation, frame, arrival.port, nullptr); });
-    return;
-  }
-  if (looks_closer_ || arrival.flags != 0) [[unlikely]]
+  if (event.kind() != static_cast<sim::EventKind>(NodeEvent::frame_arrived)) [[unlikely]]
+    leave(simulation, event.kind(), arrival.port);
+  else if (looks_closer_ || arrival.flags != 0) [[unlikely]]
     receive_flagged(simulation, arrival);
   else
     pass_on(simulation, arrival);
+}
+
+/// A frame is through the part of the bridge that takes a random time.
+void Bridge::leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16_t from) {
+  TAKT_CHECK(kind == leaves_now, "an event of another component");
+  jitter_->leave(from, [&](FrameIndex frame) { forward(simulation, frame, from, nullptr); });
 }
 
 void Bridge::receive_flagged(sim::Simulation& simulation, ArrivalArgument arrival) {

@@ -59,6 +59,7 @@ class alignas(64) Bridge final : public sim::Component {
     Header header;
   };
   void pass_on(sim::Simulation& simulation, ArrivalArgument arrival);
+  [[gnu::noinline]] void leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16_t from);
   [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, ArrivalArgument arrival);
   void look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
   void pass_through(sim::Simulation& simulation, std::span<const FrameIndex> frames, std::uint16_t from, const Header* header);

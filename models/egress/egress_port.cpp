@@ -423,9 +423,8 @@ void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
   const Frame& record = shared_->traffic->frame(frame);
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
   DropReason reason{};
-  if (!queues_.has_room(q, record.length, config_->queue_limits[q], reason) && !make_room(simulation, q, record.length, reason)) {
-    give_up(simulation, frame, reason);
-    if (shaping_ && queues_.frames(q) == 0) shaping_->none_waits(simulation.now(), q);
+  if (!queues_.has_room(q, record.length, config_->queue_limits[q], reason)) {
+    admit_to_full_queue(simulation, frame, q, reason);
     return;
   }
   if (shaping_ && shaping_->is_timed(q))
@@ -436,14 +435,19 @@ void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::enqueued), id(), frame.value, q});
 }
 
-/// Drops the oldest frames of a full queue until one of this length fits, if it is to be so, and if the frame fits at all.
-bool EgressPort::make_room(sim::Simulation& simulation, TrafficClass q, std::uint32_t length, DropReason& reason) {
+/// The frame is lost, or, if it is to be so and it fits at all, the oldest ones are until it fits.
+void EgressPort::admit_to_full_queue(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, DropReason reason) {
+  const std::uint32_t length = shared_->traffic->frame(frame).length;
   const QueueLimit& limit = config_->queue_limits[q];
-  if (!limit.drops_oldest || limit.frames == 0 || length > limit.octets) return false;
+  if (!limit.drops_oldest || limit.frames == 0 || length > limit.octets) {
+    give_up(simulation, frame, reason);
+    if (shaping_ && queues_.frames(q) == 0) shaping_->none_waits(simulation.now(), q);
+    return;
+  }
   do give_up(simulation, pop(simulation, q), reason);
   while (!queues_.has_room(q, length, limit, reason));
   has_new_head_ = shaping_ != nullptr;   // without gates and shapers every head is ready
-  return true;
+  admit(simulation, frame);
 }
 
 void EgressPort::give_up(sim::Simulation& simulation, FrameIndex frame, DropReason reason) {

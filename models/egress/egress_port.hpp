@@ -187,7 +187,7 @@ class alignas(64) EgressPort final : public sim::Component {
   void start_highest(sim::Simulation& simulation);
   void admit_arrivals(sim::Simulation& simulation);
   void admit(sim::Simulation& simulation, FrameIndex frame);
-  bool make_room(sim::Simulation& simulation, TrafficClass q, std::uint32_t length, DropReason& reason);
+  [[gnu::noinline]] void admit_to_full_queue(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, DropReason reason);
   void give_up(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
   void wake_at(sim::Simulation& simulation, sim::TrueTime time);
   PortShaping& make_shaping();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,7 @@ struct NodePlan {
   std::optional<NodeClockPlan> clock = {};    ///< its own clock; true time if absent
   std::optional<std::uint32_t> ingress = {};  ///< bridges: index into NetworkPlan::ingress_configs
   Octets cut_through_header{22};    ///< bridges: octets, preamble included, of an untagged frame that must be in before it is cut through
-  std::optional<sim::Distribution> forwarding_jitter = {};   ///< bridges: a random time besides forwarding_delay, see ForwardingJitter
+  std::shared_ptr<const sim::Distribution> forwarding_jitter = {};   ///< bridges: a random time besides forwarding_delay, see ForwardingJitter; null if there is none
 
   sim::Duration least_forwarding_delay() const { return forwarding_delay + (forwarding_jitter ? forwarding_jitter->least() : sim::Duration()); }
   sim::Duration greatest_forwarding_delay() const { return forwarding_delay + (forwarding_jitter ? forwarding_jitter->greatest() : sim::Duration()); }

@@ -223,7 +223,7 @@ void WireChecker::finish(Ps end) {
 void WireChecker::compare(std::span<const models::Stream> streams) {
   bool has_latencies = false;
   bool cuts_through = false;
-  const bool has_jitter = std::ranges::any_of(plan_.nodes, [](const models::NodePlan& node) { return node.forwarding_jitter.has_value(); });   // which of several copies is in a switch can't be told
+  const bool has_jitter = std::ranges::any_of(plan_.nodes, [](const models::NodePlan& node) { return node.forwarding_jitter != nullptr; });   // which of several copies is in a switch can't be told
   for (const models::OsLatency& latency : plan_.os_latencies)
     has_latencies |= !latency.receive.is_constant() || !latency.transmit.is_constant() || latency.transmit.greatest() != sim::Duration();
   for (const models::PortConfig& config : plan_.port_configs) cuts_through |= config.cut_through != 0;

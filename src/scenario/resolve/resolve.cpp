@@ -116,17 +116,17 @@ class Resolver {
   }
 
   /// Nothing if there is none; one that is not limited, or stands where the delay must be known, is refused.
-  std::optional<sim::Distribution> jitter_of(const SwitchNode& bridge) {
-    if (!bridge.forwarding_jitter) return std::nullopt;
+  std::shared_ptr<const sim::Distribution> jitter_of(const SwitchNode& bridge) {
+    if (!bridge.forwarding_jitter) return nullptr;
     const json::Source& where = bridge.forwarding_jitter->where;
-    if (diagnostics_.is_refused(where.place())) return std::nullopt;   // generated switches share theirs
+    if (diagnostics_.is_refused(where.place())) return nullptr;   // generated switches share theirs
     const sim::Distribution jitter = distribution_of(*bridge.forwarding_jitter, diagnostics_);
     if (jitter.greatest() > 1_s)
       diagnostics_.error(where.place(), "a jitter without a limit", {"up to " + json::to_text(jitter.greatest()), "a \"max\" of at most 1s"});
     const bool cuts = std::any_of(bridge.egress.begin(), bridge.egress.end(), [](const Egress& egress) { return !egress.cut_through.empty(); });
     if (cuts) diagnostics_.error(where.place(), "jitter where frames are cut through", {"\"cut_through\" in \"egress\"", "one of them"});
     if (bridge.ingress && bridge.ingress->cqf) diagnostics_.error(where.place(), "jitter beside cyclic queuing", {"\"cqf\", whose buffers frames reach at known times", "one of them"});
-    return jitter.greatest() > Duration() ? std::optional(jitter) : std::nullopt;
+    return jitter.greatest() > Duration() ? std::make_shared<const sim::Distribution>(jitter) : nullptr;
   }
 
   std::uint32_t port_config_of_node(TrafficClasses classes, const Queues& queues) {

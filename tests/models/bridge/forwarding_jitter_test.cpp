@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "tests/models/network_fixture.hpp"
 
@@ -11,9 +12,9 @@ namespace {
 
 using namespace test;
 
-std::vector<Listener::Arrival> arrivals(const std::optional<sim::Distribution>& jitter, const std::vector<Duration>& times, std::uint64_t* digest = nullptr) {
+std::vector<Listener::Arrival> arrivals(const sim::Distribution& jitter, const std::vector<Duration>& times, std::uint64_t* digest = nullptr) {
   Line line(1, 1_Gbps, 0_ns, 920_ns);
-  line.builder.plan.nodes[1].forwarding_jitter = jitter;
+  line.builder.plan.nodes[1].forwarding_jitter = std::make_shared<const sim::Distribution>(jitter);
   const StreamIndex stream = line.builder.stream(line.talker, {line.listener});
   std::vector<Sender::Item> items;
   for (const Duration time : times) items.push_back({local(time), stream, 8});

@@ -127,9 +127,12 @@ void Network::add_talker(const TalkerPlan& talker) {
     for (auto [other, end] = babblers_.equal_range(talker.stream.value); other != end; ++other) other->second->share_latency(*talkers_.back());
   }
   if (followers_[stream.talker.value]) followers_[stream.talker.value]->talkers.push_back(talkers_.back().get());
-  if (!talker.launch) return;
-  talkers_.back()->set_launch(*talker.launch);
-  output.look_closer();
+  if (stream.host_priority) talkers_.back()->set_host_priority(*stream.host_priority);
+  if (!talker.launch && !stream.host_priority) return;
+  if (talker.launch) {
+    talkers_.back()->set_launch(*talker.launch);
+    output.look_closer();
+  }
   for (EgressPort& port : mutable_ports(stream.talker)) port.link().check_arrivals();
 }
 
@@ -368,6 +371,10 @@ void Network::make_nodes() {
     const std::span<EgressPort> ports = mutable_ports(NodeIndex{n});
     if (chooses_ports(NodeIndex{n})) bridges_[n] = std::make_unique<Bridge>(traffic_, ports, node.forwarding_delay);
     if (node.forwards()) bridges_[n]->set_id(simulation_->add(*bridges_[n]));
+    if (node.forwarding_jitter) {
+      jitters_.push_back(std::make_unique<ForwardingJitter>(*node.forwarding_jitter, simulation_->seed(), node.name, ports.size()));
+      bridges_[n]->set_jitter(jitters_.back().get());
+    }
     if (!node.is_end_station()) continue;
     hosts_[n] = std::make_unique<Host>(*simulation_, traffic_, NodeIndex{n}, plan_.os_latencies[node.os_latency], node.name, ports, clock_of(NodeIndex{n}),
                                        chooses_ports(NodeIndex{n}));

@@ -151,6 +151,7 @@ class Network final : private LinkLocalSender {
   std::unique_ptr<EgressPort[]> ports_;
   std::vector<std::unique_ptr<Host>> hosts_;          // by node; null for bridges
   std::vector<std::unique_ptr<Bridge>> bridges_;      // by node; null for hosts with one port
+  std::vector<std::unique_ptr<ForwardingJitter>> jitters_;   // of bridges that have one
   std::vector<std::unique_ptr<HostOutput>> outputs_;  // by node; null for bridges
   std::vector<std::unique_ptr<IngressPipeline>> ingress_;  // by node; null where there is none
   std::vector<bool> bypassed_;                        // by node; empty until a bypass acts

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +34,10 @@ struct NodePlan {
   std::optional<NodeClockPlan> clock = {};    ///< its own clock; true time if absent
   std::optional<std::uint32_t> ingress = {};  ///< if it forwards: index into NetworkPlan::ingress_configs
   Octets cut_through_header{22};    ///< if it forwards: octets, preamble included, of an untagged frame that must be in before it is cut through
+  std::shared_ptr<const sim::Distribution> forwarding_jitter = {};   ///< bridges: a random time besides forwarding_delay, see ForwardingJitter; null if there is none
+
+  sim::Duration least_forwarding_delay() const { return forwarding_delay + (forwarding_jitter ? forwarding_jitter->least() : sim::Duration()); }
+  sim::Duration greatest_forwarding_delay() const { return forwarding_delay + (forwarding_jitter ? forwarding_jitter->greatest() : sim::Duration()); }
 };
 
 struct LinkPlan {
@@ -68,6 +73,9 @@ struct StreamPlan {
   std::uint16_t udp_port = 0;       ///< of the receivers; 0: takt's choice
   std::uint16_t udp_source_port = 0;  ///< of the sender; 0: takt's choice
   std::uint32_t ip_group = 0;       ///< IPv4 multicast address to which it goes; 0: takt's choice
+  std::optional<Priority> host_priority = {};  ///< untagged: by which the talker's own interfaces queue it; it is not on the wire
+  /// What decides about the queue at the talker.
+  Priority priority_at_talker() const { return host_priority.value_or(priority.value_or(0)); }
 };
 
 /// Static filtering entries: at `node`, frames of (vlan, address) leave through `port`. Those of a node with several ports

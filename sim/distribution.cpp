@@ -1,6 +1,8 @@
 #include "sim/distribution.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <utility>
 
 #include "sim/check.hpp"
@@ -10,6 +12,8 @@ namespace takt::sim {
 namespace {
 
 constexpr double most_ps = 9.0e18;
+constexpr double least_probability = 1e-300;
+constexpr double greatest_probability = 1 - 0x1p-53;
 
 /// Rounds to the nearest picosecond, half away from zero, within the range of a Duration.
 Duration rounded(double ps) {
@@ -19,6 +23,20 @@ Duration rounded(double ps) {
 }
 
 double as_double(Duration d) { return static_cast<double>(d.ps()); }
+
+/// The probability of a result below z, z <= 0, of the standard normal distribution: the greatest number whose quantile lies below. Positive numbers are in the order of their bits.
+double lower_tail(double z) {
+  if (z < normal_quantile(least_probability)) return 0;
+  std::uint64_t below = std::bit_cast<std::uint64_t>(least_probability);
+  for (std::uint64_t above = std::bit_cast<std::uint64_t>(0.5); above - below > 1;) {
+    const std::uint64_t middle = below + (above - below) / 2;
+    (normal_quantile(std::bit_cast<double>(middle)) < z ? below : above) = middle;
+  }
+  return std::bit_cast<double>(below);
+}
+
+/// The density of the standard normal distribution.
+double density(double z) { return exact_exp(-z * z / 2) / std::sqrt(2 * 3.14159265358979323846); }
 
 }  // namespace
 
@@ -46,6 +64,24 @@ Distribution Distribution::normal(Duration mean, Duration standard_deviation) {
   d.location_ = mean;
   d.spread_ = standard_deviation;
   return d;
+}
+
+Distribution Distribution::truncated_normal(Duration mean, Duration standard_deviation, Duration low, Duration high) {
+  TAKT_CHECK(low <= mean && mean <= high && low < high && standard_deviation > Duration(), "a normal distribution is cut off on both sides of its mean");
+  Distribution d = normal(mean, standard_deviation);
+  d.kind_ = Kind::truncated_normal;
+  d.below_ = lower_tail(as_double(low - mean) / as_double(standard_deviation));
+  d.shape_ = 1 - d.below_ - lower_tail(as_double(mean - high) / as_double(standard_deviation));
+  d.floor_ = low;
+  d.ceiling_ = high;
+  return d;
+}
+
+Duration Distribution::truncated_mean() const {
+  TAKT_CHECK(kind_ == Kind::truncated_normal, "the mean of a truncated normal distribution");
+  const double spread = as_double(spread_);
+  const double shift = density(as_double(floor_ - location_) / spread) - density(as_double(ceiling_ - location_) / spread);
+  return std::clamp(rounded(as_double(location_) + spread * shift / shape_), floor_, ceiling_);
 }
 
 Distribution Distribution::exponential(Duration mean) {
@@ -118,6 +154,8 @@ Duration Distribution::draw_raw(RandomStream& stream) const {
                              stream.below(static_cast<std::uint64_t>((spread_ - location_).ps()) + 1)));
     case Kind::normal:
       return rounded(as_double(location_) + as_double(spread_) * normal_quantile(stream.unit()));
+    case Kind::truncated_normal:
+      return rounded(as_double(location_) + as_double(spread_) * normal_quantile(std::clamp(below_ + shape_ * stream.unit(), least_probability, greatest_probability)));
     case Kind::exponential:
       return rounded(-as_double(location_) * exact_log(stream.unit()));
     case Kind::weibull:

@@ -24,6 +24,9 @@ class Distribution {
   /// Uniform over [low, high], both ends included.
   static Distribution uniform(Duration low, Duration high);
   static Distribution normal(Duration mean, Duration standard_deviation);
+  /// That of a normal distribution among its results in [low, high]: cut off there, whereas clamped() heaps what lies beyond onto the ends.
+  /// Precondition: low <= mean <= high, low < high, standard_deviation > 0.
+  static Distribution truncated_normal(Duration mean, Duration standard_deviation, Duration low, Duration high);
   static Distribution exponential(Duration mean);
   /// Weibull with scale and shape k > 0: P(X > x) = exp(-(x/scale)^k).
   static Distribution weibull(Duration scale, double shape);
@@ -38,6 +41,8 @@ class Distribution {
   Distribution clamped(Duration floor, Duration ceiling) const;
 
   Duration draw(RandomStream& stream) const;
+  /// What draws of a truncated normal distribution come to on average.
+  Duration truncated_mean() const;
 
   bool is_constant() const { return kind_ == Kind::constant; }
   /// Bounds of what draw() can return (after clamping).
@@ -45,7 +50,7 @@ class Distribution {
   Duration greatest() const;
 
  private:
-  enum class Kind : std::uint8_t { constant, uniform, normal, exponential, weibull, log_normal, empirical, mixture };
+  enum class Kind : std::uint8_t { constant, uniform, normal, truncated_normal, exponential, weibull, log_normal, empirical, mixture };
 
   Duration draw_raw(RandomStream& stream) const;
 
@@ -53,7 +58,8 @@ class Distribution {
   std::uint32_t tail_parts_per_billion_ = 0;
   Duration location_;  // constant value, low end, mean, scale or median
   Duration spread_;    // high end or standard deviation
-  double shape_ = 1.0;
+  double shape_ = 1.0;   // truncated: the probability of a result in the interval
+  double below_ = 0.0;   // truncated: that of one below it
   Duration floor_ = Duration::from_ps(0);
   Duration ceiling_ = Duration::max();
   bool equal_weights_ = false;          // empirical: every weight is 1, so the draw is the index

@@ -4,7 +4,8 @@
 
 namespace takt::models {
 namespace {
-constexpr auto stored_for_host = static_cast<sim::EventKind>(NodeEvent::first_free);
+constexpr auto leaves_now = static_cast<sim::EventKind>(NodeEvent::first_free);
+constexpr auto stored_for_host = static_cast<sim::EventKind>(static_cast<unsigned>(NodeEvent::first_free) + 1);
 }
 
 /// The way of nearly every frame: it calls nothing but what it ends with.
@@ -19,15 +20,18 @@ inline void Bridge::pass_on(sim::Simulation& simulation, ArrivalArgument arrival
 
 void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
-  if (event.kind() != static_cast<sim::EventKind>(NodeEvent::frame_arrived)) [[unlikely]] {
-    TAKT_CHECK(event.kind() == stored_for_host && host_ != nullptr, "a bridge receives frames only");
-    take_stored(simulation, arrival);
-    return;
-  }
-  if (looks_closer_ || arrival.flags != 0) [[unlikely]]
+  if (event.kind() != static_cast<sim::EventKind>(NodeEvent::frame_arrived)) [[unlikely]]
+    event.kind() == stored_for_host ? take_stored(simulation, arrival) : leave(simulation, event.kind(), arrival.port);
+  else if (looks_closer_ || arrival.flags != 0) [[unlikely]]
     receive_flagged(simulation, arrival);
   else
     pass_on(simulation, arrival);
+}
+
+/// A frame is through the part of the bridge that takes a random time.
+void Bridge::leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16_t from) {
+  TAKT_CHECK(kind == leaves_now, "an event of another component");
+  jitter_->leave(from, [&](FrameIndex frame) { forward(simulation, frame, from, nullptr); });
 }
 
 void Bridge::receive_flagged(sim::Simulation& simulation, ArrivalArgument arrival) {
@@ -71,7 +75,7 @@ void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
     record.queue_priority = record.priority;
   }
   if (chain_ == nullptr) {
-    forward(simulation, frame, arrival.port, only_header ? &header : nullptr);
+    pass_through(simulation, std::span(&frame, 1), arrival.port, only_header ? &header : nullptr);
     return;
   }
   if (arrived_.empty()) simulation.settle_first(*this);
@@ -81,9 +85,18 @@ void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
 void Bridge::settle(sim::Simulation& simulation) {
   sim::insertion_sort(arrived_, [](const Arrived& a, const Arrived& b) { return a.port < b.port; });
   for (const Arrived& arrived : arrived_)
-    for (const FrameIndex passed : chain_->pass(simulation, {arrived.frame, arrived.port, simulation.now() - forwarding_delay_}))
-      forward(simulation, passed, arrived.port, arrived.only_header ? &arrived.header : nullptr);
+    pass_through(simulation, chain_->pass(simulation, {arrived.frame, arrived.port, simulation.now() - forwarding_delay_}), arrived.port, arrived.only_header ? &arrived.header : nullptr);
   arrived_.clear();
+}
+
+/// What has come in by one arrival goes on, at once or when its random time is over.
+void Bridge::pass_through(sim::Simulation& simulation, std::span<const FrameIndex> frames, std::uint16_t from, const Header* header) {
+  if (jitter_ == nullptr) {
+    for (const FrameIndex frame : frames) forward(simulation, frame, from, header);
+    return;
+  }
+  TAKT_CHECK(header == nullptr, "a bridge with jitter cuts nothing through");
+  if (!frames.empty()) simulation.schedule(source_, jitter_->enter(from, simulation.now(), frames), sim::Phase::arrival, id_, leaves_now, ArrivalArgument::pack(frames[0], from));
 }
 
 void Bridge::forward(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, const Header* header) {

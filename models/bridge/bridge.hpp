@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "models/bridge/filtering_database.hpp"
+#include "models/bridge/forwarding_jitter.hpp"
 #include "models/bridge/internal_port.hpp"
 #include "models/egress/egress_port.hpp"
 #include "models/ingress/ingress_chain.hpp"
@@ -21,7 +22,10 @@ class alignas(64) Bridge final : public sim::Component {
   Bridge(Traffic& traffic, std::span<EgressPort> ports, sim::Duration forwarding_delay)
       : traffic_(&traffic), ports_(ports.data()), port_count_(ports.size()), forwarding_delay_(forwarding_delay) {}
 
-  void set_id(sim::ComponentId id) { id_ = id; }
+  void set_id(sim::ComponentId id) {
+    id_ = id;
+    source_ = sim::EventSource(id);
+  }
   sim::ComponentId id() const { return id_; }
   FilteringDatabase& filtering_database() { return filtering_database_; }
   const FilteringDatabase& filtering_database() const { return filtering_database_; }
@@ -32,12 +36,16 @@ class alignas(64) Bridge final : public sim::Component {
   }
   /// Takes the link-local frames.
   void set_link_local_receiver(LinkLocalReceiver* receiver) { link_local_ = receiver; }
+  /// Frames take that much longer, besides the fixed delay. Nothing is cut through then. `jitter` outlives the bridge.
+  void set_jitter(ForwardingJitter* jitter) {
+    jitter_ = jitter;
+    looks_closer_ = true;
+  }
   /// Some port takes tags off.
   void set_untags() { looks_closer_ = true; }
   /// The host of the station; it outlives the bridge.
   void set_host(InternalReceiver& host) {
     host_ = &host;
-    source_ = sim::EventSource(id_);
   }
 
   /// A frame of the node itself, at the present instant: it leaves by the ports of its filtering entry, without a forwarding delay.
@@ -61,8 +69,10 @@ class alignas(64) Bridge final : public sim::Component {
     Header header;
   };
   void pass_on(sim::Simulation& simulation, ArrivalArgument arrival);
+  [[gnu::noinline]] void leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16_t from);
   [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, ArrivalArgument arrival);
   void look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
+  void pass_through(sim::Simulation& simulation, std::span<const FrameIndex> frames, std::uint16_t from, const Header* header);
   // `rank` is the number of the port by which the frame came, or greater than that of any port.
   void forward(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, const Header* header);
   void forward_to_many(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, std::span<const std::uint16_t> egress, const Header* header);
@@ -80,9 +90,10 @@ class alignas(64) Bridge final : public sim::Component {
   LinkLocalReceiver* link_local_ = nullptr;
   sim::Duration forwarding_delay_;
   sim::ComponentId id_;
+  sim::EventSource source_;               // of its own events
+  ForwardingJitter* jitter_ = nullptr;
   std::vector<Arrived> arrived_;          // at this instant; waits for the chain
   InternalReceiver* host_ = nullptr;      // of a station
-  sim::EventSource source_;               // of a station: what waits for the rest of a frame for the host
 };
 
 }  // namespace takt::models

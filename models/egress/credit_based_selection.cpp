@@ -10,9 +10,9 @@ CreditBasedSelection::CreditBasedSelection(const CreditBased& config, TrafficCla
   if ((admin_gate_states >> q & 1) == 0) credit_.gate_closed(sim::TrueTime());
 }
 
-void CreditBasedSelection::request_change(const GateInForce& gate, sim::TrueTime now, const GateSchedule::AdminConfig& admin) {
+void CreditBasedSelection::request_change(const GateInForce& gate, sim::TrueTime now, sim::LocalTime asked, const GateSchedule::AdminConfig& admin) {
   follow_gate(gate, now);
-  gates_.request_change(gate.clock->local_at(now), admin);
+  gates_.request_change(asked, admin);
 }
 
 void CreditBasedSelection::force_gate(const GateInForce& gate, sim::TrueTime now, std::optional<bool> open) {

@@ -21,8 +21,8 @@ class CreditBasedSelection {
   /// `config` outlives it.
   CreditBasedSelection(const CreditBased& config, TrafficClass q, GateStates admin_gate_states, sim::DataRate port_transmit_rate);
 
-  /// Another gate list for the port.
-  void request_change(const GateInForce& gate, sim::TrueTime now, const GateSchedule::AdminConfig& admin);
+  /// Another gate list for the port, asked for when its clock shows `asked`: now, or before the start.
+  void request_change(const GateInForce& gate, sim::TrueTime now, sim::LocalTime asked, const GateSchedule::AdminConfig& admin);
   /// Its gate is broken, open or closed, from now on; nothing: it works again.
   void force_gate(const GateInForce& gate, sim::TrueTime now, std::optional<bool> open);
   /// `now` if the credit is not negative, otherwise when to ask again. The gate is open.

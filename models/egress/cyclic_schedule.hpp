@@ -26,6 +26,10 @@ constexpr std::int64_t ceil_quotient(sim::Duration a, sim::Duration b) { return 
 constexpr sim::LocalTime first_cycle_from(sim::LocalTime now, sim::LocalTime base_time, sim::Duration cycle) {
   return base_time < now ? base_time + cycle * ceil_quotient(now - base_time, cycle) : base_time;
 }
+/// When management asks for a list with which a device starts: at the start, or, if it is running then, so long ago that its base time had still to come.
+constexpr sim::LocalTime first_request(sim::LocalTime start, sim::LocalTime base_time, bool is_running) {
+  return is_running ? std::min(start, base_time) : start;
+}
 
 /// When the entries of a list begin, counted from the start of its cycle.
 ///

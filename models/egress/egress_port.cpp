@@ -253,6 +253,12 @@ void EgressPort::settle_all_classes(sim::Simulation& simulation) {
     admit_arrivals(simulation);
     if (merge != nullptr) next = look_while_busy(simulation);
   }
+  if (has_new_head_) [[unlikely]] {
+    // What was selected, or asked to come again, knew other heads: those of now may start although the ones before them might not.
+    has_new_head_ = false;
+    settle_all_classes(simulation);
+    return;
+  }
   find_path();
   if (!queues_.empty() || merge != nullptr) wake_at(simulation, next);
 }
@@ -418,8 +424,7 @@ void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
   DropReason reason{};
   if (!queues_.has_room(q, record.length, config_->queue_limits[q], reason)) {
-    give_up(simulation, frame, reason);
-    if (shaping_ && queues_.frames(q) == 0) shaping_->none_waits(simulation.now(), q);
+    admit_to_full_queue(simulation, frame, q, reason);
     return;
   }
   if (shaping_ && shaping_->is_timed(q))
@@ -428,6 +433,21 @@ void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
     queues_.push(q, frame, record.length, shared_->entries);
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::enqueued), id(), frame.value, q});
+}
+
+/// The frame is lost, or, if it is to be so and it fits at all, the oldest ones are until it fits.
+void EgressPort::admit_to_full_queue(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, DropReason reason) {
+  const std::uint32_t length = shared_->traffic->frame(frame).length;
+  const QueueLimit& limit = config_->queue_limits[q];
+  if (!limit.drops_oldest || limit.frames == 0 || length > limit.octets) {
+    give_up(simulation, frame, reason);
+    if (shaping_ && queues_.frames(q) == 0) shaping_->none_waits(simulation.now(), q);
+    return;
+  }
+  do give_up(simulation, pop(simulation, q), reason);
+  while (!queues_.has_room(q, length, limit, reason));
+  has_new_head_ = shaping_ != nullptr;   // without gates and shapers every head is ready
+  admit(simulation, frame);
 }
 
 void EgressPort::give_up(sim::Simulation& simulation, FrameIndex frame, DropReason reason) {

@@ -189,6 +189,7 @@ class alignas(64) EgressPort final : public sim::Component {
   void start_highest(sim::Simulation& simulation);
   void admit_arrivals(sim::Simulation& simulation);
   void admit(sim::Simulation& simulation, FrameIndex frame);
+  [[gnu::noinline]] void admit_to_full_queue(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, DropReason reason);
   void give_up(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
   void wake_at(sim::Simulation& simulation, sim::TrueTime time);
   PortShaping& make_shaping();
@@ -224,6 +225,7 @@ class alignas(64) EgressPort final : public sim::Component {
   std::unique_ptr<Extras> extras_;
   GateSchedule* only_gates_ = nullptr;       // if there is nothing but gates
   sim::TrueTime promised_ = sim::TrueTime::never();  // when the one frame that waits may start: its gate has said so
+  bool has_new_head_ = false;                // a frame at the head of a queue was dropped for one that has come
   std::uint64_t frames_dropped_ = 0;
   Link* incoming_ = nullptr;
   PortQueues queues_;

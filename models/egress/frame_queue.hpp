@@ -1,6 +1,7 @@
 // Eight first-in-first-out queues of a port, whose entries lie in one pool of the network.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -52,7 +53,7 @@ class PortQueues {
     queue.tail = entry;
     queue.octets += length;
     waiting_ = static_cast<ClassSet>(waiting_ | 1u << q);
-    if (queue.frames > peak_frames_) peak_frames_ = queue.frames;
+    queue.note_peaks();
   }
 
   /// The same into a queue that is in ascending order of eligibility times, behind those of the same time.
@@ -80,7 +81,7 @@ class PortQueues {
       pool[before].next = entry.value;
     ++queue.frames;
     queue.octets += length;
-    if (queue.frames > peak_frames_) peak_frames_ = queue.frames;
+    queue.note_peaks();
   }
 
   FrameIndex pop(TrafficClass q, QueueEntryPool& pool) {
@@ -95,8 +96,15 @@ class PortQueues {
     return frame;
   }
 
+  /// The greatest number of frames that the queue has held, and of octets; not necessarily at once.
+  std::uint32_t peak_frames(TrafficClass q) const { return queues_[q].peak_frames; }
+  std::uint32_t peak_octets(TrafficClass q) const { return queues_[q].peak_octets; }
   /// The greatest number of frames that any one queue of the port has held.
-  std::uint32_t peak_frames() const { return peak_frames_; }
+  std::uint32_t peak_frames() const {
+    std::uint32_t peak = 0;
+    for (const Queue& queue : queues_) peak = std::max(peak, queue.peak_frames);
+    return peak;
+  }
 
  private:
   struct Queue {
@@ -104,9 +112,15 @@ class PortQueues {
     QueueEntryIndex tail;
     std::uint32_t frames = 0;
     std::uint32_t octets = 0;
+    std::uint32_t peak_frames = 0;
+    std::uint32_t peak_octets = 0;
+
+    void note_peaks() {
+      peak_frames = std::max(peak_frames, frames);
+      peak_octets = std::max(peak_octets, octets);
+    }
   };
   ClassSet waiting_ = 0;
-  std::uint32_t peak_frames_ = 0;
   std::array<Queue, traffic_class_count> queues_;
 };
 

@@ -19,16 +19,18 @@ PortShaping::PortShaping(const ShapingConfig& config, const LocalClock& clock, s
     else if (is_timed(q)) selection_[q] = TimeBased{};
   }
   if (config.shared() != 0) round_ = std::make_unique<DeficitRoundRobin>(quanta);
-  if (config.gates) request_gates(sim::TrueTime(), *config.gates);
+  if (config.gates) request_gates(sim::TrueTime(), first_request(clock.local_at(sim::TrueTime()), config.gates->admin_base_time, config.gates->is_running), *config.gates);
 }
 
-ConfigChange PortShaping::request_gates(sim::TrueTime now, const GateConfig& gates) {
+ConfigChange PortShaping::request_gates(sim::TrueTime now, const GateConfig& gates) { return request_gates(now, clock_->local_at(now), gates); }
+
+ConfigChange PortShaping::request_gates(sim::TrueTime now, sim::LocalTime asked, const GateConfig& gates) {
   has_gates_ = true;
   lists_.push_back(std::make_unique<GateControlList>(gates.admin_control_list, gates.admin_cycle_time));
   const GateSchedule::AdminConfig admin{lists_.back().get(), gates.admin_base_time, gates.admin_cycle_time_extension};
   for (TrafficClass q = 0; q < traffic_class_count; ++q)
-    if (CreditBasedSelection* const credit = credit_based(q)) credit->request_change(gate_of(q), now, admin);
-  return gates_.request_change(clock_->local_at(now), admin);
+    if (CreditBasedSelection* const credit = credit_based(q)) credit->request_change(gate_of(q), now, asked, admin);
+  return gates_.request_change(asked, admin);
 }
 
 /// `now` if the gate lets the frame pass, otherwise the earliest instant at which it is worth asking again.

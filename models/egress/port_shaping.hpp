@@ -101,6 +101,7 @@ class PortShaping {
   /// The algorithm of a class with what it must remember.
   using Selection = std::variant<StrictPriority, CreditPtr, TimeBased, EnhancedTransmissionSelection>;
 
+  ConfigChange request_gates(sim::TrueTime now, sim::LocalTime asked, const GateConfig& gates);
   sim::Duration occupancy(std::uint32_t length) const { return octet_time_ * wire_length(Octets{length}).count; }
   sim::TrueTime gate_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t length, sim::Duration delay);
   bool is_stuck(TrafficClass q) const { return ((forced_open_ | forced_closed_) >> q & 1u) != 0; }

@@ -22,6 +22,7 @@ struct GateConfig {
   sim::Duration admin_cycle_time;
   sim::Duration admin_cycle_time_extension;
   sim::LocalTime admin_base_time;
+  bool is_running = false;   ///< set before the start: a list whose base time lies in the past is in force then
   bool operator==(const GateConfig&) const = default;
 };
 

@@ -1,6 +1,7 @@
 #include "models/host/talker.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace takt::models {
@@ -59,6 +60,10 @@ sim::LocalTime Talker::time_of_next() {
                  [&](const BurstSchedule& s) {
                    return instant(s.offset, s.period, count / s.frames).plus_saturated(s.spacing * (count % s.frames));
                  },
+                 [&](const RandomGapSchedule& s) {
+                   const LocalTime from = count == 0 ? LocalTime() + s.offset : last_;
+                   return from.plus_saturated(s.gap->draw(chance_));
+                 },
                  [&](const TraceSchedule& s) {
                    return count_ < s.entries.size() ? s.entries[count_].time : LocalTime::never();
                  }},
@@ -86,6 +91,7 @@ void Talker::start(sim::Simulation& simulation) {
   };
   std::visit(Overloaded{[&](const PeriodicSchedule& s) { count_ = first(s.offset, s.period); },
                         [&](ExponentialSchedule& s) { s.offset = std::max(s.offset, begin - sim::LocalTime()); },
+                        [&](RandomGapSchedule& s) { s.offset = std::max(s.offset, begin - sim::LocalTime()); },
                         [&](const BurstSchedule& s) { count_ = first(s.offset, s.period) * s.frames; },
                         [&](const TraceSchedule& s) {
                           while (count_ < s.entries.size() && s.entries[count_].time < begin) ++count_;
@@ -107,11 +113,24 @@ void Talker::prefetch(const sim::Event&, Ahead ahead) const {
   output_->port().prefetch_hot();
 }
 
+/// What belongs to this host alone.
+void Talker::mark(Frame& frame) const {
+  frame.marked = true;
+  frame.eligible = launch_ ? last_ + *launch_ : sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min());
+  if (host_priority_) frame.queue_priority = *host_priority_;
+}
+
+void Talker::hand_over_with_care(sim::Simulation& simulation, FrameIndex frame) {
+  const sim::LocalTime now = clock_->local_at(simulation.now());
+  if (host_priority_ && !launch_) traffic_->frame(frame).eligible = now;   // where others have launch times it is due at once
+  output_->offer(simulation, frame, source_.id().index, now);
+}
+
 inline void Talker::hand_over(sim::Simulation& simulation, FrameIndex frame) {
   if (output_->is_plain()) [[likely]]
     output_->port().offer_last(simulation, frame, traffic_->frame(frame), source_.id().index);
   else
-    output_->offer(simulation, frame, source_.id().index, clock_->local_at(simulation.now()));
+    hand_over_with_care(simulation, frame);
 }
 
 void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
@@ -128,11 +147,7 @@ void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
   const auto* const trace_schedule = std::get_if<TraceSchedule>(&schedule_);
   const Octets payload = trace_schedule != nullptr ? trace_schedule->entries[count_].payload : payload_;
   const FrameIndex frame = traffic_->produce(stream_, payload, simulation);
-  if (launch_) {
-    Frame& record = traffic_->frame(frame);
-    record.marked = true;
-    record.eligible = last_ + *launch_;
-  }
+  if (marks_) mark(traffic_->frame(frame));
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::produced), source_.id(), frame.value, stream_.value});
   if (!transmits_at_once_)

@@ -18,7 +18,15 @@ class Talker final : public sim::Component {
 
   /// Each frame bears the launch time at which it was due, plus this (IEEE 802.1Q 8.6.8.5 does it for ATS, the ETF queueing
   /// discipline for hosts): the network interface keeps it until then, and drops it if it comes later.
-  void set_launch(sim::Duration after_due) { launch_ = after_due; }
+  void set_launch(sim::Duration after_due) {
+    launch_ = after_due;
+    marks_ = true;
+  }
+  /// The host's own interfaces queue its frames by this priority, which they do not bear.
+  void set_host_priority(Priority priority) {
+    host_priority_ = priority;
+    marks_ = true;
+  }
   /// A second talker of its stream, which speaks first where both do at one instant; it is made before the other one.
   void set_babbling() { phase_ = sim::Phase::arrival; }
   /// Its frames take the way through the operating system that those of `other` take, so that they do not overtake each other.
@@ -40,6 +48,8 @@ class Talker final : public sim::Component {
   void schedule_next(sim::Simulation& simulation);
   void schedule_event(sim::Simulation& simulation);
   void hand_over(sim::Simulation& simulation, FrameIndex frame);
+  [[gnu::noinline]] void mark(Frame& frame) const;
+  [[gnu::noinline]] void hand_over_with_care(sim::Simulation& simulation, FrameIndex frame);
   /// The local time of frame number `count_`, or never.
   sim::LocalTime time_of_next();
 
@@ -56,6 +66,8 @@ class Talker final : public sim::Component {
   bool is_over_ = false;           // there is no next frame
   sim::LocalTime until_ = sim::LocalTime::never();
   std::optional<sim::Duration> launch_;
+  std::optional<Priority> host_priority_;
+  bool marks_ = false;             // one of them
   TalkerSchedule schedule_;
   LatencyLine own_transmit_;
   LatencyLine* transmit_ = &own_transmit_;

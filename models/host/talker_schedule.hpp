@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <variant>
 #include <vector>
 
 #include "models/ethernet/sizes.hpp"
+#include "sim/distribution.hpp"
 #include "sim/time.hpp"
 
 namespace takt::models {
@@ -20,6 +22,11 @@ struct PeriodicSchedule {
 struct ExponentialSchedule {
   sim::Duration offset;
   sim::Duration mean;
+};
+/// Gaps of any distribution; the first frame comes one gap after the offset. Talkers are many and small, so the distribution stands apart.
+struct RandomGapSchedule {
+  sim::Duration offset;
+  std::shared_ptr<const sim::Distribution> gap;
 };
 /// At offset + k * period, `frames` frames, `spacing` apart (0: all at the same instant).
 struct BurstSchedule {
@@ -36,6 +43,6 @@ struct TraceSchedule {
   };
   std::vector<Entry> entries;
 };
-using TalkerSchedule = std::variant<PeriodicSchedule, ExponentialSchedule, BurstSchedule, TraceSchedule>;
+using TalkerSchedule = std::variant<PeriodicSchedule, ExponentialSchedule, BurstSchedule, TraceSchedule, RandomGapSchedule>;
 
 }  // namespace takt::models

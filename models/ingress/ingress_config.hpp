@@ -45,6 +45,7 @@ struct StreamGateConfig {
   sim::Duration admin_cycle_time;
   sim::Duration admin_cycle_time_extension;
   sim::LocalTime admin_base_time;
+  bool is_running = false;   ///< set before the start: a list whose base time lies in the past is in force then
   bool closed_due_to_invalid_rx_enable = false;       ///< a frame that comes while it is closed closes it for good
   bool closed_due_to_octets_exceeded_enable = false;  ///< so does one beyond the octets of an interval
   bool operator==(const StreamGateConfig&) const = default;

@@ -3,7 +3,7 @@
 namespace takt::models {
 
 StreamGate::StreamGate(const StreamGateConfig& config) : config_(config), schedule_(config.admin_gate_open, config.admin_ipv) {
-  if (!config.admin_control_list.empty()) request_change(sim::LocalTime(), config);
+  if (!config.admin_control_list.empty()) request_change(first_request(sim::LocalTime(), config.admin_base_time, config.is_running), config);
 }
 
 StreamGate::Verdict StreamGate::admit(Octets msdu, sim::LocalTime now) {

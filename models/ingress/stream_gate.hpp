@@ -26,7 +26,7 @@ class StreamGate {
     bool operator==(const Counters&) const = default;
   };
 
-  /// The list of the configuration is requested at time 0 of the node's clock.
+  /// The list of the configuration is requested at time 0 of the node's clock; one that is running, before its base time.
   explicit StreamGate(const StreamGateConfig& config);
 
   /// Decides about an MSDU of that many octets whose last bit came at `now`, which does not decrease from call to call.

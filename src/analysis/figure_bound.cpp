@@ -22,6 +22,7 @@ std::string unbounded_text(const Figure& figure) {
                                                                 {"ingress", "what filters, gates and meters of the ingress count"},
                                                                 {"ports", "this figure of ports"},
                                                                 {"programs", "this figure of Programs"},
+                                                                {"queues", "this figure of queues"},
                                                                 {"redundancy", "what splits and recoveries of redundant streams count"},
                                                                 {"requirements", "what requirements come to"},
                                                                 {"signals", "how regular the pulses of a signal are"},
@@ -93,6 +94,7 @@ class FigureBounder {
     if (!figure_.steps.empty() && figure_.steps.front() == "streams") add_streams();
     if (has_steps(figure_, {"dropped", "?"})) add_all_drops();
     if (has_steps(figure_, {"ports", "?", "queue_peak"})) add_queues();
+    if (has_steps(figure_, {"queues", "?", "frames"}) || has_steps(figure_, {"queues", "?", "octets"})) add_queues_of_classes();
     if (!figure_.steps.empty() && figure_.steps.front() == "topology") return topology();
     return values_.taken(figure_);
   }
@@ -147,6 +149,34 @@ class FigureBounder {
     }
   }
 
+  /// The same of those that "only" names. What is in a queue, or on the wire, has preambles and gaps besides its octets.
+  void add_queues_of_classes() {
+    if (figure_.steps[1] != "*") return;
+    for (const QueueBound& queue : bounds_.queues) {
+      if (!is_meant(queue)) continue;
+      const std::optional<std::uint64_t> octets = queue.bits ? std::optional(*queue.bits / 8) : std::nullopt;
+      values_.add(0, number(figure_.steps[2] == "frames" ? queue.frames : octets), "the queue of class " + std::to_string(queue.traffic_class) + " at " + r_.plan.nodes[queue.node.value].name + ":" + std::to_string(queue.port) + " is unbounded");
+    }
+    for (const StreamBound& stream : bounds_.streams) {
+      values_.rest_on(stream.assumptions);
+      if (stream.hops.empty()) values_.add(0, std::nullopt, stream.reason);
+    }
+  }
+
+  /// What "only" asks of it; the other end of a port is the node to which it is linked.
+  bool is_meant(const QueueBound& queue) const {
+    json::Node row = json::Node::object();
+    row.add("node", json::Node::of_string(r_.plan.nodes[queue.node.value].name));
+    row.add("port", json::Node::of_integer(queue.port));
+    row.add("class", json::Node::of_integer(queue.traffic_class));
+    for (const scenario::Neighbour& neighbour : r_.topology.neighbours[queue.node.value])
+      if (neighbour.port == queue.port) row.add("peer", json::Node::of_string(r_.plan.nodes[neighbour.node].name));
+    return std::ranges::all_of(figure_.only, [&](const auto& only) {
+      const json::Node* const member = row.find(only.first);
+      return member != nullptr && json::equal(*member, only.second);
+    });
+  }
+
   /// What the network's graph is like is known.
   RequirementBound topology() const {
     json::Node result = json::Node::object();
@@ -184,8 +214,12 @@ DeliveredFrames frames_delivered(const scenario::Resolved& resolved, const Strea
     frames.reason = !bound.reason.empty() ? bound.reason : bound.loss_reason;
   } else {
     // Whatever has been produced so early that it must have come; one more than whole periods if the first frame comes with the first instant.
-    const Duration last = resolved.scenario.duration - *bound.latency - stream->jitter - stream->offset.value_or(Duration()) - from - unsure;
-    const std::int64_t begun = from == Duration() ? 1 : 0;
+    // A clock that is ahead at the start has passed the instants before, and one that is behind shows the first one later.
+    const std::optional<models::NodeClockPlan>& own = resolved.plan.nodes[plan.talker.value].clock;
+    const Duration first = stream->offset.value_or(Duration()) - (own ? own->initial_offset : Duration());
+    const Duration wait = Duration::from_ps(scaled_up(std::max(first, Duration()).ps(), one_ppt + clock.rate_ppt, one_ppt));
+    const Duration last = resolved.scenario.duration - *bound.latency - stream->jitter - wait - from - unsure;
+    const std::int64_t begun = from == Duration() && first >= Duration() ? 1 : 0;
     frames.least = last < Duration() ? 0 : static_cast<std::uint64_t>(last.ps() / longest.ps() + begun) * listeners;
   }
   const bool may_be_more = !resolved.plan.impairments.empty() || !resolved.redundancies.empty() || !resolved.scenario.faults.empty() || shortest <= Duration();

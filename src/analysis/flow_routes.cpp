@@ -112,7 +112,7 @@ class RouteMaker {
         made.is_copied_here = splits;
         const models::AddressIndex address = is_member && !splits ? redundancy->members[number].destination : plan.destination;
         const std::uint16_t in_port = at > 0 ? *r_.topology.port_towards(path[at], path[at - 1]) : std::uint16_t{0};
-        made.lowest_class = made.highest_class = config.traffic_class_of_priority[plan.priority.value_or(0)];
+        made.lowest_class = made.highest_class = config.traffic_class_of_priority[at == 0 ? plan.priority_at_talker() : plan.priority.value_or(0)];
         if (at > 0) pass_ingress(made, config, plan, path[at], in_port, address);   // what a station sends itself does not come in
         made.headers_come_first = at > 0 && cuts_through(path[at], plan.priority.value_or(0));
         graph_.hops.push_back(std::move(made));
@@ -166,6 +166,7 @@ class RouteMaker {
       }
       if (null->destination == address && handle.is_none()) handle = entry.stream;
     }
+    if (node_plan.forwarding_jitter) hop.unsupported = "a forwarding delay with jitter behind filters";
     const auto filter = std::find_if(ingress.stream_filters.begin(), ingress.stream_filters.end(), [&](const models::StreamFilterConfig& f) {
       return (!f.stream_handle || (!handle.is_none() && *f.stream_handle == handle)) && (!f.priority || *f.priority == priority);
     });

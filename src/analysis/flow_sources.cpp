@@ -40,6 +40,7 @@ ArrivalPattern pattern_of(const models::TalkerPlan& talker, const ClockQuality& 
                                  return ArrivalPattern{unbounded_ps, lasts / s.period.ps() + 1, pattern.period, pattern.jitter};
                                },
                                [&](const models::ExponentialSchedule&) { return at_any_time(); },
+                               [&](const models::RandomGapSchedule& s) { return s.gap->least() > sim::Duration() ? periodic(s.gap->least().ps(), 0) : at_any_time(); },
                                [&](const models::BurstSchedule& s) {
                                  ArrivalPattern pattern = periodic(s.period.ps(), 0);
                                  pattern.frames = s.frames;

@@ -16,6 +16,11 @@ const ClockQuality& GateBeginning::quality_of(models::NodeIndex node) {
   return *of_gptp_;
 }
 
+bool GateBeginning::is_over_at_the_start(models::NodeIndex node, LocalTime time) const {
+  const models::NodePlan& plan = r_.plan.nodes[node.value];
+  return time <= LocalTime() + (plan.clock ? plan.clock->initial_offset : Duration());
+}
+
 Duration GateBeginning::latest(models::NodeIndex node, LocalTime base_time, Duration cycle, Duration from) {
   const models::NodePlan& plan = r_.plan.nodes[node.value];
   if (!plan.clock) return models::first_cycle_from(LocalTime() + from, base_time, cycle).since_start();

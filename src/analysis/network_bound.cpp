@@ -64,7 +64,8 @@ class FixedPoint {
         if (is_new) {
           const GraphPort& link = graph_.ports[from];
           IncomingLink incoming;
-          if (!link.may_double) incoming.octet_time = link.octet_time;
+          // Where frames of one link take times of their own through the bridge, the last one may catch up with the first.
+          if (!link.may_double && !r_.plan.nodes[port.node.value].forwarding_jitter) incoming.octet_time = link.octet_time;
           incoming.is_mixed = graph_.models[from].config->preemption.has_value();
           traffic.links.push_back(incoming);
         }
@@ -105,7 +106,7 @@ class FixedPoint {
       const GraphPort& port = graph_.ports[hop.port];
       Ps comes = last;
       for (const std::uint32_t parent : hop.parents)
-        comes = sum(result_.hops[parent].leaves->first, graph_.ports[graph_.hops[parent].port].propagation, r_.plan.nodes[port.node.value].forwarding_delay.ps());
+        comes = sum(result_.hops[parent].leaves->first, graph_.ports[graph_.hops[parent].port].propagation, r_.plan.nodes[port.node.value].greatest_forwarding_delay().ps());
       result_.hops[h].leaves = ArrivalPhase{sum(comes, port.octet_time * (models::wire_length(hop.frame) - models::inter_packet_gap).count), flow.produced->period, 0};
     }
   }
@@ -209,9 +210,11 @@ class FixedPoint {
       for (const std::uint32_t parent : hop.parents) {
         const HopResult& before = result_.hops[parent];
         const GraphPort& port = graph_.ports[graph_.hops[parent].port];
-        const Ps on_the_way = sum(port.propagation, r_.plan.nodes[graph_.ports[hop.port].node.value].forwarding_delay.ps());
+        const models::NodePlan& node = r_.plan.nodes[graph_.ports[hop.port].node.value];
+        const Ps on_the_way = sum(port.propagation, node.greatest_forwarding_delay().ps());
+        const Ps at_least = sum(port.propagation, node.least_forwarding_delay().ps());
         const bool may_be_cut = hop.headers_come_first && !header_after_[hop.port];
-        best = std::min(best, may_be_cut ? sum(before.best, before_the_header(parent), on_the_way) : sum(before.best_left, on_the_way));
+        best = std::min(best, may_be_cut ? sum(before.best, before_the_header(parent), at_least) : sum(before.best_left, at_least));
         worst = std::max(worst, is_held(hop) ? sum(before.worst, delay_with_hold(hop, parent), on_the_way) : sum(before.worst_left, on_the_way));
       }
     }
@@ -286,8 +289,11 @@ class FixedPoint {
     Ps last = sum(flow.produced->first + flow.produced->width, worst, drift);
     if (hop.parents.size() == 1 && !is_held(hop) && !hop.headers_come_first && result_.hops[hop.parents.front()].leaves) {
       const ArrivalPhase& leaves = *result_.hops[hop.parents.front()].leaves;
-      const Ps on_the_way = sum(graph_.ports[graph_.hops[hop.parents.front()].port].propagation, r_.plan.nodes[graph_.ports[hop.port].node.value].forwarding_delay.ps());
-      const Ps scheduled_first = leaves.first + scaled_down(on_the_way, one_ppt - rate_ppt, one_ppt);
+      const models::NodePlan& node = r_.plan.nodes[graph_.ports[hop.port].node.value];
+      const Ps propagation = graph_.ports[graph_.hops[hop.parents.front()].port].propagation;
+      const Ps at_least = sum(propagation, node.least_forwarding_delay().ps());
+      const Ps on_the_way = sum(propagation, node.greatest_forwarding_delay().ps());
+      const Ps scheduled_first = leaves.first + scaled_down(at_least, one_ppt - rate_ppt, one_ppt);
       const Ps scheduled_last = sum(leaves.first + leaves.width, scaled_up(on_the_way, one_ppt + rate_ppt, one_ppt));
       // Both hold; while delays are still looked for they may not yet fit together.
       const bool fit_together = std::max(first, scheduled_first) <= std::min(last, scheduled_last);

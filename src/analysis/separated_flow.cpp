@@ -92,7 +92,7 @@ SeparatedFlowBound SeparatedFlows::bound(std::uint32_t last) const {
     latency += service.latency + (h == last || !graph_.models[hop.port].counts_packets ? 0 : 1 / service.rate);
     on_the_way = sum(on_the_way, port.propagation);
     if (hop.parents.empty()) break;
-    on_the_way = sum(on_the_way, r_.plan.nodes[port.node.value].forwarding_delay.ps());
+    on_the_way = sum(on_the_way, r_.plan.nodes[port.node.value].greatest_forwarding_delay().ps());
   }
   if (!flow.source.is_limited()) return {unbounded_ps, "no least gap between its frames"};
   const ArrivalPattern& arrivals = flow.source.calmest();

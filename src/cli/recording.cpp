@@ -63,6 +63,10 @@ std::string Recording::open() {
     clocks_ = std::make_unique<output::ClockSeries>(run_->network(), (folder / "clocks.csv").string());
     run_->set_clock_sink(clocks_.get());
   }
+  if (options_.frames) {
+    frames_ = std::make_unique<output::FrameSeries>(run_->network(), (folder / "frames.csv").string());
+    sinks_.add(*frames_);
+  }
   run_->simulation().set_trace(&sinks_);
   return {};
 }
@@ -81,6 +85,8 @@ std::string Recording::close() {
     run_->set_clock_sink(nullptr);
     if (std::string other = clocks_->close(); problem.empty()) problem = std::move(other);
   }
+  if (frames_)
+    if (std::string other = frames_->close(); problem.empty()) problem = std::move(other);
   return problem;
 }
 

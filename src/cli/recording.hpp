@@ -1,4 +1,4 @@
-// What `takt run` records on request: captures, a time line, waveforms, into the result folder.
+// What `takt run` records on request: captures, a time line, waveforms, clocks, frames, into the result folder.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 
 #include "output/clock_series.hpp"
 #include "output/fan_out.hpp"
+#include "output/frame_series.hpp"
 #include "output/pcap_recorder.hpp"
 #include "output/timeline_recorder.hpp"
 #include "output/vcd_recorder.hpp"
@@ -19,7 +20,8 @@ struct RecordingOptions {
   bool timeline = false;
   bool waves = false;
   bool clocks = false;
-  bool is_wanted() const { return !pcap.empty() || timeline || waves || clocks; }
+  bool frames = false;
+  bool is_wanted() const { return !pcap.empty() || timeline || waves || clocks || frames; }
 };
 
 /// Hangs on a run from before its first event to its end. Recording changes no digest.
@@ -54,6 +56,7 @@ class Recording {
   std::unique_ptr<output::TimelineRecorder> timeline_;
   std::unique_ptr<output::VcdRecorder> waves_;
   std::unique_ptr<output::ClockSeries> clocks_;
+  std::unique_ptr<output::FrameSeries> frames_;
 };
 
 }  // namespace takt::cli

@@ -50,7 +50,7 @@ ExitStatus run(const RunOptions& options) {
   scenario::Run live(*resolved);
   json::Diagnostics diagnostics;
   if (options.recording.is_wanted() && options.out.empty())
-    diagnostics.error({"command line", 0, 0, ""}, "a recording without a folder", {"--pcap, --timeline, --waves or --clocks", "--out DIR"});
+    diagnostics.error({"command line", 0, 0, ""}, "a recording without a folder", {"--pcap, --timeline, --waves, --clocks or --frames", "--out DIR"});
   Recording recording(options.recording, options.out, live, diagnostics);
   if (diagnostics.has_errors()) {
     std::fputs(diagnostics.to_text().c_str(), stderr);
@@ -82,6 +82,7 @@ void add_run_command(Command app, ExitStatus& status) {
   command.add_flag("--timeline", options->recording.timeline, "Write frames and states as DIR/timeline.json, for ui.perfetto.dev");
   command.add_flag("--waves", options->recording.waves, "Write links, queues, gates and digital outputs as DIR/waves.vcd, for GTKWave");
   command.add_flag("--clocks", options->recording.clocks, "Write the offsets of all clocks from their grandmasters as DIR/clocks.csv");
+  command.add_flag("--frames", options->recording.frames, "Write what became of each frame, and when, as DIR/frames.csv");
   command.add_flag("--quiet", options->quiet, "Print one line");
   command.footer(
       "Examples:\n"

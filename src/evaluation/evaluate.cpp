@@ -146,6 +146,21 @@ std::vector<PortResult> ports_of(const scenario::Run& run, Duration simulated) {
   return results;
 }
 
+std::vector<QueueResult> queues_of(const scenario::Run& run) {
+  std::vector<QueueResult> results;
+  const models::NetworkPlan& plan = run.resolved().plan;
+  for (const models::LinkPlan& link : plan.links) {
+    const auto add = [&](const models::LinkPlan::End& from, const models::LinkPlan::End& to) {
+      const models::PortQueues& queues = run.network().ports(from.node)[from.port].queues();
+      for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
+        if (queues.peak_frames(q) > 0) results.push_back({plan.nodes[from.node.value].name, from.port, plan.nodes[to.node.value].name, q, queues.peak_frames(q), queues.peak_octets(q)});
+    };
+    add(link.a, link.b);
+    add(link.b, link.a);
+  }
+  return results;
+}
+
 /// The figures of what began at `from` or later.
 RunResult collect(const scenario::Run& run, Duration from, bool partial) {
   const scenario::Scenario& scenario = run.resolved().scenario;
@@ -165,6 +180,7 @@ RunResult collect(const scenario::Run& run, Duration from, bool partial) {
   result.applications = applications_of(run, from);
   result.signals = signals_of(run, from);
   result.ports = ports_of(run, result.simulated);
+  result.queues = queues_of(run);
   result.dropped = drops_of(run, from);
   result.clocks = clocks_of(run, from);
   result.ingress = ingress_of(run);

@@ -58,6 +58,7 @@ std::string gates_text(const models::GateConfig& gates) {
   std::string text = fmt::format("gates: {} entr{}, cycle {}", gates.admin_control_list.size(), gates.admin_control_list.size() == 1 ? "y" : "ies",
                                  readable(gates.admin_cycle_time));
   if (gates.admin_base_time != sim::LocalTime()) text += ", base time " + readable(gates.admin_base_time.since_start());
+  if (gates.is_running) text += ", running";
   return text;
 }
 

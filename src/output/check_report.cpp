@@ -53,7 +53,8 @@ std::string check_report(const Resolved& r) {
     if (relay == nullptr)
       what = fmt::format("host, os {}", scenario::spelling(end_station->os.profile));
     else if (end_station == nullptr)
-      what = fmt::format("switch, forwarding delay {}", readable(relay->forwarding_delay));
+      what = fmt::format("switch, forwarding delay {}{}", readable(r.plan.nodes[n].least_forwarding_delay()),
+                         r.plan.nodes[n].forwarding_jitter ? " to " + readable(r.plan.nodes[n].greatest_forwarding_delay()) : std::string());
     else
       what = fmt::format("station, os {}, forwarding {}", scenario::spelling(end_station->os.profile), readable(relay->forwarding_delay));
     std::string neighbours;
@@ -70,7 +71,7 @@ std::string check_report(const Resolved& r) {
   if (!r.streams.empty()) out += "\nStreams and their paths\n";
   for (std::size_t s = 0; s < std::min(rows_of_page, r.streams.size()); ++s) {
     const models::StreamPlan& plan = r.plan.streams[r.streams[s].index.value];
-    const std::string tag = plan.priority ? fmt::format("PCP {} VLAN {}", *plan.priority, plan.vlan) : std::string("untagged");
+    const std::string tag = plan.priority ? fmt::format("PCP {} VLAN {}", *plan.priority, plan.vlan) : plan.host_priority ? fmt::format("untagged, host {}", *plan.host_priority) : std::string("untagged");
     out += fmt::format("  {:<32} {:<16} {:>10.1f} frames/s {:>9.3f} Mb/s\n", plan.name, tag, r.streams[s].demand.frames_per_second,
                        r.streams[s].demand.wire_bits_per_second / 1e6);
     for (std::size_t p = 0; p < std::min<std::size_t>(4, r.streams[s].paths.size()); ++p) out += "      " + path_text(r, r.streams[s].paths[p]) + "\n";

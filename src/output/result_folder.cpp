@@ -49,6 +49,13 @@ std::string ports_csv(const json::Node& result) {
   return json::csv({}, columns, rows);
 }
 
+std::string queues_csv(const json::Node& result) {
+  static constexpr Column columns[] = {{"node", "/node"}, {"port", "/port"}, {"peer", "/peer"}, {"class", "/class"}, {"frames", "/frames"}, {"octets", "/octets"}};
+  std::vector<Row> rows;
+  for (const json::Node& queue : result.find("queues")->items) rows.push_back({{}, &queue});
+  return json::csv({}, columns, rows);
+}
+
 std::string histograms_csv(const results::RunResult& result) {
   static constexpr std::string_view first[] = {"stream", "from_ps", "to_ps", "count"};
   std::vector<Row> rows;
@@ -88,7 +95,7 @@ std::string write_result_folder(const std::string& folder, const results::RunRes
   const json::Node node = results::run_node(result);
   const std::pair<const char*, std::string> files[] = {
       {"scenario.json", resolved_scenario},      {"streams.csv", streams_csv(node)}, {"reactions.csv", reactions_csv(node)},
-      {"ports.csv", ports_csv(node)},            {"histograms.csv", histograms_csv(result)},
+      {"ports.csv", ports_csv(node)},            {"queues.csv", queues_csv(node)},   {"histograms.csv", histograms_csv(result)},
       {"result.json", json::pretty(node)},  // last: where it is, everything is
   };
   for (const auto& [name, content] : files)

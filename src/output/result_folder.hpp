@@ -7,7 +7,7 @@
 
 namespace takt::output {
 
-/// Writes result.json, scenario.json (the resolved copy), streams.csv, reactions.csv, ports.csv and histograms.csv into the
+/// Writes result.json, scenario.json (the resolved copy), streams.csv, reactions.csv, ports.csv, queues.csv and histograms.csv into the
 /// folder, which is made if it is not there. Returns an empty text, or what went wrong and where.
 std::string write_result_folder(const std::string& folder, const results::RunResult& result, const std::string& resolved_scenario);
 

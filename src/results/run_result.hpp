@@ -174,6 +174,16 @@ struct PortResult {
   std::uint64_t transmission_overrun = 0;  ///< were still being sent when their gate closed
 };
 
+/// The queue of a traffic class at an egress port that has held a frame. The frame that is being sent does not count.
+struct QueueResult {
+  std::string node;
+  std::uint16_t port = 0;
+  std::string peer;
+  std::uint8_t traffic_class = 0;
+  std::uint32_t frames = 0;                ///< most that waited
+  std::uint32_t octets = 0;                ///< DA to FCS
+};
+
 struct RunResult {
   std::string version;
   std::string scenario;
@@ -192,6 +202,7 @@ struct RunResult {
   std::vector<ApplicationResult> applications;  ///< gateways behind the others
   std::vector<SignalResult> signals;
   std::vector<PortResult> ports;           ///< those that sent or dropped something
+  std::vector<QueueResult> queues;         ///< those that have held a frame
   std::vector<std::pair<std::string, std::uint64_t>> dropped;  ///< frames of all streams by reason, only those that occurred
   std::vector<ClockResult> clocks;         ///< of nodes with gPTP
   std::vector<IngressResult> ingress;      ///< of switches whose ingress has met a frame
@@ -211,5 +222,6 @@ const json::Record& describe(json::Type<ViolationResult>);
 const json::Record& describe(json::Type<TimelineRow>);
 const json::Record& describe(json::Type<RoundTripResult>);
 const json::Record& describe(json::Type<PortResult>);
+const json::Record& describe(json::Type<QueueResult>);
 
 }  // namespace takt::results

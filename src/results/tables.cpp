@@ -120,6 +120,19 @@ const json::Record& describe(json::Type<PortResult>) {
   return record;
 }
 
+const json::Record& describe(json::Type<QueueResult>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&QueueResult::node>("node", "Whose port it is."),
+      json::output<&QueueResult::port>("port", "Its number, from 0."),
+      json::output<&QueueResult::peer>("peer", "The node at the other end."),
+      json::output<&QueueResult::traffic_class>("class", "The traffic class, 7 is the most urgent."),
+      json::output<&QueueResult::frames>("frames", "The most frames that waited in it.", {.is_zero_if_absent = true}),
+      json::output<&QueueResult::octets>("octets", "The most octets that waited in it, DA to FCS; not necessarily when the most frames did.", {.is_zero_if_absent = true}),
+  };
+  static constexpr json::Record record{"queue", "The queue of a traffic class at an egress port in which frames have waited. The one that is being sent does not count.", outputs};
+  return record;
+}
+
 const json::Record& describe(json::Type<RunResult>) {
   static constexpr json::Output outputs[] = {
       json::output<&RunResult::version>("takt", "The version of takt."),
@@ -143,6 +156,7 @@ const json::Record& describe(json::Type<RunResult>) {
                                        "where there are some"),
       json::only_if<&has_signals>(json::outputs_by_name<&RunResult::signals, &SignalResult::name>("signals", "What digital outputs did.", {.keys = "signal"}), "where there are some"),
       json::output<&RunResult::ports>("ports", "Egress ports that sent or dropped something.", {.counts_from_start = true}),
+      json::output<&RunResult::queues>("queues", "Queues of traffic classes in which frames have waited.", {.counts_from_start = true}),
       json::output<&RunResult::dropped>("dropped", "Frames that were dropped in the whole network, by reason; only reasons that occurred.", {.keys = "reason", .is_zero_if_absent = true}),
       json::output<&RunResult::clocks>("clocks", "Nodes with gPTP."),
       json::outputs_by_name<&RunResult::ingress, &IngressResult::node>("ingress", "The ingress of switches that have met a frame, with names and meanings of IEEE 802.1Q 8.6.5.", {.keys = "node", .counts_from_start = true}),

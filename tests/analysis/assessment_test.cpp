@@ -166,6 +166,11 @@ TEST(Assessment, GatesBeginWhenTheClockOfTheirNodeSaysSo) {
   EXPECT_EQ(either, slow);
   EXPECT_EQ(begins(R"("offset": "0ppm", "initial": "2300us")", "0ms") / 1_us, 700);
   EXPECT_EQ(begins(R"("offset": "0ppm", "initial": "-3ms")", "6ms") / 1_us, 9'000);
+  // One that has been running since before the start is in force then, unless a clock that is behind shows its base time later.
+  EXPECT_EQ(begins(R"("offset": "0ppm")", "-300us") / 1_us, 700);
+  EXPECT_EQ(begins(R"("offset": "0ppm")", R"(-300us", "running": true, "extension": "0us)"), 0_us);
+  EXPECT_EQ(begins(R"("offset": "-1000ppm", "initial": "2300us")", R"(-300us", "running": true, "extension": "0us)"), 0_us);
+  EXPECT_EQ(begins(R"("offset": "0ppm", "initial": "-3ms")", R"(-1ms", "running": true, "extension": "0us)") / 1_us, 2'000);
   const std::string late = exchange + R"(, "base_time": "12ms"}}}], "clocks": {"all": {"offset": "-1000ppm"}})";
   EXPECT_GE(bound(*star(late, R"(, "egress": [{"to": "b", )" + window + "}}]")).ledger[A::gates_do_not_change].holds_from, 12'012'012_ns);
   // What a clock of unknown rate shows when a list is read is not known: one whose base time is past may have to wait for a whole cycle.

@@ -27,22 +27,18 @@ struct Verdict {
 
 inline std::string microseconds(sim::Duration value) { return std::to_string(static_cast<double>(value.ps()) / 1e6) + " us"; }
 
-/// The most frames that waited in one queue of each port, against what may be in the port's queues.
+/// The most frames and octets that waited in each queue, against what may be in it.
 inline void judge_queues(const scenario::Run& run, const Bounds& bounds, Verdict& verdict) {
-  std::map<std::pair<std::uint32_t, std::uint16_t>, std::optional<std::uint64_t>> most;
   for (const QueueBound& queue : bounds.queues) {
-    const auto [port, is_new] = most.try_emplace({queue.node.value, queue.port}, queue.frames);
-    if (!is_new) port->second = port->second && queue.frames ? std::optional(std::max(*port->second, *queue.frames)) : std::nullopt;
-  }
-  for (const auto& [where, frames] : most) {
-    const models::EgressPort& port = run.network().ports(models::NodeIndex{where.first})[where.second];
-    if (port.frames_sent() == 0 || !frames) continue;
-    const std::uint64_t peak = port.queues().peak_frames();
+    const models::EgressPort& port = run.network().ports(queue.node)[queue.port];
+    if (port.frames_sent() == 0 || !queue.frames) continue;
+    const std::uint64_t frames = port.queues().peak_frames(queue.traffic_class);
+    const std::uint64_t octets = port.queues().peak_octets(queue.traffic_class);
     ++verdict.queues;
-    if (peak + 1 >= *frames) ++verdict.full_queues;   // one of them is on the wire
-    if (peak > *frames)
-      verdict.violations.push_back(run.resolved().plan.nodes[where.first].name + ":" + std::to_string(where.second) + ": " + std::to_string(peak) + " frames in a queue, at most " +
-                                   std::to_string(*frames));
+    if (frames + 1 >= *queue.frames) ++verdict.full_queues;   // one of them is on the wire
+    if (frames > *queue.frames || 8 * octets > *queue.bits)
+      verdict.violations.push_back(run.resolved().plan.nodes[queue.node.value].name + ":" + std::to_string(queue.port) + " class " + std::to_string(queue.traffic_class) + ": " + std::to_string(frames) + " frames of " +
+                                   std::to_string(octets) + " octets in the queue, at most " + std::to_string(*queue.frames) + " of " + std::to_string(*queue.bits / 8));
   }
 }
 

@@ -232,7 +232,7 @@ class Report(CliTest):
 
 
 class Folder(CliTest):
-    FILES = {"result.json", "scenario.json", "streams.csv", "reactions.csv", "ports.csv", "histograms.csv"}
+    FILES = {"result.json", "scenario.json", "streams.csv", "reactions.csv", "ports.csv", "queues.csv", "histograms.csv"}
 
     def test_files_are_complete(self):
         out_folder = self.folder / "deep" / "out"
@@ -252,6 +252,25 @@ class Folder(CliTest):
         for row in csv.DictReader(io.StringIO((out_folder / "histograms.csv").read_text(encoding="utf-8"))):
             counts[row["stream"]] = counts.get(row["stream"], 0) + int(row["count"])
         self.assertEqual(counts, {name: stream["delivered"] for name, stream in report["streams"].items()})
+
+    def test_each_frame_has_its_row(self):
+        out_folder = self.folder / "frames"
+        _, out, _ = takt("run", shipped(), "--duration", "1.2s", "--out", out_folder, "--frames", "--format", "json")
+        report = json.loads(out)
+        self.assertEqual({p.name for p in out_folder.iterdir()}, self.FILES | {"frames.csv"})
+        latencies = {}
+        with (out_folder / "frames.csv").open(encoding="utf-8", newline="") as file:
+            for row in csv.DictReader(file):
+                if row["event"] == "delivered":
+                    latencies.setdefault(row["stream"], []).append(int(row["latency_ps"]))
+                    self.assertEqual(int(row["at_ps"]) - int(row["produced_ps"]), int(row["latency_ps"]))
+        for name, stream in report["streams"].items():
+            self.assertEqual(len(latencies.get(name, [])), stream["delivered"], name)
+            if stream["delivered"] > 0:
+                self.assertEqual(max(latencies[name]), stream["latency_ps"]["max"])
+        status, _, err = takt("run", shipped(), "--frames")
+        self.assertEqual(status, 2)
+        self.assertIn("--out DIR", err)
 
     def test_the_resolved_copy_runs_the_same(self):
         takt("run", shipped(), "--duration", "1.5s", "--seed", "9", "--out", self.folder / "out")

@@ -313,6 +313,27 @@ TEST(Clocks, AreJudgedByTheirGreatestError) {
   EXPECT_EQ(verdict("1ps"), Verdict::fail);
 }
 
+// Three frames of 150 octets and two of 64 at once: the first one is sent, and the others wait, each in the queue of its class. Queues in which nothing waited count 0.
+TEST(Queues, PeaksOfEachClass) {
+  const RunResult result = judged(R"({"name": "queues", "duration": "1ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"], "rate": "100Mbps"}]},
+    "streams": [{"name": "s", "from": "a", "to": "b", "payload": "100B", "pcp": 6, "burst": {"frames": 3, "every": "1s"}}, {"name": "t", "from": "a", "to": "b", "payload": "1B", "pcp": 2, "burst": {"frames": 2, "every": "1s"}}],
+    "require": [{"figure": "/queues/*/frames", "only": {"node": "a", "class": 6}, "equal": 2}, {"figure": "/queues/*/octets", "only": {"class": 2}, "at_most": 127}, {"figure": "/queues/*/frames", "only": {"node": "b"}, "equal": 0},
+                {"figure": "/queues/*/octets", "take": "sum", "at_most": 428}]})");
+  ASSERT_EQ(result.queues.size(), 2u);
+  EXPECT_EQ(result.queues[0].traffic_class, 2);
+  EXPECT_EQ(result.queues[0].frames, 2u);
+  EXPECT_EQ(result.queues[0].octets, 128u);
+  EXPECT_EQ(result.queues[1].node, "a");
+  EXPECT_EQ(result.queues[1].peer, "b");
+  EXPECT_EQ(result.queues[1].traffic_class, 6);
+  EXPECT_EQ(result.queues[1].frames, 2u);
+  EXPECT_EQ(result.queues[1].octets, 300u);
+  EXPECT_EQ(result.requirements.at(0).verdict, Verdict::pass);
+  EXPECT_EQ(result.requirements.at(1).verdict, Verdict::fail);
+  EXPECT_EQ(result.requirements.at(2).verdict, Verdict::pass);
+  EXPECT_EQ(result.requirements.at(3).verdict, Verdict::pass);
+}
+
 TEST(After, IsRefusedOfFiguresThatCountFromTheStart) {
   const std::string told = load(frames(R"({"figure": "queue", "at_most": 3, "after": "1ms"})")).diagnostics.to_text();
   EXPECT_NE(told.find("counts from the start of the run only"), std::string::npos) << told;

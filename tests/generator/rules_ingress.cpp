@@ -83,6 +83,7 @@ std::span<const Rule> ingress_rules() {
       {.key = "stream_gate.ipv", .percent = 15, .words = "0 3 5 7"},
       {.key = "stream_gate.cycle", .percent = 15, .words = "300us 1ms"},
       {.key = "stream_gate.base_time", .percent = 50, .words = "0ns 13us -5us 1ms"},
+      {.key = "stream_gate.running", .percent = 40, .make = [](Maker&, const Scope& s) -> Made { return s.has("base_time") && s.text("base_time") == "-5us" ? Made(Node::of_bool(true)) : std::nullopt; }},
       {.key = "stream_gate.extension", .percent = 10, .words = "20us 100us"},
       {.key = "stream_gate.entries", .percent = 80, .make = [](Maker& m, const Scope& s) -> Made { return m.objects("stream_gate_entry", m.draw.between(1, 3), s); }},
       {.key = "stream_gate.block_invalid_rx", .percent = 10, .words = "true"},

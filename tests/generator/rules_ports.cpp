@@ -169,6 +169,11 @@ std::span<const Rule> port_rules() {
        }},
       {.key = "gates.cycle", .percent = 15, .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() ? "3ms 5ms" : "500us 700us 1ms 1234567ps"); }},
       {.key = "gates.base_time", .percent = 50, .words = "0ns -1ms 37us 500us -123456789ps"},
+      {.key = "gates.running", .percent = 40, .make = [](Maker&, const Scope& s) -> Made {
+         // Of the lists with which a node starts, and that may have begun.
+         const bool is_set_later = s.around("script_entry") != nullptr || (s.has("base_time") && s.text("base_time").front() != '-');
+         return is_set_later ? Made() : Made(Node::of_bool(true));
+       }},
       {.key = "gates.extension", .percent = 20, .words = "20us 100us 1ms"},
       {.key = "gates.entries", .make = entries_of_gates},
       {.key = "gate_entry.open", .make = [](Maker& m, const Scope& s) -> Made { return numbers(s.number == 100 ? std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7} : m.classes(2)); }},

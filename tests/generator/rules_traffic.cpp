@@ -92,9 +92,11 @@ std::span<const Rule> traffic_rules() {
          // What windows are laid out for comes at known times.
          return m.word(m.wants(Feature::automatic_gates) && !s.has("every") ? "0 1 2 3 4 5 7" : "0 1 2 3 4 5 6 7 6 6");
        }},
+      {.key = "stream.host_priority", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return s.has("pcp") || m.wants(Feature::automatic_gates) ? Made() : m.word("0 1 3 5 7"); }},
       {.key = "stream.vlan", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return s.has("pcp") ? m.word("0 1 10 4094") : Made(); }},
       {.key = "stream.every", .percent = 60, .make = every},
       {.key = "stream.exponential", .percent = 15},
+      {.key = "stream.normal", .percent = 20},
       {.key = "stream.burst", .percent = 20},
       {.key = "stream.trace", .feature = Feature::traces, .percent = 50, .words = "bursts.csv steady.csv"},
       {.key = "stream.offset", .percent = 50, .words = "0us 1us 10us 37us 100us"},
@@ -103,6 +105,10 @@ std::span<const Rule> traffic_rules() {
       {.key = "stream.path", .feature = Feature::explicit_path, .percent = 50, .make = path},
       {.key = "stream.redundancy", .feature = Feature::redundancy, .percent = 80, .make = [](Maker& m, const Scope& s) -> Made { return is_redundant(m, s) ? Made(m.short_or_object("redundancy", &s)) : std::nullopt; }},
       {.key = "exponential_gaps.mean", .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() || m.is_long() ? "3ms 5ms" : "200us 500us 1ms"); }},
+      {.key = "normal_gaps.mean", .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() || m.is_long() ? "3ms 5ms" : "300us 500us 1ms"); }},
+      {.key = "normal_gaps.deviation", .words = "1ps 20us 100us 1ms"},
+      {.key = "normal_gaps.min", .percent = 70, .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() || m.is_long() ? "0ns 1ms 2500us 3ms" : "0ns 50us 250us 300us"); }},
+      {.key = "normal_gaps.max", .percent = 50, .words = "6ms 20ms"},
       {.key = "bursts.frames", .words = "1 2 3 4 5 6"},
       {.key = "bursts.every", .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() || m.is_long() ? "10ms" : "1ms 2ms"); }},
       {.key = "bursts.spacing", .percent = 60, .words = "0ns 6720ns 50us"},

@@ -221,6 +221,23 @@ std::optional<Node> offered_skills(Maker& m, const Scope&) {
 }
 
 /// Known from the skeleton.
+/// Not where frames are cut through, or come to a buffer at known times.
+std::optional<Node> jitter_of_switch(Maker& m, const Scope&) {
+  for (const Feature each : {Feature::cut_through, Feature::cqf, Feature::automatic_gates})
+    if (m.wants(each)) return std::nullopt;
+  Node ends = Node::object(), made = Node::object();
+  if (m.draw.one_in(4)) {
+    ends.add("mean", text("100ns"));
+    made.add("exponential", std::move(ends));
+    made.add("max", text("2us"));
+    return made;
+  }
+  ends.add("from", m.word("0ns 20ns"));
+  ends.add("to", m.word("20ns 160ns 5us"));
+  made.add("uniform", std::move(ends));
+  return made;
+}
+
 std::optional<Node> never(Maker&, const Scope&) { return std::nullopt; }
 
 std::optional<Node> name_of_skeleton(Maker&, const Scope&) { return list({text("?"), text("?")}); }
@@ -282,6 +299,8 @@ std::span<const Rule> network_rules() {
       {.key = "station.processing", .feature = Feature::replies, .percent = 50},
       {.key = "station.offers", .feature = Feature::roles, .percent = 85, .make = offered_skills},
       {.key = "switch.forwarding_delay", .percent = 70, .words = "0ns 500ns 1us 3us"},
+      {.key = "switch.forwarding_jitter", .percent = 30, .make = jitter_of_switch},
+      {.key = "generator.forwarding_jitter", .percent = 20, .make = jitter_of_switch},
       {.key = "switch.cut_through_header", .feature = Feature::cut_through, .percent = 30, .words = "14B 22B 30B 72B"},
       {.key = "switch.traffic_classes", .feature = Feature::identity_classes, .percent = 80},
       {.key = "switch.queues", .feature = Feature::queue_limits, .percent = 80},
@@ -310,6 +329,8 @@ std::span<const Rule> network_rules() {
       {.key = "latency_tail.per_million", .percent = 70, .words = "1 1000 100000.5"},
       {.key = "queues.frames", .percent = 60, .words = "1 2 4 50"},
       {.key = "queues.octets", .percent = 50, .words = "700B 2000B 3100B 20000B"},
+      {.key = "queues.drop", .percent = 40},
+      {.key = "queue_of_class.drop", .percent = 30},
       {.key = "queues.classes", .percent = 40, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return m.objects("queue_of_class", m.draw.between(1, 2), s); }},
       {.key = "queue_of_class.class", .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return number(4 * s.number + m.draw.below(4)); }},
       {.key = "queue_of_class.frames", .percent = 50, .words = "1 3 100"},

@@ -133,6 +133,51 @@ TEST(Overflow, WithoutAQueue) {
   EXPECT_EQ(outcome.peak, 0u);
 }
 
+// Room for two, and the oldest goes: 0 is sent at once, 1 and 2 wait; 3 takes the place of 1, 4 that of 2, 5 that of 3.
+TEST(Overflow, TheOldestGoes) {
+  const Outcome outcome = send({2, UINT32_MAX, true}, burst(6, 8));
+  EXPECT_EQ(outcome.arrived, (Sequence{0, 4, 5}));
+  EXPECT_EQ(outcome.for_frames, 3u);
+  EXPECT_EQ(outcome.for_octets, 0u);
+  EXPECT_EQ(outcome.counted_by_port, 3u);
+  EXPECT_EQ(outcome.peak, 2u);
+  EXPECT_EQ(outcome.digest, digest_of({0, 4, 5}, {1, 2, 3}, DropReason::queue_frames, outcome.drops[0].where));
+}
+
+// Room for 200 octets: 1, 2 and 3 wait (192). The fourth, of 122, has room when 1 and 2 are gone (186); then 64 more have when 3 is gone, too.
+// One of 222 octets never has: it is lost itself, and nobody else.
+TEST(Overflow, AsManyOfTheOldestAsItTakes) {
+  const Outcome outcome = send({UINT32_MAX, 200, true}, {{0_ns, 8}, {0_ns, 8}, {0_ns, 8}, {0_ns, 8}, {0_ns, 104}, {0_ns, 8}});
+  EXPECT_EQ(outcome.arrived, (Sequence{0, 4, 5}));
+  EXPECT_EQ(outcome.for_octets, 3u);
+  EXPECT_EQ(send({UINT32_MAX, 200, true}, {{0_ns, 8}, {0_ns, 8}, {0_ns, 204}}).arrived, (Sequence{0, 1}));
+  EXPECT_EQ(send({0, UINT32_MAX, true}, burst(2, 8)).arrived, (Sequence{0}));
+}
+
+// The gate is open for 2 us of 10. A frame of 1000 octets (8.064 us) never starts; the one that takes its place at 1 us (64 octets, 576 ns) does so at once, although the port had been told
+// to ask again at 10 us. At 1.5 us it would not have ended: it starts when the next window does.
+TEST(Overflow, ANewHeadMayStartAtOnce) {
+  const auto arrival = [](Duration second) {
+    Line line(0, 1_Gbps, 0_ns);
+    PortConfig& config = line.builder.plan.port_configs[0];
+    config.queue_limits.fill({1, UINT32_MAX, true});
+    config.shaping.gates.emplace();
+    config.shaping.gates->admin_control_list = {{GateOperation::set_gate_states, 0xFF, 2_us}, {GateOperation::set_gate_states, 0x00, 8_us}};
+    config.shaping.gates->admin_cycle_time = 10_us;
+    const StreamIndex stream = line.builder.stream(line.talker, {line.listener});
+    NetworkRun run(line.builder.plan);
+    install<Sender>(*run.network, line.talker, "sender", std::vector<Sender::Item>{{local(0_ns), stream, 982}, {local(second), stream, 8}});
+    const Listener& log = listen(*run.network, line.listener, {stream});
+    run.until(1_ms);
+    EXPECT_EQ(log.arrivals.size(), 1u);
+    EXPECT_EQ(run.stream(stream).dropped[static_cast<std::size_t>(DropReason::queue_frames)], 1u);
+    return log.arrivals.empty() ? LocalTime::never() : log.arrivals[0].time;
+  };
+  EXPECT_EQ(arrival(1_us), local(1'576_ns));
+  EXPECT_EQ(arrival(1'424_ns), local(2_us));
+  EXPECT_EQ(arrival(1'500_ns), local(10'576_ns));
+}
+
 // Each class has its own limit: class 7 holds one frame, class 1 (priority 0) all.
 TEST(Overflow, LimitsAreThoseOfTheClass) {
   Line line(0, 1_Gbps, 0_ns);

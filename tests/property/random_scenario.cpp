@@ -176,6 +176,7 @@ class Maker {
     Parts parts;
     if (draw.one_in(2)) parts.add("frames", std::to_string(1 + draw.below(4)));
     if (draw.one_in(2)) parts.add("octets", in_quotes(draw.any({"700B", "2000B", "3100B"})));
+    if (Draw(w_.seed, "drop " + element).one_in(3)) parts.add("drop", "\"oldest\"");
     return parts.object();
   }
 
@@ -233,6 +234,8 @@ class Maker {
     Parts node, egresses;
     node.add("kind", "\"switch\"");
     node.add("forwarding_delay", in_quotes(draw.any({"0ns", "1us", "500ns", "3us"})));
+    if (Draw jitter(w_.seed, "jitter " + name); !has(Feature::cut_through) && !has(Feature::cqf) && !has(Feature::policing) && !has(Feature::ats) && jitter.one_in(4))
+      node.add("forwarding_jitter", "{\"uniform\": {\"from\": \"10ns\", \"to\": " + in_quotes(jitter.any({"170ns", "5us", "20us"})) + "}}");
     if (has(Feature::identity_classes)) node.add("traffic_classes", "\"identity\"");
     if (has(Feature::queue_limits)) node.add("queues", queues(name));
     if (const std::string all = egress(name, true); !all.empty()) egresses.add(all);
@@ -276,7 +279,11 @@ class Maker {
     if (!draw.one_in(6)) parts.add("pcp", std::to_string(draw.below(8)));
     switch (draw.below(4)) {
       case 0:
-        parts.add("exponential", in_quotes(draw.any({"100us", "200us", "500us"})));
+        if (Draw gaps(w_.seed, "gaps " + stream_name(s)); gaps.one_in(2))
+          parts.add("normal", "{\"mean\": " + in_quotes(gaps.any({"400us", "700us"})) + ", \"deviation\": " + in_quotes(gaps.any({"1us", "100us", "1ms"})) + ", \"min\": " + in_quotes(gaps.any({"120us", "250us", "399us"})) +
+                                  (gaps.one_in(2) ? ", \"max\": \"900us\"" : "") + "}");
+        else
+          parts.add("exponential", in_quotes(draw.any({"100us", "200us", "500us"})));
         break;
       case 1:
         parts.add("burst", "{\"frames\": " + std::to_string(1 + draw.below(6)) + ", \"every\": \"1ms\", \"spacing\": " + in_quotes(draw.any({"0ns", "6720ns", "50us"})) + "}");

@@ -31,6 +31,13 @@ std::string with_host_egress_and_launch(const std::string& text) {
 const BadCase cases[] = {
     {"PreemptionOfNothing", with_egress(R"({"preemption": {"preemptable": []}})"),
      R"(2:32: error at /network/nodes/sw/egress/0/preemption/preemptable: too few items: found 0, expected 1 to 8 items)"},
+    {"RunningBeforeItBegins", with_egress(R"({"gates": {"running": true, "base_time": "1ms", "entries": [{"open": [0], "for": "1ms"}]}})"),
+     R"(2:23: error at /network/nodes/sw/egress/0/gates/running: a list that is running before it begins: found "base_time" of 1ms, expected one of at most 0s)"},
+    {"StreamGateRunningBeforeItBegins", with_switch(R"("ingress": {"gates": [{"name": "g", "running": true, "base_time": "1ms", "entries": [{"open": true, "for": "1ms"}]}]})"),
+     R"(2:48: error at /network/nodes/sw/ingress/gates/0/running: a list that is running before it begins: found "base_time" of 1ms, expected one of at most 0s)"},
+    {"RunningBeforeItIsSet", R"({"name": "t", "duration": "1ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "sw": {"kind": "switch"}}, "links": [)" + std::string(two_links) + R"(]}, "script": [
+{"at": "1us", "set_gates": {"node": "sw", "gates": {"running": true, "entries": [{"open": [0], "for": "1ms"}]}}}]})",
+     R"(2:64: error at /script/0/set_gates/gates/running: a list that is running before it is set: found "running" of a list that the script sets, expected a "base_time" alone, which may lie in the past)"},
     {"PreemptionWithoutClasses", with_egress(R"({"preemption": {}})"),
      R"(2:16: error at /network/nodes/sw/egress/0/preemption: the field "preemptable" is missing)"},
     {"PreemptionOutOfRange", with_egress(R"({"preemption": {"preemptable": [0, 8, 0], "add_frag_size": 4, "hold_advance": "2s"}})"),

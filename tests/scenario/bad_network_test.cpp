@@ -25,6 +25,12 @@ const BadCase nodes_cases[] = {
      R"(2:51: error at /network/nodes/a/os/receive/table: a table without weight: found weights that are all 0, expected at least one positive weight)"},
     {"LatencyBeyondWhatAPortKeeps", with_node(R"({"kind": "host", "os": {"receive": "11s"}})"),
      R"(2:41: error at /network/nodes/a/os/receive: too long to receive: found 11s, expected at most 10s)"},
+    {"JitterWithoutALimit", with_node(R"({"kind": "switch", "forwarding_jitter": {"exponential": {"mean": "1us"}}})"),
+     R"(2:46: error at /network/nodes/a/forwarding_jitter: a jitter without a limit: found up to 24h, expected a "max" of at most 1s)"},
+    {"JitterWhereFramesAreCutThrough", with_node(R"({"kind": "switch", "forwarding_jitter": "1us", "egress": [{"cut_through": [3]}]})"),
+     R"(2:46: error at /network/nodes/a/forwarding_jitter: jitter where frames are cut through: found "cut_through" in "egress", expected one of them)"},
+    {"JitterBesideCyclicQueuing", with_node(R"({"kind": "switch", "forwarding_jitter": "1us", "ingress": {"cqf": {"cycle": "1ms", "classes": [5, 6]}}})"),
+     R"(2:46: error at /network/nodes/a/forwarding_jitter: jitter beside cyclic queuing: found "cqf", whose buffers frames reach at known times, expected one of them)"},
     {"QueuesOutOfRange", with_node(R"({"kind": "host", "queues": {"frames": 0, "octets": "63B", "classes": [{"class": 8}]}})"),
      R"(2:44: error at /network/nodes/a/queues/frames: out of range: found the number 0, expected an integer from 1 to 4294967295
 2:57: error at /network/nodes/a/queues/octets: out of range: found "63B", expected a size of at least 64B

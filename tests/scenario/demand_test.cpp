@@ -1,4 +1,5 @@
 // What streams ask of links, against figures by hand.
+#include <cmath>
 #include <map>
 
 #include "support.hpp"
@@ -41,6 +42,12 @@ TEST(Demand, MulticastCountsOncePerLink) {
   for (const auto& [from, to] : {std::pair{"h1", "sw1"}, {"sw1", "sw2"}, {"sw2", "h2"}, {"sw2", "sw3"}, {"sw3", "h3"}})
     EXPECT_DOUBLE_EQ(port(*r, from, to).share(), bits / 1e9) << from;
   EXPECT_EQ(r->ports.size(), 5u);
+}
+
+// Gaps cut off at their mean, 1 ms, have the mean of half a normal distribution: sqrt(2 / pi) deviations of 1 ms above it. 166 octets on the wire each.
+TEST(Demand, RandomGapsOnAverage) {
+  const auto r = sound(over_one_switch(R"(, "streams": [{"name": "s", "from": "a", "to": "b", "payload": "100B", "normal": {"mean": "1ms", "deviation": "1ms", "min": "1ms"}}])"));
+  EXPECT_NEAR(port(*r, "a", "sw").class_bits_per_second[1], 8 * (100 + 28 + 18 + 20) * 1000 / (1 + std::sqrt(2 / 3.14159265358979)), 0.1);
 }
 
 // State: 42 B + 14 + 4 + 4 = 64 B, which is what a frame has at least: 84 B on the wire each cycle.

@@ -57,6 +57,8 @@ std::vector<Row> rows() {
   return {
       {"uniform", Distribution::uniform(2_us, 5_us), 1_us, uniform_moments(2, 5)},
       {"normal", Distribution::normal(100_us, 7_us), 1_us, normal_moments(100, 7)},
+      // Moments by quadrature of the density.
+      {"truncated", Distribution::truncated_normal(20_us, 10_us, 15_us, 40_us), 1_us, {24.457437782754383L, 635.8256465104715L, 17500.7668141514L, 506859.04372950824L}},
       {"exponential", Distribution::exponential(30_us), 30_us, {1, 2, 6, 24}},
       {"weibull_0_8", Distribution::weibull(10_us, 0.8), 10_us, weibull_moments(0.8L)},
       {"weibull_3", Distribution::weibull(10_us, 3.0), 10_us, weibull_moments(3)},
@@ -95,6 +97,7 @@ TEST(Distribution, PinnedDraws) {
   const std::map<std::string, std::array<std::int64_t, 3>> expected = {
       {"uniform", {4'752'716, 2'616'143, 2'191'631}},
       {"normal", {109'722'451, 94'242'131, 89'338'867}},
+      {"truncated", {34'195'391, 18'639'186, 16'180'598}},
       {"exponential", {2'580'737, 47'486'625, 82'523'886}},
       {"weibull_0_8", {465'884, 17'754'668, 35'426'073}},
       {"weibull_3", {4'414'425, 11'654'224, 14'011'549}},
@@ -108,6 +111,16 @@ TEST(Distribution, PinnedDraws) {
     for (std::int64_t& ps : found) ps = row.distribution.draw(stream).ps();
     EXPECT_EQ(found, expected.at(row.name)) << row.name;
   }
+}
+
+// By quadrature, see rows(); cut off at its mean on one side a normal distribution has the mean of half a one, sqrt(2 / pi) deviations away; far from its ends it is not cut off at all. Between
+// ends that are close together it is almost uniform.
+TEST(Distribution, MeanOfATruncatedOne) {
+  const auto mean = [](Duration low, Duration high) { return Distribution::truncated_normal(20_us, 10_us, low, high).truncated_mean().ps(); };
+  EXPECT_NEAR(static_cast<double>(mean(15_us, 40_us)), 24'457'437.78, 1.5);
+  EXPECT_NEAR(static_cast<double>(mean(20_us, Duration::max())), 20e6 + 10e6 * std::sqrt(2 / 3.14159265358979), 1.5);
+  EXPECT_EQ(mean(Duration::from_ps(-1'000'000'000), 1_s), 20'000'000);
+  EXPECT_NEAR(static_cast<double>(mean(19_us, 22_us)), 20'500'000, 20'000);
 }
 
 // The comment says: one draw of the stream each, two for a mixture. So a change of parameters does not shift later draws.

@@ -60,6 +60,18 @@ TEST(Figures, QueuesAndTheGraph) {
                   {Conclusion::pass, Conclusion::pass, Conclusion::refuted});
 }
 
+// Urgent frames come every millisecond and are gone before the next one comes: one of 150 octets, which count 170 with preamble and gap. Of a class without streams takt says nothing.
+TEST(Figures, QueuesOfClasses) {
+  const Verification found = verified(R"({"figure": "/queues/*/frames", "at_most": 1}, {"figure": "/queues/*/octets", "only": {"node": "sw", "class": 6}, "at_most": 170},
+    {"figure": "/queues/*/octets", "only": {"node": "sw", "class": 6}, "at_most": 149}, {"figure": "/queues/*/frames", "only": {"peer": "b", "class": 5}, "at_most": 1})");
+  ASSERT_EQ(found.lines.size(), 4u);
+  EXPECT_EQ(found.lines[0].verdict, Conclusion::pass) << found.lines[0].reason;
+  EXPECT_EQ(found.lines[1].verdict, Conclusion::pass) << found.lines[1].reason;
+  EXPECT_NE(found.lines[2].verdict, Conclusion::pass);
+  EXPECT_EQ(found.lines[3].verdict, Conclusion::undecided);
+  EXPECT_EQ(found.lines[3].reason, "takt has no bound for this figure of queues");
+}
+
 // What takt cannot bound says so, and leaves the others alone.
 TEST(Figures, WithoutABoundHaveThatAsTheReason) {
   const Verification found = verified(R"({"figure": "events", "at_least": 1}, {"figure": "utilisation", "at_most": 1}, {"stream": "urgent", "latency": "20us"})");

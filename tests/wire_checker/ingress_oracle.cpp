@@ -22,7 +22,7 @@ IngressOracle::IngressOracle(const models::IngressConfig& config, std::uint32_t 
     : config_(config), first_group_(first_group), blocked_(config.stream_filters.size(), false), group_times_(config.ats_groups.size(), 0) {
   for (const models::StreamGateConfig& gate : config.stream_gates) {
     gates_.push_back({ListMachine(ListEntry{{}, gate.admin_gate_open ? models::all_gates_open : models::GateStates{0}, 0, gate.admin_ipv, {}}), never, 0, false});
-    if (!gate.admin_control_list.empty()) gates_.back().machine.request(0, list_config_of(gate));
+    if (!gate.admin_control_list.empty()) gates_.back().machine.start_with(list_config_of(gate), gate.is_running);
   }
   for (const models::NamedFlowMeterConfig& meter : config.flow_meters)
     meters_.push_back({octet_of_tokens * meter.meter.committed_burst_size.count, octet_of_tokens * meter.meter.excess_burst_size.count, 0, false});

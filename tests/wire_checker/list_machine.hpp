@@ -69,6 +69,14 @@ class ListMachine {
     update_config();
   }
 
+  /// What a device starts with: set at the start, or, if it is running then, so long ago that it has begun as its base time says. The last three cycles tell all that there is to know of earlier ones.
+  void start_with(ListConfig config, bool is_running) {
+    if (!is_running || config.base_time >= 0) return request(0, config);
+    if (const Ps over = -config.base_time / config.cycle_time; over > 3) config.base_time += (over - 3) * config.cycle_time;
+    request(config.base_time, config);
+    run_to(0);
+  }
+
   /// When something happens next: a list is exchanged, a cycle or an entry begins.
   Ps next_event() const {
     Ps next = config_pending_ ? config_change_time_ : never;

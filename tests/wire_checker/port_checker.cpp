@@ -16,12 +16,19 @@ PortChecker::PortChecker(std::string name, const models::PortConfig& config, sim
     if (const models::CreditBased* const shaper = config.shaping.shaper_of(q)) credits_[q].emplace(rate.bits_per_second, *shaper, q);
   // An express frame waits for at most 8 + 123 + 12 octets, and 64 more for each addFragSize.
   if (config.preemption) hold_advance_ = config.preemption->hold_advance ? config.preemption->hold_advance->ps() : octet_ * (143 + 64 * config.preemption->add_frag_size.value());
-  if (config.shaping.gates) request_gates(list_config_of(*config.shaping.gates));
+  if (config.shaping.gates) {
+    note_gates(list_config_of(*config.shaping.gates));
+    gates_.start_with(list_config_of(*config.shaping.gates), config.shaping.gates->is_running);
+  }
   settle_gates();
 }
 
 void PortChecker::request_gates(const ListConfig& gates) {
   gates_.request(now_, gates);
+  note_gates(gates);
+}
+
+void PortChecker::note_gates(const ListConfig& gates) {
   has_gates_ = true;
   may_hold_ = may_hold_ || std::any_of(gates.list.begin(), gates.list.end(), [](const ListEntry& entry) { return entry.operation != models::GateOperation::set_gate_states; });
 }
@@ -41,6 +48,7 @@ void PortChecker::begin(Ps now) {
   started_class_.reset();
   turn_.reset();
   somebody_dropped_ = false;
+  displaced_ = 0;
   check_credits();
 }
 
@@ -159,6 +167,12 @@ void PortChecker::enqueued(const SeenFrame& seen, TrafficClass q) {
   std::vector<Item>& queue = queues_[q];
   const auto place = is_timed(q) ? std::upper_bound(queue.begin(), queue.end(), item, [](const Item& a, const Item& b) { return a.eligible < b.eligible; }) : queue.end();
   const bool is_head = place == queue.begin();
+  if (displacing_) {
+    const auto [last, of] = *displacing_;
+    displacing_.reset();
+    if (of != q || !why_no_room(q, queue.size() + 1, octets_[q] + last.length, item))
+      fail(last, "was dropped for " + wire_checker::name_of(item.stream, item.sequence) + ", for which there was room");
+  }
   queue.insert(place, item);
   octets_[q] += item.length;
   // One that comes behind another that was dropped for want of room did not stand first.
@@ -168,7 +182,7 @@ void PortChecker::enqueued(const SeenFrame& seen, TrafficClass q) {
   if (queue.size() > limit.frames || octets_[q] > limit.octets)
     fail(item, "is one too many: " + std::to_string(queue.size()) + " frames, " + std::to_string(octets_[q]) + " octets wait in class " + std::to_string(q));
   // Of the frames of an instant the most urgent one leaves; the others are queued afterwards.
-  const bool rest_was_right = started_is_rest_ && is_preemptable(q);
+  const bool rest_was_right = (started_is_rest_ && is_preemptable(q)) || models::contains(displaced_, q);
   if (started_class_ && is_head && !rest_was_right && comes_before(q, *started_class_) && is_ready(q, item))
     fail(item, "of class " + std::to_string(q) + " has to wait for " + wire_checker::name_of(started_item_.stream, started_item_.sequence) + " of class " + std::to_string(*started_class_));
   tell_credit(q);
@@ -188,6 +202,27 @@ void PortChecker::dequeued(const SeenFrame& seen, TrafficClass q) {
   queue.erase(found);
 }
 
+/// What is wrong with one more frame in a queue that holds so many; nothing if there is room.
+std::optional<models::DropReason> PortChecker::why_no_room(TrafficClass q, std::uint64_t frames, std::uint64_t octets, const Item& item) const {
+  const models::QueueLimit& limit = config_.queue_limits[q];
+  if (frames + 1 > limit.frames) return models::DropReason::queue_frames;
+  if (octets + item.length > limit.octets) return models::DropReason::queue_octets;
+  return std::nullopt;
+}
+
+void PortChecker::check_displacing() {
+  if (displacing_) fail(displacing_->item, "was dropped for no frame");
+  displacing_.reset();
+}
+
+void PortChecker::refused(const SeenFrame& seen, models::DropReason reason) {
+  if (reason != models::DropReason::queue_frames && reason != models::DropReason::queue_octets) return;
+  const Item item = item_of(seen);
+  const TrafficClass q = class_of(seen.frame);
+  if (why_no_room(q, queues_[q].size(), octets_[q], item) != reason) fail(item, "is dropped for want of room in class " + std::to_string(q) + ", where there is room");
+  if (config_.queue_limits[q].drops_oldest && !why_no_room(q, 0, 0, item)) fail(item, "is dropped although older ones should be");
+}
+
 /// It left its queue to be given up.
 void PortChecker::drop_pending() {
   if (!pending_) return;
@@ -196,9 +231,16 @@ void PortChecker::drop_pending() {
   pending_.reset();
 }
 
-bool PortChecker::dropped(models::FrameIndex handle) {
+bool PortChecker::dropped(models::FrameIndex handle, models::DropReason reason) {
   somebody_dropped_ = true;
   if (pending_ && pending_->item.handle == handle) {
+    if (reason == models::DropReason::queue_frames || reason == models::DropReason::queue_octets) {
+      const auto [item, q] = *pending_;
+      if (displacing_ && displacing_->q != q) check_displacing();
+      if (!config_.queue_limits[q].drops_oldest) fail(item, "is dropped although it is not the newest of class " + std::to_string(q));
+      displacing_ = Displaced{item, q};
+      displaced_ = models::with(displaced_, q);
+    }
     tell_credit(pending_->q);
     pending_.reset();
     return true;
@@ -252,6 +294,7 @@ void PortChecker::resumed(const SeenFrame& seen, models::TransmissionDetail deta
 
 void PortChecker::end() {
   drop_pending();
+  check_displacing();
   check_turn();
   if (cut_wants_reason_) {
     bool express_waits = hold_at(now_, gates_).asked || !up_;

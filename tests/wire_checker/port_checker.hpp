@@ -41,7 +41,9 @@ class PortChecker {
   void cut(const SeenFrame& seen, models::TransmissionDetail detail);
   void resumed(const SeenFrame& seen, models::TransmissionDetail detail);
   /// True if the frame has waited here, or was the rest of one that had been cut.
-  bool dropped(models::FrameIndex handle);
+  bool dropped(models::FrameIndex handle, models::DropReason reason);
+  /// It never came to wait.
+  void refused(const SeenFrame& seen, models::DropReason reason);
   void end();
   /// Nothing happens any more up to and at `now`.
   void finish(Ps now);
@@ -84,8 +86,15 @@ class PortChecker {
     Item item;
     models::TrafficClass q = 0;
   };
+  struct Displaced {              // the last one of those that a frame has pushed out
+    Item item;
+    models::TrafficClass q = 0;
+  };
 
   Item item_of(const SeenFrame& seen) const;
+  std::optional<models::DropReason> why_no_room(models::TrafficClass q, std::uint64_t frames, std::uint64_t octets, const Item& item) const;
+  void check_displacing();
+  void note_gates(const ListConfig& gates);
   models::TrafficClass class_of(const models::Frame& frame) const;
   bool is_timed(models::TrafficClass q) const { return config_.shaping.is_timed(q); }
   Ps duration_of(std::uint32_t octets) const { return octet_ * (models::preamble_and_sfd.count + Ps{octets}); }
@@ -136,6 +145,8 @@ class PortChecker {
   ShareAccount shares_;
   std::optional<ShareAccount::PerClass> turn_;   // at this instant a class with a share has started: what could have
   bool somebody_dropped_ = false;                // at this instant
+  models::ClassSet displaced_ = 0;               // at this instant: classes that have lost their first frame to one that came
+  std::optional<Displaced> displacing_;          // the frame that comes next is to blame
   std::array<Ps, models::traffic_class_count> longest_occupation_{};
   std::uint8_t classes_seen_ = 0;
   std::array<std::vector<Item>, models::traffic_class_count> queues_;

@@ -47,7 +47,8 @@ class Port {
   Port& start_as(char name, TrafficClass q) { checker_.started(frames_[name], {frames_[name].frame.length, q}); return *this; }
   Port& wait(char name) { checker_.enqueued(frames_[name], frames_[name].frame.priority); return *this; }
   Port& leave(char name) { checker_.dequeued(frames_[name], frames_[name].frame.priority); return *this; }
-  Port& drop(char name) { checker_.dropped(frames_[name].handle); return *this; }
+  Port& drop(char name, models::DropReason reason = models::DropReason::link_down) { checker_.dropped(frames_[name].handle, reason); return *this; }
+  Port& refuse(char name, models::DropReason reason) { checker_.refused(frames_[name], reason); return *this; }
   Port& cut(char name, std::uint32_t octets) { checker_.cut(frames_[name], {octets, frames_[name].frame.priority}); return *this; }
   Port& resume(char name, std::uint32_t octets) { checker_.resumed(frames_[name], {octets, frames_[name].frame.priority}); return *this; }
   /// All that was found, up to that time.
@@ -155,12 +156,41 @@ TEST(PortRules, NothingWaitsInVain) {
   EXPECT_FOUND(Port(config).frame('a', 0).at(0).wait('a').until(12'000 * ns), "the medium is idle");
 }
 
+// 3 us of a cycle of 10 are over, and 2 of them were open.
+TEST(PortRules, ListsThatAreRunning) {
+  PortConfig config = with_gates({entry(0xFF, 2'000 * ns), entry(0x00, 8'000 * ns)});
+  config.shaping.gates->admin_base_time = sim::LocalTime::from_ps(-3'000 * ns);
+  EXPECT_NOTHING(Port(config).frame('a', 0).at(0).start('a').until(900 * ns));
+  config.shaping.gates->is_running = true;
+  EXPECT_FOUND(Port(config).frame('a', 0).at(0).start('a').until(900 * ns), "starts while its gate is closed");
+  EXPECT_NOTHING(Port(config).frame('a', 0).at(0).wait('a').at(7'000 * ns).leave('a').start('a').until(9'000 * ns));
+  config.shaping.gates->admin_base_time = sim::LocalTime::from_ps(-10'003'000 * ns);
+  EXPECT_NOTHING(Port(config).frame('a', 0).at(0).wait('a').at(7'000 * ns).leave('a').start('a').until(9'000 * ns));
+}
+
 TEST(PortRules, QueuesHaveLimits) {
   PortConfig config;
   config.queue_limits[0] = {2, 250};
   EXPECT_NOTHING(Port(config).frame('a', 0).frame('b', 0).frame('c', 0).at(0).start('a').wait('b').wait('c').until(900 * ns));
   EXPECT_FOUND(Port(config).frame('a', 0).frame('b', 0).frame('c', 0, 151).at(0).start('a').wait('b').wait('c').until(900 * ns), "is one too many: 2 frames, 251 octets");
   EXPECT_FOUND(Port(config).frame('a', 0).frame('b', 0, 64).frame('c', 0, 64).frame('d', 0, 64).at(0).start('a').wait('b').wait('c').wait('d').until(900 * ns), "is one too many: 3 frames");
+}
+
+TEST(PortRules, WhichFrameAFullQueueLoses) {
+  using enum models::DropReason;
+  PortConfig config;
+  config.queue_limits[0] = {2, 250};
+  const auto three = [](const PortConfig& with) { return Port(with).frame('a', 0).frame('b', 0).frame('c', 0).frame('d', 0).at(0).start('a').wait('b'); };
+  EXPECT_NOTHING(three(config).wait('c').refuse('d', queue_frames).until(900 * ns));
+  EXPECT_FOUND(three(config).wait('c').refuse('d', queue_octets).until(900 * ns), "for want of room in class 0, where there is room");
+  EXPECT_FOUND(three(config).refuse('d', queue_frames).until(900 * ns), "for want of room in class 0, where there is room");
+  EXPECT_FOUND(three(config).wait('c').leave('b').drop('b', queue_frames).wait('d').until(900 * ns), "although it is not the newest");
+  config.queue_limits[0].drops_oldest = true;
+  EXPECT_NOTHING(three(config).wait('c').leave('b').drop('b', queue_frames).wait('d').until(900 * ns));
+  EXPECT_FOUND(three(config).wait('c').refuse('d', queue_frames).until(900 * ns), "is dropped although older ones should be");
+  EXPECT_FOUND(three(config).leave('b').drop('b', queue_frames).wait('d').until(900 * ns), "for which there was room");
+  EXPECT_FOUND(three(config).wait('c').leave('b').drop('b', queue_frames).until(900 * ns), "was dropped for no frame");
+  EXPECT_FOUND(three(config).wait('c').leave('c').drop('c', queue_frames).wait('d').until(900 * ns), "leaves its queue before");
 }
 
 TEST(PortRules, EligibilityTimes) {

@@ -80,7 +80,7 @@ void WireChecker::attribute(Ps now, std::vector<Recorded>& batch) {
         continue;
       }
       for (Arrival& arrival : nodes_[node]->arrivals) {
-        if (!is_same(arrival.frame, outcome.stream, outcome.sequence) || (arrival.looked_at != now && arrival.complete != now) || arrival.verdicts.empty()) continue;
+        if (!is_same(arrival.frame, outcome.stream, outcome.sequence) || !arrival.acts_at(now) || arrival.verdicts.empty()) continue;
         const IngressOracle::Verdict& verdict = arrival.verdicts.front();
         if (arrival.verdicts.size() > 1) {  // copies that can't be told apart
           recorded.eligible = recorded.frame.marked ? recorded.frame.eligible.ps() : long_ago;
@@ -147,17 +147,32 @@ void WireChecker::settle_bridge(std::uint32_t index, Ps now) {
     if (is_own(index, outcome.stream, outcome.direction)) continue;
     bool found = node.is_end_station && outcome.drop == DropReason::node_down;   // of a frame that waited for the operating system
     for (Arrival& arrival : node.arrivals) {
-      if (!is_same(arrival.frame, outcome.stream, outcome.sequence) || (arrival.looked_at != now && arrival.complete != now) || arrival.lost) continue;
+      if (!is_same(arrival.frame, outcome.stream, outcome.sequence) || !arrival.acts_at(now) || arrival.lost) continue;
       found = arrival.has_outcome = true;
-      if (arrival.complete != now && !outcome.drop && arrival.frame.length != 0 && directions_[outcome.direction]->checker.octet_time() != directions_[arrival.direction]->checker.octet_time())
+      if (arrival.complete != now && arrival.greatest_jitter == 0 && !outcome.drop && arrival.frame.length != 0 && directions_[outcome.direction]->checker.octet_time() != directions_[arrival.direction]->checker.octet_time())
         violations_.add(now, node.name, wire_checker::name_of(outcome.stream, outcome.sequence) + " is cut through to a link of another rate");
     }
     if (!found) violations_.add(now, node.name, wire_checker::name_of(outcome.stream, outcome.sequence) + " comes from nowhere");
   }
+  if (node.greatest_jitter > 0) check_nobody_overtakes(index, now);
   std::vector<Arrival*> arrived;
   for (Arrival& arrival : node.arrivals)
     if (arrival.looked_at == now && !arrival.lost) arrived.push_back(&arrival);
   if (node.ingress) run_ingress(index, now, arrived);
+}
+
+/// What comes in by one port goes on in that order, whatever the jitter.
+void WireChecker::check_nobody_overtakes(std::uint32_t index, Ps now) {
+  Node& node = *nodes_[index];
+  for (const Arrival& arrival : node.arrivals) {
+    const bool goes_on = std::any_of(node.outcomes.begin(), node.outcomes.end(), [&](const Node::Outcome& outcome) { return !outcome.drop && is_same(arrival.frame, outcome.stream, outcome.sequence); });
+    // Which of several copies goes on can't be told.
+    const auto copies = std::count_if(node.arrivals.begin(), node.arrivals.end(), [&](const Arrival& other) { return is_same(other.frame, arrival.frame.stream, arrival.frame.sequence); });
+    if (!goes_on || !arrival.acts_at(now) || arrival.lost || copies > 1) continue;
+    for (const Arrival& before : node.arrivals)
+      if (before.direction == arrival.direction && before.complete < arrival.complete && !before.has_outcome && !before.lost && !is_same(before.frame, arrival.frame.stream, arrival.frame.sequence))
+        violations_.add(now, node.name, wire_checker::name_of(arrival.frame.stream, arrival.frame.sequence) + " overtakes " + wire_checker::name_of(before.frame.stream, before.frame.sequence));
+  }
 }
 
 /// The frames of an instant pass the functions of the bridge by the number of the port through which they come.
@@ -262,7 +277,7 @@ void WireChecker::check_order(const Arrival& arrival, Ps now) {
 void WireChecker::forget_arrivals(std::uint32_t index, Ps now) {
   Node& node = *nodes_[index];
   std::erase_if(node.arrivals, [&](const Arrival& arrival) {
-    if (arrival.complete > now) return false;
+    if (arrival.latest() > now) return false;
     if (!arrival.has_outcome) violations_.add(now, node.name, wire_checker::name_of(arrival.frame.stream, arrival.frame.sequence) + " has arrived and neither goes on nor is dropped");
     return true;
   });

@@ -83,6 +83,7 @@ class WireChecker final : public sim::TraceSink {
   bool is_own(std::uint32_t node, models::StreamIndex stream, std::uint32_t direction) const;
   bool is_taken_in(std::uint32_t node, const Arrival& arrival) const;
   void settle_host(std::uint32_t node, Ps now);
+  void check_nobody_overtakes(std::uint32_t index, Ps now);
   void settle_bridge(std::uint32_t node, Ps now);
   void run_ingress(std::uint32_t node, Ps now, std::vector<Arrival*>& arrived);
   void check_order(const Arrival& arrival, Ps now);

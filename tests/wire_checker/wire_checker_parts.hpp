@@ -16,6 +16,11 @@ struct WireChecker::Arrival {
   std::uint32_t direction = 0;
   Ps looked_at = 0;                    // when the node may act upon it: its header or its last bit is in
   Ps complete = 0;
+  Ps least_jitter = 0;                 // of the node
+  Ps greatest_jitter = 0;
+  /// The node may hand it on, or drop it, at that instant.
+  bool acts_at(Ps now) const { return now == looked_at || now == complete || (greatest_jitter > 0 && now >= complete + least_jitter && now <= latest()); }
+  Ps latest() const { return complete + greatest_jitter; }
   bool lost = false;                   // on the link
   bool damaged = false;                // and dropped for it
   bool has_outcome = false;
@@ -47,6 +52,8 @@ struct WireChecker::Node {
   bool is_end_station = true;
   bool forwards = false;
   Ps fixed_delay = 0;
+  Ps least_jitter = 0;
+  Ps greatest_jitter = 0;
   std::unique_ptr<IngressOracle> ingress;
   std::map<std::uint32_t, const models::StreamRecoveryConfig*> recoveries;   // of a host, by stream
   std::vector<Arrival> arrivals;

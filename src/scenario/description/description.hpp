@@ -73,17 +73,22 @@ struct Processing {
 
 enum class TrafficClasses : std::uint8_t { standard, identity };
 
+/// Which frame is lost when a queue is full.
+enum class FullQueue : std::uint8_t { newest, oldest };
+
 /// What the eight queues of a port may hold.
 struct Queues {
   json::Source where;
   std::optional<std::uint32_t> frames;
   std::optional<Octets> octets;
+  FullQueue drop = FullQueue::newest;
   /// Other limits for single classes.
   struct PerClass {
     json::Source where;
     std::uint8_t traffic_class = 0;
     std::optional<std::uint32_t> frames;
     std::optional<Octets> octets;
+    std::optional<FullQueue> drop = {};
     bool operator==(const PerClass&) const = default;
   };
   std::vector<PerClass> classes;
@@ -108,6 +113,7 @@ struct Gates {
   Duration base_time;
   Duration extension;
   std::vector<GateEntry> entries;
+  bool running = false;
   bool operator==(const Gates&) const = default;
 };
 
@@ -181,6 +187,7 @@ struct EndStation {
 /// The part of a node that forwards what is not for it.
 struct Relay {
   Duration forwarding_delay;
+  std::optional<Latency> forwarding_jitter = {};
   Octets cut_through_header{22};
   std::optional<Ingress> ingress = {};
   bool operator==(const Relay&) const = default;
@@ -252,6 +259,7 @@ struct Generator {
   std::optional<std::uint64_t> seed = {};
   std::optional<std::uint64_t> stations = {};
   std::string station_prefix = "st";
+  std::optional<Latency> forwarding_jitter = {};
   bool operator==(const Generator&) const = default;
 };
 
@@ -268,6 +276,15 @@ enum class Encapsulation : std::uint8_t { udp, ethernet };
 struct ExponentialGaps {
   Duration mean;
   bool operator==(const ExponentialGaps&) const = default;
+};
+/// Random gaps of a normal distribution that is cut off.
+struct NormalGaps {
+  json::Source where;
+  Duration mean;
+  Duration deviation;
+  Duration min;
+  std::optional<Duration> max;
+  bool operator==(const NormalGaps&) const = default;
 };
 struct Bursts {
   std::uint32_t frames = 1;
@@ -290,9 +307,11 @@ struct Stream {
   Octets payload{0};
   Encapsulation encapsulation = Encapsulation::udp;
   std::optional<std::uint8_t> pcp;
+  std::optional<std::uint8_t> host_priority;
   std::uint16_t vlan = 0;
   std::optional<Duration> every;
   std::optional<ExponentialGaps> exponential;
+  std::optional<NormalGaps> normal;
   std::optional<Bursts> burst;
   std::optional<std::string> trace;
   std::optional<Duration> offset;    ///< 0 in a run; absent, it is nothing that the plant promises
@@ -424,6 +443,7 @@ const json::Object& describe(json::Type<Processing>);
 const json::Enumeration& describe(json::Type<OsProfile>);
 const json::Object& describe(json::Type<OperatingSystem>);
 const json::Enumeration& describe(json::Type<TrafficClasses>);
+const json::Enumeration& describe(json::Type<FullQueue>);
 const json::Object& describe(json::Type<Queues>);
 const json::Object& describe(json::Type<Queues::PerClass>);
 const json::Enumeration& describe(json::Type<MacOperation>);
@@ -445,6 +465,7 @@ const json::Object& describe(json::Type<Generator>);
 const json::Object& describe(json::Type<NetworkSection>);
 const json::Enumeration& describe(json::Type<Encapsulation>);
 const json::Object& describe(json::Type<ExponentialGaps>);
+const json::Object& describe(json::Type<NormalGaps>);
 const json::Object& describe(json::Type<Bursts>);
 const json::Custom& describe(json::Type<Names>);
 const json::Object& describe(json::Type<Stream>);

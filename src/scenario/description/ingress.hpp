@@ -89,6 +89,7 @@ struct StreamGateEntryList {
   std::vector<StreamGateStep> entries;
   bool block_invalid_rx = false;
   bool block_octets_exceeded = false;
+  bool running = false;
   bool operator==(const StreamGateEntryList&) const = default;
 };
 

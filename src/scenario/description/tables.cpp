@@ -34,6 +34,17 @@ const json::Object& describe(json::Type<ExponentialGaps>) {
   return table;
 }
 
+const json::Object& describe(json::Type<NormalGaps>) {
+  static constexpr json::Field fields[] = {
+      required<&NormalGaps::mean>("mean", "Mean of the distribution before it is cut off.", {.min = 1_ns, .max = longest_mean_gap}),
+      required<&NormalGaps::deviation>("deviation", "Its standard deviation.", {.min = Duration::from_ps(1), .max = longest_mean_gap}),
+      optional<&NormalGaps::min>("min", "The least gap, at most the mean. More than 0s: the stream has a bound.", {.max = longest_mean_gap}),
+      optional<&NormalGaps::max>("max", "The greatest gap, at least the mean; no limit if absent.", {.min = 1_ns, .max = longest_mean_gap}),
+  };
+  static constexpr json::Object table = json::object<NormalGaps>("normal_gaps", "Frames at random: gaps of a truncated normal distribution. What lies outside of min and max is left out, not moved to them.", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<Bursts>) {
   static constexpr json::Field fields[] = {
       required<&Bursts::frames>("frames", "Frames of a burst.", {.min = 1, .max = 1'000'000}),
@@ -93,9 +104,11 @@ const json::Object& describe(json::Type<Stream>) {
       optional<&Stream::payload>("payload", "Octets of user data in each frame.", {.max = Octets{1500}}),
       optional<&Stream::encapsulation>("encapsulation", "What stands before the payload."),
       optional<&Stream::pcp>("pcp", "Priority in a VLAN tag; untagged, priority 0, if absent.", {.max = 7}),
+      optional<&Stream::host_priority>("host_priority", "Priority by which the sender's own interface queues untagged frames; they do not bear it, so that switches take them for priority 0.", {.max = 7}),
       optional<&Stream::vlan>("vlan", "VLAN identifier in the tag; 0 is a priority tag.", {.max = 4094}),
       optional<&Stream::every>("every", "Period.", {.min = 1_ns, .max = longest_step}),
       optional<&Stream::exponential>("exponential", "Random gaps with this mean."),
+      optional<&Stream::normal>("normal", "Random gaps of a truncated normal distribution."),
       optional<&Stream::burst>("burst", "Bursts of frames."),
       optional<&Stream::trace>("trace", "A CSV file with the columns time and payload (e.g. 12.5us,100B), beside the scenario."),
       optional<&Stream::offset>("offset", "When the first period begins; 0 in a run if absent, and then any for the search for the worst case.", {.max = longest_step}),
@@ -105,7 +118,7 @@ const json::Object& describe(json::Type<Stream>) {
       optional<&Stream::path>("path", "All nodes from sender to receiver, instead of the shortest path.", {.min_items = 2, .max_items = most_names}),
       optional<&Stream::redundancy>("redundancy", "Every frame takes several paths (IEEE 802.1CB): their number, or an object."),
   };
-  static constexpr std::string_view schedules[] = {"every", "exponential", "burst", "trace"};
+  static constexpr std::string_view schedules[] = {"every", "exponential", "normal", "burst", "trace"};
   static constexpr json::Group groups[] = {json::exactly_one_of(schedules)};
   static constexpr json::Object table = json::object<Stream>("stream", "Frames from one host to others, without a protocol.", fields, {.groups = groups});
   return table;

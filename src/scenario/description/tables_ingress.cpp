@@ -110,6 +110,7 @@ const json::Object& describe(json::Type<StreamGateEntryList>) {
       optional<&StreamGateEntryList::ipv>("ipv", "AdminIPV: the internal priority value then.", {.max = 7}),
       optional<&StreamGateEntryList::cycle>("cycle", "AdminCycleTime; the sum of the entries if absent.", {.min = 1_ns, .max = longest_interval}),
       optional<&StreamGateEntryList::base_time>("base_time", "AdminBaseTime, when the first cycle begins; may lie in the past.", {.min = -(longest_interval), .max = longest_interval}),
+      optional<&StreamGateEntryList::running>("running", "The list was set long before the start: if its base time lies in the past it is in force from the start, somewhere in its cycle. Otherwise it begins with the first cycle after the start, as one that is set then does."),
       optional<&StreamGateEntryList::extension>("extension", "AdminCycleTimeExtension: how much the last cycle before a change may be longer.", {.max = longest_interval}),
       optional<&StreamGateEntryList::entries>("entries", "The control list; without one the gate stays as it is.", {.max_items = models::CyclicIntervals::entry_limit}),
       optional<&StreamGateEntryList::block_invalid_rx>("block_invalid_rx", "A frame that comes while it is closed closes it for good (GateClosedDueToInvalidRx)."),

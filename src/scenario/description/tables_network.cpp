@@ -56,11 +56,21 @@ const json::Enumeration& describe(json::Type<TrafficClasses>) {
   return table;
 }
 
+const json::Enumeration& describe(json::Type<FullQueue>) {
+  static constexpr json::EnumName names[] = {
+      name(FullQueue::newest, "newest", "the frame that comes (tail drop)"),
+      name(FullQueue::oldest, "oldest", "those at the head of the queue, until the one that comes has room; in a class that sends by eligibility times those with the earliest ones"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<FullQueue>("which frame is lost when a queue is full", names);
+  return table;
+}
+
 const json::Object& describe(json::Type<Queues::PerClass>) {
   static constexpr json::Field fields[] = {
       required<&Queues::PerClass::traffic_class>("class", "The traffic class, 7 is the most urgent.", {.max = 7}),
       optional<&Queues::PerClass::frames>("frames", "Most frames that wait.", {.min = 1}),
       optional<&Queues::PerClass::octets>("octets", "Most octets that wait, DA to FCS.", {.min = Octets{64}}),
+      optional<&Queues::PerClass::drop>("drop", "Which frame is lost when the queue is full; as in the other queues if absent."),
   };
   static constexpr json::Object table = json::object<Queues::PerClass>("queue_of_class", "The limits of one queue.", fields);
   return table;
@@ -70,6 +80,7 @@ const json::Object& describe(json::Type<Queues>) {
   static constexpr json::Field fields[] = {
       optional<&Queues::frames>("frames", "Most frames that wait in each queue; no limit if absent.", {.min = 1}),
       optional<&Queues::octets>("octets", "Most octets that wait in each queue, DA to FCS; no limit if absent.", {.min = Octets{64}}),
+      optional<&Queues::drop>("drop", "Which frame is lost when a queue is full."),
       optional<&Queues::classes>("classes", "Other limits for single traffic classes.", {.max_items = 8}),
   };
   static constexpr json::Object table = json::object<Queues>("queues", "What the eight queues of a port hold. The frame that is being sent does not count.", fields);
@@ -100,6 +111,7 @@ const json::Object& describe(json::Type<Gates>) {
   static constexpr json::Field fields[] = {
       optional<&Gates::cycle>("cycle", "AdminCycleTime; the sum of the entries if absent.", {.min = 1_ns, .max = 3600_s}),
       optional<&Gates::base_time>("base_time", "AdminBaseTime, when the first cycle begins; may lie in the past.", {.min = -(3600_s), .max = 3600_s}),
+      optional<&Gates::running>("running", "The list was set long before the start: if its base time lies in the past it is in force from the start, somewhere in its cycle. Otherwise it begins with the first cycle after the start, as one that is set then does."),
       optional<&Gates::extension>("extension", "AdminCycleTimeExtension: how much the last cycle before a change may be longer.", {.max = 3600_s}),
       required<&Gates::entries>("entries", "The gate control list.", {.min_items = 1, .max_items = models::CyclicIntervals::entry_limit}),
   };
@@ -215,6 +227,8 @@ const json::Object& describe(json::Type<HostNode>) {
 const json::Object& describe(json::Type<SwitchNode>) {
   static constexpr json::Field fields[] = {
       forwarding_delay_field<SwitchNode>,
+      optional<&Relay::forwarding_jitter, SwitchNode>(
+          "forwarding_jitter", "A random time besides, of at most 1 s, drawn for each frame. Frames that come in by one port do not overtake each other: one that has drawn less waits for those before it."),
       cut_through_header_field<SwitchNode>,
       traffic_classes_field<SwitchNode>,
       optional<&NodePorts::queues, SwitchNode>("queues", "The queues of each port."),
@@ -300,6 +314,7 @@ const json::Object& describe(json::Type<Generator>) {
       optional<&Generator::host_rate>("host_rate", "Rate of the links to hosts, if it differs.", {.min = DataRate{10'000'000}, .max = DataRate{100'000'000'000}}),
       optional<&Generator::length>("length", "Length of each link.", {.max = Length{100'000'000}}),
       optional<&Generator::forwarding_delay>("forwarding_delay", "Of the switches or stations.", {.max = 1_s}),
+      optional<&Generator::forwarding_jitter>("forwarding_jitter", "Of the switches: a random time besides, drawn for each frame."),
       optional<&Generator::os>("os", "Of the hosts or stations."),
       optional<&Generator::queues>("queues", "Of all ports."),
       optional<&Generator::traffic_classes>("traffic_classes", "Of all ports."),

@@ -66,7 +66,7 @@ class Extraction {
   }
   const models::OsLatency& os_of(models::NodeIndex host) const { return r_.plan.os_latencies[r_.plan.nodes[host.value].os_latency]; }
   const models::StreamPlan& plan_of(const ResolvedStream& stream) const { return r_.plan.streams[stream.index.value]; }
-  models::TrafficClass class_of(const ResolvedStream& stream, const models::PortConfig& config) const { return config.traffic_class_of_priority[plan_of(stream).priority.value_or(0)]; }
+  models::TrafficClass class_of(const ResolvedStream& stream, const models::PortConfig& config) const { return config.traffic_class_of_priority[plan_of(stream).priority_at_talker()]; }
   std::optional<models::TrafficClass> class_at_talker(const ResolvedStream& stream) const {
     if (stream.paths.empty()) return std::nullopt;
     return class_of(stream, config_of(*end_towards(stream.paths.front()[0], stream.paths.front()[1]).end));
@@ -161,6 +161,7 @@ class Extraction {
 
   std::string check_node(std::uint32_t node) const {
     const Relay* const bridge = relay_of(r_.topology.nodes[node].description);
+    if (r_.plan.nodes[node].forwarding_jitter) return "a way over " + json::quote(r_.topology.nodes[node].name) + ", whose forwarding delay has jitter";
     if (bridge == nullptr || !bridge->ingress) return {};
     return "a way over " + json::quote(r_.topology.nodes[node].name) + ", whose \"ingress\" may change classes and times";
   }
@@ -175,8 +176,9 @@ class Extraction {
     if (!std::holds_alternative<models::StrictPriority>(config.shaping.selection[q])) problem = "a shaper of its class at " + port;
     if (config.shaping.is_shared(q)) problem = "a share of the bandwidth (ETS) for its class at " + port + ", which makes its delays depend on other traffic";
     if (config.preemption && models::contains(config.preemption->preemptable, q)) problem = "a preemptable class at " + port;
-    if (!problem.empty()) return refuse(stream, problem), false;
     const models::StreamPlan& plan = plan_of(stream);
+    if (plan.host_priority) problem = "a priority that its frames have at " + port + " and not behind it";
+    if (!problem.empty()) return refuse(stream, problem), false;
     const bool tagged = plan.priority.has_value() && !strips_tags(r_.topology, config, from, !previous);
     const Octets frame = models::frame_length(plan.headers + stream.largest_payload, tagged);
     const Duration octet = at.link->rate.octet_time();

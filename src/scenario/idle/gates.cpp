@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "scenario/idle/usage.hpp"
+#include "scenario/resolve/control_list.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -22,6 +23,9 @@ class GatesTeller {
     const bool is_changed = std::any_of(ports.begin(), ports.end(), [](const PortUse* port) { return port->gates.size() > 1; });
     if (gates.extension > Duration() && !is_changed)
       warn_once(diagnostics_, gates.where.at("extension"), "an extension that nothing needs", {"no other list for " + usage_.name(ports), "a \"set_gates\" of the script"});
+    const bool is_exact = std::all_of(ports.begin(), ports.end(), [&](const PortUse* port) { return !usage_.resolved().plan.nodes[port->node].clock; });
+    if (gates.running && is_exact && begins_at_the_start(gates, cycle_of(gates)))
+      warn_once(diagnostics_, gates.where.at("running"), "a list that begins at the start in any case", {"\"base_time\" of " + json::to_text(gates.base_time) + " and a cycle of " + json::to_text(cycle_of(gates)), "a \"base_time\" in the middle of a cycle"});
     const bool is_cut = std::any_of(ports.begin(), ports.end(), [](const PortUse* port) { return port->config->preemption.has_value(); });
     for (const GateEntry& entry : gates.entries)
       if (entry.mac != MacOperation::none && !is_cut) {
@@ -32,6 +36,12 @@ class GatesTeller {
   }
 
  private:
+  static Duration cycle_of(const Gates& gates) {
+    Duration sum;
+    for (const GateEntry& entry : gates.entries) sum += entry.interval;
+    return gates.cycle.value_or(sum);
+  }
+
   void closing(const Gates& gates, const Ports& ports) {
     models::ClassSet closed = 0;
     for (const GateEntry& entry : gates.entries) {
@@ -73,11 +83,26 @@ void tell_idle_gates(const Usage& usage, json::Diagnostics& diagnostics) {
     for (const SetGates& set : scenario.gates->lists) teller.run(set.gates, ports_of(usage, set), {});
 }
 
+/// What is to be dropped where nothing ever is.
+void tell_idle_drops(const Queues& queues, json::Diagnostics& diagnostics) {
+  const auto tell = [&](const json::Source& where) {
+    if (where.has("drop")) warn_once(diagnostics, where.at("drop"), "what a full queue loses, of queues that are never full", {"neither \"frames\" nor \"octets\"", "a limit"});
+  };
+  const bool are_limited = queues.frames || queues.octets;
+  bool acts = are_limited;
+  for (const Queues::PerClass& one : queues.classes) {
+    if (!one.frames && !one.octets && !are_limited) tell(one.where);
+    else acts = acts || !one.drop;
+  }
+  if (!acts) tell(queues.where);
+}
+
 void tell_idle_queues(const Usage& usage, json::Diagnostics& diagnostics) {
   const Resolved& r = usage.resolved();
   std::map<std::string, std::pair<const Queues::PerClass*, Ports>> limits;   // by place: generated nodes share theirs
   for (std::uint32_t n = 0; n < r.topology.nodes.size(); ++n) {
     const Queues& queues = std::visit([](const auto& node) -> const Queues& { return node.queues; }, r.topology.nodes[n].description);
+    tell_idle_drops(queues, diagnostics);
     for (const Queues::PerClass& one : queues.classes) {
       auto& [limit, ports] = limits[one.where.place().pointer];
       limit = &one;
@@ -92,7 +117,11 @@ void tell_idle_queues(const Usage& usage, json::Diagnostics& diagnostics) {
     warn_once(diagnostics, one->where.at("class"), "a limit of a queue that no stream uses", {"class " + std::to_string(q) + " at " + usage.name(ports) + ": " + usage.why_unused(q, ports), usage.classes_in_use(ports)});
   }
   for (const TopologyNode& node : r.topology.nodes) {
-    if (!node.forwards() || !node.where.has("cut_through_header")) continue;
+    const Relay* const relay = relay_of(node.description);
+    if (relay == nullptr) continue;
+    if (relay->forwarding_jitter && !r.plan.nodes[static_cast<std::size_t>(&node - r.topology.nodes.data())].forwarding_jitter)
+      warn_once(diagnostics, relay->forwarding_jitter->where.place(), "a jitter of nothing", {"at most 0s", "a time"});
+    if (!node.where.has("cut_through_header")) continue;
     if (std::ranges::all_of(ports_of(node.description).egress, [](const Egress& egress) { return egress.cut_through.empty(); }))
       warn_once(diagnostics, node.where.at("cut_through_header"), "a header where nothing is cut through", {"no \"cut_through\" in \"egress\" of " + json::quote(node.name), "classes that are cut through"});
   }

@@ -6,6 +6,7 @@
 
 #include "models/ethernet/sizes.hpp"
 #include "scenario/idle/usage.hpp"
+#include "scenario/resolve/control_list.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -97,13 +98,29 @@ class IngressTeller {
     return is_named;
   }
 
+  /// Before its list begins a gate is as it was made.
+  bool begins_late_at_a_node(const StreamGateEntryList& gate) const {
+    const models::NetworkPlan& plan = usage_.resolved().plan;
+    return std::ranges::any_of(nodes_, [&](std::uint32_t n) {
+      const auto& gates = plan.ingress_configs[*plan.nodes[n].ingress].stream_gates;
+      return std::ranges::any_of(gates, [&](const models::StreamGateConfig& each) { return each.name == gate.name && begins_after_the_start(plan.nodes[n], each); });
+    });
+  }
+
   void gate(const StreamGateEntryList& gate) {
     const auto any_entry = [&](auto&& predicate) { return std::any_of(gate.entries.begin(), gate.entries.end(), predicate); };
     const bool begins_late = !gate.entries.empty() && usage_.is_after_the_end(gate.base_time);
     if (begins_late)
       return warn(gate.where.at("base_time"), "a gate list that begins after the end of the simulation", {json::to_text(gate.base_time), "less than " + json::to_text(usage_.resolved().scenario.duration)});
     if (gate.extension > Duration()) warn(gate.where.at("extension"), "an extension that nothing needs", {"the list of a stream gate, which never changes", "no \"extension\""});
-    const bool acts_at_first = gate.entries.empty() || gate.base_time > Duration();
+    const bool acts_at_first = gate.entries.empty() || begins_late_at_a_node(gate);
+    if (gate.running && gate.entries.empty())
+      warn(gate.where.at("running"), "a list that is running, and none is there", {"no \"entries\"", "\"entries\""});
+    Duration cycle;
+    for (const StreamGateStep& step : gate.entries) cycle += step.interval;
+    cycle = gate.cycle.value_or(cycle);
+    if (gate.running && begins_at_the_start(gate, cycle) && std::ranges::none_of(nodes_, [&](std::uint32_t n) { return usage_.resolved().plan.nodes[n].clock.has_value(); }))
+      warn(gate.where.at("running"), "a list that begins at the start in any case", {"\"base_time\" of " + json::to_text(gate.base_time) + " and a cycle of " + json::to_text(cycle), "a \"base_time\" in the middle of a cycle"});
     const bool closes = (acts_at_first && !gate.open) || any_entry([](const StreamGateStep& step) { return !step.open; });
     const bool counts = any_entry([](const StreamGateStep& step) { return step.octets.has_value(); });
     const bool gives = (acts_at_first && gate.ipv) || any_entry([](const StreamGateStep& step) { return step.ipv.has_value(); });

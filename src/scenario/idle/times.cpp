@@ -20,6 +20,16 @@ void tell_twins(const std::vector<Entry>& entries, WhereOf&& where_of, const cha
       }
 }
 
+/// Whether the talker queues the stream otherwise than by priority 0.
+bool tells_apart(const Usage& usage, const Stream& stream) {
+  return std::any_of(usage.streams().begin(), usage.streams().end(), [&](const StreamAtPort& at) {
+    const models::StreamPlan& plan = usage.plan(at);
+    if (plan.name != stream.name || plan.talker.value != at.node) return false;
+    const auto& class_of = usage.ports().at({at.node, at.port}).config->traffic_class_of_priority;
+    return class_of[*stream.host_priority] != class_of[0];
+  });
+}
+
 bool is_of_run(const Scenario& scenario) { return scenario.duration > Duration(); }
 
 }  // namespace
@@ -29,6 +39,8 @@ void tell_idle_streams(const Usage& usage, json::Diagnostics& diagnostics) {
   for (const Stream& stream : r.scenario.streams) {
     if (stream.offset && usage.is_after_the_end(*stream.offset))
       warn_once(diagnostics, stream.where.at("offset"), "a stream that begins after the end of the simulation", {json::to_text(*stream.offset), "less than " + json::to_text(r.scenario.duration)});
+    if (stream.host_priority && !tells_apart(usage, stream))
+      warn_once(diagnostics, stream.where.at("host_priority"), "a priority that makes no difference", {std::to_string(*stream.host_priority) + ", whose class at " + json::quote(stream.from) + " is that of priority 0", "a priority of another class"});
     if (stream.burst && stream.burst->frames == 1 && stream.burst->spacing > Duration())
       warn_once(diagnostics, stream.where.at("burst"), "a spacing in bursts of one frame", {json::to_text(stream.burst->spacing), "several \"frames\""});
     if (!stream.redundancy) continue;

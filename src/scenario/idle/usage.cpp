@@ -67,7 +67,7 @@ void Usage::add_rerouted() {
           const Octets msdu = plan.headers + stream.largest_payload;
           StreamAtPort at{stream.index, {}, use.node, port, use.peer};
           if (use.node != plan.talker.value) at.filter = ingress.filter(use.node, frame);
-          at.classes = ingress.classes(use.node, *use.config, at.filter, frame.priority);
+          at.classes = ingress.classes(use.node, *use.config, at.filter, use.node == plan.talker.value ? plan.priority_at_talker() : frame.priority);
           at.frame = at.policed_frame = models::frame_length(msdu, frame.tagged && !strips_tags(r_.topology, *use.config, use.node, use.node == plan.talker.value));
           at.msdu = at.policed_msdu = msdu;
           streams_.push_back(at);

@@ -27,4 +27,17 @@ std::optional<Duration> length_of_list(const Description& list, json::Diagnostic
   return sum;
 }
 
+/// What has been running since before the start has a base time in the past.
+template <class Description>
+void check_running(const Description& list, json::Diagnostics& diagnostics) {
+  if (list.running && list.base_time > Duration() && !diagnostics.is_refused(list.where.at("base_time")) && !diagnostics.is_refused(list.where.at("running")))
+    diagnostics.error(list.where.at("running"), "a list that is running before it begins", {"\"base_time\" of " + json::to_text(list.base_time), "one of at most 0s"});
+}
+
+/// Whether "running" makes no difference: a cycle begins at the start in any case.
+template <class Description>
+bool begins_at_the_start(const Description& list, Duration cycle) {
+  return cycle > Duration() && list.base_time % cycle == Duration();
+}
+
 }  // namespace takt::scenario

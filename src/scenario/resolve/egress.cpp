@@ -179,6 +179,8 @@ models::GateConfig gate_config_of(const Gates& gates, json::Diagnostics& diagnos
                         {"entries of " + json::to_text(*sum) + " in a cycle of " + json::to_text(config.admin_cycle_time), "entries that fit into the cycle"});
   config.admin_cycle_time_extension = gates.extension;
   config.admin_base_time = sim::LocalTime() + gates.base_time;
+  config.is_running = gates.running;
+  check_running(gates, diagnostics);
   return config;
 }
 
@@ -188,7 +190,7 @@ void add_launch_classes(Resolved& r, json::Diagnostics& diagnostics) {
   std::map<std::uint32_t, std::map<std::uint8_t, models::StreamIndex>> priorities;  // of frames with a launch time, by talker
   for (const models::TalkerPlan& talker : r.plan.talkers) {
     const models::StreamPlan& stream = r.plan.streams[talker.stream.value];
-    if (talker.launch) priorities[stream.talker.value].try_emplace(stream.priority.value_or(0), talker.stream);
+    if (talker.launch) priorities[stream.talker.value].try_emplace(stream.priority_at_talker(), talker.stream);
   }
   if (priorities.empty()) return;
   for (models::LinkPlan& link : r.plan.links) {

@@ -96,6 +96,8 @@ models::StreamGateConfig stream_gate_of(const StreamGateEntryList& gate, json::D
                         {"entries of " + json::to_text(*sum) + " in a cycle of " + json::to_text(config.admin_cycle_time), "entries that fit into the cycle"});
   config.admin_cycle_time_extension = gate.extension;
   config.admin_base_time = sim::LocalTime() + gate.base_time;
+  config.is_running = gate.running;
+  check_running(gate, diagnostics);
   config.closed_due_to_invalid_rx_enable = gate.block_invalid_rx;
   config.closed_due_to_octets_exceeded_enable = gate.block_octets_exceeded;
   // Entries or a cycle of no length were refused by the table.

@@ -104,12 +104,27 @@ class Resolver {
       if (const Relay* const bridge = relay_of(node.description)) {
         plan.forwarding_delay = bridge->forwarding_delay;
         plan.cut_through_header = bridge->cut_through_header;
+        plan.forwarding_jitter = jitter_of(*bridge, ports_of(node.description));
       }
       r_.plan.nodes.push_back(std::move(plan));
     }
     const NetworkSection& network = r_.scenario.network;
     if (network.nodes.empty() && network.generate.empty())
       diagnostics_.error_unless(!r_.topology.has_all_nodes, network.where.place(), "a network without nodes", {"no nodes", "\"nodes\" or \"generate\""});
+  }
+
+  /// Nothing if there is none; one that is not limited, or stands where the delay must be known, is refused.
+  std::shared_ptr<const sim::Distribution> jitter_of(const Relay& bridge, const NodePorts& ports) {
+    if (!bridge.forwarding_jitter) return nullptr;
+    const json::Source& where = bridge.forwarding_jitter->where;
+    if (diagnostics_.is_refused(where.place())) return nullptr;   // generated switches share theirs
+    const sim::Distribution jitter = distribution_of(*bridge.forwarding_jitter, diagnostics_);
+    if (jitter.greatest() > 1_s)
+      diagnostics_.error(where.place(), "a jitter without a limit", {"up to " + json::to_text(jitter.greatest()), "a \"max\" of at most 1s"});
+    const bool cuts = std::any_of(ports.egress.begin(), ports.egress.end(), [](const Egress& egress) { return !egress.cut_through.empty(); });
+    if (cuts) diagnostics_.error(where.place(), "jitter where frames are cut through", {"\"cut_through\" in \"egress\"", "one of them"});
+    if (bridge.ingress && bridge.ingress->cqf) diagnostics_.error(where.place(), "jitter beside cyclic queuing", {"\"cqf\", whose buffers frames reach at known times", "one of them"});
+    return jitter.greatest() > Duration() ? std::make_shared<const sim::Distribution>(jitter) : nullptr;
   }
 
   std::uint32_t port_config_of_node(const NodePorts& ports) {
@@ -119,12 +134,16 @@ class Resolver {
     for (models::QueueLimit& limit : config.queue_limits) {
       if (queues.frames) limit.frames = *queues.frames;
       if (queues.octets) limit.octets = queues.octets->count;
+      limit.drops_oldest = queues.drop == FullQueue::oldest;
     }
     for (const Queues::PerClass& one : queues.classes) {
       models::QueueLimit& limit = config.queue_limits[one.traffic_class];
       if (one.frames) limit.frames = *one.frames;
       if (one.octets) limit.octets = one.octets->count;
+      if (one.drop) limit.drops_oldest = *one.drop == FullQueue::oldest;
     }
+    for (models::QueueLimit& limit : config.queue_limits)
+      if (!limit.is_finite()) limit.drops_oldest = false;   // so that ports which act alike share their configuration
     return port_config_index(r_.plan, config);
   }
 
@@ -179,8 +198,11 @@ class Resolver {
     wanted.payload = stream.payload;
     if (const auto* trace = std::get_if<models::TraceSchedule>(&schedule))
       for (const auto& entry : trace->entries) wanted.payload = std::max(wanted.payload, entry.payload);
+    if (stream.host_priority && stream.pcp)
+      diagnostics_.error(stream.where.at("host_priority"), "two priorities", {"\"host_priority\" beside \"pcp\"", "\"pcp\" alone, by which the host queues tagged frames, too"});
     const auto index = builder_->add(wanted);
     if (!index) return;
+    if (!stream.pcp) r_.plan.streams[index->value].host_priority = stream.host_priority;
     r_.streams[index->value].demand = demand_of(schedule, stream, *index);
     r_.plan.talkers.push_back({*index, stream.payload, std::move(schedule), stream.launch});
   }
@@ -194,6 +216,7 @@ class Resolver {
     if (stream.jitter > Duration())
       diagnostics_.error(stream.where.at("jitter"), "jitter belongs to a periodic stream", {"\"jitter\" without \"every\"", "\"every\""});
     if (stream.exponential) return models::ExponentialSchedule{stream.offset.value_or(Duration()), stream.exponential->mean};
+    if (stream.normal) return normal_gaps_of(stream, *stream.normal);
     if (stream.burst) {
       if (stream.burst->frames > 1 && stream.burst->spacing > stream.burst->every / static_cast<std::int64_t>(stream.burst->frames - 1))
         diagnostics_.error(stream.where.at("burst"), "a burst longer than its period",
@@ -209,6 +232,19 @@ class Resolver {
     return models::PeriodicSchedule{{}, 1_s, {}};  // none of them: the table has reported it
   }
 
+  models::TalkerSchedule normal_gaps_of(const Stream& stream, const NormalGaps& normal) {
+    const Duration longest = normal.max.value_or(Duration::max());
+    const auto is_sound = [&](std::string_view key) { return !diagnostics_.is_refused(normal.where.at(key)); };
+    if (!is_sound("mean") || !is_sound("deviation") || !is_sound("min") || !is_sound("max")) return models::PeriodicSchedule{{}, 1_s, {}};
+    if (normal.min > normal.mean || normal.mean > longest)
+      diagnostics_.error(normal.where.at("mean"), "a mean outside of what is left of the distribution", {json::to_text(normal.mean), normal.max ? json::to_text(normal.min) + " to " + json::to_text(*normal.max) : "at least " + json::to_text(normal.min)});
+    else if (normal.min == longest)
+      diagnostics_.error(normal.where.at("max"), "gaps that are all alike", {"\"min\" and \"max\" of " + json::to_text(longest), "a \"max\" above, or \"every\""});
+    else
+      return models::RandomGapSchedule{stream.offset.value_or(Duration()), std::make_shared<const sim::Distribution>(sim::Distribution::truncated_normal(normal.mean, normal.deviation, normal.min, longest))};
+    return models::PeriodicSchedule{{}, 1_s, {}};
+  }
+
   StreamDemand demand_of(const models::TalkerSchedule& schedule, const Stream& stream, models::StreamIndex index) const {
     const models::StreamPlan& plan = r_.plan.streams[index.value];
     const auto wire_bits = [&](Octets payload) {
@@ -219,6 +255,7 @@ class Resolver {
     StreamDemand demand;
     if (const auto* periodic = std::get_if<models::PeriodicSchedule>(&schedule)) demand.frames_per_second = per_second(1, periodic->period);
     if (const auto* random = std::get_if<models::ExponentialSchedule>(&schedule)) demand.frames_per_second = per_second(1, random->mean);
+    if (const auto* random = std::get_if<models::RandomGapSchedule>(&schedule)) demand.frames_per_second = per_second(1, random->gap->truncated_mean());
     if (const auto* burst = std::get_if<models::BurstSchedule>(&schedule)) demand.frames_per_second = per_second(burst->frames, burst->period);
     demand.wire_bits_per_second = demand.frames_per_second * wire_bits(stream.payload);
     if (const auto* trace = std::get_if<models::TraceSchedule>(&schedule); trace != nullptr) {
@@ -320,6 +357,8 @@ class Resolver {
       report_unknown_node(r_.topology, set.node, set.where.at("node"), "the name of a node", diagnostics_);
       return;
     }
+    if (set.gates.running)
+      diagnostics_.error(set.gates.where.at("running"), "a list that is running before it is set", {"\"running\" of a list that the script sets", "a \"base_time\" alone, which may lie in the past"});
     const models::GateConfig gates = gate_config_of(set.gates, diagnostics_);
     bool found = false;
     for (const Neighbour& neighbour : r_.topology.neighbours[*node]) {

@@ -3,6 +3,7 @@
 #include <set>
 #include <tuple>
 
+#include "models/egress/cyclic_schedule.hpp"
 #include "models/ethernet/sizes.hpp"
 
 #include "scenario/resolve/port_configs.hpp"
@@ -58,7 +59,7 @@ class Walker {
       const bool tagged = frame.tagged && !strips_tags(r_.topology, config, path[i], i == 0);
       made.frame = models::frame_length(msdu, tagged, r_tagged);
       made.msdu = msdu + (r_tagged ? models::r_tag : Octets{0});
-      made.classes = ingress_.classes(path[i], config, made.filter, frame.priority);
+      made.classes = ingress_.classes(path[i], config, made.filter, i == 0 ? plan.priority_at_talker() : frame.priority);
       found_.push_back(made);
     }
   }
@@ -73,6 +74,12 @@ class Walker {
 
 }  // namespace
 
+bool begins_after_the_start(const models::NodePlan& node, const models::StreamGateConfig& gate) {
+  const sim::LocalTime start = sim::LocalTime() + (node.clock ? node.clock->initial_offset : Duration());
+  const sim::LocalTime asked = models::first_request(sim::LocalTime(), gate.admin_base_time, gate.is_running);
+  return models::first_cycle_from(asked, gate.admin_base_time, gate.admin_cycle_time) > start;
+}
+
 std::vector<StreamAtPort> streams_at_ports(const Resolved& resolved) { return Walker(resolved).run(); }
 
 models::ClassSet IngressClasses::classes(std::uint32_t node, const models::PortConfig& port, std::optional<std::uint32_t> filter, models::Priority priority) const {
@@ -86,7 +93,7 @@ models::ClassSet IngressClasses::classes(std::uint32_t node, const models::PortC
   const auto class_of = [&](const std::optional<models::Priority>& ipv) { return ipv ? port.traffic_class_of_priority[*ipv] : own; };
   models::ClassSet classes = 0;
   // Before its list begins a gate is as it was made.
-  const bool begins_later = gate.admin_control_list.empty() || gate.admin_base_time > sim::LocalTime();
+  const bool begins_later = gate.admin_control_list.empty() || begins_after_the_start(r_.plan.nodes[node], gate);
   if (begins_later && gate.admin_gate_open) classes = models::with(classes, class_of(gate.admin_ipv));
   for (const models::StreamGateEntry& entry : gate.admin_control_list)
     if (entry.open) classes = models::with(classes, class_of(entry.ipv));

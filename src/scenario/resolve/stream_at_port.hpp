@@ -36,6 +36,9 @@ struct StreamAtPort {
 /// ingress of switches is there (resolve_ingress).
 std::vector<StreamAtPort> streams_at_ports(const Resolved& resolved);
 
+/// Whether frames can come before the list of the stream gate is in force.
+bool begins_after_the_start(const models::NodePlan& node, const models::StreamGateConfig& gate);
+
 /// Which class frames wait in at the ports of switches, after what the ingress there does.
 class IngressClasses {
  public:

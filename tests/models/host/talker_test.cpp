@@ -130,6 +130,19 @@ TEST(ExponentialSchedule, MeanAndDeviationOfTheGaps) {
   EXPECT_NEAR(squares / n - sum / n * sum / n, 1.0, 4 * std::sqrt(8 / n));  // (mu4 - 1) = 9 - 1
 }
 
+// Gaps of a normal distribution cut off at 15 and 40 us, computed as above (Python: statistics.NormalDist).
+TEST(RandomGapSchedule, PinnedTimes) {
+  const RandomGapSchedule gaps{7_us, std::make_shared<const sim::Distribution>(sim::Distribution::truncated_normal(20_us, 10_us, 15_us, 40_us))};
+  const Outcome outcome = run(gaps, 10_ms);
+  ASSERT_GE(outcome.produced.size(), 4u);
+  EXPECT_EQ((Times{outcome.produced.begin(), outcome.produced.begin() + 4}), (Times{22'485'658, 41'196'081, 75'130'894, 92'668'490}));
+  EXPECT_EQ(outcome.digest, expected_digest(outcome));
+  for (std::size_t k = 1; k < outcome.produced.size(); ++k) {
+    EXPECT_GE(outcome.produced[k] - outcome.produced[k - 1], 15'000'000);
+    EXPECT_LE(outcome.produced[k] - outcome.produced[k - 1], 40'000'000);
+  }
+}
+
 TEST(BurstSchedule, FramesAndSpacing) {
   const Outcome outcome = run(BurstSchedule{2_us, 100_us, 3, 10_us}, 250_us);
   EXPECT_EQ(outcome.produced, (Times{2'000'000, 12'000'000, 22'000'000, 102'000'000, 112'000'000, 122'000'000, 202'000'000,

@@ -120,6 +120,7 @@ class StreamBounds {
       }
     }
     if (bound.latency) bound.reason.clear();   // whatever one of the two analyses says
+    if (!flow.loss_at_host.empty()) lose(bound, flow.loss_at_host);
     if (flow.may_miss_launch) lose(bound, "the operating system may hand a frame over after its launch time");
     for (const std::uint32_t h : flow.hops) look_for_losses(graph_.hops[h], bound);
   }
@@ -155,7 +156,7 @@ class StreamBounds {
 
   void look_for_copies(const scenario::ResolvedRedundancy& redundancy, StreamBound& bound) const {
     const auto flow = std::ranges::find(graph_.flows, redundancy.stream, &Flow::stream);
-    if (bound.loses_nothing || flow == graph_.flows.end() || flow->may_miss_launch || std::ranges::count(graph_.flows, redundancy.stream, &Flow::stream) != 1) return;
+    if (bound.loses_nothing || flow == graph_.flows.end() || flow->may_miss_launch || !flow->loss_at_host.empty() || std::ranges::count(graph_.flows, redundancy.stream, &Flow::stream) != 1) return;
     const std::string why = why_copies_may_be_lost(r_, graph_, *flow, redundancy, bound, outages_, [this](const Hop& hop) {
       std::string own = own_loss(hop);
       return own.empty() ? chance_loss(hop) : own;

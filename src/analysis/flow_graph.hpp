@@ -84,6 +84,8 @@ struct Flow {
   std::vector<std::uint32_t> hops;      ///< parents before children
   /// The last hop to each listener, as in the plan; several where the listener takes out copies itself.
   std::vector<std::vector<std::uint32_t>> last;
+  /// Why the ingress of a listener that is a station may drop frames that are for its host; empty: it does not.
+  std::string loss_at_host = {};
 };
 
 struct FlowGraph {

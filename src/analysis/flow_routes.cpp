@@ -36,13 +36,17 @@ class RouteMaker {
     if (!rerouted) graph_.uncertain_paths.push_back(plan.name);
     if (rerouted && !rerouted->empty()) {
       prefixes_.clear();
-      for (const PossiblePath& each : *rerouted) note_last(flow, each.listener, walk(flow, each.path, nullptr, 0, true));
+      for (const PossiblePath& each : *rerouted) {
+        note_last(flow, each.listener, walk(flow, each.path, nullptr, 0, true));
+        receive(flow, each.path, plan.destination);
+      }
       share_schedulers(flow);
       return;
     }
     for (std::size_t i = 0; i < stream.paths.size(); ++i) {
       const std::size_t members = redundancy != nullptr ? redundancy->members.size() : 1;
       note_last(flow, i / members, walk(flow, stream.paths[i], redundancy, i % members, false));
+      receive(flow, stream.paths[i], redundancy != nullptr && redundancy->merges_in_host ? redundancy->members[i % members].destination : plan.destination);
     }
   }
 
@@ -62,6 +66,22 @@ class RouteMaker {
 
  private:
   static constexpr std::uint32_t nobody = 0xFFFF'FFFF;
+
+  /// In a station what is for the host passes the ingress, too. How meters and buckets stand there is not followed.
+  void receive(std::uint32_t flow, const scenario::Path& path, models::AddressIndex address) {
+    const std::uint32_t node = path.back();
+    if (!r_.plan.nodes[node].ingress) return;
+    const scenario::ResolvedStream& stream = r_.streams[graph_.flows[flow].stream.value];
+    const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
+    Hop taken;
+    taken.frame = models::frame_length(plan.headers + stream.largest_payload, plan.priority.has_value(), true);
+    taken.msdu = plan.headers + stream.largest_payload + models::r_tag;
+    const models::PortConfig& config = r_.plan.port_configs[r_.plan.nodes[node].port_config];
+    pass_ingress(taken, config, plan, node, *r_.topology.port_towards(node, path[path.size() - 2]), address);
+    const bool is_dropped_late = taken.ats && is_bounded(taken.ats->longest_residence);
+    if (taken.policing.always_may_drop || taken.policing.meter || is_dropped_late || !taken.unsupported.empty())
+      graph_.flows[flow].loss_at_host = "a stream filter may drop frames before the host of " + r_.plan.nodes[node].name;
+  }
 
   void note_last(std::uint32_t flow, std::size_t listener, std::uint32_t hop) {
     std::vector<std::uint32_t>& all = graph_.flows[flow].last[listener];

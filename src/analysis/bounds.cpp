@@ -245,7 +245,6 @@ class RequirementBounds {
   RequirementBound of(const scenario::RequiredFigure& required) const {
     using enum results::RequirementKind;
     constexpr std::pair<results::RequirementKind, const char*> unbounded[] = {
-        {success, "takt has no bound for how many activations of a thread are done in time"},
         {buffered, "takt has no bound for how many values a thread finds buffered"},
         {irregular, "takt has no bound for how regular the pulses of a signal are"},
         {sync, "synchronisation is simulated, not bounded; gates and publishing rest on it"},
@@ -253,7 +252,7 @@ class RequirementBounds {
     };
     for (const auto& [kind, reason] : unbounded)
       if (required.kind == kind) return {{}, {}, reason, {}};
-    if (required.kind == figure) return of_figure(required);
+    if (required.kind == figure || required.kind == success) return of_figure(required);
     if (required.kind == reaction) return of_reaction(*scenario::reaction_of(required.figure));
     const auto stream = std::ranges::find(bounds_.streams, required.subject, &StreamBound::name);
     TAKT_CHECK(stream != bounds_.streams.end(), "a stream of a requirement is one");

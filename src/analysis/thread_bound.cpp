@@ -24,7 +24,9 @@ std::string doubt_of_host(const scenario::Resolved& r, models::NodeIndex node) {
 
 /// No window is longer than the run leaves room for two of, from the last instant on at which the first may begin.
 bool has_whole_window(const scenario::Resolved& r, const scenario::ResolvedApplication& application, const scenario::ResolvedThread& thread, const ClockQuality& clock, Duration from) {
-  const Ps begins = std::max({application.scheduler->after.ps(), from.ps(), thread.offset.ps()});
+  // A clock that is behind at the start shows them later.
+  const std::optional<models::NodeClockPlan>& own = r.plan.nodes[application.node.value].clock;
+  const Ps begins = std::max<Ps>(0, std::max({application.scheduler->after.ps(), from.ps(), thread.offset.ps()}) - (own ? own->initial_offset.ps() : 0));
   return scaled_down(r.scenario.duration.ps(), one_ppt - clock.rate_ppt, one_ppt) > sum(begins, thread.window.ps(), thread.window.ps());
 }
 

@@ -93,6 +93,7 @@ TEST(Topics, WhatIsNotCertainHasItsReason) {
   EXPECT_NE(reason(R"("every": "1ms", "response": {"weibull": {"scale": "100us", "shape": 0.8}})", "").find("may last longer than the 1ms"), std::string::npos);
   EXPECT_NE(reason(on_time, R"(, "faults": [{"kind": "crash", "node": "b", "at": "10ms"}])").find("faults"), std::string::npos);
   EXPECT_NE(reason(on_time, R"(, "clocks": {"gptp": {}})").find("synchronisation"), std::string::npos);
+  EXPECT_NE(reason(on_time, R"(, "clocks": {"all": {"initial": "-90ms"}})").find("before a window"), std::string::npos);
   EXPECT_NE(reason(on_time, "", "15ms").find("before a window"), std::string::npos);
 }
 

@@ -13,6 +13,7 @@
 #include "analysis/separated_flow.hpp"
 #include "analysis/surviving_copies.hpp"
 #include "results/run_result.hpp"
+#include "scenario/applications/resolved_dds.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "sim/check.hpp"
 
@@ -182,6 +183,19 @@ class StreamBounds {
     if (bound.reason.empty() && !is_bounded(network_.hops[last].worst)) bound.reason = "an ATS scheduler holds what does not keep to its rate, for any time";
   }
 
+  /// The first of the streams that may come at any time, in the class or one that goes before.
+  std::string who_has_no_gap(const Hop& hop) const {
+    for (const std::uint32_t h : graph_.ports[hop.port].hops) {
+      const Hop& other = graph_.hops[h];
+      const Flow& flow = graph_.flows[other.flow];
+      if (flow.source.is_limited() || flow.stream.is_none() || other.highest_class < hop.lowest_class) continue;
+      const auto sends = [&](const scenario::ResolvedParticipant& each) { return std::ranges::find(each.routes, flow.stream, &scenario::ResolvedParticipant::Route::stream) != each.routes.end(); };
+      const bool is_dds = r_.dds && std::ranges::any_of(r_.dds->participants, sends);
+      return ": " + r_.plan.streams[flow.stream.value].name + (is_dds ? ", whose heartbeats, acknowledgements and repairs of DDS are simulated" : "");
+    }
+    return {};
+  }
+
   HopBound hop_bound(std::uint32_t h, std::string& reason) {
     const Hop& hop = graph_.hops[h];
     const GraphPort& port = graph_.ports[hop.port];
@@ -194,7 +208,8 @@ class StreamBounds {
     made.delay = duration_of(result.delay);
     if (is_bounded(traffic_class.backlog)) made.backlog_bits = bits_of(traffic_class.backlog, port);
     if (!made.delay && reason.empty()) {
-      const std::string& why = !hop.unsupported.empty() ? hop.unsupported : !result.reason.empty() ? result.reason : traffic_class.reason;
+      std::string why = !hop.unsupported.empty() ? hop.unsupported : !result.reason.empty() ? result.reason : traffic_class.reason;
+      if (why.starts_with("a stream without a least gap")) why += who_has_no_gap(hop);
       reason = "at " + made.name + ", class " + std::to_string(hop.highest_class) + ": " + (why.empty() ? "unbounded" : why);
     }
     return made;
@@ -246,7 +261,6 @@ class RequirementBounds {
   RequirementBound of(const scenario::RequiredFigure& required) const {
     using enum results::RequirementKind;
     constexpr std::pair<results::RequirementKind, const char*> unbounded[] = {
-        {success, "takt has no bound for how many activations of a thread are done in time"},
         {buffered, "takt has no bound for how many values a thread finds buffered"},
         {irregular, "takt has no bound for how regular the pulses of a signal are"},
         {sync, "synchronisation is simulated, not bounded; gates and publishing rest on it"},
@@ -254,7 +268,7 @@ class RequirementBounds {
     };
     for (const auto& [kind, reason] : unbounded)
       if (required.kind == kind) return {{}, {}, reason, {}};
-    if (required.kind == figure) return of_figure(required);
+    if (required.kind == figure || required.kind == success) return of_figure(required);
     if (required.kind == reaction) return of_reaction(*scenario::reaction_of(required.figure));
     const auto stream = std::ranges::find(bounds_.streams, required.subject, &StreamBound::name);
     TAKT_CHECK(stream != bounds_.streams.end(), "a stream of a requirement is one");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/flow_graph.hpp"
+#include "analysis/thread_bound.hpp"
 #include "scenario/topology/graph_figures.hpp"
 
 namespace takt::analysis {
@@ -92,6 +93,7 @@ class FigureBounder {
 
   RequirementBound make() {
     if (!figure_.steps.empty() && figure_.steps.front() == "streams") add_streams();
+    if (figure_.steps.size() >= 5 && figure_.steps[0] == "applications" && figure_.steps[2] == "threads" && figure_.only.empty()) add_threads();
     if (has_steps(figure_, {"dropped", "?"})) add_all_drops();
     if (has_steps(figure_, {"ports", "?", "queue_peak"})) add_queues();
     if (has_steps(figure_, {"queues", "?", "frames"}) || has_steps(figure_, {"queues", "?", "octets"})) add_queues_of_classes();
@@ -175,6 +177,51 @@ class FigureBounder {
       const json::Node* const member = row.find(only.first);
       return member != nullptr && json::equal(*member, only.second);
     });
+  }
+
+  void add_threads() {
+    const auto is_meant = [](const std::string& step, const std::string& name) { return step == "*" || step == name; };
+    for (std::size_t a = 0; a < r_.applications.size(); ++a)
+      for (std::size_t t = 0; t < r_.applications[a].threads.size(); ++t)
+        if (is_meant(figure_.steps[1], r_.applications[a].name) && is_meant(figure_.steps[3], r_.applications[a].threads[t].name)) add_thread(a, t);
+  }
+
+  /// A gateway takes what has come out of its own buffer, which has other figures.
+  void add_thread(std::size_t a, std::size_t t) {
+    const scenario::ResolvedThread& thread = r_.applications[a].threads[t];
+    const ThreadBound bound = thread_bound(r_, bounds_, a, t, from_);
+    const bool is_opc_ua = !r_.topics[thread.topic].shape.is_dds;
+    const auto zero_if = [&](bool is_certain, const std::string& reason) { values_.add(0, is_certain ? std::optional(0.0) : std::nullopt, reason); };
+    const std::string& last = figure_.steps.back();
+    if (has_steps(figure_, {"applications", "?", "threads", "?", "calls", "percent"}))
+      values_.add(bound.is_tested ? std::optional(100.0) : std::nullopt, 100.0, bound.reason);
+    else if (has_steps(figure_, {"applications", "?", "threads", "?", "response_ps", "?"}) && last != "count")
+      add_response(bound, last == "deviation");
+    else if (figure_.steps.size() != 5)
+      return;
+    else if (last == "missed")
+      zero_if(bound.is_always_done, bound.reason);
+    else if (thread.publishes && is_opc_ua && (last == "refused" || last == "timed_out"))
+      values_.add(0, 0, {});
+    else if (!thread.publishes && last == "lost")
+      zero_if(bound.loses_nothing, bound.values_reason);
+    else if (!thread.publishes && last == "overwritten" && is_opc_ua)
+      zero_if(bound.most_found && *bound.most_found <= thread.buffer, bound.most_found ? "a call may find " + std::to_string(*bound.most_found) + " values, and " + std::to_string(thread.buffer) + " are kept" : bound.values_reason);
+    else
+      return;
+    values_.rest_on(bound.assumptions);
+  }
+
+  /// A thread of which no call takes place has no response.
+  void add_response(const ThreadBound& bound, bool is_deviation) {
+    const double least = number(bound.least_response);
+    const double greatest = number(bound.greatest_response);
+    if (!bound.is_always_done)
+      values_.add(std::nullopt, std::nullopt, bound.reason);
+    else if (is_deviation)
+      values_.add(0, greatest - least, {});
+    else
+      values_.add(least, greatest, {});
   }
 
   /// What the network's graph is like is known.

@@ -93,16 +93,37 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, b
   graph.flows.push_back(std::move(flow));
 }
 
-void add_published(const scenario::Resolved& r, models::NodeIndex node, models::StreamIndex stream, Ps every, std::int64_t frames, const BoundOptions& options, FlowGraph& graph) {
+/// What a process publishes: `frames` in each period of its clock, each late by up to `lateness`, and handed to the port by the operating system.
+void add_late(const scenario::Resolved& r, models::NodeIndex node, models::StreamIndex stream, Ps every, std::int64_t frames, Ps lateness, const BoundOptions& options, FlowGraph& graph) {
   const ClockQuality clock = clock_quality(r, node, options);
   const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
   Flow flow;
   flow.stream = stream;
   flow.worst_source = os.transmit.greatest().ps();
   flow.best_source = os.transmit.least().ps();
-  const Ps jitter = sum(os.wake_up.greatest().ps() - os.wake_up.least().ps() + 2 * clock.error, flow.worst_source - flow.best_source);
+  const Ps jitter = sum(lateness + 2 * clock.error, flow.worst_source - flow.best_source);
   flow.source = FrameArrivals({std::max<Ps>(1, shortest(every, clock)), frames, 0, jitter});
   graph.flows.push_back(std::move(flow));
+}
+
+void add_published(const scenario::Resolved& r, models::NodeIndex node, models::StreamIndex stream, Ps every, std::int64_t frames, const BoundOptions& options, FlowGraph& graph) {
+  const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
+  add_late(r, node, stream, every, frames, os.wake_up.greatest().ps() - os.wake_up.least().ps(), options, graph);
+}
+
+/// Topics over OPC UA, of applications and gateways: a call of a thread publishes one message at most, which is one frame. A call whose response is not over when the next one is due
+/// does not take place (scenario/applications/activations.hpp), so none is late by a period, whatever the law of its response.
+void add_topics(const scenario::Resolved& r, const BoundOptions& options, FlowGraph& graph) {
+  for (const scenario::ResolvedApplication& application : r.applications)
+    for (const scenario::ResolvedThread& thread : application.threads) {
+      if (!thread.publishes || !thread.stream) continue;
+      const ClockQuality clock = clock_quality(r, application.node, options);
+      const Ps latest = thread.every.ps() - 1;
+      const Ps spread = std::min(latest, thread.response.greatest().ps()) - std::min(latest, thread.response.least().ps());
+      // Responses pass on the host's clock, whose instants are whole picoseconds of true time.
+      const Ps rounding = clock.slowest_ppt == 0 && clock.fastest_ppt == 0 ? 0 : 1;
+      add_late(r, application.node, *thread.stream, thread.every.ps(), 1, longest(spread, clock) + rounding, options, graph);
+    }
 }
 
 /// With roles: whoever gets or loses one, or hears of it, publishes at once; afterwards its cycles begin anew.
@@ -149,7 +170,7 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
   }
 }
 
-/// What applications send, and when, is settled in the run: any number of frames at any time.
+/// What participants of DDS send, and when, is settled in the run (heartbeats, acknowledgements, what is sent again): any number of frames at any time.
 void add_unknown(const scenario::Resolved& r, FlowGraph& graph) {
   std::vector<bool> is_known(r.plan.streams.size());
   for (const Flow& flow : graph.flows) is_known[flow.stream.value] = true;
@@ -171,6 +192,7 @@ void add_flows(const scenario::Resolved& resolved, const BoundOptions& options, 
   for (const models::TalkerPlan& talker : resolved.plan.talkers)
     add_talker(resolved, talker, with_phases.contains(resolved.plan.streams[talker.stream.value].name), options, graph);
   for (const scenario::ResolvedProgram& program : resolved.programs) add_program(resolved, program, options, graph);
+  add_topics(resolved, options, graph);
   add_unknown(resolved, graph);
 }
 

@@ -34,7 +34,7 @@ class Prover {
     proof.time = bound.duration;
     proof.reason = bound.reason;
     proof.assumptions = bound.assumptions;
-    if (required.kind == RequirementKind::figure) return figure(required, bound, std::move(proof));
+    if (required.kind == RequirementKind::figure || required.kind == RequirementKind::success) return figure(required, bound, std::move(proof));
     if (required.kind == RequirementKind::delivered) return delivered(required, std::move(proof));
     if (required.kind == RequirementKind::dropped)
       judge_count(required, bound.count, proof);

@@ -8,6 +8,7 @@
 
 #include "analysis/bounds.hpp"
 #include "analysis/report.hpp"
+#include "analysis/thread_bound.hpp"
 #include "evaluation/evaluate.hpp"
 #include "json/document.hpp"
 #include "json/quantity.hpp"
@@ -174,6 +175,22 @@ class Checks {
     }
     for (const analysis::ReactionBound& bound : bounds.reactions)
       if (bound.cause == handshake::Cause::command && bound.bound && stands(bound.assumptions)) reactions(bound);
+    for (std::size_t a = 0; a < r_.applications.size(); ++a)
+      for (std::size_t t = 0; t < r_.applications[a].threads.size(); ++t) {
+        const analysis::ThreadBound bound = analysis::thread_bound(r_, bounds, a, t, r_.scenario.warm_up);
+        if (stands(bound.assumptions)) thread(bound, r_.applications[a].threads[t], result_->applications[a].threads[t], result_->applications[a].name);
+      }
+  }
+
+  void thread(const analysis::ThreadBound& bound, const scenario::ResolvedThread& thread, const results::ThreadResult& found, const std::string& application) {
+    const std::string name = application + "/" + found.name;
+    if (found.response)
+      expect(found.response->min >= bound.least_response && found.response->max <= bound.greatest_response,
+             [&] { return name + " responds after " + took(found.response->min) + " to " + took(found.response->max) + ", the bounds are " + took(bound.least_response) + " and " + took(bound.greatest_response); });
+    expect(!bound.is_always_done || (found.missed == 0 && found.response), [&] { return name + " misses " + std::to_string(found.missed) + " calls of none"; });
+    expect(!bound.is_tested || found.calls.percent == 100.0, [&] { return name + " is done in fewer calls than all"; });
+    expect(!bound.loses_nothing || found.lost == 0, [&] { return name + " loses " + std::to_string(found.lost) + " values of none"; });
+    expect(!bound.most_found || *bound.most_found > thread.buffer || found.overwritten == 0, [&] { return name + " overwrites " + std::to_string(found.overwritten) + " values of none"; });
   }
 
   /// Those to a call that nothing else came across.

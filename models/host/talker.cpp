@@ -104,7 +104,9 @@ void Talker::start(sim::Simulation& simulation) {
 void Talker::clock_changed(sim::Simulation& simulation) {
   if (is_over_) return;
   ++generation_;
-  schedule_event(simulation);
+  // What a step has passed over wholly was never: two such would produce at one instant.
+  is_over_ = clock_->local_at(simulation.now()) >= until_;
+  if (!is_over_) schedule_event(simulation);
 }
 
 void Talker::prefetch(const sim::Event&, Ahead ahead) const {

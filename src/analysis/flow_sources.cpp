@@ -79,7 +79,8 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, b
     // The clock is read in whole picoseconds: up to one of them is over already.
     const Ps unread = clock.slowest_ppt == 0 && clock.fastest_ppt == 0 ? 0 : 1;
     flow.best_source = std::max<Ps>(0, shortest(std::max<Ps>(0, talker.launch->ps() - unread), clock) - 2 * clock.error);
-    flow.may_miss_launch = os.transmit.greatest().ps() > flow.best_source;
+    // And one of them may be over where a frame is handed over at the very instant.
+    flow.may_miss_launch = os.transmit.greatest().ps() + unread > std::max<Ps>(0, shortest(talker.launch->ps(), clock) - 2 * clock.error);
   } else {
     flow.worst_source = os.transmit.greatest().ps();
     flow.best_source = os.transmit.least().ps();

@@ -120,6 +120,7 @@ class FixedPoint {
     const models::NodePlan& node = r_.plan.nodes[port.node.value];
     if (port.hops.empty() || !model.counts_packets || config.preemption || config.untagged || !is_plain(config.shaping) || !model.more_gates.empty() || model.cqf || node.ingress) return std::nullopt;
     if (!gptp_messages(r_, port.node).empty()) return std::nullopt;
+    if (r_.plan.links[port.link].may_fail) return std::nullopt;   // a header that comes while the link is down is a frame that is stored
     for (std::size_t other = 0; other < graph_.ports.size(); ++other)   // eligibility times ask for the last bit
       if (graph_.ports[other].node == port.node && graph_.models[other].config->shaping.timed() != 0) return std::nullopt;
     const Ps header = port.octet_time * (node.cut_through_header + models::vlan_tag).count;

@@ -79,10 +79,12 @@ void WireChecker::attribute(Ps now, std::vector<Recorded>& batch) {
         if (recorded.frame.marked) recorded.eligible = recorded.frame.eligible.ps();
         continue;
       }
+      const auto may_be = [&](const Arrival& arrival) { return is_same(arrival.frame, outcome.stream, outcome.sequence) && arrival.acts_at(now) && !arrival.verdicts.empty(); };
+      const bool is_one_of_many = std::ranges::count_if(nodes_[node]->arrivals, may_be) > 1 && nodes_[node]->greatest_jitter > 0;
       for (Arrival& arrival : nodes_[node]->arrivals) {
-        if (!is_same(arrival.frame, outcome.stream, outcome.sequence) || !arrival.acts_at(now) || arrival.verdicts.empty()) continue;
+        if (!may_be(arrival)) continue;
         const IngressOracle::Verdict& verdict = arrival.verdicts.front();
-        if (arrival.verdicts.size() > 1) {  // copies that can't be told apart
+        if (arrival.verdicts.size() > 1 || is_one_of_many) {  // copies that can't be told apart
           recorded.eligible = recorded.frame.marked ? recorded.frame.eligible.ps() : long_ago;
           break;
         }
@@ -117,7 +119,7 @@ void WireChecker::settle_host(std::uint32_t index, Ps now) {
   for (Arrival& arrival : node.arrivals) {
     if (arrival.complete != now || !is_taken_in(index, arrival)) continue;
     arrival.has_outcome = true;
-    if (arrival.lost) continue;
+    if (arrival.lost || arrival.was_dropped) continue;
     const auto dropped = std::find_if(node.outcomes.begin(), node.outcomes.end(), [&](const Node::Outcome& outcome) {
       return outcome.drop && outcome.direction == 0xFFFF'FFFF && is_same(arrival.frame, outcome.stream, outcome.sequence);
     });
@@ -149,6 +151,7 @@ void WireChecker::settle_bridge(std::uint32_t index, Ps now) {
     for (Arrival& arrival : node.arrivals) {
       if (!is_same(arrival.frame, outcome.stream, outcome.sequence) || !arrival.acts_at(now) || arrival.lost) continue;
       found = arrival.has_outcome = true;
+      if (outcome.drop && outcome.direction == 0xFFFF'FFFF && arrival.complete != now) arrival.was_dropped = true;
       if (arrival.complete != now && arrival.greatest_jitter == 0 && !outcome.drop && arrival.frame.length != 0 && directions_[outcome.direction]->checker.octet_time() != directions_[arrival.direction]->checker.octet_time())
         violations_.add(now, node.name, wire_checker::name_of(outcome.stream, outcome.sequence) + " is cut through to a link of another rate");
     }

@@ -24,6 +24,7 @@ struct WireChecker::Arrival {
   bool lost = false;                   // on the link
   bool damaged = false;                // and dropped for it
   bool has_outcome = false;
+  bool was_dropped = false;            // by the node, when only its header was there
   std::vector<IngressOracle::Verdict> verdicts;
 };
 

@@ -26,6 +26,7 @@ template <class T>
 class ChunkedSlots {
  public:
   T& operator[](std::uint32_t slot) const { return chunks_[slot / chunk_size][slot % chunk_size]; }
+  T* find(std::uint32_t slot) const { return &(*this)[slot]; }
   std::uint32_t count() const { return static_cast<std::uint32_t>(chunks_.size()) * chunk_size; }
   void grow() { chunks_.push_back(std::make_unique<T[]>(chunk_size)); }
   void occupy(std::uint32_t) {}
@@ -45,6 +46,7 @@ class LoneSlots {
     TAKT_CHECK(slot < slots_.size() && slots_[slot] != nullptr, "a handle is used while what it stands for lives");
     return *slots_[slot];
   }
+  T* find(std::uint32_t slot) const { return slots_.at(slot).get(); }
   std::uint32_t count() const { return static_cast<std::uint32_t>(slots_.size()); }
   void grow() { slots_.emplace_back(); }
   void occupy(std::uint32_t slot) { slots_[slot] = std::make_unique<T>(); }
@@ -60,6 +62,8 @@ class BasicPool {
  public:
   T& operator[](Handle handle) { return slots_[handle.value]; }
   const T& operator[](Handle handle) const { return slots_[handle.value]; }
+  /// For who cannot know whether that is still there: null, or what has the handle now.
+  T* find(Handle handle) { return slots_.find(handle.value); }
 
   Handle allocate() {
     if (free_count_ == 0) [[unlikely]] grow();

@@ -101,7 +101,7 @@ bool Link::passes_faults(sim::Simulation& simulation, FrameIndex& frame, std::ui
 bool Link::set_up(sim::Simulation& simulation, bool up) {
   if (fault_->is_up() == up) return false;
   fault_->set_up(simulation.now(), up);
-  if (!up) fault_->break_passing(simulation.now(), [this](FrameIndex frame) -> Frame& { return traffic_->frame(frame); });
+  if (!up) fault_->break_passing(simulation.now(), [this](FrameIndex frame) { return traffic_->find_frame(frame); });
   return true;
 }
 

@@ -83,6 +83,8 @@ class Traffic {
 
   Frame& frame(FrameIndex index) { return frames_[index]; }
   const Frame& frame(FrameIndex index) const { return frames_[index]; }
+  /// A frame that may have ended: null, or the record that has the handle now, of another one or of none.
+  Frame* find_frame(FrameIndex index) { return frames_.find(index); }
   Payload& payload(PayloadIndex index) { return payloads_[index]; }
   const Payload& payload(PayloadIndex index) const { return payloads_[index]; }
 

@@ -72,8 +72,8 @@ class LinkFault {
   template <class FrameOf>
   void break_passing(sim::TrueTime now, const FrameOf& frame_of) {
     for (const Passing& passing : passing_) {
-      Frame& frame = frame_of(passing.index);
-      if (passing.last_bit >= now && frame.references > 0 && frame.stream == passing.stream && frame.sequence == passing.sequence) frame.bad_fcs = true;
+      Frame* const frame = frame_of(passing.index);
+      if (frame != nullptr && passing.last_bit >= now && frame->references > 0 && frame->stream == passing.stream && frame->sequence == passing.sequence) frame->bad_fcs = true;
     }
     passing_.clear();
   }

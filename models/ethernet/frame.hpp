@@ -78,12 +78,13 @@ enum class DropReason : std::uint8_t {
   link_down,            ///< its link was down, or went down while it was on it
   node_down,            ///< came to, or waited in, a node that had crashed
   late_launch,          ///< handed over after its launch time
+  host_overload,        ///< too many frames waited for the processor of a host
   count
 };
 constexpr const char* name_of(DropReason reason) {
   constexpr const char* names[] = {"queue_frames", "queue_octets", "no_filtering_entry", "queue_max_sdu", "stream_max_sdu", "stream_gate",
                                    "flow_meter",   "residence_time", "duplicate",        "bad_fcs",       "link_loss",      "link_down",
-                                   "node_down",    "late_launch"};
+                                   "node_down",    "late_launch",      "host_overload"};
   static_assert(std::size(names) == static_cast<std::size_t>(DropReason::count));
   return reason < DropReason::count ? names[static_cast<std::size_t>(reason)] : "?";
 }

@@ -29,6 +29,7 @@ enum class Occurrence : std::uint32_t {
   received = 11,  ///< a frame reaches the applications of a host; what = frame, detail = stream and node (trace only)
   output_changed = 12,  ///< a digital output of an application changes; what = its number, detail = its level (trace only)
   dequeued = 8,  ///< a frame leaves a queue, to be sent or because it is given up (trace only)
+  job_done = 15,  ///< a thread of a processor has done a job; what = its response time (digest only)
 };
 
 /// The detail of a trace record of started, cut or resumed: octets (of the frame; of the fragment that ends; of the rest, FCS

@@ -11,11 +11,11 @@ constexpr std::size_t few_listeners = 4;  // to go through them is faster than t
 }
 
 Host::Host(sim::Simulation& simulation, Traffic& traffic, NodeIndex node, const OsLatency& latency, std::string_view path,
-           std::span<EgressPort> ports, const LocalClock& clock, bool has_several_ways)
+           std::span<EgressPort> ports, const LocalClock& clock, bool has_several_ways, bool has_stack_thread)
     : traffic_(&traffic),
       source_(simulation.add(*this)),
       node_(node),
-      receives_at_once_(latency.receive.is_constant() && !has_several_ways),
+      receives_at_once_(latency.receive.is_constant() && !has_several_ways && !has_stack_thread),
       looks_closer_(has_several_ways),
       has_several_ways_(has_several_ways),
       receive_(latency.receive, simulation.seed(), path, "os receive"),
@@ -73,9 +73,24 @@ void Host::receive_flagged(sim::Simulation& simulation, sim::EventKind kind, Arr
   } else if (!up_) {
     traffic_->drop(arrival.frame, DropReason::node_down, id(), simulation);
     return;
+  } else if (cpu_ != nullptr) {
+    const std::uint32_t stream = traffic_->frame(arrival.frame).stream.value;
+    cpu_->submit(stack_thread_, *this, id().index, stream, ArrivalArgument::pack(arrival.frame, arrival.port), simulation.now());
+    return;
   }
   if (keeps_book_ && (kind == deliver_now || receives_at_once_)) note_delivery(simulation, arrival.frame);
   take_in(simulation, kind, arrival);
+}
+
+/// The protocol stack has taken a frame in, or never will.
+void Host::job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) {
+  const FrameIndex frame = ArrivalArgument::unpack(job).frame;
+  if (ending != Ending::done) {
+    traffic_->drop(frame, ending == Ending::crashed ? DropReason::node_down : DropReason::host_overload, id(), simulation);
+    return;
+  }
+  if (keeps_book_) note_delivery(simulation, frame);
+  deliver(simulation, frame, traffic_->frame(frame));
 }
 
 /// What deliver() will do is entered in the book.

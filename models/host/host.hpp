@@ -13,12 +13,13 @@
 
 namespace takt::models {
 
-class Host final : public sim::Component, public InternalReceiver {
+class Host final : public sim::Component, public InternalReceiver, public CpuUser {
  public:
   /// `ports` are its network interfaces. Frames that come by several ways, by several interfaces or through the bridge of a station, may come
-  /// at one instant: the receive latency begins when the instant is complete, in the order of the ports, and lies in no event's time before.
+  /// at one instant: the receive latency begins when the instant is complete, in the order of the ports, and lies in no event's time before. The latter also holds
+  /// where a thread of a processor takes them in.
   Host(sim::Simulation& simulation, Traffic& traffic, NodeIndex node, const OsLatency& latency, std::string_view path, std::span<EgressPort> ports,
-       const LocalClock& clock, bool has_several_ways);
+       const LocalClock& clock, bool has_several_ways, bool has_stack_thread);
 
   /// This host takes frames of the stream; `process`, if any, gets their octets. Frames of other streams are dropped.
   /// Further calls for a stream add processes, each of which gets them.
@@ -34,6 +35,12 @@ class Host final : public sim::Component, public InternalReceiver {
     keeps_book_ = true;
     looks_closer_ = true;
   }
+  /// The thread of the host's processor on which each frame that comes is a job of the protocol stack.
+  void take_in_on(Cpu& cpu, std::uint32_t thread) {
+    cpu_ = &cpu;
+    stack_thread_ = thread;
+    looks_closer_ = true;
+  }
   /// Takes the link-local frames.
   void set_link_local_receiver(LinkLocalReceiver* receiver) { link_local_ = receiver; }
   ListenerRedundancy& redundancy() { return redundancy_; }
@@ -46,6 +53,7 @@ class Host final : public sim::Component, public InternalReceiver {
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
   void settle(sim::Simulation& simulation) override;
   void receive_internally(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port) override;
+  void job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) override;
   void prefetch(const sim::Event& event, Ahead ahead) const override;
   sim::ComponentId id() const { return source_.id(); }
 
@@ -84,6 +92,8 @@ class Host final : public sim::Component, public InternalReceiver {
   sim::Duration fixed_receive_;      // that latency
   ListenerRedundancy redundancy_;
   std::vector<Arrived> arrived_;     // at this instant, by several ways
+  Cpu* cpu_ = nullptr;               // null: what comes takes no time of a processor
+  std::uint32_t stack_thread_ = 0;
 };
 
 }  // namespace takt::models

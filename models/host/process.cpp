@@ -8,6 +8,12 @@ namespace takt::models {
 namespace {
 // Kinds 0 .. n-1 are the alarms; this one hands a frame to the network interface.
 constexpr sim::EventKind transmit_now = 0xFFFF;
+
+/// What a job of a processor is: in its number above the low 32 bits.
+enum class JobKind : std::uint16_t { alarm, message, frame };
+std::uint64_t job_number(JobKind kind, std::uint16_t which, std::uint32_t detail) {
+  return static_cast<std::uint64_t>(kind) << 48 | static_cast<std::uint64_t>(which) << 32 | detail;
+}
 }  // namespace
 
 Process::Process(sim::Simulation& simulation, Traffic& traffic, HostOutput& output, const LocalClock& clock,
@@ -24,12 +30,16 @@ Process::Process(sim::Simulation& simulation, Traffic& traffic, HostOutput& outp
       application_(std::move(application)) {
   const AlarmId count = application_->alarm_count();
   TAKT_CHECK(count < transmit_now, "too many alarms");
-  for (AlarmId alarm = 0; alarm < count; ++alarm) alarms_.push_back({sim::Timer(source_.id(), sim::Phase::timer, alarm), {}, false, sim::LocalTime::never()});
+  for (AlarmId alarm = 0; alarm < count; ++alarm) alarms_.push_back({sim::Timer(source_.id(), sim::Phase::timer, alarm), {}, false, sim::LocalTime::never(), 0});
 }
 
 void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (event.kind() == transmit_now) {
-    hand_over(FrameIndex{static_cast<std::uint32_t>(event.argument)}, true);
+    const auto frame = static_cast<std::uint32_t>(event.argument);
+    if (threads_.transmit)
+      cpu_->submit(*threads_.transmit, *this, source_.id().index, traffic_->frame(FrameIndex{frame}).stream.value, job_number(JobKind::frame, 0, frame), simulation.now());
+    else
+      hand_over(FrameIndex{frame}, true);
     return;
   }
   TAKT_CHECK(event.kind() < alarms_.size(), "an alarm that was never set");
@@ -46,9 +56,70 @@ std::size_t Process::due_alarms() const {
 
 void Process::expire(AlarmId id) {
   Alarm& alarm = alarms_[id];
+  const sim::TrueTime expired = alarm.timer.deadline() - alarm.latency;
   alarm.timer.cancel();
   alarm.has_latency = false;
-  application_->wake(*this, id);
+  if (threads_.turns)
+    cpu_->submit(*threads_.turns, *this, source_.id().index, id, job_of(id), expired);
+  else
+    application_->wake(*this, id);
+}
+
+void Process::run_on(Cpu& cpu, CpuThreads threads) {
+  cpu_ = &cpu;
+  threads_ = std::move(threads);
+  if (threads_.transmit) transmits_at_once_ = false;
+}
+
+/// The alarm's job from now on; one that it had before wakes nobody.
+std::uint64_t Process::job_of(AlarmId id) {
+  if (++jobs_ == 0) ++jobs_;
+  alarms_[id].job = jobs_;
+  return job_number(JobKind::alarm, id, jobs_);
+}
+
+bool Process::begin_job(std::uint32_t thread, AlarmId id) {
+  if (thread >= threads_.threads.size() || !threads_.threads[thread]) return false;
+  cpu_->submit(*threads_.threads[thread], *this, source_.id().index, id, job_of(id), simulation_->now());
+  return true;
+}
+
+void Process::job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) {
+  const auto detail = static_cast<std::uint32_t>(job);
+  switch (static_cast<JobKind>(job >> 48)) {
+    case JobKind::alarm: {
+      const auto id = static_cast<AlarmId>(job >> 32);
+      if (alarms_[id].job != detail) return;   // it was set anew, or cancelled
+      alarms_[id].job = 0;
+      if (ending != Ending::crashed) application_->wake(*this, id);   // a turn that is refused takes place late, not never
+      return;
+    }
+    case JobKind::message: take_message(detail, ending); return;
+    case JobKind::frame:
+      if (ending == Ending::done)
+        hand_over(FrameIndex{detail}, false);
+      else
+        traffic_->drop(FrameIndex{detail}, ending == Ending::crashed ? DropReason::node_down : DropReason::host_overload, source_.id(), simulation);
+      return;
+  }
+}
+
+void Process::keep_message(StreamIndex stream, std::span<const std::byte> payload) {
+  if (free_messages_.empty()) {
+    free_messages_.push_back(static_cast<std::uint32_t>(messages_.size()));
+    messages_.emplace_back();
+  }
+  const std::uint32_t slot = free_messages_.back();
+  free_messages_.pop_back();
+  messages_[slot].stream = stream;
+  messages_[slot].octets.assign(payload.begin(), payload.end());
+  cpu_->submit(*threads_.turns, *this, source_.id().index, static_cast<std::uint32_t>(alarms_.size()) + stream.value, job_number(JobKind::message, 0, slot), simulation_->now());
+}
+
+void Process::take_message(std::uint32_t slot, Ending ending) {
+  const Message message = std::exchange(messages_[slot], {});
+  free_messages_.push_back(slot);
+  if (ending == Ending::done) application_->receive(*this, message.stream, message.octets);
 }
 
 /// A step of the clock makes many alarms due at once, and what one of them does may depend on the others: they expire as they would have without
@@ -79,6 +150,8 @@ void Process::hand_over(FrameIndex frame, bool last) {
 
 void Process::set_alarm(AlarmId id, sim::LocalTime time) {
   Alarm& alarm = alarms_[id];
+  if (alarm.job != 0 && alarm.time == time) return;   // it has expired and waits for the processor
+  alarm.job = 0;
   if (!wakes_at_once_ && !alarm.has_latency) {
     alarm.latency = wake_up_.sample();
     alarm.has_latency = true;
@@ -89,6 +162,7 @@ void Process::set_alarm(AlarmId id, sim::LocalTime time) {
 
 void Process::set_exact_alarm(AlarmId id, sim::LocalTime time) {
   Alarm& alarm = alarms_[id];
+  alarm.job = 0;
   alarm.latency = {};
   alarm.has_latency = true;
   alarm.time = time;
@@ -96,6 +170,10 @@ void Process::set_exact_alarm(AlarmId id, sim::LocalTime time) {
 }
 
 void Process::work(AlarmId id, sim::Duration duration) {
+  if (threads_.turns) {
+    cpu_->submit(*threads_.turns, *this, source_.id().index, id, job_of(id), simulation_->now(), duration);
+    return;
+  }
   Alarm& alarm = alarms_[id];
   alarm.time = sim::LocalTime();   // no clock moves it
   alarm.timer.arm(*simulation_, source_, simulation_->now().plus_saturated(duration));

@@ -1,0 +1,211 @@
+#include "models/host/cpu.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "models/ethernet/traffic.hpp"
+
+namespace takt::models {
+namespace {
+constexpr sim::Duration least_work = sim::Duration::from_ps(1);   // what lasts no time would end before it is seen
+}
+
+Cpu::Cpu(sim::Simulation& simulation, const CpuPlan& plan, NodeIndex node, std::string_view path)
+    : simulation_(&simulation), plan_(&plan), node_(node), source_(simulation.add(*this)) {
+  for (const CpuThreadPlan& thread : plan.threads) {
+    TAKT_CHECK(!thread.core || *thread.core < plan.cores, "a thread runs on a core that there is");
+    TAKT_CHECK(thread.policy != SchedulingPolicy::deadline || thread.deadline, "a thread by deadline has one");
+    threads_.push_back({&thread, sim::RandomStream(simulation.seed(), std::string(path) + "/" + thread.name, "execution"), {}, {}, {}, {}});
+  }
+  for (std::uint16_t core = 0; core < plan.cores; ++core) cores_.emplace_back(sim::Timer(source_.id(), sim::Phase::timer, core));
+}
+
+void Cpu::ask_to_settle() {
+  if (!asked_) simulation_->settle_later(*this);
+  asked_ = true;
+}
+
+void Cpu::submit(std::uint32_t thread, CpuUser& user, std::uint32_t user_id, std::uint32_t rank, std::uint64_t job, sim::TrueTime released, std::optional<sim::Duration> work) {
+  TAKT_CHECK(thread < threads_.size() && released <= now(), "a job is for a thread, and not for later");
+  arrived_.push_back({thread, user_id, rank, {&user, job, released, work}});
+  ask_to_settle();
+}
+
+void Cpu::crash() {
+  for (Core& core : cores_) {
+    charge(core);
+    core.timer.cancel();
+    core.thread = core.last = std::nullopt;
+  }
+  const auto tell = [this](const Job& job) { job.user->job_ended(*simulation_, job.number, CpuUser::Ending::crashed); };
+  for (Thread& thread : threads_) {
+    thread.core.reset();
+    thread.virtual_time = 0;
+    for (const Job& job : std::exchange(thread.jobs, {})) tell(job);
+  }
+  for (const Arrived& arrived : std::exchange(arrived_, {})) tell(arrived.job);
+}
+
+/// What the thread on the core has done since it was looked at last.
+void Cpu::charge(Core& core) {
+  const sim::TrueTime since = std::exchange(core.since, now());
+  if (!core.thread || since == now()) return;
+  Thread& thread = threads_[*core.thread];
+  const sim::Duration ran = now() - since;
+  const sim::Duration switched = std::min(ran, core.switching);
+  core.switching -= switched;
+  thread.remaining -= ran - switched;
+  TAKT_CHECK(thread.remaining >= sim::Duration(), "a job is not worked at beyond its end");
+  thread.slice_used += ran;
+  thread.virtual_time += static_cast<std::uint64_t>(static_cast<sim::int128>(ran.ps()) * 1024 / thread.plan->weight);
+  if (observer_ != nullptr) observer_->ran(*core.thread, ran);
+}
+
+void Cpu::handle(sim::Simulation& simulation, const sim::Event& event) {
+  Core& core = cores_[event.kind()];
+  if (!core.timer.fired(simulation, source_, event)) return;
+  charge(core);
+  ask_to_settle();
+  if (core.thread && core.switching == sim::Duration() && threads_[*core.thread].remaining == sim::Duration()) end_job(*core.thread);
+}
+
+void Cpu::end_job(std::uint32_t number) {
+  Thread& thread = threads_[number];
+  const Job job = thread.jobs.front();
+  thread.jobs.pop_front();
+  const sim::Duration response = now() - job.released;
+  simulation_->digest().add(static_cast<std::uint32_t>(Occurrence::job_done), sim::joined(node_.value, number), now(), static_cast<std::uint64_t>(response.ps()));
+  if (observer_ != nullptr) observer_->job_done(number, job.released, response, !thread.plan->deadline || response <= *thread.plan->deadline);
+  if (thread.jobs.empty()) {
+    cores_[*thread.core].thread.reset();
+    thread.core.reset();
+  } else {
+    begin(thread);
+  }
+  job.user->job_ended(*simulation_, job.number, CpuUser::Ending::done);
+}
+
+void Cpu::begin(Thread& thread) {
+  const std::optional<sim::Duration>& work = thread.jobs.front().work;
+  thread.remaining = std::max(least_work, work ? *work : thread.plan->execution.draw(thread.chance));
+}
+
+void Cpu::take_in() {
+  std::stable_sort(arrived_.begin(), arrived_.end(), [](const Arrived& a, const Arrived& b) { return std::tie(a.thread, a.user_id, a.rank) < std::tie(b.thread, b.user_id, b.rank); });
+  // Fair threads that were away have no claim on what the others ran meanwhile.
+  std::optional<std::uint64_t> least;
+  for (const Thread& thread : threads_)
+    if (thread.plan->policy == SchedulingPolicy::fair && !thread.jobs.empty()) least = std::min(least.value_or(thread.virtual_time), thread.virtual_time);
+  for (const Arrived& arrived : arrived_) {
+    Thread& thread = threads_[arrived.thread];
+    if (thread.jobs.size() >= thread.plan->most_waiting) {
+      if (observer_ != nullptr) observer_->job_refused(arrived.thread, arrived.job.released);
+      arrived.job.user->job_ended(*simulation_, arrived.job.number, CpuUser::Ending::refused);
+      continue;
+    }
+    thread.jobs.push_back(arrived.job);
+    if (thread.jobs.size() > 1) continue;
+    thread.ready_since = now();
+    thread.virtual_time = std::max(thread.virtual_time, least.value_or(0));
+    begin(thread);
+  }
+  arrived_.clear();
+}
+
+/// It runs, and nobody may interrupt it.
+bool Cpu::is_held(const Thread& thread) const { return thread.core && cores_[*thread.core].switching == sim::Duration() && thread.remaining <= thread.plan->non_preemptive; }
+
+bool Cpu::is_more_urgent(std::uint32_t a, std::uint32_t b) const {
+  const auto key = [this](std::uint32_t number) {
+    const Thread& thread = threads_[number];
+    const CpuThreadPlan& plan = *thread.plan;
+    std::int64_t first = 0;
+    std::uint64_t second = 0;
+    switch (plan.policy) {
+      case SchedulingPolicy::deadline: first = thread.jobs.front().released.plus_saturated(*plan.deadline).ps(); break;
+      case SchedulingPolicy::fifo:
+        first = -std::int64_t{plan.priority};
+        second = static_cast<std::uint64_t>(thread.ready_since.ps());
+        break;
+      case SchedulingPolicy::fair:
+        first = thread.core && thread.slice_used < plan_->slice ? 0 : 1;
+        second = thread.virtual_time;
+        break;
+    }
+    return std::tuple(!is_held(thread), plan.policy, first, second, number);
+  };
+  return key(a) < key(b);
+}
+
+void Cpu::choose() {
+  ready_.clear();
+  for (std::uint32_t t = 0; t < threads_.size(); ++t)
+    if (!threads_[t].jobs.empty()) ready_.push_back(t);
+  std::sort(ready_.begin(), ready_.end(), [this](std::uint32_t a, std::uint32_t b) { return is_more_urgent(a, b); });
+  chosen_.clear();
+  placed_.assign(cores_.size(), std::nullopt);
+  for (const std::uint32_t t : ready_) {
+    if (chosen_.size() == cores_.size()) break;
+    const std::optional<std::uint16_t>& core = is_held(threads_[t]) ? threads_[t].core : threads_[t].plan->core;
+    if (core && placed_[*core]) continue;
+    if (core) placed_[*core] = t;
+    chosen_.push_back(t);
+  }
+}
+
+/// Those that may run anywhere stay where they are if they can, else take the core on which they were, else the first.
+void Cpu::place() {
+  const auto is_free = [this](const std::optional<std::uint16_t>& core) { return core && !placed_[*core]; };
+  for (const std::uint32_t t : chosen_)
+    if (std::find(placed_.begin(), placed_.end(), t) == placed_.end() && is_free(threads_[t].core)) placed_[*threads_[t].core] = t;
+  for (const std::uint32_t t : chosen_) {
+    if (std::find(placed_.begin(), placed_.end(), t) != placed_.end()) continue;
+    const std::optional<std::uint16_t>& last = threads_[t].last_core;
+    if (is_free(last))
+      placed_[*last] = t;
+    else
+      *std::find(placed_.begin(), placed_.end(), std::nullopt) = t;
+  }
+}
+
+void Cpu::dispatch(std::uint16_t number, std::optional<std::uint32_t> thread) {
+  Core& core = cores_[number];
+  if (core.thread != thread) {
+    core.thread = thread;
+    if (thread) {
+      core.switching = core.last == thread ? sim::Duration() : plan_->switching;
+      core.last = thread;
+      threads_[*thread].slice_used = {};
+    }
+  }
+  if (!thread) return;
+  threads_[*thread].core = threads_[*thread].last_core = number;
+  if (threads_[*thread].slice_used >= plan_->slice) threads_[*thread].slice_used = {};
+}
+
+void Cpu::arm() {
+  const bool fair_wait = std::any_of(ready_.begin(), ready_.end(), [this](std::uint32_t t) { return threads_[t].plan->policy == SchedulingPolicy::fair && !threads_[t].core; });
+  for (Core& core : cores_) {
+    if (!core.thread) {
+      core.timer.cancel();
+      continue;
+    }
+    const Thread& thread = threads_[*core.thread];
+    sim::Duration next = core.switching + thread.remaining;
+    if (fair_wait && thread.plan->policy == SchedulingPolicy::fair) next = std::min(next, plan_->slice - thread.slice_used);
+    core.timer.arm(*simulation_, source_, now().plus_saturated(next));
+  }
+}
+
+void Cpu::settle(sim::Simulation&) {
+  asked_ = false;
+  for (Core& core : cores_) charge(core);
+  take_in();
+  choose();
+  place();
+  for (Thread& thread : threads_) thread.core.reset();
+  for (std::uint16_t core = 0; core < cores_.size(); ++core) dispatch(core, placed_[core]);
+  arm();
+}
+
+}  // namespace takt::models

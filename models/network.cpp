@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "models/host/cpu_load.hpp"
+
 namespace takt::models {
 
 Network::Network(sim::Simulation& simulation, NetworkPlan plan) : simulation_(&simulation), plan_(std::move(plan)) {
@@ -23,6 +25,7 @@ Network::Network(sim::Simulation& simulation, NetworkPlan plan) : simulation_(&s
   announce_cut_through();
   set_up_gptp();
   add_talkers();
+  add_loads();
   for (std::size_t p = 0; p < first_port_.back(); ++p) ports_[p].prepare();
 }
 
@@ -65,6 +68,7 @@ void Network::set_up_gptp() {
     const std::span<EgressPort> ports = mutable_ports(NodeIndex{n});
     stations_[n] = std::make_unique<gptp::Station>(*simulation_, traffic_, ports, *clocks_[n], plan_.nodes[n].clock->timestamps,
                                                    plan_.gptp_stations[*plan_.gptp[n]], NodeIndex{n}, *gptp_stream_, plan_.nodes[n].name);
+    if (cpus_[n] && plan_.nodes[n].cpu->gptp) stations_[n]->run_on(*cpus_[n], *plan_.nodes[n].cpu->gptp);
     if (bridges_[n]) bridges_[n]->set_link_local_receiver(stations_[n].get());
     if (hosts_[n]) hosts_[n]->set_link_local_receiver(stations_[n].get());
     for (std::uint16_t p = 0; p < ports.size(); ++p) {
@@ -126,6 +130,7 @@ void Network::add_talker(const TalkerPlan& talker) {
   } else {
     for (auto [other, end] = babblers_.equal_range(talker.stream.value); other != end; ++other) other->second->share_latency(*talkers_.back());
   }
+  if (node.cpu && node.cpu->transmit) talkers_.back()->send_on(*cpus_[stream.talker.value], *node.cpu->transmit);
   if (followers_[stream.talker.value]) followers_[stream.talker.value]->talkers.push_back(talkers_.back().get());
   if (stream.host_priority) talkers_.back()->set_host_priority(*stream.host_priority);
   if (!talker.launch && !stream.host_priority) return;
@@ -331,6 +336,7 @@ void Network::set_node(NodeIndex node, bool up) {
   crashes = up ? crashes - 1 : crashes + 1;
   refresh_joints();
   if (crashes != (up ? 0u : 1u)) return;  // it crashed once more, or is not back from another crash
+  if (cpus_[node.value] && !up) cpus_[node.value]->crash();
   if (stations_[node.value]) stations_[node.value]->set_up(up);
   if (hosts_[node.value] == nullptr) return;
   hosts_[node.value]->set_up(up);
@@ -364,6 +370,7 @@ void Network::number_ports() {
 
 void Network::make_nodes() {
   hosts_.resize(plan_.nodes.size());
+  cpus_.resize(plan_.nodes.size());
   bridges_.resize(plan_.nodes.size());
   outputs_.resize(plan_.nodes.size());
   for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
@@ -377,7 +384,11 @@ void Network::make_nodes() {
     }
     if (!node.is_end_station()) continue;
     hosts_[n] = std::make_unique<Host>(*simulation_, traffic_, NodeIndex{n}, plan_.os_latencies[node.os_latency], node.name, ports, clock_of(NodeIndex{n}),
-                                       chooses_ports(NodeIndex{n}));
+                                       chooses_ports(NodeIndex{n}), node.cpu && node.cpu->receive);
+    if (node.cpu) {
+      cpus_[n] = std::make_unique<Cpu>(*simulation_, *node.cpu, NodeIndex{n}, node.name);
+      if (node.cpu->receive) hosts_[n]->take_in_on(*cpus_[n], *node.cpu->receive);
+    }
     if (!ports.empty()) outputs_[n] = std::make_unique<HostOutput>(traffic_, ports);
     if (!chooses_ports(NodeIndex{n})) continue;
     if (node.forwards())
@@ -394,7 +405,7 @@ bool Network::chooses_ports(NodeIndex node) const { return plan_.nodes[node.valu
 sim::Duration Network::fixed_delay_of(NodeIndex node) const {
   const NodePlan& plan = plan_.nodes[node.value];
   if (plan.forwards()) return plan.forwarding_delay;
-  if (chooses_ports(node)) return {};
+  if (chooses_ports(node) || (plan.cpu && plan.cpu->receive)) return {};
   const sim::Distribution& receive = plan_.os_latencies[plan.os_latency].receive;
   return receive.is_constant() ? receive.greatest() : sim::Duration();
 }
@@ -425,14 +436,37 @@ HostOutput& Network::output_of_host(NodeIndex host) {
   return *outputs_[host.value];
 }
 
-Process& Network::add_process(NodeIndex host, std::string_view name, std::unique_ptr<Application> application) {
+Process& Network::add_process(NodeIndex host, std::string_view name, std::unique_ptr<Application> application, std::optional<std::uint32_t> turns,
+                              std::vector<std::optional<std::uint32_t>> threads) {
+  return make_process(host, name, std::move(application), {turns, std::move(threads), {}}, turns);
+}
+
+Process& Network::make_process(NodeIndex host, std::string_view name, std::unique_ptr<Application> application, Process::CpuThreads threads, std::optional<std::uint32_t> woken) {
   const NodePlan& node = plan_.nodes[host.value];
-  processes_.push_back(std::make_unique<Process>(*simulation_, traffic_, output_of_host(host), clock_of(host),
-                                                 plan_.os_latencies[node.os_latency], node.name + "/" + std::string(name),
+  const OsLatency* latency = &plan_.os_latencies[node.os_latency];
+  if (woken && node.cpu->threads[*woken].wake_up) {
+    thread_latencies_.push_back(std::make_unique<OsLatency>(*latency));
+    thread_latencies_.back()->wake_up = *node.cpu->threads[*woken].wake_up;
+    latency = thread_latencies_.back().get();
+  }
+  processes_.push_back(std::make_unique<Process>(*simulation_, traffic_, output_of_host(host), clock_of(host), *latency, node.name + "/" + std::string(name),
                                                  std::move(application)));
+  if (node.cpu) {
+    threads.transmit = node.cpu->transmit;
+    processes_.back()->run_on(*cpus_[host.value], std::move(threads));
+  }
   host_of_process_.push_back(host);
   if (followers_[host.value]) followers_[host.value]->processes.push_back(processes_.back().get());
   return *processes_.back();
+}
+
+void Network::add_loads() {
+  for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
+    if (!plan_.nodes[n].cpu) continue;
+    const std::vector<CpuThreadPlan>& threads = plan_.nodes[n].cpu->threads;
+    for (std::uint32_t t = 0; t < threads.size(); ++t)
+      if (threads[t].load) make_process(NodeIndex{n}, "cpu/" + threads[t].name, std::make_unique<CpuLoad>(*threads[t].load, 0), {{}, {t}, {}}, t);
+  }
 }
 
 void Network::listen(NodeIndex host, StreamIndex stream, Process* process) {

@@ -29,7 +29,9 @@ class Network final : private LinkLocalSender {
   Network& operator=(const Network&) = delete;
 
   /// Puts an application on a host; `name` is unique on that host. The reference stays valid.
-  Process& add_process(NodeIndex host, std::string_view name, std::unique_ptr<Application> application);
+  /// On a host with a processor, `turns` and `threads` are the threads of its plan on which the application runs (Process::CpuThreads).
+  Process& add_process(NodeIndex host, std::string_view name, std::unique_ptr<Application> application, std::optional<std::uint32_t> turns = {},
+                       std::vector<std::optional<std::uint32_t>> threads = {});
   /// The process, if any, that gets the octets of the stream at that listener. Listeners of the plan get none by default.
   void listen(NodeIndex host, StreamIndex stream, Process* process);
 
@@ -80,6 +82,8 @@ class Network final : private LinkLocalSender {
   std::optional<StreamIndex> gptp_stream() const { return gptp_stream_; }
   /// The ingress chain of a node that forwards, or null.
   IngressPipeline* ingress(NodeIndex node) const { return ingress_[node.value].get(); }
+  /// Null where programs and the protocol stack take no time.
+  Cpu* cpu(NodeIndex node) const { return cpus_[node.value].get(); }
   /// Null for bridges.
   Host* host(NodeIndex node) const { return hosts_[node.value].get(); }
   /// Null for hosts that are not connected, and for bridges.
@@ -104,6 +108,8 @@ class Network final : private LinkLocalSender {
   }
   void number_ports();
   void make_nodes();
+  void add_loads();
+  Process& make_process(NodeIndex host, std::string_view name, std::unique_ptr<Application> application, Process::CpuThreads threads, std::optional<std::uint32_t> woken);
   void connect(const LinkPlan::End& from, const LinkPlan::End& to, const LinkPlan& link);
   void transmission_starts(sim::Simulation& simulation, sim::ComponentId port, FrameIndex frame) override;
   void make_clocks();
@@ -149,6 +155,8 @@ class Network final : private LinkLocalSender {
   std::optional<StreamIndex> gptp_stream_;
   std::vector<std::size_t> first_port_;               // ports of node n: first_port_[n] .. first_port_[n + 1]
   std::unique_ptr<EgressPort[]> ports_;
+  std::vector<std::unique_ptr<Cpu>> cpus_;            // by node; null where nothing takes time
+  std::vector<std::unique_ptr<OsLatency>> thread_latencies_;   // of processes on threads with a law of their own
   std::vector<std::unique_ptr<Host>> hosts_;          // by node; null for bridges
   std::vector<std::unique_ptr<Bridge>> bridges_;      // by node; null for hosts with one port
   std::vector<std::unique_ptr<ForwardingJitter>> jitters_;   // of bridges that have one

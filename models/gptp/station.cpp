@@ -205,9 +205,29 @@ void Station::report_egress(std::uint64_t argument) {
 }
 
 void Station::receive(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port, sim::TrueTime last_bit) {
+  if (cpu_ == nullptr) {
+    take_in_soon(simulation, {frame, port, last_bit});
+    return;
+  }
+  std::size_t slot = 0;
+  while (slot < on_cpu_.size() && on_cpu_[slot]) ++slot;
+  if (slot == on_cpu_.size()) on_cpu_.emplace_back();
+  on_cpu_[slot] = Arrived{frame, port, last_bit};
+  cpu_->submit(thread_, *this, source_.id().index, port, slot, simulation.now());
+}
+
+void Station::job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) {
+  const Arrived arrived = *std::exchange(on_cpu_[job], std::nullopt);
+  if (ending == Ending::done)
+    take_in_soon(simulation, arrived);
+  else
+    traffic_->drop(arrived.frame, ending == Ending::crashed ? DropReason::node_down : DropReason::host_overload, source_.id(), simulation);
+}
+
+void Station::take_in_soon(sim::Simulation& simulation, const Arrived& arrived) {
   // Clocks change in the control phase of an instant only, so that all that happens in it sees one clock.
   if (arrived_.empty()) simulation.schedule(source_, simulation.now() + software_delay, sim::Phase::control, source_.id(), messages_have_come, 0);
-  arrived_.push_back({frame, port, last_bit});
+  arrived_.push_back(arrived);
 }
 
 void Station::take_in_all() {

@@ -15,11 +15,12 @@
 #include "models/gptp/hot_standby.hpp"
 #include "models/gptp/node.hpp"
 #include "models/gptp/station_plan.hpp"
+#include "models/host/cpu.hpp"
 #include "sim/timer.hpp"
 
 namespace takt::models::gptp {
 
-class Station final : public sim::Component, public ClockListener, public LinkLocalReceiver {
+class Station final : public sim::Component, public ClockListener, public LinkLocalReceiver, public CpuUser {
  public:
   /// `ports` are those of the node; `stream` is the one of all gPTP frames. All references outlive the station.
   Station(sim::Simulation& simulation, Traffic& traffic, std::span<EgressPort> ports, NodeClock& clock, const TimestampUnit& timestamps,
@@ -35,6 +36,13 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   /// An event message begins to leave that port of the node.
   void transmission_starts(std::uint16_t port, FrameIndex frame);
   void clock_changed(const LocalClock& clock, sim::TrueTime now) override;
+
+  /// The thread of the node's processor on which each message that comes is a job.
+  void run_on(Cpu& cpu, std::uint32_t thread) {
+    cpu_ = &cpu;
+    thread_ = thread;
+  }
+  void job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) override;
 
   void set_link(std::uint16_t port, bool up);
   /// A node that crashes forgets everything; its clock runs on.
@@ -78,6 +86,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
     std::uint16_t port = 0;
     sim::TrueTime last_bit;
   };
+  void take_in_soon(sim::Simulation& simulation, const Arrived& arrived);
   void take_in_all();
   void take_in(const Arrived& arrived);
   bool gives_time(std::size_t instance) const { return machine_.instance(instance).is_grandmaster() && machine_.instance(instance).grandmaster_present(); }
@@ -131,6 +140,9 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   std::uint64_t steps_ = 0;
   std::uint32_t epoch_ = 0;                // of the machines; a crash begins another one
   bool up_ = true;
+  Cpu* cpu_ = nullptr;                     // null: what comes takes no time of a processor
+  std::uint32_t thread_ = 0;
+  std::vector<std::optional<Arrived>> on_cpu_;   // by job
 };
 
 }  // namespace takt::models::gptp

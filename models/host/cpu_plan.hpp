@@ -24,6 +24,7 @@ struct CpuThreadPlan {
   std::uint32_t weight = 1024;                       ///< of fair
   std::optional<std::uint16_t> core = {};            ///< the only one it runs on; absent: any
   sim::Distribution execution = sim::Distribution::constant({});   ///< of a job, without interruptions
+  std::optional<sim::Distribution> wake_up = {};     ///< from a timer's expiry until the job of the thread is released; absent: that of the operating system
   sim::Duration non_preemptive = {};                 ///< so much at the end of each job nobody interrupts
   std::uint32_t most_waiting = 256;                  ///< jobs that wait or are worked at; further ones are lost
   /// A load: a job that is released at offset + n * every on the host's clock and sends nothing.

@@ -58,7 +58,7 @@ inline void Host::take_in(sim::Simulation& simulation, sim::EventKind kind, Arri
   else if (kind == deliver_now || receives_at_once_)
     deliver(simulation, arrival.frame, frame);
   else
-    simulation.schedule(source_, receive_.pass(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(arrival.frame, arrival.port));
+    simulation.schedule(source_, through(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(arrival.frame, arrival.port));
 }
 
 void Host::receive_flagged(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
@@ -133,7 +133,7 @@ void Host::settle(sim::Simulation& simulation) {
   sim::insertion_sort(arrived_, [](const Arrived& a, const Arrived& b) { return a.port < b.port; });
   for (const Arrived& arrived : arrived_)
     if (const std::optional<FrameIndex> frame = recover(simulation, arrived.frame, arrived.port))
-      simulation.schedule(source_, receive_.pass(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(*frame, arrived.port));
+      simulation.schedule(source_, through(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(*frame, arrived.port));
   arrived_.clear();
 }
 

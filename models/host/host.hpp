@@ -8,6 +8,7 @@
 #include "models/bridge/internal_port.hpp"
 #include "models/egress/egress_port.hpp"
 #include "models/frer/host_redundancy.hpp"
+#include "models/host/cpu.hpp"
 #include "models/host/os_latency.hpp"
 #include "models/host/process.hpp"
 
@@ -69,6 +70,8 @@ class Host final : public sim::Component, public InternalReceiver, public CpuUse
   };
   std::optional<FrameIndex> look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
   std::optional<FrameIndex> recover(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port);
+  /// When what comes now is through the operating system. Jobs of a thread come one by one, so that their order is theirs.
+  sim::TrueTime through(sim::TrueTime now) { return cpu_ != nullptr ? receive_.pass_strictly(now) : receive_.pass(now); }
   void gather(sim::Simulation& simulation, const Arrived& arrived);
   void take_in(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
   [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);

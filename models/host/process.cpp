@@ -30,7 +30,7 @@ Process::Process(sim::Simulation& simulation, Traffic& traffic, HostOutput& outp
       application_(std::move(application)) {
   const AlarmId count = application_->alarm_count();
   TAKT_CHECK(count < transmit_now, "too many alarms");
-  for (AlarmId alarm = 0; alarm < count; ++alarm) alarms_.push_back({sim::Timer(source_.id(), sim::Phase::timer, alarm), {}, false, sim::LocalTime::never(), 0});
+  for (AlarmId alarm = 0; alarm < count; ++alarm) alarms_.emplace_back(sim::Timer(source_.id(), sim::Phase::timer, alarm));
 }
 
 void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
@@ -59,7 +59,7 @@ void Process::expire(AlarmId id) {
   const sim::TrueTime expired = alarm.timer.deadline() - alarm.latency;
   alarm.timer.cancel();
   alarm.has_latency = false;
-  if (threads_.turns)
+  if (threads_.turns && !alarm.is_exact)
     cpu_->submit(*threads_.turns, *this, source_.id().index, id, job_of(id), expired);
   else
     application_->wake(*this, id);
@@ -152,6 +152,7 @@ void Process::set_alarm(AlarmId id, sim::LocalTime time) {
   Alarm& alarm = alarms_[id];
   if (alarm.job != 0 && alarm.time == time) return;   // it has expired and waits for the processor
   alarm.job = 0;
+  alarm.is_exact = false;
   if (!wakes_at_once_ && !alarm.has_latency) {
     alarm.latency = wake_up_.sample();
     alarm.has_latency = true;
@@ -163,6 +164,7 @@ void Process::set_alarm(AlarmId id, sim::LocalTime time) {
 void Process::set_exact_alarm(AlarmId id, sim::LocalTime time) {
   Alarm& alarm = alarms_[id];
   alarm.job = 0;
+  alarm.is_exact = true;
   alarm.latency = {};
   alarm.has_latency = true;
   alarm.time = time;

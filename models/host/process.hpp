@@ -97,10 +97,12 @@ class Process final : public sim::Component, public HostServices, public CpuUser
   bool transmits_at_once_;
   bool wakes_at_once_;
   struct Alarm {
+    explicit Alarm(sim::Timer t) : timer(t) {}
     sim::Timer timer;
     sim::Duration latency;        // of its next wake-up; drawn once, however often the alarm is moved before
     bool has_latency = false;
     sim::LocalTime time = sim::LocalTime::never();   // when it is to expire
+    bool is_exact = false;        // wakes at once, whatever runs on the processor
     std::uint32_t job = 0;        // on the processor, that wakes the application at its end; 0: none
   };
   struct Message {

@@ -135,8 +135,21 @@ inline void Talker::hand_over(sim::Simulation& simulation, FrameIndex frame) {
     hand_over_with_care(simulation, frame);
 }
 
+/// The protocol stack has sent a frame, or never will.
+void Talker::job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) {
+  const FrameIndex frame{static_cast<std::uint32_t>(job)};
+  if (ending == Ending::done)
+    hand_over_with_care(simulation, frame);
+  else
+    traffic_->drop(frame, ending == Ending::crashed ? DropReason::node_down : DropReason::host_overload, source_.id(), simulation);
+}
+
 void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (event.kind() == transmit_now) {
+    if (cpu_ != nullptr) [[unlikely]] {
+      cpu_->submit(stack_thread_, *this, source_.id().index, 0, event.argument, simulation.now());
+      return;
+    }
     hand_over(simulation, FrameIndex{static_cast<std::uint32_t>(event.argument)});
     return;
   }

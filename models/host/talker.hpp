@@ -4,13 +4,14 @@
 #include <optional>
 
 #include "models/clock/local_clock.hpp"
+#include "models/host/cpu.hpp"
 #include "models/host/host_output.hpp"
 #include "models/host/os_latency.hpp"
 #include "models/host/talker_schedule.hpp"
 
 namespace takt::models {
 
-class Talker final : public sim::Component {
+class Talker final : public sim::Component, public CpuUser {
  public:
   /// Times are those of `clock`. `path` names the talker in the random streams. All references outlive the talker.
   Talker(sim::Simulation& simulation, Traffic& traffic, HostOutput& output, const LocalClock& clock, const OsLatency& latency,
@@ -34,6 +35,12 @@ class Talker final : public sim::Component {
     transmit_ = other.transmit_;
     shares_latency_ = other.shares_latency_ = true;
   }
+  /// The thread of the host's processor on which each frame that is sent is a job of the protocol stack.
+  void send_on(Cpu& cpu, std::uint32_t thread) {
+    cpu_ = &cpu;
+    stack_thread_ = thread;
+    transmits_at_once_ = false;
+  }
   /// Only frames that are due before then are produced.
   void set_until(sim::LocalTime until) { until_ = until; }
 
@@ -43,6 +50,7 @@ class Talker final : public sim::Component {
   /// The clock has changed its rate or was stepped: the next frame comes earlier or later.
   void clock_changed(sim::Simulation& simulation);
   void prefetch(const sim::Event& event, Ahead ahead) const override;
+  void job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) override;
 
  private:
   void schedule_next(sim::Simulation& simulation);
@@ -75,6 +83,8 @@ class Talker final : public sim::Component {
   bool transmits_at_once_;
   bool shares_latency_ = false;
   sim::RandomStream chance_;
+  Cpu* cpu_ = nullptr;             // null: what is sent takes no time of a processor
+  std::uint32_t stack_thread_ = 0;
 };
 
 }  // namespace takt::models

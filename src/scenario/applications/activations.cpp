@@ -39,15 +39,22 @@ void Activations::plan() {
   next_ = due(planned_).plus_saturated(is_call_ ? drawn_ : Duration());
 }
 
-std::optional<Duration> Activations::act() {
-  std::optional<Duration> response;
-  if (is_call_) {
-    response = drawn_;
-    last_done_ = planned_++;
-    ++done_;
-    counts_.add(due(last_done_), [](Counts& counts) { ++counts.done; });
-  }
+std::optional<Activations::Call> Activations::act() {
+  std::optional<Call> call;
+  if (is_call_) call = Call{planned_++, drawn_};
   plan();
+  return call;
+}
+
+void Activations::finish(const Call& call) {
+  last_done_ = call.activation;
+  ++done_;
+  counts_.add(due(last_done_), [](Counts& counts) { ++counts.done; });
+}
+
+std::optional<Duration> Activations::response_at(const Call& call, LocalTime now) const {
+  const Duration response = now - due(call.activation);
+  if (call.activation < first_ || response >= every_) return std::nullopt;   // of before the clock was set, or too late
   return response;
 }
 

@@ -30,8 +30,17 @@ class Activations {
 
   /// When it acts next; never if it has not begun.
   sim::LocalTime next() const { return next_; }
-  /// Its time has come: the response time of the call that takes place, if one does. Plans on.
-  std::optional<sim::Duration> act();
+  /// A call whose time has come.
+  struct Call {
+    std::int64_t activation = 0;
+    sim::Duration response;              ///< drawn: after it the thread is ready
+  };
+  /// Its time has come: the call that begins, if one does. Plans on.
+  std::optional<Call> act();
+  /// The call takes place now.
+  void finish(const Call& call);
+  /// What a processor was busy with until now: the response time since the call's activation was due, or none if it is missed.
+  std::optional<sim::Duration> response_at(const Call& call, sim::LocalTime now) const;
   /// The clock is far beyond the time that was planned: it was set.
   bool has_jumped(sim::LocalTime now) const { return now - next_ >= every_; }
 

@@ -82,6 +82,7 @@ void TopicApplication::crash() {
   const sim::LocalTime now = host_->now();
   for (Live& live : threads_) {
     live.activations.end(now);
+    live.working = live.waiting = std::nullopt;
     live.tell_windows([&](WindowCounter& windows) {
       windows.close_until(now);
       windows.end();
@@ -123,6 +124,11 @@ void TopicApplication::settle(models::HostServices& host) {
 }
 
 void TopicApplication::wake(models::HostServices& host, models::AlarmId alarm) {
+  if (alarm >= job_alarm(0)) {
+    job_is_done(host, static_cast<std::uint32_t>(alarm - job_alarm(0)));
+    settle(host);
+    return;
+  }
   if (alarm != threads_alarm) {
     nodes_[alarm - threads_alarm - std::size_t{1}]->wake(host);
     settle(host);
@@ -140,10 +146,37 @@ void TopicApplication::wake(models::HostServices& host, models::AlarmId alarm) {
       });
       if (live.activations.next() > now) continue;
     }
-    if (const auto response = live.activations.act()) call(host, t, now, *response);
+    if (const auto call = live.activations.act()) begin(host, t, *call);
   }
   plan(host);
   settle(host);
+}
+
+/// The thread is ready: what it does takes place when its processor has done it. While that lasts it takes up nothing new; of what it has missed meanwhile it takes up
+/// the last.
+void TopicApplication::begin(models::HostServices& host, std::uint32_t thread, const Activations::Call& call) {
+  Live& live = threads_[thread];
+  if (live.working) {
+    live.waiting = call;
+    return;
+  }
+  if (host.begin_job(thread, job_alarm(thread))) {
+    live.working = call;
+    return;
+  }
+  live.activations.finish(call);
+  this->call(host, thread, host.now(), call.response);
+}
+
+void TopicApplication::job_is_done(models::HostServices& host, std::uint32_t thread) {
+  Live& live = threads_[thread];
+  const sim::LocalTime now = host.now();
+  const Activations::Call done = *std::exchange(live.working, std::nullopt);
+  if (const auto response = live.activations.response_at(done, now)) {
+    live.activations.finish(done);
+    call(host, thread, now, *response);
+  }
+  if (const auto next = std::exchange(live.waiting, std::nullopt)) begin(host, thread, *next);
 }
 
 void TopicApplication::plan(models::HostServices& host) {

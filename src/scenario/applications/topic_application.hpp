@@ -51,7 +51,7 @@ class TopicApplication final : public models::Application {
   TopicApplication(Settings settings, ApplicationMonitor& monitor);
   ~TopicApplication() override;
 
-  models::AlarmId alarm_count() const override { return static_cast<models::AlarmId>(1 + nodes_.size()); }
+  models::AlarmId alarm_count() const override { return static_cast<models::AlarmId>(job_alarm(threads_.size())); }
   void start(models::HostServices& host) override;
   void restart(models::HostServices& host) override;
   void receive(models::HostServices& host, models::StreamIndex stream, std::span<const std::byte> payload) override;
@@ -81,6 +81,8 @@ class TopicApplication final : public models::Application {
     const ResolvedThread* settings;
     const application::TopicShape* topic;
     Activations activations;
+    std::optional<Activations::Call> working;   // on a processor
+    std::optional<Activations::Call> waiting;   // the last one whose time came meanwhile
     struct Windows {
       sim::Duration from;
       WindowCounter calls;
@@ -101,6 +103,10 @@ class TopicApplication final : public models::Application {
     Accounts<Seen, sim::LocalTime> seen;
   };
 
+  /// Tells the thread that its processor has done what it does when it acts.
+  models::AlarmId job_alarm(std::size_t thread) const { return static_cast<models::AlarmId>(1 + nodes_.size() + thread); }
+  void begin(models::HostServices& host, std::uint32_t thread, const Activations::Call& call);
+  void job_is_done(models::HostServices& host, std::uint32_t thread);
   void call(models::HostServices& host, std::uint32_t thread, sim::LocalTime now, sim::Duration response);
   void publish(models::HostServices& host, Live& live, sim::LocalTime now, sim::LocalTime due);
   /// What the thread publishes now, if anything.

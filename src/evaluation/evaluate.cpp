@@ -4,6 +4,7 @@
 #include <map>
 
 #include "evaluation/collect_applications.hpp"
+#include "evaluation/collect_cpus.hpp"
 #include "evaluation/collect_clocks.hpp"
 #include "evaluation/collect_ingress.hpp"
 #include "evaluation/collect_streams.hpp"
@@ -178,6 +179,7 @@ RunResult collect(const scenario::Run& run, Duration from, bool partial) {
   result.streams = streams_of(run, from);
   for (std::size_t p = 0; p < run.resolved().programs.size(); ++p) result.programs.push_back(result_of(run, p, TrueTime() + from));
   result.applications = applications_of(run, from);
+  result.cpus = cpus_of(run, from);
   result.signals = signals_of(run, from);
   result.ports = ports_of(run, result.simulated);
   result.queues = queues_of(run);

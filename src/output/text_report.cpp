@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "output/application_report.hpp"
+#include "output/cpu_report.hpp"
 
 namespace takt::output {
 namespace {
@@ -411,6 +412,7 @@ std::string run_report(const RunResult& result) {
   if (result.partial) out += fmt::format("PARTIAL: interrupted after {} of {}\n", readable(result.simulated), readable(result.wanted));
   for (const ProgramResult& program : result.programs) out += program_part(program);
   out += applications_part(result);
+  out += cpus_part(result);
   out += streams_part(result);
   out += drops_part(result);
   out += ports_part(result);

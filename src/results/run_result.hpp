@@ -10,6 +10,7 @@
 #include "json/type.hpp"
 #include "results/application_result.hpp"
 #include "results/clock_result.hpp"
+#include "results/cpu_result.hpp"
 #include "results/ingress_result.hpp"
 #include "sim/time.hpp"
 
@@ -200,6 +201,7 @@ struct RunResult {
   std::vector<StreamResult> streams;
   std::vector<ProgramResult> programs;
   std::vector<ApplicationResult> applications;  ///< gateways behind the others
+  std::vector<CpuResult> cpus;                  ///< of hosts whose threads take time
   std::vector<SignalResult> signals;
   std::vector<PortResult> ports;           ///< those that sent or dropped something
   std::vector<QueueResult> queues;         ///< those that have held a frame

@@ -20,6 +20,7 @@ namespace {
 std::string digest_text(const RunResult& result) { return fmt::format("{:016x}", result.digest); }
 std::string verdict_text(const RunResult& result) { return result.nothing_required ? nothing_was_required : name_of(result.verdict); }
 
+bool has_cpus(const RunResult& result) { return !result.cpus.empty(); }
 bool has_applications(const RunResult& result) { return !result.applications.empty(); }
 bool has_signals(const RunResult& result) { return !result.signals.empty(); }
 
@@ -154,6 +155,7 @@ const json::Record& describe(json::Type<RunResult>) {
       json::outputs_by_name<&RunResult::programs, &ProgramResult::name>("programs", "What Programs did.", {.keys = "program"}),
       json::only_if<&has_applications>(json::outputs_by_name<&RunResult::applications, &ApplicationResult::name>("applications", "What applications, gateways and persistence services did.", {.keys = "application"}),
                                        "where there are some"),
+      json::only_if<&has_cpus>(json::outputs_by_name<&RunResult::cpus, &CpuResult::node>("cpus", "What the processors of hosts did.", {.keys = "node"}), "where there are some"),
       json::only_if<&has_signals>(json::outputs_by_name<&RunResult::signals, &SignalResult::name>("signals", "What digital outputs did.", {.keys = "signal"}), "where there are some"),
       json::output<&RunResult::ports>("ports", "Egress ports that sent or dropped something.", {.counts_from_start = true}),
       json::output<&RunResult::queues>("queues", "Queues of traffic classes in which frames have waited.", {.counts_from_start = true}),

@@ -48,6 +48,7 @@ struct ResolvedThread {
   Duration window;                              ///< of criterion 1
   Duration value_window;                        ///< of criterion 2
   std::uint64_t values_expected = 0;            ///< in such a window
+  std::optional<std::uint32_t> cpu_thread = {}; ///< of the host's processor, on which its calls run
   json::Source where;
 };
 
@@ -78,6 +79,7 @@ struct ResolvedApplication {
   sim::Distribution scheduler_response = sim::Distribution::constant({});
   std::optional<ResolvedGateway> gateway;
   std::optional<ResolvedService> service;
+  std::optional<std::uint32_t> cpu_thread = {}; ///< of the host's processor, on which it takes what comes, and its participants run
   json::Source where;
 };
 

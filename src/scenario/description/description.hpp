@@ -15,6 +15,7 @@
 #include "plant/program.hpp"
 #include "plant/role.hpp"
 #include "scenario/applications/description_applications.hpp"
+#include "scenario/description/cpu.hpp"
 #include "scenario/description/clocks.hpp"
 #include "scenario/description/faults.hpp"
 #include "scenario/description/figures.hpp"
@@ -181,6 +182,7 @@ struct EndStation {
   OperatingSystem os;
   std::optional<Processing> processing = {};
   std::vector<std::string> offers = {};
+  std::optional<Cpu> cpu = {};
   bool operator==(const EndStation&) const = default;
 };
 

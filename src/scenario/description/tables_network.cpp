@@ -199,6 +199,8 @@ template <class Owner>
 constexpr json::Field offers_field =
     optional<&EndStation::offers, Owner>("offers", "Skills that the node announces to programs with roles that need one of them.", {.max_items = 8});
 template <class Owner>
+constexpr json::Field cpu_field = optional<&EndStation::cpu, Owner>("cpu", "Its processor: threads that take time and delay each other. Nothing takes time if absent.");
+template <class Owner>
 constexpr json::Field traffic_classes_field = optional<&NodePorts::traffic_classes, Owner>("traffic_classes", "Which priority is sent in which queue.");
 template <class Owner>
 constexpr json::Field forwarding_delay_field =
@@ -219,6 +221,7 @@ const json::Object& describe(json::Type<HostNode>) {
       optional<&NodePorts::egress, HostNode>("egress", "Gates and shapers of the network interfaces.", {.max_items = 16}),
       processing_field<HostNode>,
       offers_field<HostNode>,
+      cpu_field<HostNode>,
   };
   static constexpr json::Object table = json::object<HostNode>("host", "An end station.", fields);
   return table;
@@ -252,6 +255,7 @@ const json::Object& describe(json::Type<StationNode>) {
       optional<&StationNode::bypass_switching>("bypass_switching", "How long the relay takes, after the crash and when the station is back; all is dark meanwhile.", {.min = 1_us, .max = 10_s}),
       processing_field<StationNode>,
       offers_field<StationNode>,
+      cpu_field<StationNode>,
   };
   static constexpr json::Object table = json::object<StationNode>(
       "station", "A bridged end station: a host whose interface is a bridge of up to eight ports, with one clock and one power supply. What it sends itself competes with what it forwards.", fields);

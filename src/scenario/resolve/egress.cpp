@@ -10,7 +10,7 @@
 namespace takt::scenario {
 namespace {
 
-const std::vector<Egress>& egress_of(const TopologyNode& node) { return ports_of(node.description).egress; }
+const std::vector<Egress>& egress_entries_of(const TopologyNode& node) { return ports_of(node.description).egress; }
 
 class EgressResolver {
  public:
@@ -27,7 +27,7 @@ class EgressResolver {
  private:
   void check_neighbours(std::uint32_t n) {
     std::set<std::string> seen;
-    for (const Egress& egress : egress_of(r_.topology.nodes[n])) {
+    for (const Egress& egress : egress_entries_of(r_.topology.nodes[n])) {
       const std::string to = egress.to.value_or("");
       if (!seen.insert(to).second)
         diagnostics_.error(egress.where.place(), "a port configured twice", {egress.to ? json::quote(to) + " a second time" : "all ports a second time", "one entry for a port"});
@@ -42,7 +42,7 @@ class EgressResolver {
     const TopologyNode& node = r_.topology.nodes[end.node.value];
     const std::string& peer_name = r_.topology.nodes[peer.node.value].name;
     const Egress* chosen = nullptr;
-    for (const Egress& egress : egress_of(node))
+    for (const Egress& egress : egress_entries_of(node))
       if (egress.to == peer_name || (!egress.to && chosen == nullptr)) chosen = &egress;
     if (chosen == nullptr) return;
     models::PortConfig config = r_.plan.port_configs[r_.plan.nodes[end.node.value].port_config];
@@ -225,7 +225,7 @@ void check_slopes(const Resolved& r, json::Diagnostics& diagnostics) {
       if (!end->port_config) continue;
       const models::ShapingConfig& config = r.plan.port_configs[*end->port_config].shaping;
       if (!config.gates) continue;
-      for (const Egress& egress : egress_of(r.topology.nodes[end->node.value])) {
+      for (const Egress& egress : egress_entries_of(r.topology.nodes[end->node.value])) {
         if (egress.to && *egress.to != r.topology.nodes[peer->node.value].name) continue;
         for (const Shaper& shaper : egress.shapers) {
           const models::TrafficClass q = shaper.traffic_class & 7u;
@@ -245,7 +245,7 @@ void check_cut_through(const Resolved& r, json::Diagnostics& diagnostics) {
   for (const ResolvedRedundancy& redundancy : r.redundancies) {
     if (redundancy.merges_in_host) continue;   // hosts get whole frames
     const TopologyNode& merge = r.topology.nodes[redundancy.merge];
-    for (const Egress& egress : egress_of(merge))
+    for (const Egress& egress : egress_entries_of(merge))
       if (!egress.cut_through.empty())
         diagnostics.error(egress.where.at("cut_through"), "cut-through where a redundant stream is merged",
                           {json::quote(merge.name) + ", where a damaged frame would take the place of its good copy", "a switch that merges nothing"});

@@ -14,6 +14,7 @@
 #include "scenario/figures/requirement.hpp"
 #include "scenario/idle/idle.hpp"
 #include "scenario/resolve/clocks.hpp"
+#include "scenario/resolve/cpus.hpp"
 #include "scenario/resolve/demand.hpp"
 #include "scenario/resolve/egress.hpp"
 #include "scenario/resolve/faults.hpp"
@@ -57,6 +58,7 @@ class Resolver {
       if (is_read(program)) add_program(program);
     resolve_applications(r_, builder, publishers_, diagnostics_);
     check_publishers();
+    resolve_cpus(r_, diagnostics_);
     resolve_nesting(r_, diagnostics_);
     check_candidates(r_, diagnostics_);
     resolve_ingress(r_, diagnostics_);

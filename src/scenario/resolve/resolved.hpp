@@ -64,6 +64,7 @@ struct ResolvedMember {
   models::StreamIndex state = {};
   std::optional<models::StreamIndex> roles = {};        ///< with roles: the bindings that the master tells, what a candidate announces
   std::vector<std::optional<models::StreamIndex>> data = {};   ///< by data set, of those that it sends, or a role that it may have
+  std::optional<std::uint32_t> cpu_thread = {};         ///< of the node's processor, on which it runs
 };
 
 struct ResolvedProgram {

@@ -102,6 +102,10 @@ Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle)
     clock_monitor_ = std::make_unique<ClockMonitor>(simulation_, network_, resolved.scenario.clocks.gptp->report_every, instants_);
     clock_monitor_->start();
   }
+  for (std::uint32_t n = 0; n < resolved.plan.nodes.size(); ++n) {
+    models::Cpu* const cpu = network_.cpu(models::NodeIndex{n});
+    cpu_monitors_.push_back(cpu != nullptr ? std::make_unique<CpuMonitor>(*cpu, instants_) : nullptr);
+  }
   keep_accounts(resolved, network_);
   network_.start();
 }
@@ -138,7 +142,7 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
     if (!program.replies.empty()) settings.replies.emplace(program, static_cast<std::uint8_t>(m), resolved_->scenario.seed, path);
     auto application = std::make_unique<ProgramApplication>(std::move(settings), *live->monitor, live->roles.get(), member.node);
     ProgramApplication* const raw = application.get();
-    live->members.push_back({&network_.add_process(member.node, program.name, std::move(application)), raw});
+    live->members.push_back({&network_.add_process(member.node, program.name, std::move(application), member.cpu_thread), raw});
   }
   connect_streams(program, *live);
   programs_.push_back(std::move(live));
@@ -195,7 +199,9 @@ void Run::add_application(std::uint32_t number, const ResolvedApplication& appli
     settings.bridge = std::make_unique<GatewayBridge>(*application.gateway, resolved_->topics[application.threads[0].topic].shape, resolved_->topics[application.threads[1].topic].shape);
   auto live = std::make_unique<TopicApplication>(std::move(settings), *application_monitor_);
   applications_.push_back(live.get());
-  models::Process& process = network_.add_process(application.node, application.name, std::move(live));
+  std::vector<std::optional<std::uint32_t>> cpu_threads;
+  for (const ResolvedThread& thread : application.threads) cpu_threads.push_back(thread.cpu_thread);
+  models::Process& process = network_.add_process(application.node, application.name, std::move(live), application.cpu_thread, std::move(cpu_threads));
   for (const ResolvedThread& thread : application.threads)
     for (const ResolvedInput& input : thread.inputs)
       if (!input.stream.is_none()) network_.listen(application.node, input.stream, &process);

@@ -10,6 +10,7 @@
 #include "scenario/programs/program_monitor.hpp"
 #include "scenario/resolve/resolved.hpp"
 #include "scenario/run/clock_monitor.hpp"
+#include "scenario/run/cpu_monitor.hpp"
 #include "sim/simulation.hpp"
 
 namespace takt::scenario {
@@ -31,6 +32,8 @@ class Run {
   /// Of trees of nested programs.
   const std::vector<std::unique_ptr<TreeMonitor>>& trees() const { return trees_; }
   const ProgramMonitor& monitor(std::size_t program) const { return *programs_[program]->monitor; }
+  /// Null where nothing takes time of a processor.
+  const CpuMonitor* cpu_monitor(models::NodeIndex node) const { return cpu_monitors_[node.value].get(); }
   /// Null without gPTP.
   const ClockMonitor* clocks() const { return clock_monitor_.get(); }
   /// Takes the series of clock offsets from now on. Precondition: there is gPTP.
@@ -85,6 +88,7 @@ class Run {
   std::vector<std::unique_ptr<TreeMonitor>> trees_;
   std::unique_ptr<Script> script_;
   std::unique_ptr<ClockMonitor> clock_monitor_;
+  std::vector<std::unique_ptr<CpuMonitor>> cpu_monitors_;   // by node; null where there is no processor
 };
 
 }  // namespace takt::scenario

@@ -56,11 +56,10 @@ std::size_t Process::due_alarms() const {
 
 void Process::expire(AlarmId id) {
   Alarm& alarm = alarms_[id];
-  const sim::TrueTime expired = alarm.timer.deadline() - alarm.latency;
   alarm.timer.cancel();
   alarm.has_latency = false;
   if (threads_.turns && !alarm.is_exact)
-    cpu_->submit(*threads_.turns, *this, source_.id().index, id, job_of(id), expired);
+    cpu_->submit(*threads_.turns, *this, source_.id().index, id, job_of(id), simulation_->now());
   else
     application_->wake(*this, id);
 }

@@ -10,7 +10,7 @@ const json::Record& describe(json::Type<CpuThreadResult>) {
       json::output<&CpuThreadResult::jobs>("jobs", "Jobs that it has done."),
       json::output<&CpuThreadResult::refused>("refused", "Jobs that found too many others waiting."),
       json::output<&CpuThreadResult::late>("late", "Jobs that ended behind the thread's deadline."),
-      json::output<&CpuThreadResult::response>("response_ps", "From the release of a job to its end; null without a job."),
+      json::output<&CpuThreadResult::response>("response_ps", "From when a job is ready - its message is there, its timer has expired and the operating system has woken the thread - to its end; null without a job."),
       json::output<&CpuThreadResult::response_p99>("response_p99_ps", "99 % of the jobs took no longer; null without a job."),
       json::output<&CpuThreadResult::utilisation>("utilisation", "Share of a core's time that it took, with switching."),
   };

@@ -64,6 +64,7 @@ void Crossings::follow(std::uint32_t s) {
       TAKT_CHECK(*at.previous < h, "hops stand in the order of the way");
       start = windows_[s][*at.previous].start + each.hops[*at.previous].transmission + each.hops[*at.previous].behind;
     }
+    start += at.wait;
     for (const Crossing& other : at_[at.port])
       if (other.stream < s && follows({s, h}, other)) start = std::max(start, window(other).start + hop(other).transmission + problem_->ports[at.port].gap);
     const Duration early = at.previous ? problem_->margin : Duration();

@@ -194,6 +194,7 @@ class OffsetSearch {
     std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> told;
     for (const Forbidden& each : forbidden)
       if ((each.always() || each.depth(x) != 0) && told.emplace(each.meeting.stream, each.meeting.other, each.meeting.port).second) made.push_back(each.meeting);
+    std::ranges::stable_sort(made, {}, [](const Meeting& each) { return std::tuple(each.stream, each.other, each.port); });
     return made;
   }
 

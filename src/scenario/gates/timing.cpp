@@ -85,7 +85,7 @@ class TimingWalk {
       const bool has_own = std::ranges::any_of(description.phases, [&](const auto& phase) { return phase.first == name; });
       if (is_open && !has_own) timing.choice = choice_of({number, true, p});
       if (description.publish != Publish::cyclic) timing.no_window = "\"publish\": \"on-change\", at no known time";
-      else if (!promises_phase(description, name)) timing.no_window = "no \"offset\" or \"phases\" that promises when " + json::quote(name) + " publishes";
+      else if (!promises_phase(description, name)) timing.no_window = "no \"offset\" or \"phases\" that promises when " + json::quote(name) + " publishes, or \"auto\"";
       set(program.members[p].state, timing);
       for (std::size_t d = 0; d < program.process_data.size(); ++d) {
         if (program.process_data[d].from != p) continue;

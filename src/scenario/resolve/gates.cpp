@@ -77,11 +77,11 @@ class GateResolver {
   void report(const StreamsToGate& gated, const std::vector<GateConflict>& conflicts) {
     std::vector<Grouped> groups;
     for (const GateConflict& conflict : conflicts) {
-      const json::Source& where = r_.streams[gated.streams[std::max(conflict.first, conflict.second)].value].where;
+      const json::Place place = r_.streams[gated.streams[std::max(conflict.first, conflict.second)].value].where.at(conflict.kind == GateConflict::Kind::cycle_too_long ? "every" : "offset");
       const bool meets_itself = conflict.first == conflict.second;
-      const auto same = [&](const Grouped& each) { return each.kind == conflict.kind && each.meets_itself == meets_itself && each.place.pointer == where.place().pointer; };
+      const auto same = [&](const Grouped& each) { return each.kind == conflict.kind && each.meets_itself == meets_itself && each.place.pointer == place.pointer; };
       auto group = std::ranges::find_if(groups, same);
-      if (group == groups.end()) group = groups.insert(groups.end(), {conflict.kind, meets_itself, where.place(), {}, 0});
+      if (group == groups.end()) group = groups.insert(groups.end(), {conflict.kind, meets_itself, place, {}, 0});
       ++group->count;
       if (group->first.size() < 3) group->first.push_back(words_of(gated.problem, conflict));
     }

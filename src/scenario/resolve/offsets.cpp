@@ -27,12 +27,14 @@ json::Place place_of(const Resolved& r, const OffsetChoice& choice) {
 /// Writes what was chosen where a scenario that says a number has it.
 void apply(Resolved& r, const OffsetChoice& choice, Duration offset) {
   if (!choice.is_program) {
+    r.chosen_offsets.push_back({r.scenario.streams[choice.item].name, offset, *r.scenario.streams[choice.item].every});
     r.scenario.streams[choice.item].offset = offset;
     std::get<models::PeriodicSchedule>(r.plan.talkers[choice.item].schedule).offset = offset;
     return;
   }
   Program& description = program_of(r, choice);
   ResolvedProgram& program = r.programs[choice.item];
+  r.chosen_offsets.push_back({program.name + (choice.participant ? "/state/" + program.participant_names[*choice.participant] : ""), offset, description.cycle});
   if (!choice.participant) {
     description.offset = offset;
     program.phases.assign(program.phases.size(), offset);
@@ -70,7 +72,9 @@ std::vector<std::uint32_t> add_movable(OffsetProblem& problem, const Timings& ti
 /// Who meets whom, for one entry of a file: each two streams once, the first three and how many more.
 struct Meetings {
   json::Place place;
-  std::vector<std::string> told;
+  std::string text;
+  std::size_t told = 0;
+  std::uint32_t last = 0;   // whose meeting was told last
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
 };
 
@@ -87,18 +91,18 @@ void report(const Resolved& r, const Timings& timings, const OffsetProblem& prob
         at->second.place = place;
         order.push_back(place.pointer);
       }
-      if (!at->second.pairs.insert(std::minmax(meeting.stream, meeting.other)).second || at->second.told.size() == 3) continue;
-      const std::string& name = problem.gates.streams[meeting.stream].name;
-      at->second.told.push_back((at->second.told.empty() ? json::quote(name) + " even with " + json::to_text(chosen[u].offset) + " meets " : at->second.pairs.size() == 1 ? "" : json::quote(name) + " ") +
-                                json::quote(problem.gates.streams[meeting.other].name) + " at " + json::quote(problem.gates.ports[meeting.port].name));
+      if (!at->second.pairs.insert(std::minmax(meeting.stream, meeting.other)).second || at->second.told == 3) continue;
+      Meetings& here = at->second;
+      const bool is_next = here.told > 0 && here.last == meeting.stream;
+      if (!is_next) here.text += (here.told > 0 ? "; " : "") + json::quote(problem.gates.streams[meeting.stream].name) + " even with " + json::to_text(chosen[u].offset) + " meets ";
+      here.text += (is_next ? ", " : "") + json::quote(problem.gates.streams[meeting.other].name) + " at " + json::quote(problem.gates.ports[meeting.port].name);
+      here.last = meeting.stream;
+      ++here.told;
     }
   }
   for (const std::string& pointer : order) {
     const Meetings& each = by_place.at(pointer);
-    std::string found;
-    for (const std::string& one : each.told) found += (found.empty() ? "" : ", ") + one;
-    if (each.pairs.size() > each.told.size()) found += " and " + std::to_string(each.pairs.size() - each.told.size()) + " more";
-    tell(each.place, found);
+    tell(each.place, each.text + (each.pairs.size() > each.told ? " and " + std::to_string(each.pairs.size() - each.told) + " more" : ""));
   }
 }
 
@@ -136,6 +140,7 @@ class Ways {
     Duration behind;                     ///< to the next port
     Duration start = Duration::max();    ///< after the release
     std::size_t before = nowhere;        ///< the step from which it comes first
+    Duration wait = {};                  ///< behind other copies
   };
 
   void add(const ResolvedStream& stream) {
@@ -155,10 +160,12 @@ class Ways {
           const std::size_t step = find(steps, path[n], path[n + 1], redundant == members_.end() ? 0 : i % redundant->second);
           if (step == nowhere) break;
           if (n > 0) cut_through(steps[before], steps[step], stream);
-          const Duration start = n == 0 ? Duration() : steps[before].start + steps[before].transmission + steps[before].behind;
+          const Duration ready = n == 0 ? Duration() : steps[before].start + steps[before].transmission + steps[before].behind;
+          const Duration start = behind_other_copies(steps, step, ready);
           if (start < steps[step].start) {
             steps[step].start = start;
             steps[step].before = before;
+            steps[step].wait = start - ready;
             has_changed = true;
           }
           before = step;
@@ -166,6 +173,16 @@ class Ways {
       }
     }
     put(stream, steps);
+  }
+
+  /// Copies of one frame that are ready at one port together, as at the only port of a host that splits, leave in the order of the members.
+  static Duration behind_other_copies(const std::vector<Step>& steps, std::size_t own, Duration ready) {
+    for (std::size_t s = 0; s < own; ++s) {
+      if (steps[s].at->node != steps[own].at->node || steps[s].at->port != steps[own].at->port || steps[s].start == Duration::max()) continue;
+      const Duration free = steps[s].start + steps[s].transmission + steps[s].end.link->rate.octet_time() * models::inter_packet_gap.count;
+      if (ready >= steps[s].start && ready < free) ready = free;
+    }
+    return ready;
   }
 
   static std::size_t find(const std::vector<Step>& steps, std::uint32_t from, std::uint32_t to, std::size_t member) {
@@ -205,6 +222,7 @@ class Ways {
       if (step.before != nowhere) hop.previous = hop_of[step.before];
       hop.transmission = step.transmission;
       hop.behind = step.behind;
+      hop.wait = step.wait;
       made.hops.push_back(hop);
     }
     problem.gates.streams.push_back(std::move(made));

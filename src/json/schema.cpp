@@ -221,8 +221,8 @@ Node quantity_or_auto_schema(const Dimension& dimension, const Bounds& bounds) {
   Node schema = quantity_schema(dimension, bounds);
   Node& pattern = *schema.find("pattern");
   pattern = Node::of_string("^auto$|" + pattern.text);
-  Node& description = *schema.find("description");
-  description.text += " Or \"auto\".";
+  std::string& words = schema.find("description")->text;
+  words.insert(words.rfind(')'), ", or \"auto\"");
   return schema;
 }
 

@@ -216,10 +216,10 @@ TEST(AutoOffsets, FullLinks) {
   const Loaded gated = load(text + R"(, "gates": {"plan": "auto", "classes": [6]}})");
   EXPECT_FALSE(gated.resolved);
   EXPECT_EQ(std::ranges::count(gated.problems, '\n'), 5) << gated.problems;
-  EXPECT_NE(gated.problems.find("s.json:6:89: error at /streams/4/offset: no offset that fits: found \"s4\" even with 0s meets \"s0\" at \"sw1 to h9\", expected fewer, shorter or rarer scheduled frames at these ports, or other paths\n"), std::string::npos) << gated.problems;
+  EXPECT_NE(gated.problems.find("s.json:6:89: error at /streams/4/offset: no offset found that fits: found \"s4\" even with 0s meets \"s0\" at \"sw1 to h9\", expected fewer, shorter or rarer scheduled frames at these ports, or other paths\n"), std::string::npos) << gated.problems;
   const Loaded spread = load(text + "}");
   ASSERT_TRUE(spread.resolved) << spread.problems;
-  EXPECT_NE(spread.problems.find("s.json:6:89: warning at /streams/4/offset: frames that meet whatever the offset: found \"s4\" even with 0s meets \"s0\" at \"sw1 to h9\""), std::string::npos) << spread.problems;
+  EXPECT_NE(spread.problems.find("s.json:6:89: warning at /streams/4/offset: no offset found that keeps frames apart: found \"s4\" even with 0s meets \"s0\" at \"sw1 to h9\""), std::string::npos) << spread.problems;
 }
 
 // Periods of 50 us and 51 us come at all distances of whole microseconds, and the long frame takes more than that: it meets all five.
@@ -230,7 +230,7 @@ TEST(AutoOffsets, TheFirstThreeAndHowManyMore) {
   const Loaded loaded = load(R"({"name": "t", "duration": "1ms", "network": {"generate": [{"topology": "line", "switches": 1, "hosts_per_switch": 7}]}, "streams": [)" + streams + "]}");
   ASSERT_TRUE(loaded.resolved) << loaded.problems;
   EXPECT_EQ(loaded.problems,
-            "s.json:7:89: warning at /streams/5/offset: frames that meet whatever the offset: found \"s5\" even with 0s meets \"s0\" at \"sw1 to h7\", \"s1\" at \"sw1 to h7\", \"s2\" at \"sw1 to h7\" and 2 more, "
+            "s.json:7:89: warning at /streams/5/offset: no offset found that keeps frames apart: found \"s5\" even with 0s meets \"s0\" at \"sw1 to h7\", \"s1\" at \"sw1 to h7\", \"s2\" at \"sw1 to h7\" and 2 more, "
             "expected fewer, shorter or rarer frames at these ports, or other paths\n");
 }
 

@@ -12,10 +12,11 @@ using sim::Duration;
 
 constexpr std::int64_t ps_per_ns = 1'000;
 constexpr int most_rounds = 64;
-/// Intervals that are stepped over in the search for one offset.
-constexpr std::size_t most_steps = 1'000'000;
-/// Phases that are compared where none is free.
-constexpr std::size_t most_candidates = 2'000;
+/// Questions whether an offset lies in an interval, about a nanosecond each: so many for all offsets of a round, shared out among them,
+/// and no further round after as many.
+constexpr std::size_t most_questions = 200'000'000;
+/// One offset has a right to as many for each interval.
+constexpr std::size_t least_questions = 20;
 
 /// A movable stream must not be moved by x with `from` < x mod `modulus` < `from` + `length`: it would meet the other.
 struct Forbidden {
@@ -56,7 +57,7 @@ class OffsetSearch {
         best = chosen_;
         least = meetings;
       }
-      if (least == 0) break;
+      if (least == 0 || questions_ > most_questions) break;
       const auto next = std::ranges::find_if(failed, [&](std::uint32_t unit) { return !tried_first.contains(unit); });
       if (next == failed.end()) break;
       tried_first.insert(*next);
@@ -137,8 +138,9 @@ class OffsetSearch {
       std::vector<Forbidden> avoidable;
       std::ranges::copy_if(all, std::back_inserter(avoidable), [](const Forbidden& each) { return !each.always(); });
       const std::int64_t period = repeats_after(avoidable, period_of(unit).ps());
-      const std::optional<std::int64_t> first = first_free(avoidable, period);
-      chosen_[unit].offset = Duration::from_ps(first ? *first : least_bad(avoidable, period));
+      const std::size_t allowed = std::max(least_questions * avoidable.size(), most_questions / problem_.movable.size());
+      const std::optional<std::int64_t> first = first_free(avoidable, period, allowed);
+      chosen_[unit].offset = Duration::from_ps(first ? *first : least_bad(avoidable, period, allowed));
       chosen_[unit].meetings = meetings_at(all, chosen_[unit].offset.ps());
       placed_[unit] = true;
       if (!first) failed.push_back(unit);
@@ -157,27 +159,32 @@ class OffsetSearch {
   }
 
   /// From end to end of what is in the way, until a whole round says nothing.
-  static std::optional<std::int64_t> first_free(const std::vector<Forbidden>& forbidden, std::int64_t period) {
+  std::optional<std::int64_t> first_free(const std::vector<Forbidden>& forbidden, std::int64_t period, std::size_t allowed) {
     std::int64_t x = 0;
     std::size_t clear = 0;    // so many in a row are not in the way
-    std::size_t steps = 0;
+    std::size_t asked = 0;
     for (std::size_t i = 0; clear < forbidden.size(); i = i + 1 < forbidden.size() ? i + 1 : 0) {
+      if (++asked > allowed) break;
       if (forbidden[i].depth(x) == 0) {
         ++clear;
         continue;
       }
       x = ceil_to_ns(forbidden[i].end(x));
-      if (x >= period || ++steps == most_steps) return std::nullopt;
+      if (x >= period) break;
       clear = 0;
     }
-    return x;
+    questions_ += asked;
+    return clear >= forbidden.size() ? std::optional(x) : std::nullopt;
   }
 
-  static std::int64_t least_bad(const std::vector<Forbidden>& forbidden, std::int64_t period) {
+  /// Of the ends of what is in the way, as many as are allowed.
+  std::int64_t least_bad(const std::vector<Forbidden>& forbidden, std::int64_t period, std::size_t allowed) {
     std::set<std::int64_t> candidates = {0};
+    const std::size_t most = std::max<std::size_t>(least_questions, allowed / (forbidden.size() + 1));
     for (const Forbidden& each : forbidden)
-      for (std::int64_t end = modulo(each.from + each.length, each.modulus); end < period && candidates.size() < most_candidates; end += each.modulus)
+      for (std::int64_t end = modulo(each.from + each.length, each.modulus); end < period && candidates.size() < most; end += each.modulus)
         if (ceil_to_ns(end) < period) candidates.insert(ceil_to_ns(end));
+    questions_ += candidates.size() * forbidden.size();
     std::int64_t best = 0;
     std::size_t least = forbidden.size() + 1;
     for (const std::int64_t x : candidates) {
@@ -203,6 +210,7 @@ class OffsetSearch {
   std::vector<std::uint32_t> unit_of_;     // by stream
   std::vector<ChosenOffset> chosen_;       // by unit
   std::vector<bool> placed_;
+  std::size_t questions_ = 0;
 };
 
 }  // namespace

@@ -32,7 +32,7 @@ struct ChosenOffset {
 
 /// By entry of `movable`. Two streams meet if any of their frames do, at any time: phases repeat with the greatest common divisor of both
 /// periods. Those with the shortest periods and the longest transmissions choose first; who finds nothing chooses first in the next of a
-/// few rounds. Where no round suits all, the round with the fewest meetings counts, and who finds nothing gets the offset with the fewest.
+/// few rounds. Effort is limited by counts: where many periods have small common divisors a phase that is free may stay unfound. Where no round suits all, the round with the fewest meetings counts, and who finds nothing gets the offset with the fewest.
 std::vector<ChosenOffset> choose_offsets(const OffsetProblem& problem);
 
 }  // namespace takt::scenario

@@ -256,7 +256,7 @@ bool choose_gated_offsets(Resolved& r, Timings& timings, StreamsToGate& gated, j
   const std::vector<ChosenOffset> chosen = choose_offsets(problem);
   const std::size_t errors_before = diagnostics.errors();
   report(r, timings, problem, choices, chosen, [&](const json::Place& place, const std::string& found) {
-    diagnostics.error(place, "no offset that fits", {found, "fewer, shorter or rarer scheduled frames at these ports, or other paths"});
+    diagnostics.error(place, "no offset found that fits", {found, "fewer, shorter or rarer scheduled frames at these ports, or other paths"});
   });
   for (std::size_t u = 0; u < choices.size(); ++u) {
     for (const std::uint32_t s : problem.movable[u]) gated.problem.streams[s].release += chosen[u].offset;
@@ -275,7 +275,7 @@ void choose_other_offsets(Resolved& r, Timings& timings, json::Diagnostics& diag
   const std::vector<std::uint32_t> choices = add_movable(ways.problem, timings, ways.streams);
   const std::vector<ChosenOffset> chosen = choose_offsets(ways.problem);
   report(r, timings, ways.problem, choices, chosen, [&](const json::Place& place, const std::string& found) {
-    diagnostics.warning(place, "frames that meet whatever the offset", {found, "fewer, shorter or rarer frames at these ports, or other paths"});
+    diagnostics.warning(place, "no offset found that keeps frames apart", {found, "fewer, shorter or rarer frames at these ports, or other paths"});
   });
   for (std::size_t u = 0; u < choices.size(); ++u) settle(r, timings, choices[u], chosen[u].offset);
   // Hosts that may hold a frame for a period: no phase is better than another.

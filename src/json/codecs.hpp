@@ -45,7 +45,8 @@ struct OrAuto {
   constexpr OrAuto() = default;
   constexpr OrAuto(T chosen) : value(chosen) {}
   constexpr operator T() const { return value; }
-  bool operator==(const OrAuto&) const = default;
+  friend constexpr bool operator==(const OrAuto&, const OrAuto&) = default;
+  friend constexpr bool operator==(const OrAuto& a, const T& b) { return !a.is_auto && a.value == b; }
 };
 
 template <class T>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -101,7 +102,7 @@ TEST(AutoOffsets, WhatIsChosenIsWritten) {
     const Loaded loaded = load(two("\"auto\"", gates));
     ASSERT_TRUE(loaded.resolved) << loaded.problems;
     EXPECT_EQ(loaded.problems, "");
-    EXPECT_EQ(*loaded.resolved->scenario.streams[1].offset, json::OrAuto<Duration>(1'360_ns));
+    EXPECT_EQ(*loaded.resolved->scenario.streams[1].offset, 1'360_ns);
     const std::string copy = json::encode(loaded.resolved->scenario);
     EXPECT_EQ(copy.find("\"offset\": \"auto\""), std::string::npos);
     EXPECT_NE(copy.find("1.36us"), std::string::npos);
@@ -118,7 +119,7 @@ TEST(AutoOffsets, WhatIsChosenIsWritten) {
 TEST(AutoOffsets, AnOverrideMaySayIt) {
   const Loaded loaded = load(two("\"0us\"", ""), {"streams.1.offset=auto"});
   ASSERT_TRUE(loaded.resolved) << loaded.problems;
-  EXPECT_EQ(*loaded.resolved->scenario.streams[1].offset, json::OrAuto<Duration>(1'360_ns));
+  EXPECT_EQ(*loaded.resolved->scenario.streams[1].offset, 1'360_ns);
 }
 
 // A stream outside of the scheduled class gets out of the way of the windows, too.
@@ -127,7 +128,7 @@ TEST(AutoOffsets, BesideWindows) {
   text.replace(text.rfind("\"pcp\": 6"), 8, "\"pcp\": 3");
   const Loaded loaded = load(text);
   ASSERT_TRUE(loaded.resolved) << loaded.problems;
-  EXPECT_EQ(*loaded.resolved->scenario.streams[1].offset, json::OrAuto<Duration>(1'360_ns));
+  EXPECT_EQ(*loaded.resolved->scenario.streams[1].offset, 1'360_ns);
   expect_nobody_waits(*loaded.resolved, 8_ns, 1_us);
 }
 
@@ -171,7 +172,7 @@ TEST(AutoOffsets, ProgramsWithRoles) {
     "script": [{"at": "5ms", "program": "p", "call": "Start"}]})");
   ASSERT_TRUE(loaded.resolved) << loaded.problems;
   EXPECT_EQ(loaded.problems, "");
-  EXPECT_EQ(*loaded.resolved->scenario.programs[0].offset, json::OrAuto<Duration>(2'048_ns));
+  EXPECT_EQ(*loaded.resolved->scenario.programs[0].offset, 2'048_ns);
 }
 
 // Multicast trees and redundant streams over all their paths, on rings of switches. Who is warned of may wait.
@@ -204,6 +205,50 @@ TEST(AutoOffsets, RandomTrafficOverRings) {
     }
   }
   EXPECT_GT(redundant, 20u);
+}
+
+/// Streams of many sizes and two periods along a line of four switches, one from each host; `only` leaves out the others.
+std::string along_a_line(const std::string& switches, std::optional<int> only = {}) {
+  sim::RandomStream chance(7, "line", "test");
+  std::string streams;
+  for (int i = 0; i < 8; ++i) {
+    const std::uint64_t from = 1 + chance.below(4);
+    const std::string one = fmt::format(R"({{"name": "s{}", "from": "h{}", "to": "h{}", "payload": "{}B", "every": "{}us", "offset": {}, "pcp": 6}})", i, from, 1 + (from + chance.below(3)) % 4, 20 + chance.below(1'400),
+                                        chance.below(2) == 0 ? 500 : 250, only ? "\"0us\"" : "\"auto\"");
+    if (!only || *only == i) streams += (streams.empty() ? "" : ", ") + one;
+  }
+  return fmt::format(R"({{"name": "t", "duration": "20ms", "network": {{"generate": [{{"topology": "line", "switches": 4, "forwarding_delay": "1us"{}}}]}}, "streams": [{}]}})", switches, streams);
+}
+
+// Frames that are cut through are at the next port before their end; each has the latency that it has alone.
+TEST(AutoOffsets, CutThrough) {
+  const std::string switches = R"(, "egress": [{"cut_through": [6]}])";
+  const Loaded together = load(along_a_line(switches));
+  ASSERT_TRUE(together.resolved) << together.problems;
+  const results::RunResult result = run(*together.resolved);
+  bool is_cut_through = false;
+  for (std::size_t s = 0; s < 8; ++s) is_cut_through = is_cut_through || result.streams[s].latency->max < alone(*together.resolved, s, 8_ns, 1_us).least;
+  EXPECT_TRUE(is_cut_through);
+  for (int i = 0; i < 8; ++i) {
+    const Loaded single = load(along_a_line(switches, i));
+    ASSERT_TRUE(single.resolved) << single.problems;
+    const results::RunResult way = run(*single.resolved);
+    EXPECT_EQ(result.streams[static_cast<std::size_t>(i)].latency->min.ps(), way.streams[0].latency->min.ps()) << i;
+    EXPECT_EQ(result.streams[static_cast<std::size_t>(i)].latency->max.ps(), way.streams[0].latency->max.ps()) << i;
+  }
+}
+
+// Switches that take from 1000 ns to 1160 ns: the latency varies by that for each on the way, and by nothing else.
+TEST(AutoOffsets, ForwardingJitter) {
+  const Loaded loaded = load(along_a_line(R"(, "forwarding_jitter": {"uniform": {"from": "0ns", "to": "160ns"}})"));
+  ASSERT_TRUE(loaded.resolved) << loaded.problems;
+  const results::RunResult result = run(*loaded.resolved);
+  for (std::size_t s = 0; s < 8; ++s) {
+    const Alone way = alone(*loaded.resolved, s, 8_ns, 1_us);
+    const auto switches = static_cast<std::int64_t>(loaded.resolved->streams[s].paths[0].size()) - 2;
+    EXPECT_GE(result.streams[s].latency->min, way.least) << s;
+    EXPECT_LE(result.streams[s].latency->max, way.most + 160_ns * switches) << s;
+  }
 }
 
 // Where it does not fit: with gates an error, without a warning, each once a stream.

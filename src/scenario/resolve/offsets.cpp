@@ -148,7 +148,7 @@ class Ways {
     std::vector<Step> steps;
     for (const StreamAtPort& at : at_[stream.index.value]) {
       const End end = ends_.at({at.node, at.port});
-      steps.push_back({&at, end, end.link->rate.octet_time() * (models::preamble_and_sfd + at.frame).count, end.link->delay + r_.plan.nodes[at.peer].forwarding_delay});
+      steps.push_back({&at, end, end.link->rate.octet_time() * (models::preamble_and_sfd + at.frame).count, end.link->delay + r_.plan.nodes[at.peer].greatest_forwarding_delay()});
     }
     // Copies that are eliminated go no further: behind a merge counts the way on which they come first. Each round takes that further.
     for (bool has_changed = true; has_changed;) {
@@ -198,7 +198,7 @@ class Ways {
     const models::NodePlan& node = r_.plan.nodes[step.at->node];
     const Octets header = node.cut_through_header + (r_.plan.streams[stream.index.value].priority ? models::vlan_tag : Octets{0});
     const Duration in = before.end.link->rate.octet_time() * header.count;
-    if (in < before.transmission) before.behind = before.end.link->delay + node.forwarding_delay + in - before.transmission;
+    if (in < before.transmission) before.behind = before.end.link->delay + node.forwarding_delay + in - before.transmission;   // such nodes have no jitter
   }
 
   void put(const ResolvedStream& stream, const std::vector<Step>& steps) {
@@ -211,7 +211,7 @@ class Ways {
     made.name = r_.plan.streams[stream.index.value].name;
     made.period = timing.period;
     made.release = timing.release;
-    made.early = timing.early;
+    made.early = timing.early + jitter_of(stream);
     made.train = timing.train;
     std::vector<std::uint32_t> hop_of(steps.size(), nowhere);
     for (const std::size_t s : order) {
@@ -227,6 +227,17 @@ class Ways {
     }
     problem.gates.streams.push_back(std::move(made));
     streams.push_back(stream.index);
+  }
+
+  /// What the nodes on its longest way may forward sooner, all together.
+  Duration jitter_of(const ResolvedStream& stream) const {
+    Duration most;
+    for (const Path& path : stream.paths) {
+      Duration sum;
+      for (const std::uint32_t node : path) sum += r_.plan.nodes[node].greatest_forwarding_delay() - r_.plan.nodes[node].least_forwarding_delay();
+      most = std::max(most, sum);
+    }
+    return most;
   }
 
   std::uint32_t port_index(const Step& step) {

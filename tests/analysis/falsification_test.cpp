@@ -136,7 +136,7 @@ void drive(std::size_t number, const BoundOptions& options, Total& total) {
     return is_better;
   };
   Offsets drawn(streams, 0);
-  for (std::size_t s = 0; s < streams; ++s) drawn[s] = resolved->scenario.streams[s].offset.value_or(sim::Duration()).ps() / 1000;
+  for (std::size_t s = 0; s < streams; ++s) drawn[s] = resolved->scenario.streams[s].offset.value_or(sim::Duration()).value.ps() / 1000;
   attempt(overrides_of(drawn));
   attempt(overrides_of(best));
   Offsets together(streams, 0);

@@ -238,6 +238,25 @@ TEST(AutoOffsets, CutThrough) {
   }
 }
 
+// Stations in a line: what each sends itself enters its bridge at once, what goes through takes the forwarding delay.
+TEST(AutoOffsets, Stations) {
+  std::string streams;
+  for (int i = 2; i <= 6; ++i)
+    streams += fmt::format(R"({}{{"name": "up{}", "from": "st{}", "to": "st1", "payload": "100B", "every": "250us", "offset": "auto", "pcp": 6}}, {{"name": "down{}", "from": "st1", "to": "st{}", "payload": "{}B", "every": "500us", "offset": "auto", "pcp": 6}})",
+                           i == 2 ? "" : ", ", i, i, i, i, 100 * i);
+  const Loaded loaded = load(fmt::format(R"({{"name": "t", "duration": "20ms", "network": {{"generate": [{{"topology": "line", "stations": 6, "forwarding_delay": "1us"}}]}}, "streams": [{}]}})", streams));
+  ASSERT_TRUE(loaded.resolved) << loaded.problems;
+  EXPECT_EQ(loaded.problems, "");
+  const results::RunResult result = run(*loaded.resolved);
+  for (const results::StreamResult& each : result.streams) EXPECT_EQ(each.latency->min.ps(), each.latency->max.ps()) << each.name;
+}
+
+TEST(AutoOffsets, OfAProgramWhosePhasesAreGiven) {
+  const Loaded loaded = load(program("", R"(, "offset": "auto", "phases": {"h1": "0us", "h2": "10us", "h3": "20us", "h4": "30us"})"));
+  ASSERT_TRUE(loaded.resolved) << loaded.problems;
+  EXPECT_NE(loaded.problems.find("warning at /programs/0/offset: an offset that nobody gets: found \"auto\" beside \"phases\" of all participants, expected one of them"), std::string::npos) << loaded.problems;
+}
+
 // Switches that take from 1000 ns to 1160 ns: the latency varies by that for each on the way, and by nothing else.
 TEST(AutoOffsets, ForwardingJitter) {
   const Loaded loaded = load(along_a_line(R"(, "forwarding_jitter": {"uniform": {"from": "0ns", "to": "160ns"}})"));

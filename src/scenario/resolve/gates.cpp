@@ -161,8 +161,12 @@ void resolve_gates_and_offsets(Resolved& resolved, json::Diagnostics& diagnostic
   if (!diagnostics.has_errors()) timings = timings_of(resolved);
   if (resolved.scenario.gates) GateResolver(resolved, timings, diagnostics).run();
   if (!diagnostics.has_errors()) choose_other_offsets(resolved, timings, diagnostics);
-  for (Program& program : resolved.scenario.programs)
-    if (program.offset && program.offset->is_auto) program.offset = Duration();   // all participants have phases of their own
+  if (diagnostics.has_errors()) return;
+  for (Program& program : resolved.scenario.programs) {
+    if (!program.offset || !program.offset->is_auto) continue;
+    diagnostics.warning(program.where.at("offset"), "an offset that nobody gets", {"\"auto\" beside \"phases\" of all participants", "one of them"});
+    program.offset = Duration();
+  }
 }
 
 }  // namespace takt::scenario

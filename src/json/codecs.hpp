@@ -37,6 +37,18 @@ struct Located {
 template <class T>
 using NameMap = std::vector<std::pair<std::string, T>>;
 
+/// A value, or "auto": takt chooses one before the run and writes it here.
+template <class T>
+struct OrAuto {
+  T value{};
+  bool is_auto = false;                 ///< nothing has been chosen yet
+  constexpr OrAuto() = default;
+  constexpr OrAuto(T chosen) : value(chosen) {}
+  constexpr operator T() const { return value; }
+  friend constexpr bool operator==(const OrAuto&, const OrAuto&) = default;
+  friend constexpr bool operator==(const OrAuto& a, const T& b) { return !a.is_auto && a.value == b; }
+};
+
 template <class T>
 struct CodecOf;  // a type without a specialisation cannot be a field; a struct or enum needs describe()
 
@@ -210,6 +222,22 @@ struct CodecOf<T> {
         return encode_quantity(QuantityOf<T>::raw(*static_cast<const T*>(value)), QuantityOf<T>::dimension);
       },
       [](const Bounds& bounds, SchemaBuilder&) { return quantity_schema(QuantityOf<T>::dimension, bounds); }};
+};
+
+template <Quantity T>
+struct CodecOf<OrAuto<T>> {
+  using Limits = typename CodecOf<T>::Limits;
+  static constexpr Codec codec{
+      [](const Node& node, void* value, const Bounds& bounds, Reader& reader) {
+        auto& made = *static_cast<OrAuto<T>*>(value);
+        made.is_auto = node.kind == Kind::string && node.text == "auto";
+        if (!made.is_auto) CodecOf<T>::codec.decode(node, &made.value, bounds, reader);
+      },
+      [](const void* value) {
+        const auto& written = *static_cast<const OrAuto<T>*>(value);
+        return written.is_auto ? Node::of_string("auto") : CodecOf<T>::codec.encode(&written.value);
+      },
+      [](const Bounds& bounds, SchemaBuilder&) { return quantity_or_auto_schema(QuantityOf<T>::dimension, bounds); }};
 };
 
 /// May be absent, without a default. Left out when it is written and empty.

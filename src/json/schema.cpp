@@ -216,6 +216,16 @@ Node quantity_schema(const Dimension& dimension, const Bounds& bounds) {
   return schema;
 }
 
+/// One string in either case, so that a field still has one type.
+Node quantity_or_auto_schema(const Dimension& dimension, const Bounds& bounds) {
+  Node schema = quantity_schema(dimension, bounds);
+  Node& pattern = *schema.find("pattern");
+  pattern = Node::of_string("^auto$|" + pattern.text);
+  std::string& words = schema.find("description")->text;
+  words.insert(words.rfind(')'), ", or \"auto\"");
+  return schema;
+}
+
 Node sequence_schema(const Codec& item, const Bounds& bounds, SchemaBuilder& builder) {
   Bounds item_bounds = bounds;
   item_bounds.min_items = 0;

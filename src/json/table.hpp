@@ -174,6 +174,7 @@ Node string_schema(const Bounds& bounds);
 Node double_schema(const Bounds& bounds);
 Node integer_schema(const Bounds& bounds);
 Node quantity_schema(const Dimension& dimension, const Bounds& bounds);
+Node quantity_or_auto_schema(const Dimension& dimension, const Bounds& bounds);
 Node sequence_schema(const Codec& item, const Bounds& bounds, SchemaBuilder& builder);
 Node mapping_schema(const Codec& value, const Bounds& bounds, SchemaBuilder& builder);
 Node schema_by(const Object& table, SchemaBuilder& builder);

@@ -106,6 +106,13 @@ std::string ports_page(const Resolved& r, std::size_t most_rows) {
   return page.text(most_rows);
 }
 
+/// What a file leaves to takt.
+std::string offsets_page(const Resolved& r, std::size_t most_rows) {
+  Page page("Offsets that were chosen (\"auto\")");
+  for (const scenario::ResolvedOffset& each : r.chosen_offsets) page.add(each.name, fmt::format("{} of each {}", readable(each.offset), readable(each.period)));
+  return page.text(most_rows);
+}
+
 /// The windows of automatic gates.
 std::string windows_page(const Resolved& r, std::size_t most_rows) {
   if (!r.gates) return {};
@@ -214,7 +221,7 @@ std::string faults_page(const Resolved& r, std::size_t most_rows) {
 }  // namespace
 
 std::string feature_pages(const Resolved& r, std::size_t most_rows) {
-  return ports_page(r, most_rows) + windows_page(r, most_rows) + ingress_page(r, most_rows) + redundancy_page(r, most_rows) + faults_page(r, most_rows);
+  return ports_page(r, most_rows) + offsets_page(r, most_rows) + windows_page(r, most_rows) + ingress_page(r, most_rows) + redundancy_page(r, most_rows) + faults_page(r, most_rows);
 }
 
 }  // namespace takt::output

@@ -71,7 +71,7 @@ struct Program {
   std::optional<Duration> announce_every = {};
   OnReplacement on_replacement = OnReplacement::stay_halted;
   Duration cycle;
-  std::optional<Duration> offset;    ///< 0 in a run; absent, it is nothing that the plant promises
+  std::optional<json::OrAuto<Duration>> offset;  ///< 0 in a run; absent, it is nothing that the plant promises
   json::NameMap<Duration> phases;    ///< of single participants
   Publish publish = Publish::cyclic;
   Subscription subscription = Subscription::star;

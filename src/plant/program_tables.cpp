@@ -124,7 +124,7 @@ const json::Object& describe(json::Type<Program>) {
       optional<&Program::on_replacement>("on_replacement", "What follows when a node that was lost in a start or a run has been replaced."),
       optional<&Program::within>("within", "The program in which this one is nested: its master is a slave there, and it is started, suspended, resumed, reset and halted with it."),
       required<&Program::cycle>("cycle", "Publishing interval of state and process data.", {.min = 1_us, .max = 3600_s}),
-      optional<&Program::offset>("offset", "Phase of publishing within the cycle; 0 in a run if absent, and then any for the search for the worst case.", {.max = 3600_s}),
+      optional<&Program::offset>("offset", "Phase of publishing within the cycle; 0 in a run if absent, and then any for the search for the worst case. \"auto\": takt chooses one for each participant, at which its messages meet no others.", {.max = 3600_s}),
       optional<&Program::phases>("phases", "Other phases of single participants, by host.", {.max_items = 65, .items = {.max = 3600_s}}),
       optional<&Program::publish>("publish", "When the state is published."),
       optional<&Program::subscription>("subscription", "Who hears whom."),
@@ -151,7 +151,7 @@ const json::Object& describe(json::Type<Program>) {
 
 Duration phase_of(const Program& program, std::string_view participant) {
   const auto own = std::ranges::find(program.phases, participant, [](const auto& phase) -> std::string_view { return phase.first; });
-  return own != program.phases.end() ? own->second : program.offset.value_or(Duration());
+  return own != program.phases.end() ? own->second : program.offset.value_or(Duration()).value;
 }
 
 }  // namespace takt::plant

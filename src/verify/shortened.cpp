@@ -36,7 +36,7 @@ Scenario shortened(const Scenario& scenario, Duration longest_reaction) {
     period = std::max(period, program.cycle);
   }
   for (const scenario::Stream& stream : scenario.streams)
-    if (stream.offset) enough = std::max(enough, *stream.offset);
+    if (stream.offset) enough = std::max<Duration>(enough, *stream.offset);
   Scenario made = scenario;
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < made.script.size(); ++i) order.push_back(i);

@@ -102,7 +102,7 @@ void drive(std::size_t number, const BoundOptions& options, Total& total) {
   if (!resolved) return;   // it asked for something that is refused
   const Bounds bounds = bound(*resolved, options);
   // Without offsets nothing is promised of phases: such bounds hold at all of them.
-  const auto without_phases = load(std::regex_replace(text, std::regex(", \"offset\": \"[0-9]+us\""), ""), {});
+  const auto without_phases = load(std::regex_replace(text, std::regex(", \"offset\": \"([0-9]+us|auto)\""), ""), {});
   const Bounds free_bounds = bound(*without_phases, options);
   const std::size_t streams = resolved->scenario.streams.size();
   sim::RandomStream chance(number, "falsification", "phases");
@@ -136,7 +136,7 @@ void drive(std::size_t number, const BoundOptions& options, Total& total) {
     return is_better;
   };
   Offsets drawn(streams, 0);
-  for (std::size_t s = 0; s < streams; ++s) drawn[s] = resolved->scenario.streams[s].offset.value_or(sim::Duration()).ps() / 1000;
+  for (std::size_t s = 0; s < streams; ++s) drawn[s] = resolved->scenario.streams[s].offset.value_or(sim::Duration()).value.ps() / 1000;
   attempt(overrides_of(drawn));
   attempt(overrides_of(best));
   Offsets together(streams, 0);

@@ -218,7 +218,7 @@ std::span<const Rule> program_rules() {
       {.key = "program.on_replacement", .feature = Feature::roles, .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.has("roles") ? Made(m.word("stay-halted restart")) : std::nullopt; }},
       {.key = "program.within", .feature = Feature::nesting, .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return is(m, s, Maker::Group::inner) ? Made(text("p0")) : std::nullopt; }},
       {.key = "program.cycle", .make = [](Maker& m, const Scope&) -> Made { return m.word(m.wants(Feature::automatic_gates) ? "1ms 2ms" : m.is_slow() || m.is_long() ? "1ms 2ms" : "200us 250us 500us 1ms"); }},
-      {.key = "program.offset", .percent = 25, .words = "0us 20us 150us"},
+      {.key = "program.offset", .percent = 25, .words = "0us 20us 150us auto"},
       {.key = "program.phases", .percent = 100, .make = phases},
       {.key = "program.publish", .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return text(is_scheduled(m, s) || m.draw.one_in(2) ? "cyclic" : "on-change"); }},
       {.key = "program.subscription", .percent = 30, .make = [](Maker& m, const Scope& s) -> Made { return s.has("roles") ? Made() : m.word("star all-to-all"); }},

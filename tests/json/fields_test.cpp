@@ -174,6 +174,28 @@ TEST(Decode, Ranges) {
   EXPECT_EQ(mistake_in(R"("nodes": {"": {"kind": "host"}})"), "error at /nodes/: an empty name");
 }
 
+TEST(Decode, AValueOrAuto) {
+  const auto decode = [](std::string_view text, Diagnostics& diagnostics) {
+    json::OrAuto<sim::Duration> value(sim::Duration::from_ps(7));
+    const auto document = json::parse(text, "s.json", diagnostics);
+    json::Reader reader(*document, diagnostics);
+    const auto bounds = json::bounds_of<json::OrAuto<sim::Duration>>({.max = sim::Duration::from_ps(1'000'000)});
+    json::CodecOf<json::OrAuto<sim::Duration>>::codec.decode(document->root(), &value, bounds, reader);
+    return value;
+  };
+  Diagnostics diagnostics;
+  const auto number = decode("\"1us\"", diagnostics);
+  EXPECT_FALSE(number.is_auto);
+  EXPECT_EQ(number, sim::Duration::from_ps(1'000'000));
+  const auto word = decode("\"auto\"", diagnostics);
+  EXPECT_TRUE(word.is_auto);
+  EXPECT_FALSE(word == sim::Duration::from_ps(7)) << "what is to be chosen equals no number";
+  EXPECT_EQ(json::CodecOf<json::OrAuto<sim::Duration>>::codec.encode(&word).text, "auto");
+  EXPECT_FALSE(diagnostics.has_errors()) << diagnostics.to_text();
+  decode("\"2us\"", diagnostics);
+  EXPECT_TRUE(diagnostics.has_errors()) << "the range is that of numbers";
+}
+
 TEST(Decode, Groups) {
   EXPECT_EQ(mistake_in(R"("faults": [{"at": "1s"}])"),
             "error at /faults/0: a field is missing: expected exactly one of \"link_down\" or \"crash\"");

@@ -52,6 +52,12 @@ TEST(Config, WhatOnlyASimulatorDoesIsRefused) {
   EXPECT_NE(load.diagnostics.to_text().find("/program/replies: not on a real node"), std::string::npos) << load.diagnostics.to_text();
 }
 
+TEST(Config, AnOffsetIsANumber) {
+  const Load load(file("b", R"(, "offset": "auto")"));
+  EXPECT_FALSE(load.loaded);
+  EXPECT_NE(load.diagnostics.to_text().find("/program/offset: not on a real node: found \"auto\", which a simulator chooses for its network, expected"), std::string::npos) << load.diagnostics.to_text();
+}
+
 TEST(Config, MistakesAreFound) {
   for (const std::string& text : {
            std::string("{"), std::string("{}"), file("c"), file("a", R"(, "offset": "1ms")"), file("a", R"(, "receive_timeout": "1ms")"),

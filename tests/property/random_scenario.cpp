@@ -277,6 +277,7 @@ class Maker {
     parts.add("payload", in_quotes(draw.any({"18B", "60B", "100B", "200B", "500B", "900B", "1200B", "1400B"})));
     if (draw.one_in(4)) parts.add("encapsulation", "\"ethernet\"");
     if (!draw.one_in(6)) parts.add("pcp", std::to_string(draw.below(8)));
+    bool is_periodic = false;
     switch (draw.below(4)) {
       case 0:
         if (Draw gaps(w_.seed, "gaps " + stream_name(s)); gaps.one_in(2))
@@ -289,11 +290,13 @@ class Maker {
         parts.add("burst", "{\"frames\": " + std::to_string(1 + draw.below(6)) + ", \"every\": \"1ms\", \"spacing\": " + in_quotes(draw.any({"0ns", "6720ns", "50us"})) + "}");
         break;
       default:
+        is_periodic = true;
         parts.add("every", in_quotes(draw.any({"100us", "125us", "250us", "333us", "1ms"})));
         if (draw.one_in(2)) parts.add("jitter", in_quotes(draw.any({"10us", "100us"})));
         if (has(Feature::launch) && draw.one_in(2)) parts.add("launch", in_quotes(draw.any({"0ns", "10us", "100us"})));
     }
     if (draw.one_in(2)) parts.add("offset", in_quotes(draw.any({"1us", "10us", "100us", "37us"})));
+    else if (Draw chosen(w_.seed, "offset " + stream_name(s)); is_periodic && chosen.one_in(2)) parts.add("offset", in_quotes("auto"));
     if (redundant)
       parts.add("redundancy", "{\"count\": 2, \"history\": " + std::to_string(2 + draw.below(30)) + ", \"reset_timeout\": " + in_quotes(draw.any({"1ms", "200us", "1s"})) + (draw.one_in(4) ? ", \"individual\": true" : "") +
                                   (draw.one_in(4) ? ", \"algorithm\": \"match\"" : "") + (draw.one_in(4) ? ", \"keep_tag\": true" : "") + (draw.one_in(4) ? ", \"split\": " + in_quotes(switch_name(switch_of(from))) : "") + "}");

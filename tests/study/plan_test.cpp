@@ -121,24 +121,27 @@ TEST(Plan, AutomaticGatesAreAFactor) {
                 {"name": "load", "from": "h2", "to": "h4", "payload": "1400B", "exponential": "30us", "pcp": 0}]},
   "factors": [{"name": "gates", "patches": {"none": {"/gates": "none"}, "auto": {"/gates": {"plan": "auto", "classes": [6]}},
                  "by_hand": {"/network/generate/0/egress": [{"gates": {"entries": [{"open": [0, 1, 2, 3, 4, 5, 6, 7], "for": "100us"}]}}]}}},
-              {"name": "offset", "set": ["/streams/1/offset"], "values": ["50us", "0.1us"]}],
+              {"name": "offset", "set": ["/streams/1/offset"], "values": ["50us", "0.1us", "auto"]}],
   "measures": [{"name": "latency", "of": "latency.x.max", "unit": "us"}]})";
   };
   json::Diagnostics diagnostics;
   const auto plan = load_plan(folder.write("study.json", text("recorded")), diagnostics);
   ASSERT_TRUE(plan) << diagnostics.to_text();
-  ASSERT_EQ(plan->points(), 6u);
+  ASSERT_EQ(plan->points(), 9u);
   // 158 octets on three links of 1 Gb/s and 50 ns, two switches of 1 us.
   const double alone = 3 * (1.264 + 0.05) + 2;
-  const Outcome fits = run_point(*plan, 2);
+  const Outcome fits = run_point(*plan, 3);
   EXPECT_EQ(fits.status, Status::done) << fits.error;
   EXPECT_DOUBLE_EQ(fits.values[0].value(), alone);
   EXPECT_GT(run_point(*plan, 0).values[0].value(), alone);
-  EXPECT_GT(run_point(*plan, 4).values[0].value(), alone);
-  const Outcome meets = run_point(*plan, 3);
+  EXPECT_GT(run_point(*plan, 6).values[0].value(), alone);
+  const Outcome chosen = run_point(*plan, 5);
+  EXPECT_EQ(chosen.status, Status::done) << chosen.error;
+  EXPECT_DOUBLE_EQ(chosen.values[0].value(), alone);
+  const Outcome meets = run_point(*plan, 4);
   EXPECT_EQ(meets.status, Status::impossible);
   EXPECT_NE(meets.error.find("windows that overlap: found at \"sw1 to sw2\" \"x\" from 2.314us"), std::string::npos) << meets.error;
-  EXPECT_NE(meets.error.find("factor gates = auto"), std::string::npos) << meets.error;
+  EXPECT_NE(meets.error.find("factor offset = 0.1us"), std::string::npos) << meets.error;
 }
 
 }  // namespace

@@ -316,7 +316,7 @@ struct Stream {
   std::optional<NormalGaps> normal;
   std::optional<Bursts> burst;
   std::optional<std::string> trace;
-  std::optional<Duration> offset;    ///< 0 in a run; absent, it is nothing that the plant promises
+  std::optional<json::OrAuto<Duration>> offset;  ///< 0 in a run; absent, it is nothing that the plant promises
   Duration jitter;
   std::optional<Duration> launch;
   std::optional<std::vector<std::string>> path;

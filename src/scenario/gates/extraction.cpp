@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "models/ethernet/sizes.hpp"
-#include "scenario/description/promises.hpp"
 #include "scenario/resolve/gates.hpp"
 #include "scenario/resolve/port_configs.hpp"
 #include "scenario/resolve/stream_at_port.hpp"
@@ -15,24 +14,13 @@ namespace {
 
 constexpr Octets longest_frame{1522};
 
-/// When a stream's frames are at its talker's port, or why nobody knows.
-struct Timing {
-  Duration period;
-  Duration release;
-  std::uint32_t train = 0;
-  std::string unknown = {};   ///< why nobody knows
-  Duration early{};           ///< how much before its release it may be there
-};
-
 class Extraction {
  public:
-  Extraction(const Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), gates_(*resolved.scenario.gates), diagnostics_(diagnostics), timing_(r_.streams.size(), {{}, {}, 0, "times that nobody promises, as those of programs with roles"}) {}
+  Extraction(const Resolved& resolved, const Timings& timings, json::Diagnostics& diagnostics) : r_(resolved), timing_(timings.of_streams), gates_(*resolved.scenario.gates), diagnostics_(diagnostics) {}
 
-  std::optional<GateProblem> run() {
+  std::optional<StreamsToGate> run() {
     const std::size_t errors_before = diagnostics_.errors();
     find_ends();
-    time_streams();
-    time_programs();
     if (!find_classes()) return std::nullopt;
     problem_.margin = gates_.margin.value_or(has_clocks() ? 1_us : Duration());
     if (r_.scenario.rerouting)
@@ -43,7 +31,7 @@ class Extraction {
     if (diagnostics_.errors() != errors_before) return std::nullopt;
     if (problem_.streams.empty())
       diagnostics_.warning(gates_.where.place(), "no stream to lay gates for", {"none in the scheduled classes", "streams of these classes"});
-    return std::move(problem_);
+    return StreamsToGate{std::move(problem_), std::move(streams_)};
   }
 
  private:
@@ -64,63 +52,11 @@ class Extraction {
   const models::PortConfig& config_of(const models::LinkPlan::End& end) const {
     return r_.plan.port_configs[end.port_config.value_or(r_.plan.nodes[end.node.value].port_config)];
   }
-  const models::OsLatency& os_of(models::NodeIndex host) const { return r_.plan.os_latencies[r_.plan.nodes[host.value].os_latency]; }
   const models::StreamPlan& plan_of(const ResolvedStream& stream) const { return r_.plan.streams[stream.index.value]; }
   models::TrafficClass class_of(const ResolvedStream& stream, const models::PortConfig& config) const { return config.traffic_class_of_priority[plan_of(stream).priority_at_talker()]; }
   std::optional<models::TrafficClass> class_at_talker(const ResolvedStream& stream) const {
     if (stream.paths.empty()) return std::nullopt;
     return class_of(stream, config_of(*end_towards(stream.paths.front()[0], stream.paths.front()[1]).end));
-  }
-
-  void set(models::StreamIndex stream, Timing timing) {
-    if (timing.unknown.empty() && timing.period.ps() % 1'000 != 0) timing.unknown = "a period of " + json::to_text(timing.period) + ", which is no whole number of ns";
-    timing_[stream.value] = std::move(timing);
-  }
-
-  /// What a host adds before the port, at most; it must be less than a period, or two frames may be there at once.
-  Timing after(Duration phase, Duration least, Duration delay, Duration period, std::uint32_t train) const {
-    Timing timing{period, {}, train};
-    timing.early = delay - least;
-    if (delay >= period) timing.unknown = "up to " + json::to_text(delay) + " between the application and the port of its host, of a period of " + json::to_text(period);
-    else timing.release = phase + delay;
-    return timing;
-  }
-
-  // The talkers stand in the order of the streams (nothing was refused).
-  void time_streams() {
-    for (std::size_t i = 0; i < r_.scenario.streams.size() && i < r_.plan.talkers.size(); ++i) {
-      const Stream& stream = r_.scenario.streams[i];
-      const models::StreamIndex index = r_.plan.talkers[i].stream;
-      Timing timing;
-      if (stream.redundancy) timing.unknown = "\"redundancy\", whose members go several ways";
-      else if (!stream.every) timing.unknown = "no period: \"every\" is missing";
-      else if (!promises_phase(stream)) timing.unknown = "no \"offset\" that promises when it is sent";
-      else if (stream.launch) timing.unknown = "\"launch\", which is a plan of its own";
-      else timing = after(*stream.offset, os_of(r_.plan.streams[index.value].talker).transmit.least(), stream.jitter + os_of(r_.plan.streams[index.value].talker).transmit.greatest(), *stream.every, trains_++);
-      set(index, std::move(timing));
-    }
-  }
-
-  void time_programs() {
-    for (const ResolvedProgram& program : r_.programs) {
-      const Program& description = *program.description;
-      if (program.has_roles()) continue;   // its streams keep the reason that all have first
-      for (std::uint8_t p = 0; p < program.members.size(); ++p) {
-        const models::OsLatency& os = os_of(program.members[p].node);
-        Timing timing = after(program.phases[p], os.wake_up.least() + os.transmit.least(), os.wake_up.greatest() + os.transmit.greatest(), description.cycle, trains_++);
-        if (description.publish != Publish::cyclic) timing.unknown = "\"publish\": \"on-change\", at no known time";
-        else if (!promises_phase(description, program.participant_names[p]))
-          timing.unknown = "no \"offset\" or \"phases\" that promises when " + json::quote(program.participant_names[p]) + " publishes";
-        set(program.members[p].state, timing);
-        for (std::size_t d = 0; d < program.process_data.size(); ++d) {
-          if (program.process_data[d].from != p) continue;
-          const bool is_reply = std::any_of(program.replies.begin(), program.replies.end(), [&](const ResolvedReply& reply) { return reply.with == d; });
-          Timing data = timing;
-          if (is_reply) data.unknown = "an answer, published when its question has been worked at";
-          set(program.stream_of(d), std::move(data));
-        }
-      }
-    }
   }
 
   bool find_classes() {
@@ -138,8 +74,8 @@ class Extraction {
   }
 
   void add(const ResolvedStream& stream) {
-    const Timing& timing = timing_[stream.index.value];
-    if (!timing.unknown.empty()) return refuse(stream, timing.unknown);
+    const FrameTiming& timing = timing_[stream.index.value];
+    if (!timing.no_window.empty()) return refuse(stream, timing.no_window);
     ScheduledStream made;
     made.name = plan_of(stream).name;
     made.period = timing.period;
@@ -157,6 +93,7 @@ class Extraction {
       }
     scheduled_.insert(stream.index.value);
     problem_.streams.push_back(std::move(made));
+    streams_.push_back(stream.index);
   }
 
   std::string check_node(std::uint32_t node) const {
@@ -223,20 +160,20 @@ class Extraction {
   }
 
   const Resolved& r_;
+  const std::vector<FrameTiming>& timing_;           // by stream
   const NetworkGates& gates_;
   json::Diagnostics& diagnostics_;
-  std::vector<Timing> timing_;                       // by stream
-  std::uint32_t trains_ = 0;
   std::set<std::uint8_t> classes_;
   std::map<std::pair<std::uint32_t, std::uint16_t>, End> ends_;
   std::map<std::pair<std::uint32_t, std::uint16_t>, std::uint32_t> ports_;   // by node and port
   std::vector<models::ClassSet> scheduled_classes_;  // by port of the problem
   std::set<std::uint32_t> scheduled_;                // streams
   GateProblem problem_;
+  std::vector<models::StreamIndex> streams_;         // of the problem
 };
 
 }  // namespace
 
-std::optional<GateProblem> gate_problem_of(const Resolved& resolved, json::Diagnostics& diagnostics) { return Extraction(resolved, diagnostics).run(); }
+std::optional<StreamsToGate> gate_problem_of(const Resolved& resolved, const Timings& timings, json::Diagnostics& diagnostics) { return Extraction(resolved, timings, diagnostics).run(); }
 
 }  // namespace takt::scenario

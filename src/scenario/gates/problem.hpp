@@ -32,6 +32,7 @@ struct ScheduledHop {
   models::TrafficClass traffic_class = 0;
   sim::Duration transmission;               ///< preamble to FCS
   sim::Duration behind;                     ///< last bit sent to ready at the next port: propagation and forwarding delay
+  sim::Duration wait{};                     ///< behind another copy of the same frame; not of streams with windows, which have one
   bool operator==(const ScheduledHop&) const = default;
 };
 

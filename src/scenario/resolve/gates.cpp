@@ -5,6 +5,7 @@
 
 #include "scenario/gates/layout.hpp"
 #include "scenario/resolve/egress.hpp"
+#include "scenario/resolve/offsets.hpp"
 #include "scenario/resolve/port_configs.hpp"
 
 namespace takt::scenario {
@@ -12,7 +13,7 @@ namespace {
 
 class GateResolver {
  public:
-  GateResolver(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), gates_(*resolved.scenario.gates), diagnostics_(diagnostics) {}
+  GateResolver(Resolved& resolved, Timings& timings, json::Diagnostics& diagnostics) : r_(resolved), timings_(timings), gates_(*resolved.scenario.gates), diagnostics_(diagnostics) {}
 
   void run() {
     const bool is_sound = check_keys();
@@ -39,17 +40,18 @@ class GateResolver {
   }
 
   void lay_out() {
-    auto problem = gate_problem_of(r_, diagnostics_);
-    if (!problem) return;
-    GateLayout layout = lay_out_gates(*problem);
-    for (const GateConflict& conflict : layout.conflicts) report(*problem, conflict);
+    auto gated = gate_problem_of(r_, timings_, diagnostics_);
+    if (!gated || !choose_gated_offsets(r_, timings_, *gated, diagnostics_)) return;
+    GateProblem& problem = gated->problem;
+    GateLayout layout = lay_out_gates(problem);
+    report(*gated, layout.conflicts);
     if (!layout.conflicts.empty()) return;
     NetworkGates listed;
     listed.where = gates_.where;
     listed.plan = GatePlanning::listed;
-    for (std::size_t p = 0; p < problem->ports.size(); ++p) listed.lists.push_back(list_of(problem->ports[p], layout.schedule.lists[p]));
+    for (std::size_t p = 0; p < problem.ports.size(); ++p) listed.lists.push_back(list_of(problem.ports[p], layout.schedule.lists[p]));
     gates_ = std::move(listed);
-    r_.gates = GatePlan{std::move(*problem), std::move(layout.schedule)};
+    r_.gates = GatePlan{std::move(problem), std::move(layout.schedule)};
   }
 
   SetGates list_of(const GatedPort& port, const GateList& list) const {
@@ -71,32 +73,65 @@ class GateResolver {
     return set;
   }
 
-  void report(const GateProblem& problem, const GateConflict& conflict) {
-    const std::string& first = problem.streams[conflict.first].name;
-    const std::string& second = problem.streams[conflict.second].name;
-    const std::string& port = problem.ports[conflict.port].name;
-    const auto from_to = [](Duration from, Duration until) { return json::to_text(from) + " to " + json::to_text(until); };
-    if (conflict.kind == GateConflict::Kind::cycle_too_long) {
-      diagnostics_.error(gates_.where.place(), "gates with too long a cycle",
-                         {"at " + json::quote(port) + " " + std::to_string(conflict.entries) + " entries or more in a cycle of " + json::to_text(conflict.cycle) + ", with " +
-                              json::quote(first) + " every " + json::to_text(problem.streams[conflict.first].period) + " and " + json::quote(second) + " every " +
-                              json::to_text(problem.streams[conflict.second].period),
-                          "periods with a common multiple that takes at most " + std::to_string(most_gate_entries) + " entries and " + json::to_text(longest_gate_cycle)});
-      return;
+  /// At the streams that make them: of two the later one in the file. All that is of one kind at one place is one diagnostic.
+  void report(const StreamsToGate& gated, const std::vector<GateConflict>& conflicts) {
+    std::vector<Grouped> groups;
+    for (const GateConflict& conflict : conflicts) {
+      const json::Place place = r_.streams[gated.streams[std::max(conflict.first, conflict.second)].value].where.at(conflict.kind == GateConflict::Kind::cycle_too_long ? "every" : "offset");
+      const bool meets_itself = conflict.first == conflict.second;
+      const auto same = [&](const Grouped& each) { return each.kind == conflict.kind && each.meets_itself == meets_itself && each.place.pointer == place.pointer; };
+      auto group = std::ranges::find_if(groups, same);
+      if (group == groups.end()) group = groups.insert(groups.end(), {conflict.kind, meets_itself, place, {}, 0});
+      ++group->count;
+      if (group->first.size() < 3) group->first.push_back(words_of(gated.problem, conflict));
     }
+    for (const Grouped& group : groups) {
+      std::string found;
+      for (const std::string& one : group.first) found += (found.empty() ? "" : "; ") + one;
+      if (group.count > group.first.size()) found += "; and " + std::to_string(group.count - group.first.size()) + " more";
+      tell(group, std::move(found));
+    }
+  }
+
+  struct Grouped {
+    GateConflict::Kind kind = GateConflict::Kind::overlap;
+    bool meets_itself = false;
+    json::Place place;
+    std::vector<std::string> first;
+    std::size_t count = 0;
+  };
+
+  void tell(const Grouped& group, std::string found) {
+    switch (group.kind) {
+      case GateConflict::Kind::cycle_too_long:
+        diagnostics_.error(group.place, "gates with too long a cycle",
+                           {std::move(found), "periods with a common multiple that takes at most " + std::to_string(most_gate_entries) + " entries and " + json::to_text(longest_gate_cycle)});
+        return;
+      case GateConflict::Kind::order:
+        diagnostics_.error(group.place, "frames that may come in any order",
+                           {std::move(found), "\"offset\": \"auto\", phases that are further apart, or another class, so that the first does not wait in the other's window"});
+        return;
+      case GateConflict::Kind::overlap:
+        diagnostics_.error(group.place, "windows that overlap",
+                           {std::move(found), group.meets_itself ? "a period that is longer than the window" : "\"offset\": \"auto\", or offsets or \"phases\" that keep them apart"});
+    }
+  }
+
+  static std::string words_of(const GateProblem& problem, const GateConflict& conflict) {
+    const std::string first = json::quote(problem.streams[conflict.first].name);
+    const std::string second = json::quote(problem.streams[conflict.second].name);
+    const std::string at = "at " + json::quote(problem.ports[conflict.port].name) + " ";
+    const auto from_to = [](Duration from, Duration until) { return json::to_text(from) + " to " + json::to_text(until); };
+    if (conflict.kind == GateConflict::Kind::cycle_too_long)
+      return at + std::to_string(conflict.entries) + " entries or more in a cycle of " + json::to_text(conflict.cycle) + ", with " + first + " every " +
+             json::to_text(problem.streams[conflict.first].period) + " and " + second + " every " + json::to_text(problem.streams[conflict.second].period);
     if (conflict.kind == GateConflict::Kind::order) {
       const auto when = [&](Duration from, Duration until) { return from == until ? "at " + json::to_text(from) : "from " + from_to(from, until); };
-      diagnostics_.error(gates_.where.place(), "frames that may come in any order",
-                         {"at " + json::quote(port) + " " + json::quote(first) + " " + when(conflict.first_from, conflict.first_until) + " and " + json::quote(second) + " " +
-                              when(conflict.second_from, conflict.second_until) + " of their periods, as operating system and jitter go",
-                          "phases that are further apart, or another class, so that the first does not wait in the other's window"});
-      return;
+      return at + first + " " + when(conflict.first_from, conflict.first_until) + " and " + second + " " + when(conflict.second_from, conflict.second_until) +
+             " of their periods, as operating system and jitter go";
     }
-    const std::string every = " of each " + json::to_text(conflict.cycle);
-    diagnostics_.error(gates_.where.place(), "windows that overlap",
-                       {"at " + json::quote(port) + " " + json::quote(first) + " from " + from_to(conflict.first_from, conflict.first_until) + " and " + json::quote(second) + " from " +
-                            from_to(conflict.second_from, conflict.second_until) + every,
-                        conflict.first == conflict.second ? "a period that is longer than the window" : "an \"offset\" or \"phases\" that keep them apart"});
+    return at + first + " from " + from_to(conflict.first_from, conflict.first_until) + " and " + second + " from " + from_to(conflict.second_from, conflict.second_until) + " of each " +
+           json::to_text(conflict.cycle);
   }
 
   void apply(const SetGates& set, std::size_t index) {
@@ -114,14 +149,24 @@ class GateResolver {
   }
 
   Resolved& r_;
+  Timings& timings_;
   NetworkGates& gates_;
   json::Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
-void resolve_gates(Resolved& resolved, json::Diagnostics& diagnostics) {
-  if (resolved.scenario.gates) GateResolver(resolved, diagnostics).run();
+void resolve_gates_and_offsets(Resolved& resolved, json::Diagnostics& diagnostics) {
+  Timings timings;
+  if (!diagnostics.has_errors()) timings = timings_of(resolved);
+  if (resolved.scenario.gates) GateResolver(resolved, timings, diagnostics).run();
+  if (!diagnostics.has_errors()) choose_other_offsets(resolved, timings, diagnostics);
+  if (diagnostics.has_errors()) return;
+  for (Program& program : resolved.scenario.programs) {
+    if (!program.offset || !program.offset->is_auto) continue;
+    diagnostics.warning(program.where.at("offset"), "an offset that nobody gets", {"\"auto\" beside \"phases\" of all participants", "one of them"});
+    program.offset = Duration();
+  }
 }
 
 }  // namespace takt::scenario

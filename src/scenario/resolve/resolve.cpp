@@ -64,7 +64,7 @@ class Resolver {
     resolve_ingress(r_, diagnostics_);
     r_.ports = demands_of(r_, diagnostics_);
     check_policing(r_, diagnostics_);
-    resolve_gates(r_, diagnostics_);
+    resolve_gates_and_offsets(r_, diagnostics_);
     check_cut_through(r_, diagnostics_);
     check_slopes(r_, diagnostics_);
     add_launch_classes(r_, diagnostics_);
@@ -215,6 +215,8 @@ class Resolver {
         diagnostics_.error(stream.where.at("jitter"), "jitter above the period", {json::to_text(stream.jitter), "at most " + json::to_text(*stream.every)});
       return models::PeriodicSchedule{stream.offset.value_or(Duration()), *stream.every, stream.jitter};
     }
+    if (stream.offset && stream.offset->is_auto)
+      diagnostics_.error_unless(diagnostics_.is_refused(stream.where.at("every")), stream.where.at("offset"), "an offset that is chosen belongs to a periodic stream", {"\"auto\" without \"every\"", "\"every\", or an offset"});
     if (stream.jitter > Duration())
       diagnostics_.error(stream.where.at("jitter"), "jitter belongs to a periodic stream", {"\"jitter\" without \"every\"", "\"every\""});
     if (stream.exponential) return models::ExponentialSchedule{stream.offset.value_or(Duration()), stream.exponential->mean};

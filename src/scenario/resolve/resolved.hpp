@@ -191,6 +191,13 @@ struct ResolvedRedundancy {
   bool merges_in_host = false;                 ///< at the listener
 };
 
+/// What takt chose where a file says "offset": "auto".
+struct ResolvedOffset {
+  std::string name;                            ///< the stream, "PROGRAM/state/PARTICIPANT", or a program with roles
+  Duration offset;
+  Duration period;
+};
+
 /// A scenario as it runs. Its parts point into one another (programs and redundancies into the scenario, streams by number into the plan), so it stays where
 /// it was made.
 struct Resolved {
@@ -212,6 +219,7 @@ struct Resolved {
   std::vector<ResolvedAction> script;     ///< by time
   std::vector<PortDemand> ports;          ///< those that carry something
   std::optional<GatePlan> gates = {};     ///< if they were laid out
+  std::vector<ResolvedOffset> chosen_offsets = {};  ///< those with windows first
   std::vector<RequiredFigure> requirements;  ///< in the order of scenario.require, an entry of which may ask for several
 };
 

@@ -56,7 +56,7 @@ class Answers(unittest.TestCase):
         self.assertEqual((status, err, answer["states"], answer["candidates"]), (0, "", 12709, 2))
         self.assertEqual(answer["properties"]["B1"], "holds")
         self.assertNotIn("B1", json.loads(explore("--slaves", 1, "--calls", 1, "--format", "json")[1])["properties"])
-        for wrong, why in ((("--faults", "forge"), "loss, crash, restart and timeout"), (("--variant", "paper"), "paper knows no roles"), (("--joining",), "single groups")):
+        for wrong, why in ((("--faults", "forge"), "loss, crash, restart and timeout"), (("--variant", "paper"), "paper knows no roles"), (("--joining",), "join by themselves")):
             status, _, err = explore("--slaves", 1, "--candidates", 2, *wrong)
             self.assertEqual((status, why in err), (2, True), err)
 

@@ -73,9 +73,17 @@ std::string with_roles(const std::string& script, const std::string& faults = ""
     "script": [{"at": "20.1ms", "program": "p", "call": "Start"})" + script + "], \"faults\": [" + faults + "]");
 }
 
-std::vector<std::string> bindings(const RunResult& result) {
+/// A line of m and c, and c the master of a role that a and b may have.
+std::string roles_within(const std::string& script, const std::string& faults = "", const std::string& more = "") {
+  return scenario("", R"("duration": "400ms", "programs": [{"name": "o", "master": "m", "slaves": ["c"], "cycle": "1ms"},
+    {"name": "i", "within": "o", "master": "c", "roles": [{"name": "r", "skill": "x"}], "announce_every": "2ms", "cycle": "500us")" + more + R"(,
+     "process_data": [{"name": "up", "from": "r", "fields": {"v": "Float"}}]}],
+    "script": [{"at": "20.1ms", "program": "o", "call": "Start"})" + script + "], \"faults\": [" + faults + "]");
+}
+
+std::vector<std::string> bindings(const RunResult& result, std::size_t program = 0) {
   std::vector<std::string> all;
-  for (const results::BindingResult& each : result.programs[0].bindings) all.push_back(each.role + " " + each.node);
+  for (const results::BindingResult& each : result.programs[program].bindings) all.push_back(each.role + " " + each.node);
   return all;
 }
 
@@ -107,6 +115,52 @@ TEST(Roles, AbsentOnesJoinAndLeaversAreLetGo) {
 TEST(Roles, ARestartedMasterBindsAnew) {
   const std::string crash = R"({"kind": "crash", "node": "m", "at": "100ms", "for": "5ms"})";
   expect_all(run(with_roles(R"(, {"at": "200.1ms", "program": "p", "call": "Start"})", crash)), "Running");
+}
+
+TEST(NestedRoles, StartWithTheGroupOutsideAndPassMethodsBothWays) {
+  const RunResult result = run(roles_within(""));
+  expect_all(result, "Running");
+  EXPECT_EQ(bindings(result, 1), (std::vector<std::string>{"r a"}));
+  EXPECT_GT(result.programs[1].process_data_received, 500u);
+  ASSERT_EQ(result.programs[0].tree_reactions.size(), 1u);
+  EXPECT_EQ(result.programs[0].tree_reactions[0].initiator, "o/m");
+  EXPECT_EQ(result.programs[0].tree_reactions[0].duration(), result.programs[0].reactions[0].duration()) << "the outer master is the last to run";
+  expect_all(run(roles_within(R"(, {"at": "100.1ms", "program": "i", "call": "Suspend", "on": "r"})")), "Suspended");
+  expect_all(run(roles_within(R"(, {"at": "100.1ms", "program": "o", "call": "Suspend"}, {"at": "150.1ms", "program": "i", "call": "Reset", "on": "r"})")), "Ready");
+}
+
+// The role is bound anew in Halted, so the line stands still until somebody starts it again.
+TEST(NestedRoles, WhoeverLeavesOrCrashesHaltsTheTreeAndIsReplaced) {
+  const std::string again = R"(, {"at": "300.1ms", "program": "o", "call": "Start"})";
+  const std::string leave = R"(, {"at": "100.1ms", "leave": "a"})";
+  const std::string crash = R"({"kind": "crash", "node": "a", "at": "100ms"})";
+  for (const auto& [script, fault] : {std::pair(leave, std::string()), std::pair(std::string(), crash)}) {
+    const RunResult stays = run(roles_within(script, fault));
+    expect_all(stays, "Halted");
+    EXPECT_EQ(bindings(stays, 1), (std::vector<std::string>{"r a", "r b"}));
+    expect_all(run(roles_within(script + again, fault)), "Running");
+  }
+}
+
+// Whoever has no tool cannot run: it halts the group outside, which has started in good faith, and follows when the tool is there.
+TEST(NestedRoles, AStartFollowsNoFurtherThanARoleThatNobodyHas) {
+  const std::string absent = R"(, "candidates": ["a"], "absent": ["a"])";
+  const RunResult result = run(roles_within("", "", absent));
+  expect_all(result, "Halted");
+  ASSERT_EQ(result.programs[0].tree_reactions.size(), 2u);
+  EXPECT_EQ(result.programs[0].tree_reactions[0].outcome, "superseded");
+  EXPECT_EQ(result.programs[0].tree_reactions[1].kind, "halt");
+  EXPECT_EQ(result.programs[0].tree_reactions[1].cause, "leave");
+  EXPECT_TRUE(result.programs[1].reactions.empty()) << "the inner group has never moved";
+  expect_all(run(roles_within(R"(, {"at": "100ms", "join": "a"}, {"at": "200.1ms", "program": "o", "call": "Start"})", "", absent)), "Running");
+}
+
+TEST(NestedRoles, ACrashOfEitherMasterHaltsTheTreeAndItStartsAgain) {
+  for (const char* node : {"m", "c"}) {
+    const std::string fault = fmt::format(R"({{"kind": "crash", "node": "{}", "at": "100ms", "for": "50ms"}})", node);
+    expect_all(run(roles_within("", fault)), "Halted");
+    expect_all(run(roles_within(R"(, {"at": "300.1ms", "program": "o", "call": "Start"})", fault)), "Running");
+  }
 }
 
 }  // namespace

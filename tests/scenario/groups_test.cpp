@@ -148,7 +148,7 @@ TEST(NestedRoles, AStartFollowsNoFurtherThanARoleThatNobodyHas) {
   const RunResult result = run(roles_within("", "", absent));
   expect_all(result, "Halted");
   ASSERT_EQ(result.programs[0].tree_reactions.size(), 2u);
-  EXPECT_EQ(result.programs[0].tree_reactions[0].outcome, "superseded");
+  EXPECT_TRUE(result.programs[0].tree_reactions[0].superseded);
   EXPECT_EQ(result.programs[0].tree_reactions[1].kind, "halt");
   EXPECT_EQ(result.programs[0].tree_reactions[1].cause, "leave");
   EXPECT_TRUE(result.programs[1].reactions.empty()) << "the inner group has never moved";

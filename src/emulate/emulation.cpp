@@ -153,8 +153,7 @@ class Emulation {
 
   LiveNode& node_of(std::uint32_t program, std::optional<std::uint8_t> candidate) {
     return *std::find_if(nodes_.begin(), nodes_.end(), [&](const LiveNode& each) {
-      const PlannedNode::Part& part = each.plan->parts.front();
-      return part.program == program && part.candidate == candidate && (part.candidate || part.participant == 0);
+      return std::ranges::any_of(each.plan->parts, [&](const PlannedNode::Part& part) { return part.program == program && part.candidate == candidate && (part.candidate || part.participant == 0); });
     });
   }
   LiveNode* node_called(std::uint32_t program, const std::string& candidate) {

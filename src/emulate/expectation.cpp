@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "emulate/log_reader.hpp"
+#include "emulate/node_status.hpp"
 #include "json/document.hpp"
 #include "scenario/run/run.hpp"
 
@@ -82,9 +83,11 @@ std::optional<GroupState> group_of_status(const std::string& status, const scena
   json::Diagnostics diagnostics;
   const auto document = json::parse(status, "status", diagnostics);
   if (!document) return std::nullopt;
-  const json::Node* const roles = items_of(document->root(), "roles", program.description->roles.size());
-  const json::Node* const candidates = items_of(document->root(), "candidates", program.candidates().size());
-  const auto own = state_of_status(status);
+  const json::Node* master = &document->root();  // of a nested Program beside the one outside
+  for_each_program(document->root(), [&](const json::Node& each) { master = emulate::text_of(each, "program") == program.name ? &each : master; });
+  const json::Node* const roles = items_of(*master, "roles", program.description->roles.size());
+  const json::Node* const candidates = items_of(*master, "candidates", program.candidates().size());
+  const auto own = published_state_from(emulate::text_of(*master, "state"));
   if (roles == nullptr || candidates == nullptr || !own) return std::nullopt;
   GroupState state;
   state.states.assign(roles->items.size() + 1, handshake::PublishedState::Halted);

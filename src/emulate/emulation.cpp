@@ -58,6 +58,16 @@ struct LiveNode {
   std::unique_ptr<Child> child;  ///< null while its host is down
 };
 
+/// The process that runs the applications of a host.
+struct LiveApplications {
+  const PlannedApplications* plan = nullptr;
+  std::string file;
+  std::string log;
+  std::string errors;
+  bool is_whole = true;          ///< never killed
+  std::unique_ptr<Child> child;  ///< null while its host is down
+};
+
 class Emulation {
  public:
   Emulation(const scenario::Resolved& resolved, const Plan& plan, const Settings& settings, Result& result, std::string& problem)
@@ -72,7 +82,7 @@ class Emulation {
     name_files();
     for (LiveNode& node : nodes_)
       if (!joins_at_start(node)) start(node, false);
-    const bool done = start_candidates() && wait_for_nodes() && run_script();
+    const bool done = start_candidates() && wait_for_nodes() && start_applications() && run_script();
     stop();
     keep_files();
     return done && collect();
@@ -83,6 +93,13 @@ class Emulation {
     simulation_ = std::make_unique<scenario::Run>(resolved_);
     simulation_->advance();
     for (std::size_t p = 0; p < resolved_.programs.size(); ++p) simulated_.push_back(history_of(simulation_->monitor(p)));
+    for (std::size_t a = 0; a < resolved_.applications.size(); ++a) {
+      std::vector<ThreadCounts>& threads = simulated_threads_.emplace_back();
+      for (std::size_t t = 0; t < resolved_.applications[a].threads.size(); ++t) {
+        const scenario::ThreadFigures figures = simulation_->thread(a, t, sim::Duration());
+        threads.push_back({figures.activations, figures.activations - figures.done, figures.published, figures.arrived, figures.lost});
+      }
+    }
     pace_.emplace(simulated_);
   }
 
@@ -101,6 +118,56 @@ class Emulation {
       node.is_absent = planned.is_absent;
       write_file(node);
     }
+  }
+
+  /// All at once, when the bridges forward, so that their counts are those of one time.
+  bool start_applications() {
+    if (plan_.applications.empty()) return true;
+    if (const std::string failed = machine_->wait_for_bridges(); !failed.empty()) return fail(failed);
+    for (const PlannedApplications& planned : plan_.applications) {
+      if (const std::string failed = machine_->add_address(planned.host, planned.interface, planned.address); !failed.empty()) return fail(failed);
+      LiveApplications& live = applications_.emplace_back();
+      const std::string path = machine_->folder() + "/" + planned.name;
+      live.plan = &planned;
+      live.file = path + ".json";
+      live.log = path + ".jsonl";
+      live.errors = path + ".err";
+      std::ofstream(live.file) << planned.config;
+      start(live, false);
+    }
+    for (const LiveApplications& live : applications_) {
+      const auto has_told = [&live] {
+        std::error_code absent;
+        const std::uintmax_t size = fs::file_size(live.log, absent);
+        return !absent && size > 0;
+      };
+      if (!wait_for(has_told, "the applications of " + name_of(live) + " do not start")) return false;
+    }
+    return true;
+  }
+
+  void start(LiveApplications& live, bool again) {
+    Child::Settings settings;
+    settings.command = {own_executable(), "node", live.file};
+    settings.network_namespace = machine_->namespace_of(live.plan->host);
+    settings.output = live.log;
+    settings.errors = live.errors;
+    settings.append = again;
+    live.child = std::make_unique<Child>(settings);
+  }
+  const std::string& name_of(const LiveApplications& live) const { return resolved_.topology.nodes[live.plan->host].name; }
+
+  /// They end by themselves after the duration of the scenario, which nobody else waits for.
+  bool check_applications() {
+    for (LiveApplications& live : applications_) {
+      if (!live.child || live.child->is_running() || live.child->wait(0) == 0) continue;
+      return fail("the applications of " + name_of(live) + " have ended: " + text_in(live.errors));
+    }
+    return true;
+  }
+  static std::string text_in(const std::string& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   }
 
   static void write_file(const LiveNode& node) {
@@ -214,11 +281,9 @@ class Emulation {
   bool check_nodes() {
     for (LiveNode& node : nodes_) {
       if (!node.child || node.child->is_running()) continue;
-      std::ifstream errors(node.errors);
-      std::string said((std::istreambuf_iterator<char>(errors)), {});
-      return fail("node " + node.name + " has ended: " + said);
+      return fail("node " + node.name + " has ended: " + text_in(node.errors));
     }
-    return true;
+    return check_applications();
   }
 
   /// Until each node has heard its peers: a bridge takes a second before it forwards.
@@ -376,6 +441,11 @@ class Emulation {
       }
       if (!change.up) node.child.reset();
     }
+    for (LiveApplications& live : applications_) {
+      if (live.plan->host != change.host) continue;
+      live.is_whole = false;
+      change.up ? start(live, true) : live.child.reset();
+    }
     return true;
   }
   bool note(std::string text) {
@@ -384,10 +454,14 @@ class Emulation {
   }
 
   void stop() {
+    for (LiveApplications& live : applications_)
+      if (live.child && (result_.interrupted || !problem_.empty() || !live.is_whole || !live.child->wait(stop_timeout_ms))) live.child->send(SIGTERM);
     for (LiveNode& node : nodes_)
       if (node.child) node.child->send(SIGTERM);
     for (LiveNode& node : nodes_)
       if (node.child) node.child->wait(stop_timeout_ms);
+    for (LiveApplications& live : applications_)
+      if (live.child) live.child->wait(stop_timeout_ms);
   }
 
   void keep_files() {
@@ -396,6 +470,9 @@ class Emulation {
     fs::create_directories(settings_.keep, error);
     for (const LiveNode& node : nodes_)
       for (const std::string& file : {node.file, node.log, node.errors})
+        fs::copy_file(file, fs::path(settings_.keep) / fs::path(file).filename(), fs::copy_options::overwrite_existing, error);
+    for (const LiveApplications& live : applications_)
+      for (const std::string& file : {live.file, live.log, live.errors})
         fs::copy_file(file, fs::path(settings_.keep) / fs::path(file).filename(), fs::copy_options::overwrite_existing, error);
     if (error) note(settings_.keep + ": " + error.message());
   }
@@ -412,6 +489,23 @@ class Emulation {
       for (std::size_t role = 0; role < program.description->roles.size(); ++role)
         result_.programs.back().roles.push_back({program.participant_names[role + 1], nodes_with(p, role), roles.histories[p][role].nodes});
     }
+    return collect_applications();
+  }
+
+  bool collect_applications() {
+    EmulatedThreads emulated;
+    std::vector<bool> is_whole(resolved_.applications.size(), true);
+    for (const LiveApplications& live : applications_) {
+      std::ifstream log(live.log);
+      std::string last;
+      for (std::string line; std::getline(log, line);)
+        if (!line.empty()) last = line;
+      const bool has_told = add_threads(last, emulated);
+      if (!has_told && live.is_whole) return fail("the applications of " + name_of(live) + " have told nothing at their end: " + text_in(live.errors));
+      for (std::size_t a = 0; a < is_whole.size(); ++a)
+        if (resolved_.applications[a].node.value == live.plan->host) is_whole[a] = live.is_whole;
+    }
+    result_.applications = compare_applications(resolved_, simulated_threads_, emulated, is_whole);
     return true;
   }
 
@@ -461,7 +555,9 @@ class Emulation {
   std::optional<Expectation> expectation_;  // nothing without roles, or once it has been missed
   bool has_roles_ = false;
   std::vector<LoggedStep> steps_;
+  std::vector<std::vector<ThreadCounts>> simulated_threads_;  // by application
   std::deque<LiveNode> nodes_;  // behind machine_, so that they end before it goes
+  std::deque<LiveApplications> applications_;
 };
 
 }  // namespace
@@ -471,7 +567,8 @@ bool ProgramResult::is_same() const {
 }
 
 bool Result::is_same() const {
-  return std::all_of(programs.begin(), programs.end(), [](const ProgramResult& each) { return each.is_same(); }) && invariants.violated.empty();
+  return std::all_of(programs.begin(), programs.end(), [](const ProgramResult& each) { return each.is_same(); }) && invariants.violated.empty() &&
+         std::ranges::all_of(applications, [](const ApplicationComparison& each) { return each.is_same(); });
 }
 
 bool emulate(const scenario::Resolved& resolved, const Plan& plan, const Settings& settings, Result& result, std::string& problem) {

@@ -50,8 +50,8 @@ class ThreadComparer {
     };
     if (!is_whole_[a]) return;   // what it did before it was killed is not known
     at_all(made.simulated.activations, made.emulated.activations, "activations");
-    const auto apart = static_cast<std::uint64_t>(not_together / thread.every + 2);
     const auto [less, more] = std::minmax(made.simulated.activations, made.emulated.activations);
+    const std::uint64_t apart = std::max(more / 4, static_cast<std::uint64_t>(not_together / thread.every + 2));
     if (less != 0 && more - less > apart) differ(std::to_string(made.emulated.activations) + " activations, simulated " + std::to_string(made.simulated.activations));
     if (thread.publishes) at_all(made.simulated.published, made.emulated.published, "values published");
     if (thread.publishes || !hears_whole_ones(thread)) return;

@@ -45,7 +45,7 @@ bool add_threads(const std::string& line, EmulatedThreads& threads);
 
 /// `simulated` by application and thread of the resolved scenario; `is_whole` by application.
 ///
-/// The same are: who is activated at all, and how often, but for a tenth of a second, since nodes do not begin and end at one instant; who publishes and who gets values
+/// The same are: who is activated at all, and how often, but for a quarter and a tenth of a second, since nodes do not begin and end at one instant; who publishes and who gets values
 /// at all; and nobody gets more values than were sent to it. How many activations are missed and values lost shows how busy the machine was.
 std::vector<ApplicationComparison> compare_applications(const scenario::Resolved& resolved, const std::vector<std::vector<ThreadCounts>>& simulated, const EmulatedThreads& emulated,
                                                         const std::vector<bool>& is_whole);

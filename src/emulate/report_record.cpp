@@ -88,7 +88,7 @@ const json::Record& describe(json::Type<ThreadComparison>) {
       json::output<&ThreadComparison::name>("name", "The thread."),
       json::output<&ThreadComparison::topic>("topic", "What it publishes or takes."),
       json::output<&ThreadComparison::publishes>("publishes", "It publishes; else it takes."),
-      json::output<&ThreadComparison::is_same>("same", "It is activated as often as the simulated one, but for a tenth of a second, publishes or gets values if that does, and gets no more than were published."),
+      json::output<&ThreadComparison::is_same>("same", "It is activated as often as the simulated one, but for a quarter, publishes or gets values if that does, and gets no more than were published."),
       json::output<&ThreadComparison::simulated>("simulated", "What the simulated one did."),
       json::output<&ThreadComparison::emulated>("emulated", "What the real one did."),
       json::output<&ThreadComparison::differs>("differs", "What is not as simulated."),

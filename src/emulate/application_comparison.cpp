@@ -75,6 +75,18 @@ class ThreadComparer {
 
 bool ApplicationComparison::is_same() const { return std::ranges::all_of(threads, &ThreadComparison::is_same); }
 
+std::vector<std::vector<ThreadCounts>> threads_of(const scenario::Run& run) {
+  std::vector<std::vector<ThreadCounts>> all;
+  for (std::size_t a = 0; a < run.resolved().applications.size(); ++a) {
+    std::vector<ThreadCounts>& threads = all.emplace_back();
+    for (std::size_t t = 0; t < run.resolved().applications[a].threads.size(); ++t) {
+      const scenario::ThreadFigures figures = run.thread(a, t, sim::Duration());
+      threads.push_back({figures.activations, figures.activations - figures.done, figures.published, figures.arrived, figures.lost});
+    }
+  }
+  return all;
+}
+
 bool add_threads(const std::string& line, EmulatedThreads& threads) {
   json::Diagnostics diagnostics;
   const auto document = json::parse(line, "statistics", diagnostics);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/resolve/resolved.hpp"
+#include "scenario/run/run.hpp"
 
 namespace takt::emulate {
 
@@ -36,6 +36,9 @@ struct ApplicationComparison {
   std::vector<ThreadComparison> threads;
   bool is_same() const;
 };
+
+/// What the simulated run has counted: by application and thread.
+std::vector<std::vector<ThreadCounts>> threads_of(const scenario::Run& run);
 
 /// What the real nodes have counted: by application and thread.
 using EmulatedThreads = std::map<std::pair<std::string, std::string>, ThreadCounts>;

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 
+#include "emulate/application_processes.hpp"
 #include "emulate/child.hpp"
 #include "emulate/expectation.hpp"
 #include "emulate/log_reader.hpp"
@@ -58,16 +59,6 @@ struct LiveNode {
   std::unique_ptr<Child> child;  ///< null while its host is down
 };
 
-/// The process that runs the applications of a host.
-struct LiveApplications {
-  const PlannedApplications* plan = nullptr;
-  std::string file;
-  std::string log;
-  std::string errors;
-  bool is_whole = true;          ///< never killed
-  std::unique_ptr<Child> child;  ///< null while its host is down
-};
-
 class Emulation {
  public:
   Emulation(const scenario::Resolved& resolved, const Plan& plan, const Settings& settings, Result& result, std::string& problem)
@@ -93,13 +84,7 @@ class Emulation {
     simulation_ = std::make_unique<scenario::Run>(resolved_);
     simulation_->advance();
     for (std::size_t p = 0; p < resolved_.programs.size(); ++p) simulated_.push_back(history_of(simulation_->monitor(p)));
-    for (std::size_t a = 0; a < resolved_.applications.size(); ++a) {
-      std::vector<ThreadCounts>& threads = simulated_threads_.emplace_back();
-      for (std::size_t t = 0; t < resolved_.applications[a].threads.size(); ++t) {
-        const scenario::ThreadFigures figures = simulation_->thread(a, t, sim::Duration());
-        threads.push_back({figures.activations, figures.activations - figures.done, figures.published, figures.arrived, figures.lost});
-      }
-    }
+    simulated_threads_ = threads_of(*simulation_);
     pace_.emplace(simulated_);
   }
 
@@ -120,54 +105,11 @@ class Emulation {
     }
   }
 
-  /// All at once, when the bridges forward, so that their counts are those of one time.
   bool start_applications() {
-    if (plan_.applications.empty()) return true;
-    if (const std::string failed = machine_->wait_for_bridges(); !failed.empty()) return fail(failed);
-    for (const PlannedApplications& planned : plan_.applications) {
-      if (const std::string failed = machine_->add_address(planned.host, planned.interface, planned.address); !failed.empty()) return fail(failed);
-      LiveApplications& live = applications_.emplace_back();
-      const std::string path = machine_->folder() + "/" + planned.name;
-      live.plan = &planned;
-      live.file = path + ".json";
-      live.log = path + ".jsonl";
-      live.errors = path + ".err";
-      std::ofstream(live.file) << planned.config;
-      start(live, false);
-    }
-    for (const LiveApplications& live : applications_) {
-      const auto has_told = [&live] {
-        std::error_code absent;
-        const std::uintmax_t size = fs::file_size(live.log, absent);
-        return !absent && size > 0;
-      };
-      if (!wait_for(has_told, "the applications of " + name_of(live) + " do not start")) return false;
-    }
-    return true;
-  }
-
-  void start(LiveApplications& live, bool again) {
-    Child::Settings settings;
-    settings.command = {own_executable(), "node", live.file};
-    settings.network_namespace = machine_->namespace_of(live.plan->host);
-    settings.output = live.log;
-    settings.errors = live.errors;
-    settings.append = again;
-    live.child = std::make_unique<Child>(settings);
-  }
-  const std::string& name_of(const LiveApplications& live) const { return resolved_.topology.nodes[live.plan->host].name; }
-
-  /// They end by themselves after the duration of the scenario, which nobody else waits for.
-  bool check_applications() {
-    for (LiveApplications& live : applications_) {
-      if (!live.child || live.child->is_running() || live.child->wait(0) == 0) continue;
-      return fail("the applications of " + name_of(live) + " have ended: " + text_in(live.errors));
-    }
-    return true;
-  }
-  static std::string text_in(const std::string& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    applications_ = std::make_unique<ApplicationProcesses>(resolved_, plan_, *machine_);
+    if (const std::string failed = applications_->start(); !failed.empty()) return fail(failed);
+    const std::string last = applications_->not_started();
+    return wait_for([this] { return applications_->not_started().empty(); }, "the applications of " + last + " do not start");
   }
 
   static void write_file(const LiveNode& node) {
@@ -281,9 +223,12 @@ class Emulation {
   bool check_nodes() {
     for (LiveNode& node : nodes_) {
       if (!node.child || node.child->is_running()) continue;
-      return fail("node " + node.name + " has ended: " + text_in(node.errors));
+      std::ifstream errors(node.errors);
+      std::string said((std::istreambuf_iterator<char>(errors)), {});
+      return fail("node " + node.name + " has ended: " + said);
     }
-    return check_applications();
+    const std::string failed = applications_ ? applications_->failure() : "";
+    return failed.empty() || fail(failed);
   }
 
   /// Until each node has heard its peers: a bridge takes a second before it forwards.
@@ -441,11 +386,7 @@ class Emulation {
       }
       if (!change.up) node.child.reset();
     }
-    for (LiveApplications& live : applications_) {
-      if (live.plan->host != change.host) continue;
-      live.is_whole = false;
-      change.up ? start(live, true) : live.child.reset();
-    }
+    if (applications_) applications_->set_host(change.host, change.up);
     return true;
   }
   bool note(std::string text) {
@@ -454,26 +395,21 @@ class Emulation {
   }
 
   void stop() {
-    for (LiveApplications& live : applications_)
-      if (live.child && (result_.interrupted || !problem_.empty() || !live.is_whole || !live.child->wait(stop_timeout_ms))) live.child->send(SIGTERM);
+    if (applications_) applications_->stop(result_.interrupted || !problem_.empty());
     for (LiveNode& node : nodes_)
       if (node.child) node.child->send(SIGTERM);
     for (LiveNode& node : nodes_)
       if (node.child) node.child->wait(stop_timeout_ms);
-    for (LiveApplications& live : applications_)
-      if (live.child) live.child->wait(stop_timeout_ms);
+    if (applications_) applications_->wait();
   }
 
   void keep_files() {
     if (settings_.keep.empty()) return;
     std::error_code error;
     fs::create_directories(settings_.keep, error);
-    for (const LiveNode& node : nodes_)
-      for (const std::string& file : {node.file, node.log, node.errors})
-        fs::copy_file(file, fs::path(settings_.keep) / fs::path(file).filename(), fs::copy_options::overwrite_existing, error);
-    for (const LiveApplications& live : applications_)
-      for (const std::string& file : {live.file, live.log, live.errors})
-        fs::copy_file(file, fs::path(settings_.keep) / fs::path(file).filename(), fs::copy_options::overwrite_existing, error);
+    std::vector<std::string> files = applications_ ? applications_->files() : std::vector<std::string>();
+    for (const LiveNode& node : nodes_) files.insert(files.end(), {node.file, node.log, node.errors});
+    for (const std::string& file : files) fs::copy_file(file, fs::path(settings_.keep) / fs::path(file).filename(), fs::copy_options::overwrite_existing, error);
     if (error) note(settings_.keep + ": " + error.message());
   }
 
@@ -494,17 +430,8 @@ class Emulation {
 
   bool collect_applications() {
     EmulatedThreads emulated;
-    std::vector<bool> is_whole(resolved_.applications.size(), true);
-    for (const LiveApplications& live : applications_) {
-      std::ifstream log(live.log);
-      std::string last;
-      for (std::string line; std::getline(log, line);)
-        if (!line.empty()) last = line;
-      const bool has_told = add_threads(last, emulated);
-      if (!has_told && live.is_whole) return fail("the applications of " + name_of(live) + " have told nothing at their end: " + text_in(live.errors));
-      for (std::size_t a = 0; a < is_whole.size(); ++a)
-        if (resolved_.applications[a].node.value == live.plan->host) is_whole[a] = live.is_whole;
-    }
+    std::vector<bool> is_whole;
+    if (const std::string failed = applications_->collect(emulated, is_whole); !failed.empty()) return fail(failed);
     result_.applications = compare_applications(resolved_, simulated_threads_, emulated, is_whole);
     return true;
   }
@@ -514,14 +441,6 @@ class Emulation {
     for (const scenario::BindingRecord& record : simulation_->roles(program)->history())
       if (record.role == role) names.push_back(record.candidate ? resolved_.topology.nodes[resolved_.programs[program].candidates()[*record.candidate].node.value].name : std::string());
     return names;
-  }
-
-  static History history_of(const scenario::ProgramMonitor& monitor) {
-    History history;
-    for (const scenario::StateRecord& record : monitor.history()) history.changes.push_back({record.time.ps(), record.participant, record.change});
-    for (const scenario::CallRecord& call : monitor.calls())
-      if (program::is_good(call.status)) history.calls.push_back({call.time.ps(), call.participant, call.method});
-    return history;
   }
 
   /// Appends what the node has logged so far; a line that it has not written to its end yet comes later. Its status is returned in `end`, if it is asked for.
@@ -557,7 +476,7 @@ class Emulation {
   std::vector<LoggedStep> steps_;
   std::vector<std::vector<ThreadCounts>> simulated_threads_;  // by application
   std::deque<LiveNode> nodes_;  // behind machine_, so that they end before it goes
-  std::deque<LiveApplications> applications_;
+  std::unique_ptr<ApplicationProcesses> applications_;
 };
 
 }  // namespace

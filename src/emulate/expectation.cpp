@@ -79,6 +79,14 @@ std::optional<Expectation> expectation_of(const scenario::Resolved& resolved, co
   return expectation;
 }
 
+History history_of(const scenario::ProgramMonitor& monitor) {
+  History history;
+  for (const scenario::StateRecord& record : monitor.history()) history.changes.push_back({record.time.ps(), record.participant, record.change});
+  for (const scenario::CallRecord& call : monitor.calls())
+    if (program::is_good(call.status)) history.calls.push_back({call.time.ps(), call.participant, call.method});
+  return history;
+}
+
 std::optional<GroupState> group_of_status(const std::string& status, const scenario::ResolvedProgram& program) {
   json::Diagnostics diagnostics;
   const auto document = json::parse(status, "status", diagnostics);

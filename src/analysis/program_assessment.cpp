@@ -79,6 +79,22 @@ EventsInARow events_in_a_row(const scenario::Resolved& resolved, const Bounds& b
   return most_in_a_row(events_of(resolved, program), time_to_rest(resolved, bounds, program));
 }
 
+bool is_lost_with_its_ends(const scenario::Resolved& resolved, std::size_t program, const StreamBound& stream) {
+  const auto takes_part_in_tree = [&](models::NodeIndex node) {
+    for (std::size_t p = 0; p < resolved.programs.size(); ++p)
+      if (root_of(resolved, p) == root_of(resolved, program) && takes_part(resolved.programs[p], node)) return true;
+    return false;
+  };
+  return stream.loses_by_faults_only && resolved.plan.impairments.empty() && std::ranges::all_of(resolved.script, [&](const scenario::ResolvedAction& action) {
+    const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what);
+    const bool is_participant = node != nullptr && takes_part_in_tree(node->node);
+    const bool forwards = is_participant && std::ranges::any_of(resolved.streams[stream.index.value].paths, [&](const scenario::Path& path) {
+      return path.front() != node->node.value && path.back() != node->node.value && std::ranges::find(path, node->node.value) != path.end();
+    });
+    return (is_participant && !forwards) || (node == nullptr && !std::holds_alternative<scenario::ResolvedLink>(action.what));
+  });
+}
+
 std::optional<std::int64_t> most_changes_of_roles(const scenario::Resolved& resolved, std::size_t program) {
   // Adopting a halt; three states of a start, and its run; a life that ends and one that begins, their announcement.
   constexpr std::size_t of_one_event = 8;
@@ -96,7 +112,7 @@ std::string silence_of(const scenario::Resolved& resolved, const Bounds& bounds,
   for (const scenario::ResolvedMember& each : program.members) {
     const auto says = [&](models::StreamIndex stream, Duration cycle, Duration timeout) {
       const StreamBound& bound = bounds.streams[stream.value];
-      if (!bound.reaches_all) return bound.name + " may be lost: " + bound.loss_reason;
+      if (!bound.reaches_all && !is_lost_with_its_ends(resolved, static_cast<std::size_t>(&program - resolved.programs.data()), bound)) return bound.name + " may be lost: " + bound.loss_reason;
       const models::OsLatency& os = resolved.plan.os_latencies[resolved.plan.nodes[each.node.value].os_latency];
       // Clocks are never so bad that a time-out is a tenth shorter, or a cycle a tenth longer.
       const bool is_in_time = bound.latency && cycle.ps() + cycle.ps() / 10 + (*bound.latency - bound.least).ps() + os.wake_up.greatest().ps() < timeout.ps() - timeout.ps() / 10;

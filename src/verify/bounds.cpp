@@ -153,8 +153,12 @@ class Prover {
     }
     query.commands = static_cast<std::uint32_t>(std::max<std::size_t>(1, row.calls));
     query.fault_budget = static_cast<std::uint32_t>(row.faults);
-    for (const explore::Fault fault : {explore::Fault::crash, explore::Fault::restart})
-      if (row.faults > 0) query.faults.insert(fault);
+    const bool comes_back = std::ranges::any_of(resolved_.script, [](const scenario::ResolvedAction& action) {
+      const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what);
+      return node != nullptr && node->up;
+    });
+    if (row.faults > 0) query.faults.insert(explore::Fault::crash);
+    if (row.faults > 0 && comes_back) query.faults.insert(explore::Fault::restart);
     query.states = options_.states;
     if (query.commands > explore::most_commands || query.fault_budget > explore::most_faults)
       return {{}, false, fmt::format("{} calls and {} faults come before the group is at rest, more than can be explored", row.calls, row.faults), {}, {}, {}};
@@ -164,7 +168,7 @@ class Prover {
     for (const auto& [stream, cycle, timeout] : messages_of(tree)) {
       const analysis::StreamBound& state = bounds_.streams[stream.value];
       proof.assumptions.add(state.assumptions);
-      if (!state.reaches_all && !is_lost_with_its_ends(tree, state)) proof.assumptions.add(analysis::Assumption::no_loss);
+      if (!state.reaches_all && !analysis::is_lost_with_its_ends(resolved_, number, state)) proof.assumptions.add(analysis::Assumption::no_loss);
       if (!is_heard_in_time(cycle, timeout, state)) {
         proof.reason = "a participant may be taken for silent: the time-out " + std::to_string(timeout.ps() / 1'000'000) + " us is not longer than a cycle and the bound of " + state.name;
         return proof;
@@ -176,20 +180,6 @@ class Prover {
     proof.reason = known->second.reason;
     proof.remark = known->second.remark;
     return proof;
-  }
-
-  /// Nothing but crashes of participants loses its frames: that is what the explored crashes stand for. One that forwards its frames cuts others off besides.
-  bool is_lost_with_its_ends(const std::vector<std::uint32_t>& tree, const analysis::StreamBound& state) const {
-    return state.loses_by_faults_only && resolved_.plan.impairments.empty() && std::all_of(resolved_.script.begin(), resolved_.script.end(), [&](const scenario::ResolvedAction& action) {
-      const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what);
-      const bool is_participant = node != nullptr && std::ranges::any_of(tree, [&](std::uint32_t program) {
-        return std::ranges::any_of(resolved_.programs[program].members, [&](const scenario::ResolvedMember& each) { return each.node == node->node; });
-      });
-      const bool forwards = is_participant && std::ranges::any_of(resolved_.streams[state.index.value].paths, [&](const scenario::Path& path) {
-        return path.front() != node->node.value && path.back() != node->node.value && std::ranges::find(path, node->node.value) != path.end();
-      });
-      return (is_participant && !forwards) || (node == nullptr && !std::holds_alternative<scenario::ResolvedLink>(action.what));
-    });
   }
 
   struct Cyclic {
@@ -210,12 +200,13 @@ class Prover {
     return messages;
   }
 
-  /// Calls, joins and leaves are calls here; every node that goes down or comes up may be one of the Program's.
+  /// Calls, joins and leaves are calls here; every node that goes down may be one of the Program's, and the explorer lets it come up for nothing.
   analysis::EventsInARow all_events() const {
     analysis::EventsInARow all;
     for (const scenario::ResolvedAction& action : resolved_.script) {
       if (std::holds_alternative<scenario::ResolvedCall>(action.what) || std::holds_alternative<scenario::ResolvedMembership>(action.what)) ++all.calls;
-      if (std::holds_alternative<scenario::ResolvedNode>(action.what)) ++all.faults;
+      const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what);
+      all.faults += node != nullptr && !node->up;
     }
     return all;
   }

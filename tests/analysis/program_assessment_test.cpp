@@ -162,6 +162,9 @@ TEST(ProgramAssessment, RolesAreSettledWhileTheProgramRuns) {
   EXPECT_EQ(bound(*with_roles(script(calls))).ledger[A::program_publishes].standing, Standing::open);
   const Bounds lossy = bound(*with_roles(R"(, "faults": [{"kind": "frame-errors", "link": ["m", "s"], "loss": 0.1}])"));
   EXPECT_EQ(lossy.ledger[A::program_publishes].standing, Standing::open);
+  // Who crashes is one of those whom the script moves, a cable that is pulled is not.
+  EXPECT_EQ(bound(*with_roles(R"(, "faults": [{"kind": "crash", "node": "s", "at": "100ms", "for": "50ms"}])")).ledger[A::program_publishes].standing, Standing::discharged);
+  EXPECT_EQ(bound(*with_roles(R"(, "faults": [{"kind": "link-down", "link": ["m", "s"], "at": "100ms", "for": "50ms"}])")).ledger[A::program_publishes].standing, Standing::open);
   EXPECT_NE(lossy.ledger[A::program_publishes].why.find("may be lost"), std::string::npos) << lossy.ledger[A::program_publishes].why;
 }
 

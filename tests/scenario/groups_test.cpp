@@ -1,6 +1,9 @@
 // Nested programs and programs with roles on simulated hosts.
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "../handshake/dice.hpp"
 #include "evaluation/evaluate.hpp"
 #include "support.hpp"
 
@@ -160,6 +163,40 @@ TEST(NestedRoles, ACrashOfEitherMasterHaltsTheTreeAndItStartsAgain) {
     const std::string fault = fmt::format(R"({{"kind": "crash", "node": "{}", "at": "100ms", "for": "50ms"}})", node);
     expect_all(run(roles_within("", fault)), "Halted");
     expect_all(run(roles_within(R"(, {"at": "300.1ms", "program": "o", "call": "Start"})", fault)), "Running");
+  }
+}
+
+// Calls, joins, leaves, crashes and lost words by chance, for 300 ms: the invariants of both groups and of the tree hold, and when all are there again a Start takes all to Running.
+TEST(NestedRoles, HoldUnderRandomSchedules) {
+  const char* const methods[] = {"Start", "Start", "Suspend", "Resume", "Reset", "Halt"};
+  const std::vector<std::pair<const char*, const char*>> places = {{"o", "m"}, {"o", "c"}, {"i", "c"}, {"i", "r"}};
+  const char* const nodes[] = {"m", "a", "b", "c"};
+  for (std::uint64_t seed = 1; seed <= handshake::schedules_wanted(150, 20); ++seed) {
+    handshake::Dice dice(seed);
+    const auto some_time = [&dice] { return fmt::format("{}us", 30'000 + dice.below(250'000)); };
+    std::vector<std::pair<std::uint32_t, std::string>> entries;
+    for (std::uint32_t i = 0; i < 12; ++i) {
+      const std::uint32_t at = 30'000 + dice.below(250'000);
+      std::string what;
+      if (dice.below(3) == 0) {
+        what = fmt::format(R"("{}": "{}")", dice.below(2) == 0 ? "join" : "leave", dice.below(2) == 0 ? "a" : "b");
+      } else {
+        const auto& [program, on] = places[dice.below(4)];
+        const char* const method = methods[dice.below(6)];
+        what = std::string_view(method) == "Start" ? R"("program": "o", "call": "Start")" : fmt::format(R"("program": "{}", "call": "{}", "on": "{}")", program, method, on);
+      }
+      entries.emplace_back(at, what);
+    }
+    std::ranges::sort(entries);
+    std::string script;
+    for (const auto& [at, what] : entries) script += fmt::format(R"(, {{"at": "{}us", {}}})", at, what);
+    script += R"(, {"at": "330ms", "join": "a"}, {"at": "330ms", "join": "b"}, {"at": "360ms", "program": "o", "call": "Halt"}, {"at": "380ms", "program": "o", "call": "Start"})";
+    std::string faults;
+    for (std::uint32_t i = 0; i < 3; ++i)
+      faults += fmt::format(R"({}{{"kind": "crash", "node": "{}", "at": "{}", "for": "{}ms"}})", i == 0 ? "" : ", ", nodes[dice.below(4)], some_time(), 1 + dice.below(30));
+    faults += fmt::format(R"(, {{"kind": "frame-errors", "link": ["{}", "sw"], "loss": 0.{}, "at": "{}", "for": "20ms"}})", nodes[dice.below(4)], 1 + dice.below(9), some_time());
+    SCOPED_TRACE("seed " + std::to_string(seed) + script + faults);
+    expect_all(run(roles_within(script, faults)), "Running");
   }
 }
 

@@ -1,6 +1,8 @@
 #include "analysis/flow_sources.hpp"
 
 #include <algorithm>
+
+#include "analysis/program_assessment.hpp"
 #include <cmath>
 #include <set>
 #include <string_view>
@@ -127,10 +129,16 @@ void add_topics(const scenario::Resolved& r, const BoundOptions& options, FlowGr
     }
 }
 
-/// With roles: whoever gets or loses one, or hears of it, publishes at once; afterwards its cycles begin anew.
+/// With roles: whoever gets or loses one, or hears of it, publishes at once; afterwards its cycles begin anew. So many more than the cyclic ones in the whole run are a cyclic
+/// one that may be late by so many cycles.
 void add_roles(const scenario::Resolved& r, const scenario::ResolvedProgram& program, const BoundOptions& options, FlowGraph& graph) {
   const Ps cycle = program.description->cycle.ps();
-  const auto add = [&](models::NodeIndex node, models::StreamIndex stream) { add_published(r, node, stream, cycle, messages_in_a_cycle, options, graph); };
+  const auto changes = most_changes_of_roles(r, static_cast<std::size_t>(&program - r.programs.data()));
+  const auto add = [&](models::NodeIndex node, models::StreamIndex stream) {
+    if (!changes) return add_published(r, node, stream, cycle, messages_in_a_cycle, options, graph);
+    const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
+    add_late(r, node, stream, cycle, 1, os.wake_up.greatest().ps() - os.wake_up.least().ps() + cycle * *changes, options, graph);
+  };
   graph.assumptions.add(Assumption::program_publishes);
   for (const scenario::ResolvedMember& each : program.members) {
     add(each.node, *each.roles);

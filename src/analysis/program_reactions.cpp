@@ -162,6 +162,7 @@ class ScenarioReactions {
     made.kind = Reaction::halt;
     made.cause = cause;
     made.of_tree = of_tree;
+    if (of_tree && refuse(p, made)) return;
     Ps noticed = 0;
     bool notices = true;
     for (const std::size_t g : groups) {
@@ -191,6 +192,16 @@ class ScenarioReactions {
     return groups;
   }
 
+  bool has_roles_below(std::size_t root) const {
+    return std::ranges::any_of(groups_of_tree(root), [&](std::size_t p) { return r_.programs[p].has_roles(); });
+  }
+  /// True if nothing can be said, because somebody in the tree of this root comes and goes.
+  bool refuse(std::size_t root, const ReactionBound& made) {
+    if (!has_roles_below(root)) return false;
+    bounds_.reactions.push_back({made.program, made.kind, made.cause, made.of_tree, {}, {}, no_bound_with_roles, {}});
+    return true;
+  }
+
   /// A nested group starts after the outermost one, and runs when that has let it: the bound counts from the outer start.
   void add_start(ReactionBound made) {
     std::size_t root = made.program;
@@ -203,6 +214,7 @@ class ScenarioReactions {
       if (is_bounded(step.ps())) down.insert(down.begin(), {group.names[outer->participant] + " hears of Ready", Duration::from_ps(step.ps())});
       root = outer->program;
     }
+    if (refuse(root, made)) return;
     rest_on_tree(root, made);
     made.assumptions.add(Assumption::initialisation);
     const ReactionGroup whole = tree_of(root);
@@ -225,6 +237,7 @@ class ScenarioReactions {
         add_start(std::move(made));   // the outermost master runs last of all
         continue;
       }
+      if (refuse(root, made)) continue;
       rest_on_tree(root, made);
       take(made, spread_bound(whole, spread_of(kind)), [&] { return spread_parts(whole, spread_of(kind)); });
     }

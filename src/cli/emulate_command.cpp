@@ -12,7 +12,7 @@ namespace takt::cli {
 namespace {
 
 ExitStatus run_emulation(const ScenarioOptions& options, const std::string& keep, int patience) {
-  const auto resolved = load_without_applications(options, "takt emulate", true);
+  const auto resolved = load(options, true);
   if (!resolved) return ExitStatus::bad_input;
   const emulate::Plan plan = emulate::plan_of(*resolved);
   for (const std::string& refusal : plan.refusals) std::fprintf(stderr, "takt: cannot emulate %s: %s\n", resolved->scenario.name.c_str(), refusal.c_str());
@@ -51,6 +51,7 @@ void add_emulate_command(Command app, ExitStatus& status) {
       "Examples:\n"
       "  sudo takt emulate scenarios/three-slaves-star.json\n"
       "  sudo takt emulate scenarios/three-slaves-star.json --set programs.0.receive_timeout=1s     on a busy machine\n"
+      "  sudo takt emulate scenarios/applications/gateway.json --duration 10s                       threads, topics and a gateway\n"
       "Needs root. It lasts as long as the scenario does, longer where the machine is slow. Gates, shapers, streams, clocks and chance are left out and named.\n"
       "Exit status: 0 the same order of transitions, 1 another one, 2 bad input or nothing that can be emulated, 3 the machine\n"
       "does not permit it, 130 interrupted. Whatever happens, namespaces and nodes are removed.");

@@ -83,7 +83,7 @@ std::string not_in_trees(const explore::Query& query, const ExploreOptions& opti
   const auto refuse = [&wrong](bool is_wrong, const std::string& what) {
     if (is_wrong) wrong += (wrong.empty() ? "" : "; ") + what;
   };
-  refuse(options.nested && !options.scenario.empty(), "--nested goes with --slaves N; the Programs of a scenario are explored one by one");
+  refuse(options.nested && !options.scenario.empty(), "--nested goes with --slaves N; of a scenario nested Programs are explored together by themselves");
   refuse(options.inner_slaves.has_value() && !options.nested, "--inner-slaves says the size of the inner group of --nested");
   if (!query.is_tree()) return wrong;
   refuse(query.variant != handshake::Variant::robust, "paper knows neither nested groups nor joining slaves");
@@ -105,12 +105,15 @@ std::string not_with_roles(const explore::Query& query, const ExploreOptions& op
   refuse(options.starts_again && !query.has_roles(), "--starts-again says what happens when the node of a role was replaced: give --candidates, too");
   if (!query.has_roles()) return wrong;
   refuse(query.variant != handshake::Variant::robust, "paper knows no roles");
-  refuse(query.is_tree(), "roles are explored in single groups, and candidates join by themselves");
+  refuse(query.joining, "candidates join by themselves, without --joining");
+  refuse(query.nested() && query.slaves > explore::most_outer_slaves, "nested groups have at most " + std::to_string(explore::most_outer_slaves) + " outer slaves");
+  refuse(query.nested() && query.candidates > explore::most_inner_candidates, "nested groups are explored with at most " + std::to_string(explore::most_inner_candidates) + " candidates");
+  refuse(query.nested() && query.starts_again, "a nested group is started by the one outside, so --starts-again does not go with --nested");
   refuse(query.subscription != handshake::Subscription::star, "roles are explored in stars");
   refuse(query.network != explore::Network::registers, "roles are explored on registers");
   refuse(query.faults.contains(explore::Fault::duplicate) || query.faults.contains(explore::Fault::reorder) || query.faults.contains(explore::Fault::forge),
          "roles are explored with loss, crash, restart and timeout");
-  refuse(query.slaves > explore::most_explored_roles, "at most " + std::to_string(explore::most_explored_roles) + " roles can be explored");
+  refuse(query.roles() > explore::most_explored_roles, "at most " + std::to_string(explore::most_explored_roles) + " roles can be explored");
   refuse(!options.out.empty(), "findings with roles are drawn as charts, not written as scenarios (--out)");
   return wrong;
 }
@@ -144,7 +147,7 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
     if (options.nested) query.inner_slaves = static_cast<std::uint8_t>(options.inner_slaves.value_or(1));
     if (options.candidates) query.candidates = static_cast<std::uint8_t>(*options.candidates);
     if (options.starts_again) query.starts_again = true;
-    const unsigned nodes = query.has_roles() ? query.slaves + query.candidates - 1U : query.nested() ? query.slaves + query.inner_slaves : query.slaves;
+    const unsigned nodes = query.has_roles() ? query.slaves + query.inner_slaves + query.candidates - 1U : query.nested() ? query.slaves + query.inner_slaves : query.slaves;
     query.commands = options.calls.value_or(usual_calls(nodes));
     if (query.variant == handshake::Variant::paper && query.faults.contains(explore::Fault::forge)) {
       std::fprintf(stderr, "takt: %s: forge is explored with robust; a word of paper is a state and nothing more, and whoever forges it is believed\n", name.c_str());
@@ -170,8 +173,20 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
   const auto resolved = scenario::load_file(options.scenario, {}, diagnostics);
   std::fputs(diagnostics.to_text().c_str(), stderr);
   if (!resolved) return {};
-  for (const scenario::ResolvedProgram& each : resolved->programs) {
+  for (std::uint32_t number = 0; number < resolved->programs.size(); ++number) {
+    const scenario::ResolvedProgram& each = resolved->programs[number];
     const scenario::Program& program = *each.description;
+    query.inner_slaves = 0;
+    if (const std::vector<std::uint32_t> tree = verify::tree_of(*resolved, number); tree.size() > 1 && !options.slaves) {
+      const auto wrong = verify::set_tree(*resolved, tree, query);
+      if (!wrong && tree[0] != number) continue;   // explored with the one outside
+      if (!wrong) {
+        if (!add(program.name + " and " + resolved->programs[tree[1]].name + " within", query.slaves, program.variant, false)) return {};
+        continue;
+      }
+      if (tree[0] == number) std::fprintf(stderr, "takt: %s and what is within is explored one by one: %s\n", program.name.c_str(), wrong->c_str());
+      query.inner_slaves = 0;
+    }
     const std::size_t slaves = options.slaves.value_or(static_cast<unsigned>(program.slaves.size() + program.roles.size()));
     query.candidates = 0;
     if (each.has_roles() && options.slaves) {

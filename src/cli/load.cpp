@@ -14,34 +14,18 @@ void add_scenario_options(Command command, ScenarioOptions& options) {
   command.add_option("--format", options.format, "text or json").one_of({"text", "json"}).type_name("FORMAT");
 }
 
-namespace {
-
-/// `command` is empty where applications may be.
-std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, const std::string& command, bool is_quiet) {
+std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, bool is_quiet) {
   std::vector<std::string> overrides = options.overrides;
   if (options.seed) overrides.push_back("/seed=" + *options.seed);
   if (options.duration) overrides.push_back("/duration=" + *options.duration);
   json::Diagnostics diagnostics;
   auto resolved = scenario::load_file(options.file, overrides, diagnostics);
-  if (resolved && !command.empty() && !resolved->applications.empty()) {
-    diagnostics.error(resolved->applications.front().where.place(), "applications, which " + command + " does not know",
-                      {json::quote(resolved->applications.front().name), "a scenario without \"applications\" and \"gateways\"; takt run and takt study know them"});
-    resolved.reset();
-  }
   if (!resolved && options.is_json()) {
     std::fputs(json::pretty(diagnostics.to_json()).c_str(), stdout);
     return nullptr;
   }
   if (!resolved || !is_quiet) std::fputs(diagnostics.to_text().c_str(), stderr);
   return resolved;
-}
-
-}  // namespace
-
-std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, bool is_quiet) { return load(options, std::string(), is_quiet); }
-
-std::unique_ptr<scenario::Resolved> load_without_applications(const ScenarioOptions& options, const std::string& command, bool is_quiet) {
-  return load(options, command, is_quiet);
 }
 
 }  // namespace takt::cli

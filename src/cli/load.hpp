@@ -27,7 +27,4 @@ void add_scenario_options(Command command, ScenarioOptions& options);
 /// was an error; the exit status is then bad_input.
 std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, bool is_quiet = false);
 
-/// The same for a command that knows no applications: a scenario with some is refused by the name of what it cannot do, such as "takt bound".
-std::unique_ptr<scenario::Resolved> load_without_applications(const ScenarioOptions& options, const std::string& command, bool is_quiet = false);
-
 }  // namespace takt::cli

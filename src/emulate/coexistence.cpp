@@ -48,10 +48,8 @@ class Ground {
     if (!ground->machine_) return nullptr;
     ground->folder_ = ground->machine_->folder();
     ground->network_ = {"eth0", 4840, 0};
-    for (std::uint32_t n = 0; n < nodes && problem.empty(); ++n)
-      problem = run_command({"ip", "-n", ground->machine_->namespace_of(n), "addr", "add", fmt::format("10.75.0.{}/24", n + 1), "dev", "eth0"});
-    if (!problem.empty()) return nullptr;
-    problem = wait_for_bridge(ground->machine_->namespace_of(bridge));
+    for (std::uint32_t n = 0; n < nodes && problem.empty(); ++n) problem = ground->machine_->add_address(n, "eth0", fmt::format("10.75.0.{}/24", n + 1));
+    if (problem.empty()) problem = ground->machine_->wait_for_bridges();
     return problem.empty() ? std::move(ground) : nullptr;
   }
   ~Ground() {
@@ -68,20 +66,6 @@ class Ground {
 
  private:
   Ground() = default;
-  /// The kernel looks after new links once a second; before that a bridge forwards nothing, and what DDS participants first say of themselves,
-  /// which they say again after many seconds only, would be lost.
-  static std::string wait_for_bridge(const std::string& network_namespace) {
-    constexpr int step_ms = 50;
-    const timespec step = {0, step_ms * 1'000'000L};
-    std::string problem;
-    for (int waited = 0; waited < discovery_timeout_ms; waited += step_ms) {
-      // 3: forwarding, all of them.
-      problem = run_command({"ip", "netns", "exec", network_namespace, "sh", "-c", "test \"$(cat /sys/class/net/p*/brport/state | sort -u)\" = 3"});
-      if (problem.empty()) return {};
-      ::nanosleep(&step, nullptr);
-    }
-    return "the bridge does not forward: " + problem;
-  }
 
   std::unique_ptr<Machine> machine_;
   CoexistenceNetwork network_;

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 
+#include "emulate/application_processes.hpp"
 #include "emulate/child.hpp"
 #include "emulate/expectation.hpp"
 #include "emulate/log_reader.hpp"
@@ -72,7 +73,7 @@ class Emulation {
     name_files();
     for (LiveNode& node : nodes_)
       if (!joins_at_start(node)) start(node, false);
-    const bool done = start_candidates() && wait_for_nodes() && run_script();
+    const bool done = start_candidates() && wait_for_nodes() && start_applications() && run_script();
     stop();
     keep_files();
     return done && collect();
@@ -83,6 +84,7 @@ class Emulation {
     simulation_ = std::make_unique<scenario::Run>(resolved_);
     simulation_->advance();
     for (std::size_t p = 0; p < resolved_.programs.size(); ++p) simulated_.push_back(history_of(simulation_->monitor(p)));
+    simulated_threads_ = threads_of(*simulation_);
     pace_.emplace(simulated_);
   }
 
@@ -101,6 +103,13 @@ class Emulation {
       node.is_absent = planned.is_absent;
       write_file(node);
     }
+  }
+
+  bool start_applications() {
+    applications_ = std::make_unique<ApplicationProcesses>(resolved_, plan_, *machine_);
+    if (const std::string failed = applications_->start(); !failed.empty()) return fail(failed);
+    const std::string last = applications_->not_started();
+    return wait_for([this] { return applications_->not_started().empty(); }, "the applications of " + last + " do not start");
   }
 
   static void write_file(const LiveNode& node) {
@@ -153,8 +162,7 @@ class Emulation {
 
   LiveNode& node_of(std::uint32_t program, std::optional<std::uint8_t> candidate) {
     return *std::find_if(nodes_.begin(), nodes_.end(), [&](const LiveNode& each) {
-      const PlannedNode::Part& part = each.plan->parts.front();
-      return part.program == program && part.candidate == candidate && (part.candidate || part.participant == 0);
+      return std::ranges::any_of(each.plan->parts, [&](const PlannedNode::Part& part) { return part.program == program && part.candidate == candidate && (part.candidate || part.participant == 0); });
     });
   }
   LiveNode* node_called(std::uint32_t program, const std::string& candidate) {
@@ -219,7 +227,8 @@ class Emulation {
       std::string said((std::istreambuf_iterator<char>(errors)), {});
       return fail("node " + node.name + " has ended: " + said);
     }
-    return true;
+    const std::string failed = applications_ ? applications_->failure() : "";
+    return failed.empty() || fail(failed);
   }
 
   /// Until each node has heard its peers: a bridge takes a second before it forwards.
@@ -377,6 +386,7 @@ class Emulation {
       }
       if (!change.up) node.child.reset();
     }
+    if (applications_) applications_->set_host(change.host, change.up);
     return true;
   }
   bool note(std::string text) {
@@ -385,19 +395,21 @@ class Emulation {
   }
 
   void stop() {
+    if (applications_) applications_->stop(result_.interrupted || !problem_.empty());
     for (LiveNode& node : nodes_)
       if (node.child) node.child->send(SIGTERM);
     for (LiveNode& node : nodes_)
       if (node.child) node.child->wait(stop_timeout_ms);
+    if (applications_) applications_->wait();
   }
 
   void keep_files() {
     if (settings_.keep.empty()) return;
     std::error_code error;
     fs::create_directories(settings_.keep, error);
-    for (const LiveNode& node : nodes_)
-      for (const std::string& file : {node.file, node.log, node.errors})
-        fs::copy_file(file, fs::path(settings_.keep) / fs::path(file).filename(), fs::copy_options::overwrite_existing, error);
+    std::vector<std::string> files = applications_ ? applications_->files() : std::vector<std::string>();
+    for (const LiveNode& node : nodes_) files.insert(files.end(), {node.file, node.log, node.errors});
+    for (const std::string& file : files) fs::copy_file(file, fs::path(settings_.keep) / fs::path(file).filename(), fs::copy_options::overwrite_existing, error);
     if (error) note(settings_.keep + ": " + error.message());
   }
 
@@ -413,6 +425,14 @@ class Emulation {
       for (std::size_t role = 0; role < program.description->roles.size(); ++role)
         result_.programs.back().roles.push_back({program.participant_names[role + 1], nodes_with(p, role), roles.histories[p][role].nodes});
     }
+    return collect_applications();
+  }
+
+  bool collect_applications() {
+    EmulatedThreads emulated;
+    std::vector<bool> is_whole;
+    if (const std::string failed = applications_->collect(emulated, is_whole); !failed.empty()) return fail(failed);
+    result_.applications = compare_applications(resolved_, simulated_threads_, emulated, is_whole);
     return true;
   }
 
@@ -421,14 +441,6 @@ class Emulation {
     for (const scenario::BindingRecord& record : simulation_->roles(program)->history())
       if (record.role == role) names.push_back(record.candidate ? resolved_.topology.nodes[resolved_.programs[program].candidates()[*record.candidate].node.value].name : std::string());
     return names;
-  }
-
-  static History history_of(const scenario::ProgramMonitor& monitor) {
-    History history;
-    for (const scenario::StateRecord& record : monitor.history()) history.changes.push_back({record.time.ps(), record.participant, record.change});
-    for (const scenario::CallRecord& call : monitor.calls())
-      if (program::is_good(call.status)) history.calls.push_back({call.time.ps(), call.participant, call.method});
-    return history;
   }
 
   /// Appends what the node has logged so far; a line that it has not written to its end yet comes later. Its status is returned in `end`, if it is asked for.
@@ -462,7 +474,9 @@ class Emulation {
   std::optional<Expectation> expectation_;  // nothing without roles, or once it has been missed
   bool has_roles_ = false;
   std::vector<LoggedStep> steps_;
+  std::vector<std::vector<ThreadCounts>> simulated_threads_;  // by application
   std::deque<LiveNode> nodes_;  // behind machine_, so that they end before it goes
+  std::unique_ptr<ApplicationProcesses> applications_;
 };
 
 }  // namespace
@@ -472,7 +486,8 @@ bool ProgramResult::is_same() const {
 }
 
 bool Result::is_same() const {
-  return std::all_of(programs.begin(), programs.end(), [](const ProgramResult& each) { return each.is_same(); }) && invariants.violated.empty();
+  return std::all_of(programs.begin(), programs.end(), [](const ProgramResult& each) { return each.is_same(); }) && invariants.violated.empty() &&
+         std::ranges::all_of(applications, [](const ApplicationComparison& each) { return each.is_same(); });
 }
 
 bool emulate(const scenario::Resolved& resolved, const Plan& plan, const Settings& settings, Result& result, std::string& problem) {

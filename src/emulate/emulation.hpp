@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "emulate/application_comparison.hpp"
 #include "emulate/comparison.hpp"
 #include "emulate/invariant_check.hpp"
 #include "emulate/plan.hpp"
@@ -32,6 +33,7 @@ struct NodeResult {
 
 struct Result {
   std::vector<ProgramResult> programs;
+  std::vector<ApplicationComparison> applications;
   InvariantCheck invariants;        ///< of the real nodes
   std::vector<NodeResult> nodes;
   std::vector<std::string> notes;   ///< what was left out, calls that were not Good

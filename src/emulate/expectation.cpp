@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "emulate/log_reader.hpp"
+#include "emulate/node_status.hpp"
 #include "json/document.hpp"
 #include "scenario/run/run.hpp"
 
@@ -78,13 +79,23 @@ std::optional<Expectation> expectation_of(const scenario::Resolved& resolved, co
   return expectation;
 }
 
+History history_of(const scenario::ProgramMonitor& monitor) {
+  History history;
+  for (const scenario::StateRecord& record : monitor.history()) history.changes.push_back({record.time.ps(), record.participant, record.change});
+  for (const scenario::CallRecord& call : monitor.calls())
+    if (program::is_good(call.status)) history.calls.push_back({call.time.ps(), call.participant, call.method});
+  return history;
+}
+
 std::optional<GroupState> group_of_status(const std::string& status, const scenario::ResolvedProgram& program) {
   json::Diagnostics diagnostics;
   const auto document = json::parse(status, "status", diagnostics);
   if (!document) return std::nullopt;
-  const json::Node* const roles = items_of(document->root(), "roles", program.description->roles.size());
-  const json::Node* const candidates = items_of(document->root(), "candidates", program.candidates().size());
-  const auto own = state_of_status(status);
+  const json::Node* master = &document->root();  // of a nested Program beside the one outside
+  for_each_program(document->root(), [&](const json::Node& each) { master = emulate::text_of(each, "program") == program.name ? &each : master; });
+  const json::Node* const roles = items_of(*master, "roles", program.description->roles.size());
+  const json::Node* const candidates = items_of(*master, "candidates", program.candidates().size());
+  const auto own = published_state_from(emulate::text_of(*master, "state"));
   if (roles == nullptr || candidates == nullptr || !own) return std::nullopt;
   GroupState state;
   state.states.assign(roles->items.size() + 1, handshake::PublishedState::Halted);

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "emulate/comparison.hpp"
 #include "emulate/plan.hpp"
 #include "handshake/word.hpp"
+#include "scenario/programs/program_monitor.hpp"
 #include "scenario/resolve/resolved.hpp"
 
 namespace takt::emulate {
@@ -30,6 +32,9 @@ struct Expectation {
 
 /// Runs the simulation. Nothing if no Program has roles.
 std::optional<Expectation> expectation_of(const scenario::Resolved& resolved, const Plan& plan);
+
+/// What the simulated run has shown of a Program.
+History history_of(const scenario::ProgramMonitor& monitor);
 
 /// From a master's status, as its node tells it; the states are all Halted but its own. Nothing if it is no such status.
 std::optional<GroupState> group_of_status(const std::string& status, const scenario::ResolvedProgram& program);

@@ -2,8 +2,10 @@
 
 #include <signal.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -112,6 +114,29 @@ Machine::~Machine() {
     if (fs::exists("/run/netns/" + name)) run_command({"ip", "netns", "del", name});
   std::error_code error;
   fs::remove_all(folder_, error);
+}
+
+std::string Machine::wait_for_bridges() const {
+  constexpr int step_ms = 50;
+  constexpr int timeout_ms = 60'000;
+  const timespec step = {0, step_ms * 1'000'000L};
+  for (std::uint32_t n = 0; n < names_.size(); ++n) {
+    const bool has_ports = std::ranges::any_of(plan_.cables, [&](const Cable& cable) { return cable.a.node == n || cable.b.node == n; });
+    if (!plan_.is_bridge[n] || !has_ports) continue;
+    std::string problem;
+    for (int waited = 0; waited < timeout_ms; waited += step_ms) {
+      // 3: forwarding, all of them.
+      problem = run_command({"ip", "netns", "exec", names_[n], "sh", "-c", "test \"$(cat /sys/class/net/p*/brport/state | sort -u)\" = 3"});
+      if (problem.empty()) break;
+      ::nanosleep(&step, nullptr);
+    }
+    if (!problem.empty()) return "the bridge does not forward: " + problem;
+  }
+  return {};
+}
+
+std::string Machine::add_address(std::uint32_t node, const std::string& interface, const std::string& address) const {
+  return run_command({"ip", "-n", names_[node], "addr", "add", address, "dev", interface});
 }
 
 std::string Machine::set_cable(std::uint32_t number, bool up) {

@@ -23,6 +23,11 @@ class Machine {
   Machine& operator=(const Machine&) = delete;
 
   const std::string& namespace_of(std::uint32_t node) const { return names_[node]; }
+  /// Waits until all bridges forward, which the kernel looks after once a second: what DDS participants first say of themselves, which they say again after many
+  /// seconds only, would be lost before. "" or what failed.
+  std::string wait_for_bridges() const;
+  /// Gives an interface an address. "" or what failed.
+  std::string add_address(std::uint32_t node, const std::string& interface, const std::string& address) const;
   /// Cables are pulled and plugged. "" or what failed.
   std::string set_cable(std::uint32_t cable, bool up);
   /// A folder for files, which goes with the machine.

@@ -24,8 +24,9 @@ class Planner {
     for (PlannedNode& node : plan_.nodes) write_file(node);
     for (const scenario::ResolvedAction& action : resolved_.script)
       std::visit([&](const auto& what) { add(action.at.since_start(), what); }, action.what);
+    plan_.applications = application_files_of(resolved_, plan_.is_bridge, left_out_, plan_.refusals);
     note_what_is_left_out();
-    if (plan_.nodes.empty()) plan_.refusals.push_back("there is no Program in it, so there are no nodes to run");
+    if (plan_.nodes.empty() && plan_.applications.empty() && plan_.refusals.empty()) plan_.refusals.push_back("there is neither a Program nor an application in it, so there are no nodes to run");
     return std::move(plan_);
   }
 

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "emulate/application_files.hpp"
 #include "program/method.hpp"
 #include "scenario/resolve/resolved.hpp"
 
@@ -69,6 +70,7 @@ struct Plan {
   std::vector<bool> is_bridge;      ///< by node of the topology: a switch or a station
   std::vector<Cable> cables;
   std::vector<PlannedNode> nodes;
+  std::vector<PlannedApplications> applications;
   std::vector<Action> actions;      ///< by time
   std::vector<std::string> notes;   ///< what is left out, and why that may matter
   std::vector<std::string> refusals;  ///< not empty: it cannot be emulated

@@ -35,10 +35,22 @@ std::string to_text(const Result& result, const std::string& scenario) {
     out += fmt::format("  {} orders between participants, {} violated\n", program.comparison.orders, program.comparison.violated.size());
     for (const std::string& each : program.comparison.violated) out += fmt::format("    {}\n", each);
   }
-  out += fmt::format("\n{} steps of the nodes against S1, S2, S4 and S5: {} violated\n", result.invariants.steps, result.invariants.violated.size());
+  for (const ApplicationComparison& application : result.applications) {
+    out += fmt::format("\nApplication {} on {}{}\n", application.name, application.node, application.is_whole ? "" : ", which was killed: nothing is compared");
+    for (const ThreadComparison& each : application.threads) {
+      const auto counted = [](const char* what, std::uint64_t emulated, std::uint64_t simulated) { return fmt::format(", {} {} ({})", emulated, what, simulated); };
+      const std::string values = each.publishes ? counted("published", each.emulated.published, each.simulated.published)
+                                                : counted("received", each.emulated.received, each.simulated.received) + counted("lost", each.emulated.lost, each.simulated.lost);
+      out += fmt::format("  {:<16} {}: {} activations ({}){}{}\n", each.name, each.is_same() ? "as simulated" : "NOT as simulated", each.emulated.activations, each.simulated.activations,
+                         counted("missed", each.emulated.missed, each.simulated.missed), values);
+      for (const std::string& difference : each.differs) out += fmt::format("    {}\n", difference);
+    }
+  }
+  if (!result.applications.empty()) out += "  (in brackets: simulated)\n";
+  if (!result.programs.empty()) out += fmt::format("\n{} steps of the nodes against S1, S2, S4 and S5: {} violated\n", result.invariants.steps, result.invariants.violated.size());
   for (const std::string& each : result.invariants.violated) out += fmt::format("  {}\n", each);
   if (result.interrupted) return out + fmt::format("\n{}: interrupted\n", scenario);
-  return out + fmt::format("\n{}: {}\n", scenario, result.is_same() ? "the same transitions in the same order as simulated" : "differs from the simulated run");
+  return out + fmt::format("\n{}: {}\n", scenario, result.is_same() ? (result.programs.empty() ? "threads act and get values as simulated" : "the same transitions in the same order as simulated") : "differs from the simulated run");
 }
 
 }  // namespace takt::emulate

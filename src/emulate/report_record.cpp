@@ -31,6 +31,7 @@ bool is_same(const Report& report) { return report.result.is_same(); }
 bool was_interrupted(const Report& report) { return report.result.interrupted; }
 const std::vector<ProgramResult>& programs_compared(const Report& report) { return report.result.programs; }
 const InvariantCheck& invariants_checked(const Report& report) { return report.result.invariants; }
+const std::vector<ApplicationComparison>& applications_compared(const Report& report) { return report.result.applications; }
 const std::vector<NodeResult>& nodes_asked(const Report& report) { return report.result.nodes; }
 const std::vector<std::string>& notes_taken(const Report& report) { return report.result.notes; }
 
@@ -70,6 +71,44 @@ const json::Record& describe(json::Type<ProgramResult>) {
   return record;
 }
 
+const json::Record& describe(json::Type<ThreadCounts>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&ThreadCounts::activations>("activations", "Those that it answered and those that it missed."),
+      json::output<&ThreadCounts::missed>("missed", "Those that it missed."),
+      json::output<&ThreadCounts::published>("published", "Values that its protocol took."),
+      json::output<&ThreadCounts::received>("received", "Values that came."),
+      json::output<&ThreadCounts::lost>("lost", "Numbers of messages that were jumped over; of real nodes with OPC UA only."),
+  };
+  static constexpr json::Record record{"counts", "What a thread did.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<ThreadComparison>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&ThreadComparison::name>("name", "The thread."),
+      json::output<&ThreadComparison::topic>("topic", "What it publishes or takes."),
+      json::output<&ThreadComparison::publishes>("publishes", "It publishes; else it takes."),
+      json::output<&ThreadComparison::is_same>("same", "It is activated as often as the simulated one, but for a quarter, publishes or gets values if that does, and gets no more than were published."),
+      json::output<&ThreadComparison::simulated>("simulated", "What the simulated one did."),
+      json::output<&ThreadComparison::emulated>("emulated", "What the real one did."),
+      json::output<&ThreadComparison::differs>("differs", "What is not as simulated."),
+  };
+  static constexpr json::Record record{"thread", "A thread in both worlds.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<ApplicationComparison>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&ApplicationComparison::name>("application", "Its name."),
+      json::output<&ApplicationComparison::node>("node", "The node that it is on."),
+      json::output<&ApplicationComparison::is_whole>("whole", "Its node was never killed; else the counts are those of its last life, and not compared."),
+      json::output<&ApplicationComparison::is_same>("same", "All of its threads are."),
+      json::output<&ApplicationComparison::threads>("threads", "Each of them."),
+  };
+  static constexpr json::Record record{"application", "An application or gateway in both worlds.", outputs};
+  return record;
+}
+
 const json::Record& describe(json::Type<InvariantCheck>) {
   static constexpr json::Output outputs[] = {
       json::output<&InvariantCheck::steps>("steps", "Of the real nodes."),
@@ -94,6 +133,7 @@ const json::Record& describe(json::Type<Report>) {
       json::output<&is_same>("same", "The real nodes did what the simulated ones did, in the same order."),
       json::output<&was_interrupted>("interrupted", "It was stopped before its end."),
       json::output<&programs_compared>("programs", "Each of them."),
+      json::output_if_any<&applications_compared>("applications", "Each of them, and of the gateways.", "with applications"),
       json::output<&invariants_checked>("invariants", "What always holds."),
       json::output<&nodes_asked>("nodes", "Each of them."),
       json::output<&notes_taken>("notes", "What was left out, and calls that were not Good."),

@@ -48,13 +48,19 @@ auto Coupling::next(const GroupView& outer, const GroupView& inner) -> std::opti
   const bool overruled = outer.run != outer.intent.run && inner.state == ready && inner.may_start;
   const bool starts = outer.intent.kind == IntentKind::Start && (outer.intent.run != started_for_ || overruled);
   if (starts && (outer.state == init || outer.state == ready)) {
-    if (inner.may_start) started_for_ = outer.intent.run;
-    step = Step{Side::inner, Input::command(inner.may_start ? Method::Start : Method::Halt)};
+    // Where a role has nobody the inner barrier would never be over, and roles are bound in Halted only.
+    const bool may_start = inner.may_start && inner.complete;
+    if (may_start) started_for_ = outer.intent.run;
+    if (!may_start && inner.state == halted)
+      step = Step{Side::outer, Input::peer_left(0)};
+    else
+      step = Step{Side::inner, Input::command(may_start ? Method::Start : Method::Halt)};
   } else {
     step = pass_barriers(outer, inner);
     if (!step) step = follow(outer, inner);
   }
-  if (step && step->input.kind != Input::Kind::initialised && step->input.kind != Input::Kind::released) step->input.coupled = true;
+  const auto passes_on = [](Input::Kind kind) { return kind == Input::Kind::command || kind == Input::Kind::finished; };
+  if (step && passes_on(step->input.kind)) step->input.coupled = true;
   return step;
 }
 

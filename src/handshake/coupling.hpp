@@ -33,12 +33,21 @@ struct GroupView {
   bool may_start = false;     ///< Participant::may_start
   bool may_suspend = false;   ///< Participant::may_suspend
   bool initialised = false;   ///< Participant::waits_initialised
+  bool complete = true;       ///< inner group with roles: all are bound (Binder::complete)
 };
 
 template <std::size_t MaxPeers>
 GroupView view_of(const Participant<MaxPeers>& participant) {
   return {participant.state(),   participant.intent(),    participant.run(),         participant.peers_ready(),
-          participant.may_run(), participant.may_start(), participant.may_suspend(), participant.waits_initialised()};
+          participant.may_run(), participant.may_start(), participant.may_suspend(), participant.waits_initialised(), true};
+}
+
+/// Of a group with roles; `is_complete`: all of them are bound.
+template <std::size_t MaxPeers>
+GroupView view_of(const Participant<MaxPeers>& participant, bool is_complete) {
+  GroupView view = view_of(participant);
+  view.complete = is_complete;
+  return view;
 }
 
 class Coupling {

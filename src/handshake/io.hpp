@@ -69,7 +69,7 @@ struct Input {
     input.run = run;
     return input;
   }
-  /// The node behind a peer is gone: the group halts. At the master.
+  /// The node behind a peer is gone: the group halts. At the master; at a slave whose inner group lacks somebody (coupling.hpp).
   static constexpr Input peer_left(std::size_t peer) {
     Input input;
     input.kind = Kind::peer_left;
@@ -100,7 +100,7 @@ struct StateChange {
 enum class Alarm : std::uint8_t {
   none,
   peer_silent,     ///< a peer's MessageReceiveTimeout expired
-  peer_left,       ///< a peer's node has left the group, or has begun another life
+  peer_left,       ///< a peer's node has left the group or has begun another life, or a role of the inner group has nobody
   peer_restarted,  ///< a peer's incarnation changed
   mismatch,       ///< an intent that cannot be followed from here, so somebody's history is not mine
   other_group,     ///< the group that this one is nested in, or that is nested in it, has done the same

@@ -52,7 +52,7 @@ Outputs Participant<MaxPeers>::take(const Input& input) {
       if (config_.nested && input.run == run_ && may_run()) move_to(PublishedState::Running, outputs);
       break;
     case Input::Kind::peer_left:
-      TAKT_CHECK(is_master() && input.peer < peer_count() && robust, "the master's peers leave");
+      TAKT_CHECK((is_master() || config_.nested) && input.peer < peer_count() && robust, "the master's peers leave, or those of an inner group");
       if (state() != PublishedState::Halted) raise_alarm(Alarm::peer_left, intent_.number, outputs);
       break;
     case Input::Kind::peer_replaced:

@@ -93,6 +93,7 @@ class TreeReactions {
   explicit TreeReactions(std::size_t participants) : tracker_(participants) {}
   void on_step(std::size_t number, const Outputs& outputs, sim::TrueTime at, const Origin& origin = {});
   void on_crash(std::size_t number, sim::TrueTime at) { tracker_.on_crash(number, at); }
+  void on_leave(std::size_t number, sim::TrueTime at) { tracker_.on_leave(number, at); }
   void on_restart(std::size_t number, sim::TrueTime at) { tracker_.on_restart(number, at); }
   std::span<const Reaction> reactions() const { return tracker_.reactions(); }
 

@@ -90,16 +90,18 @@ class NestingCheck {
       return;
     }
     const std::vector<std::string_view> slaves(outer->slaves.begin(), outer->slaves.end());
-    if (std::ranges::find(slaves, program.master) == slaves.end())
+    if (outer->roles.empty() && std::ranges::find(slaves, program.master) == slaves.end())
       diagnostics_.error_unless(diagnostics_.is_refused(outer->where.at("slaves")), program.where.at("master"), "the master of a nested program is no slave of the outer one",
                                 {json::quote(program.master), "a slave of " + json::quote(outer->name), json::suggest(program.master, slaves)});
     const auto [taken, is_new] = taken_.emplace(std::pair(outer->name, program.master), program.name);
     if (!is_new)
       diagnostics_.error(place, "two programs nested at one slave", {json::quote(program.name) + " and " + json::quote(taken->second) + " at " + json::quote(program.master), "one"});
+    if (!outer->roles.empty() && refused_.insert(outer).second)
+      diagnostics_.error(outer->where.at("roles"), "roles in an outer program", {"\"roles\" of " + json::quote(outer->name), "\"slaves\", of which the master of " + json::quote(program.name) + " is one"});
+    if (!program.roles.empty() && program.on_replacement == OnReplacement::restart)
+      diagnostics_.error(program.where.at("on_replacement"), "a nested program that starts by itself", {"\"restart\"", "\"stay-halted\": the outermost program starts it"});
     for (const Program* each : {&program, outer})
-      if (!each->roles.empty() && refused_.insert(each).second)
-        diagnostics_.error(each->where.at("roles"), "roles in nested programs", {"\"roles\" of " + json::quote(each->name), "\"slaves\" for both programs"});
-      else if (each->variant == Variant::paper && refused_.insert(each).second)
+      if (each->variant == Variant::paper && refused_.insert(each).second)
         diagnostics_.error(each->where.at("variant"), "nesting with the handshake of the paper", {"\"paper\", whose states alone do not tell one run from the next", "\"robust\" for both programs"});
   }
 

@@ -128,8 +128,7 @@ class Prover {
     const auto unknown = [](std::string why) { return Proof{{}, false, std::move(why), {}, {}, {}}; };
     if (program == resolved_.programs.end()) return unknown("no such Program");
     if (program->description->violations == scenario::Violations::reported) return {{}, true, {}, {}, {}, {}};
-    if (!program->nested.empty()) return unknown("takt explore looks at single groups, not at nodes that join two");
-    if (program->has_roles()) return invariants_of(*program);
+    if (!program->nested.empty() || program->has_roles()) return invariants_of(*program);
     const std::size_t slaves = program->members.size() - 1;
     if (slaves > explore::most_slaves) return unknown("at most " + std::to_string(explore::most_slaves) + " slaves can be explored");
     if (program->description->subscription != scenario::Subscription::star) return unknown("takt explore --subscription all-to-all looks at it");
@@ -141,27 +140,35 @@ class Prover {
     explore::Query query;
     query.variant = program.description->variant == scenario::Variant::robust ? handshake::Variant::robust : handshake::Variant::paper;
     query.slaves = static_cast<std::uint8_t>(program.members.size() - 1);
-    analysis::EventsInARow row = analysis::events_in_a_row(resolved_, bounds_, static_cast<std::size_t>(&program - resolved_.programs.data()));
-    if (program.has_roles()) {
-      if (const auto wrong = set_roles(program, query)) return {{}, false, *wrong, {}, {}, {}};
+    const auto number = static_cast<std::uint32_t>(&program - resolved_.programs.data());
+    analysis::EventsInARow row = analysis::events_in_a_row(resolved_, bounds_, number);
+    const std::vector<std::uint32_t> tree = tree_of(resolved_, number);
+    if (tree.size() > 1 || program.has_roles()) {
+      if (const auto wrong = tree.size() > 1 ? set_tree(resolved_, tree, query) : set_roles(program, query)) return {{}, false, *wrong, {}, {}, {}};
+    }
+    if (query.has_roles()) {
       // Who has a role at rest depends on all that was before: the whole scenario is one row from the start.
       query.beginnings = explore::Beginnings::switched_on;
       row = all_events();
     }
     query.commands = static_cast<std::uint32_t>(std::max<std::size_t>(1, row.calls));
     query.fault_budget = static_cast<std::uint32_t>(row.faults);
-    for (const explore::Fault fault : {explore::Fault::crash, explore::Fault::restart})
-      if (row.faults > 0) query.faults.insert(fault);
+    const bool comes_back = std::ranges::any_of(resolved_.script, [](const scenario::ResolvedAction& action) {
+      const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what);
+      return node != nullptr && node->up;
+    });
+    if (row.faults > 0) query.faults.insert(explore::Fault::crash);
+    if (row.faults > 0 && comes_back) query.faults.insert(explore::Fault::restart);
     query.states = options_.states;
     if (query.commands > explore::most_commands || query.fault_budget > explore::most_faults)
       return {{}, false, fmt::format("{} calls and {} faults come before the group is at rest, more than can be explored", row.calls, row.faults), {}, {}, {}};
     Proof proof;
     proof.assumptions.add(analysis::Assumption::nothing_else);
     if (!resolved_.scenario.faults.empty()) proof.assumptions.add(analysis::Assumption::listed_faults_only);
-    for (const auto& [stream, cycle, timeout] : messages_of(program)) {
+    for (const auto& [stream, cycle, timeout] : messages_of(tree)) {
       const analysis::StreamBound& state = bounds_.streams[stream.value];
       proof.assumptions.add(state.assumptions);
-      if (!state.reaches_all && !is_lost_with_its_ends(program, state)) proof.assumptions.add(analysis::Assumption::no_loss);
+      if (!state.reaches_all && !analysis::is_lost_with_its_ends(resolved_, number, state)) proof.assumptions.add(analysis::Assumption::no_loss);
       if (!is_heard_in_time(cycle, timeout, state)) {
         proof.reason = "a participant may be taken for silent: the time-out " + std::to_string(timeout.ps() / 1'000'000) + " us is not longer than a cycle and the bound of " + state.name;
         return proof;
@@ -175,39 +182,31 @@ class Prover {
     return proof;
   }
 
-  /// Nothing but crashes of participants loses its frames: that is what the explored crashes stand for. One that forwards its frames cuts others off besides.
-  bool is_lost_with_its_ends(const scenario::ResolvedProgram& program, const analysis::StreamBound& state) const {
-    return state.loses_by_faults_only && resolved_.plan.impairments.empty() && std::all_of(resolved_.script.begin(), resolved_.script.end(), [&](const scenario::ResolvedAction& action) {
-      const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what);
-      const bool is_participant = node != nullptr && std::ranges::any_of(program.members, [&](const scenario::ResolvedMember& each) { return each.node == node->node; });
-      const bool forwards = is_participant && std::ranges::any_of(resolved_.streams[state.index.value].paths, [&](const scenario::Path& path) {
-        return path.front() != node->node.value && path.back() != node->node.value && std::ranges::find(path, node->node.value) != path.end();
-      });
-      return (is_participant && !forwards) || (node == nullptr && !std::holds_alternative<scenario::ResolvedLink>(action.what));
-    });
-  }
-
   struct Cyclic {
     models::StreamIndex stream;
     Duration cycle;
     Duration timeout;
   };
-  /// What a Program publishes, and after which time its silence is noticed. The table has no time-out: it goes with the master's state.
-  static std::vector<Cyclic> messages_of(const scenario::ResolvedProgram& program) {
+  /// What the Programs publish, and after which time their silence is noticed. The table has no time-out: it goes with the master's state.
+  std::vector<Cyclic> messages_of(const std::vector<std::uint32_t>& tree) const {
     std::vector<Cyclic> messages;
-    for (const scenario::ResolvedMember& each : program.members) {
-      messages.push_back({each.state, program.description->cycle, program.receive_timeout});
-      if (each.roles) messages.push_back({*each.roles, program.announce_every, wire::announce_timeout(program.announce_every)});
+    for (const std::uint32_t number : tree) {
+      const scenario::ResolvedProgram& program = resolved_.programs[number];
+      for (const scenario::ResolvedMember& each : program.members) {
+        messages.push_back({each.state, program.description->cycle, program.receive_timeout});
+        if (each.roles) messages.push_back({*each.roles, program.announce_every, wire::announce_timeout(program.announce_every)});
+      }
     }
     return messages;
   }
 
-  /// Calls, joins and leaves are calls here; every node that goes down or comes up may be one of the Program's.
+  /// Calls, joins and leaves are calls here; every node that goes down may be one of the Program's, and the explorer lets it come up for nothing.
   analysis::EventsInARow all_events() const {
     analysis::EventsInARow all;
     for (const scenario::ResolvedAction& action : resolved_.script) {
       if (std::holds_alternative<scenario::ResolvedCall>(action.what) || std::holds_alternative<scenario::ResolvedMembership>(action.what)) ++all.calls;
-      if (std::holds_alternative<scenario::ResolvedNode>(action.what)) ++all.faults;
+      const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what);
+      all.faults += node != nullptr && !node->up;
     }
     return all;
   }

@@ -6,7 +6,7 @@ namespace takt::wire {
 
 using handshake::Side;
 
-Nesting::Nesting(ProgramNode& outer, ProgramNode& inner) : outer_(&outer.join(*this, Side::outer)), inner_(&inner.join(*this, Side::inner)) {
+Nesting::Nesting(ProgramNode& outer, ProgramNode& inner) : outer_(&outer.join(*this, Side::outer)), inner_(&inner.join(*this, Side::inner)), inner_node_(&inner) {
   TAKT_CHECK(outer_->settings().handshake.nested && inner_->settings().handshake.nested, "both participants wait for each other");
   TAKT_CHECK(outer_->settings().handshake.role == handshake::Role::slave && inner_->settings().handshake.role == handshake::Role::master,
              "a slave of the outer group is the master of the inner one");
@@ -15,8 +15,10 @@ Nesting::Nesting(ProgramNode& outer, ProgramNode& inner) : outer_(&outer.join(*t
 void Nesting::settle(const Turn& turn) {
   if (settling_) return;
   settling_ = true;
-  while (const auto next = coupling_.next(view_of(outer_->participant()), view_of(inner_->participant())))
-    (next->side == Side::outer ? outer_ : inner_)->step(turn, next->input);
+  do {
+    while (const auto next = coupling_.next(view_of(outer_->participant()), view_of(inner_->participant(), inner_node_->is_complete())))
+      (next->side == Side::outer ? outer_ : inner_)->step(turn, next->input);
+  } while (inner_node_->settle_roles(turn));
   settling_ = false;
 }
 

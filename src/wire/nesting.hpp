@@ -28,6 +28,7 @@ class Nesting {
  private:
   ProgramEndpoint* outer_;
   ProgramEndpoint* inner_;
+  ProgramNode* inner_node_;   // which binds the roles, if the inner group has some
   handshake::Coupling coupling_;
   NodeOutputs outputs_;
   bool settling_ = false;  // the steps that it takes itself come back to it

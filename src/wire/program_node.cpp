@@ -58,8 +58,9 @@ void ProgramNode::crash() {
 }
 
 ProgramEndpoint& ProgramNode::join(Nesting& nesting, Side side) {
-  TAKT_CHECK(!settings_.roles, "nested Programs have no roles");
+  TAKT_CHECK(!settings_.roles || (side == Side::inner && binder_), "whoever joins two groups has its place in both");
   nesting_ = &nesting;
+  side_ = side;
   endpoint_->join(nesting, side);
   return *endpoint_;
 }
@@ -77,7 +78,7 @@ std::optional<std::size_t> ProgramNode::participant() const { return endpoint_ ?
 NodeOutputs& ProgramNode::start(sim::LocalTime now) {
   const Turn turn = this->turn(now);
   if (endpoint_) endpoint_->start(turn);
-  if (settings_.roles) turn.out.add(Side::outer, SetAlarm{role_alarm(), now});
+  if (settings_.roles) turn.out.add(side_, SetAlarm{role_alarm(), now});
   return turn.out;
 }
 
@@ -127,7 +128,7 @@ NodeOutputs& ProgramNode::wake(sim::LocalTime now, std::size_t alarm) {
   const Turn turn = this->turn(now);
   if (alarm == role_alarm()) {
     candidate_ ? announce(turn) : publish_table(turn);
-    turn.out.add(Side::outer, SetAlarm{alarm, now + settings_.roles->announce_cycle});
+    turn.out.add(side_, SetAlarm{alarm, now + settings_.roles->announce_cycle});
     return turn.out;
   }
   if (alarm > role_alarm()) {
@@ -158,7 +159,7 @@ NodeOutputs& ProgramNode::leave(sim::LocalTime now) {
 bool ProgramNode::take(const Turn& turn, const AnnouncementMessage& message) {
   const sim::Duration timeout = announce_timeout(settings_.roles->announce_cycle);
   if (!arrivals_[message.candidate].take(message.sequence, message.announcement.life, turn.now, timeout)) return false;
-  if (binder_->announced(message.candidate, message.announcement)) turn.out.add(Side::outer, SetAlarm{role_alarm() + 1 + message.candidate, turn.now + timeout});
+  if (binder_->announced(message.candidate, message.announcement)) turn.out.add(side_, SetAlarm{role_alarm() + 1 + message.candidate, turn.now + timeout});
   return true;
 }
 
@@ -169,11 +170,11 @@ bool ProgramNode::take(const Turn& turn, const TableMessage& message) {
   const Candidate::Change change = candidate_->table(std::span(message.bindings).first(settings_.roles->format->roles()), message.used_lives[before.candidate]);
   if (change == Candidate::Change::released) {
     endpoint_.reset();
-    turn.out.add(Side::outer, RoleDropped{*role, before});
+    turn.out.add(side_, RoleDropped{*role, before});
   }
   if (change == Candidate::Change::bound) {
     take_role();
-    turn.out.add(Side::outer, RoleTaken{*candidate_->role(), before});
+    turn.out.add(side_, RoleTaken{*candidate_->role(), before});
     endpoint_->start(turn);
   }
   if (self() != before) announce(turn);
@@ -188,20 +189,27 @@ void ProgramNode::take_role() {
   endpoint_.emplace(std::move(settings));
 }
 
-/// Tells the participant what the binder finds; a new table is published at once.
 void ProgramNode::settle(const Turn& turn) {
   if (!binder_) return;
+  nesting_ == nullptr ? static_cast<void>(settle_roles(turn)) : nesting_->settle(turn);
+}
+
+bool ProgramNode::settle_roles(const Turn& turn) {
+  if (!binder_) return false;
+  bool has_stepped = false;
   bool changed = false;
   while (const auto input = binder_->next(master_view_of(endpoint_->participant()))) {
     if (input->kind == Input::Kind::peer_replaced) {
       const Binding& binding = binder_->binding(input->peer);
       endpoint_->expect(input->peer, binding.bound() ? std::optional(handshake::incarnation_of(binding.candidate, binding.life)) : std::nullopt);
-      turn.out.add(Side::outer, RoleBound{input->peer, binding});
+      turn.out.add(side_, RoleBound{input->peer, binding});
       changed = true;
     }
     endpoint_->step(turn, *input);
+    has_stepped = true;
   }
   if (changed) publish_table(turn);
+  return has_stepped;
 }
 
 void ProgramNode::publish_table(const Turn& turn) {
@@ -221,7 +229,7 @@ template <class Message>
 void ProgramNode::publish(const Turn& turn, const Message& message, std::uint16_t writer_group) {
   const std::span<std::byte> target = turn.out.message();
   const std::size_t octets = settings_.roles->format->encode(message, target).size();
-  turn.out.add(Side::outer, Publish{target.first(octets), {writer_group, settings_.endpoint.priority}, message.sequence});
+  turn.out.add(side_, Publish{target.first(octets), {writer_group, settings_.endpoint.priority}, message.sequence});
 }
 
 }  // namespace takt::wire

@@ -84,8 +84,12 @@ class ProgramNode {
 
  private:
   friend class Nesting;
-  /// Joins another Program of its node; it is a participant without roles.
+  /// Joins another Program of its node. The inner one may bind roles; candidates join none.
   ProgramEndpoint& join(Nesting& nesting, handshake::Side side);
+  /// Tells the participant what the binder finds; a new table is published at once. False if all is settled.
+  bool settle_roles(const Turn& turn);
+  /// All of its roles are bound, if there are any.
+  bool is_complete() const { return !binder_ || binder_->complete(); }
 
   Turn turn(sim::LocalTime now);
   std::size_t role_alarm() const { return ProgramEndpoint::alarm_count(peers_); }  // announcement or table; candidates' silence behind it
@@ -108,6 +112,7 @@ class ProgramNode {
   std::uint16_t sequence_ = 0;          ///< of its tables or announcements
   NodeOutputs outputs_;                 ///< without nesting
   Nesting* nesting_ = nullptr;
+  handshake::Side side_ = handshake::Side::outer;
 };
 
 }  // namespace takt::wire

@@ -56,9 +56,33 @@ class Answers(unittest.TestCase):
         self.assertEqual((status, err, answer["states"], answer["candidates"]), (0, "", 12709, 2))
         self.assertEqual(answer["properties"]["B1"], "holds")
         self.assertNotIn("B1", json.loads(explore("--slaves", 1, "--calls", 1, "--format", "json")[1])["properties"])
-        for wrong, why in ((("--faults", "forge"), "loss, crash, restart and timeout"), (("--variant", "paper"), "paper knows no roles"), (("--joining",), "single groups")):
+        for wrong, why in ((("--faults", "forge"), "loss, crash, restart and timeout"), (("--variant", "paper"), "paper knows no roles"), (("--joining",), "join by themselves")):
             status, _, err = explore("--slaves", 1, "--candidates", 2, *wrong)
             self.assertEqual((status, why in err), (2, True), err)
+
+    def test_roles_within_another_group(self):
+        status, out, err = explore("--slaves", 1, "--nested", "--candidates", 1, "--calls", 1, "--format", "json")
+        answer = json.loads(out)
+        self.assertEqual((status, err, answer["states"], answer["nested"], answer["candidates"]), (0, "", 5764, True, 1))
+        self.assertIn("1 master and 1 slave, the last of them master of 2 inner roles for 2 candidates", explore("--slaves", 1, "--nested", "--inner-slaves", 2, "--candidates", 2, "--calls", 0)[1])
+        for wrong, why in (((1, "--candidates", 3), "at most 2 candidates"), ((3, "--candidates", 1), "at most 2 outer slaves"), ((1, "--candidates", 1, "--starts-again"), "started by the one outside")):
+            status, _, err = explore("--nested", "--slaves", *wrong)
+            self.assertEqual((status, why in err), (2, True), err)
+
+    def test_programs_of_a_tree_are_explored_together(self):
+        hosts = {name: {"kind": "host"} for name in "mca"} | {"b": {"kind": "host", "offers": ["x"]}, "sw": {"kind": "switch"}}
+        tree = {"name": "tree", "duration": "1ms", "network": {"nodes": hosts, "links": [{"ends": [name, "sw"]} for name in "mcab"]},
+                "programs": [{"name": "line", "master": "m", "slaves": ["a", "c"], "cycle": "1ms"},
+                             {"name": "cell", "within": "line", "master": "c", "roles": [{"name": "r", "skill": "x"}], "cycle": "1ms"}],
+                "script": [{"at": "0s", "program": "line", "call": "Start"}]}
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "tree.json"
+            path.write_text(json.dumps(tree))
+            status, out, err = explore(path, "--calls", 0)
+        self.assertEqual((status, err), (1, ""))  # without a call only some transitions are reached
+        self.assertIn("1 master and 2 slaves, the last of them master of 1 inner role for 1 candidate;", out)
+        self.assertNotIn("violated", out)
+        self.assertIn("trees of two groups can be explored, not of 3", explore(SCENARIOS / "programs" / "nested-cell.json", "--calls", 0)[2])
 
     def test_paper_is_violated(self):
         status, out, _ = explore("--slaves", 1, "--variant", "paper", "--format", "json")

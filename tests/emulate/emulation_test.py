@@ -152,6 +152,44 @@ class Emulation(unittest.TestCase):
         self.assertEqual([event.get("role") for event in log if event["event"] == "role taken"], ["left", "right"])
         self.assertEqual(len([event for event in log if event["event"] == "start"]), 2)
 
+    # A mill in a line, whose tools come and go: both groups in the order of the simulated run.
+    def test_roles_in_a_nested_group(self):
+        slower = ["programs.0.receive_timeout=1000s", "programs.1.receive_timeout=1s", "programs.1.announce_every=300ms", "faults.0.at=2s", "faults.0.for=1800ms"]
+        slower += [f"script.{i}.at={at}" for i, at in enumerate(("500ms", "1s", "5s", "5500ms", "6s", "6500ms", "8s", "8500ms", "10s", "10500ms", "12s"))]
+        result = self.emulate(str(SOURCES / "scenarios" / "programs" / "nested-roles.json"), *(word for each in slower for word in ("--set", each)), "--duration", "13s")
+        self.assertEqual(result["invariants"]["violated"], [])
+        self.assertTrue(result["same"], json.dumps(result["programs"]) + json.dumps(result["notes"]))
+        roles = {role["name"]: role["emulated"] for role in result["programs"][1]["roles"]}
+        self.assertEqual(roles, {"cutter": ["cutterA", "cutterB", "cutterA", "", "cutterB"], "coolant": ["cooler"]})
+
+    def test_applications_and_a_gateway_beside_a_program(self):
+        nodes = {"plc": {"kind": "host"}, "left": {"kind": "host"}, "right": {"kind": "host"}, "a": {"kind": "switch"}, "b": {"kind": "switch"}}
+        fields = {"x": "Int32", "v": {"type": "Double", "count": 4}}
+        applications = [{"name": "speaks", "on": "left", "threads": [{"name": "say", "publish": "report", "every": "10ms"}]},
+                        {"name": "hears", "on": "right", "threads": [{"name": "take", "subscribe": "report", "every": "10ms"}]}]
+        script = SMALL["script"][:1]
+        path = self.file(network=SMALL["network"] | {"nodes": nodes}, topics=[{"name": "report", "protocol": "opc-ua", "fields": fields}], applications=applications, script=script)
+        result = self.emulate(path, *PATIENT)
+        self.assertTrue(result["same"], json.dumps(result))
+        threads = {thread["name"]: thread for application in result["applications"] for thread in application["threads"]}
+        self.assertEqual(threads["say"]["simulated"]["activations"], 151)  # at 0, 10, ... 1500 ms
+        self.assertGreater(threads["take"]["emulated"]["received"], 0)
+        self.assertLessEqual(threads["take"]["emulated"]["received"], threads["say"]["emulated"]["published"])
+        # Killed in the middle: the other one goes on, and of what was killed nothing is said.
+        result = self.emulate(self.file(topics=[{"name": "report", "protocol": "opc-ua", "fields": fields}], applications=applications, programs=[], script=[],
+                                        faults=[{"kind": "crash", "node": "left", "at": "600ms"}]))
+        self.assertEqual([(each["application"], each["whole"], each["same"]) for each in result["applications"]], [("speaks", False, True), ("hears", True, True)])
+
+    def test_a_gateway_between_dds_and_opc_ua(self):
+        done = subprocess.run([TAKT, "emulate", str(SOURCES / "scenarios" / "applications" / "gateway.json"), "--format", "json"], capture_output=True, text=True, timeout=1000, check=False)
+        if "DDS is not in this build" in done.stderr:
+            self.skipTest("DDS is not in this build")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        result = json.loads(done.stdout)
+        bridge = next(each for each in result["applications"] if each["application"] == "bridge")
+        self.assertEqual([thread["name"] for thread in bridge["threads"]], ["receive", "send"])
+        self.assertGreater(bridge["threads"][1]["emulated"]["published"], 0)
+
     def test_the_shipped_cell_with_roles(self):
         # Who is gone is gone for longer than the patience, so that there is one way only for it to go.
         slower = ["programs.0.announce_every=300ms", "programs.1.receive_timeout=1s", "faults.0.for=2s", "script.3.at=3.5s", "script.4.at=4s", "script.5.at=4.6s", "script.6.at=4.8s"]
@@ -209,7 +247,7 @@ class Refusals(unittest.TestCase):
             path.write_text(json.dumps({key: value for key, value in SMALL.items() if key not in ("programs", "script")}), encoding="utf-8")
             status, out, err = self.emulate(str(path))
         self.assertEqual((status, out), (2, ""))
-        self.assertIn("no Program", err)
+        self.assertIn("neither a Program nor an application", err)
 
     def test_root_is_asked_for(self):
         prefix = ["setpriv", "--reuid=65534", "--clear-groups"] if os.geteuid() == 0 else []

@@ -15,7 +15,7 @@ namespace {
 using namespace takt;
 using handshake::PublishedState;
 
-constexpr std::array<const char*, 6> kinds = {"robust", "paper", "all-to-all", "nested", "roles", "two"};
+constexpr std::array<const char*, 7> kinds = {"robust", "paper", "all-to-all", "nested", "roles", "two", "nested-roles"};
 constexpr int most_operations = 60;
 
 class Input {

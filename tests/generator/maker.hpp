@@ -104,6 +104,7 @@ class Maker {
   std::size_t streams = 0, topics = 0;
   enum class Group : std::uint8_t { plain, outer, inner, roles };
   std::vector<Group> groups;              ///< the programs: what each is
+  bool inner_has_roles = false;           ///< instead of a group of its own with roles
   std::vector<std::string> skills;        ///< that are offered
   std::map<std::string, Node> kept;       ///< what rules make once for the whole scenario
   /// The scenario as far as it has been made.

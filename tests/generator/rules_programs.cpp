@@ -58,6 +58,9 @@ std::vector<std::string> offered_skills(const Maker& m) {
     if (!offering(m, skill).empty()) some.push_back(skill);
   return some;
 }
+bool has_roles(const Maker& m, const Scope& s) {
+  return (is(m, s, Maker::Group::roles) || (is(m, s, Maker::Group::inner) && m.inner_has_roles)) && !offered_skills(m).empty();
+}
 /// Those that may have a role of the program.
 std::vector<std::string> candidates_of(const Maker& m, const Node& program) {
   std::vector<std::string> hosts;
@@ -201,8 +204,8 @@ std::span<const Rule> program_rules() {
          for (std::size_t tries = 0; tries < 20 && std::ranges::find(taken, made->text) != taken.end(); ++tries) made = tries < 10 ? master(m, s) : text(m.draw.any(m.world.hosts));
          return made;
        }},
-      {.key = "program.slaves", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return is(m, s, Maker::Group::roles) && !offered_skills(m).empty() ? std::nullopt : slaves(m, s); }},
-      {.key = "program.roles", .feature = Feature::roles, .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return is(m, s, Maker::Group::roles) && !offered_skills(m).empty() ? Made(m.objects("role", m.draw.between(1, 2), s)) : std::nullopt; }},
+      {.key = "program.slaves", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return has_roles(m, s) ? std::nullopt : slaves(m, s); }},
+      {.key = "program.roles", .feature = Feature::roles, .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return has_roles(m, s) ? Made(m.objects("role", m.draw.between(1, 2), s)) : std::nullopt; }},
       {.key = "program.candidates", .feature = Feature::roles, .percent = 25, .make = [](Maker& m, const Scope& s) -> Made {
          if (!s.has("roles")) return std::nullopt;
          Node made = Node::array();
@@ -215,7 +218,7 @@ std::span<const Rule> program_rules() {
          return some.empty() ? std::nullopt : Made(list({text(m.draw.any(some))}));
        }},
       {.key = "program.announce_every", .feature = Feature::roles, .percent = 70, .make = [](Maker& m, const Scope& s) -> Made { return s.has("roles") ? Made(m.word("2ms 5ms")) : std::nullopt; }},
-      {.key = "program.on_replacement", .feature = Feature::roles, .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.has("roles") ? Made(m.word("stay-halted restart")) : std::nullopt; }},
+      {.key = "program.on_replacement", .feature = Feature::roles, .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.has("roles") ? Made(m.word(is(m, s, Maker::Group::inner) ? "stay-halted" : "stay-halted restart")) : std::nullopt; }},
       {.key = "program.within", .feature = Feature::nesting, .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return is(m, s, Maker::Group::inner) ? Made(text("p0")) : std::nullopt; }},
       {.key = "program.cycle", .make = [](Maker& m, const Scope&) -> Made { return m.word(m.wants(Feature::automatic_gates) ? "1ms 2ms" : m.is_slow() || m.is_long() ? "1ms 2ms" : "200us 250us 500us 1ms"); }},
       {.key = "program.offset", .percent = 25, .words = "0us 20us 150us auto"},

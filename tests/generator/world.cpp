@@ -172,7 +172,8 @@ Maker::Maker(std::uint64_t seed, std::set<Feature> wishes) : draw(seed), wishes_
   for (const Feature of_streams : {Feature::launch, Feature::multicast, Feature::explicit_path, Feature::redundancy, Feature::traces, Feature::babble})
     if (wants(of_streams)) streams = std::max<std::size_t>(streams, 2);
   if (wants(Feature::nesting)) groups = {Group::outer, Group::inner};
-  if (wants(Feature::roles)) groups.push_back(Group::roles);
+  inner_has_roles = wants(Feature::nesting) && wants(Feature::roles) && draw.one_in(2);
+  if (wants(Feature::roles) && !inner_has_roles) groups.push_back(Group::roles);
   if (wants(Feature::paper_variant) || (wants(Feature::replies) && groups.empty()) || (wants(Feature::programs) && (groups.empty() || draw.one_in(3)))) groups.push_back(Group::plain);
   topics = draw.between(2, 3);
   if (wants(Feature::roles)) skills = {"weld", "grip"};

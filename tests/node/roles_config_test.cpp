@@ -107,7 +107,7 @@ TEST(RolesConfig, MistakesAreFound) {
            Mistake{file("m", "", program(R"(, "process_data": [{"name": "bindings", "from": "m", "fields": {"x": "Double"}}])")), "duplicate name: found \"bindings\""},
            Mistake{file("m", "", program(R"(, "process_data": [{"name": "d", "from": "a", "fields": {"x": "Double"}}])")), R"(found "a", expected the master or a role)"},
            Mistake{two, R"(a node that offers its skills to two programs: found "a" to "p" and "q")"},
-           Mistake{nested, R"(roles in nested programs: found "roles" of "p")"},
+           Mistake{nested, R"(roles in an outer program: found "roles" of "p", expected "slaves", of which the master of "i" is one)"},
        }) {
     const Load load(each.text);
     EXPECT_FALSE(load.loaded) << each.text;

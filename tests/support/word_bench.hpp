@@ -45,7 +45,11 @@ inline const WordBenchGroup& word_bench_group(const std::string& kind) {
         {{"plc", ""}, {"left", ""}, {"right", ""}, {"x", ""}, {"y", ""}}}},
       {"roles",
        {R"({"name": "cell", "master": "plc", "cycle": "1ms", "announce_every": "5ms", "candidates": ["a", "b", "c"], "roles": [{"name": "left", "skill": "welding"}, {"name": "hand", "skill": "gripping"}]})",
-        {{"plc", ""}, {"a", R"(, "offers": ["welding"])"}, {"b", R"(, "offers": ["welding"])"}, {"c", R"(, "offers": ["gripping"])"}}}}};
+        {{"plc", ""}, {"a", R"(, "offers": ["welding"])"}, {"b", R"(, "offers": ["welding"])"}, {"c", R"(, "offers": ["gripping"])"}}}},
+      {"nested-roles",
+       {R"({"name": "line", "master": "plc", "slaves": ["left", "right"], "cycle": "1ms"},
+           {"name": "cell", "within": "line", "master": "right", "cycle": "1ms", "announce_every": "5ms", "candidates": ["a", "b"], "roles": [{"name": "tool", "skill": "welding"}]})",
+        {{"plc", ""}, {"left", ""}, {"right", ""}, {"a", R"(, "offers": ["welding"])"}, {"b", R"(, "offers": ["welding"])"}}}}};
   return groups.at(kind);
 }
 

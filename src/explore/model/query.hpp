@@ -45,6 +45,7 @@ inline constexpr std::size_t most_inner_slaves = 2;
 /// A group with roles.
 inline constexpr std::size_t most_explored_roles = 2;
 inline constexpr std::size_t most_explored_candidates = 3;
+inline constexpr std::size_t most_inner_candidates = 2;
 
 struct Query {
   handshake::Variant variant = handshake::Variant::robust;
@@ -62,7 +63,7 @@ struct Query {
   bool symmetry = true;              ///< slaves that play the same part are one state
   std::uint8_t inner_slaves = 0;     ///< 0: one group. Else the last slave is the master of an inner group with so many slaves
   bool joining = false;              ///< the last slave (of the inner group, if there is one) is down at the beginning, and comes up at any time or never
-  std::uint8_t candidates = 0;       ///< 0: fixed slaves. Else so many nodes may have the roles, of which there are `slaves`
+  std::uint8_t candidates = 0;       ///< 0: fixed slaves. Else so many nodes may have the roles: the places of the slaves, with an inner group of its slaves
   std::array<std::uint8_t, most_explored_candidates> offers{0xFF, 0xFF, 0xFF};  ///< by candidate: the roles that it can have, bit i for role i
   std::uint8_t joined = 0xFF;        ///< candidates that announce themselves when they are switched on, bit i for candidate i
   bool starts_again = false;         ///< the master starts the group again when a node that was lost in a run has been replaced
@@ -70,8 +71,10 @@ struct Query {
   /// Explored by the model of groups with roles (roles_model.hpp): `robust`, star, registers, no delayed copies.
   bool has_roles() const { return candidates != 0; }
   bool nested() const { return inner_slaves != 0; }
+  /// Roles are those of the inner group, if there is one.
+  std::uint8_t roles() const { return nested() ? inner_slaves : slaves; }
   /// Explored by the model of groups in groups (tree_model.hpp): `robust`, star, registers, no delayed copies, slaves told apart.
-  bool is_tree() const { return nested() || joining; }
+  bool is_tree() const { return (nested() && !has_roles()) || joining; }
   /// Somebody may fall silent, so that F1 says something.
   constexpr bool asks_for_silence() const {
     return joining || (fault_budget > 0 && (faults.contains(Fault::crash) || faults.contains(Fault::timeout)));

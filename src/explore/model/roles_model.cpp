@@ -8,14 +8,24 @@ namespace takt::explore {
 using handshake::PublishedState;
 using program::Method;
 
-RolesModel::RolesModel(const Query& query) : query_(query), stations_(query), group_(query.slaves + 1U) {
-  TAKT_CHECK(query.slaves >= 1 && query.slaves <= most_explored_roles && query.candidates >= 1 && query.candidates <= most_explored_candidates, "a group to explore is small");
+namespace {
+
+handshake::GroupTree tree_of(const Query& query) {
+  if (!query.nested()) return handshake::GroupTree(query.slaves + std::size_t{1});
+  return handshake::GroupTree({{query.slaves + std::size_t{1}, 0, 0}, {query.roles() + std::size_t{1}, 0, query.slaves}});
+}
+
+}  // namespace
+
+RolesModel::RolesModel(const Query& query) : query_(query), stations_(query), group_(tree_of(query)) {
+  TAKT_CHECK(query.slaves >= 1 && query.roles() <= most_explored_roles && query.candidates >= 1 && query.candidates <= most_explored_candidates, "a group to explore is small");
   TAKT_CHECK(query.variant == handshake::Variant::robust && query.subscription == handshake::Subscription::star && query.network == Network::registers && !query.is_tree(),
              "roles are explored with robust in stars on registers");
+  TAKT_CHECK(!query.nested() || (query.slaves <= most_outer_slaves && query.candidates <= most_inner_candidates && !query.starts_again), "a nested group to explore is small, and does not start itself");
   TAKT_CHECK(!query.faults.contains(Fault::duplicate) && !query.faults.contains(Fault::reorder) && !query.faults.contains(Fault::forge), "no delayed copies and no strangers with roles");
   shape_.wide = true;
-  shape_.channels_at = static_cast<std::uint8_t>(stations());
-  shape_.observer_at = shape_.late_at = static_cast<std::uint8_t>(stations() + channels_of_candidate * query.candidates);
+  shape_.channels_at = static_cast<std::uint8_t>(all_stations());
+  shape_.observer_at = shape_.late_at = static_cast<std::uint8_t>(all_stations() + channels());
   shape_.rest_at = static_cast<std::uint8_t>(shape_.observer_at + 1);
   shape_.words = static_cast<std::uint8_t>((shape_.rest_at + 2U) / 2U * 2U);
   TAKT_CHECK(shape_.words <= State::most_words, "a group to explore is small");
@@ -25,23 +35,30 @@ RolesModel::RolesModel(const Query& query) : query_(query), stations_(query), gr
 
 void RolesModel::list_actions() {
   const auto each_channel = [&](ActionKind kind) {
-    for (std::size_t c = 0; c < channels_of_candidate * query_.candidates; ++c) add(kind, c);
+    for (std::size_t c = 0; c < channels(); ++c) add(kind, c);
+  };
+  const auto each_seat = [&](ActionKind kind) {
+    for (std::size_t s = 0; s < seats(); ++s) add(kind, s);
   };
   const auto each_station = [&](ActionKind kind) {
-    for (std::size_t s = 0; s < stations(); ++s) add(kind, s);
+    for (std::size_t s = 0; s < all_stations(); ++s) add(kind, s);
   };
   const auto each_time_out = [&](ActionKind kind) {
     for (std::size_t what = 0; what < roles() + query_.candidates; ++what) add(kind, 0, what);
     for (std::size_t s = 1; s < stations(); ++s) add(kind, s);
+    for (std::size_t slave = 1; slave <= outsiders(); ++slave) {
+      add(kind, outer_seat(0), slave - 1);
+      add(kind, outer_seat(slave));
+    }
   };
   each_channel(ActionKind::send);
   each_channel(ActionKind::receive);
-  each_station(ActionKind::initialised);
+  each_seat(ActionKind::initialised);
   each_time_out(ActionKind::silence);
   end_network();
-  for (std::size_t s = 0; s < stations(); ++s)
+  for (std::size_t s = 0; s < seats(); ++s)
     for (std::size_t m = 0; m < program::methods.size(); ++m) add(ActionKind::call, s, m);
-  if (query_.finishes) each_station(ActionKind::finish);
+  if (query_.finishes) each_seat(ActionKind::finish);
   for (std::size_t c = 0; c < query_.candidates; ++c) {
     add(ActionKind::join, c);
     add(ActionKind::leave, c);
@@ -58,6 +75,7 @@ State RolesModel::switched_on() {
   State state(shape_);
   state.set_member(0, stations_.master(1, false));
   for (std::size_t c = 0; c < query_.candidates; ++c) state.set_member(c + 1, stations_.candidate(c, 1, false, false));
+  for (std::size_t p = 0; p < outsiders(); ++p) state.set_member(stations() + p, stations_.outsider(p, 1, false));
   state.set_observer(observers_.intern({SmallObserver(handshake::Variant::robust, group_), {}}));
   return state;
 }
@@ -73,17 +91,16 @@ void RolesModel::make_beginnings() {
   begun("switched on", query_.joined).keep(1, PublishedState::Halted, beginnings_);
   if (query_.beginnings == Beginnings::switched_on) return;
   if (query_.joined != 0) begun("switched on, nobody has joined", 0).keep(1, PublishedState::Halted, beginnings_);
-  const std::size_t channels = channels_of_candidate * query_.candidates;
   constexpr int rounds = 12;
   for (const Rest& rest : rests()) {
     if (rest.calls.empty()) continue;  // it follows from the first
     Opening opening = begun(rest.name, 0xFF);
-    opening.settle(stations(), channels, rounds);
+    opening.settle(seats(), channels(), rounds);
     for (const Method method : rest.calls) {
-      opening.call(method);
-      opening.settle(stations(), channels, rounds);
+      opening.take({ActionKind::call, static_cast<std::uint8_t>(leader()), static_cast<std::uint16_t>(program::index_of(method))});
+      opening.settle(seats(), channels(), rounds);
     }
-    opening.keep(roles() + 1, rest.state, beginnings_);
+    opening.keep(group_.participants(), rest.state, beginnings_);
   }
 }
 
@@ -91,7 +108,7 @@ bool RolesModel::act(const State& state, Action action, Next& next) {
   if (!change(state, action, next)) return false;
   judge_holders(next);
   if (is_network(action.kind)) return true;
-  const bool is_start = action.kind == ActionKind::call && action.who == 0 && program::methods[action.what].method == Method::Start;
+  const bool is_start = action.kind == ActionKind::call && action.who == leader() && (!query_.nested() || binder(state).complete()) && program::methods[action.what].method == Method::Start;
   next.state.set_promised(is_start && at_rest(state));
   return true;
 }
@@ -111,17 +128,16 @@ bool RolesModel::change(const State& state, Action action, Next& next) {
     case ActionKind::send: return publish(state, action.who, next);
     case ActionKind::receive: return receive(state, action.who, next);
     case ActionKind::initialised: {
-      const Participant* const participant = action.who == 0 ? &master(state).participant : node(state, action.who - 1U).member ? &*node(state, action.who - 1U).member : nullptr;
-      if (is_down(state, action.who) || participant == nullptr || participant->state() != PublishedState::HaltedInit) return false;
+      const Participant* const participant = participant_at(state, action.who);
+      if (is_down(state, station_of(action.who)) || participant == nullptr || participant->state() != PublishedState::HaltedInit) return false;
       return step(action.who, Happens::initialised, 0, no_notice, next);
     }
     case ActionKind::silence: return expire(state, action, true, next);
     case ActionKind::timeout: return expire(state, action, false, next);
-    case ActionKind::call: return !is_down(state, action.who) && step(action.who, Happens::call, action.what, no_notice, next);
+    case ActionKind::call: return !is_down(state, station_of(action.who)) && step(action.who, Happens::call, action.what, no_notice, next);
     case ActionKind::finish: {
-      const bool runs = action.who == 0 ? master(state).participant.state() == PublishedState::Running
-                                        : node(state, action.who - 1U).member && node(state, action.who - 1U).member->state() == PublishedState::Running;
-      return runs && !is_down(state, action.who) && step(action.who, Happens::finished, 0, no_notice, next);
+      const Participant* const participant = participant_at(state, action.who);
+      return participant != nullptr && participant->state() == PublishedState::Running && !is_down(state, station_of(action.who)) && step(action.who, Happens::finished, 0, no_notice, next);
     }
     case ActionKind::join:
     case ActionKind::leave: {
@@ -137,7 +153,29 @@ bool RolesModel::change(const State& state, Action action, Next& next) {
   }
 }
 
+std::size_t RolesModel::sender_of(std::size_t channel) const {
+  if (!is_outer_channel(channel)) return is_up(channel) ? candidate_of(channel) + 1 : 0;
+  const std::size_t i = channel - channels_of_candidate * query_.candidates;
+  return outer_seat(i % 2 == 0 ? i / 2 + 1 : 0);
+}
+std::size_t RolesModel::receiver_of(std::size_t channel) const {
+  if (!is_outer_channel(channel)) return is_up(channel) ? 0 : candidate_of(channel) + 1;
+  const std::size_t i = channel - channels_of_candidate * query_.candidates;
+  return outer_seat(i % 2 == 0 ? 0 : i / 2 + 1);
+}
+
+const Participant* RolesModel::participant_at(const State& state, std::size_t seat) const {
+  if (seat == 0) return &master(state).participant;
+  if (station_of(seat) == 0) return &*master(state).outer;
+  if (is_outer(seat)) return &stations_.outsider(state.member(seat)).participant;
+  return node(state, seat - 1).member ? &*node(state, seat - 1).member : nullptr;
+}
+
 NoticeId RolesModel::said(const State& state, std::size_t channel) {
+  if (is_outer_channel(channel)) {
+    const std::size_t seat = sender_of(channel);
+    return station_of(seat) == 0 ? stations_.word_outside(state.member(0)) : stations_.word_of_outsider(state.member(seat));
+  }
   const StationId sender = state.member(is_up(channel) ? candidate_of(channel) + 1 : 0);
   switch (kind_of(channel)) {
     case Channel::announcement: return stations_.announcement(sender);
@@ -149,7 +187,7 @@ NoticeId RolesModel::said(const State& state, std::size_t channel) {
 }
 
 bool RolesModel::publish(const State& state, std::size_t channel, Next& next) {
-  if (is_down(state, is_up(channel) ? candidate_of(channel) + 1 : 0)) return false;
+  if (is_down(state, station_of(sender_of(channel)))) return false;
   const NoticeId notice = said(state, channel);
   if (notice == no_notice || notice == state.content(channel)) return false;
   next.state.set_content(channel, notice);
@@ -158,14 +196,16 @@ bool RolesModel::publish(const State& state, std::size_t channel, Next& next) {
 
 bool RolesModel::receive(const State& state, std::size_t channel, Next& next) {
   const NoticeId notice = state.content(channel);
-  const std::size_t receiver = is_up(channel) ? 0 : candidate_of(channel) + 1;
-  if (notice == no_notice || is_down(state, receiver)) return false;
+  const std::size_t receiver = receiver_of(channel);
+  if (notice == no_notice || is_down(state, station_of(receiver))) return false;
+  if (is_outer_channel(channel)) return step(receiver, Happens::received, receiver == outer_seat(0) ? sender_of(channel) - outer_seat(1) : 0, notice, next);
   return step(receiver, Happens::received, is_up(channel) ? candidate_of(channel) : 0, notice, next);
 }
 
 /// Falls silent: who is down, announces itself no more, or has the role no more. Then nothing of it is under way.
 bool RolesModel::expire(const State& state, Action action, bool is_silent, Next& next) {
-  if (is_down(state, action.who)) return false;
+  if (is_down(state, station_of(action.who))) return false;
+  if (is_outer(action.who)) return expire_outside(state, action, is_silent, next);
   if (action.who != 0) {
     if (is_down(state, 0) != is_silent || !node(state, action.who - 1U).member) return false;
     const bool changed = step(action.who, Happens::master_silent, 0, no_notice, next);
@@ -182,6 +222,18 @@ bool RolesModel::expire(const State& state, Action action, bool is_silent, Next&
   return changed || forgotten;
 }
 
+/// Of the outer group: of a slave at its master, or of that.
+bool RolesModel::expire_outside(const State& state, Action action, bool is_silent, Next& next) {
+  const bool at_master = action.who == outer_seat(0);
+  const std::size_t other = at_master ? outer_seat(action.what + 1U) : outer_seat(0);
+  if (is_down(state, station_of(other)) != is_silent) return false;
+  const Happens what = station_of(action.who) == 0 ? Happens::master_silent : Happens::peer_silent;
+  const bool changed = step(action.who, what, at_master ? action.what : 0, no_notice, next);
+  const std::size_t slave = (at_master ? other : std::size_t{action.who}) - outer_seat(0);
+  const bool forgotten = is_silent && forget(outer_channel(slave, at_master), next);
+  return changed || forgotten;
+}
+
 bool RolesModel::forget(std::size_t channel, Next& next) const {
   if (next.state.content(channel) == no_notice) return false;
   next.state.set_content(channel, no_notice);
@@ -193,11 +245,15 @@ bool RolesModel::crash(const State& state, std::size_t station, Next& next) {
     next.state.set_member(0, stations_.master(master(state).participant.config().incarnation, true));
     return true;
   }
+  if (is_outer(station)) {
+    next.state.set_member(station, stations_.outsider(station - stations(), stations_.outsider(state.member(station)).participant.config().incarnation, true));
+    return true;
+  }
   const Stations::Node before = node(state, station - 1);
   RolesObserver observer = observers_[state.observer()];
   if (before.member) {
     const std::size_t role = before.member->config().index - 1U;
-    if (observer.roles[role].on_dropped({before.number, before.candidate.announcement().life})) observer.group.on_restart(role + 1);
+    if (observer.roles[role].on_dropped({before.number, before.candidate.announcement().life})) observer.group.on_restart(number_of(role + 1));
   }
   next.state.set_observer(observers_.intern(observer));
   next.state.set_member(station, stations_.candidate(station - 1, before.candidate.announcement().life, before.candidate.announces(), true));
@@ -209,9 +265,15 @@ bool RolesModel::restart(const State& state, std::size_t station, Next& next) {
   if (!is_down(state, station)) crash(state, station, next);
   if (station == 0) {
     RolesObserver observer = observers_[next.state.observer()];
-    observer.group.on_restart(0);
+    observer.group.on_restart(number_of(0));
+    if (query_.nested()) observer.group.on_restart(query_.slaves);
     next.state.set_observer(observers_.intern(observer));
     next.state.set_member(0, stations_.master(master(state).participant.config().incarnation + 1, false));
+  } else if (is_outer(station)) {
+    RolesObserver observer = observers_[next.state.observer()];
+    observer.group.on_restart(station - stations());
+    next.state.set_observer(observers_.intern(observer));
+    next.state.set_member(station, stations_.outsider(station - stations(), stations_.outsider(state.member(station)).participant.config().incarnation + 1, false));
   } else {
     const handshake::Candidate& candidate = node(state, station - 1).candidate;
     const bool joined = candidate.announces();
@@ -220,9 +282,13 @@ bool RolesModel::restart(const State& state, std::size_t station, Next& next) {
   return true;
 }
 
-bool RolesModel::step(std::size_t station, Happens what, std::size_t which, NoticeId notice, Next& next) {
+bool RolesModel::step(std::size_t seat, Happens what, std::size_t which, NoticeId notice, Next& next) {
+  const std::size_t station = station_of(seat);
   const StationId before = next.state.member(station);
-  const Stations::Stepped stepped = station == 0 ? stations_.step_master(before, what, which, notice) : stations_.step_node(before, what, which, notice);
+  const Stations::Stepped stepped = seat == 0          ? stations_.step_master(before, what, which, notice)
+                                    : !is_outer(seat)  ? stations_.step_node(before, what, which, notice)
+                                    : station == 0     ? stations_.step_outside(before, what, which, notice)
+                                                       : stations_.step_outsider(before, what, which, notice);
   next.state.set_member(station, stepped.station);
   const bool refused = stepped.events != 0 && watch(stepped.events, next);
   // A call that is refused may still end the wish to start again; it costs a call as well.
@@ -236,8 +302,8 @@ bool RolesModel::watch(std::uint32_t events, Next& next) {
   if (all.each.empty()) return all.refused;
   RolesObserver observer = observers_[next.state.observer()];
   for (const RoleEvent& each : all.each) {
-    if (each.participant == 0) {
-      next.properties.bits |= observer.group.on_effect(group_, 0, each.effect).bits;
+    if (each.is_outer || each.participant == 0) {
+      next.properties.bits |= observer.group.on_effect(group_, each.is_outer ? each.participant : number_of(0), each.effect).bits;
       continue;
     }
     const std::size_t role = each.participant - 1U;
@@ -245,14 +311,14 @@ bool RolesModel::watch(std::uint32_t events, Next& next) {
     switch (each.kind) {
       case RoleEvent::Kind::bound: {
         const Participant* const before = holder(next.state, role);
-        if (of_role.on_bound(each.self, before == nullptr ? std::nullopt : std::optional(before->state())).is_new) observer.group.on_restart(role + 1);
+        if (of_role.on_bound(each.self, before == nullptr ? std::nullopt : std::optional(before->state())).is_new) observer.group.on_restart(number_of(role + 1));
         break;
       }
       case RoleEvent::Kind::dropped:
-        if (of_role.on_dropped(each.self)) observer.group.on_restart(role + 1);
+        if (of_role.on_dropped(each.self)) observer.group.on_restart(number_of(role + 1));
         break;
       case RoleEvent::Kind::step:
-        if (of_role.on_step(each.self, each.after)) next.properties.bits |= observer.group.on_effect(group_, each.participant, each.effect).bits;
+        if (of_role.on_step(each.self, each.after)) next.properties.bits |= observer.group.on_effect(group_, number_of(each.participant), each.effect).bits;
         break;
     }
   }
@@ -291,13 +357,21 @@ bool RolesModel::is_heard(const State& state, std::size_t role) const {
 
 PublishedState RolesModel::state_of(const State& state, std::size_t participant) const {
   if (participant == 0) return master(state).participant.state();
+  if (participant > roles()) return participant_at(state, outer_seat(participant - roles() - 1))->state();
   const Participant* const each = holder(state, participant - 1);
   return each == nullptr ? PublishedState::Halted : each->state();
 }
 
+bool RolesModel::anybody_down(const State& state) const {
+  if (is_down(state, 0)) return true;
+  for (std::size_t station = stations(); station < all_stations(); ++station)
+    if (is_down(state, station)) return true;
+  return false;
+}
+
 bool RolesModel::all_running(const State& state) const {
-  if (is_down(state, 0)) return false;
-  for (std::size_t p = 0; p <= roles(); ++p)
+  if (anybody_down(state)) return false;
+  for (std::size_t p = 0; p < group_.participants(); ++p)
     if (state_of(state, p) != PublishedState::Running) return false;
   return true;
 }
@@ -323,18 +397,30 @@ bool RolesModel::knows_candidates(const State& state) const {
   return true;
 }
 
+/// All of the outer group who live are in that state; if nobody is down, with the intent of its master.
+bool RolesModel::outside_settled(const State& state, PublishedState goal) const {
+  for (std::size_t p = 0; p <= outsiders() && query_.nested(); ++p) {
+    const Participant& each = *participant_at(state, outer_seat(p));
+    if (is_down(state, station_of(outer_seat(p)))) continue;
+    if (each.state() != goal || (!anybody_down(state) && each.intent() != participant_at(state, outer_seat(0))->intent())) return false;
+  }
+  return true;
+}
+
 bool RolesModel::settled(const State& state) const {
   const Participant& leader = master(state).participant;
-  if (is_down(state, 0)) {
+  if (anybody_down(state)) {
+    if (!outside_settled(state, PublishedState::Halted) || (!is_down(state, 0) && leader.state() != PublishedState::Halted)) return false;
     for (std::size_t c = 0; c < query_.candidates; ++c)
       if (node(state, c).member && node(state, c).member->state() != PublishedState::Halted) return false;
     return true;
   }
   const bool complete = binder(state).complete();
   if (!knows_candidates(state) || complete != can_be_filled(state, 0, 0)) return false;
-  const PublishedState goal = complete ? handshake::goal_of(leader.intent().kind) : PublishedState::Halted;
-  if (leader.state() != goal || (state.promised() && goal != PublishedState::Running)) return false;
-  if (complete && goal == PublishedState::Halted && !leader.may_start()) return false;
+  const Participant& outermost = *participant_at(state, this->leader());
+  const PublishedState goal = complete ? handshake::goal_of(outermost.intent().kind) : PublishedState::Halted;
+  if (!outside_settled(state, goal) || leader.state() != goal || (state.promised() && goal != PublishedState::Running)) return false;
+  if (complete && goal == PublishedState::Halted && !outermost.may_start()) return false;
   for (std::size_t role = 0; role < roles(); ++role) {
     const Participant* const each = holder(state, role);
     if (each == nullptr ? binder(state).binding(role).bound() : each->state() != goal || each->intent() != leader.intent()) return false;
@@ -344,9 +430,14 @@ bool RolesModel::settled(const State& state) const {
 
 /// Settled, and nothing of before is left that anybody could still hear.
 bool RolesModel::at_rest(const State& state) {
-  if (is_down(state, 0) || !settled(state)) return false;
-  for (std::size_t c = 0; c < channels_of_candidate * query_.candidates; ++c)
+  if (anybody_down(state) || !settled(state)) return false;
+  for (std::size_t c = 0; c < channels(); ++c)
     if (state.content(c) != no_notice && state.content(c) != said(state, c)) return false;
+  // In the outer group a restart is noticed by its first word; a candidate that restarts is bound anew.
+  for (std::size_t c = channels_of_candidate * query_.candidates; c < channels(); ++c) {
+    Next heard{state, {}};
+    if (state.content(c) == no_notice || receive(state, c, heard)) return false;
+  }
   return true;
 }
 

@@ -1,8 +1,9 @@
 // A group with roles on sampled registers: candidates announce themselves, the master binds the roles to them, and all may leave, crash and
 // come back in every order. The counterpart of group_model.hpp, whose State it fills: stations instead of participants, a notice in each channel.
 //
-// Station 0 is the master, station c + 1 candidate c. Each candidate has four channels: what it announces, and what it says in its role; the table of
-// bindings, and what the master says. At the master the time-outs of roles come before those of announcements.
+// The group may be nested: then its master is the last slave of an outer group without roles. What an action names is a seat: 0 the master, c + 1 candidate c,
+// then the participants of the outer group, of which the last one is the master's node, too. All others are stations of their own. Each candidate has four channels: what it announces, and what it says in its role; the table of
+// bindings, and what the master says; each outer slave has two, its words and those of its master. At the master the time-outs of roles come before those of announcements.
 #pragma once
 
 #include <array>
@@ -43,23 +44,42 @@ class RolesModel : public ActionList, public ToldApart {
   /// The goal of L1: whoever announces itself is known, roles are filled if they can be, whoever has one knows it, and all have done what was
   /// asked for last; a Start at rest ends in Running. The master is down: the goal of F1, all others Halted.
   bool settled(const State& state) const;
-  bool anybody_down(const State& state) const { return is_down(state, 0); }
+  bool anybody_down(const State& state) const;
   bool all_running(const State& state) const;
   std::size_t value_count() const { return stations_.size(); }
   std::size_t word_count() const { return stations_.notice_count() - 1; }
 
   std::size_t stations() const { return query_.candidates + 1U; }
-  std::size_t roles() const { return query_.slaves; }
-  bool is_down(const State& state, std::size_t station) const { return station == 0 ? master(state).down : node(state, station - 1).down; }
+  std::size_t roles() const { return query_.roles(); }
+  /// Of the outer group besides the master's node.
+  std::size_t outsiders() const { return query_.nested() ? query_.slaves : std::size_t{0}; }
+  std::size_t all_stations() const { return stations() + outsiders(); }
+  std::size_t seats() const { return all_stations() + (query_.nested() ? 1 : 0); }
+  bool is_outer(std::size_t seat) const { return seat >= stations(); }
+  std::size_t outer_seat(std::size_t participant) const { return stations() + participant; }
+  std::size_t station_of(std::size_t seat) const { return seat == all_stations() ? 0 : seat; }
+  /// Where the outermost group is started.
+  std::size_t leader() const { return query_.nested() ? outer_seat(0) : 0; }
+  bool is_down(const State& state, std::size_t station) const {
+    return station == 0 ? master(state).down : station < stations() ? node(state, station - 1).down : stations_.outsider(state.member(station)).down;
+  }
+  /// Who sits there; null at a candidate without a role.
+  const Participant* participant_at(const State& state, std::size_t seat) const;
   const Stations::Master& master(const State& state) const { return stations_.master(state.member(0)); }
   const handshake::Binder& binder(const State& state) const { return stations_.binder(state.member(0)); }
   const Stations::Node& node(const State& state, std::size_t candidate) const { return stations_.node(state.member(candidate + 1)); }
-  /// Of the master, or of whoever has a role; Halted if nobody has.
+  /// Of the master, or of whoever has a role, Halted if nobody has; then those of the outer group.
   handshake::PublishedState state_of(const State& state, std::size_t participant) const;
   /// What stands in a register, and what would be put there.
   const Notice& notice_in(const State& state, std::size_t channel) const { return stations_.notice(state.content(channel)); }
   const Notice& notice_for(const State& state, std::size_t channel) { return stations_.notice(said(state, channel)); }
 
+  std::size_t channels() const { return channels_of_candidate * query_.candidates + 2 * outsiders(); }
+  bool is_outer_channel(std::size_t channel) const { return channel >= channels_of_candidate * query_.candidates; }
+  std::size_t outer_channel(std::size_t slave, bool up) const { return channels_of_candidate * query_.candidates + 2 * (slave - 1) + (up ? 0 : 1); }
+  /// Seats.
+  std::size_t sender_of(std::size_t channel) const;
+  std::size_t receiver_of(std::size_t channel) const;
   static std::size_t candidate_of(std::size_t channel) { return channel / channels_of_candidate; }
   static Channel kind_of(std::size_t channel) { return static_cast<Channel>(channel % channels_of_candidate); }
   static bool is_up(std::size_t channel) { return kind_of(channel) <= Channel::word_up; }
@@ -79,7 +99,10 @@ class RolesModel : public ActionList, public ToldApart {
   bool restart(const State& state, std::size_t station, Next& next);
   bool forget(std::size_t channel, Next& next) const;
   /// False if nothing changes.
-  bool step(std::size_t station, Happens what, std::size_t which, NoticeId notice, Next& next);
+  bool step(std::size_t seat, Happens what, std::size_t which, NoticeId notice, Next& next);
+  bool expire_outside(const State& state, Action action, bool is_silent, Next& next);
+  std::size_t number_of(std::size_t participant) const { return participant + (query_.nested() ? query_.slaves + 1U : 0U); }   ///< of the group with roles, in the tree
+  bool outside_settled(const State& state, handshake::PublishedState goal) const;
   bool watch(std::uint32_t events, Next& next);
   void judge_holders(Next& next) const;
   NoticeId said(const State& state, std::size_t channel);
@@ -93,7 +116,7 @@ class RolesModel : public ActionList, public ToldApart {
   Query query_;
   Shape shape_;
   Stations stations_;
-  handshake::GroupTree group_;   ///< the master and the roles
+  handshake::GroupTree group_;   ///< the master and the roles, and around them the outer group
   Interner<RolesObserver, HashOfObserver> observers_;
   std::vector<Beginning> beginnings_;
 };

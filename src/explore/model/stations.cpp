@@ -12,6 +12,7 @@ using handshake::Candidate;
 using handshake::Input;
 using handshake::Outputs;
 using handshake::PublishedState;
+using handshake::Side;
 using handshake::SkillId;
 using handshake::Word;
 
@@ -20,14 +21,19 @@ namespace {
 std::uint64_t mixed_in(std::uint64_t digest, std::uint64_t value) { return mixed(digest ^ value) * 0x9E3779B97F4A7C15ULL; }
 std::uint64_t number_of(const Binding& binding) { return std::uint64_t{binding.candidate} << 32 | binding.life; }
 
-/// Takes a step of a participant and shows it.
-Outputs take(Participant& participant, const Input& input, const Binding& self, RoleEvents& events) {
+/// Takes a step of a participant and shows it. `outside`: the same node in the outer group, of the master of an inner one.
+Outputs take(Participant& participant, const Input& input, const Binding& self, RoleEvents& events, bool is_outer = false, const Participant* outside = nullptr) {
   const Word before = participant.word();
   const Outputs outputs = participant.step(input);
   participant.forget_last_transition();
   RoleEvent event;
   event.participant = participant.config().index;
+  event.is_outer = is_outer;
   event.effect = effect_of(before, participant.word(), outputs);
+  if (outside != nullptr && outputs.raised && outputs.raised_kind == handshake::IntentKind::Start) {
+    event.effect.started_run = participant.intent().run;
+    event.effect.outer_run = outside->intent().run;
+  }
   event.self = self;
   event.after = participant.state();
   events.properties.bits |= event.effect.properties.bits;
@@ -46,7 +52,12 @@ Input input_of(Happens what, std::size_t which, const Participant& participant) 
 
 template <>
 std::size_t Stations::Hash<Stations::Master>::operator()(const Master& value) const {
-  return mixed_in(value.participant.hash(), std::uint64_t{value.binder} << 1 | (value.down ? 1 : 0));
+  const std::uint64_t digest = mixed_in(value.participant.hash(), std::uint64_t{value.binder} << 1 | (value.down ? 1 : 0));
+  return value.outer ? mixed_in(mixed_in(digest, value.outer->hash()), value.coupling.hash()) : digest;
+}
+template <>
+std::size_t Stations::Hash<Stations::Outsider>::operator()(const Outsider& value) const {
+  return mixed_in(value.participant.hash(), value.down ? 1 : 0);
 }
 template <>
 std::size_t Stations::Hash<Binder>::operator()(const Binder& value) const {
@@ -75,24 +86,28 @@ std::size_t Stations::Hash<RoleEvents>::operator()(const RoleEvents& value) cons
   std::uint64_t digest = std::uint64_t{value.properties.bits} << 1 | (value.refused ? 1 : 0);
   for (const RoleEvent& each : value.each) {
     digest = mixed_in(digest, HashOfEffect{}(each.effect));
-    digest = mixed_in(digest, number_of(each.self) << 16 | static_cast<std::uint64_t>(each.kind) << 12 | static_cast<std::uint64_t>(each.participant) << 8 | handshake::index_of(each.after));
+    digest = mixed_in(digest, number_of(each.self) << 16 | static_cast<std::uint64_t>(each.kind) << 12 | static_cast<std::uint64_t>(each.participant) << 8 | (each.is_outer ? 1U << 7 : 0U) | handshake::index_of(each.after));
   }
   return digest;
 }
 
 Stations::Stations(const Query& query) : query_(query) {
-  for (std::uint32_t role = 0; role < query.slaves; ++role) skills_.push_back(role + 1);
+  for (std::uint32_t role = 0; role < query.roles(); ++role) skills_.push_back(role + 1);
   notices_.intern(Notice{});    // nothing
   events_.intern(RoleEvents{});
 }
 
-handshake::Config Stations::config(std::size_t index, std::uint32_t incarnation) const {
-  return {handshake::Variant::robust, index == 0 ? handshake::Role::master : handshake::Role::slave, static_cast<std::uint8_t>(index), query_.slaves, incarnation,
-          handshake::Subscription::star, false};
+/// Of a single group the inner side.
+handshake::Config Stations::config(std::size_t index, std::uint32_t incarnation, Side side) const {
+  const bool is_nested = query_.nested() && index == (side == Side::inner ? 0 : query_.slaves);
+  return {handshake::Variant::robust, index == 0 ? handshake::Role::master : handshake::Role::slave, static_cast<std::uint8_t>(index), side == Side::inner ? query_.roles() : query_.slaves, incarnation,
+          handshake::Subscription::star, is_nested};
 }
 
 StationId Stations::master(std::uint32_t incarnation, bool down) {
-  return masters_.intern({Participant(config(0, incarnation)), binders_.intern(Binder(skills_, query_.candidates, query_.starts_again)), down});
+  Master master{Participant(config(0, incarnation)), binders_.intern(Binder(skills_, query_.candidates, query_.starts_again)), down, std::nullopt, {}};
+  if (query_.nested()) master.outer.emplace(config(query_.slaves, incarnation, Side::outer));
+  return masters_.intern(master);
 }
 
 StationId Stations::candidate(std::size_t number, std::uint32_t life, bool joined, bool down) {
@@ -112,7 +127,8 @@ auto Stations::step(StationId id, std::uint64_t kind, Happens what, std::size_t 
   if (found == Memo::absent) {
     RoleEvents events;
     const Notice heard = notices_[notice];
-    const StationId station = kind == 0 ? stepped_master(id, what, which, heard, events) : stepped_node(id, what, which, heard, events);
+    const auto stepped = kind == 0 ? &Stations::stepped_master : kind == from_nodes ? &Stations::stepped_node : kind == from_outside ? &Stations::stepped_outside : &Stations::stepped_outsider;
+    const StationId station = (this->*stepped)(id, what, which, heard, events);
     found = std::uint64_t{station} | std::uint64_t{events_.intern(events)} << 32;
     steps_.insert(key, found);
   }
@@ -125,6 +141,10 @@ StationId Stations::stepped_master(StationId id, Happens what, std::size_t which
   Binder binder = binders_[master.binder];
   const auto number = static_cast<std::uint8_t>(which);
   const auto step = [&](const Input& input) { return take(master.participant, input, {}, events); };
+  if (master.outer && what == Happens::initialised) {
+    master.coupling.initialised(Side::inner, master.participant.intent().run);
+    return settled(master, binder, what, events);
+  }
   switch (what) {
     case Happens::received:
       if (notice.kind == Notice::Kind::announcement) {
@@ -149,13 +169,34 @@ StationId Stations::stepped_master(StationId id, Happens what, std::size_t which
     case Happens::announcer_silent: binder.silent(number); break;
     default: step(input_of(what, which, master.participant)); break;
   }
-  if (!events.refused) settle(master.participant, binder, events);
+  return settled(master, binder, what, events);
+}
+
+StationId Stations::settled(Master& master, Binder& binder, Happens what, RoleEvents& events) {
+  if (!events.refused) settle(master, binder, what, events);
   master.binder = binders_.intern(binder);
   return masters_.intern(master);
 }
 
-/// Roles change hands in Halted only, nobody has two, and whoever has one offers its skill.
-void Stations::settle(Participant& participant, Binder& binder, RoleEvents& events) const {
+/// As a wire::Nesting does: the two groups first, then the roles, until nothing is left.
+void Stations::settle(Master& master, Binder& binder, Happens what, RoleEvents& events) const {
+  if (!master.outer) {
+    settle_roles(master, binder, events);
+    return;
+  }
+  do {
+    while (const auto next = master.coupling.next(view_of(*master.outer), view_of(master.participant, binder.complete())))
+      next->side == Side::outer ? take(*master.outer, next->input, {}, events, true) : take(master.participant, next->input, {}, events, false, &*master.outer);
+  } while (settle_roles(master, binder, events));
+  TAKT_CHECK(handshake::in_step(master.outer->state(), master.participant.state()), "both groups of a node are in step");
+  const bool is_silence = what == Happens::role_silent || what == Happens::master_silent;
+  if (is_silence && (master.outer->state() != PublishedState::Halted || master.participant.state() != PublishedState::Halted)) events.properties.insert(Property::F1);
+}
+
+/// Roles change hands in Halted only, nobody has two, and whoever has one offers its skill. False if nothing is left.
+bool Stations::settle_roles(Master& master, Binder& binder, RoleEvents& events) const {
+  Participant& participant = master.participant;
+  bool has_stepped = false;
   while (const auto input = binder.next(handshake::master_view_of(participant))) {
     if (input->kind == Input::Kind::peer_replaced) {
       RoleEvent event;
@@ -168,7 +209,30 @@ void Stations::settle(Participant& participant, Binder& binder, RoleEvents& even
         events.properties.insert(Property::B1);
     }
     take(participant, *input, {}, events);
+    has_stepped = true;
   }
+  return has_stepped;
+}
+
+/// The master, as a slave of the outer group.
+StationId Stations::stepped_outside(StationId id, Happens what, std::size_t which, const Notice& notice, RoleEvents& events) {
+  Master master = masters_[id];
+  Binder binder = binders_[master.binder];
+  if (what == Happens::initialised) {
+    master.coupling.initialised(Side::outer, master.outer->intent().run);
+  } else {
+    const Input input = what == Happens::received ? Input::received(0, notice.word, usual_sequence) : what == Happens::master_silent ? Input::peer_silent(0) : input_of(what, which, *master.outer);
+    events.refused = !program::is_good(take(*master.outer, input, {}, events, true).status);
+  }
+  return settled(master, binder, what, events);
+}
+
+/// `which` is the peer of whom it hears, or hears nothing.
+StationId Stations::stepped_outsider(StationId id, Happens what, std::size_t which, const Notice& notice, RoleEvents& events) {
+  Outsider outsider = outsiders_[id];
+  const Input input = what == Happens::received ? Input::received(which, notice.word, usual_sequence) : what == Happens::peer_silent ? Input::peer_silent(which) : input_of(what, which, outsider.participant);
+  events.refused = !program::is_good(take(outsider.participant, input, {}, events, true).status);
+  return outsiders_.intern(outsider);
 }
 
 /// As a ProgramNode does at a candidate.
@@ -181,7 +245,7 @@ StationId Stations::stepped_node(StationId id, Happens what, std::size_t which, 
   } else if (what == Happens::leave) {
     node.candidate.leave();
   } else if (is_table) {
-    const auto change = node.candidate.table(std::span(notice.bindings).first(query_.slaves), notice.used_lives[node.number]);
+    const auto change = node.candidate.table(std::span(notice.bindings).first(query_.roles()), notice.used_lives[node.number]);
     if (change == Candidate::Change::released && node.member) {
       RoleEvent event;
       event.kind = RoleEvent::Kind::dropped;
@@ -203,12 +267,14 @@ StationId Stations::stepped_node(StationId id, Happens what, std::size_t which, 
   return nodes_.intern(node);
 }
 
-NoticeId Stations::word_of_master(StationId id) {
+NoticeId Stations::word_notice(const Word& word) {
   Notice notice;
   notice.kind = Notice::Kind::word;
-  notice.word = masters_[id].participant.word();
+  notice.word = word;
   return notices_.intern(notice);
 }
+
+NoticeId Stations::word_of_master(StationId id) { return word_notice(masters_[id].participant.word()); }
 
 NoticeId Stations::table(StationId id) {
   const Binder& told = binder(id);

@@ -14,8 +14,14 @@ struct RolesWords {
 
   std::vector<std::string> names() const {
     std::vector<std::string> names;
-    for (std::size_t s = 0; s < model.stations(); ++s) names.push_back(name(s));
+    for (std::size_t s = 0; s < model.seats(); ++s) names.push_back(name_at(s));
     return names;
+  }
+  /// Of a nested group the outer one has the plain names, as in the chart of a tree.
+  std::string name_at(std::size_t seat) const {
+    if (!model.is_outer(seat)) return (model.query().nested() && seat == 0 ? "inner " : "") + name(seat);
+    const std::size_t participant = seat - model.stations();
+    return participant == 0 ? "master" : "slave " + std::to_string(participant);
   }
   std::vector<std::string> states(const State& state) const {
     std::vector<std::string> states{model.is_down(state, 0) ? down_state : std::string(handshake::name_of(model.state_of(state, 0)))};
@@ -25,6 +31,8 @@ struct RolesWords {
       else if (node.member) states.push_back(std::string(handshake::name_of(node.member->state())) + ", " + role_name(node.member->config().index - 1U));
       else states.emplace_back(node.candidate.announces() ? "joins" : "away");
     }
+    for (std::size_t seat = model.stations(); seat < model.seats(); ++seat)
+      states.push_back(model.is_down(state, model.station_of(seat)) ? down_state : std::string(handshake::name_of(model.participant_at(state, seat)->state())));
     return states;
   }
   static std::string text(const Notice& notice, std::size_t candidate) {
@@ -45,19 +53,19 @@ struct RolesWords {
     it.method = action.what;
     ChartStep made;
     if (kind == ActionKind::send || kind == ActionKind::receive || kind == ActionKind::lose) {
-      const std::size_t candidate = RolesModel::candidate_of(action.who);
-      const std::size_t from = RolesModel::is_up(action.who) ? candidate + 1 : 0;
-      const std::size_t to = RolesModel::is_up(action.who) ? 0 : candidate + 1;
-      it.from = name(from);
-      it.to = name(to);
-      it.word = text(kind == ActionKind::send ? model.notice_for(state, action.who) : model.notice_in(state, action.who), candidate);
+      const std::size_t from = model.sender_of(action.who);
+      const std::size_t to = model.receiver_of(action.who);
+      it.from = name_at(from);
+      it.to = name_at(to);
+      const Notice& notice = kind == ActionKind::send ? model.notice_for(state, action.who) : model.notice_in(state, action.who);
+      it.word = model.is_outer_channel(action.who) ? text_of(notice.word, name_at(model.outer_seat(notice.word.intent.origin))) : text(notice, RolesModel::candidate_of(action.who));
       if (kind == ActionKind::receive) made.arrow = {from, to};
       else made.marked = {from};
     } else {
       const std::size_t station = kind == ActionKind::join || kind == ActionKind::leave ? action.who + std::size_t{1} : action.who;
-      it.who = name(station);
-      it.comes_up = model.is_down(state, station);
-      it.peer = station != 0 ? name(0) : action.what < model.roles() ? role_name(action.what) : name(action.what - model.roles() + 1) + " as one that announces itself";
+      it.who = name_at(station);
+      it.comes_up = model.is_down(state, model.station_of(station));
+      it.peer = model.is_outer(station) ? name_at(model.outer_seat(station == model.leader() ? action.what + std::size_t{1} : std::size_t{0})) : station != 0 ? name(0) : action.what < model.roles() ? role_name(action.what) : name(action.what - model.roles() + 1) + " as one that announces itself";
       made.marked = {station};
     }
     made.sentence = sentence(it);

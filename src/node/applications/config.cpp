@@ -175,14 +175,23 @@ bool is_applications_file(const std::string& path) {
   return !has("program") && !has("programs") && (has("applications") || has("gateways") || has("topics"));
 }
 
-std::unique_ptr<LoadedApplications> load_applications(const std::string& path, json::Diagnostics& diagnostics) {
-  const auto document = json::parse_file(path, diagnostics);
+namespace {
+
+std::unique_ptr<LoadedApplications> load(const std::optional<json::Document>& document, json::Diagnostics& diagnostics) {
   if (!document) return nullptr;
   auto loaded = std::make_unique<LoadedApplications>();
   json::decode(*document, loaded->config, diagnostics);
   if (diagnostics.has_errors()) return nullptr;
   Checker(*loaded, diagnostics).run();
   return diagnostics.has_errors() ? nullptr : std::move(loaded);
+}
+
+}  // namespace
+
+std::unique_ptr<LoadedApplications> load_applications(const std::string& path, json::Diagnostics& diagnostics) { return load(json::parse_file(path, diagnostics), diagnostics); }
+
+std::unique_ptr<LoadedApplications> load_applications_text(const std::string& text, const std::string& name, json::Diagnostics& diagnostics) {
+  return load(json::parse(text, name, diagnostics), diagnostics);
 }
 
 }  // namespace takt::node

@@ -72,5 +72,7 @@ struct LoadedApplications {
 bool is_applications_file(const std::string& path);
 /// Null if there was a mistake.
 std::unique_ptr<LoadedApplications> load_applications(const std::string& path, json::Diagnostics& diagnostics);
+/// The same of a text; `name` stands for the file in what is said of it.
+std::unique_ptr<LoadedApplications> load_applications_text(const std::string& text, const std::string& name, json::Diagnostics& diagnostics);
 
 }  // namespace takt::node

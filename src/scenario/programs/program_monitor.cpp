@@ -73,6 +73,7 @@ void ProgramMonitor::on_crash(std::size_t participant, handshake::PublishedState
 }
 
 void ProgramMonitor::on_gone(std::size_t participant, handshake::PublishedState before) {
+  if (tree_ != nullptr) tree_->on_gone(group_, participant);
   tracker_.on_leave(participant, simulation_->now());
   note_gone(participant, before);
 }

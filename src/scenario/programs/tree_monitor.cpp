@@ -17,6 +17,12 @@ void TreeMonitor::on_crash(std::size_t group, std::size_t participant) {
   reactions_.on_crash(number, simulation_->now());
 }
 
+void TreeMonitor::on_gone(std::size_t group, std::size_t participant) {
+  const std::size_t number = observer_.tree().number_of(group, participant);
+  observer_.on_restart(number);
+  reactions_.on_leave(number, simulation_->now());
+}
+
 void TreeMonitor::on_back(std::size_t group, std::size_t participant) { reactions_.on_restart(observer_.tree().number_of(group, participant), simulation_->now()); }
 
 std::pair<std::uint32_t, std::uint8_t> TreeMonitor::initiator_of(const handshake::Reaction& reaction) const {

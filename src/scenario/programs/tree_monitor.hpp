@@ -25,6 +25,8 @@ class TreeMonitor {
 
   void on_step(std::size_t group, std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after, const handshake::Origin& origin);
   void on_crash(std::size_t group, std::size_t participant);
+  /// The participant is nobody any more, without a fault: its role has another node, or none.
+  void on_gone(std::size_t group, std::size_t participant);
   void on_back(std::size_t group, std::size_t participant);
 
   const std::vector<std::uint32_t>& programs() const { return programs_; }

@@ -225,7 +225,7 @@ void Run::nest_programs() {
   for (const std::vector<std::uint32_t>& tree : trees_of(*resolved_)) {
     std::vector<handshake::TreeGroup> groups;
     for (const std::uint32_t number : tree) {
-      handshake::TreeGroup group{resolved_->programs[number].members.size(), 0, 0};
+      handshake::TreeGroup group{resolved_->programs[number].participant_names.size(), 0, 0};
       if (const auto& outer = resolved_->programs[number].outer) {
         group.outer = static_cast<std::size_t>(std::find(tree.begin(), tree.end(), outer->program) - tree.begin());
         group.outer_index = outer->participant;

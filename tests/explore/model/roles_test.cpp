@@ -33,6 +33,49 @@ TEST(Roles, HoldInEveryOrder) {
   for (const Case& each : cases) EXPECT_EQ(expect_to_hold(each)[Property::B1], PropertyVerdict::holds);
 }
 
+/// The group with roles is nested: its master is the last of so many slaves outside.
+Query of_nested_roles(std::uint8_t outer_slaves, std::uint8_t roles, std::uint8_t candidates, std::uint32_t commands, std::initializer_list<Fault> faults) {
+  Query query = of_roles(outer_slaves, candidates, commands, faults);
+  query.inner_slaves = roles;
+  return query;
+}
+
+TEST(NestedRoles, HoldInEveryOrder) {
+  const Case cases[] = {
+      {of_nested_roles(1, 1, 1, 1, {}), 5764, 20280},
+      {of_nested_roles(1, 1, 1, 1, {Fault::crash}), 35677, 130133},
+      {of_nested_roles(2, 1, 1, 1, {}), 120736, 651422},
+#ifdef NDEBUG
+      {of_nested_roles(1, 1, 1, 3, {}), 1223467, 4827354},
+      {of_nested_roles(1, 1, 1, 2, {Fault::crash}), 520078, 2020932},
+      {of_nested_roles(1, 2, 2, 1, {}), 526754, 3104155},
+#endif
+  };
+  for (const Case& each : cases) EXPECT_EQ(expect_to_hold(each)[Property::B1], PropertyVerdict::holds);
+}
+
+// A Start is taken by the group outside, which does not know that a role has nobody: all end Halted, and nobody waits for ever.
+TEST(NestedRoles, AStartThatNobodyCanFollowEndsHalted) {
+  Query query = of_nested_roles(1, 2, 2, 2, {});
+  query.offers = {1, 1, 0};
+  const SearchResult result = ask(query);
+  EXPECT_EQ(result[Property::all_running], PropertyVerdict::unreached);
+  EXPECT_EQ(result[transition_property(1)], PropertyVerdict::unreached);
+  EXPECT_EQ(result[Property::L1], PropertyVerdict::holds);
+}
+
+TEST(NestedRoles, AChartNamesBothGroups) {
+  Query query = of_nested_roles(1, 1, 1, 1, {});
+  query.beginnings = Beginnings::switched_on;
+  const SearchResult result = ask(query);
+  ASSERT_EQ(result[transition_property(1)], PropertyVerdict::reached);
+  const Trace& trace = *result.traces[index_of(transition_property(1))];
+  const std::string text = chart(query, result.beginnings[trace.beginning], trace);
+  for (const char* part : {"inner master        candidate 1         master              slave 1\n", "candidate 1 hears inner master: bound, role 1: candidate 1 life 1", "Start is called at the master",
+                           "slave 1 hears master: Halted.INIT (intent 1 start of master, run 0)"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
 TEST(Roles, RunsBeginWhereverAGroupRests) {
   const RolesModel model(of_roles(2, 3, 1, {}));
   std::vector<std::string> names;

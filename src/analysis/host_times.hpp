@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/picoseconds.hpp"
+#include "analysis/response_times.hpp"
 #include "scenario/resolve/resolved.hpp"
 
 namespace takt::analysis {
@@ -20,15 +20,6 @@ struct FlowGraph;
 struct ClockQuality;
 struct NetworkResult;
 struct BoundOptions;
-
-/// The jobs of a thread, from when they are ready to their ends, and that none of them is refused.
-struct ThreadTime {
-  Ps least = 0;
-  Ps worst = 0;                  ///< unbounded: not known, or jobs may be refused
-  std::string reason = {};       ///< why that is so
-  Ps spread() const { return is_bounded(worst) ? worst - least : unbounded_ps; }
-  bool operator==(const ThreadTime&) const = default;
-};
 
 /// Each call of a thread of an application has ended when the next one is due.
 bool overtakes_none(const scenario::ResolvedThread& thread, const ThreadTime& cpu, const ClockQuality& clock);

@@ -12,10 +12,12 @@ constexpr sim::Duration least_work = sim::Duration::from_ps(1);   // what lasts 
 
 Cpu::Cpu(sim::Simulation& simulation, const CpuPlan& plan, NodeIndex node, std::string_view path)
     : simulation_(&simulation), plan_(&plan), node_(node), source_(simulation.add(*this)) {
+  TAKT_CHECK(plan.cores > 0 && plan.slice > sim::Duration(), "there is a core, and slices are not empty");
   for (const CpuThreadPlan& thread : plan.threads) {
+    TAKT_CHECK(thread.weight > 0, "a fair thread has a share");
     TAKT_CHECK(!thread.core || *thread.core < plan.cores, "a thread runs on a core that there is");
     TAKT_CHECK(thread.policy != SchedulingPolicy::deadline || thread.deadline, "a thread by deadline has one");
-    threads_.push_back({&thread, sim::RandomStream(simulation.seed(), std::string(path) + "/" + thread.name, "execution"), {}, {}, {}, {}});
+    threads_.push_back({&thread, sim::RandomStream(simulation.seed(), std::string(path) + "/" + thread.name, "execution")});
   }
   for (std::uint16_t core = 0; core < plan.cores; ++core) cores_.emplace_back(sim::Timer(source_.id(), sim::Phase::timer, core));
 }
@@ -37,6 +39,7 @@ void Cpu::crash() {
     core.timer.cancel();
     core.thread = core.last = std::nullopt;
   }
+  fair_time_ = 0;
   const auto tell = [this](const Job& job) { job.user->job_ended(*simulation_, job.number, CpuUser::Ending::crashed); };
   for (Thread& thread : threads_) {
     thread.core.reset();
@@ -53,12 +56,25 @@ void Cpu::charge(Core& core) {
   Thread& thread = threads_[*core.thread];
   const sim::Duration ran = now() - since;
   const sim::Duration switched = std::min(ran, core.switching);
+  const sim::Duration worked = ran - switched;
   core.switching -= switched;
-  thread.remaining -= ran - switched;
+  core.last = core.thread;
+  thread.remaining -= worked;
   TAKT_CHECK(thread.remaining >= sim::Duration(), "a job is not worked at beyond its end");
-  thread.slice_used += ran;
-  thread.virtual_time += static_cast<std::uint64_t>(static_cast<sim::int128>(ran.ps()) * 1024 / thread.plan->weight);
+  thread.is_begun = thread.is_begun || worked > sim::Duration();
+  // Slices are of work: were switching counted, threads whose slices are not longer than it would never get on.
+  thread.slice_used += worked;
+  thread.virtual_time += static_cast<std::uint64_t>(static_cast<sim::int128>(worked.ps()) * 1024 / thread.plan->weight);
+  if (thread.plan->policy == SchedulingPolicy::fair) keep_fair_time();
   if (observer_ != nullptr) observer_->ran(*core.thread, ran);
+}
+
+/// Fair threads that were away have no claim on what the others ran meanwhile, even if all of them are away by now: what a thread starts from never goes back.
+void Cpu::keep_fair_time() {
+  std::optional<std::uint64_t> least;
+  for (const Thread& thread : threads_)
+    if (thread.plan->policy == SchedulingPolicy::fair && !thread.jobs.empty()) least = std::min(least.value_or(thread.virtual_time), thread.virtual_time);
+  fair_time_ = std::max(fair_time_, least.value_or(0));
 }
 
 void Cpu::handle(sim::Simulation& simulation, const sim::Event& event) {
@@ -88,15 +104,15 @@ void Cpu::end_job(std::uint32_t number) {
 void Cpu::begin(Thread& thread) {
   const std::optional<sim::Duration>& work = thread.jobs.front().work;
   thread.remaining = std::max(least_work, work ? *work : thread.plan->execution.draw(thread.chance));
+  thread.is_begun = false;
 }
 
 void Cpu::take_in() {
-  std::stable_sort(arrived_.begin(), arrived_.end(), [](const Arrived& a, const Arrived& b) { return std::tie(a.thread, a.user_id, a.rank) < std::tie(b.thread, b.user_id, b.rank); });
-  // Fair threads that were away have no claim on what the others ran meanwhile.
-  std::optional<std::uint64_t> least;
-  for (const Thread& thread : threads_)
-    if (thread.plan->policy == SchedulingPolicy::fair && !thread.jobs.empty()) least = std::min(least.value_or(thread.virtual_time), thread.virtual_time);
-  for (const Arrived& arrived : arrived_) {
+  // A user that is refused may submit at once: that is seen by the settling which follows.
+  taken_in_.clear();
+  std::swap(taken_in_, arrived_);
+  std::stable_sort(taken_in_.begin(), taken_in_.end(), [](const Arrived& a, const Arrived& b) { return std::tie(a.thread, a.user_id, a.rank) < std::tie(b.thread, b.user_id, b.rank); });
+  for (const Arrived& arrived : taken_in_) {
     Thread& thread = threads_[arrived.thread];
     if (thread.jobs.size() >= thread.plan->most_waiting) {
       if (observer_ != nullptr) observer_->job_refused(arrived.thread, arrived.job.released);
@@ -106,14 +122,15 @@ void Cpu::take_in() {
     thread.jobs.push_back(arrived.job);
     if (thread.jobs.size() > 1) continue;
     thread.ready_since = now();
-    thread.virtual_time = std::max(thread.virtual_time, least.value_or(0));
+    thread.virtual_time = std::max(thread.virtual_time, fair_time_);
     begin(thread);
   }
-  arrived_.clear();
 }
 
-/// It runs, and nobody may interrupt it.
-bool Cpu::is_held(const Thread& thread) const { return thread.core && cores_[*thread.core].switching == sim::Duration() && thread.remaining <= thread.plan->non_preemptive; }
+/// It runs, and nobody may interrupt it. Between two jobs anybody may, so a job that has not begun yet is not held.
+bool Cpu::is_held(const Thread& thread) const {
+  return thread.core && thread.is_begun && cores_[*thread.core].switching == sim::Duration() && thread.remaining <= thread.plan->non_preemptive;
+}
 
 bool Cpu::is_more_urgent(std::uint32_t a, std::uint32_t b) const {
   const auto key = [this](std::uint32_t number) {
@@ -121,8 +138,12 @@ bool Cpu::is_more_urgent(std::uint32_t a, std::uint32_t b) const {
     const CpuThreadPlan& plan = *thread.plan;
     std::int64_t first = 0;
     std::uint64_t second = 0;
+    bool third = false;
     switch (plan.policy) {
-      case SchedulingPolicy::deadline: first = thread.jobs.front().released.plus_saturated(*plan.deadline).ps(); break;
+      case SchedulingPolicy::deadline:
+        first = thread.jobs.front().released.plus_saturated(*plan.deadline).ps();
+        second = thread.is_begun ? 0 : 1;   // equal deadlines are no reason to interrupt
+        break;
       case SchedulingPolicy::fifo:
         first = -std::int64_t{plan.priority};
         second = static_cast<std::uint64_t>(thread.ready_since.ps());
@@ -130,42 +151,42 @@ bool Cpu::is_more_urgent(std::uint32_t a, std::uint32_t b) const {
       case SchedulingPolicy::fair:
         first = thread.core && thread.slice_used < plan_->slice ? 0 : 1;
         second = thread.virtual_time;
+        third = thread.core.has_value();   // among equals it is the others' turn
         break;
     }
-    return std::tuple(!is_held(thread), plan.policy, first, second, number);
+    return std::tuple(!is_held(thread), plan.policy, first, second, third, number);
   };
   return key(a) < key(b);
 }
 
+/// The most urgent choose first. Who runs stays, so that a less urgent thread never costs a more urgent one a move.
 void Cpu::choose() {
   ready_.clear();
   for (std::uint32_t t = 0; t < threads_.size(); ++t)
     if (!threads_[t].jobs.empty()) ready_.push_back(t);
   std::sort(ready_.begin(), ready_.end(), [this](std::uint32_t a, std::uint32_t b) { return is_more_urgent(a, b); });
-  chosen_.clear();
   placed_.assign(cores_.size(), std::nullopt);
-  for (const std::uint32_t t : ready_) {
-    if (chosen_.size() == cores_.size()) break;
-    const std::optional<std::uint16_t>& core = is_held(threads_[t]) ? threads_[t].core : threads_[t].plan->core;
-    if (core && placed_[*core]) continue;
-    if (core) placed_[*core] = t;
-    chosen_.push_back(t);
-  }
+  for (const std::uint32_t t : ready_)
+    if (const std::optional<std::uint16_t> core = core_for(threads_[t])) placed_[*core] = t;
 }
 
-/// Those that may run anywhere stay where they are if they can, else take the core on which they were, else the first.
-void Cpu::place() {
-  const auto is_free = [this](const std::optional<std::uint16_t>& core) { return core && !placed_[*core]; };
-  for (const std::uint32_t t : chosen_)
-    if (std::find(placed_.begin(), placed_.end(), t) == placed_.end() && is_free(threads_[t].core)) placed_[*threads_[t].core] = t;
-  for (const std::uint32_t t : chosen_) {
-    if (std::find(placed_.begin(), placed_.end(), t) != placed_.end()) continue;
-    const std::optional<std::uint16_t>& last = threads_[t].last_core;
-    if (is_free(last))
-      placed_[*last] = t;
-    else
-      *std::find(placed_.begin(), placed_.end(), std::nullopt) = t;
+/// Of the cores that no more urgent thread has taken: the one on which it is; the one to which it is bound; else an idle one, if possible one for
+/// which nobody waits who is bound to it, and then the one on which it was; else that of the least urgent thread.
+std::optional<std::uint16_t> Cpu::core_for(const Thread& thread) const {
+  const std::optional<std::uint16_t>& own = thread.core ? thread.core : thread.plan->core;
+  if (own && !placed_[*own]) return own;
+  if (thread.plan->core) return std::nullopt;
+  std::optional<std::uint16_t> best;
+  std::tuple<std::ptrdiff_t, bool, bool> best_key;
+  for (std::uint16_t core = 0; core < cores_.size(); ++core) {
+    if (placed_[core]) continue;
+    const std::optional<std::uint32_t>& occupant = cores_[core].thread;
+    const std::ptrdiff_t behind = occupant ? ready_.end() - std::find(ready_.begin(), ready_.end(), *occupant) : 0;
+    const bool is_wanted = std::any_of(ready_.begin(), ready_.end(), [&](std::uint32_t t) { return threads_[t].plan->core == core && !threads_[t].core; });
+    const std::tuple key(behind, is_wanted, thread.last_core != core);
+    if (!best || key < best_key) std::tie(best, best_key) = std::tuple(std::optional(core), key);
   }
+  return best;
 }
 
 void Cpu::dispatch(std::uint16_t number, std::optional<std::uint32_t> thread) {
@@ -174,7 +195,6 @@ void Cpu::dispatch(std::uint16_t number, std::optional<std::uint32_t> thread) {
     core.thread = thread;
     if (thread) {
       core.switching = core.last == thread ? sim::Duration() : plan_->switching;
-      core.last = thread;
       threads_[*thread].slice_used = {};
     }
   }
@@ -192,7 +212,7 @@ void Cpu::arm() {
     }
     const Thread& thread = threads_[*core.thread];
     sim::Duration next = core.switching + thread.remaining;
-    if (fair_wait && thread.plan->policy == SchedulingPolicy::fair) next = std::min(next, plan_->slice - thread.slice_used);
+    if (fair_wait && thread.plan->policy == SchedulingPolicy::fair) next = std::min(next, core.switching + plan_->slice - thread.slice_used);
     core.timer.arm(*simulation_, source_, now().plus_saturated(next));
   }
 }
@@ -202,7 +222,6 @@ void Cpu::settle(sim::Simulation&) {
   for (Core& core : cores_) charge(core);
   take_in();
   choose();
-  place();
   for (Thread& thread : threads_) thread.core.reset();
   for (std::uint16_t core = 0; core < cores_.size(); ++core) dispatch(core, placed_[core]);
   arm();

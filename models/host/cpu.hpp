@@ -68,31 +68,33 @@ class Cpu final : public sim::Component {
   struct Thread {
     const CpuThreadPlan* plan = nullptr;
     sim::RandomStream chance;
-    std::deque<Job> jobs;                  // the first is being worked at
-    sim::Duration remaining;               // of the first
-    sim::TrueTime ready_since;
-    sim::Duration slice_used;
-    std::uint64_t virtual_time = 0;        // of fair: time that it ran, over its weight
+    std::deque<Job> jobs = {};                  // the first is being worked at
+    sim::Duration remaining = {};               // of the first
+    bool is_begun = false;                 // the first has been worked at
+    sim::TrueTime ready_since = {};
+    sim::Duration slice_used = {};              // without switching
+    std::uint64_t virtual_time = 0;        // of fair: what it worked, over its weight
     std::optional<std::uint16_t> core = {};   // on which it runs
     std::optional<std::uint16_t> last_core = {};
   };
   struct Core {
     explicit Core(sim::Timer t) : timer(t) {}
     std::optional<std::uint32_t> thread = {};   // that runs
-    std::optional<std::uint32_t> last = {};     // that ran last
+    std::optional<std::uint32_t> last = {};     // that was on it last, for some time
     sim::Duration switching;                    // that is left
     sim::TrueTime since;
     sim::Timer timer;                           // end of the job, or of a slice
   };
   void ask_to_settle();
   void charge(Core& core);
+  void keep_fair_time();
   void take_in();
   void begin(Thread& thread);
   void end_job(std::uint32_t thread);
   bool is_held(const Thread& thread) const;
   bool is_more_urgent(std::uint32_t a, std::uint32_t b) const;
   void choose();
-  void place();
+  std::optional<std::uint16_t> core_for(const Thread& thread) const;
   void dispatch(std::uint16_t core, std::optional<std::uint32_t> thread);
   void arm();
 
@@ -103,8 +105,9 @@ class Cpu final : public sim::Component {
   std::vector<Thread> threads_;
   std::vector<Core> cores_;
   std::vector<Arrived> arrived_;           // at this instant
+  std::vector<Arrived> taken_in_;
+  std::uint64_t fair_time_ = 0;            // the least virtual time of fair threads with jobs; never goes back
   std::vector<std::uint32_t> ready_;       // the most urgent first
-  std::vector<std::uint32_t> chosen_;      // those that run
   std::vector<std::optional<std::uint32_t>> placed_;   // by core
   CpuObserver* observer_ = nullptr;
   bool asked_ = false;

@@ -38,7 +38,7 @@ struct CpuThreadPlan {
 
 struct CpuPlan {
   std::uint16_t cores = 1;
-  sim::Duration switching;                           ///< what a core needs before it goes on with another thread than the last one
+  sim::Duration switching = {};                      ///< what a core needs before it goes on with another thread than the last one
   sim::Duration slice = sim::Duration::from_ps(3'000'000'000);   ///< how long a fair thread runs before another one of them may
   std::vector<CpuThreadPlan> threads;
   std::optional<std::uint32_t> receive = {};         ///< threads of the protocol stack: each frame that comes is a job

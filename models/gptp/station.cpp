@@ -118,6 +118,7 @@ void Station::carry_out() {
       if (lost->instance == active()) target_.sync_lost();
       if (has_standby_role(lost->instance)) standby_->sync_lost(static_cast<HotStandbyRole>(lost->instance), local());
     } else if (const auto* const change = std::get_if<GrandmasterChange>(&output)) {
+      if (change->instance == active()) target_.sync_lost();   // until the first Sync of the new one
       if (has_standby_role(change->instance)) standby_->set_grandmaster(static_cast<HotStandbyRole>(change->instance), gives_time(change->instance), local());
       give_time();
     }
@@ -301,7 +302,10 @@ void Station::set_up(bool up) {
   ++epoch_;
   armed_.clear();
   rearm();
-  if (!up) return;
+  if (!up) {
+    note_change();
+    return;
+  }
   machine_ = Node(config_);
   target_ = ClockTarget(plan_.target);
   if (plan_.standby) standby_.emplace(*plan_.standby, plan_.target);

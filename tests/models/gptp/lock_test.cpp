@@ -50,7 +50,7 @@ TEST(Lock, IsSaidOfClocksThatAre) {
   sim::LocalTime at;
   const auto state_at = [&](Duration offset) {
     at = at + 125_ms;
-    target.sample({.at = at, .grandmaster_time = sim::PtpTime::from_ps(at.ps() - offset.ps())}, at);
+    target.sample({0, at, sim::PtpTime::from_ps(at.ps() - offset.ps()), {}}, at);
     return target.state();
   };
   EXPECT_EQ(state_at(5_us), TargetState::acquiring);

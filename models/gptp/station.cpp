@@ -277,12 +277,12 @@ void Station::note(Occurrence kind, std::uint64_t what) const {
   simulation_->digest().add(static_cast<std::uint32_t>(kind), node_.value, simulation_->now(), what);
 }
 
-/// A grandmaster gives the time of its disciplined clock.
+/// A grandmaster gives the time of its disciplined clock, and so does a boundary clock.
 void Station::give_time() {
   const SourceTime source{local(), sim::PtpTime::from_ps(clock_->disciplined().local_at(simulation_->now()).ps()),
                           clock_->disciplined().rate() / clock_->free_running().rate()};
   for (std::size_t i = 0; i < machine_.instance_count(); ++i)
-    if (machine_.instance(i).is_grandmaster()) machine_.instance(i).set_source_time(source);
+    if (machine_.instance(i).gives_own_time()) machine_.instance(i).set_source_time(source);
 }
 
 void Station::set_link(std::uint16_t port, bool up) {

@@ -64,6 +64,32 @@ TEST(Lock, IsSaidOfClocksThatAre) {
   EXPECT_EQ(target.state(), TargetState::holdover);
 }
 
+// Somebody sets the clock of the node between: a relay does not care, behind a boundary clock time is that clock's.
+TEST(Lock, ABoundaryClockGivesTheTimeOfItsOwnClock) {
+  for (const bool boundary : {false, true}) {
+    Harness harness;
+    harness.add(node(100, 20));
+    Harness::NodeSetUp between = node(200, -30);
+    between.instances[0].boundary = boundary;
+    harness.add(between);
+    harness.add(node(250, 10));
+    harness.connect(0, 1, 500_ns);
+    harness.connect(1, 2, 500_ns);
+    harness.start();
+    harness.run(60_s);
+    EXPECT_LE(magnitude(harness.offset(2, 0)), 10_ns) << boundary;
+    harness.step_clock(1, 50_us);
+    harness.run(1_s);
+    if (boundary) {
+      EXPECT_GT(magnitude(harness.offset(2, 0)), 5_us);
+    } else {
+      EXPECT_LE(magnitude(harness.offset(2, 0)), 10_ns);
+    }
+    harness.run(120_s);
+    EXPECT_LE(magnitude(harness.offset(2, 0)), 10_ns) << boundary;
+  }
+}
+
 TEST(Lock, TheLinkIsMeasuredToThePicosecond) {
   Harness harness;
   harness.add(node(100, 0));

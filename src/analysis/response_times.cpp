@@ -56,6 +56,9 @@ class ResponseTimes {
     for (std::size_t other = 0; times_[t].reason.empty() && other < times_.size(); ++other)
       if (goes_before(other, t) && (moves_ || may_run_on(other, core_of(t))))
         if (const std::string doubt = doubt_of(other); !doubt.empty()) times_[t].reason = "thread " + plan_.threads[other].name + " before it: " + doubt;
+    // A more urgent job that finds the core of a less urgent one held displaces this one instead, as often as one comes.
+    for (std::size_t other = 0; moves_ && times_[t].reason.empty() && other < times_.size(); ++other)
+      if (other != t && !goes_before(other, t) && held(other) > 0) times_[t].reason = "threads move between cores, and thread " + plan_.threads[other].name + " behind it holds one";
     if (times_[t].reason.empty() && is_fair(t) && plan_.slice.ps() <= switching()) times_[t].reason = "a slice is over when the thread has been switched to";
   }
 
@@ -150,13 +153,9 @@ class ResponseTimes {
     const bool is_bound = plan_.threads[t].core.has_value();
     Ps elsewhere = 0;                      // what keeps it from its core, or all cores
     std::int64_t jobs_before = 0;
-    std::vector<Ps> helds;
     for (std::size_t other = 0; other < times_.size(); ++other) {
       if (other == t || jobs_[other].empty()) continue;
-      if (!goes_before(other, t)) {
-        if (!is_bound || may_run_on(other, core_of(t))) helds.push_back(held(other));
-        continue;
-      }
+      if (!goes_before(other, t)) continue;
       if (!times_[other].reason.empty()) return unbounded_ps;
       const Ps interval = sum(length, times_[other].worst);
       if (!is_bounded(interval)) return unbounded_ps;
@@ -164,9 +163,7 @@ class ResponseTimes {
       // One that is bound to another core only makes threads move.
       elsewhere = sum(elsewhere, !is_bound || may_run_on(other, core_of(t)) ? demand(other, interval, 2 * switching()) : product(2 * switching(), count(other, interval)));
     }
-    std::sort(helds.begin(), helds.end(), std::greater<>());
     const std::size_t cores = is_bound ? 1 : plan_.cores;
-    for (std::size_t i = 0; i < std::min(cores, helds.size()); ++i) elsewhere = sum(elsewhere, helds[i]);
     const Ps share = is_bounded(elsewhere) ? (elsewhere + static_cast<Ps>(cores) - 1) / static_cast<Ps>(cores) : unbounded_ps;
     // Its own jobs, this one among them, and its way back to a core.
     const Ps own = sum(demand(t, length, switching()), is_bound ? 0 : product(switching(), jobs_before), turns(t, length));

@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "analysis/flow_graph.hpp"
+#include "analysis/flow_sources.hpp"
 #include "analysis/network_bound.hpp"
 #include "analysis/response_times.hpp"
+#include "models/ethernet/sizes.hpp"
 #include "scenario/applications/resolved_dds.hpp"
 
 namespace takt::analysis {
@@ -39,6 +41,7 @@ class HostJobs {
     for (const scenario::ResolvedApplication& application : r_.applications)
       if (application.node == node_) add_application(application);
     for (const Flow& flow : graph_.flows) add_stack(flow);
+    if (cpu_.gptp) add_gptp(*cpu_.gptp);
     return std::move(jobs_);
   }
 
@@ -102,15 +105,30 @@ class HostJobs {
   }
 
   void add_stack(const Flow& flow) {
-    if (flow.stream.is_none()) {
-      for (const std::uint32_t h : flow.hops)
-        if (cpu_.gptp && graph_.ports[graph_.hops[h].port].peer == node_) add(*cpu_.gptp, at_node(h), "gPTP");
-      return;
-    }
+    if (flow.stream.is_none()) return;
     const std::string& name = r_.plan.streams[flow.stream.value].name;
     if (cpu_.transmit && r_.plan.streams[flow.stream.value].talker == node_) add(*cpu_.transmit, flow.at_stack, name);
     if (cpu_.receive)
       for (const std::uint32_t last : last_hops(flow)) add(*cpu_.receive, at_stack(last), name);
+  }
+
+  static Ps all_at_once(const std::vector<GptpMessages>& messages, Ps octet_time) {
+    Ps all = 0;
+    for (const GptpMessages& each : messages) all = sum(all, product(models::wire_length(each.frame).count * octet_time, each.arrivals.count(0)));
+    return all;
+  }
+  /// The messages of its neighbours, which stand behind the flows of their ports.
+  void add_gptp(std::uint32_t thread) {
+    for (std::size_t p = 0; p < graph_.ports.size(); ++p) {
+      if (graph_.ports[p].peer != node_) continue;
+      const std::vector<GptpMessages> messages = gptp_messages(r_, graph_.ports[p].node);
+      for (std::size_t m = 0; m < messages.size(); ++m) {
+        // At a port that nothing else leaves all of them may be there at once.
+        const std::size_t flow = graph_.ports[p].hops.size() + m;
+        const Ps delay = flow < network_.ports[p].flows.size() ? network_.ports[p].flows[flow].delay : all_at_once(messages, graph_.ports[p].octet_time);
+        add(thread, graph_.ports[p].may_double || !is_bounded(delay) ? FrameArrivals() : messages[m].arrivals.delayed(delay), "gPTP");
+      }
+    }
   }
 
   /// The last hops to this host, each of which may bring every frame.

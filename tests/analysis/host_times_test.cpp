@@ -43,6 +43,14 @@ TEST(HostTimes, WhatOverloadsItsHostHasNoBound) {
   EXPECT_FALSE(found.reaches_all);
 }
 
+// Of each neighbour five messages in each 62.5 ms of half an interval, and an Announce: six jobs of 10 us that come at once, and the load.
+TEST(HostTimes, MessagesOfClocksAreJobs) {
+  const auto resolved = pair(cpu(R"({"name": "clock", "priority": 9, "execution": "10us", "stack": ["gptp"]}, {"name": "load", "execution": "30us", "every": "10ms"})"), {}, stream + R"(, "clocks": {"gptp": {}})");
+  const Bounds bounds = bound(*resolved);
+  EXPECT_EQ(duration_of(bounds.hosts->nodes()[0][0].worst), 60_us) << bounds.hosts->nodes()[0][0].reason;
+  EXPECT_EQ(duration_of(bounds.hosts->nodes()[0][1].worst), 90_us);
+}
+
 // A call every millisecond, ready within 100 us, works for 300 us behind a load of 400 us.
 TEST(HostTimes, CallsWaitForTheirThreads) {
   const std::string threads = R"({"name": "work", "execution": "300us", "runs": ["sensor"]}, {"name": "load", "priority": 9, "execution": "400us", "every": "50ms"})";

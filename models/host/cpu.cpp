@@ -22,8 +22,9 @@ Cpu::Cpu(sim::Simulation& simulation, const CpuPlan& plan, NodeIndex node, std::
   for (std::uint16_t core = 0; core < plan.cores; ++core) cores_.emplace_back(sim::Timer(source_.id(), sim::Phase::timer, core));
 }
 
+/// Before all others: what jobs send at their ends, egress ports are to see.
 void Cpu::ask_to_settle() {
-  if (!asked_) simulation_->settle_later(*this);
+  if (!asked_) is_settling_ ? simulation_->settle_later(*this) : simulation_->settle_first(*this);
   asked_ = true;
 }
 
@@ -80,9 +81,13 @@ void Cpu::keep_fair_time() {
 void Cpu::handle(sim::Simulation& simulation, const sim::Event& event) {
   Core& core = cores_[event.kind()];
   if (!core.timer.fired(simulation, source_, event)) return;
-  charge(core);
   ask_to_settle();
-  if (core.thread && core.switching == sim::Duration() && threads_[*core.thread].remaining == sim::Duration()) end_job(*core.thread);
+}
+
+/// When the instant is complete, so that it does not matter whether what else happens in it happened before.
+void Cpu::end_jobs() {
+  for (Core& core : cores_)
+    if (core.thread && core.switching == sim::Duration() && threads_[*core.thread].remaining == sim::Duration()) end_job(*core.thread);
 }
 
 void Cpu::end_job(std::uint32_t number) {
@@ -218,13 +223,16 @@ void Cpu::arm() {
 }
 
 void Cpu::settle(sim::Simulation&) {
-  asked_ = false;
+  is_settling_ = true;
   for (Core& core : cores_) charge(core);
+  end_jobs();
+  asked_ = false;
   take_in();
   choose();
   for (Thread& thread : threads_) thread.core.reset();
   for (std::uint16_t core = 0; core < cores_.size(); ++core) dispatch(core, placed_[core]);
   arm();
+  is_settling_ = false;
 }
 
 }  // namespace takt::models

@@ -90,6 +90,7 @@ class Cpu final : public sim::Component {
   void keep_fair_time();
   void take_in();
   void begin(Thread& thread);
+  void end_jobs();
   void end_job(std::uint32_t thread);
   bool is_held(const Thread& thread) const;
   bool is_more_urgent(std::uint32_t a, std::uint32_t b) const;
@@ -111,6 +112,7 @@ class Cpu final : public sim::Component {
   std::vector<std::optional<std::uint32_t>> placed_;   // by core
   CpuObserver* observer_ = nullptr;
   bool asked_ = false;
+  bool is_settling_ = false;
 };
 
 }  // namespace takt::models

@@ -16,6 +16,7 @@ constexpr std::array<Text, static_cast<std::size_t>(Assumption::count)> texts = 
     {Assumption::nothing_else, true, "nothing-else", "Nothing is sent but what the scenario lists, and devices are as fast as it says."},
     {Assumption::listed_faults_only, true, "listed-faults-only", "What fails, and the talkers that babble, are those of the scenario."},
     {Assumption::os_latency, true, "os-latency", "Operating systems delay by at most the greatest value of their distributions."},
+    {Assumption::execution_times, true, "execution-times", "Jobs take a processor for at most the greatest value of their execution time, and nothing else does."},
     {Assumption::clock_rate, true, "clock-rate", "Oscillators keep to the greatest deviation that the scenario gives them; clocks that nothing holds together slide past each other."},
     {Assumption::clock_error, false, "clock-error", "Synchronised clocks are within the clock error of each other."},
     {Assumption::gptp_traffic, true, "gptp-traffic", "A port sends each kind of gPTP message at most once in half of its interval, in each domain."},

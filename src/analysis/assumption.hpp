@@ -11,6 +11,7 @@ enum class Assumption : std::uint8_t {
   nothing_else,
   listed_faults_only,
   os_latency,
+  execution_times,
   clock_rate,
   clock_error,
   gptp_traffic,

@@ -23,6 +23,8 @@ namespace {
 using sim::Duration;
 
 
+constexpr int most_host_rounds = 64;   // until what grows still is taken for unbounded
+
 std::uint64_t bits_of(Ps work, const GraphPort& port) { return static_cast<std::uint64_t>(8 * ((work + port.octet_time - 1) / port.octet_time)); }
 
 std::vector<QueueBound> queue_bounds(const FlowGraph& graph, const NetworkResult& network) {
@@ -66,8 +68,8 @@ std::vector<PassageBound> passages_of(const FlowGraph& graph, const NetworkResul
 
 class StreamBounds {
  public:
-  StreamBounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network)
-      : r_(resolved), graph_(graph), network_(network), separated_(resolved, graph, network), outages_(resolved) {}
+  StreamBounds(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network, const HostTimes& hosts)
+      : r_(resolved), graph_(graph), network_(network), hosts_(hosts), separated_(resolved, graph, network), outages_(resolved) {}
 
   std::vector<StreamBound> make() {
     std::vector<StreamBound> bounds(r_.streams.size());
@@ -101,14 +103,16 @@ class StreamBounds {
       const models::NodePlan& listener = r_.plan.nodes[plan.listeners[l].value];
       const sim::Distribution& receive = r_.plan.os_latencies[listener.os_latency].receive;
       const Ps to_host = listener.forwarding_delay.ps();   // in a station
+      const ThreadTime& stack = hosts_.receive(plan.listeners[l]);
+      const Ps taken_in = sum(receive.greatest().ps(), stack.worst, stack.worst > 0 ? waits_in_order : 0);
       for (const std::uint32_t last : flow.last[l]) {
         const HopResult& hop = network_.hops[last];
         const Ps propagation = graph_.ports[graph_.hops[last].port].propagation;
-        const Ps latency = sum(hop.worst_left, propagation, to_host, receive.greatest().ps());
-        const Ps least = sum(hop.best_left, propagation, to_host, receive.least().ps());
+        const Ps latency = sum(hop.worst_left, propagation, to_host, taken_in);
+        const Ps least = sum(hop.best_left, propagation, to_host, receive.least().ps(), stack.least);
         bound.least = std::min(bound.least, Duration::from_ps(least));
         const SeparatedFlowBound separated = separated_.bound(last);
-        const Ps second = sum(separated.latency, to_host, receive.greatest().ps());
+        const Ps second = sum(separated.latency, to_host, taken_in);
         if (bound.separated_flow_reason.empty()) bound.separated_flow_reason = separated.reason;
         bound.separated_flow = later_of(bound.separated_flow, duration_of(second));
         bound.by_listener[l] = later_of(bound.by_listener[l], duration_of(std::min(latency, second)));
@@ -119,11 +123,25 @@ class StreamBounds {
         bound.listener = plan.listeners[l];
         take_hops(last, bound);
       }
+      if (!is_bounded(stack.worst)) wait_for_ever(thread_name(plan.listeners[l], &models::CpuPlan::receive) + ": " + stack.reason, bound);
     }
+    if (!is_bounded(flow.worst_source)) wait_for_ever(thread_name(plan.talker, &models::CpuPlan::transmit) + ": " + flow.source_reason, bound);
     if (bound.latency) bound.reason.clear();   // whatever one of the two analyses says
     if (!flow.loss_at_host.empty()) lose(bound, flow.loss_at_host);
     if (flow.may_miss_launch) lose(bound, "the operating system may hand a frame over after its launch time");
     for (const std::uint32_t h : flow.hops) look_for_losses(graph_.hops[h], bound);
+  }
+
+  /// A thread of a host for which no time is known may refuse frames as well.
+  static void wait_for_ever(std::string why, StreamBound& bound) {
+    bound.latency = bound.total_flow = bound.separated_flow = std::nullopt;
+    std::fill(bound.by_listener.begin(), bound.by_listener.end(), std::nullopt);
+    lose(bound, why);
+    bound.reason = std::move(why);
+  }
+  std::string thread_name(models::NodeIndex node, std::optional<std::uint32_t> models::CpuPlan::*part) const {
+    const models::NodePlan& plan = r_.plan.nodes[node.value];
+    return "thread " + plan.name + "/" + plan.cpu->threads[*(plan.cpu.get()->*part)].name;
   }
 
   static void lose(StreamBound& bound, std::string why, bool is_fault = false) {
@@ -232,6 +250,7 @@ class StreamBounds {
   const scenario::Resolved& r_;
   const FlowGraph& graph_;
   const NetworkResult& network_;
+  const HostTimes& hosts_;
   SeparatedFlows separated_;
   Outages outages_;
 };
@@ -327,11 +346,19 @@ class RequirementBounds {
 }  // namespace
 
 Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
-  const FlowGraph graph = make_flow_graph(resolved, options);
-  const NetworkResult network = bound_network(resolved, graph);
+  auto hosts = std::make_shared<HostTimes>(resolved);
+  FlowGraph graph = make_flow_graph(resolved, options, *hosts);
+  NetworkResult network = bound_network(resolved, graph);
+  for (int round = 0; hosts->has_processors() && hosts->refine(graph, network, options); ++round) {
+    if (round >= most_host_rounds) hosts->give_up();
+    graph = make_flow_graph(resolved, options, *hosts);
+    network = bound_network(resolved, graph);
+  }
   Bounds bounds;
+  bounds.hosts = hosts;
+  bounds.every = graph.assumptions;
   bounds.rounds = network.rounds;
-  bounds.streams = StreamBounds(resolved, graph, network).make();
+  bounds.streams = StreamBounds(resolved, graph, network, *hosts).make();
   bounds.queues = queue_bounds(graph, network);
   bounds.passages = passages_of(graph, network);
   for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) {

@@ -5,11 +5,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/assumption_ledger.hpp"
+#include "analysis/host_times.hpp"
 #include "scenario/resolve/resolved.hpp"
 
 namespace takt::analysis {
@@ -115,6 +117,8 @@ struct Bounds {
   std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset, then halts by cause; of the outermost one of a tree then those of the tree
   std::vector<RequirementBound> requirements;  ///< by Resolved::requirements
   int rounds = 0;                             ///< until the fixed point
+  std::shared_ptr<const HostTimes> hosts;     ///< what the threads of processors add
+  Assumptions every;                          ///< that all bounds need
 };
 
 /// Never fails: what cannot be bounded has a reason instead of a bound.

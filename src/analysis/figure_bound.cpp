@@ -19,6 +19,7 @@ using sim::Duration;
 std::string unbounded_text(const Figure& figure) {
   constexpr std::pair<std::string_view, const char*> texts[] = {{"applications", "what applications do, and when"},
                                                                 {"clocks", "clocks: synchronisation is simulated"},
+                                                                {"cpus", "this figure of processors"},
                                                                 {"events", "how many events a run has"},
                                                                 {"ingress", "what filters, gates and meters of the ingress count"},
                                                                 {"ports", "this figure of ports"},
@@ -94,6 +95,7 @@ class FigureBounder {
   RequirementBound make() {
     if (!figure_.steps.empty() && figure_.steps.front() == "streams") add_streams();
     if (figure_.steps.size() >= 5 && figure_.steps[0] == "applications" && figure_.steps[2] == "threads" && figure_.only.empty()) add_threads();
+    if (figure_.steps.size() >= 5 && figure_.steps[0] == "cpus" && figure_.steps[2] == "threads" && figure_.only.empty()) add_cpu_threads();
     if (has_steps(figure_, {"dropped", "?"})) add_all_drops();
     if (has_steps(figure_, {"ports", "?", "queue_peak"})) add_queues();
     if (has_steps(figure_, {"queues", "?", "frames"}) || has_steps(figure_, {"queues", "?", "octets"})) add_queues_of_classes();
@@ -114,6 +116,29 @@ class FigureBounder {
       else if (has_steps(figure_, {"streams", "?", "delivered"}))
         add_delivered(stream);
     }
+  }
+
+  void add_cpu_threads() {
+    for (std::size_t n = 0; n < bounds_.hosts->nodes().size(); ++n) {
+      const models::NodePlan& node = r_.plan.nodes[n];
+      if (!node.cpu || (figure_.steps[1] != "*" && figure_.steps[1] != node.name)) continue;
+      for (std::size_t t = 0; t < node.cpu->threads.size(); ++t)
+        if (figure_.steps[3] == "*" || figure_.steps[3] == node.cpu->threads[t].name) add_cpu_thread(node, node.cpu->threads[t], bounds_.hosts->nodes()[n][t]);
+    }
+  }
+
+  void add_cpu_thread(const models::NodePlan& node, const models::CpuThreadPlan& thread, const ThreadTime& time) {
+    const std::optional<double> longest = number(duration_of(time.worst));
+    const std::string reason = "thread " + node.name + "/" + thread.name + ": " + time.reason;
+    values_.rest_on(bounds_.every);
+    if (has_steps(figure_, {"cpus", "?", "threads", "?", "response_ps", "?"}) && figure_.steps.back() != "count")
+      values_.add(figure_.steps.back() == "deviation" ? 0 : static_cast<double>(time.least), longest, reason);
+    else if (has_steps(figure_, {"cpus", "?", "threads", "?", "response_p99_ps"}))
+      values_.add(static_cast<double>(time.least), longest, reason);
+    else if (has_steps(figure_, {"cpus", "?", "threads", "?", "refused"}))
+      values_.add(0, longest ? std::optional(0.0) : std::nullopt, reason);
+    else if (has_steps(figure_, {"cpus", "?", "threads", "?", "late"}))
+      values_.add(0, longest && (!thread.deadline || time.worst <= thread.deadline->ps()) ? std::optional(0.0) : std::nullopt, longest ? reason + "a job may take " + json::to_text(*duration_of(time.worst)) : reason);
   }
 
   /// Means and percentiles lie between the fastest and the slowest; no deviation is greater than what lies between these.

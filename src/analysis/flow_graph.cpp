@@ -101,6 +101,7 @@ void note_assumptions(const scenario::Resolved& r, const BoundOptions& options, 
   const auto is_random = [](const sim::Distribution& d) { return d.greatest() != d.least(); };
   for (const models::OsLatency& os : r.plan.os_latencies)
     if (is_random(os.transmit) || is_random(os.receive) || is_random(os.wake_up)) all.add(Assumption::os_latency);
+  if (std::any_of(r.plan.nodes.begin(), r.plan.nodes.end(), [](const models::NodePlan& node) { return node.cpu != nullptr; })) all.add(Assumption::execution_times);
   if (!r.scenario.faults.empty()) all.add(Assumption::listed_faults_only);
   for (const scenario::ResolvedAction& action : r.script) {
     if (std::holds_alternative<scenario::ResolvedGates>(action.what)) all.add(Assumption::gates_do_not_change);
@@ -147,7 +148,7 @@ ClockQuality clock_quality(const scenario::Resolved& r, models::NodeIndex node, 
   return quality;
 }
 
-FlowGraph make_flow_graph(const scenario::Resolved& resolved, const BoundOptions& options) {
+FlowGraph make_flow_graph(const scenario::Resolved& resolved, const BoundOptions& options, const HostTimes& hosts) {
   FlowGraph graph;
   for (std::uint32_t l = 0; l < resolved.plan.links.size(); ++l) {
     const models::LinkPlan& link = resolved.plan.links[l];
@@ -160,7 +161,7 @@ FlowGraph make_flow_graph(const scenario::Resolved& resolved, const BoundOptions
                              from->port_config.value_or(resolved.plan.nodes[from->node.value].port_config), doubles(from_a), {}});
   }
   for (const GraphPort& port : graph.ports) graph.models.push_back(model_of(resolved, port, options));
-  add_flows(resolved, options, graph);
+  add_flows(resolved, options, hosts, graph);
   add_routes(resolved, graph);
   note_unordered_classes(graph);
   note_assumptions(resolved, options, graph);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/bounds.hpp"
+#include "analysis/host_times.hpp"
 #include "analysis/port_bound.hpp"
 
 namespace takt::analysis {
@@ -75,10 +76,12 @@ struct Hop {
 struct Flow {
   models::StreamIndex stream;           ///< none: gPTP at one port
   FrameArrivals source;                 ///< at the egress queue of the talker
+  FrameArrivals at_stack = {};          ///< at the thread of its processor that sends them, if there is one
   std::optional<ArrivalPhase> produced = {};   ///< when frames are produced, if that is known
   Ps worst_source = 0;                  ///< from production to the egress queue
   Ps best_source = 0;
   std::optional<std::uint32_t> train = {};   ///< flows with the same number are handed to the port one behind the other, in the order of the graph's flows
+  std::string source_reason = {};       ///< why worst_source is unbounded
   bool may_miss_launch = false;         ///< the operating system may hand a frame over after its launch time
   bool launches = false;                ///< its frames have launch times
   std::vector<std::uint32_t> hops;      ///< parents before children
@@ -98,7 +101,7 @@ struct FlowGraph {
 };
 
 /// Flows and hops; see flow_sources.hpp and flow_routes.hpp for the parts.
-FlowGraph make_flow_graph(const scenario::Resolved& resolved, const BoundOptions& options);
+FlowGraph make_flow_graph(const scenario::Resolved& resolved, const BoundOptions& options, const HostTimes& hosts);
 
 /// How good a node's clock is under the scenario's clocks.
 ClockQuality clock_quality(const scenario::Resolved& resolved, models::NodeIndex node, const BoundOptions& options);

@@ -68,13 +68,34 @@ std::set<std::string_view> streams_with_phases(const scenario::Scenario& scenari
   return names;
 }
 
-void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, bool has_phase, const BoundOptions& options, FlowGraph& graph) {
+/// From production to the egress queue: the operating system, and the thread that sends.
+void set_source(const models::OsLatency& os, const ThreadTime& stack, Flow& flow) {
+  flow.worst_source = sum(os.transmit.greatest().ps(), stack.worst);
+  flow.best_source = os.transmit.least().ps() + stack.least;
+  flow.source_reason = stack.reason;
+}
+Ps spread_of(const Flow& flow) { return is_bounded(flow.worst_source) ? flow.worst_source - flow.best_source : unbounded_ps; }
+Ps spread_of(const sim::Distribution& d) { return d.greatest().ps() - d.least().ps(); }
+
+/// The pattern is that of production.
+void set_arrivals(ArrivalPattern pattern, const models::OsLatency& os, Flow& flow) {
+  ArrivalPattern at_stack = pattern;
+  at_stack.jitter = sum(pattern.jitter, spread_of(os.transmit));
+  flow.at_stack = FrameArrivals(at_stack);
+  pattern.jitter = sum(pattern.jitter, spread_of(flow));
+  flow.source = FrameArrivals(pattern);
+}
+
+void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, bool has_phase, const BoundOptions& options, const HostTimes& hosts, FlowGraph& graph) {
   const models::NodeIndex node = r.plan.streams[talker.stream.value].talker;
   const ClockQuality clock = clock_quality(r, node, options);
   const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
   Flow flow;
   flow.stream = talker.stream;
   ArrivalPattern pattern = pattern_of(talker, clock);
+  const ThreadTime& stack = hosts.transmit(node);
+  set_source(os, stack, flow);
+  const Ps handed_over = flow.worst_source;
   if (talker.launch) {
     flow.launches = true;
     flow.worst_source = longest(talker.launch->ps(), clock) + 2 * clock.error;
@@ -82,82 +103,86 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, b
     const Ps unread = clock.slowest_ppt == 0 && clock.fastest_ppt == 0 ? 0 : 1;
     flow.best_source = std::max<Ps>(0, shortest(std::max<Ps>(0, talker.launch->ps() - unread), clock) - 2 * clock.error);
     // And one of them may be over where a frame is handed over at the very instant.
-    flow.may_miss_launch = os.transmit.greatest().ps() + unread > std::max<Ps>(0, shortest(talker.launch->ps(), clock) - 2 * clock.error);
-  } else {
-    flow.worst_source = os.transmit.greatest().ps();
-    flow.best_source = os.transmit.least().ps();
+    flow.may_miss_launch = sum(handed_over, unread) > std::max<Ps>(0, shortest(talker.launch->ps(), clock) - 2 * clock.error);
   }
-  pattern.jitter = sum(pattern.jitter, flow.worst_source - flow.best_source);
+  set_arrivals(pattern, os, flow);
   // One that is handed over too late is lost only then, and under way until then.
-  if (flow.may_miss_launch) flow.worst_source = std::max(flow.worst_source, os.transmit.greatest().ps());
-  if (const auto* const periodic = std::get_if<models::PeriodicSchedule>(&talker.schedule); periodic != nullptr && has_phase && !talker.babbles)
+  if (flow.may_miss_launch) flow.worst_source = std::max(flow.worst_source, handed_over);
+  if (const auto* const periodic = std::get_if<models::PeriodicSchedule>(&talker.schedule); periodic != nullptr && has_phase && !talker.babbles && stack.worst == 0)
     flow.produced = ArrivalPhase{periodic->offset.ps() - clock.error, periodic->period.ps(), periodic->jitter.ps() + 2 * clock.error, clock.is_synchronised ? 0 : node.value + 1, clock.rate_ppt};
-  flow.source = FrameArrivals(pattern);
   graph.flows.push_back(std::move(flow));
 }
 
 /// What a process publishes: `frames` in each period of its clock, each late by up to `lateness`, and handed to the port by the operating system.
-void add_late(const scenario::Resolved& r, models::NodeIndex node, models::StreamIndex stream, Ps every, std::int64_t frames, Ps lateness, const BoundOptions& options, FlowGraph& graph) {
+void add_late(const scenario::Resolved& r, models::NodeIndex node, models::StreamIndex stream, Ps every, std::int64_t frames, Ps lateness, const BoundOptions& options, const HostTimes& hosts, FlowGraph& graph) {
   const ClockQuality clock = clock_quality(r, node, options);
   const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
   Flow flow;
   flow.stream = stream;
-  flow.worst_source = os.transmit.greatest().ps();
-  flow.best_source = os.transmit.least().ps();
-  const Ps jitter = sum(lateness + 2 * clock.error, flow.worst_source - flow.best_source);
-  flow.source = FrameArrivals({std::max<Ps>(1, shortest(every, clock)), frames, 0, jitter});
+  set_source(os, hosts.transmit(node), flow);
+  set_arrivals({std::max<Ps>(1, shortest(every, clock)), frames, 0, sum(lateness, 2 * clock.error)}, os, flow);
   graph.flows.push_back(std::move(flow));
 }
 
-void add_published(const scenario::Resolved& r, models::NodeIndex node, models::StreamIndex stream, Ps every, std::int64_t frames, const BoundOptions& options, FlowGraph& graph) {
-  const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
-  add_late(r, node, stream, every, frames, os.wake_up.greatest().ps() - os.wake_up.least().ps(), options, graph);
+/// Of what a participant publishes when an alarm wakes it.
+Ps lateness(const HostTimes& hosts, const scenario::ResolvedMember& member) {
+  return sum(spread_of(hosts.wake_up(member.node, member.cpu_thread)), hosts.of(member.node, member.cpu_thread).spread());
+}
+
+void add_published(const scenario::Resolved& r, const scenario::ResolvedMember& member, models::StreamIndex stream, Ps every, std::int64_t frames, const BoundOptions& options, const HostTimes& hosts,
+                   FlowGraph& graph) {
+  add_late(r, member.node, stream, every, frames, lateness(hosts, member), options, hosts, graph);
 }
 
 /// Topics over OPC UA, of applications and gateways: a call of a thread publishes one message at most, which is one frame. A call whose response is not over when the next one is due
 /// does not take place (scenario/applications/activations.hpp), so none is late by a period, whatever the law of its response.
-void add_topics(const scenario::Resolved& r, const BoundOptions& options, FlowGraph& graph) {
+void add_topics(const scenario::Resolved& r, const BoundOptions& options, const HostTimes& hosts, FlowGraph& graph) {
   for (const scenario::ResolvedApplication& application : r.applications)
     for (const scenario::ResolvedThread& thread : application.threads) {
       if (!thread.publishes || !thread.stream) continue;
       const ClockQuality clock = clock_quality(r, application.node, options);
       const Ps latest = thread.every.ps() - 1;
-      const Ps spread = std::min(latest, thread.response.greatest().ps()) - std::min(latest, thread.response.least().ps());
+      const ThreadTime& cpu = hosts.of(application.node, thread.cpu_thread);
+      const Ps least = std::min(latest, thread.response.least().ps());
+      Ps spread = longest(latest - least, clock);
+      // One whose processor may still be at the call before may begin later than it is ready.
+      if (!thread.cpu_thread || overtakes_none(thread, cpu, clock)) spread = std::min(spread, sum(longest(std::min(latest, thread.response.greatest().ps()) - least, clock), cpu.spread()));
       // Responses pass on the host's clock, whose instants are whole picoseconds of true time.
       const Ps rounding = clock.slowest_ppt == 0 && clock.fastest_ppt == 0 ? 0 : 1;
-      add_late(r, application.node, *thread.stream, thread.every.ps(), 1, longest(spread, clock) + rounding, options, graph);
+      add_late(r, application.node, *thread.stream, thread.every.ps(), 1, sum(spread, rounding), options, hosts, graph);
     }
 }
 
 /// With roles: whoever gets or loses one, or hears of it, publishes at once; afterwards its cycles begin anew. So many more than the cyclic ones in the whole run are a cyclic
 /// one that may be late by so many cycles.
-void add_roles(const scenario::Resolved& r, const scenario::ResolvedProgram& program, const BoundOptions& options, FlowGraph& graph) {
+void add_roles(const scenario::Resolved& r, const scenario::ResolvedProgram& program, const BoundOptions& options, const HostTimes& hosts, FlowGraph& graph) {
   const Ps cycle = program.description->cycle.ps();
   const auto changes = most_changes_of_roles(r, static_cast<std::size_t>(&program - r.programs.data()));
-  const auto add = [&](models::NodeIndex node, models::StreamIndex stream) {
-    if (!changes) return add_published(r, node, stream, cycle, messages_in_a_cycle, options, graph);
-    const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
-    add_late(r, node, stream, cycle, 1, os.wake_up.greatest().ps() - os.wake_up.least().ps() + cycle * *changes, options, graph);
+  const auto add = [&](const scenario::ResolvedMember& member, models::StreamIndex stream) {
+    if (!changes) return add_published(r, member, stream, cycle, messages_in_a_cycle, options, hosts, graph);
+    add_late(r, member.node, stream, cycle, 1, sum(lateness(hosts, member), cycle * *changes), options, hosts, graph);
   };
   graph.assumptions.add(Assumption::program_publishes);
   for (const scenario::ResolvedMember& each : program.members) {
-    add(each.node, *each.roles);
-    add(each.node, each.state);
+    add(each, *each.roles);
+    add(each, each.state);
     for (const auto& stream : each.data)
-      if (stream) add(each.node, *stream);
+      if (stream) add(each, *stream);
   }
 }
 
-void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& program, const BoundOptions& options, FlowGraph& graph) {
-  if (program.has_roles()) return add_roles(r, program, options, graph);
+void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& program, const BoundOptions& options, const HostTimes& hosts, FlowGraph& graph) {
+  if (program.has_roles()) return add_roles(r, program, options, hosts, graph);
   const auto trains_before = static_cast<std::uint32_t>(graph.flows.size());   // no two Programs begin at the same flow
   const auto add = [&](std::uint8_t participant, models::StreamIndex stream, std::int64_t frames) {
-    const models::NodeIndex node = program.members[participant].node;
-    add_published(r, node, stream, program.description->cycle.ps(), frames, options, graph);
+    const scenario::ResolvedMember& member = program.members[participant];
+    const models::NodeIndex node = member.node;
+    add_published(r, member, stream, program.description->cycle.ps(), frames, options, hosts, graph);
     const ClockQuality clock = clock_quality(r, node, options);
     const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
     const Ps wake_up = os.wake_up.greatest().ps() - os.wake_up.least().ps();
-    if (frames == 1 && clock.is_synchronised && scenario::promises_phase(*program.description, r.plan.nodes[node.value].name))
+    const bool waits_for_threads = member.cpu_thread || hosts.transmit(node).worst > 0;
+    if (frames == 1 && clock.is_synchronised && !waits_for_threads && scenario::promises_phase(*program.description, r.plan.nodes[node.value].name))
       graph.flows.back().produced = ArrivalPhase{program.phases[participant].ps() + os.wake_up.least().ps() - clock.error, program.description->cycle.ps(), wake_up + 2 * clock.error, 0, clock.rate_ppt};
     if (graph.flows.back().produced) graph.flows.back().train = trains_before + participant;   // its state comes first, then its data
   };
@@ -175,7 +200,8 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
     flow.train.reset();
     const scenario::ResolvedProcessing& processing = program.processing[data.from];
     const Ps work = processing.per_message.least().ps() + processing.per_field.least().ps() * static_cast<Ps>(program.process_data[reply->to].values);
-    flow.source = work > 0 ? FrameArrivals({work, 1, 0, flow.worst_source - flow.best_source}) : FrameArrivals(at_any_time());
+    flow.at_stack = work > 0 ? FrameArrivals({work, 1, 0, spread_of(r.plan.os_latencies[r.plan.nodes[program.members[data.from].node.value].os_latency].transmit)}) : FrameArrivals(at_any_time());
+    flow.source = work > 0 ? FrameArrivals({work, 1, 0, spread_of(flow)}) : FrameArrivals(at_any_time());
   }
 }
 
@@ -196,12 +222,12 @@ Ps interval_ps(int log_seconds) { return rounded_up(std::ldexp(1e12, log_seconds
 
 }  // namespace
 
-void add_flows(const scenario::Resolved& resolved, const BoundOptions& options, FlowGraph& graph) {
+void add_flows(const scenario::Resolved& resolved, const BoundOptions& options, const HostTimes& hosts, FlowGraph& graph) {
   const std::set<std::string_view> with_phases = streams_with_phases(resolved.scenario);
   for (const models::TalkerPlan& talker : resolved.plan.talkers)
-    add_talker(resolved, talker, with_phases.contains(resolved.plan.streams[talker.stream.value].name), options, graph);
-  for (const scenario::ResolvedProgram& program : resolved.programs) add_program(resolved, program, options, graph);
-  add_topics(resolved, options, graph);
+    add_talker(resolved, talker, with_phases.contains(resolved.plan.streams[talker.stream.value].name), options, hosts, graph);
+  for (const scenario::ResolvedProgram& program : resolved.programs) add_program(resolved, program, options, hosts, graph);
+  add_topics(resolved, options, hosts, graph);
   add_unknown(resolved, graph);
 }
 

@@ -6,7 +6,7 @@
 namespace takt::analysis {
 
 /// Adds a flow without hops for every source of frames: talkers, those that babble, participants of Programs.
-void add_flows(const scenario::Resolved& resolved, const BoundOptions& options, FlowGraph& graph);
+void add_flows(const scenario::Resolved& resolved, const BoundOptions& options, const HostTimes& hosts, FlowGraph& graph);
 
 /// gPTP at one port: a flow of frames that end at the next node. Nothing if the node of the port does not speak gPTP.
 struct GptpMessages {

@@ -64,6 +64,15 @@ std::string streams_text(const Bounds& bounds, const scenario::Resolved& r, cons
   return text;
 }
 
+std::string threads_text(const Bounds& bounds, const scenario::Resolved& r) {
+  std::string text;
+  for (const ReportedThread& thread : threads_of(r, bounds)) {
+    if (text.empty()) text = "\nThreads of hosts: from when a job is ready to its end\n";
+    text += fmt::format("  {:<32} {:>16}{}\n", thread.name, text_of(duration_of(thread.time->worst)), thread.time->reason.empty() ? "" : "  " + thread.time->reason);
+  }
+  return text;
+}
+
 std::string reactions_text(const Bounds& bounds, const scenario::Resolved& r, const std::vector<Assumption>& all) {
   std::string text;
   for (const ReactionBound& reaction : bounds.reactions) {
@@ -81,7 +90,7 @@ std::string reactions_text(const Bounds& bounds, const scenario::Resolved& r, co
 std::string text_report(const scenario::Resolved& resolved, const Bounds& bounds) {
   const std::vector<Assumption> all = all_assumptions(bounds);
   std::string text = fmt::format("{}: bounds of {} streams and {} Programs\n\n", resolved.scenario.name, bounds.streams.size(), resolved.programs.size());
-  text += streams_text(bounds, resolved, all) + reactions_text(bounds, resolved, all);
+  text += streams_text(bounds, resolved, all) + threads_text(bounds, resolved) + reactions_text(bounds, resolved, all);
   if (!bounds.requirements.empty()) text += "\nRequirements and what they can be at most\n";
   for (std::size_t i = 0; i < bounds.requirements.size(); ++i)
     text += fmt::format("  {:<48} {}\n", resolved.requirements[i].text, requirement_answer(bounds.requirements[i], bounds.ledger, resolved.requirements[i].from));
@@ -96,6 +105,7 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
   for (const StreamBound& stream : bounds.streams) report.streams.push_back({&stream, resolved.plan.nodes[stream.listener.value].name});
   for (const QueueBound& queue : bounds.queues) report.queues.push_back({&queue, resolved.plan.nodes[queue.node.value].name});
   for (const ReactionBound& reaction : bounds.reactions) report.reactions.push_back({&reaction, resolved.programs[reaction.program].name});
+  report.threads = threads_of(resolved, bounds);
   for (std::size_t i = 0; i < bounds.requirements.size(); ++i) {
     const scenario::RequiredFigure& asked = resolved.requirements[i];
     std::string objection = bounds.ledger.objection(bounds.requirements[i].assumptions, asked.from);

@@ -42,6 +42,11 @@ std::optional<FigureRange> range_of(const ReportedRequirement& requirement) { re
 std::string reason_of_requirement(const ReportedRequirement& requirement) { return requirement.bound->reason; }
 std::vector<std::string> assumptions_of_requirement(const ReportedRequirement& requirement) { return names_of(requirement.bound->assumptions); }
 
+std::optional<Duration> worst_of(const ReportedThread& thread) { return duration_of(thread.time->worst); }
+Duration least_of_thread(const ReportedThread& thread) { return Duration::from_ps(thread.time->least); }
+std::string reason_of_thread(const ReportedThread& thread) { return thread.time->reason; }
+bool has_threads(const BoundReport& report) { return !report.threads.empty(); }
+
 constexpr std::string_view reason_help = "Why there is no bound, or what is left to say of it.";
 constexpr std::string_view assumptions_help = "Names of what the bound rests on.";
 
@@ -138,6 +143,25 @@ const json::Record& describe(json::Type<ReportedReaction>) {
   return record;
 }
 
+std::vector<ReportedThread> threads_of(const scenario::Resolved& resolved, const Bounds& bounds) {
+  std::vector<ReportedThread> threads;
+  for (std::size_t n = 0; n < bounds.hosts->nodes().size(); ++n)
+    for (std::size_t t = 0; t < bounds.hosts->nodes()[n].size(); ++t)
+      threads.push_back({resolved.plan.nodes[n].name + "/" + resolved.plan.nodes[n].cpu->threads[t].name, &bounds.hosts->nodes()[n][t]});
+  return threads;
+}
+
+const json::Record& describe(json::Type<ReportedThread>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&ReportedThread::name>("thread", "The host and the thread."),
+      json::output<&worst_of>("bound_ps", "From when a job is ready to its end; null: unbounded."),
+      json::output<&least_of_thread>("least_ps", "No job is faster."),
+      json::output<&reason_of_thread>("reason", reason_help),
+  };
+  static constexpr json::Record record{"thread", "How long the jobs of a thread of a host's processor can take.", outputs};
+  return record;
+}
+
 const json::Record& describe(json::Type<ReportedRequirement>) {
   static constexpr json::Output outputs[] = {
       json::output<&ReportedRequirement::text>("text", "What is asked."),
@@ -158,6 +182,7 @@ const json::Record& describe(json::Type<BoundReport>) {
       json::output<&BoundReport::streams>("streams", "In the order of the scenario."),
       json::output<&BoundReport::queues>("queues", "Of classes that carry something."),
       json::output<&BoundReport::reactions>("reactions", "Of each Program."),
+      json::only_if<&has_threads>(json::output<&BoundReport::threads>("threads", "Of hosts with processors."), "where there are some"),
       json::output<&BoundReport::requirements>("requirements", "One for each limit, in the order of the scenario."),
       json::output<&BoundReport::assumptions>("assumptions", "What any of the bounds rests on.", {.keys = "assumption"}),
   };

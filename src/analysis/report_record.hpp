@@ -26,6 +26,12 @@ struct ReportedReaction {
   std::string program;
 };
 
+/// A thread of a host's processor.
+struct ReportedThread {
+  std::string name;                ///< "plc/control"
+  const ThreadTime* time = nullptr;
+};
+
 struct ReportedRequirement {
   std::string text;
   const RequirementBound* bound = nullptr;
@@ -37,6 +43,7 @@ struct BoundReport {
   std::vector<ReportedStream> streams;
   std::vector<ReportedQueue> queues;
   std::vector<ReportedReaction> reactions;
+  std::vector<ReportedThread> threads;
   std::vector<ReportedRequirement> requirements;
   std::vector<std::pair<std::string, AssessedAssumption>> assumptions;   ///< by name
 };
@@ -50,6 +57,9 @@ const json::Record& describe(json::Type<FigureRange>);
 const json::Record& describe(json::Type<ReportedStream>);
 const json::Record& describe(json::Type<ReportedQueue>);
 const json::Record& describe(json::Type<ReportedReaction>);
+/// In the order of nodes.
+std::vector<ReportedThread> threads_of(const scenario::Resolved& resolved, const Bounds& bounds);
+const json::Record& describe(json::Type<ReportedThread>);
 const json::Record& describe(json::Type<ReportedRequirement>);
 const json::Record& describe(json::Type<BoundReport>);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -14,8 +13,9 @@ namespace {
 using models::CpuThreadPlan;
 using models::SchedulingPolicy;
 
+constexpr Ps longest_response = 1'000'000'000'000;   // 1 s: what takes longer is no bound that anybody wants
 /// Windows are worked out at most so often for one thread: a load of nearly 100 % has windows that nobody waits for.
-constexpr int most_steps = 200'000;
+constexpr int most_steps = 20'000;
 /// Threads that run anywhere wait for one another: so many rounds until what still grows counts as unbounded.
 constexpr int most_rounds = 64;
 
@@ -25,22 +25,21 @@ std::int64_t count_in(const JobSource& source, Ps length) {
   if (length < 0) return 0;
   return source.arrivals.is_limited() && is_bounded(length) ? source.arrivals.count(length) : unbounded_ps;
 }
-double rate_of(const JobSource& source) { return source.arrivals.is_limited() ? source.arrivals.calmest().rate() : std::numeric_limits<double>::infinity(); }
 
-class Analysis {
+class ResponseTimes {
  public:
-  Analysis(const models::CpuPlan& plan, const std::vector<std::vector<JobSource>>& sources)
-      : plan_(plan), sources_(sources), switching_(plan.switching.ps()), result_{std::vector<ThreadResponse>(plan.threads.size()), std::vector<double>(plan.cores), 0, 0} {
-    // The processor gives each job at least a picosecond.
-    for (std::vector<JobSource>& of_thread : sources_)
-      for (JobSource& source : of_thread) source.execution = std::max<Ps>(1, source.execution);
+  ResponseTimes(const models::CpuPlan& plan, const std::vector<std::vector<JobSource>>& sources) : plan_(plan), sources_(sources), switching_(plan.switching.ps()), times_(plan.threads.size()) {
+    for (std::size_t t = 0; t < times_.size(); ++t) {
+      times_[t].least = std::max<Ps>(1, plan.threads[t].execution.least().ps());
+      // The processor gives each job at least a picosecond, and no response is shorter than a job.
+      for (JobSource& source : sources_[t]) times_[t].worst = std::max(times_[t].worst, source.work = std::max<Ps>(1, source.work));
+    }
   }
 
-  CpuResponses run() {
-    measure_load();
+  std::vector<ThreadTime> run() {
     find_responses();
-    for (std::size_t i = 0; i < plan_.threads.size(); ++i) conclude(i);
-    return std::move(result_);
+    for (std::size_t t = 0; t < times_.size(); ++t) conclude(t);
+    return std::move(times_);
   }
 
  private:
@@ -68,7 +67,7 @@ class Analysis {
 
   Ps longest_job(std::size_t i) const {
     Ps longest = 0;
-    for (const JobSource& source : sources_[i]) longest = std::max(longest, source.execution);
+    for (const JobSource& source : sources_[i]) longest = std::max(longest, source.work);
     return longest;
   }
   /// So long a job that has begun is held at most: it has worked for a picosecond, since between two jobs anybody may interrupt.
@@ -91,7 +90,7 @@ class Analysis {
 
   Ps work(std::size_t j, Ps length, Ps extra) const {
     Ps total = 0;
-    for (const JobSource& source : sources_[j]) total = sum(total, product(sum(source.execution, extra), count_in(source, length)));
+    for (const JobSource& source : sources_[j]) total = sum(total, product(sum(source.work, extra), count_in(source, length)));
     return total;
   }
   std::int64_t jobs(std::size_t j, Ps length) const {
@@ -101,35 +100,42 @@ class Analysis {
   }
   /// Jobs of j that are there at some instant of a window of that length: released at most a response time before it.
   std::int64_t jobs_there(std::size_t j, Ps window) const { return is_bounded(response(j)) ? jobs(j, sum(window, response(j)) - 2) : unbounded_ps; }
-  /// What they work in it. Of those whose response times end in it before they could have done all of their work in it, the last one gets the rest.
+  /// What they work in it. A job that is released u - R before the window, R its longest response, works at most u in it; one that is released v before its end, at most v. Those for which
+  /// neither is less than their work are whole. Of the others, since a thread does one thing at a time, the last of the first kind and the first of the second kind stand for all of theirs.
   Ps work_there(std::size_t j, Ps window) const {
-    if (!is_bounded(response(j))) return unbounded_ps;
+    if (!is_bounded(response(j)) || !is_bounded(window)) return unbounded_ps;
+    const Ps span = window + response(j);
     Ps total = 0;
     for (const JobSource& source : sources_[j]) {
-      const Ps c = source.execution;
-      const Ps reach = sum(window, response(j)) - 1;
-      const std::int64_t whole = count_in(source, reach - c);
-      total = sum(total, product(c, whole));
-      // The greatest part of a job with which all the whole ones are possible: that many and one come in an interval of reach - part.
-      Ps low = 0, high = c - 1;
-      while (low < high) {
-        const Ps middle = high - (high - low) / 2;
-        (count_in(source, reach - middle) > whole ? low : high) = count_in(source, reach - middle) > whole ? middle : middle - 1;
+      const Ps c = source.work;
+      if (span < 2 * c) {
+        total = sum(total, window);
+        continue;
       }
+      const std::int64_t whole = count_in(source, span - 2 * c);
+      const Ps one_more = length_of(source, whole + 1, span - 2 * c), two_more = length_of(source, whole + 2, one_more);
+      const Ps one = std::max<Ps>(0, span - c - one_more), both = std::max<Ps>(0, span - two_more);
       // In steps, since it grows with the window as fast as the window does: fixed points would be approached by picoseconds.
       const Ps step = std::max<Ps>(1, c / steps_of_a_part);
-      total = sum(total, std::min(c - 1, (low + step - 1) / step * step));
+      const Ps part = (std::max(one, std::min(2 * one, both)) + step - 1) / step * step;
+      total = sum(total, product(c, whole), std::min(part, 2 * c));
     }
     return total;
   }
-  Ps response(std::size_t j) const { return result_.threads[j].response; }
+  /// The least length from `from` on in which that many jobs may come.
+  static Ps length_of(const JobSource& source, std::int64_t jobs, Ps from) {
+    Ps length = from;
+    while (is_bounded(length) && source.arrivals.count(length) < jobs) length = source.arrivals.next_jump(length);
+    return std::min(length, unbounded_ps);
+  }
+  Ps response(std::size_t j) const { return times_[j].worst; }
 
   // --- Windows ---
 
   /// The least x >= start with demand(x) = x.
   template <class Demand>
   Ps least_fixed_point(Ps start, const Demand& demand) {
-    for (Ps x = start; is_bounded(x) && ++steps_ < most_steps;) {
+    for (Ps x = start; x <= longest_response && ++steps_ < most_steps;) {
       const Ps next = demand(x);
       if (next <= x) return x;
       x = next;
@@ -151,12 +157,20 @@ class Analysis {
       if (is_fair(j)) fair_work = sum(fair_work, work(j, length, 0));
     }
     for (const std::size_t j : level.anywhere) total = sum(total, work_there(j, window), product(2 * switching_, switching_ == 0 ? 0 : jobs_there(j, window)));
-    if (!level.anywhere.empty() && switching_ > 0) {
-      total = sum(total, switching_);
+    if (switching_ == 0) return total;
+    Ps turns = is_fair(i) ? slices(fair_work) : 0;
+    if (!level.anywhere.empty()) {
+      total = sum(total, 2 * switching_);
       for (const std::size_t j : level.elsewhere) total = sum(total, product(switching_, jobs(j, window - 1)));
+      if (is_fair(i)) {
+        // Turns on other cores may drive threads here, too.
+        for (const auto& others : {level.anywhere, level.elsewhere})
+          for (const std::size_t j : others)
+            if (is_fair(j)) fair_work = sum(fair_work, work_there(j, window));
+        turns = product(2, sum(slices(fair_work), plan_.cores));
+      }
     }
-    if (is_fair(i)) total = sum(total, product(switching_, switching_ == 0 ? 0 : slices(fair_work)));
-    return total;
+    return sum(total, product(switching_, turns));
   }
 
   /// Instants of a busy window at which a job of the thread may be the latest that is released, so that it waits longest.
@@ -185,7 +199,7 @@ class Analysis {
     const std::vector<Ps> instants = candidates(&level, i, busy);
     for (std::size_t k = 0; k < sources_[i].size(); ++k) {
       // From when it has begun and no more is left than this, nobody interrupts it.
-      const Ps held = std::min(plan_of(i).non_preemptive.ps(), sources_[i][k].execution - 1);
+      const Ps held = std::min(plan_of(i).non_preemptive.ps(), sources_[i][k].work - 1);
       Ps ready = 1;
       for (const Ps released : instants) {
         const Ps own = work(i, released, 0);
@@ -193,7 +207,7 @@ class Analysis {
         // With deadlines, a later release lets more go first: windows only grow.
         ready = least_fixed_point(std::max(ready, fixed), [&](Ps x) { return std::max(x, sum(fixed, taken(level, x, released, own))); });
         if (!is_bounded(ready)) return fail(i);
-        note(i, k, ready + held - released);
+        note(i, ready + held - released);
       }
     }
   }
@@ -204,6 +218,13 @@ class Analysis {
     for (std::size_t j = 0; j < plan_.threads.size(); ++j)
       if (j != i && !sources_[j].empty() && goes_first(j, i)) others.push_back(j);
     const std::int64_t cores = plan_.cores;
+    // Less urgent threads that are held when it begins to wait, as it does at first and whenever a more urgent job comes: once each, on a core each.
+    std::vector<Ps> holds;
+    for (std::size_t j = 0; j < plan_.threads.size(); ++j)
+      if (!sources_[j].empty() && !goes_first(j, i) && longest_hold(j) > 0) holds.push_back(longest_hold(j));
+    std::sort(holds.begin(), holds.end(), std::greater<>());
+    Ps held = 0;
+    for (std::size_t n = 0; n < std::min<std::size_t>(holds.size(), plan_.cores); ++n) held = sum(held, holds[n], switching_);
     const auto needed = [&](Ps x, Ps own, std::int64_t own_jobs) {
       std::vector<Ps> works;
       Ps fair_work = own, switched = 0, own_switched = 0;
@@ -211,12 +232,12 @@ class Analysis {
         works.push_back(work_there(j, x));
         if (is_fair(j)) fair_work = sum(fair_work, works.back());
       }
-      if (switching_ > 0) {
+      if (switching_ > 0 || held > 0) {
         std::int64_t n = 0;
         for (const std::size_t j : others) n = sum(n, jobs_there(j, x));
         const std::int64_t over = is_fair(i) ? sum(slices(fair_work), cores) : 0;
         own_switched = product(switching_, sum(own_jobs, n, over));
-        switched = product(switching_, sum(n, n, n, cores, over, over));
+        switched = sum(product(switching_, sum(n, n, n, cores, over, over)), product(held, sum(n, 1)));
       }
       // While it waits all cores are taken, each thread takes one at a time: with the k busiest aside, the others fill the remaining cores.
       std::sort(works.begin(), works.end());
@@ -238,64 +259,38 @@ class Analysis {
       const std::int64_t own_jobs = jobs(i, released);
       end = least_fixed_point(std::max(end, own), [&](Ps x) { return std::max(x, needed(x, own, own_jobs)); });
       if (!is_bounded(end)) return fail(i);
-      for (std::size_t k = 0; k < sources_[i].size(); ++k) note(i, k, end - released);
+      note(i, end - released);
     }
   }
 
-  void note(std::size_t i, std::size_t source, Ps response) {
-    ThreadResponse& thread = result_.threads[i];
-    thread.responses[source] = std::max(thread.responses[source], response);
-    thread.response = std::max(thread.response, response);
-  }
+  void note(std::size_t i, Ps response) { times_[i].worst = std::max(times_[i].worst, response); }
   void fail(std::size_t i, std::string reason = {}) {
-    ThreadResponse& thread = result_.threads[i];
-    thread.response = unbounded_ps;
-    std::fill(thread.responses.begin(), thread.responses.end(), unbounded_ps);
-    if (thread.reason.empty()) thread.reason = std::move(reason);
+    times_[i].worst = unbounded_ps;
+    if (times_[i].reason.empty()) times_[i].reason = std::move(reason);
   }
+  bool is_decided(std::size_t i) const { return is_bounded(response(i)); }
 
   // --- All threads together ---
 
-  void measure_load() {
-    for (std::size_t i = 0; i < plan_.threads.size(); ++i) {
-      ThreadResponse& thread = result_.threads[i];
-      thread.responses.assign(sources_[i].size(), 0);
-      for (const JobSource& source : sources_[i]) {
-        thread.utilization += rate_of(source) * static_cast<double>(source.execution);
-        // From below: no response is shorter.
-        thread.response = std::max(thread.response, source.execution);
-      }
-      result_.total += thread.utilization;
-      if (plan_of(i).core || plan_.cores == 1)
-        result_.cores[plan_of(i).core.value_or(0)] += thread.utilization;
-      else
-        result_.anywhere += thread.utilization;
-    }
-  }
-
   /// Why nothing is to be had for thread i; empty: try.
   std::string doubt(std::size_t i) const {
+    const auto doubt_of = [&](std::size_t j) -> std::string {
+      for (const JobSource& source : sources_[j])
+        if (!source.arrivals.is_limited()) return source.what + " may have any number of jobs at any time";
+      return {};
+    };
+    if (std::string why = doubt_of(i); !why.empty()) return why;
     double load = 0;
-    bool has_floating = false, has_bound = false, has_fair_floating = false;
     for (std::size_t j = 0; j < plan_.threads.size(); ++j) {
-      if (sources_[j].empty()) continue;
-      has_bound = has_bound || !is_floating(j);
-      has_fair_floating = has_fair_floating || (is_floating(j) && is_fair(j));
-      if (is_floating(i) && !goes_first(j, i) && longest_hold(j) > 0)
-        return fmt::format("it runs on any core, and ends of jobs of thread \"{}\", which goes after it, are not interrupted", plan_of(j).name);
       if (!goes_first(j, i) || !(is_floating(i) || is_floating(j) || shares_core(j, i))) continue;
-      has_floating = has_floating || is_floating(j);
-      for (const JobSource& source : sources_[j]) {
-        if (!source.arrivals.is_limited()) return fmt::format("any number of jobs may come for thread \"{}\"", plan_of(j).name);
-        load += rate_of(source) * static_cast<double>(source.execution + (switching_ == 0 ? 0 : j == i ? switching_ : 2 * switching_));
-      }
+      if (const std::string why = doubt_of(j); !why.empty()) return fmt::format("thread {} before it: {}", plan_of(j).name, why);
+      for (const JobSource& source : sources_[j]) load += source.arrivals.calmest().rate() * static_cast<double>(source.work + (is_floating(i) ? 0 : j == i ? switching_ : 2 * switching_));
     }
-    const double cores = is_floating(i) ? plan_.cores : 1;
-    if (load > cores * (1 + 1e-9))
-      return fmt::format("its jobs and those that go first take {:.1f} % of {}, with switching", 100 * load / cores, is_floating(i) ? "all cores" : "its core");
-    if (is_fair(i) && switching_ > 0 && has_fair_floating && has_bound) return "fair threads, some of them bound to a core, move and switch from core to core in too many ways";
+    // What is nearly all is found out by windows.
+    if (load > 1.000001 * (is_floating(i) ? plan_.cores : 1)) return more_than_it_can(i);
     return {};
   }
+  std::string more_than_it_can(std::size_t i) const { return is_floating(i) ? "the cores have more to do than they can, or nearly so" : "its core has more to do than it can"; }
 
   void find_responses() {
     std::vector<std::size_t> order;
@@ -309,7 +304,7 @@ class Analysis {
     for (int round = 0;; ++round) {
       bool has_changed = false;
       for (const std::size_t i : order) {
-        if (!result_.threads[i].is_decided()) continue;
+        if (!is_decided(i)) continue;
         const Ps before = response(i);
         steps_ = 0;
         is_floating(i) ? bound_anywhere(i) : bound_on_core(i);
@@ -322,36 +317,32 @@ class Analysis {
     }
   }
 
+  /// All that waits of a thread came within its longest response.
   void conclude(std::size_t i) {
-    ThreadResponse& thread = result_.threads[i];
-    if (!thread.is_decided()) {
-      if (thread.reason.empty()) thread.reason = reason_of_others(i);
+    if (!is_decided(i)) {
+      if (times_[i].reason.empty()) times_[i].reason = reason_of_others(i);
       return;
     }
-    std::int64_t most = 0;
-    for (std::size_t k = 0; k < sources_[i].size(); ++k) most = sum(most, count_in(sources_[i][k], thread.responses[k] - 1));
-    thread.most_outstanding = most;
-    thread.loses_nothing = most <= plan_of(i).most_waiting;
+    if (const std::int64_t most = jobs(i, response(i) - 1); most > plan_of(i).most_waiting) fail(i, fmt::format("{} jobs may be there at a time, and {} have room", most, plan_of(i).most_waiting));
   }
   std::string reason_of_others(std::size_t i) const {
     for (std::size_t j = 0; j < plan_.threads.size(); ++j)
-      if (j != i && is_floating(j) && goes_first(j, i) && !result_.threads[j].is_decided() && !sources_[j].empty())
-        return fmt::format("nothing is known of thread \"{}\", which may go first on any core", plan_of(j).name);
-    return "the threads leave so little of the processor that no window was found in which all work is done";
+      if (j != i && is_floating(j) && goes_first(j, i) && !goes_first(i, j) && !is_decided(j)) return fmt::format("thread {} before it: {}", plan_of(j).name, times_[j].reason.empty() ? more_than_it_can(j) : times_[j].reason);
+    return more_than_it_can(i);
   }
 
   const models::CpuPlan& plan_;
   std::vector<std::vector<JobSource>> sources_;
   Ps switching_;
-  CpuResponses result_;
+  std::vector<ThreadTime> times_;
   int steps_ = 0;
 };
 
 }  // namespace
 
-CpuResponses response_times(const models::CpuPlan& plan, const std::vector<std::vector<JobSource>>& sources) {
-  TAKT_CHECK(sources.size() == plan.threads.size(), "each thread has its sources");
-  return Analysis(plan, sources).run();
+std::vector<ThreadTime> response_times(const models::CpuPlan& plan, const std::vector<std::vector<JobSource>>& jobs) {
+  TAKT_CHECK(jobs.size() == plan.threads.size(), "each thread has its sources");
+  return ResponseTimes(plan, jobs).run();
 }
 
 }  // namespace takt::analysis

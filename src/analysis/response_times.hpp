@@ -1,7 +1,10 @@
-// How late the jobs of a processor's threads can end, whatever the phases: response-time analysis by busy windows.
+// How long the jobs of threads that share the cores of a host take at most: response-time analysis.
+//
+// Where all threads that may run on a core are bound to it (or there is but one core): the level-i busy window of Lehoczky (1990), after Joseph and Pandya (1986),
+// with release jitter, blocking and several jobs in one window as in Tindell, Burns and Wellings (1994). Where threads move between cores: each job of another thread that
+// may be worked at while one waits was released no longer before it than that thread's own response time (carry-in, as in Bertogna and Cirinei (2007)). docs/cpu.md derives both.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,31 +13,23 @@
 
 namespace takt::analysis {
 
-/// Jobs that are released for a thread from one cause. A job is submitted to the processor at its release: what makes releases late is jitter of the arrivals.
+/// Jobs of one kind that a thread gets.
 struct JobSource {
-  FrameArrivals arrivals;         ///< jobs that are released in any closed interval of true time
-  Ps execution = 0;               ///< of a job at most, without interruptions
+  FrameArrivals arrivals;        ///< of jobs
+  Ps work = 0;                   ///< that each takes at most, without interruptions; > 0
+  std::string what = {};         ///< whose they are, for reasons
 };
 
-struct ThreadResponse {
-  std::vector<Ps> responses;      ///< by source: from the release of a job to its end at most; unbounded_ps: undecided
-  Ps response = 0;                ///< the greatest of them; 0 if there is no source
-  std::string reason;             ///< why it is undecided
-  std::optional<std::int64_t> most_outstanding;   ///< jobs that wait or are worked at
-  bool loses_nothing = false;     ///< no job is refused, since no more are outstanding than the thread keeps
-  double utilization = 0;         ///< of a core, in the long run, without switching; infinite if any number may come
-  bool is_decided() const { return is_bounded(response); }
+/// The jobs of a thread, from when they are ready to their ends, and that none of them is refused.
+struct ThreadTime {
+  Ps least = 0;
+  Ps worst = 0;                  ///< unbounded: not known, or jobs may be refused
+  std::string reason = {};       ///< why that is so
+  Ps spread() const { return is_bounded(worst) ? worst - least : unbounded_ps; }
+  bool operator==(const ThreadTime&) const = default;
 };
 
-struct CpuResponses {
-  std::vector<ThreadResponse> threads;
-  std::vector<double> cores;      ///< by core: utilization by the threads that are bound to it
-  double anywhere = 0;            ///< by those that may run anywhere
-  double total = 0;               ///< 1.0: all of one core
-};
-
-/// `sources`: by thread of the plan. The plan is one that models::Cpu takes; no job takes longer than its source says.
-/// Statement and proof: docs/cpu.md.
-CpuResponses response_times(const models::CpuPlan& plan, const std::vector<std::vector<JobSource>>& sources);
+/// Bounds of all threads of the plan, whose jobs come from these sources, by thread; their execution times are those of the sources. A bound beyond a second is none.
+std::vector<ThreadTime> response_times(const models::CpuPlan& plan, const std::vector<std::vector<JobSource>>& jobs);
 
 }  // namespace takt::analysis

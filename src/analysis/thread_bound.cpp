@@ -13,6 +13,8 @@ using sim::Duration;
 
 constexpr std::int64_t inbox_messages = 256;   // of a subscription over OPC UA (scenario/applications/opc_ua_port.cpp)
 
+/// A length of true time as a clock shows it, at most.
+Ps on_clock(Ps length, const ClockQuality& clock) { return clock.rate_ppt == 0 && clock.error == 0 ? length : sum(scaled_up(length, one_ppt + clock.rate_ppt, one_ppt), 2 * clock.error, 1); }
 Ps longest(Ps local, const ClockQuality& clock) { return scaled_up(local, one_ppt, one_ppt + clock.slowest_ppt); }
 
 /// Why nothing is certain of when the calls of a host take place; empty: all is.
@@ -35,6 +37,7 @@ struct Input {
   const scenario::ResolvedThread* thread = nullptr;
   const StreamBound* stream = nullptr;
   ClockQuality clock;
+  Ps threads = 0;               ///< how differently long processors take to publish it and to take it in
 };
 
 /// Messages of a publication that come in an interval: one in a period of its clock, late by its response and its way.
@@ -42,10 +45,10 @@ std::int64_t most_arrivals(const Input& input, Ps interval) {
   const Ps period = std::max<Ps>(1, scaled_down(input.thread->every.ps(), one_ppt, one_ppt + input.clock.fastest_ppt));
   const Ps latest = input.thread->every.ps() - 1;
   const Ps late = longest(std::min(latest, input.thread->response.greatest().ps()) - std::min(latest, input.thread->response.least().ps()), input.clock);
-  return ArrivalPattern{period, 1, 0, sum(late, 2 * input.clock.error, input.stream->latency->ps() - input.stream->least.ps()) + 1}.count(interval);
+  return ArrivalPattern{period, 1, 0, sum(late, 2 * input.clock.error, input.threads, input.stream->latency->ps() - input.stream->least.ps()) + 1}.count(interval);
 }
 
-void bound_values(const scenario::Resolved& r, const Bounds& bounds, const scenario::ResolvedThread& thread, const ClockQuality& clock, ThreadBound& made) {
+void bound_values(const scenario::Resolved& r, const Bounds& bounds, const scenario::ResolvedApplication& application, const scenario::ResolvedThread& thread, const ClockQuality& clock, ThreadBound& made) {
   const auto doubt = [&](std::string why) {
     if (made.values_reason.empty()) made.values_reason = std::move(why);
   };
@@ -57,7 +60,14 @@ void bound_values(const scenario::Resolved& r, const Bounds& bounds, const scena
   std::int64_t found = 0;
   made.loses_nothing = true;
   for (const scenario::ResolvedInput& each : thread.inputs) {
-    const Input input{&r.applications[each.application].threads[each.thread], &bounds.streams[each.stream.value], clock_quality(r, r.applications[each.application].node, {})};
+    const scenario::ResolvedApplication& publisher = r.applications[each.application];
+    const ThreadTime& taken_in = bounds.hosts->of(application.node, application.cpu_thread);
+    const Input input{&publisher.threads[each.thread], &bounds.streams[each.stream.value], clock_quality(r, publisher.node, {}),
+                      sum(bounds.hosts->of(publisher.node, publisher.threads[each.thread].cpu_thread).spread(), taken_in.spread())};
+    if (!is_bounded(taken_in.worst)) {
+      made.loses_nothing = false;
+      return doubt("the thread that takes in what comes: " + taken_in.reason);
+    }
     made.assumptions.add(input.stream->assumptions);
     if (!input.stream->latency || !input.stream->reaches_all) {
       made.loses_nothing = false;
@@ -84,10 +94,14 @@ ThreadBound thread_bound(const scenario::Resolved& r, const Bounds& bounds, std:
   made.assumptions.add(Assumption::os_latency);
   if (clock.rate_ppt != 0) made.assumptions.add(Assumption::clock_rate);
   const Duration latest = thread.every - Duration::from_ps(1);
-  made.least_response = std::min(latest, thread.response.least());
-  made.greatest_response = std::min(latest, thread.response.greatest());
+  const ThreadTime& cpu = bounds.hosts->of(application.node, thread.cpu_thread);
+  if (thread.cpu_thread) made.assumptions.add(Assumption::execution_times);
+  const Ps response = sum(thread.response.greatest().ps(), on_clock(cpu.worst, clock));
+  made.least_response = std::min(latest, thread.response.least() + Duration::from_ps(scaled_down(cpu.least, one_ppt - clock.rate_ppt, one_ppt)));
+  made.greatest_response = Duration::from_ps(std::min(latest.ps(), response));
   made.reason = doubt_of_host(r, application.node);
-  if (made.reason.empty() && thread.response.greatest() >= thread.every)
+  if (made.reason.empty() && !is_bounded(cpu.worst)) made.reason = "its thread of the processor: " + cpu.reason;
+  if (made.reason.empty() && response >= thread.every.ps())
     made.reason = "a response may last longer than the " + to_text(thread.every) + " of a period, and then a call does not take place";
   made.is_always_done = made.reason.empty();
   if (made.is_always_done && !has_whole_window(r, application, thread, clock, from)) {
@@ -99,7 +113,7 @@ ThreadBound thread_bound(const scenario::Resolved& r, const Bounds& bounds, std:
     made.is_tested = false;
     made.reason = "the scheduler may look so late that no window is a test";
   }
-  if (!thread.publishes) bound_values(r, bounds, thread, clock, made);
+  if (!thread.publishes) bound_values(r, bounds, application, thread, clock, made);
   return made;
 }
 

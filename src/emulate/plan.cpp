@@ -175,6 +175,7 @@ class Planner {
     const scenario::Scenario& scenario = resolved_.scenario;
     for (const scenario::TopologyNode& node : resolved_.topology.nodes) {
       if (!scenario::ports_of(node.description).egress.empty()) left_out_.insert("gates, shapers and preemption");
+      if (const scenario::EndStation* const host = scenario::end_station_of(node.description); host != nullptr && host->cpu) left_out_.insert("processors of hosts (nodes share that of this machine)");
       if (const scenario::Relay* const bridge = scenario::relay_of(node.description); bridge != nullptr && bridge->ingress) left_out_.insert("policing at the ingress");
     }
     if (!scenario.streams.empty()) left_out_.insert("streams");

@@ -169,7 +169,12 @@ class Prover {
       const analysis::StreamBound& state = bounds_.streams[stream.value];
       proof.assumptions.add(state.assumptions);
       if (!state.reaches_all && !analysis::is_lost_with_its_ends(resolved_, number, state)) proof.assumptions.add(analysis::Assumption::no_loss);
-      if (!is_heard_in_time(cycle, timeout, state)) {
+      const analysis::Ps turn = longest_turn(tree);
+      if (!analysis::is_bounded(turn)) {
+        proof.reason = "a participant may be taken for silent: nothing is known of how long its host takes for a turn";
+        return proof;
+      }
+      if (!is_heard_in_time(cycle, timeout, state, turn)) {
         proof.reason = "a participant may be taken for silent: the time-out " + std::to_string(timeout.ps() / 1'000'000) + " us is not longer than a cycle and the bound of " + state.name;
         return proof;
       }
@@ -211,12 +216,22 @@ class Prover {
     return all;
   }
 
-  bool is_heard_in_time(Duration cycle, Duration timeout, const analysis::StreamBound& state) const {
+  /// `turn`: the longest that a participant's thread of a processor takes for a turn; 0 where turns take no time.
+  bool is_heard_in_time(Duration cycle, Duration timeout, const analysis::StreamBound& state, analysis::Ps turn) const {
     if (!state.latency) return false;
-    const models::OsLatency& os = resolved_.plan.os_latencies[resolved_.plan.nodes[resolved_.plan.streams[state.index.value].talker.value].os_latency];
-    // Clocks are never so bad that a time-out is a tenth shorter, or a cycle a tenth longer.
-    const std::int64_t longest = cycle.ps() + cycle.ps() / 10 + (*state.latency - state.least).ps() + os.wake_up.greatest().ps();
+    const models::NodePlan& talker = resolved_.plan.nodes[resolved_.plan.streams[state.index.value].talker.value];
+    analysis::Ps wake_up = resolved_.plan.os_latencies[talker.os_latency].wake_up.greatest().ps();
+    for (std::size_t t = 0; talker.cpu && t < talker.cpu->threads.size(); ++t)
+      if (const auto& law = talker.cpu->threads[t].wake_up) wake_up = std::max(wake_up, law->greatest().ps());
+    // Clocks are never so bad that a time-out is a tenth shorter, or a cycle a tenth longer. It is published, and heard, at the end of a turn.
+    const std::int64_t longest = cycle.ps() + cycle.ps() / 10 + (*state.latency - state.least).ps() + wake_up + 2 * turn;
     return longest < timeout.ps() - timeout.ps() / 10;
+  }
+  analysis::Ps longest_turn(const std::vector<std::uint32_t>& programs) const {
+    analysis::Ps longest = 0;
+    for (const std::uint32_t program : programs)
+      for (const scenario::ResolvedMember& member : resolved_.programs[program].members) longest = std::max(longest, bounds_.hosts->of(member.node, member.cpu_thread).worst);
+    return longest;
   }
 
   Proof explored(const explore::Query& query) const {

@@ -1,4 +1,4 @@
-// Response times of threads against numbers derived by hand and from textbooks. Times in microseconds.
+// Response times of threads, derived by hand. Times in microseconds.
 #include <gtest/gtest.h>
 
 #include "analysis/response_times.hpp"
@@ -6,155 +6,107 @@
 namespace takt::analysis {
 namespace {
 
-using models::CpuPlan;
 using models::CpuThreadPlan;
 using models::SchedulingPolicy;
-using namespace sim::literals;
+using sim::Duration;
 
 constexpr Ps us = 1'000'000;
-using Sources = std::vector<std::vector<JobSource>>;
 
-JobSource every(Ps period, Ps execution, Ps jitter = 0) { return {FrameArrivals(ArrivalPattern{period * us, 1, 0, jitter * us}), execution * us}; }
+/// A thread with jobs of one length in each period.
+struct Task {
+  int priority = 1;
+  Ps work = 0;
+  Ps period = 0;
+  Ps jitter = 0;
+  Ps non_preemptive = 0;
+  SchedulingPolicy policy = SchedulingPolicy::fifo;
+  std::optional<std::uint16_t> core = {};
+};
 
-CpuThreadPlan fifo(int priority, std::optional<std::uint16_t> core = {}, sim::Duration non_preemptive = {}) {
-  CpuThreadPlan thread;
-  thread.name = "p" + std::to_string(priority);
-  thread.priority = static_cast<std::uint8_t>(priority);
-  thread.core = core;
-  thread.non_preemptive = non_preemptive;
-  return thread;
-}
-CpuThreadPlan fair(std::optional<std::uint16_t> core = {}) {
-  CpuThreadPlan thread;
-  thread.name = "fair";
-  thread.policy = SchedulingPolicy::fair;
-  thread.core = core;
-  return thread;
-}
-CpuThreadPlan deadline(sim::Duration after, sim::Duration non_preemptive = {}) {
-  CpuThreadPlan thread;
-  thread.name = "deadline";
-  thread.policy = SchedulingPolicy::deadline;
-  thread.deadline = after;
-  thread.non_preemptive = non_preemptive;
-  return thread;
-}
-
-/// In microseconds; -1: undecided.
-std::vector<double> responses(const CpuPlan& plan, const Sources& sources) {
-  std::vector<double> found;
-  for (const ThreadResponse& thread : response_times(plan, sources).threads) {
-    EXPECT_EQ(thread.is_decided(), thread.reason.empty()) << thread.reason;
-    found.push_back(thread.is_decided() ? static_cast<double>(thread.response) / 1e6 : -1);
+std::vector<ThreadTime> times_of(const std::vector<Task>& tasks, std::uint16_t cores = 1, Ps switching = 0) {
+  models::CpuPlan plan;
+  plan.cores = cores;
+  plan.switching = Duration::from_ps(switching * us);
+  plan.slice = Duration::from_ps(100 * us);
+  std::vector<std::vector<JobSource>> jobs;
+  for (const Task& task : tasks) {
+    CpuThreadPlan thread;
+    thread.name = "t" + std::to_string(jobs.size());
+    thread.policy = task.policy;
+    thread.priority = static_cast<std::uint8_t>(task.priority);
+    thread.core = task.core;
+    thread.execution = sim::Distribution::constant(Duration::from_ps(task.work * us));
+    thread.non_preemptive = Duration::from_ps(task.non_preemptive * us);
+    plan.threads.push_back(thread);
+    jobs.push_back({{FrameArrivals({task.period * us, 1, 0, task.jitter * us}), task.work * us, thread.name}});
   }
-  return found;
+  return response_times(plan, jobs);
 }
-using Us = std::vector<double>;
-
-TEST(ResponseTimes, OfATextbookSetOfTasks) {
-  // Third: 5, 5 + 3 + 3 = 11, 5 + 2 * 3 + 3 = 14, 5 + 2 * 3 + 2 * 3 = 17, 5 + 3 * 3 + 2 * 3 = 20: fixed, and its next job comes at 20.
-  EXPECT_EQ(responses({.threads = {fifo(3), fifo(2), fifo(1)}}, {{every(7, 3)}, {every(12, 3)}, {every(20, 5)}}), (Us{3, 6, 20}));
-}
-
-TEST(ResponseTimes, AreThoseOfALaterJobOfTheBusyWindow) {
-  // Lehoczky 1990: 26 of 70 and 62 of 100. The jobs of the second end at 114, 202, 316, 404, 518, 606 and 694: the fifth, released at 400, takes longest.
-  EXPECT_EQ(responses({.threads = {fifo(2), fifo(1)}}, {{every(70, 26)}, {every(100, 62)}}), (Us{26, 118}));
+std::vector<Ps> of(const std::vector<Task>& tasks, std::uint16_t cores = 1, Ps switching = 0) {
+  std::vector<Ps> all;
+  for (const ThreadTime& time : times_of(tasks, cores, switching)) all.push_back(is_bounded(time.worst) ? time.worst / us : -1);
+  return all;
 }
 
-TEST(ResponseTimes, WithJitter) {
-  // With 4 us of jitter a second job of the first does not come before 6, when the second thread is done. With 5 us it comes at 5.
-  EXPECT_EQ(responses({.threads = {fifo(2), fifo(1)}}, {{every(10, 2, 4)}, {every(20, 4)}}), (Us{2, 6}));
-  EXPECT_EQ(responses({.threads = {fifo(2), fifo(1)}}, {{every(10, 2, 5)}, {every(20, 4)}}), (Us{2, 8}));
-  // Two jobs at once, and the third at 20 - 12 = 8: the second thread is done at 2 * 2 + 3.
-  EXPECT_EQ(responses({.threads = {fifo(2), fifo(1)}}, {{every(10, 2, 12)}, {every(20, 3)}}), (Us{4, 7}));
+// The third job runs in 6..7, 10..12, 13..14 and 19..20 between those before it, beginning with all three at once.
+TEST(ResponseTimes, JobsBehindThoseOfGreaterPriority) { EXPECT_EQ(of({{3, 3, 7}, {2, 3, 12}, {1, 5, 20}}), (std::vector<Ps>{3, 6, 20})); }
+
+// Two of the first come at once if one is late by a whole period: 2 * 3 + 2.
+TEST(ResponseTimes, WhatIsLateComesTwice) {
+  EXPECT_EQ(of({{2, 3, 10}, {1, 2, 30}}), (std::vector<Ps>{3, 5}));
+  EXPECT_EQ(of({{2, 3, 10, 10}, {1, 2, 30}}), (std::vector<Ps>{6, 8}));
 }
 
-TEST(ResponseTimes, WithSeveralSourcesOfAThread) {
-  // Both at once: 1 + 2. At 4, when the second source's next may come, all is done.
-  const CpuResponses found = response_times({.threads = {fifo(1)}}, {{every(10, 1), every(4, 2)}});
-  EXPECT_EQ(found.threads[0].responses, (std::vector<Ps>{3 * us, 3 * us}));
-  EXPECT_EQ(found.threads[0].most_outstanding, 2);
+// 26 of every 70 and 62 of every 100: the fifth job of the second thread answers the slowest, of the seven in the window from 0 to 694 (Lehoczky 1990).
+TEST(ResponseTimes, LaterJobsOfAWindowMayBeSlower) { EXPECT_EQ(of({{2, 26, 70}, {1, 62, 100}}), (std::vector<Ps>{26, 118})); }
+
+// The least urgent one holds the core for 4 when the others come.
+TEST(ResponseTimes, WhoHoldsTheCoreBlocks) {
+  EXPECT_EQ(of({{3, 3, 20}, {2, 3, 20}, {1, 10, 100, 0, 4}}), (std::vector<Ps>{7, 10, 16}));
+  EXPECT_EQ(times_of({{3, 3, 20}, {1, 2, 100, 0, 4}})[0].worst, 5 * us - 1) << "no longer than a job lasts, which has begun";
 }
 
-TEST(ResponseTimes, WithBlockingByALessUrgentThread) {
-  EXPECT_EQ(responses({.threads = {fifo(2), fifo(1, {}, 3_us)}}, {{every(10, 2)}, {every(20, 5)}})[0], 5);
-  // No longer than its job, which has begun.
-  EXPECT_EQ(response_times({.threads = {fifo(2), fifo(1, {}, 9_us)}}, {{every(10, 2)}, {every(20, 5)}}).threads[0].response, 7 * us - 1);
-  // Nor does it block where it does not run.
-  EXPECT_EQ(responses({.cores = 2, .threads = {fifo(2, 0), fifo(1, 1, 3_us)}}, {{every(10, 2)}, {every(20, 5)}}), (Us{2, 5}));
+// Each interruption costs two changes of thread: 1 to begin with, then 3 + 2 for the first, 2 for itself.
+TEST(ResponseTimes, ChangesOfThreadCost) { EXPECT_EQ(of({{2, 3, 20}, {1, 2, 50}}, 1, 1), (std::vector<Ps>{4, 8})); }
+
+TEST(ResponseTimes, EqualsAndDeadlinesAndSharesMayAllComeFirst) {
+  EXPECT_EQ(of({{1, 3, 20}, {1, 4, 20}}), (std::vector<Ps>{7, 7}));
+  EXPECT_EQ(of({{1, 3, 20, 0, 0, SchedulingPolicy::deadline}, {9, 4, 20}, {1, 2, 20, 0, 0, SchedulingPolicy::fair}}), (std::vector<Ps>{3, 7, 9}));
 }
 
-TEST(ResponseTimes, ItsOwnEndIsNotInterrupted) {
-  // 0..1 the first, 1..4 three of the second; at 4 the next of the first waits until 6.
-  EXPECT_EQ(responses({.threads = {fifo(2), fifo(1)}}, {{every(4, 1)}, {every(20, 5)}})[1], 7);
-  EXPECT_EQ(responses({.threads = {fifo(2), fifo(1, {}, 2_us)}}, {{every(4, 1)}, {every(20, 5)}}), (Us{3, 6}));
+TEST(ResponseTimes, MoreThanACoreCanDo) {
+  const std::vector<ThreadTime> times = times_of({{2, 5, 10}, {1, 6, 10}});
+  EXPECT_EQ(times[0].worst, 5 * us);
+  EXPECT_EQ(times[1].reason, "its core has more to do than it can");
 }
 
-TEST(ResponseTimes, WithSwitching) {
-  // To the first and 1; to the first, 1, to the second, 2: and what it takes to come back from the first.
-  EXPECT_EQ(responses({.switching = 1_us, .threads = {fifo(2), fifo(1)}}, {{every(10, 1)}, {every(100, 2)}}), (Us{2, 6}));
+TEST(ResponseTimes, NothingIsKnownBehindWhatMayComeAtAnyTime) {
+  models::CpuPlan plan;
+  plan.threads = {{"network", SchedulingPolicy::fifo, 2}, {"control", SchedulingPolicy::fifo, 1}};
+  const std::vector<ThreadTime> times = response_times(plan, {{{FrameArrivals(), us, "camera"}}, {{FrameArrivals({10 * us, 1, 0, 0}), us, "cell"}}});
+  EXPECT_EQ(times[0].reason, "camera may have any number of jobs at any time");
+  EXPECT_EQ(times[1].reason, "thread network before it: camera may have any number of jobs at any time");
+  EXPECT_FALSE(is_bounded(times[1].worst));
 }
 
-TEST(ResponseTimes, EqualPrioritiesWaitForOneAnother) {
-  EXPECT_EQ(responses({.threads = {fifo(1), fifo(1)}}, {{every(10, 2)}, {every(20, 3)}}), (Us{5, 5}));
+// 300 jobs that come at once: the queue has room for 256.
+TEST(ResponseTimes, WhatFindsNoRoomHasNoBound) {
+  models::CpuPlan plan;
+  plan.threads = {{"network", SchedulingPolicy::fifo, 1}};
+  EXPECT_EQ(response_times(plan, {{{FrameArrivals({1'000'000 * us, 256, 0, 0}), us, "burst"}}})[0].worst, 256 * us);
+  EXPECT_EQ(response_times(plan, {{{FrameArrivals({1'000'000 * us, 300, 0, 0}), us, "burst"}}})[0].reason, "300 jobs may be there at a time, and 256 have room");
 }
 
-TEST(ResponseTimes, FairThreadsWaitForAll) {
-  // 2 + 3 + 4 = 9. With switching, and slices of 2: its own 1 + 3, the first's 2 + 2 * 1, the other's 4 + 2 * 1, and in 3 + 4 of fair work 3 slices end: 17.
-  const CpuPlan plan{.slice = 2_us, .threads = {fifo(1), fair(), fair()}};
-  EXPECT_EQ(responses(plan, {{every(20, 2)}, {every(50, 3)}, {every(50, 4)}}), (Us{2, 9, 9}));
-  CpuPlan switching = plan;
-  switching.switching = 1_us;
-  EXPECT_EQ(responses(switching, {{every(20, 2)}, {every(50, 3)}, {every(50, 4)}}), (Us{3, 17, 17}));
+TEST(ResponseTimes, CoresToWhichAllAreBoundAreOneByOne) {
+  EXPECT_EQ(of({{2, 5, 10, 0, 0, SchedulingPolicy::fifo, 0}, {1, 4, 20, 0, 0, SchedulingPolicy::fifo, 0}, {1, 8, 10, 0, 0, SchedulingPolicy::fifo, 1}}, 2), (std::vector<Ps>{5, 9, 8}));
 }
 
-TEST(ResponseTimes, ByDeadlines) {
-  // The second's job at 0 is due at 8; the first's at 2 as well and comes after it: it ends at 6. Were it earlier, it would go first.
-  EXPECT_EQ(responses({.threads = {deadline(6_us), deadline(8_us)}}, {{every(6, 2)}, {every(8, 4)}}), (Us{4, 6}));
-  // What is due later blocks with its end: 2 us of the second, which has begun.
-  EXPECT_EQ(responses({.threads = {deadline(1_us), deadline(100_us, 2_us)}}, {{every(10, 1)}, {every(100, 4)}}), (Us{3, 5}));
-}
+// Two cores, nobody bound. The first and second never wait, since one other thread takes one core only. While the third waits both are busy: 3 + (2 + 2) / 2.
+TEST(ResponseTimes, WhoMovesWaitsForAllCores) { EXPECT_EQ(of({{3, 2, 100}, {3, 2, 100}, {1, 3, 100}}, 2), (std::vector<Ps>{2, 2, 5})); }
 
-TEST(ResponseTimes, OfThreadsThatRunAnywhere) {
-  // Both cores are taken for 2.
-  EXPECT_EQ(responses({.cores = 2, .threads = {fifo(3), fifo(2), fifo(1)}}, {{every(10, 2)}, {every(10, 2)}, {every(20, 3)}}), (Us{2, 2, 5}));
-  // One other thread takes one core, however long.
-  EXPECT_EQ(responses({.cores = 2, .threads = {fifo(3), fifo(1)}}, {{every(10, 9)}, {every(20, 3)}}), (Us{9, 3}));
-  // One that is bound meets the one that runs anywhere with what it has left: released before, done within 4, so at most 4 of one job.
-  EXPECT_EQ(responses({.cores = 2, .threads = {fifo(3), fifo(1, 0)}}, {{every(50, 4)}, {every(20, 3)}}), (Us{4, 7}));
-}
-
-TEST(ResponseTimes, AreUndecided) {
-  const auto reason = [](const CpuPlan& plan, const Sources& sources, std::size_t thread) { return response_times(plan, sources).threads[thread].reason; };
-  EXPECT_EQ(reason({.threads = {fifo(2), fifo(1)}}, {{every(10, 6)}, {every(10, 5)}}, 1), "its jobs and those that go first take 110.0 % of its core, with switching");
-  EXPECT_EQ(reason({.threads = {fifo(2), fifo(1)}}, {{every(10, 6)}, {every(10, 5)}}, 0), "");
-  EXPECT_EQ(reason({.threads = {fifo(2), fifo(1)}}, {{JobSource{FrameArrivals(), us}}, {every(10, 5)}}, 1), "any number of jobs may come for thread \"p2\"");
-  EXPECT_EQ(reason({.cores = 2, .threads = {fifo(2), fifo(1, {}, 1_us)}}, {{every(10, 6)}, {every(10, 5)}}, 0),
-            "it runs on any core, and ends of jobs of thread \"p1\", which goes after it, are not interrupted");
-  // All of the core is taken, and the window in which all is done is as long as the hyperperiod.
-  EXPECT_EQ(responses({.threads = {fifo(2), fifo(1)}}, {{every(4, 2)}, {every(8, 4)}}), (Us{2, 8}));
-}
-
-TEST(ResponseTimes, WhatIsOutstanding) {
-  // Three at once (22 / 10 + 1), which are done at 4, 8 and 12; the fourth comes at 30 - 22 = 8, when two are done, and is done at 16, and so on.
-  CpuPlan plan{.threads = {fifo(1)}};
-  plan.threads[0].most_waiting = 4;
-  const CpuResponses found = response_times(plan, {{every(10, 4, 22)}});
-  EXPECT_EQ(found.threads[0].response, 12 * us);
-  EXPECT_EQ(found.threads[0].most_outstanding, 4);   // all that come within 12 us less a picosecond: (11.99 + 22) / 10 + 1
-  EXPECT_TRUE(found.threads[0].loses_nothing);
-  plan.threads[0].most_waiting = 3;
-  EXPECT_FALSE(response_times(plan, {{every(10, 4, 22)}}).threads[0].loses_nothing);
-}
-
-TEST(ResponseTimes, Utilization) {
-  const CpuResponses found = response_times({.cores = 2, .threads = {fifo(3, 0), fifo(2, 1), fifo(1)}}, {{every(10, 2)}, {every(10, 3), every(20, 1)}, {every(40, 1)}});
-  EXPECT_DOUBLE_EQ(found.cores[0], 0.2);
-  EXPECT_DOUBLE_EQ(found.cores[1], 0.35);
-  EXPECT_DOUBLE_EQ(found.anywhere, 0.025);
-  EXPECT_DOUBLE_EQ(found.total, 0.575);
-  EXPECT_DOUBLE_EQ(found.threads[1].utilization, 0.35);
-}
+// The first and second take 4 of every 6, both at once, and leave 4..6 and 10..12: the third is done at 11. What was released just before it does not add to that: of two jobs in less than
+// 10 one is never whole.
+TEST(ResponseTimes, WhatWasThereBeforeCounts) { EXPECT_EQ(of({{3, 4, 6}, {3, 4, 6}, {1, 3, 100}}, 2), (std::vector<Ps>{4, 4, 11})); }
 
 }  // namespace
 }  // namespace takt::analysis

@@ -14,6 +14,7 @@ std::span<const FeatureEntry> features() {
       {stations, "stations", "node=station generator.stations"},
       {rates, "rates", "link.rate"},
       {latencies, "latencies", "host.os generator.os"},
+      {processors, "processors", "host.cpu station.cpu"},
       {queue_limits, "queue_limits", "queues.frames"},
       {identity_classes, "identity_classes", "switch.traffic_classes=identity generator.traffic_classes=identity"},
       {gates, "gates", "egress.gates"},

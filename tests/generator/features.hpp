@@ -13,7 +13,7 @@ namespace takt::generator {
 
 enum class Feature : std::uint8_t {
   any,   ///< what is always allowed
-  generated, stations, rates, latencies, queue_limits, identity_classes,
+  generated, stations, rates, latencies, processors, queue_limits, identity_classes,
   gates, hold, set_gates, automatic_gates, listed_gates, shapers, ets, max_sdu, preemption, cut_through, untagged,
   policing, ats, cqf, identification,
   launch, multicast, explicit_path, redundancy, overload, traces,

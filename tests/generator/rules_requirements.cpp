@@ -43,13 +43,14 @@ Made signal(Maker& m, const Scope&) {
 }
 
 Made figure(Maker& m, const Scope&) {
+  if (m.wants(Feature::processors) && m.draw.one_in(2)) return m.word("/cpus/*/threads/*/response_ps/max /cpus/*/threads/*/late /cpus/*/threads/*/refused");
   return m.word(m.root().find("programs") != nullptr ? "reaction.start.max dropped delivered latency.max queue utilisation /programs/*/reactions/*/duration_ps"
                                                      : "dropped delivered latency.max latency.mean queue utilisation events /streams/*/sent /ports/*/frames");
 }
 
 bool is_time(const Scope& s) {
   const std::string figure = s.text("figure");
-  return (figure.starts_with("latency") || figure.starts_with("reaction") || figure.ends_with("_ps")) && s.text("take") != "count";
+  return (figure.starts_with("latency") || figure.starts_with("reaction") || figure.ends_with("_ps") || figure.find("_ps/") != std::string::npos) && s.text("take") != "count";
 }
 
 Made limit_of_figure(Maker& m, const Scope& s) {

@@ -244,6 +244,25 @@ std::optional<Node> never(Maker&, const Scope&) { return std::nullopt; }
 std::optional<Node> name_of_skeleton(Maker&, const Scope&) { return list({text("?"), text("?")}); }
 std::optional<Node> shape_of_skeleton(Maker&, const Scope&) { return text("?"); }
 
+/// Applications of the host, and a Program that may have a participant there; if not, its name is left out again.
+std::optional<Node> runs_of_thread(Maker& m, const Scope& s) {
+  if (s.number == 0) return std::nullopt;   // that of the protocol stack
+  const Scope* const host = s.around("host") != nullptr ? s.around("host") : s.around("station");
+  const auto number = static_cast<std::size_t>(std::ranges::find(m.world.hosts, host->name) - m.world.hosts.begin());
+  Node made = Node::array();
+  if ((m.wants(Feature::opc_ua) || m.wants(Feature::dds)) && number < m.topics && s.number < 3) made.items.push_back(text("a" + std::to_string(number) + (s.number == 1 ? "" : "/th0")));
+  if (!m.groups.empty() && s.number == 1 && m.draw.one_in(2)) made.items.push_back(text("p" + std::to_string(m.draw.below(m.groups.size()))));
+  return made.items.empty() ? std::nullopt : std::optional(made);
+}
+
+std::optional<Node> stack_of_thread(Maker& m, const Scope& s) {
+  if (s.number != 0) return std::nullopt;
+  Node made = Node::array();
+  for (const char* const part : {"receive", "transmit", "gptp"})
+    if ((std::string_view(part) != "gptp" || m.wants(Feature::gptp)) && (made.items.empty() || m.draw.one_in(2))) made.items.push_back(text(part));
+  return made;
+}
+
 }  // namespace
 
 std::span<const Rule> network_rules() {
@@ -290,6 +309,36 @@ std::span<const Rule> network_rules() {
       {.key = "host.queues", .feature = Feature::queue_limits, .percent = 50},
       {.key = "host.processing", .feature = Feature::replies, .percent = 50},
       {.key = "host.offers", .feature = Feature::roles, .percent = 85, .make = offered_skills},
+      {.key = "host.cpu", .feature = Feature::processors, .percent = 70},
+      {.key = "station.cpu", .feature = Feature::processors, .percent = 70},
+      {.key = "cpu.cores", .percent = 40, .words = "1 2 4"},
+      {.key = "cpu.switching", .percent = 40, .words = "0us 1us 2us"},
+      {.key = "cpu.slice", .percent = 30, .words = "50us 200us 1ms"},
+      {.key = "cpu.threads", .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return m.objects("cpu_thread", m.draw.between(2, 4), s); }},
+      {.key = "cpu_thread.name", .make = [](Maker&, const Scope& s) -> std::optional<Node> { return text("t" + std::to_string(s.number)); }},
+      {.key = "cpu_thread.policy", .percent = 50},
+      {.key = "cpu_thread.priority", .percent = 70, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return s.has("policy") && s.text("policy") != "fifo" ? std::nullopt : std::optional(number(m.draw.between(1, 9))); }},
+      {.key = "cpu_thread.deadline", .percent = 100, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return s.text("policy") == "deadline" || m.draw.one_in(3) ? std::optional(m.word("100us 500us 2ms")) : std::nullopt; }},
+      {.key = "cpu_thread.weight", .percent = 40, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return s.text("policy") == "fair" ? std::optional(m.word("1 512 2048")) : std::nullopt; }},
+      {.key = "cpu_thread.core", .percent = 30, .make = [](Maker& m, const Scope& s) -> std::optional<Node> {
+         const Node* const cores = s.around("cpu")->made->find("cores");
+         return number(cores != nullptr && cores->text != "1" ? m.draw.below(2) : 0);
+       }},
+      {.key = "cpu_thread.execution", .make = [](Maker& m, const Scope&) -> std::optional<Node> {
+         if (m.draw.one_in(2)) return m.word("2us 10us 60us");
+         Node between = Node::object();
+         between.add("from", m.word("0us 2us"));
+         between.add("to", m.word("5us 40us"));
+         Node made = Node::object();
+         made.add("uniform", std::move(between));
+         return made;
+       }},
+      {.key = "cpu_thread.non_preemptive", .percent = 30, .words = "1us 5us 50us"},
+      {.key = "cpu_thread.wake_up", .percent = 30},
+      {.key = "cpu_thread.runs", .percent = 100, .make = runs_of_thread},
+      {.key = "cpu_thread.stack", .percent = 100, .make = stack_of_thread},
+      {.key = "cpu_thread.every", .percent = 100, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return s.has("runs") || s.has("stack") ? m.draw.one_in(3) ? std::optional(m.word("500us 2ms")) : std::nullopt : std::optional(m.word("200us 500us 1ms 2ms")); }},
+      {.key = "cpu_thread.offset", .percent = 40, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return s.has("every") ? std::optional(m.word("0us 50us 199us")) : std::nullopt; }},
       {.key = "station.os", .feature = Feature::latencies, .percent = 70},
       {.key = "station.forwarding_delay", .percent = 70, .words = "0ns 500ns 1us 3us"},
       {.key = "station.cut_through_header", .feature = Feature::cut_through, .percent = 30, .words = "14B 22B 30B 72B"},

@@ -12,9 +12,9 @@ const BadCase nodes_cases[] = {
     {"UnknownOperatingSystem", with_node(R"({"kind": "host", "os": "preempt_rt"})"),
      R"(2:29: error at /network/nodes/a/os: unknown name for an operating system: found "preempt_rt", expected "none", "preempt-rt", "preempt-rt-isolated", "preempt-rt-arm", "general-purpose", "virtual-machine" or "virtual-machine-rt" (did you mean "preempt-rt"?))"},
     {"FieldOfAnotherKind", with_node(R"({"kind": "host", "forwarding_delay": "1us"})"),
-     R"(2:23: error at /network/nodes/a/forwarding_delay: unknown field "forwarding_delay": expected one of "kind", "os", "traffic_classes", "queues", "egress", "processing" or "offers")"},
+     R"(2:23: error at /network/nodes/a/forwarding_delay: unknown field "forwarding_delay": expected one of "kind", "os", "traffic_classes", "queues", "egress", "processing", "offers" or "cpu")"},
     {"UnknownField", with_node(R"({"kind": "host", "colour": "red"})"),
-     R"(2:23: error at /network/nodes/a/colour: unknown field "colour": expected one of "kind", "os", "traffic_classes", "queues", "egress", "processing" or "offers")"},
+     R"(2:23: error at /network/nodes/a/colour: unknown field "colour": expected one of "kind", "os", "traffic_classes", "queues", "egress", "processing", "offers" or "cpu")"},
     {"TwoKindsOfLatency", with_node(R"({"kind": "host", "os": {"receive": {"fixed": "1us", "exponential": {"mean": "1us"}}}})"),
      R"(2:73: error at /network/nodes/a/os/receive/exponential: fields that exclude each other: found "exponential" beside "fixed", expected exactly one of "fixed", "uniform", "normal", "exponential", "weibull", "log_normal" or "table")"},
     {"LatencyMinAboveMax", with_node(R"({"kind": "host", "os": {"receive": {"exponential": {"mean": "1us"}, "min": "9us", "max": "2us"}}})"),
@@ -31,6 +31,23 @@ const BadCase nodes_cases[] = {
      R"(2:46: error at /network/nodes/a/forwarding_jitter: jitter where frames are cut through: found "cut_through" in "egress", expected one of them)"},
     {"JitterBesideCyclicQueuing", with_node(R"({"kind": "switch", "forwarding_jitter": "1us", "ingress": {"cqf": {"cycle": "1ms", "classes": [5, 6]}}})"),
      R"(2:46: error at /network/nodes/a/forwarding_jitter: jitter beside cyclic queuing: found "cqf", whose buffers frames reach at known times, expected one of them)"},
+    {"ThreadsThatCannotBe", with_node(R"({"kind": "host", "cpu": {"cores": 2, "threads": [
+{"name": "a", "execution": "0s", "policy": "deadline", "priority": 3, "every": "1ms", "offset": "1ms"},
+{"name": "a", "execution": "1us", "core": 2, "weight": 9, "offset": "1us", "runs": ["nobody"]},
+{"name": "c/d", "execution": "1us", "stack": ["receive"]},
+{"name": "e", "execution": "1us", "stack": ["receive", "gptp"]}]}})"),
+     R"(3:1: error at /network/nodes/a/cpu/threads/0: missing key: found policy "deadline" alone, expected "deadline"
+3:28: error at /network/nodes/a/cpu/threads/0/execution: work that takes no time: found 0s, expected more than 0s; what takes no time needs no thread
+3:68: error at /network/nodes/a/cpu/threads/0/priority: does not belong to this policy: found "priority", expected "policy": "fifo"
+3:97: error at /network/nodes/a/cpu/threads/0/offset: an offset beyond the interval: found 1ms, expected less than 1ms
+4:10: error at /network/nodes/a/cpu/threads/1/name: duplicate name: found "a" a second time, expected a name of its own for each thread of a host
+4:43: error at /network/nodes/a/cpu/threads/1/core: no such core: found 2, expected 0 to 1
+4:56: error at /network/nodes/a/cpu/threads/1/weight: does not belong to this policy: found "weight", expected "policy": "fair"
+4:69: error at /network/nodes/a/cpu/threads/1/offset: does not belong to this thread: found "offset" without "every", expected "every", the interval of a load
+4:85: error at /network/nodes/a/cpu/threads/1/runs/0: unknown program: found "nobody", expected a Program, an application, a gateway or an "APPLICATION/THREAD" of "a"
+5:10: error at /network/nodes/a/cpu/threads/2/name: not a name for a thread: found "c/d", expected no '/'
+6:45: error at /network/nodes/a/cpu/threads/3/stack/0: on two threads: found "receive" a second time, expected one thread for it
+6:56: error at /network/nodes/a/cpu/threads/3/stack/1: a part of what is not there: found "gptp", expected "gptp" in "clocks")"},
     {"QueuesOutOfRange", with_node(R"({"kind": "host", "queues": {"frames": 0, "octets": "63B", "classes": [{"class": 8}]}})"),
      R"(2:44: error at /network/nodes/a/queues/frames: out of range: found the number 0, expected an integer from 1 to 4294967295
 2:57: error at /network/nodes/a/queues/octets: out of range: found "63B", expected a size of at least 64B

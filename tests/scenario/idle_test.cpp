@@ -163,6 +163,12 @@ const IdleCase cases[] = {
 "links": [{"ends": ["a", "sw"]}, {"ends": ["b", "sw"]}]}})",
      "/network/nodes/a/offers/0: a skill that no role needs: \"weld\" | the \"skill\" of a role of a program\n"
      "/network/nodes/b/processing: a time of processing without replies: \"b\" is in no program with \"replies\" | \"replies\"\n"},
+    {"ThreadsInVain", R"({"name": "t", "duration": "10ms", "network": {"nodes": {"b": {"kind": "host"}, "a": {"kind": "host", "cpu": {"slice": "1ms", "threads": [
+{"name": "stack", "execution": "1us", "wake_up": "1us", "stack": ["receive", "transmit"]}, {"name": "load", "execution": "1us", "every": "20ms", "offset": "11ms"}]}}}, "links": [{"ends": ["a", "b"]}]}, "streams": [)" + control + "]}",
+     "/network/nodes/a/cpu/slice: a slice that nobody shares: 1ms beside fewer than two threads of policy \"fair\" | two of them\n"
+     "/network/nodes/a/cpu/threads/0/wake_up: a wake-up of a thread that no timer wakes: \"stack\", to which frames alone come | \"runs\" or \"every\"\n"
+     "/network/nodes/a/cpu/threads/0/stack/0: a part of the protocol stack that meets no frame: receive at \"a\" | a stream to it\n"
+     "/network/nodes/a/cpu/threads/1/offset: a load that begins after the end of the simulation: 11ms | less than 10ms\n"},
     {"ClocksInVain", plain(R"(, "clocks": {"nodes": {"a": {"ideal": true, "drift": "1ppb"}, "b": {"table": [{"at": "20ms", "frequency": "1ppm"}]}}})"),
      "/clocks/nodes/a/drift: an oscillator of an ideal clock: \"ideal\": true beside it | one of them\n"
      "/clocks/nodes/b/table/0: after the end of the simulation: 20ms | less than 10ms\n"},

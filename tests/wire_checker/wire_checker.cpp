@@ -17,7 +17,7 @@ WireChecker::WireChecker(const models::NetworkPlan& plan, std::vector<Change> ch
     made->is_end_station = node.is_end_station();
     made->forwards = node.forwards();
     const sim::Distribution& receive = plan.os_latencies[node.os_latency].receive;
-    made->fixed_delay = made->forwards ? node.forwarding_delay.ps() : receive.is_constant() ? receive.greatest().ps() : 0;
+    made->fixed_delay = made->forwards ? node.forwarding_delay.ps() : receive.is_constant() && !(node.cpu && node.cpu->receive) ? receive.greatest().ps() : 0;
     if (node.forwarding_jitter) {
       made->least_jitter = node.forwarding_jitter->least().ps();
       made->greatest_jitter = node.forwarding_jitter->greatest().ps();
@@ -226,7 +226,7 @@ void WireChecker::compare(std::span<const models::Stream> streams) {
   bool has_latencies = false;
   bool cuts_through = false;
   for (const models::NodePlan& node : plan_.nodes)
-    has_latencies |= node.kind == models::NodeKind::station && plan_.os_latencies[node.os_latency].receive.greatest() != sim::Duration();
+    has_latencies |= node.cpu != nullptr || (node.kind == models::NodeKind::station && plan_.os_latencies[node.os_latency].receive.greatest() != sim::Duration());
   const bool has_jitter = std::ranges::any_of(plan_.nodes, [](const models::NodePlan& node) { return node.forwarding_jitter != nullptr; });   // which of several copies is in a switch can't be told
   for (const models::OsLatency& latency : plan_.os_latencies)
     has_latencies |= !latency.receive.is_constant() || !latency.transmit.is_constant() || latency.transmit.greatest() != sim::Duration();

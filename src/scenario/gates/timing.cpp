@@ -26,8 +26,16 @@ class TimingWalk {
   const models::OsLatency& os_of(models::NodeIndex host) const { return r_.plan.os_latencies[r_.plan.nodes[host.value].os_latency]; }
 
   void set(models::StreamIndex stream, FrameTiming timing) {
+    const models::StreamPlan& plan = r_.plan.streams[stream.value];
+    if (const models::CpuPlan* const cpu = r_.plan.nodes[plan.talker.value].cpu.get(); cpu != nullptr && cpu->transmit) wait_for_thread(timing, cpu->threads[*cpu->transmit]);
     if (timing.no_window.empty() && timing.period.ps() % 1'000 != 0) timing.no_window = "a period of " + json::to_text(timing.period) + ", which is no whole number of ns";
     made_.of_streams[stream.value] = std::move(timing);
+  }
+
+  /// How long it waits for the processor depends on all that runs there.
+  static void wait_for_thread(FrameTiming& timing, const models::CpuThreadPlan& thread) {
+    timing.is_known = false;
+    if (timing.no_window.empty()) timing.no_window = "thread " + json::quote(thread.name) + " of its host before it, which waits for others";
   }
 
   /// What a host adds before the port, at most; it must be less than a period, or two frames may be there at once.
@@ -102,7 +110,9 @@ class TimingWalk {
 
   FrameTiming published(const ResolvedProgram& program, const ResolvedMember& member, Duration phase) {
     const models::OsLatency& os = os_of(member.node);
-    return after(phase, os.wake_up.least() + os.transmit.least(), os.wake_up.greatest() + os.transmit.greatest(), program.description->cycle, trains_++);
+    FrameTiming timing = after(phase, os.wake_up.least() + os.transmit.least(), os.wake_up.greatest() + os.transmit.greatest(), program.description->cycle, trains_++);
+    if (member.cpu_thread) wait_for_thread(timing, r_.plan.nodes[member.node.value].cpu->threads[*member.cpu_thread]);
+    return timing;
   }
 
   /// Whoever has a role publishes with the others.

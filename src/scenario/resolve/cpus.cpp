@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "json/suggest.hpp"
+#include "scenario/resolve/known_names.hpp"
 #include "scenario/resolve/os_profiles.hpp"
 
 namespace takt::scenario {
@@ -100,13 +101,20 @@ class CpuResolver {
       for (const auto& [each, runnable] : runnables_) known.push_back(each);
       // An empty name was refused by the table.
       if (!name.empty())
-        diagnostics_.error_unless(diagnostics_.has_errors(), place, "unknown program",
+        diagnostics_.error_unless(may_be_refused(), place, "unknown program",
                                   {json::quote(name), "a Program, an application, a gateway or an \"APPLICATION/THREAD\" of " + json::quote(r_.topology.nodes[node_].name), json::suggest(name, known)});
       return;
     }
     if (ambiguous_.contains(name)) diagnostics_.error(place, "two of one name", {json::quote(name) + " is a Program and an application of this host", "names that differ"});
     if (found->second.thread) diagnostics_.error(place, "on two threads", {json::quote(name) + " a second time", "one thread for it"});
     found->second.thread = thread;
+  }
+
+  /// Whether a name may be that of something that was refused.
+  bool may_be_refused() const {
+    constexpr std::string_view lists[] = {"applications", "gateways", "persistence"};
+    return may_be_unread_program(r_.scenario, diagnostics_) || r_.programs.size() < r_.scenario.programs.size() ||
+           std::any_of(std::begin(lists), std::end(lists), [&](std::string_view list) { return diagnostics_.is_refused(r_.scenario.where.at(list)); });
   }
 
   void stack_on(std::uint32_t thread, StackPart part, const json::Place& place) {

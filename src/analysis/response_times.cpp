@@ -145,6 +145,15 @@ class ResponseTimes {
 
   Ps slices(Ps fair_work) const { return is_bounded(fair_work) ? fair_work / plan_.slice.ps() : unbounded_ps; }
 
+  /// What its own jobs cost in changes of thread on a core, besides two for each of the others': what each start and each end leads to. Between equal priorities none of its starts interrupts
+  /// anybody, and who goes on after one of its ends begins then, or its start was paid for.
+  Ps own_changes(const Level& level, Ps length) const {
+    if (switching_ == 0) return 0;
+    const bool interrupts = is_by_deadline(level.thread) || !level.anywhere.empty();
+    const std::int64_t n = jobs(level.thread, length);
+    return product(switching_, interrupts ? sum(n, n) - 1 : is_fair(level.thread) ? n : 1);
+  }
+
   /// What others take of the core in a window, against a job that is released at `released` of it. `own`: what the thread itself works in it.
   Ps taken(const Level& level, Ps window, std::optional<Ps> released, Ps own) const {
     const std::size_t i = level.thread;
@@ -194,7 +203,7 @@ class ResponseTimes {
   /// Of a thread on a core of its own, or on the only one: a busy window begins with all cores' work of its level that is bound to the core.
   void bound_on_core(std::size_t i) {
     const Level level = level_of(i);
-    const Ps busy = least_fixed_point(1, [&](Ps x) { return sum(level.blocking, work(i, x - 1, switching_), taken(level, x, {}, work(i, x - 1, 0))); });
+    const Ps busy = least_fixed_point(1, [&](Ps x) { return sum(level.blocking, work(i, x - 1, 0), own_changes(level, x - 1), taken(level, x, {}, work(i, x - 1, 0))); });
     if (!is_bounded(busy)) return fail(i);
     const std::vector<Ps> instants = candidates(&level, i, busy);
     for (std::size_t k = 0; k < sources_[i].size(); ++k) {
@@ -203,7 +212,7 @@ class ResponseTimes {
       Ps ready = 1;
       for (const Ps released : instants) {
         const Ps own = work(i, released, 0);
-        const Ps fixed = sum(level.blocking, work(i, released, switching_)) - held;
+        const Ps fixed = sum(level.blocking, own, own_changes(level, released)) - held;
         // With deadlines, a later release lets more go first: windows only grow.
         ready = least_fixed_point(std::max(ready, fixed), [&](Ps x) { return std::max(x, sum(fixed, taken(level, x, released, own))); });
         if (!is_bounded(ready)) return fail(i);
@@ -225,7 +234,7 @@ class ResponseTimes {
     std::sort(holds.begin(), holds.end(), std::greater<>());
     Ps held = 0;
     for (std::size_t n = 0; n < std::min<std::size_t>(holds.size(), plan_.cores); ++n) held = sum(held, holds[n], switching_);
-    const auto needed = [&](Ps x, Ps own, std::int64_t own_jobs) {
+    const auto needed = [&](Ps x, Ps own) {
       std::vector<Ps> works;
       Ps fair_work = own, switched = 0, own_switched = 0;
       for (const std::size_t j : others) {
@@ -236,7 +245,7 @@ class ResponseTimes {
         std::int64_t n = 0;
         for (const std::size_t j : others) n = sum(n, jobs_there(j, x));
         const std::int64_t over = is_fair(i) ? sum(slices(fair_work), cores) : 0;
-        own_switched = product(switching_, sum(own_jobs, n, over));
+        own_switched = product(switching_, sum(1, n, over));
         switched = sum(product(switching_, sum(n, n, n, cores, over, over)), product(held, sum(n, 1)));
       }
       // While it waits all cores are taken, each thread takes one at a time: with the k busiest aside, the others fill the remaining cores.
@@ -251,13 +260,12 @@ class ResponseTimes {
       }
       return sum(own, own_switched, waits);
     };
-    const Ps busy = least_fixed_point(1, [&](Ps x) { return needed(x, work(i, x - 1, 0), jobs(i, x - 1)); });
+    const Ps busy = least_fixed_point(1, [&](Ps x) { return needed(x, work(i, x - 1, 0)); });
     if (!is_bounded(busy)) return fail(i);
     Ps end = 1;
     for (const Ps released : candidates(nullptr, i, busy)) {
       const Ps own = work(i, released, 0);
-      const std::int64_t own_jobs = jobs(i, released);
-      end = least_fixed_point(std::max(end, own), [&](Ps x) { return std::max(x, needed(x, own, own_jobs)); });
+      end = least_fixed_point(std::max(end, own), [&](Ps x) { return std::max(x, needed(x, own)); });
       if (!is_bounded(end)) return fail(i);
       note(i, end - released);
     }
@@ -284,7 +292,7 @@ class ResponseTimes {
     for (std::size_t j = 0; j < plan_.threads.size(); ++j) {
       if (!goes_first(j, i) || !(is_floating(i) || is_floating(j) || shares_core(j, i))) continue;
       if (const std::string why = doubt_of(j); !why.empty()) return fmt::format("thread {} before it: {}", plan_of(j).name, why);
-      for (const JobSource& source : sources_[j]) load += source.arrivals.calmest().rate() * static_cast<double>(source.work + (is_floating(i) ? 0 : j == i ? switching_ : 2 * switching_));
+      for (const JobSource& source : sources_[j]) load += source.arrivals.calmest().rate() * static_cast<double>(source.work + (is_floating(i) || j == i ? 0 : 2 * switching_));
     }
     // What is nearly all is found out by windows.
     if (load > 1.000001 * (is_floating(i) ? plan_.cores : 1)) return more_than_it_can(i);

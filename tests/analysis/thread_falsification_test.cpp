@@ -218,6 +218,27 @@ TEST(ThreadFalsification, TheBoundIsReached) {
   EXPECT_GT(looked_at, 300);
 }
 
+// Jobs of 1 us that are due 5 us later interrupt one of 20 us four times, which costs two changes of thread each: 1 + 1 + 1 of every 5 us. It has worked for 8 us when the fifth one comes, which is due
+// no earlier than it: that waits for the other 12, and is done 2 us later.
+TEST(ThreadFalsification, OwnJobsByDeadlineCostTwoChangesOfThread) {
+  Machine machine;
+  machine.plan.switching = Duration::from_ps(us);
+  for (const Ps due : {26 * us, 5 * us}) {
+    models::CpuThreadPlan thread;
+    thread.name = "t";
+    thread.policy = SchedulingPolicy::deadline;
+    thread.deadline = Duration::from_ps(due);
+    machine.plan.threads.push_back(thread);
+  }
+  machine.sources = {{{FrameArrivals(ArrivalPattern{1000 * us, 1, 0, 0}), 20 * us, "jobs"}}, {{FrameArrivals(ArrivalPattern{5 * us, 1, 0, 0}), us, "jobs"}}};
+  std::vector<Release> releases = {{0, 0, 0, 20 * us}};
+  for (Ps at = us; at <= 21 * us; at += 5 * us) releases.push_back({1, 0, at, us});
+  CpuRun run(machine.plan, releases, 1);
+  run.run(1000 * us);
+  EXPECT_EQ(run.ends.back() - releases.back().at, 14 * us);
+  EXPECT_GE(response_times(machine.plan, machine.sources)[1].worst, 14 * us);
+}
+
 // Two cores, nobody bound. Whenever the most urgent thread comes, the least urgent one has begun a job that nobody interrupts: the thread between them loses its core for 9 of every 30 us,
 // not for the half of 10 that the most urgent one takes.
 TEST(ThreadFalsification, LessUrgentThreadsMayBlockAgainAndAgain) {

@@ -21,6 +21,7 @@ struct InstanceConfig {
   int announce_receipt_timeout = 3;
   bool two_step = true;
   bool sync_locked = true;                 // relays a Sync at once; otherwise at its own interval
+  bool boundary = false;                   // a boundary clock (IEEE 1588): gives the time of its own disciplined clock at its own interval, and relays nothing
   /// Syncs over which the drift of the rate ratio is measured and made up for, even; 0: not at all, as plain 802.1AS.
   std::size_t rate_ratio_drift_window = 0;
   std::uint8_t time_source = 0xA0;
@@ -52,6 +53,8 @@ class PtpInstance {
   const InstanceConfig& config() const { return config_; }
   PortRole role(PortNumber port) const { return at(port).role; }
   bool is_grandmaster() const { return selection_.receiver == 0; }
+  /// What it sends is the time of its source, not what it has received.
+  bool gives_own_time() const { return is_grandmaster() || config_.boundary; }
   /// gmPresent (10.2.4.13): the root of the tree can be grandmaster; its priority1 is not 255.
   bool grandmaster_present() const { return selection_.grandmaster.root.priority1 < 255; }
   const PriorityVector& grandmaster() const { return selection_.grandmaster; }

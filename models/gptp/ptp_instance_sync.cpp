@@ -42,7 +42,7 @@ void PtpInstance::sync_complete(const SyncWaiting& waiting, const Timestamp& ori
                                selection_.grandmaster.root.clock});
   for (PortNumber each = 1; each <= ports(); ++each) {
     if (at(each).role != PortRole::time_transmitter) continue;
-    if (config_.sync_locked)
+    if (config_.sync_locked && !config_.boundary)
       send_sync(each, *sync_, outputs);
     else if (!at(each).has_own_interval)
       sync_interval_elapsed(each, now, outputs);
@@ -77,7 +77,7 @@ void PtpInstance::sync_interval_elapsed(PortNumber port, sim::LocalTime now, Out
   at(port).has_own_interval = at(port).role == PortRole::time_transmitter && !is_grandmaster() && sync_.has_value();
   if (!at(port).has_own_interval) return;
   outputs.push_back(ArmTimer{timer(port, TimerPurpose::sync_interval), now + interval});
-  SyncInformation sync = *sync_;
+  SyncInformation sync = config_.boundary ? source_.information_at(now) : *sync_;
   sync.log_interval = static_cast<std::int8_t>(config_.log_sync_interval);
   send_sync(port, sync, outputs);
 }
@@ -100,7 +100,7 @@ void PtpInstance::transmitted(const EgressReport& report, Outputs& outputs) {
   if (report.type != MessageType::sync || !port.leaving || port.leaving->sequence_id != report.sequence_id) return;
   SyncInformation sync = port.leaving->sync;
   port.leaving.reset();
-  if (is_grandmaster()) {  // the whole nanoseconds at which the Sync left, not at which it was made
+  if (gives_own_time()) {  // the whole nanoseconds at which the Sync left, not at which it was made
     const sim::PtpTime left = sync.grandmaster_time_at(report.egress);
     sync.origin = Timestamp::floor_of(left);
     sync.correction = Correction::of(left - sync.origin.time());

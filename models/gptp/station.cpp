@@ -118,6 +118,7 @@ void Station::carry_out() {
       if (lost->instance == active()) target_.sync_lost();
       if (has_standby_role(lost->instance)) standby_->sync_lost(static_cast<HotStandbyRole>(lost->instance), local());
     } else if (const auto* const change = std::get_if<GrandmasterChange>(&output)) {
+      if (change->instance == active()) target_.sync_lost();   // until the first Sync of the new one
       if (has_standby_role(change->instance)) standby_->set_grandmaster(static_cast<HotStandbyRole>(change->instance), gives_time(change->instance), local());
       give_time();
     }
@@ -276,12 +277,12 @@ void Station::note(Occurrence kind, std::uint64_t what) const {
   simulation_->digest().add(static_cast<std::uint32_t>(kind), node_.value, simulation_->now(), what);
 }
 
-/// A grandmaster gives the time of its disciplined clock.
+/// A grandmaster gives the time of its disciplined clock, and so does a boundary clock.
 void Station::give_time() {
   const SourceTime source{local(), sim::PtpTime::from_ps(clock_->disciplined().local_at(simulation_->now()).ps()),
                           clock_->disciplined().rate() / clock_->free_running().rate()};
   for (std::size_t i = 0; i < machine_.instance_count(); ++i)
-    if (machine_.instance(i).is_grandmaster()) machine_.instance(i).set_source_time(source);
+    if (machine_.instance(i).gives_own_time()) machine_.instance(i).set_source_time(source);
 }
 
 void Station::set_link(std::uint16_t port, bool up) {
@@ -301,7 +302,10 @@ void Station::set_up(bool up) {
   ++epoch_;
   armed_.clear();
   rearm();
-  if (!up) return;
+  if (!up) {
+    note_change();
+    return;
+  }
   machine_ = Node(config_);
   target_ = ClockTarget(plan_.target);
   if (plan_.standby) standby_.emplace(*plan_.standby, plan_.target);

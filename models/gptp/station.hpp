@@ -20,6 +20,9 @@
 
 namespace takt::models::gptp {
 
+/// What a node's clock is, for reports.
+enum class ClockState : std::uint8_t { free_running, acquiring, locked, holdover, grandmaster, down };
+
 class Station final : public sim::Component, public ClockListener, public LinkLocalReceiver, public CpuUser {
  public:
   /// `ports` are those of the node; `stream` is the one of all gPTP frames. All references outlive the station.
@@ -50,7 +53,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
 
   // For reports.
   NodeIndex node() const { return node_; }
-  TargetState state() const { return active_is_grandmaster() ? TargetState::locked : target_.state(); }
+  ClockState state() const { return !up_ ? ClockState::down : active_is_grandmaster() ? ClockState::grandmaster : static_cast<ClockState>(target_.state()); }
   /// The root of a tree that cannot be grandmaster gives time to nobody.
   bool active_is_grandmaster() const { return gives_time(active()); }
   /// Whom the node takes its time from, itself if it is grandmaster.
@@ -67,7 +70,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   struct Change {
     sim::TrueTime time;
     NodeIndex grandmaster;
-    TargetState state = TargetState::free_running;
+    ClockState state = ClockState::free_running;
   };
   const std::vector<Change>& changes() const { return changes_; }
 

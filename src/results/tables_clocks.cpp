@@ -38,7 +38,7 @@ const json::Record& describe(json::Type<ClockResult>) {
   static constexpr json::Output outputs[] = {
       json::output<&ClockResult::node>("node", "Whose clock it is."),
       json::output<&ClockResult::grandmaster>("grandmaster", "Whom it follows at the end."),
-      json::output<&ClockResult::state>("state", "At the end: `free-running`, `acquiring`, `locked`, `holdover`, `grandmaster` or `down`."),
+      json::output<&ClockResult::state>("state", "At the end: `free-running`, `acquiring`, `locked` (by its own measurement within 1 us of its grandmaster), `holdover` (no Sync any more, or none yet from a new grandmaster), `grandmaster` or `down`."),
       json::output<&ClockResult::time_to_lock>("time_to_lock_ps", "From the start to being locked first; null: never."),
       json::output<&ClockResult::samples>("samples", "Samples of its offset."),
       json::part<ClockResult, &offset>("offset", "Since it was locked first."),

@@ -74,7 +74,7 @@ TEST(Assessment, ConditionsAreThoseOfThePlant) {
   std::vector<A> conditions;
   for (unsigned i = 0; i < static_cast<unsigned>(A::count); ++i)
     if (is_condition(static_cast<A>(i))) conditions.push_back(static_cast<A>(i));
-  EXPECT_EQ(conditions, (std::vector{A::nothing_else, A::listed_faults_only, A::os_latency, A::clock_rate, A::gptp_traffic, A::initialisation}));
+  EXPECT_EQ(conditions, (std::vector{A::nothing_else, A::listed_faults_only, A::os_latency, A::execution_times, A::clock_rate, A::gptp_traffic, A::initialisation}));
   const AssumptionLedger ledger;
   for (unsigned i = 0; i < static_cast<unsigned>(A::count); ++i)
     EXPECT_EQ(ledger[static_cast<A>(i)].standing, is_condition(static_cast<A>(i)) ? Standing::condition : Standing::open) << i;

@@ -68,6 +68,8 @@ std::span<const Rule> clock_rules() {
       {.key = "gptp.log_pdelay_interval", .percent = 90, .words = "-7 -6"},
       {.key = "gptp.sync_receipt_timeout", .percent = 20, .words = "2 3 5"},
       {.key = "gptp.announce_receipt_timeout", .percent = 20, .words = "2 3 5"},
+      {.key = "gptp.boundary", .percent = 20},
+      {.key = "gptp_node.boundary", .percent = 15},
       {.key = "gptp.processing", .percent = 30, .words = "0us 1us 5us 100us"},
       {.key = "gptp.rate_ratio_window", .percent = 20, .words = "1 4 8"},
       {.key = "gptp.average_link_delay", .percent = 20, .words = "1 4"},

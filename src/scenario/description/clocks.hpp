@@ -89,6 +89,7 @@ struct GptpNode {
   std::uint8_t clock_class = 248;
   std::uint8_t clock_accuracy = 0xFE;
   std::optional<std::vector<GptpPortRole>> roles;
+  std::optional<bool> boundary = {};
   bool operator==(const GptpNode&) const = default;
 };
 
@@ -108,6 +109,7 @@ struct Gptp {
   std::uint8_t announce_receipt_timeout = 3;
   bool one_step = false;
   bool sync_locked = true;
+  bool boundary = false;
   sim::Duration processing = sim::Duration::from_ps(5'000'000);
   std::uint16_t rate_ratio_window = 8;
   std::uint16_t average_link_delay = 1;

@@ -122,6 +122,7 @@ const json::Object& describe(json::Type<GptpNode>) {
       optional<&GptpNode::priority2>("priority2", "Decides where priority1 and quality are equal."),
       optional<&GptpNode::clock_class>("clock_class", "clockClass; 6 is a primary reference."),
       optional<&GptpNode::clock_accuracy>("clock_accuracy", "clockAccuracy; 0x20 (32) is 25 ns, 0xFE (254) unknown."),
+      optional<&GptpNode::boundary>("boundary", "Whether the node is a boundary clock; as \"gptp\" says if absent."),
       optional<&GptpNode::roles>("roles", "Roles of the ports instead of the best-time-transmitter algorithm (external port configuration); ports that are not named transmit.", {.max_items = 4096}),
   };
   static constexpr json::Object table = json::object<GptpNode>("gptp_node", "What the best-time-transmitter algorithm knows of a node.", fields);
@@ -146,6 +147,7 @@ const json::Object& describe(json::Type<Gptp>) {
       optional<&Gptp::announce_receipt_timeout>("announce_receipt_timeout", "After so many intervals without Announce the grandmaster is lost.", {.min = 2}),
       optional<&Gptp::one_step>("one_step", "Sync carries its time itself."),
       optional<&Gptp::sync_locked>("sync_locked", "A bridge sends Sync on when it has got one, not at intervals of its own."),
+      optional<&Gptp::boundary>("boundary", "All nodes that hand Sync on are boundary clocks, as with ptp4l: each gives the time of its own clock, at its own interval, instead of relaying what it has got."),
       optional<&Gptp::processing>("processing", "From the decision to send a message to the queue of its port: residence and turn-around time.", {.max = 1_s}),
       optional<&Gptp::rate_ratio_window>("rate_ratio_window", "Pdelay exchanges from which the neighbour's rate ratio is worked out.", {.min = 1, .max = 64}),
       optional<&Gptp::average_link_delay>("average_link_delay", "Pdelay exchanges over which the link delay is averaged.", {.min = 1, .max = 1024}),

@@ -192,6 +192,7 @@ class ClockResolver {
     config.announce_receipt_timeout = gptp.announce_receipt_timeout;
     config.two_step = !gptp.one_step;
     config.sync_locked = gptp.sync_locked;
+    config.boundary = gptp.boundary;
     config.rate_ratio_drift_window = gptp.drift_window;
     constexpr std::uint8_t never_grandmaster = 255;
     if (is_of_standby) config.system.priority1 = never_grandmaster;
@@ -201,6 +202,7 @@ class ClockResolver {
       config.system.priority2 = node.priority2;
       config.system.quality.clock_class = node.clock_class;
       config.system.quality.clock_accuracy = node.clock_accuracy;
+      config.boundary = node.boundary.value_or(gptp.boundary);
       if (!node.roles) return config;
       std::uint16_t ports = 0;
       for (const Neighbour& neighbour : r_.topology.neighbours[n]) ports = std::max<std::uint16_t>(ports, static_cast<std::uint16_t>(neighbour.port + 1));

@@ -109,6 +109,8 @@ class Harness {
     now_ = until;
   }
 
+  /// Somebody sets the node's clock.
+  void step_clock(std::size_t i, sim::Duration by) { station(i).disciplined.step(now_, by); }
   Station& station(std::size_t i) { return *stations_[i]; }
   PtpInstance& instance(std::size_t i, std::size_t domain = 0) { return station(i).machine.instance(domain); }
   std::size_t size() const { return stations_.size(); }
@@ -208,12 +210,12 @@ class Harness {
     if (rearms) rearm(i);
   }
 
-  /// A grandmaster gives the time of its disciplined clock.
+  /// A grandmaster gives the time of its disciplined clock, and so does a boundary clock.
   void disciplined_is_source(std::size_t i) {
     Station& s = station(i);
     const SourceTime source{local(i), sim::PtpTime::from_ps(s.disciplined.local_at(now_).ps()), s.disciplined.rate() / s.free.rate()};
     for (std::size_t each = 0; each < s.machine.instance_count(); ++each)
-      if (s.machine.instance(each).is_grandmaster()) s.machine.instance(each).set_source_time(source);
+      if (s.machine.instance(each).gives_own_time()) s.machine.instance(each).set_source_time(source);
   }
 
   void discipline(std::size_t i, const SyncSample& sample) {

@@ -44,6 +44,52 @@ TEST(Lock, TwoNodesWithConstantOffsetsAgreeExactly) {
               (1.00008 / 0.99993 - 1) * 1e12, 5);
 }
 
+// The servo is locked from its second sample on; the clock is when it is within a microsecond, and no longer than that.
+TEST(Lock, IsSaidOfClocksThatAre) {
+  ClockTarget target(ClockTargetConfig{});
+  sim::LocalTime at;
+  const auto state_at = [&](Duration offset) {
+    at = at + 125_ms;
+    target.sample({0, at, sim::PtpTime::from_ps(at.ps() - offset.ps()), {}}, at);
+    return target.state();
+  };
+  EXPECT_EQ(state_at(5_us), TargetState::acquiring);
+  EXPECT_EQ(state_at(5_us), TargetState::acquiring);
+  EXPECT_EQ(state_at(5_us), TargetState::acquiring);
+  EXPECT_EQ(target.servo().state(), ServoState::locked);
+  EXPECT_EQ(state_at(-1_us), TargetState::locked);
+  EXPECT_EQ(state_at(1_us + 1_ps), TargetState::acquiring);
+  EXPECT_EQ(state_at(1_us), TargetState::locked);
+  target.sync_lost();
+  EXPECT_EQ(target.state(), TargetState::holdover);
+}
+
+// Somebody sets the clock of the node between: a relay does not care, behind a boundary clock time is that clock's.
+TEST(Lock, ABoundaryClockGivesTheTimeOfItsOwnClock) {
+  for (const bool boundary : {false, true}) {
+    Harness harness;
+    harness.add(node(100, 20));
+    Harness::NodeSetUp between = node(200, -30);
+    between.instances[0].boundary = boundary;
+    harness.add(between);
+    harness.add(node(250, 10));
+    harness.connect(0, 1, 500_ns);
+    harness.connect(1, 2, 500_ns);
+    harness.start();
+    harness.run(60_s);
+    EXPECT_LE(magnitude(harness.offset(2, 0)), 10_ns) << boundary;
+    harness.step_clock(1, 50_us);
+    harness.run(1_s);
+    if (boundary) {
+      EXPECT_GT(magnitude(harness.offset(2, 0)), 5_us);
+    } else {
+      EXPECT_LE(magnitude(harness.offset(2, 0)), 10_ns);
+    }
+    harness.run(120_s);
+    EXPECT_LE(magnitude(harness.offset(2, 0)), 10_ns) << boundary;
+  }
+}
+
 TEST(Lock, TheLinkIsMeasuredToThePicosecond) {
   Harness harness;
   harness.add(node(100, 0));

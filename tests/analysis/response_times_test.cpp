@@ -63,7 +63,7 @@ TEST(ResponseTimes, LaterJobsOfAWindowMayBeSlower) { EXPECT_EQ(of({{2, 26, 70}, 
 // The least urgent one holds the core for 4 when the others come.
 TEST(ResponseTimes, WhoHoldsTheCoreBlocks) {
   EXPECT_EQ(of({{3, 3, 20}, {2, 3, 20}, {1, 10, 100, 0, 4}}), (std::vector<Ps>{7, 10, 16}));
-  EXPECT_EQ(of({{3, 3, 20}, {1, 2, 100, 0, 4}}), (std::vector<Ps>{5, 5})) << "no longer than a job lasts";
+  EXPECT_EQ(times_of({{3, 3, 20}, {1, 2, 100, 0, 4}})[0].worst, 5 * us - 1) << "no longer than a job lasts, which has begun";
 }
 
 // Each interruption costs two changes of thread: 1 to begin with, then 3 + 2 for the first, 2 for itself.
@@ -101,12 +101,12 @@ TEST(ResponseTimes, CoresToWhichAllAreBoundAreOneByOne) {
   EXPECT_EQ(of({{2, 5, 10, 0, 0, SchedulingPolicy::fifo, 0}, {1, 4, 20, 0, 0, SchedulingPolicy::fifo, 0}, {1, 8, 10, 0, 0, SchedulingPolicy::fifo, 1}}, 2), (std::vector<Ps>{5, 9, 8}));
 }
 
-// Two cores, nobody bound. The first and second have cores of their own; while the third waits both are busy: half of what the others do in its time and in theirs before it.
-// With 2 of 100 each: 3 + (2 + 2) / 2.
-TEST(ResponseTimes, WhoMovesWaitsForAllCores) { EXPECT_EQ(of({{3, 2, 100}, {3, 2, 100}, {1, 3, 100}}, 2), (std::vector<Ps>{3, 3, 5})); }
+// Two cores, nobody bound. The first and second never wait, since one other thread takes one core only. While the third waits both are busy: 3 + (2 + 2) / 2.
+TEST(ResponseTimes, WhoMovesWaitsForAllCores) { EXPECT_EQ(of({{3, 2, 100}, {3, 2, 100}, {1, 3, 100}}, 2), (std::vector<Ps>{2, 2, 5})); }
 
-// With 2 of 7 each two of them may be worked at while it waits, one that was there before it and one that comes: 3 + (4 + 4) / 2.
-TEST(ResponseTimes, WhatWasThereBeforeCounts) { EXPECT_EQ(of({{3, 2, 7}, {3, 2, 7}, {1, 3, 100}}, 2), (std::vector<Ps>{3, 3, 7})); }
+// The first and second take 4 of every 6, both at once, and leave 4..6 and 10..12: the third is done at 11. What was released just before it does not add to that: of two jobs in less than
+// 10 one is never whole.
+TEST(ResponseTimes, WhatWasThereBeforeCounts) { EXPECT_EQ(of({{3, 4, 6}, {3, 4, 6}, {1, 3, 100}}, 2), (std::vector<Ps>{4, 4, 11})); }
 
 }  // namespace
 }  // namespace takt::analysis

@@ -12,8 +12,6 @@ enum class TargetState : std::uint8_t { free_running, acquiring, locked, holdove
 struct ClockTargetConfig {
   ServoConfig servo = {};
   bool step_after_grandmaster_change = true;  // the first estimate under a new grandmaster may step again
-  /// A servo calls itself locked while it still closes in. So far from its grandmaster by its own measurement a clock is not.
-  sim::Duration locked_within = sim::Duration::from_ps(1'000'000);
 };
 
 /// A value beside the node's disciplined clock. The host asks what the disciplined clock shows at the instant of the sample
@@ -30,8 +28,7 @@ class ClockTarget {
     offset_ = sim::Duration::from_ps(shown.ps() - sample.grandmaster_time.ps());
     at_ = sample.at;
     const ServoAction action = servo_.sample(offset_, shown);
-    const sim::Duration distance = offset_ < sim::Duration() ? sim::Duration() - offset_ : offset_;
-    const bool locked = (action.state == ServoState::locked || action.state == ServoState::locked_stable) && distance <= config_.locked_within;
+    const bool locked = action.state == ServoState::locked || action.state == ServoState::locked_stable;
     state_ = locked ? TargetState::locked : TargetState::acquiring;
     return action;
   }

@@ -114,7 +114,7 @@ void put_body(Writer& out, const PdelayRespFollowUp& follow_up) {
 void put_body(Writer& out, const Announce& announce) {
   TAKT_CHECK(announce.path_trace.size() <= Announce::longest_path_trace, "a path trace that fits a frame");
   out.put_zeros(10);
-  out.put(announce.current_utc_offset);
+  out.put(announce.time.current_utc_offset);
   out.put_zeros(1);
   out.put(announce.grandmaster_priority1);
   out.put(announce.grandmaster_quality.clock_class);
@@ -123,7 +123,7 @@ void put_body(Writer& out, const Announce& announce) {
   out.put(announce.grandmaster_priority2);
   put(out, announce.grandmaster);
   out.put(announce.steps_removed);
-  out.put(announce.time_source);
+  out.put(announce.time.time_source);
   out.put(tlv_path_trace);
   out.put(static_cast<std::uint16_t>(8 * announce.path_trace.size()));
   for (const ClockIdentity& identity : announce.path_trace) put(out, identity);
@@ -213,9 +213,9 @@ bool get_body(Reader& in, const RawHeader&, PdelayRespFollowUp& follow_up) {
   return true;
 }
 bool get_body(Reader& in, const RawHeader& raw, Announce& announce) {
-  announce.time_flags = raw.flags[1];
+  announce.time.flags = raw.flags[1];
   in.take(10);
-  announce.current_utc_offset = in.get<std::int16_t>();
+  announce.time.current_utc_offset = in.get<std::int16_t>();
   in.take(1);
   announce.grandmaster_priority1 = in.get<std::uint8_t>();
   announce.grandmaster_quality.clock_class = in.get<std::uint8_t>();
@@ -224,7 +224,7 @@ bool get_body(Reader& in, const RawHeader& raw, Announce& announce) {
   announce.grandmaster_priority2 = in.get<std::uint8_t>();
   get(in, announce.grandmaster);
   announce.steps_removed = in.get<std::uint16_t>();
-  announce.time_source = in.get<std::uint8_t>();
+  announce.time.time_source = in.get<std::uint8_t>();
   return find_tlv(in, tlv_path_trace, [&](Reader contents) {
     if (contents.left() % 8 != 0 || contents.left() / 8 > Announce::longest_path_trace) return false;
     announce.path_trace.resize(contents.left() / 8);
@@ -259,7 +259,7 @@ void encode(const Message& message, std::vector<std::byte>& octets) {
   out.put(header.domain);
   out.put(header.minor_sdo_id);
   out.put(flags_of(message));
-  out.put(announce != nullptr ? announce->time_flags : ptp_time_scale_flag);
+  out.put(announce != nullptr ? announce->time.flags : ptp_time_scale_flag);
   out.put(header.correction.scaled_ns);
   out.put_zeros(4);
   put(out, header.source);

@@ -91,18 +91,24 @@ struct ClockQuality {
   auto operator<=>(const ClockQuality&) const = default;
 };
 
+/// What an Announce says of its grandmaster's time besides (IEEE 1588 timePropertiesDS): passed on as received.
+struct TimeProperties {
+  std::int16_t current_utc_offset = 37;
+  std::uint8_t time_source = 0xA0;                        // internal oscillator
+  std::uint8_t flags = 0x08;                              // second flag octet: leap61 0x01, leap59 0x02, UTC offset valid 0x04, time scale PTP 0x08, time traceable 0x10, frequency traceable 0x20
+  bool operator==(const TimeProperties&) const = default;
+};
+
 struct Announce {
   static constexpr std::size_t longest_path_trace = 179;  // 68 + 8 * 179 = 1500 octets
 
   Header header = {};
-  std::int16_t current_utc_offset = 37;
+  TimeProperties time = {};
   std::uint8_t grandmaster_priority1 = 248;
   ClockQuality grandmaster_quality = {};
   std::uint8_t grandmaster_priority2 = 248;
   ClockIdentity grandmaster = {};
   std::uint16_t steps_removed = 0;
-  std::uint8_t time_source = 0xA0;                        // internal oscillator
-  std::uint8_t time_flags = 0x08;                         // second flag octet: leap seconds, UTC offset valid, time scale PTP, traceable
   std::vector<ClockIdentity> path_trace = {};             // grandmaster first
   bool operator==(const Announce&) const = default;
 };

@@ -79,10 +79,13 @@ void PtpInstance::received(const Announce& announce, PortNumber port, sim::Local
   const bool repeated = known.info_is == InfoIs::received && known.priority == priority && at(port).path_trace == announce.path_trace;
   outputs.push_back(ArmTimer{timer(port, TimerPurpose::announce_receipt),
                              now + config_.announce_receipt_timeout * interval_of(announce.header.log_message_interval)});
-  if (repeated) return;
+  const bool same_time = at(port).time == announce.time;
+  if (repeated && same_time) return;
   known = {InfoIs::received, priority};
   at(port).path_trace = announce.path_trace;
+  at(port).time = announce.time;
   reselect(now, outputs);
+  if (!same_time && selection_.receiver == port) tell_all(now, outputs);
 }
 
 // The information of a port is too old.
@@ -115,6 +118,12 @@ void PtpInstance::reselect(sim::LocalTime now, Outputs& outputs) {
     const bool told_changed = update_told(port);
     if (told_changed || path_changed) send_announce(port, now, outputs);  // newInfo
   }
+}
+
+/// Other properties of the time are news (10.3.8): they go on at once.
+void PtpInstance::tell_all(sim::LocalTime now, Outputs& outputs) {
+  for (PortNumber port = 1; port <= ports(); ++port)
+    if (at(port).role == PortRole::time_transmitter) send_announce(port, now, outputs);
 }
 
 void PtpInstance::select_external() {
@@ -202,14 +211,13 @@ void PtpInstance::send_announce(PortNumber number, sim::LocalTime now, Outputs& 
   if (!knows) return;
   Announce announce;
   announce.header = header(number, port.next_announce++, config_.log_announce_interval);
-  announce.current_utc_offset = config_.current_utc_offset;
+  announce.time = time_properties();
   const PriorityVector& best = selection_.grandmaster;
   announce.grandmaster_priority1 = best.root.priority1;
   announce.grandmaster_quality = best.root.quality;
   announce.grandmaster_priority2 = best.root.priority2;
   announce.grandmaster = best.root.clock;
   announce.steps_removed = best.steps_removed;
-  announce.time_source = config_.time_source;
   announce.path_trace = path_trace_;
   outputs.push_back(SendMessage{number, std::move(announce)});
 }

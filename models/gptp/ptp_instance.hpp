@@ -24,8 +24,7 @@ struct InstanceConfig {
   bool boundary = false;                   // a boundary clock (IEEE 1588): gives the time of its own disciplined clock at its own interval, and relays nothing
   /// Syncs over which the drift of the rate ratio is measured and made up for, even; 0: not at all, as plain 802.1AS.
   std::size_t rate_ratio_drift_window = 0;
-  std::uint8_t time_source = 0xA0;
-  std::int16_t current_utc_offset = 37;
+  TimeProperties time = {};                // of the time that it gives as grandmaster
   /// externalPortConfigurationEnabled: the role of each port; BMCA is off. Without a time receiver it is the grandmaster.
   std::optional<std::vector<PortRole>> external_roles = {};
 };
@@ -58,6 +57,8 @@ class PtpInstance {
   /// gmPresent (10.2.4.13): the root of the tree can be grandmaster; its priority1 is not 255.
   bool grandmaster_present() const { return selection_.grandmaster.root.priority1 < 255; }
   const PriorityVector& grandmaster() const { return selection_.grandmaster; }
+  /// Of the time that it gives or gets.
+  const TimeProperties& time_properties() const { return is_grandmaster() ? config_.time : at(selection_.receiver).time; }
   PortNumber receiver_port() const { return selection_.receiver; }
   const std::vector<ClockIdentity>& path_trace() const { return path_trace_; }
   /// The last Sync that was taken in; nothing since it was lost, and as grandmaster.
@@ -77,6 +78,7 @@ class PtpInstance {
     PortRole role = PortRole::disabled;
     bool capable = false;
     std::vector<ClockIdentity> path_trace = {};  // of the Announce that is valid here
+    TimeProperties time = {};                    // likewise
     std::uint16_t next_announce = 0;
     std::uint16_t next_sync = 0;
     std::optional<SyncWaiting> waiting = {};
@@ -102,6 +104,7 @@ class PtpInstance {
   bool is_qualified(const Announce& announce) const;
   bool is_accepted(const PriorityVector& priority, PortNumber port) const;
   void age(PortNumber port, sim::LocalTime now, Outputs& outputs);
+  void tell_all(sim::LocalTime now, Outputs& outputs);
   void send_announce(PortNumber port, sim::LocalTime now, Outputs& outputs);
 
   // Time (ptp_instance_sync.cpp)

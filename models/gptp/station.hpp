@@ -20,8 +20,8 @@
 
 namespace takt::models::gptp {
 
-/// What a node's clock is, for reports.
-enum class ClockState : std::uint8_t { free_running, acquiring, locked, holdover, grandmaster, down };
+/// What a node's clock is, for reports. A grandmaster's is locked to itself.
+enum class ClockState : std::uint8_t { free_running, acquiring, locked, holdover, down };
 
 class Station final : public sim::Component, public ClockListener, public LinkLocalReceiver, public CpuUser {
  public:
@@ -53,7 +53,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
 
   // For reports.
   NodeIndex node() const { return node_; }
-  ClockState state() const { return !up_ ? ClockState::down : active_is_grandmaster() ? ClockState::grandmaster : static_cast<ClockState>(target_.state()); }
+  ClockState state() const { return !up_ ? ClockState::down : active_is_grandmaster() ? ClockState::locked : static_cast<ClockState>(target_.state()); }
   /// The root of a tree that cannot be grandmaster gives time to nobody.
   bool active_is_grandmaster() const { return gives_time(active()); }
   /// Whom the node takes its time from, itself if it is grandmaster.

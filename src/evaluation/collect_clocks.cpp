@@ -8,7 +8,7 @@ using namespace results;
 namespace {
 
 const char* name_of(models::gptp::ClockState state) {
-  constexpr const char* names[] = {"free-running", "acquiring", "locked", "holdover", "grandmaster", "down"};
+  constexpr const char* names[] = {"free-running", "acquiring", "locked", "holdover", "down"};
   return names[static_cast<std::size_t>(state)];
 }
 
@@ -24,7 +24,7 @@ std::vector<ClockResult> clocks_of(const scenario::Run& run, sim::Duration from)
     ClockResult result;
     result.node = name(figures.node);
     result.grandmaster = name(station.grandmaster());
-    result.state = name_of(station.state());
+    result.state = station.is_up() && station.active_is_grandmaster() ? "grandmaster" : name_of(station.state());
     if (figures.locked) result.time_to_lock = figures.locked->since_start();
     const scenario::ClockFigures::Offsets& offsets = figures.offsets.from(from);
     result.samples = offsets.samples;

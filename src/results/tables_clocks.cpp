@@ -28,7 +28,7 @@ const json::Record& describe(json::Type<ClockChangeResult>) {
   static constexpr json::Output outputs[] = {
       json::output<&ClockChangeResult::at>("at_ps", "From when on."),
       json::output<&ClockChangeResult::grandmaster>("grandmaster", "Whom it follows."),
-      json::output<&ClockChangeResult::state>("state", "As below."),
+      json::output<&ClockChangeResult::state>("state", "As below; a grandmaster is `locked` to itself."),
   };
   static constexpr json::Record record{"clock_change", "A row of a clock's history.", outputs};
   return record;
@@ -38,7 +38,7 @@ const json::Record& describe(json::Type<ClockResult>) {
   static constexpr json::Output outputs[] = {
       json::output<&ClockResult::node>("node", "Whose clock it is."),
       json::output<&ClockResult::grandmaster>("grandmaster", "Whom it follows at the end."),
-      json::output<&ClockResult::state>("state", "At the end: `free-running`, `acquiring`, `locked` (by its own measurement within 1 us of its grandmaster), `holdover` (no Sync any more, or none yet from a new grandmaster), `grandmaster` or `down`."),
+      json::output<&ClockResult::state>("state", "At the end: `free-running`, `acquiring`, `locked` (its servo, to its present grandmaster), `holdover` (no Sync any more, or none yet from a new grandmaster), `grandmaster` or `down`."),
       json::output<&ClockResult::time_to_lock>("time_to_lock_ps", "From the start to being locked first; null: never."),
       json::output<&ClockResult::samples>("samples", "Samples of its offset."),
       json::part<ClockResult, &offset>("offset", "Since it was locked first."),

@@ -81,6 +81,20 @@ struct GptpPortRole {
   bool operator==(const GptpPortRole&) const = default;
 };
 
+enum class LeapSecond : std::uint8_t { none, leap59, leap61 };
+
+/// What a grandmaster announces of its time.
+struct AnnouncedTime {
+  json::Source where;
+  std::int16_t utc_offset = 37;
+  bool utc_offset_valid = false;
+  LeapSecond leap = LeapSecond::none;
+  bool time_traceable = false;
+  bool frequency_traceable = false;
+  std::uint8_t source = 0xA0;
+  bool operator==(const AnnouncedTime&) const = default;
+};
+
 /// What differs for one node.
 struct GptpNode {
   json::Source where;
@@ -90,6 +104,7 @@ struct GptpNode {
   std::uint8_t clock_accuracy = 0xFE;
   std::optional<std::vector<GptpPortRole>> roles;
   std::optional<bool> boundary = {};
+  std::optional<AnnouncedTime> time = {};
   bool operator==(const GptpNode&) const = default;
 };
 
@@ -140,6 +155,8 @@ const json::Object& describe(json::Type<TemperatureWave>);
 const json::Object& describe(json::Type<RandomWalk>);
 const json::Object& describe(json::Type<FrequencyAt>);
 const json::Object& describe(json::Type<Clock>);
+const json::Enumeration& describe(json::Type<LeapSecond>);
+const json::Object& describe(json::Type<AnnouncedTime>);
 const json::Enumeration& describe(json::Type<ServoAlgorithm>);
 const json::Object& describe(json::Type<ServoSettings>);
 const json::Enumeration& describe(json::Type<GptpRole>);

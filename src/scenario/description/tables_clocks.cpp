@@ -116,12 +116,36 @@ const json::Object& describe(json::Type<GptpPortRole>) {
   return table;
 }
 
+const json::Enumeration& describe(json::Type<LeapSecond>) {
+  static constexpr json::EnumName names[] = {
+      name(LeapSecond::none, "none", "the last minute of the day has 60 seconds"),
+      name(LeapSecond::leap59, "59", "it has 59"),
+      name(LeapSecond::leap61, "61", "it has 61"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<LeapSecond>("a leap second", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<AnnouncedTime>) {
+  static constexpr json::Field fields[] = {
+      optional<&AnnouncedTime::utc_offset>("utc_offset", "currentUtcOffset: TAI less UTC in seconds.", {.min = -1000, .max = 1000}),
+      optional<&AnnouncedTime::utc_offset_valid>("utc_offset_valid", "currentUtcOffsetValid."),
+      optional<&AnnouncedTime::leap>("leap", "leap59 or leap61."),
+      optional<&AnnouncedTime::time_traceable>("time_traceable", "timeTraceable: to a primary reference."),
+      optional<&AnnouncedTime::frequency_traceable>("frequency_traceable", "frequencyTraceable."),
+      optional<&AnnouncedTime::source>("source", "timeSource; 0x20 (32) is GNSS, 0xA0 (160) an internal oscillator."),
+  };
+  static constexpr json::Object table = json::object<AnnouncedTime>("announced_time", "What a grandmaster announces of its time; all others pass it on (IEEE 1588 timePropertiesDS).", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<GptpNode>) {
   static constexpr json::Field fields[] = {
       optional<&GptpNode::priority1>("priority1", "The smaller the better; 255: never grandmaster. Without it 248; in the two domains of a hot standby 255 (unless \"roles\" say who transmits): who may be grandmaster there is named."),
       optional<&GptpNode::priority2>("priority2", "Decides where priority1 and quality are equal."),
       optional<&GptpNode::clock_class>("clock_class", "clockClass; 6 is a primary reference."),
       optional<&GptpNode::clock_accuracy>("clock_accuracy", "clockAccuracy; 0x20 (32) is 25 ns, 0xFE (254) unknown."),
+      optional<&GptpNode::time>("time", "What it announces of its time when it is grandmaster."),
       optional<&GptpNode::boundary>("boundary", "Whether the node is a boundary clock; as \"gptp\" says if absent."),
       optional<&GptpNode::roles>("roles", "Roles of the ports instead of the best-time-transmitter algorithm (external port configuration); ports that are not named transmit.", {.max_items = 4096}),
   };

@@ -183,6 +183,16 @@ class ClockResolver {
     return plan;
   }
 
+  static models::gptp::TimeProperties properties_of(const AnnouncedTime& time) {
+    unsigned flags = 0x08;   // the time scale is that of PTP
+    if (time.leap == LeapSecond::leap61) flags |= 0x01U;
+    if (time.leap == LeapSecond::leap59) flags |= 0x02U;
+    if (time.utc_offset_valid) flags |= 0x04U;
+    if (time.time_traceable) flags |= 0x10U;
+    if (time.frequency_traceable) flags |= 0x20U;
+    return {time.utc_offset, time.source, static_cast<std::uint8_t>(flags)};
+  }
+
   models::gptp::InstanceConfig config_of(const Gptp& gptp, const Instance& instance, bool is_of_standby, std::uint32_t n) {
     models::gptp::InstanceConfig config;
     config.domain = instance.domain;
@@ -203,6 +213,7 @@ class ClockResolver {
       config.system.quality.clock_class = node.clock_class;
       config.system.quality.clock_accuracy = node.clock_accuracy;
       config.boundary = node.boundary.value_or(gptp.boundary);
+      if (node.time) config.time = properties_of(*node.time);
       if (!node.roles) return config;
       std::uint16_t ports = 0;
       for (const Neighbour& neighbour : r_.topology.neighbours[n]) ports = std::max<std::uint16_t>(ports, static_cast<std::uint16_t>(neighbour.port + 1));

@@ -31,7 +31,7 @@ void ClockMonitor::look_at(const models::gptp::Station& station, ClockFigures& f
     distances.greatest = std::max(distances.greatest, distance);
   });
   if (!figures.locked) {
-    if (station.state() != models::gptp::ClockState::locked || distance > near_enough) return;
+    if (station.target().state() != models::gptp::TargetState::locked || distance > near_enough) return;
     figures.locked = now;
   }
   figures.offsets.add(now, [&](ClockFigures::Offsets& offsets) { offsets.add(offset); });

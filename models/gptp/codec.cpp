@@ -13,6 +13,9 @@ constexpr std::uint8_t ptp_time_scale_flag = 0x08;    // second flag octet
 constexpr std::uint16_t tlv_organization_extension = 0x0003;
 constexpr std::uint16_t tlv_path_trace = 0x0008;
 constexpr std::uint16_t follow_up_information_length = 28;
+constexpr std::uint16_t drift_tracking_length = 32;
+constexpr std::uint32_t follow_up_information_subtype = 1;
+constexpr std::uint32_t drift_tracking_subtype = 6;
 constexpr std::uint32_t organization_802_1 = 0x0080C2;
 
 using Reader = sim::OctetReader<sim::BigEndian>;
@@ -68,8 +71,9 @@ std::uint8_t control_of(MessageType type) {
   return type == MessageType::follow_up ? 2 : 5;
 }
 
-std::size_t length_of(const Sync& sync) { return sync.one_step ? 76 : 44; }
-std::size_t length_of(const FollowUp&) { return 76; }
+std::size_t length_of(const std::optional<DriftTracking>& drift) { return drift ? 4 + drift_tracking_length : 0; }
+std::size_t length_of(const Sync& sync) { return sync.one_step ? 76 + length_of(sync.one_step->drift) : 44; }
+std::size_t length_of(const FollowUp& follow_up) { return 76 + length_of(follow_up.drift); }
 std::size_t length_of(const PdelayReq&) { return 54; }
 std::size_t length_of(const PdelayResp&) { return 54; }
 std::size_t length_of(const PdelayRespFollowUp&) { return 54; }
@@ -86,21 +90,36 @@ void put_information(Writer& out, const FollowUpInformation& information) {
   out.put(tlv_organization_extension);
   out.put(follow_up_information_length);
   put_24_bits(out, organization_802_1);
-  put_24_bits(out, 1);  // organizationSubType
+  put_24_bits(out, follow_up_information_subtype);
   out.put(information.cumulative_scaled_rate_offset);
   out.put(information.gm_time_base_indicator);
   out.put_octets(std::as_bytes(std::span(information.last_gm_phase_change)));
   out.put(information.scaled_last_gm_freq_change);
 }
 
+void put_drift(Writer& out, const std::optional<DriftTracking>& drift) {
+  if (!drift) return;
+  out.put(tlv_organization_extension);
+  out.put(drift_tracking_length);
+  put_24_bits(out, organization_802_1);
+  put_24_bits(out, drift_tracking_subtype);
+  put(out, drift->sync_egress);
+  out.put_zeros(2);  // of a nanosecond
+  put(out, drift->grandmaster);
+  out.put(drift->steps_removed);
+  out.put(drift->rate_ratio_drift);
+}
+
 void put_body(Writer& out, const Sync& sync) {
   if (!sync.one_step) return out.put_zeros(10);
   put(out, sync.one_step->origin);
   put_information(out, sync.one_step->information);
+  put_drift(out, sync.one_step->drift);
 }
 void put_body(Writer& out, const FollowUp& follow_up) {
   put(out, follow_up.precise_origin);
   put_information(out, follow_up.information);
+  put_drift(out, follow_up.drift);
 }
 void put_body(Writer& out, const PdelayReq&) { out.put_zeros(20); }
 void put_body(Writer& out, const PdelayResp& response) {
@@ -159,28 +178,51 @@ std::optional<RawHeader> get_header(Reader& in) {
 }
 
 /// Looks through the TLVs that are left for the one that is wanted: calls found(contents) -> bool until it gives true.
-template <class Found>
-bool find_tlv(Reader& in, std::uint16_t wanted, Found&& found) {
+/// Further ones of that type are shown to `more`.
+template <class Found, class More>
+bool find_tlv(Reader& in, std::uint16_t wanted, Found&& found, More&& more) {
   bool is_found = false;
   while (in.left() >= 4) {
     const auto type = in.get<std::uint16_t>();
     const Reader contents(in.take(in.get<std::uint16_t>()));
     if (in.failed()) return false;
-    if (type == wanted && !is_found) is_found = found(contents);
+    if (type != wanted) continue;
+    if (is_found)
+      more(contents);
+    else
+      is_found = found(contents);
   }
   return is_found && in.left() == 0;
 }
 
-bool get_information(Reader& in, FollowUpInformation& information) {
+bool get_information(Reader contents, FollowUpInformation& information) {
+  if (contents.left() != follow_up_information_length) return false;
+  if (get_24_bits(contents) != organization_802_1 || get_24_bits(contents) != follow_up_information_subtype) return false;
+  information.cumulative_scaled_rate_offset = contents.get<std::int32_t>();
+  information.gm_time_base_indicator = contents.get<std::uint16_t>();
+  for (std::uint8_t& octet : information.last_gm_phase_change) octet = contents.get<std::uint8_t>();
+  information.scaled_last_gm_freq_change = contents.get<std::int32_t>();
+  return true;
+}
+
+void get_drift(Reader contents, std::optional<DriftTracking>& drift) {
+  if (drift || contents.left() != drift_tracking_length) return;
+  if (get_24_bits(contents) != organization_802_1 || get_24_bits(contents) != drift_tracking_subtype) return;
+  DriftTracking read;
+  get(contents, read.sync_egress);
+  contents.take(2);
+  get(contents, read.grandmaster);
+  read.steps_removed = contents.get<std::uint16_t>();
+  read.rate_ratio_drift = contents.get<std::int32_t>();
+  if (!contents.failed()) drift = read;
+}
+
+/// What is behind the time of a Sync: the information that must be there, and what else is known.
+bool get_information(Reader& in, FollowUpInformation& information, std::optional<DriftTracking>& drift) {
   return find_tlv(in, tlv_organization_extension, [&](Reader contents) {
-    if (contents.left() != follow_up_information_length) return false;
-    if (get_24_bits(contents) != organization_802_1 || get_24_bits(contents) != 1) return false;
-    information.cumulative_scaled_rate_offset = contents.get<std::int32_t>();
-    information.gm_time_base_indicator = contents.get<std::uint16_t>();
-    for (std::uint8_t& octet : information.last_gm_phase_change) octet = contents.get<std::uint8_t>();
-    information.scaled_last_gm_freq_change = contents.get<std::int32_t>();
-    return true;
-  });
+    get_drift(contents, drift);
+    return get_information(contents, information);
+  }, [&](Reader contents) { get_drift(contents, drift); });
 }
 
 bool get_body(Reader& in, const RawHeader& raw, Sync& sync) {
@@ -190,13 +232,13 @@ bool get_body(Reader& in, const RawHeader& raw, Sync& sync) {
   }
   Sync::OneStep contents;
   get(in, contents.origin);
-  const bool complete = get_information(in, contents.information);
+  const bool complete = get_information(in, contents.information, contents.drift);
   sync.one_step = contents;
   return complete;
 }
 bool get_body(Reader& in, const RawHeader&, FollowUp& follow_up) {
   get(in, follow_up.precise_origin);
-  return get_information(in, follow_up.information);
+  return get_information(in, follow_up.information, follow_up.drift);
 }
 bool get_body(Reader& in, const RawHeader&, PdelayReq&) {
   in.take(20);
@@ -230,7 +272,7 @@ bool get_body(Reader& in, const RawHeader& raw, Announce& announce) {
     announce.path_trace.resize(contents.left() / 8);
     for (ClockIdentity& identity : announce.path_trace) get(contents, identity);
     return true;
-  });
+  }, [](Reader) {});
 }
 
 template <class Body>

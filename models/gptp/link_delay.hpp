@@ -44,6 +44,7 @@ class LinkDelay {
   sim::Duration delay_asymmetry() const { return config_.delay_asymmetry; }
   /// one() while it is not known.
   ClockRate neighbor_rate_ratio(sim::LocalTime at) const { return ratio_.is_valid() ? ratio_.ratio_at(at) : ClockRate::one(); }
+  RateOffset neighbor_rate_ratio_drift() const { return ratio_.drift_per_second(); }
   int lost_responses() const { return lost_responses_; }
 
  private:

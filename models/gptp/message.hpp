@@ -46,12 +46,22 @@ struct FollowUpInformation {
   bool operator==(const FollowUpInformation&) const = default;
 };
 
+/// Drift_Tracking TLV (IEEE 802.1ASdm): how fast the sender's rate ratio to the grandmaster changes.
+struct DriftTracking {
+  Timestamp sync_egress = {};                             // by the sender's clock; what is below a nanosecond is left out
+  ClockIdentity grandmaster = {};
+  std::uint16_t steps_removed = 0;
+  std::int32_t rate_ratio_drift = 0;                      // per second, 2^-41
+  bool operator==(const DriftTracking&) const = default;
+};
+
 /// Two-step without contents (the Follow_Up has them), or one-step with.
 struct Sync {
   Header header = {};
   struct OneStep {
     Timestamp origin = {};
     FollowUpInformation information = {};
+    std::optional<DriftTracking> drift = {};
     bool operator==(const OneStep&) const = default;
   };
   std::optional<OneStep> one_step = {};
@@ -62,6 +72,7 @@ struct FollowUp {
   Header header = {};
   Timestamp precise_origin = {};
   FollowUpInformation information = {};
+  std::optional<DriftTracking> drift = {};
   bool operator==(const FollowUp&) const = default;
 };
 

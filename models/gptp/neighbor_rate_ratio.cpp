@@ -39,4 +39,13 @@ ClockRate NeighborRateRatio::ratio_at(sim::LocalTime at) const {
                                                       std::clamp(change, -sim::int128{RateOffset::one} / 2, sim::int128{RateOffset::one} / 2))));
 }
 
+RateOffset NeighborRateRatio::drift_per_second() const {
+  if (count_ < ring_.size()) return RateOffset();
+  const sim::int128 rise = sim::int128{between(back(0), back(window_)).minus_one().multiple()} - between(back(window_), back(2 * window_)).minus_one().multiple();
+  const sim::Duration middles_apart = (back(0).local - back(2 * window_).local) / 2;
+  constexpr sim::int128 second = 1'000'000'000'000;
+  constexpr std::int64_t most = RateOffset::one / 1000;   // 1000 ppm/s, which no oscillator does
+  return RateOffset::from_multiple(static_cast<std::int64_t>(std::clamp(divide_rounded(rise * second, sim::int128{middles_apart.ps()}), -sim::int128{most}, sim::int128{most})));
+}
+
 }  // namespace takt::models::gptp

@@ -27,6 +27,8 @@ class NeighborRateRatio {
   bool is_valid() const { return count_ >= 2; }
   /// The ratio at the local instant `at`, not before the last exchange. Precondition: is_valid().
   ClockRate ratio_at(sim::LocalTime at) const;
+  /// How much the ratio changes in a second, by the window and the one before; 0 while these are not full.
+  RateOffset drift_per_second() const;
 
  private:
   struct Exchange {

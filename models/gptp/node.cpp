@@ -76,7 +76,7 @@ PtpInstance* Node::instance_of(std::uint8_t domain) {
 
 LinkMeasure Node::measure(PortNumber port, sim::LocalTime at) const {
   const LinkDelay& from = link(port);
-  return {from.mean_link_delay() + from.delay_asymmetry(), from.neighbor_rate_ratio(at)};
+  return {from.mean_link_delay() + from.delay_asymmetry(), from.neighbor_rate_ratio(at), from.neighbor_rate_ratio_drift()};
 }
 
 void Node::follow_capability(PortNumber port, sim::LocalTime now, Outputs& outputs) {

@@ -24,6 +24,7 @@ struct InstanceConfig {
   bool boundary = false;                   // a boundary clock (IEEE 1588): gives the time of its own disciplined clock at its own interval, and relays nothing
   /// Syncs over which the drift of the rate ratio is measured and made up for, even; 0: not at all, as plain 802.1AS.
   std::size_t rate_ratio_drift_window = 0;
+  bool drift_tracking = false;             // sends the Drift_Tracking TLV, and goes by that of others
   TimeProperties time = {};                // of the time that it gives as grandmaster
   /// externalPortConfigurationEnabled: the role of each port; BMCA is off. Without a time receiver it is the grandmaster.
   std::optional<std::vector<PortRole>> external_roles = {};
@@ -109,7 +110,8 @@ class PtpInstance {
 
   // Time (ptp_instance_sync.cpp)
   void sync_complete(const SyncWaiting& waiting, const Timestamp& origin, Correction correction, const FollowUpInformation& information,
-                     PortNumber port, sim::LocalTime now, Outputs& outputs);
+                     const std::optional<DriftTracking>& drift, PortNumber port, sim::LocalTime now, Outputs& outputs);
+  std::optional<DriftTracking> drift_of(const SyncInformation& sync, sim::LocalTime egress) const;
   void sync_receipt_expired(PortNumber port, sim::LocalTime now, Outputs& outputs);
   void sync_interval_elapsed(PortNumber port, sim::LocalTime now, Outputs& outputs);
   void arm_sync_receipt(PortNumber port, int log_interval, sim::LocalTime now, Outputs& outputs);

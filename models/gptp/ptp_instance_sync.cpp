@@ -16,7 +16,7 @@ void PtpInstance::received(const Sync& sync, PortNumber port, sim::LocalTime ing
   const SyncWaiting waiting{sync.header, ingress, link};
   at(port).waiting.reset();
   if (sync.one_step)
-    sync_complete(waiting, sync.one_step->origin, sync.header.correction, sync.one_step->information, port, now, outputs);
+    sync_complete(waiting, sync.one_step->origin, sync.header.correction, sync.one_step->information, sync.one_step->drift, port, now, outputs);
   else
     at(port).waiting = waiting;
 }
@@ -27,16 +27,19 @@ void PtpInstance::received(const FollowUp& follow_up, PortNumber port, sim::Loca
   const SyncWaiting complete = *waiting;
   waiting.reset();
   if (!complete.header.correction.in_range() || !follow_up.header.correction.in_range()) return;
-  sync_complete(complete, follow_up.precise_origin, complete.header.correction + follow_up.header.correction, follow_up.information, port, now, outputs);
+  sync_complete(complete, follow_up.precise_origin, complete.header.correction + follow_up.header.correction, follow_up.information, follow_up.drift, port, now, outputs);
 }
 
 void PtpInstance::sync_complete(const SyncWaiting& waiting, const Timestamp& origin, Correction correction,
-                                const FollowUpInformation& information, PortNumber port, sim::LocalTime now, Outputs& outputs) {
+                                const FollowUpInformation& information, const std::optional<DriftTracking>& drift, PortNumber port, sim::LocalTime now, Outputs& outputs) {
   if (!origin.in_range() || !correction.in_range()) return;
   sync_ = SyncInformation::received(origin, correction, information, waiting.ingress, waiting.link);
   sync_->log_interval = waiting.header.log_message_interval;
   drift_.add(sync_->since, sync_->rate_ratio);
   sync_->drift = drift_.per_second();
+  // What the sender says of its own ratio, and what the link shows of the sender's clock (IEEE 802.1ASdm). Not of another grandmaster.
+  if (config_.drift_tracking && drift && drift->grandmaster == selection_.grandmaster.root.clock)
+    sync_->drift = RateOffset::from_scaled_41(drift->rate_ratio_drift) + waiting.link.neighbor_rate_ratio_drift;
   arm_sync_receipt(port, sync_->log_interval, now, outputs);
   outputs.push_back(SyncSample{index_, waiting.ingress, sync_->grandmaster_time_at(waiting.ingress), sync_->rate_ratio, sync_->log_interval,
                                selection_.grandmaster.root.clock});
@@ -82,6 +85,12 @@ void PtpInstance::sync_interval_elapsed(PortNumber port, sim::LocalTime now, Out
   send_sync(port, sync, outputs);
 }
 
+std::optional<DriftTracking> PtpInstance::drift_of(const SyncInformation& sync, sim::LocalTime egress) const {
+  if (!config_.drift_tracking) return std::nullopt;
+  const PriorityVector& best = selection_.grandmaster;
+  return DriftTracking{Timestamp::floor_of(sim::PtpTime::from_ps(egress.ps())), best.root.clock, best.steps_removed, sync.drift.scaled_41()};
+}
+
 void PtpInstance::send_sync(PortNumber number, const SyncInformation& sync, Outputs& outputs) {
   Port& port = at(number);
   Sync message{header(number, port.next_sync++, sync.log_interval)};
@@ -91,7 +100,7 @@ void PtpInstance::send_sync(PortNumber number, const SyncInformation& sync, Outp
     return;
   }
   message.header.correction = sync.correction;
-  message.one_step = Sync::OneStep{sync.origin, sync.handed_on(sync.since)};
+  message.one_step = Sync::OneStep{sync.origin, sync.handed_on(sync.since), drift_of(sync, sync.since)};
   outputs.push_back(SendMessage{number, message, OneStepPatch{sync.since, sync.running()}});
 }
 
@@ -107,7 +116,7 @@ void PtpInstance::transmitted(const EgressReport& report, Outputs& outputs) {
     sync.rate_ratio = sync.rate_ratio_at(report.egress);
     sync.since = report.egress;
   }
-  FollowUp follow_up{header(report.port, report.sequence_id, sync.log_interval), sync.origin, sync.handed_on(report.egress)};
+  FollowUp follow_up{header(report.port, report.sequence_id, sync.log_interval), sync.origin, sync.handed_on(report.egress), drift_of(sync, report.egress)};
   follow_up.header.correction = sync.correction_at(report.egress);
   outputs.push_back(SendMessage{report.port, follow_up});
 }

@@ -31,7 +31,7 @@ Station::Station(sim::Simulation& simulation, Traffic& traffic, std::span<Egress
                  const StationPlan& plan, NodeIndex node, StreamIndex stream, std::string_view path)
     : simulation_(&simulation), traffic_(&traffic), ports_(ports), clock_(&clock), timestamps_(timestamps), plan_(plan),
       config_(node_config(plan, node, ports.size())), node_(node), stream_(stream), source_(simulation.add(*this)),
-      machine_(config_), target_(plan.target), timer_(source_.id(), sim::Phase::timer, timer_due) {
+      machine_(config_), target_(plan.target), processing_chance_(simulation.seed(), path, "gptp processing"), timer_(source_.id(), sim::Phase::timer, timer_due) {
   if (plan.standby) standby_.emplace(*plan.standby, plan.target);
   sent_by_port_.resize(ports.size());
   for (std::size_t port = 0; port < ports.size(); ++port) {
@@ -139,7 +139,7 @@ std::uint32_t Station::keep(const SendMessage& message) {
 }
 
 void Station::send(const SendMessage& message) {
-  simulation_->schedule(source_, simulation_->now() + plan_.processing, sim::Phase::timer, source_.id(), hand_over_now, of_this_life(keep(message)));
+  simulation_->schedule(source_, simulation_->now() + plan_.processing.draw(processing_chance_), sim::Phase::timer, source_.id(), hand_over_now, of_this_life(keep(message)));
 }
 
 void Station::hand_over(std::uint64_t argument) {

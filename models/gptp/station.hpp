@@ -127,6 +127,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   Node machine_;
   ClockTarget target_;
   std::optional<HotStandby> standby_;
+  sim::RandomStream processing_chance_;
   sim::Timer timer_;
   std::vector<Armed> armed_;
   std::vector<Armed> due_;                 // at this instant

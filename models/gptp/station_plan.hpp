@@ -7,6 +7,7 @@
 #include "models/gptp/clock_target.hpp"
 #include "models/gptp/hot_standby.hpp"
 #include "models/gptp/node.hpp"
+#include "sim/distribution.hpp"
 #include "sim/time.hpp"
 
 namespace takt::models::gptp {
@@ -16,7 +17,7 @@ struct StationPlan {
   LinkDelayConfig link = {};
   ClockTargetConfig target = {};
   std::optional<HotStandbyConfig> standby = {};   ///< instances 0 and 1 are primary and secondary
-  sim::Duration processing = sim::Duration::from_ps(5'000'000);   ///< from a decision to send to the egress queue
+  sim::Distribution processing = sim::Distribution::constant(sim::Duration::from_ps(5'000'000));   ///< from a decision to send to the egress queue
 };
 
 }  // namespace takt::models::gptp

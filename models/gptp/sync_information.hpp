@@ -12,6 +12,7 @@ namespace takt::models::gptp {
 struct LinkMeasure {
   sim::Duration from_neighbor;  // mean link delay plus asymmetry, in the neighbour's time base
   ClockRate neighbor_rate_ratio;
+  RateOffset neighbor_rate_ratio_drift = {};   // per second
 };
 
 /// The time of the grandmaster as a function of the node's free-running clock:

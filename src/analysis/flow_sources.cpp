@@ -243,8 +243,9 @@ std::vector<GptpMessages> gptp_messages(const scenario::Resolved& resolved, mode
   const auto messages = [&](std::int64_t frames, std::size_t octets) {
     return GptpMessages{FrameArrivals({interval_ps(shortest) / 2, frames, 0, 0}), models::frame_length(sim::Octets{static_cast<std::uint32_t>(octets)}, false)};
   };
-  // A Follow_Up has 76 octets, an Announce 68 and 8 for each node on the path; all others are shorter.
-  std::vector<GptpMessages> all{messages(3 + 2 * domains, 76)};
+  // A Follow_Up has 76 octets, with Drift_Tracking 112, an Announce 68 and 8 for each node on the path; all others are shorter.
+  const bool tracks = std::any_of(plan.instances.begin(), plan.instances.end(), [](const models::gptp::InstanceConfig& instance) { return instance.drift_tracking; });
+  std::vector<GptpMessages> all{messages(3 + 2 * domains, tracks ? 112 : 76)};
   if (domains > 0) all.push_back(messages(domains, 68 + 8 * std::min<std::size_t>(nodes, models::gptp::Announce::longest_path_trace)));
   return all;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "json/fields.hpp"
+#include "plant/latency.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
@@ -25,6 +26,7 @@ struct TemperatureWave {
   sim::FrequencyOffset amplitude;
   sim::Duration period;
   double phase = 0;
+  bool any_phase = false;
   bool operator==(const TemperatureWave&) const = default;
 };
 
@@ -125,7 +127,8 @@ struct Gptp {
   bool one_step = false;
   bool sync_locked = true;
   bool boundary = false;
-  sim::Duration processing = sim::Duration::from_ps(5'000'000);
+  std::optional<plant::Latency> processing = {};   ///< 5 us
+  bool drift_tracking = false;
   std::uint16_t rate_ratio_window = 8;
   std::uint16_t average_link_delay = 1;
   std::uint16_t drift_window = 0;

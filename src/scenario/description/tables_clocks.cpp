@@ -32,6 +32,7 @@ const json::Object& describe(json::Type<TemperatureWave>) {
       required<&TemperatureWave::amplitude>("amplitude", "How far the frequency goes up and down.", {.min = FrequencyOffset{0}, .max = most_offset}),
       required<&TemperatureWave::period>("period", "How long one wave takes.", {.min = 1_ms, .max = 24 * 3600_s}),
       optional<&TemperatureWave::phase>("phase", "Where in the wave the node begins, in turns.", {.min = 0.0, .max = 1.0}),
+      optional<&TemperatureWave::any_phase>("any_phase", "Where it begins is drawn for each node, evenly, and phase added to it."),
   };
   static constexpr json::Object table = json::object<TemperatureWave>("temperature", "Temperature that goes up and down.", fields);
   return table;
@@ -172,7 +173,8 @@ const json::Object& describe(json::Type<Gptp>) {
       optional<&Gptp::one_step>("one_step", "Sync carries its time itself."),
       optional<&Gptp::sync_locked>("sync_locked", "A bridge sends Sync on when it has got one, not at intervals of its own."),
       optional<&Gptp::boundary>("boundary", "All nodes that hand Sync on are boundary clocks, as with ptp4l: each gives the time of its own clock, at its own interval, instead of relaying what it has got."),
-      optional<&Gptp::processing>("processing", "From the decision to send a message to the queue of its port: residence and turn-around time.", {.max = 1_s}),
+      optional<&Gptp::processing>("processing", "From the decision to send a message to the queue of its port, of at most 1 s: residence and turn-around time. 5 us if absent."),
+      optional<&Gptp::drift_tracking>("drift_tracking", "Sync carries the Drift_Tracking TLV (IEEE 802.1ASdm): how fast the sender's rate ratio changes, to which each adds what its link shows."),
       optional<&Gptp::rate_ratio_window>("rate_ratio_window", "Pdelay exchanges from which the neighbour's rate ratio is worked out.", {.min = 1, .max = 64}),
       optional<&Gptp::average_link_delay>("average_link_delay", "Pdelay exchanges over which the link delay is averaged.", {.min = 1, .max = 1024}),
       optional<&Gptp::drift_window>("drift_window", "Syncs from which the drift of the rate ratio is worked out and made up for; 0: not at all. Even.", {.max = 1024}),

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "scenario/resolve/os_profiles.hpp"
+
 namespace takt::scenario {
 namespace {
 
@@ -90,6 +92,7 @@ class ClockResolver {
       if (clock.temperature)
         config.temperature = models::SinusoidalFrequency{clock.temperature->amplitude, clock.temperature->period,
                                                          clock.temperature->phase >= 1.0 ? 0 : static_cast<std::uint64_t>(clock.temperature->phase * 0x1p64)};
+      if (clock.temperature && clock.temperature->any_phase) config.temperature->phase += sim::RandomStream(r_.scenario.seed, name, "temperature phase").next();
       if (clock.walk) config.walk = models::FrequencyWalk{clock.walk->step, clock.walk->bound};
       for (const FrequencyAt& point : clock.table) config.table.push_back({sim::TrueTime() + point.at, point.frequency});
       config.update_interval = clock.update;
@@ -169,7 +172,7 @@ class ClockResolver {
     for (std::size_t i = 0; i < instances.size(); ++i) plan.instances.push_back(config_of(gptp, instances[i], gptp.hot_standby && i < 2, n));
     plan.link.log_pdelay_req_interval = gptp.log_pdelay_interval;
     plan.link.neighbor_rate_ratio_window = gptp.rate_ratio_window;
-    plan.link.compensate_drift = gptp.drift_window > 0;
+    plan.link.compensate_drift = gptp.drift_window > 0 || gptp.drift_tracking;
     plan.link.average_over = gptp.average_link_delay;
     plan.link.mean_link_delay_thresh = gptp.link_delay_threshold;
     models::ServoConfig& servo = plan.target.servo;
@@ -178,7 +181,9 @@ class ClockResolver {
     servo.first_step_threshold = gptp.servo.first_step_threshold;
     servo.step_threshold = gptp.servo.step_threshold;
     servo.highest_frequency = gptp.servo.max_frequency;
-    plan.processing = gptp.processing;
+    if (gptp.processing) plan.processing = distribution_of(*gptp.processing, diagnostics_);
+    if (gptp.processing && plan.processing.greatest() > 1_s)
+      diagnostics_.error(gptp.processing->where.place(), "a processing without a limit", {"up to " + json::to_text(plan.processing.greatest()), "a \"max\" of at most 1s"});
     if (gptp.hot_standby) plan.standby.emplace();
     return plan;
   }
@@ -203,6 +208,7 @@ class ClockResolver {
     config.two_step = !gptp.one_step;
     config.sync_locked = gptp.sync_locked;
     config.boundary = gptp.boundary;
+    config.drift_tracking = gptp.drift_tracking;
     config.rate_ratio_drift_window = gptp.drift_window;
     constexpr std::uint8_t never_grandmaster = 255;
     if (is_of_standby) config.system.priority1 = never_grandmaster;

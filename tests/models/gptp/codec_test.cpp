@@ -55,13 +55,27 @@ std::vector<Message> one_of_each() {
   announce.grandmaster = requester.clock;
   announce.steps_removed = 1;
   announce.path_trace = {requester.clock, source.clock};
+  FollowUp tracked = follow_up;
+  tracked.drift = DriftTracking{{7, 8}, requester.clock, 3, -5};
+  Sync tracked_sync = one_step;
+  tracked_sync.one_step->drift = tracked.drift;
   return {two_step, one_step, follow_up, PdelayReq{header(7, 0)}, PdelayResp{header(7, 0), {1, 2}, requester},
-          PdelayRespFollowUp{header(7, 0), {3, 4}, requester}, announce};
+          PdelayRespFollowUp{header(7, 0), {3, 4}, requester}, announce, tracked, tracked_sync};
 }
 
 // 802.1AS-2020 tables 10-7, 11-8 to 11-14: the numbers of octets of the PTP part.
+// The TLV behind that of the Follow_Up: type 3, 32 octets, 00-80-C2, subtype 6; the egress with 16 bits below a nanosecond, whose clock it is, three steps, the drift.
+TEST(Codec, DriftTracking) {
+  FollowUp follow_up{header(1, -3), {5, 6}, information()};
+  const std::string without = hex(follow_up);
+  follow_up.drift = DriftTracking{{7, 8}, requester.clock, 3, -5};
+  const std::string with = hex(follow_up);
+  ASSERT_EQ(with.size(), without.size() + 2 * 36);
+  EXPECT_EQ(with.substr(without.size()), "00030020" "0080c2" "000006" "000000000007" "00000008" "0000" "aabbccfffeddee01" "0003" "fffffffb");
+}
+
 TEST(Codec, Lengths) {
-  const std::vector<std::size_t> lengths = {44, 76, 76, 54, 54, 54, 64 + 4 + 16};
+  const std::vector<std::size_t> lengths = {44, 76, 76, 54, 54, 54, 64 + 4 + 16, 112, 112};
   const std::vector<Message> all = one_of_each();
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(encoded_length(all[i]), lengths[i]) << i;
 }

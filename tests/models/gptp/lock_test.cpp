@@ -44,6 +44,49 @@ TEST(Lock, TwoNodesWithConstantOffsetsAgreeExactly) {
               (1.00008 / 0.99993 - 1) * 1e12, 5);
 }
 
+// What the grandmaster says of its time goes on as it is; who takes over says its own.
+TEST(Lock, PropertiesOfTheTimeArePassedOn) {
+  const TimeProperties gnss{36, 0x20, 0x3C};
+  Harness harness;
+  Harness::NodeSetUp first = node(100, 20);
+  first.instances[0].time = gnss;
+  harness.add(first);
+  harness.add(node(200, -30));
+  harness.add(node(250, 10));
+  harness.connect(0, 1, 500_ns);
+  harness.connect(1, 2, 500_ns);
+  harness.start();
+  harness.run(5_s);
+  EXPECT_EQ(harness.instance(1).time_properties(), gnss);
+  EXPECT_EQ(harness.instance(2).time_properties(), gnss);
+  harness.kill(0);
+  harness.run(10_s);
+  EXPECT_EQ(harness.instance(1).time_properties(), TimeProperties{});
+  EXPECT_EQ(harness.instance(2).time_properties(), TimeProperties{});
+}
+
+// The frequency of the second node falls by 1 ppm/s. What it adds to the rate ratio is old when the third works with it, but for what it says of its drift.
+TEST(Lock, DriftsThatAreToldAreMadeUpFor) {
+  Duration worst[2];
+  for (const bool tracks : {false, true}) {
+    Harness harness;
+    for (std::int64_t i = 0; i < 4; ++i) {
+      Harness::NodeSetUp set_up = node(static_cast<std::uint8_t>(100 + i), 0);
+      if (i == 1) set_up.oscillator.drift_ppt_per_second = -1'000'000;
+      set_up.send_latency = 10_ms;
+      set_up.link = {.log_pdelay_req_interval = -3, .compensate_drift = tracks};
+      set_up.instances[0].drift_tracking = tracks;
+      harness.add(set_up);
+      if (i > 0) harness.connect(static_cast<std::size_t>(i) - 1, static_cast<std::size_t>(i), 500_ns);
+    }
+    harness.start();
+    harness.run(20_s);
+    worst[tracks ? 1 : 0] = worst_offset(harness, 3, 10_s);
+  }
+  EXPECT_GT(worst[0], 10_ns);
+  EXPECT_LT(worst[1], worst[0] / 5);
+}
+
 // Somebody sets the clock of the node between: a relay does not care, behind a boundary clock time is that clock's.
 TEST(Lock, ABoundaryClockGivesTheTimeOfItsOwnClock) {
   for (const bool boundary : {false, true}) {

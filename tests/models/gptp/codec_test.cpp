@@ -142,7 +142,8 @@ TEST(Codec, NothingThatIsCutShortIsAMessage) {
     for (std::size_t length = 0; length < octets.size(); ++length) {  // messageLength says so
       octets[2] = static_cast<std::byte>(length >> 8);
       octets[3] = static_cast<std::byte>(length & 0xFF);
-      EXPECT_FALSE(decode(octets)) << length;
+      const bool is_whole = octets.size() == 112 && length == 76;   // but for Drift_Tracking, which need not be there
+      EXPECT_EQ(decode(octets).has_value(), is_whole) << length;
     }
   }
 }

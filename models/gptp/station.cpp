@@ -31,13 +31,15 @@ Station::Station(sim::Simulation& simulation, Traffic& traffic, std::span<Egress
                  const StationPlan& plan, NodeIndex node, StreamIndex stream, std::string_view path)
     : simulation_(&simulation), traffic_(&traffic), ports_(ports), clock_(&clock), timestamps_(timestamps), plan_(plan),
       config_(node_config(plan, node, ports.size())), node_(node), stream_(stream), source_(simulation.add(*this)),
-      machine_(config_), target_(plan.target), processing_chance_(simulation.seed(), path, "gptp processing"), timer_(source_.id(), sim::Phase::timer, timer_due) {
+      machine_(config_), target_(plan.target), timer_(source_.id(), sim::Phase::timer, timer_due) {
   if (plan.standby) standby_.emplace(*plan.standby, plan.target);
   sent_by_port_.resize(ports.size());
   for (std::size_t port = 0; port < ports.size(); ++port) {
     const std::string name = std::string(path) + ":" + std::to_string(port);
     egress_chance_.emplace_back(simulation.seed(), name, "egress timestamps");
     ingress_chance_.emplace_back(simulation.seed(), name, "ingress timestamps");
+    for (std::size_t kind = 0; !plan.processing.is_constant() && kind < std::variant_size_v<Message> * (plan.instances.size() + 1); ++kind)
+      processing_chance_.emplace_back(simulation.seed(), name, "processing " + std::to_string(kind));
   }
   clock.free_running().add_listener(*this);
 }
@@ -138,8 +140,17 @@ std::uint32_t Station::keep(const SendMessage& message) {
   return slot;
 }
 
+sim::Duration Station::processing_of(const SendMessage& message) {
+  if (processing_chance_.empty()) return plan_.processing.greatest();
+  // Requests for the delay of the link are of no domain, and behind those of all.
+  std::size_t domain = 0;
+  while (domain < plan_.instances.size() && plan_.instances[domain].domain != header_of(message.message).domain) ++domain;
+  const std::size_t kinds = std::variant_size_v<Message>;
+  return plan_.processing.draw(processing_chance_[((message.port - std::size_t{1}) * (plan_.instances.size() + 1) + domain) * kinds + message.message.index()]);
+}
+
 void Station::send(const SendMessage& message) {
-  simulation_->schedule(source_, simulation_->now() + plan_.processing.draw(processing_chance_), sim::Phase::timer, source_.id(), hand_over_now, of_this_life(keep(message)));
+  simulation_->schedule(source_, simulation_->now() + processing_of(message), sim::Phase::timer, source_.id(), hand_over_now, of_this_life(keep(message)));
 }
 
 void Station::hand_over(std::uint64_t argument) {

@@ -99,6 +99,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   sim::LocalTime local() const { return clock_->free_running().local_at(simulation_->now()); }
   void carry_out();
   void send(const SendMessage& message);
+  sim::Duration processing_of(const SendMessage& message);
   void hand_over(std::uint64_t argument);
   /// The argument of an event that concerns a message, and is void after a crash.
   std::uint64_t of_this_life(std::uint32_t slot) const { return static_cast<std::uint64_t>(epoch_) << 32 | slot; }
@@ -127,7 +128,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   Node machine_;
   ClockTarget target_;
   std::optional<HotStandby> standby_;
-  sim::RandomStream processing_chance_;
+  std::vector<sim::RandomStream> processing_chance_;   // by port, kind of message and domain, so that it does not matter which of several is looked at first; empty if nothing is drawn
   sim::Timer timer_;
   std::vector<Armed> armed_;
   std::vector<Armed> due_;                 // at this instant

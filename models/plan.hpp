@@ -35,7 +35,7 @@ struct NodePlan {
   std::optional<NodeClockPlan> clock = {};    ///< its own clock; true time if absent
   std::optional<std::uint32_t> ingress = {};  ///< if it forwards: index into NetworkPlan::ingress_configs
   Octets cut_through_header{22};    ///< if it forwards: octets, preamble included, of an untagged frame that must be in before it is cut through
-  std::shared_ptr<const sim::Distribution> forwarding_jitter = {};   ///< bridges: a random time besides forwarding_delay, see ForwardingJitter; null if there is none
+  std::shared_ptr<const sim::Distribution> forwarding_jitter = {};   ///< if it forwards: a random time besides forwarding_delay, see ForwardingJitter; null if there is none
   std::shared_ptr<const CpuPlan> cpu = {};    ///< end stations: whose threads take time; null: what programs and the protocol stack do takes none
 
   sim::Duration least_forwarding_delay() const { return forwarding_delay + (forwarding_jitter ? forwarding_jitter->least() : sim::Duration()); }

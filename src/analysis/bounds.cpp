@@ -102,14 +102,14 @@ class StreamBounds {
     for (std::size_t l = 0; l < flow.last.size(); ++l) {
       const models::NodePlan& listener = r_.plan.nodes[plan.listeners[l].value];
       const sim::Distribution& receive = r_.plan.os_latencies[listener.os_latency].receive;
-      const Ps to_host = listener.forwarding_delay.ps();   // in a station
+      const Ps to_host = listener.greatest_forwarding_delay().ps();   // in a station
       const ThreadTime& stack = hosts_.receive(plan.listeners[l]);
       const Ps taken_in = sum(receive.greatest().ps(), stack.worst, stack.worst > 0 ? waits_in_order : 0);
       for (const std::uint32_t last : flow.last[l]) {
         const HopResult& hop = network_.hops[last];
         const Ps propagation = graph_.ports[graph_.hops[last].port].propagation;
         const Ps latency = sum(hop.worst_left, propagation, to_host, taken_in);
-        const Ps least = sum(hop.best_left, propagation, to_host, receive.least().ps(), stack.least);
+        const Ps least = sum(hop.best_left, propagation, listener.least_forwarding_delay().ps(), receive.least().ps(), stack.least);
         bound.least = std::min(bound.least, Duration::from_ps(least));
         const SeparatedFlowBound separated = separated_.bound(last);
         const Ps second = sum(separated.latency, to_host, taken_in);

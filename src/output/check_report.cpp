@@ -50,13 +50,15 @@ std::string check_report(const Resolved& r) {
     std::string what;
     const scenario::EndStation* const end_station = scenario::end_station_of(node.description);
     const scenario::Relay* const relay = scenario::relay_of(node.description);
+    const std::string forwarding = relay == nullptr ? std::string()
+                                                    : readable(r.plan.nodes[n].least_forwarding_delay()) +
+                                                          (r.plan.nodes[n].forwarding_jitter ? " to " + readable(r.plan.nodes[n].greatest_forwarding_delay()) : std::string());
     if (relay == nullptr)
       what = fmt::format("host, os {}", scenario::spelling(end_station->os.profile));
     else if (end_station == nullptr)
-      what = fmt::format("switch, forwarding delay {}{}", readable(r.plan.nodes[n].least_forwarding_delay()),
-                         r.plan.nodes[n].forwarding_jitter ? " to " + readable(r.plan.nodes[n].greatest_forwarding_delay()) : std::string());
+      what = "switch, forwarding delay " + forwarding;
     else
-      what = fmt::format("station, os {}, forwarding {}", scenario::spelling(end_station->os.profile), readable(relay->forwarding_delay));
+      what = fmt::format("station, os {}, forwarding {}", scenario::spelling(end_station->os.profile), forwarding);
     std::string neighbours;
     for (std::size_t i = 0; i < std::min<std::size_t>(6, r.topology.neighbours[n].size()); ++i) {
       const scenario::Neighbour& neighbour = r.topology.neighbours[n][i];

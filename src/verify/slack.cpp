@@ -64,7 +64,7 @@ class LatencyParts {
     const models::NodePlan& node = plan_.nodes[slowest.listener.value];
     const sim::Distribution& receive = plan_.os_latencies[node.os_latency].receive;
     const std::string& name = node.name;
-    add(name, "cable and operating system of the listener", bound_so_far + cable() + node.forwarding_delay + receive.greatest(), slowest.at);
+    add(name, "cable and operating system of the listener", bound_so_far + cable() + node.greatest_forwarding_delay() + receive.greatest(), slowest.at);
     add("the whole way", "separated flows bound it by less than the sum of the ports", of_listener, slowest.at);
     add("another listener", "the bound of " + name + " is less", *stream_.latency, slowest.at);
     return std::move(parts_);

@@ -12,9 +12,9 @@ namespace {
 using sim::Duration;
 using namespace sim::literals;  // NOLINT
 
-Bounds bounds_of(const std::string& sw, const std::string& streams) {
+Bounds bounds_of(const std::string& sw, const std::string& streams, const std::string& kind = "switch") {
   json::Diagnostics diagnostics;
-  const auto resolved = scenario::load_text(R"({"name": "forwarding", "duration": "50ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "sw": {"kind": "switch", )" + sw +
+  const auto resolved = scenario::load_text(R"({"name": "forwarding", "duration": "50ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "sw": {"kind": ")" + kind + R"(", )" + sw +
                                                 R"(}}, "links": [{"ends": ["a", "sw"]}, {"ends": ["sw", "b"]}]}, "streams": [)" + streams + "]}",
                                             "forwarding.json", {}, diagnostics);
   if (!resolved) throw std::runtime_error(diagnostics.to_text());
@@ -38,6 +38,22 @@ TEST(ForwardingJitter, FramesOfOneLinkMayMeetAgain) {
   const std::string two = stream("x", urgent) + ", " + stream("y", urgent);
   EXPECT_EQ(bounds_of(R"("forwarding_delay": "1080ns")", two).streams.at(0).latency, 1'360_ns + 3'708_ns);
   EXPECT_EQ(bounds_of(jitter, two).streams.at(0).latency, 2 * 1'360_ns + 3'708_ns);
+}
+
+// What a station forwards takes the time of a switch.
+TEST(ForwardingJitter, OfAStationIsBoundedByItsEnds) {
+  const Bounds bounds = bounds_of(jitter, stream("x", urgent), "station");
+  EXPECT_EQ(bounds.streams.at(0).latency, 3'708_ns);
+  EXPECT_EQ(bounds.streams.at(0).least, 3'548_ns);
+}
+
+// For its host as well: 1264 ns, a cable of 50 ns, 920 to 1080 ns. What the host sends has none: 1264 and 50 ns.
+TEST(ForwardingJitter, OfAStationIsOfWhatComesIn) {
+  const Bounds bounds = bounds_of(jitter, R"({"name": "in", "from": "a", "to": "sw", "every": "1ms", "payload": "100B", "pcp": 6}, {"name": "out", "from": "sw", "to": "b", "every": "1ms", "payload": "100B", "pcp": 6})", "station");
+  EXPECT_EQ(bounds.streams.at(0).latency, 2'394_ns);
+  EXPECT_EQ(bounds.streams.at(0).least, 2'234_ns);
+  EXPECT_EQ(bounds.streams.at(1).latency, 1'314_ns);
+  EXPECT_EQ(bounds.streams.at(1).least, 1'314_ns);
 }
 
 // Filters have seen the frame before the jitter: what they have let pass comes otherwise than they have seen it.

@@ -350,6 +350,7 @@ std::span<const Rule> network_rules() {
       {.key = "station.offers", .feature = Feature::roles, .percent = 85, .make = offered_skills},
       {.key = "switch.forwarding_delay", .percent = 70, .words = "0ns 500ns 1us 3us"},
       {.key = "switch.forwarding_jitter", .percent = 30, .make = jitter_of_switch},
+      {.key = "station.forwarding_jitter", .percent = 30, .make = jitter_of_switch},
       {.key = "generator.forwarding_jitter", .percent = 20, .make = jitter_of_switch},
       {.key = "switch.cut_through_header", .feature = Feature::cut_through, .percent = 30, .words = "14B 22B 30B 72B"},
       {.key = "switch.traffic_classes", .feature = Feature::identity_classes, .percent = 80},

@@ -206,6 +206,9 @@ template <class Owner>
 constexpr json::Field forwarding_delay_field =
     optional<&Relay::forwarding_delay, Owner>("forwarding_delay", "From the last bit in (cut through: the header) to the egress queue.", {.max = 1_s});
 template <class Owner>
+constexpr json::Field forwarding_jitter_field = optional<&Relay::forwarding_jitter, Owner>(
+    "forwarding_jitter", "A random time besides, of at most 1 s, drawn for each frame. Frames that come in by one port do not overtake each other: one that has drawn less waits for those before it.");
+template <class Owner>
 constexpr json::Field cut_through_header_field = optional<&Relay::cut_through_header, Owner>(
     "cut_through_header", "What must be in of an untagged frame before it is cut through, preamble included; tags add to it.", {.min = Octets{14}, .max = Octets{72}});
 template <class Owner>
@@ -230,8 +233,7 @@ const json::Object& describe(json::Type<HostNode>) {
 const json::Object& describe(json::Type<SwitchNode>) {
   static constexpr json::Field fields[] = {
       forwarding_delay_field<SwitchNode>,
-      optional<&Relay::forwarding_jitter, SwitchNode>(
-          "forwarding_jitter", "A random time besides, of at most 1 s, drawn for each frame. Frames that come in by one port do not overtake each other: one that has drawn less waits for those before it."),
+      forwarding_jitter_field<SwitchNode>,
       cut_through_header_field<SwitchNode>,
       traffic_classes_field<SwitchNode>,
       optional<&NodePorts::queues, SwitchNode>("queues", "The queues of each port."),
@@ -246,6 +248,7 @@ const json::Object& describe(json::Type<StationNode>) {
   static constexpr json::Field fields[] = {
       os_field<StationNode>,
       forwarding_delay_field<StationNode>,
+      forwarding_jitter_field<StationNode>,
       cut_through_header_field<StationNode>,
       traffic_classes_field<StationNode>,
       optional<&NodePorts::queues, StationNode>("queues", "The queues of each port."),
@@ -318,7 +321,7 @@ const json::Object& describe(json::Type<Generator>) {
       optional<&Generator::host_rate>("host_rate", "Rate of the links to hosts, if it differs.", {.min = DataRate{10'000'000}, .max = DataRate{100'000'000'000}}),
       optional<&Generator::length>("length", "Length of each link.", {.max = Length{100'000'000}}),
       optional<&Generator::forwarding_delay>("forwarding_delay", "Of the switches or stations.", {.max = 1_s}),
-      optional<&Generator::forwarding_jitter>("forwarding_jitter", "Of the switches: a random time besides, drawn for each frame."),
+      optional<&Generator::forwarding_jitter>("forwarding_jitter", "Of the switches or stations: a random time besides, drawn for each frame."),
       optional<&Generator::os>("os", "Of the hosts or stations."),
       optional<&Generator::queues>("queues", "Of all ports."),
       optional<&Generator::traffic_classes>("traffic_classes", "Of all ports."),

@@ -124,7 +124,7 @@ class Extraction {
     hop.previous = previous;
     hop.traffic_class = q;
     hop.transmission = octet * (models::preamble_and_sfd + frame).count;
-    hop.behind = at.link->delay + r_.plan.nodes[to].forwarding_delay;
+    hop.behind = at.link->delay + r_.plan.nodes[to].greatest_forwarding_delay();   // more than the least only in the listener
     made.hops.push_back(hop);
     scheduled_classes_[hop.port] = models::with(scheduled_classes_[hop.port], q);
     return true;

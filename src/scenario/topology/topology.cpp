@@ -95,8 +95,6 @@ class Builder {
   }
 
   void make_generated(const Generator& generator) {
-    if (generator.stations && generator.forwarding_jitter)
-      diagnostics_.error(generator.where.at("forwarding_jitter"), "jitter of stations", {"\"forwarding_jitter\" beside \"stations\"", "\"switches\""});
     const Generated made = generate(generator, most_nodes - std::min<std::uint64_t>(most_nodes, topology_.nodes.size()), diagnostics_);
     std::vector<std::optional<std::uint32_t>> indices;
     indices.reserve(made.nodes.size());
@@ -115,12 +113,11 @@ class Builder {
   static Node node_of(models::NodeKind kind, const Generator& generator) {
     const NodePorts ports{generator.traffic_classes, generator.queues, generator.egress};
     const EndStation end_station{generator.os};
-    Relay relay{.forwarding_delay = generator.forwarding_delay, .ingress = generator.ingress};
+    const Relay relay{.forwarding_delay = generator.forwarding_delay, .forwarding_jitter = generator.forwarding_jitter, .ingress = generator.ingress};
     switch (kind) {
       case models::NodeKind::host:
         return HostNode{{generator.traffic_classes, generator.queues, {}}, end_station, generator.where};
       case models::NodeKind::bridge:
-        relay.forwarding_jitter = generator.forwarding_jitter;
         return SwitchNode{ports, relay, generator.where};
       case models::NodeKind::station:
         break;

@@ -89,6 +89,13 @@ std::span<const Rule> clock_rules() {
          return m.objects("gptp_domain", m.draw.one_in(4) ? 2 : 1, s);
        }},
       {.key = "gptp.hot_standby", .feature = Feature::hot_standby, .percent = 100, .words = "true"},
+      {.key = "gptp.standby_thresholds", .feature = Feature::hot_standby, .percent = 30},
+      {.key = "standby_thresholds.offset_max", .percent = 50, .words = "100ns 1us 10us"},
+      {.key = "standby_thresholds.offset_met", .percent = 30, .words = "1 4 8"},
+      {.key = "standby_thresholds.offset_exceeded", .percent = 30, .words = "1 2 4"},
+      {.key = "standby_thresholds.rx_sync_count", .percent = 30, .words = "1 4 8"},
+      {.key = "standby_thresholds.primary_secondary_offset", .percent = 50, .words = "0s 1us 100us"},
+      {.key = "standby_thresholds.waiting_time", .percent = 30, .words = "0s 1ms 1s"},
       {.key = "gptp.report_every", .percent = 30, .words = "1ms 10ms 100us"},
       {.key = "gptp.without", .percent = 10, .make = [](Maker& m, const Scope&) -> Made { return list({text(m.draw.any(m.world.hosts))}); }},
       {.key = "servo.first_step_threshold", .percent = 30, .words = "0s 1us 20us"},

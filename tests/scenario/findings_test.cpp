@@ -33,6 +33,29 @@ TEST(Findings, AThirdDomainHasNoPartInTheStandby) {
 }
 TEST(Findings, TimeComesFromThePrimaryAgain) { expect_pass("hot-standby-never-returns"); }
 
+TEST(StandbyThresholds, AreThoseOfEveryNode) {
+  json::Diagnostics diagnostics;
+  const auto resolved = load_file(finding("hot-standby-never-returns"),
+                                  {R"(clocks.gptp.standby_thresholds={"offset_max": "300ns", "offset_met": 5, "offset_exceeded": 3, "rx_sync_count": 7, "primary_secondary_offset": "2us", "waiting_time": "4s"})"}, diagnostics);
+  ASSERT_TRUE(resolved) << diagnostics.to_text();
+  ASSERT_EQ(resolved->plan.gptp_stations.size(), 4U);
+  for (const models::gptp::StationPlan& station : resolved->plan.gptp_stations) {
+    ASSERT_TRUE(station.standby);
+    EXPECT_EQ(station.standby->is_synced.offset_max, sim::Duration::from_ps(300'000));
+    EXPECT_EQ(station.standby->is_synced.met_count, 5);
+    EXPECT_EQ(station.standby->is_synced.exceeded_count, 3);
+    EXPECT_EQ(station.standby->is_synced.rx_sync_count, 7);
+    EXPECT_EQ(station.standby->primary_secondary_offset_thresh, sim::Duration::from_ps(2'000'000));
+    EXPECT_EQ(station.standby->waiting_time, sim::Duration::from_ps(4'000'000'000'000));
+  }
+}
+
+TEST(StandbyThresholds, NeedAStandby) {
+  json::Diagnostics diagnostics;
+  EXPECT_FALSE(load_file(finding("hot-standby-never-returns"), {"clocks.gptp.hot_standby=false", R"(clocks.gptp.standby_thresholds={"offset_max": "300ns"})"}, diagnostics));
+  EXPECT_NE(diagnostics.to_text().find(R"(thresholds without a standby: found no "hot_standby", expected "hot_standby": true)"), std::string::npos) << diagnostics.to_text();
+}
+
 results::RunResult run_of(const std::string& name) {
   json::Diagnostics diagnostics;
   const auto resolved = load_file(finding(name), {}, diagnostics);

@@ -117,6 +117,18 @@ struct GptpDomain {
   bool operator==(const GptpDomain&) const = default;
 };
 
+/// When a domain of a hot standby is synced, and when two are redundant. IEEE 802.1ASdm, PtpInstanceSyncDS and HotStandbySystemDS.
+struct StandbyThresholds {
+  json::Source where;
+  sim::Duration offset_max = sim::Duration::from_ps(1'000'000);
+  std::uint16_t offset_met = 4;
+  std::uint16_t offset_exceeded = 2;
+  std::uint16_t rx_sync_count = 4;
+  sim::Duration primary_secondary_offset = sim::Duration::from_ps(1'000'000);
+  sim::Duration waiting_time;
+  bool operator==(const StandbyThresholds&) const = default;
+};
+
 struct Gptp {
   json::Source where;
   std::int8_t log_sync_interval = -3;
@@ -137,6 +149,7 @@ struct Gptp {
   json::NameMap<GptpNode> nodes;
   std::vector<GptpDomain> domains;
   bool hot_standby = false;
+  std::optional<StandbyThresholds> standby_thresholds = {};
   sim::Duration report_every = sim::Duration::from_ps(10'000'000'000);
   std::vector<std::string> without;
   bool operator==(const Gptp&) const = default;
@@ -162,6 +175,7 @@ const json::Enumeration& describe(json::Type<LeapSecond>);
 const json::Object& describe(json::Type<AnnouncedTime>);
 const json::Enumeration& describe(json::Type<ServoAlgorithm>);
 const json::Object& describe(json::Type<ServoSettings>);
+const json::Object& describe(json::Type<StandbyThresholds>);
 const json::Enumeration& describe(json::Type<GptpRole>);
 const json::Object& describe(json::Type<GptpPortRole>);
 const json::Object& describe(json::Type<GptpNode>);

@@ -163,6 +163,19 @@ const json::Object& describe(json::Type<GptpDomain>) {
   return table;
 }
 
+const json::Object& describe(json::Type<StandbyThresholds>) {
+  static constexpr json::Field fields[] = {
+      optional<&StandbyThresholds::offset_max>("offset_max", "How far from its grandmaster's time a domain is synced.", {.min = 1_ns, .max = 1_s}),
+      optional<&StandbyThresholds::offset_met>("offset_met", "So many offsets in a row within it make a domain synced.", {.min = 1, .max = 1000}),
+      optional<&StandbyThresholds::offset_exceeded>("offset_exceeded", "So many in a row beyond it and it is so no longer.", {.min = 1, .max = 1000}),
+      optional<&StandbyThresholds::rx_sync_count>("rx_sync_count", "So many Syncs must have come first.", {.min = 1, .max = 1000}),
+      optional<&StandbyThresholds::primary_secondary_offset>("primary_secondary_offset", "Domains whose times differ by more are no standby for each other.", {.max = 1_s}),
+      optional<&StandbyThresholds::waiting_time>("waiting_time", "How long a better state must have lasted before it counts; 0s: not at all.", {.max = 3600_s}),
+  };
+  static constexpr json::Object table = json::object<StandbyThresholds>("standby_thresholds", "When a domain of a hot standby is synced, and when two are redundant (IEEE 802.1ASdm).", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<Gptp>) {
   static constexpr json::Field fields[] = {
       optional<&Gptp::log_sync_interval>("log_sync_interval", "Sync every 2^this seconds.", {.min = -7, .max = 4}),
@@ -183,6 +196,7 @@ const json::Object& describe(json::Type<Gptp>) {
       optional<&Gptp::nodes>("nodes", "What is particular to nodes (domain 0).", {.max_items = most_names}),
       optional<&Gptp::domains>("domains", "Further domains.", {.max_items = 4}),
       optional<&Gptp::hot_standby>("hot_standby", "The first of \"domains\" is secondary to domain 0 (IEEE 802.1ASdm): time comes from the primary while it is synced, otherwise from the secondary. Both have a grandmaster of their own, by \"roles\" or as the nodes that have a \"priority1\"."),
+      optional<&Gptp::standby_thresholds>("standby_thresholds", "Of the hot standby of every node."),
       optional<&Gptp::report_every>("report_every", "How often offsets are looked at for the report.", {.min = 1_us, .max = 3600_s}),
       optional<&Gptp::without>("without", "Nodes without gPTP.", {.max_items = most_names}),
   };

@@ -112,6 +112,8 @@ class ClockResolver {
       diagnostics_.error(gptp.where.at("drift_window"), "an odd window", {std::to_string(gptp.drift_window), "an even number, two halves"});
     if (gptp.hot_standby && gptp.domains.empty() && !diagnostics_.is_refused(gptp.where.at("domains")))
       diagnostics_.error(gptp.where.at("hot_standby"), "a standby without a domain", {"no \"domains\"", "a second domain"});
+    if (gptp.standby_thresholds && !gptp.hot_standby && !diagnostics_.is_refused(gptp.where.at("hot_standby")))
+      diagnostics_.error(gptp.standby_thresholds->where.place(), "thresholds without a standby", {"no \"hot_standby\"", "\"hot_standby\": true"});
     std::set<std::uint8_t> numbers{0};
     for (const GptpDomain& domain : gptp.domains) {
       if (!domain.where.is_known() && diagnostics_.has_errors()) continue;
@@ -184,8 +186,12 @@ class ClockResolver {
     if (gptp.processing) plan.processing = distribution_of(*gptp.processing, diagnostics_);
     if (gptp.processing && plan.processing.greatest() > 1_s)
       diagnostics_.error(gptp.processing->where.place(), "a processing without a limit", {"up to " + json::to_text(plan.processing.greatest()), "a \"max\" of at most 1s"});
-    if (gptp.hot_standby) plan.standby.emplace();
+    if (gptp.hot_standby) plan.standby = standby_of(gptp.standby_thresholds.value_or(StandbyThresholds()));
     return plan;
+  }
+
+  static models::gptp::HotStandbyConfig standby_of(const StandbyThresholds& thresholds) {
+    return {{thresholds.offset_max, thresholds.offset_met, thresholds.offset_exceeded, thresholds.rx_sync_count}, thresholds.primary_secondary_offset, thresholds.waiting_time};
   }
 
   static models::gptp::TimeProperties properties_of(const AnnouncedTime& time) {

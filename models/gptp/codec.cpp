@@ -12,6 +12,9 @@ constexpr std::uint8_t two_step_flag = 0x02;          // first flag octet
 constexpr std::uint8_t ptp_time_scale_flag = 0x08;    // second flag octet
 constexpr std::uint16_t tlv_organization_extension = 0x0003;
 constexpr std::uint16_t tlv_path_trace = 0x0008;
+constexpr std::uint16_t tlv_organization_extension_do_not_propagate = 0x8000;
+constexpr std::uint16_t gptp_capable_length = 12;
+constexpr std::uint32_t gptp_capable_subtype = 4;
 constexpr std::uint16_t follow_up_information_length = 28;
 constexpr std::uint16_t drift_tracking_length = 32;
 constexpr std::uint32_t follow_up_information_subtype = 1;
@@ -63,6 +66,7 @@ constexpr MessageType type_of() {
   if constexpr (std::is_same_v<Body, PdelayResp>) return MessageType::pdelay_resp;
   if constexpr (std::is_same_v<Body, PdelayRespFollowUp>) return MessageType::pdelay_resp_follow_up;
   if constexpr (std::is_same_v<Body, Announce>) return MessageType::announce;
+  if constexpr (std::is_same_v<Body, Signaling>) return MessageType::signaling;
 }
 
 /// The obsolete field that IEEE 1588-2008 derived from the type; 802.1AS-2020 still fills it in.
@@ -78,6 +82,7 @@ std::size_t length_of(const PdelayReq&) { return 54; }
 std::size_t length_of(const PdelayResp&) { return 54; }
 std::size_t length_of(const PdelayRespFollowUp&) { return 54; }
 std::size_t length_of(const Announce& announce) { return 64 + 4 + 8 * announce.path_trace.size(); }
+std::size_t length_of(const Signaling& signaling) { return 44 + (signaling.capable ? std::size_t{4} + gptp_capable_length : 0); }
 
 // The first flag octet: twoStepFlag for a Sync without contents and for every Pdelay_Resp.
 std::uint8_t flags_of(const Message& message) {
@@ -146,6 +151,18 @@ void put_body(Writer& out, const Announce& announce) {
   out.put(tlv_path_trace);
   out.put(static_cast<std::uint16_t>(8 * announce.path_trace.size()));
   for (const ClockIdentity& identity : announce.path_trace) put(out, identity);
+}
+
+void put_body(Writer& out, const Signaling& signaling) {
+  put(out, signaling.target);
+  if (!signaling.capable) return;
+  out.put(tlv_organization_extension_do_not_propagate);
+  out.put(gptp_capable_length);
+  put_24_bits(out, organization_802_1);
+  put_24_bits(out, gptp_capable_subtype);
+  out.put(signaling.capable->log_interval);
+  out.put(signaling.capable->flags);
+  out.put_zeros(4);
 }
 
 struct RawHeader {
@@ -275,6 +292,23 @@ bool get_body(Reader& in, const RawHeader& raw, Announce& announce) {
   }, [](Reader) {});
 }
 
+bool get_capable(Reader contents, std::optional<GptpCapable>& capable) {
+  if (contents.left() != gptp_capable_length) return false;
+  if (get_24_bits(contents) != organization_802_1 || get_24_bits(contents) != gptp_capable_subtype) return false;
+  GptpCapable read;
+  read.log_interval = contents.get<std::int8_t>();
+  read.flags = contents.get<std::uint8_t>();
+  capable = read;
+  return true;
+}
+
+/// Other TLVs than those that are known here are no mistake.
+bool get_body(Reader& in, const RawHeader&, Signaling& signaling) {
+  get(in, signaling.target);
+  find_tlv(in, tlv_organization_extension_do_not_propagate, [&](Reader contents) { return get_capable(contents, signaling.capable); }, [](Reader) {});
+  return in.left() == 0;
+}
+
 template <class Body>
 std::optional<Message> decoded(Reader& in, const RawHeader& raw) {
   Body body;
@@ -324,6 +358,7 @@ std::optional<Message> decode(std::span<const std::byte> octets) {
     case MessageType::pdelay_resp: return decoded<PdelayResp>(in, *raw);
     case MessageType::pdelay_resp_follow_up: return decoded<PdelayRespFollowUp>(in, *raw);
     case MessageType::announce: return decoded<Announce>(in, *raw);
+    case MessageType::signaling: return decoded<Signaling>(in, *raw);
   }
   return std::nullopt;
 }

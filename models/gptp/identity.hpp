@@ -27,6 +27,8 @@ struct ClockIdentity {
 struct PortIdentity {
   ClockIdentity clock;
   std::uint16_t port = 0;  // 1 ...; 0 stands for the instance itself
+  /// Whoever hears it (targetPortIdentity of Signaling).
+  static constexpr PortIdentity all() { return {ClockIdentity::from_number(0xFFFF'FFFF'FFFF'FFFF), 0xFFFF}; }
   auto operator<=>(const PortIdentity&) const = default;
 };
 

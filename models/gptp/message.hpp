@@ -19,6 +19,7 @@ enum class MessageType : std::uint8_t {
   follow_up = 0x8,
   pdelay_resp_follow_up = 0xA,
   announce = 0xB,
+  signaling = 0xC,
 };
 
 /// The top nibble of the header: 802.1AS, or the common mean link delay service.
@@ -124,7 +125,21 @@ struct Announce {
   bool operator==(const Announce&) const = default;
 };
 
-using Message = std::variant<Sync, FollowUp, PdelayReq, PdelayResp, PdelayRespFollowUp, Announce>;
+/// gPTP-capable TLV (10.6.4.4).
+struct GptpCapable {
+  std::int8_t log_interval = 0;                           // of the messages that carry it
+  std::uint8_t flags = 0;
+  bool operator==(const GptpCapable&) const = default;
+};
+
+struct Signaling {
+  Header header = {};
+  PortIdentity target = PortIdentity::all();
+  std::optional<GptpCapable> capable = {};
+  bool operator==(const Signaling&) const = default;
+};
+
+using Message = std::variant<Sync, FollowUp, PdelayReq, PdelayResp, PdelayRespFollowUp, Announce, Signaling>;
 
 inline const Header& header_of(const Message& message) {
   return std::visit([](const auto& each) -> const Header& { return each.header; }, message);

@@ -12,7 +12,9 @@ Node::Node(const NodeConfig& config) {
     TAKT_CHECK(instance_of(each.domain) == nullptr, "a domain once in a node");
     InstanceConfig instance = each;
     instance.system.clock = config.identity;
-    instances_.emplace_back(instance, static_cast<std::uint8_t>(instances_.size()), ports);
+    const auto index = static_cast<std::uint8_t>(instances_.size());
+    instances_.emplace_back(instance, index, ports);
+    for (PortNumber port = 1; port <= ports; ++port) capabilities_.emplace_back(config.log_gptp_capable_interval, PortIdentity{config.identity, port}, each.domain, index);
   }
 }
 
@@ -20,10 +22,14 @@ void Node::start(sim::LocalTime now, Outputs& outputs) {
   for (PtpInstance& instance : instances_) instance.start(now, outputs);
 }
 
-void Node::link_up(PortNumber port, sim::LocalTime now, Outputs& outputs) { mutable_link(port).link_up(now, outputs); }
+void Node::link_up(PortNumber port, sim::LocalTime now, Outputs& outputs) {
+  mutable_link(port).link_up(now, outputs);
+  for (std::size_t i = 0; i < instances_.size(); ++i) capability(i, port).link_up(now, outputs);
+}
 
 void Node::link_down(PortNumber port, sim::LocalTime now, Outputs& outputs) {
   mutable_link(port).link_down(outputs);
+  for (std::size_t i = 0; i < instances_.size(); ++i) capability(i, port).link_down(outputs);
   follow_capability(port, now, outputs);
 }
 
@@ -35,7 +41,11 @@ void Node::received(PortNumber port, const Message& message, sim::LocalTime ingr
     link.received(*response, ingress, outputs);
   } else if (const auto* const response_follow_up = std::get_if<PdelayRespFollowUp>(&message)) {
     link.received(*response_follow_up, outputs);
-  } else if (PtpInstance* const instance = instance_of(header_of(message).domain); instance != nullptr && link.as_capable()) {
+  } else if (const auto* const signaling = std::get_if<Signaling>(&message)) {
+    const PtpInstance* const instance = instance_of(signaling->header.domain);
+    if (instance == nullptr) return;
+    capability(static_cast<std::size_t>(instance - instances_.data()), port).received(*signaling, now, outputs);
+  } else if (PtpInstance* const instance = instance_of(header_of(message).domain); instance != nullptr && is_capable(static_cast<std::size_t>(instance - instances_.data()), port)) {
     if (const auto* const sync = std::get_if<Sync>(&message)) instance->received(*sync, port, ingress, measure(port, ingress), now, outputs);
     if (const auto* const follow_up = std::get_if<FollowUp>(&message)) instance->received(*follow_up, port, now, outputs);
     if (const auto* const announce = std::get_if<Announce>(&message)) instance->received(*announce, port, now, outputs);
@@ -54,6 +64,11 @@ void Node::transmitted(const EgressReport& report, sim::LocalTime now, Outputs& 
 }
 
 void Node::timer_expired(const TimerId& timer, sim::LocalTime now, Outputs& outputs) {
+  if (timer.purpose == TimerPurpose::gptp_capable_interval) return capability(timer.instance, timer.port).interval_elapsed(now, outputs);
+  if (timer.purpose == TimerPurpose::gptp_capable_receipt) {
+    capability(timer.instance, timer.port).receipt_elapsed();
+    return follow_capability(timer.port, now, outputs);
+  }
   if (timer.instance != TimerId::no_instance) return instances_.at(timer.instance).timer_expired(timer.port, timer.purpose, now, outputs);
   mutable_link(timer.port).interval_elapsed(now, outputs);
   follow_capability(timer.port, now, outputs);
@@ -68,6 +83,11 @@ LinkDelay& Node::mutable_link(PortNumber port) {
   return links_[port - 1u];
 }
 
+Capability& Node::capability(std::size_t instance, PortNumber port) { return capabilities_.at(instance * links_.size() + port - 1U); }
+bool Node::is_capable(std::size_t instance, PortNumber port) const {
+  return link(port).as_capable() && capabilities_.at(instance * links_.size() + port - 1U).is_neighbor_capable();
+}
+
 PtpInstance* Node::instance_of(std::uint8_t domain) {
   for (PtpInstance& instance : instances_)
     if (instance.config().domain == domain) return &instance;
@@ -80,7 +100,7 @@ LinkMeasure Node::measure(PortNumber port, sim::LocalTime at) const {
 }
 
 void Node::follow_capability(PortNumber port, sim::LocalTime now, Outputs& outputs) {
-  for (PtpInstance& instance : instances_) instance.set_port_capable(port, link(port).as_capable(), now, outputs);
+  for (std::size_t i = 0; i < instances_.size(); ++i) instances_[i].set_port_capable(port, is_capable(i, port), now, outputs);
 }
 
 }  // namespace takt::models::gptp

@@ -1,8 +1,11 @@
 // All of gPTP in one node: the delay mechanism of each port and the PTP instances (domains) that share it.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "models/gptp/capability.hpp"
 #include "models/gptp/link_delay.hpp"
 #include "models/gptp/ptp_instance.hpp"
 
@@ -12,6 +15,7 @@ struct NodeConfig {
   ClockIdentity identity = {};
   std::vector<LinkDelayConfig> ports = {};          // port n is ports[n - 1]
   std::vector<InstanceConfig> instances = {};       // distinct domains; the clock identity is filled in
+  std::optional<std::int8_t> log_gptp_capable_interval = {};   // of Signaling with the gPTP-capable TLV; none is sent or asked for if absent
 };
 
 /// Sends every input to the machine that it belongs to. The host keeps the timers that are asked for, on the free-running
@@ -32,15 +36,19 @@ class Node {
   const PtpInstance& instance(std::size_t index) const { return instances_.at(index); }
   std::size_t instance_count() const { return instances_.size(); }
   const LinkDelay& link(PortNumber port) const;
+  /// asCapable (11.2.2): the link is measured and short, and the neighbour has said that it is capable in the domain.
+  bool is_capable(std::size_t instance, PortNumber port) const;
 
  private:
   LinkDelay& mutable_link(PortNumber port);
   PtpInstance* instance_of(std::uint8_t domain);
+  Capability& capability(std::size_t instance, PortNumber port);
   LinkMeasure measure(PortNumber port, sim::LocalTime at) const;
   void follow_capability(PortNumber port, sim::LocalTime now, Outputs& outputs);
 
   std::vector<LinkDelay> links_;
   std::vector<PtpInstance> instances_;
+  std::vector<Capability> capabilities_;   // by instance, then port
 };
 
 }  // namespace takt::models::gptp

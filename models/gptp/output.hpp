@@ -14,7 +14,7 @@ namespace takt::models::gptp {
 /// Ports are numbered from 1, as in PortIdentity; 0 stands for the instance as a whole.
 using PortNumber = std::uint16_t;
 
-enum class TimerPurpose : std::uint8_t { pdelay_interval, sync_interval, sync_receipt, announce_interval, announce_receipt };
+enum class TimerPurpose : std::uint8_t { pdelay_interval, sync_interval, sync_receipt, announce_interval, announce_receipt, gptp_capable_interval, gptp_capable_receipt };
 
 /// A timer of a machine, at most one pending of each. Timers run on the free-running clock of the node.
 struct TimerId {

@@ -47,6 +47,8 @@ void PtpInstance::timer_expired(PortNumber port, TimerPurpose purpose, sim::Loca
     case TimerPurpose::announce_receipt: return age(port, now, outputs);
     case TimerPurpose::sync_interval: return sync_interval_elapsed(port, now, outputs);
     case TimerPurpose::sync_receipt: return sync_receipt_expired(port, now, outputs);
+    case TimerPurpose::gptp_capable_interval:
+    case TimerPurpose::gptp_capable_receipt:   // of the node
     case TimerPurpose::pdelay_interval: break;
   }
   TAKT_CHECK(false, "a timer of an instance");

@@ -17,7 +17,7 @@ constexpr sim::EventKind messages_have_come = 3;
 constexpr sim::Duration software_delay = sim::Duration::from_ps(1000);  // from the last bit of a message to what it causes
 
 NodeConfig node_config(const StationPlan& plan, NodeIndex node, std::size_t ports) {
-  return {Station::identity_of(node), std::vector<LinkDelayConfig>(ports, plan.link), plan.instances};
+  return {Station::identity_of(node), std::vector<LinkDelayConfig>(ports, plan.link), plan.instances, plan.log_gptp_capable_interval};
 }
 
 MessageType type_of(const Message& message) {

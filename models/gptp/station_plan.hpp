@@ -16,6 +16,7 @@ struct StationPlan {
   std::vector<InstanceConfig> instances = {InstanceConfig{}};
   LinkDelayConfig link = {};
   ClockTargetConfig target = {};
+  std::optional<std::int8_t> log_gptp_capable_interval = {};   ///< see NodeConfig
   std::optional<HotStandbyConfig> standby = {};   ///< instances 0 and 1 are primary and secondary
   sim::Distribution processing = sim::Distribution::constant(sim::Duration::from_ps(5'000'000));   ///< from a decision to send to the egress queue
 };

@@ -235,17 +235,18 @@ std::vector<GptpMessages> gptp_messages(const scenario::Resolved& resolved, mode
   const auto& stations = resolved.plan.gptp;
   if (node.value >= stations.size() || !stations[node.value]) return {};
   const models::gptp::StationPlan& plan = resolved.plan.gptp_stations[*stations[node.value]];
-  // Request, response and its follow-up of the link delay; Sync, Follow_Up and Announce of each domain.
+  // Request, response and its follow-up of the link delay; Sync, Follow_Up, Announce and Signaling of each domain.
   const auto domains = static_cast<std::int64_t>(plan.instances.size());
   int shortest = plan.link.log_pdelay_req_interval;
   for (const models::gptp::InstanceConfig& instance : plan.instances) shortest = std::min({shortest, instance.log_sync_interval, instance.log_announce_interval});
+  if (plan.log_gptp_capable_interval) shortest = std::min<int>(shortest, *plan.log_gptp_capable_interval);
   const std::size_t nodes = static_cast<std::size_t>(std::count_if(stations.begin(), stations.end(), [](const auto& station) { return station.has_value(); }));
   const auto messages = [&](std::int64_t frames, std::size_t octets) {
     return GptpMessages{FrameArrivals({interval_ps(shortest) / 2, frames, 0, 0}), models::frame_length(sim::Octets{static_cast<std::uint32_t>(octets)}, false)};
   };
   // A Follow_Up has 76 octets, with Drift_Tracking 112, an Announce 68 and 8 for each node on the path; all others are shorter.
   const bool tracks = std::any_of(plan.instances.begin(), plan.instances.end(), [](const models::gptp::InstanceConfig& instance) { return instance.drift_tracking; });
-  std::vector<GptpMessages> all{messages(3 + 2 * domains, tracks ? 112 : 76)};
+  std::vector<GptpMessages> all{messages(3 + (plan.log_gptp_capable_interval ? 3 : 2) * domains, tracks ? 112 : 76)};
   if (domains > 0) all.push_back(messages(domains, 68 + 8 * std::min<std::size_t>(nodes, models::gptp::Announce::longest_path_trace)));
   return all;
 }

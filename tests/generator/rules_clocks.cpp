@@ -67,6 +67,7 @@ std::span<const Rule> clock_rules() {
       {.key = "gptp.log_sync_interval", .percent = 90, .words = "-7 -6 -5"},
       {.key = "gptp.log_announce_interval", .percent = 90, .words = "-7 -6 -5"},
       {.key = "gptp.log_pdelay_interval", .percent = 90, .words = "-7 -6"},
+      {.key = "gptp.log_gptp_capable_interval", .percent = 20, .words = "-7 -6"},
       {.key = "gptp.sync_receipt_timeout", .percent = 20, .words = "2 3 5"},
       {.key = "gptp.announce_receipt_timeout", .percent = 20, .words = "2 3 5"},
       {.key = "gptp.boundary", .percent = 20},

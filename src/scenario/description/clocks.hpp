@@ -134,6 +134,7 @@ struct Gptp {
   std::int8_t log_sync_interval = -3;
   std::int8_t log_announce_interval = 0;
   std::int8_t log_pdelay_interval = 0;
+  std::optional<std::int8_t> log_gptp_capable_interval = {};
   std::uint8_t sync_receipt_timeout = 3;
   std::uint8_t announce_receipt_timeout = 3;
   bool one_step = false;

@@ -181,6 +181,7 @@ const json::Object& describe(json::Type<Gptp>) {
       optional<&Gptp::log_sync_interval>("log_sync_interval", "Sync every 2^this seconds.", {.min = -7, .max = 4}),
       optional<&Gptp::log_announce_interval>("log_announce_interval", "Announce every 2^this seconds.", {.min = -7, .max = 4}),
       optional<&Gptp::log_pdelay_interval>("log_pdelay_interval", "Pdelay_Req every 2^this seconds.", {.min = -7, .max = 4}),
+      optional<&Gptp::log_gptp_capable_interval>("log_gptp_capable_interval", "Signaling with the gPTP-capable TLV every 2^this seconds; a neighbour that has sent none for nine of its intervals is not capable. If absent none is sent, and neighbours are taken at their word.", {.min = -7, .max = 4}),
       optional<&Gptp::sync_receipt_timeout>("sync_receipt_timeout", "After so many intervals without Sync it is lost.", {.min = 2}),
       optional<&Gptp::announce_receipt_timeout>("announce_receipt_timeout", "After so many intervals without Announce the grandmaster is lost.", {.min = 2}),
       optional<&Gptp::one_step>("one_step", "Sync carries its time itself."),

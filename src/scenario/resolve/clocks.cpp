@@ -173,6 +173,7 @@ class ClockResolver {
     plan.instances.clear();
     for (std::size_t i = 0; i < instances.size(); ++i) plan.instances.push_back(config_of(gptp, instances[i], gptp.hot_standby && i < 2, n));
     plan.link.log_pdelay_req_interval = gptp.log_pdelay_interval;
+    plan.log_gptp_capable_interval = gptp.log_gptp_capable_interval;
     plan.link.neighbor_rate_ratio_window = gptp.rate_ratio_window;
     plan.link.compensate_drift = gptp.drift_window > 0 || gptp.drift_tracking;
     plan.link.average_over = gptp.average_link_delay;

@@ -31,6 +31,7 @@ class Harness {
     sim::Duration initial_offset = {};
     sim::Duration send_latency = sim::Duration::from_ps(5'000'000);  // from "send" to the wire: turnaround, residence
     std::optional<HotStandbyConfig> standby = {};                    // instances 0 and 1 are primary and secondary
+    std::optional<std::int8_t> log_gptp_capable_interval = {};
   };
 
   struct Station {
@@ -73,7 +74,7 @@ class Harness {
 
   void start(std::uint64_t seed = 1) {
     for (std::size_t i = 0; i < set_ups_.size(); ++i) {
-      const NodeConfig config{identity(i), std::vector<LinkDelayConfig>(peers_[i].size(), set_ups_[i].link), set_ups_[i].instances};
+      const NodeConfig config{identity(i), std::vector<LinkDelayConfig>(peers_[i].size(), set_ups_[i].link), set_ups_[i].instances, set_ups_[i].log_gptp_capable_interval};
       stations_.push_back(std::make_unique<Station>(set_ups_[i], config, seed, "node" + std::to_string(i)));
       Station& station = *stations_.back();
       for (const Peer& peer : peers_[i]) {

@@ -1,6 +1,7 @@
 // When the activations of a thread are due.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace takt::application {
@@ -15,6 +16,10 @@ struct ActivationGrid {
   std::int64_t latest_at(std::int64_t now) const {
     const std::int64_t since = now - offset;
     return since >= 0 ? since / every : -((-since + every - 1) / every);
+  }
+  /// So many of the activations from `first` on were done or missed by then. The latest one that is due is open until it is done; what is done stays so where the clock was set back.
+  std::int64_t decided(std::int64_t first, std::int64_t last_done, std::int64_t now) const {
+    return std::max(std::max(latest_at(now), last_done + 1) - first, std::int64_t{0});
   }
 };
 

@@ -15,6 +15,8 @@ using Prefixes = std::vector<std::string>;
 /// Headers of the repository, as they are written in an #include: from the root, or from src/.
 const Prefixes kernel = {"sim/"};
 const Prefixes base = {"sim/time.hpp", "sim/units.hpp", "sim/octets.hpp", "sim/check.hpp"};
+/// Draws are values; what draws them here draws them on a real node, too.
+const Prefixes chance = {"sim/random.hpp", "sim/distribution.hpp"};
 const Prefixes models = {"models/"};
 const Prefixes protocol = {"wire/", "uadp/", "pubsub/", "program/", "handshake/", "dds/", "gateway/"};
 const Prefixes scenario = {"scenario/"};
@@ -49,8 +51,8 @@ const std::vector<Layer>& layers() {
     std::vector<Layer> list = {{"sim/", kernel}, {"models/", all_of({kernel, models})}};
     for (const std::string& folder : protocol) list.push_back({"src/" + folder, all_of({base, protocol})});
     list.push_back({"src/plant/", all_of({base, protocol, plant, json})});
-    list.push_back({"src/application/", all_of({base, protocol, plant, application})});
-    list.push_back({"src/node/", all_of({base, protocol, plant, application, node, json})});
+    list.push_back({"src/application/", all_of({base, chance, json, protocol, plant, application})});
+    list.push_back({"src/node/", all_of({base, chance, protocol, plant, application, node, json})});
     list.push_back({"src/json/", all_of({base, json})});
     list.push_back({"src/results/", all_of({base, json, results})});
     const Prefixes below = all_of({kernel, models, protocol, plant, application, json, results, scenario});

@@ -9,7 +9,7 @@ using sim::LocalTime;
 
 Activations::Activations(Duration every, Duration offset, const sim::Distribution& response, std::uint64_t seed, std::string_view path,
                          std::span<const Duration> instants)
-    : every_(every), grid_{every.ps(), offset.ps()}, response_(&response), chance_(seed, path, "response"), counts_(instants) {
+    : every_(every), grid_{every.ps(), offset.ps()}, plan_(every, response, sim::RandomStream(seed, path, "response")), counts_(instants) {
   counts_.for_each([](Counts& counts, LocalTime first) {
     if (first >= LocalTime()) counts.from = first;
   });
@@ -17,31 +17,26 @@ Activations::Activations(Duration every, Duration offset, const sim::Distributio
 
 void Activations::begin(LocalTime now) {
   if (next_ != LocalTime::never()) end(next_);
-  planned_ = latest_at(now - Duration::from_ps(1)) + 1;
-  first_ = planned_;
+  first_ = latest_at(now - Duration::from_ps(1)) + 1;
   last_done_ = first_ - 1;
+  plan_.begin(first_);
   plan();
 }
 
 void Activations::end(LocalTime now) {
   counts_.for_each([&](Counts& counts, LocalTime) { counts.decided_before = decided(now, counts); });
-  first_ = planned_ = last_done_ = 0;
+  first_ = last_done_ = 0;
   next_ = LocalTime::never();
 }
 
 void Activations::plan() {
-  is_call_ = false;
-  for (int draws = 0; draws < most_draws; ++draws, ++planned_) {
-    drawn_ = response_->draw(chance_);
-    is_call_ = drawn_ < every_;
-    if (is_call_) break;
-  }
-  next_ = due(planned_).plus_saturated(is_call_ ? drawn_ : Duration());
+  next_ = due(plan_.number()).plus_saturated(plan_.response());
 }
 
 std::optional<Activations::Call> Activations::act() {
   std::optional<Call> call;
-  if (is_call_) call = Call{planned_++, drawn_};
+  if (plan_.is_call()) call = Call{plan_.number(), plan_.response()};
+  plan_.next();
   plan();
   return call;
 }
@@ -62,10 +57,8 @@ std::uint64_t Activations::decided(LocalTime now, Duration from) const { return 
 
 std::uint64_t Activations::decided(LocalTime now, const Counts& counts) const {
   if (next_ == LocalTime::never()) return counts.decided_before;
-  // The latest one that is due is open until it is done; what is done stays so where the clock was set back.
-  const std::int64_t open = std::max(latest_at(now), last_done_ + 1);
   const std::int64_t first = counts.from ? std::max(first_, latest_at(*counts.from - Duration::from_ps(1)) + 1) : first_;
-  return counts.decided_before + static_cast<std::uint64_t>(std::max(open - first, std::int64_t{0}));
+  return counts.decided_before + static_cast<std::uint64_t>(grid_.decided(first, last_done_, now.ps()));
 }
 
 }  // namespace takt::scenario

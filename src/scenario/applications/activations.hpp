@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "application/activation_grid.hpp"
+#include "application/activation_plan.hpp"
 #include "scenario/figures/accounts.hpp"
 #include "sim/distribution.hpp"
 #include "sim/random.hpp"
@@ -14,8 +15,7 @@
 
 namespace takt::scenario {
 
-/// Activation n is due at offset + n * every. Its response time is drawn; if it is not over before the next activation is due, the
-/// activation is missed: the call does not take place, and the thread takes up the next one, which draws anew.
+/// Activation n is due at offset + n * every, and answered as the plan says.
 class Activations {
  public:
   /// `path` names the thread in the random streams, e.g. "robot/control/publish". The distribution outlives it. Counts are kept from each of the instants on,
@@ -54,20 +54,15 @@ class Activations {
   std::uint64_t decided(sim::LocalTime now, sim::Duration from) const;
 
  private:
-  static constexpr int most_draws = 64;   // in one go, so that a response that is always too long does not hang
   sim::LocalTime due(std::int64_t activation) const { return sim::LocalTime::from_ps(grid_.due(activation)); }
   std::int64_t latest_at(sim::LocalTime now) const { return grid_.latest_at(now.ps()); }
   void plan();
 
   sim::Duration every_;
   application::ActivationGrid grid_;      // ps
-  const sim::Distribution* response_;
-  sim::RandomStream chance_;
+  application::ActivationPlan plan_;
   std::int64_t first_ = 0;                // activation since the last begin
-  std::int64_t planned_ = 0;
   std::int64_t last_done_ = 0;            // below first_: none
-  sim::Duration drawn_;
-  bool is_call_ = false;                  // else: nothing but a look
   sim::LocalTime next_ = sim::LocalTime::never();
   std::uint64_t done_ = 0;
   struct Counts {

@@ -25,8 +25,8 @@ void ApplicationMonitor::on_values(std::uint32_t application, std::uint32_t thre
 
 void ApplicationMonitor::on_crash(std::uint32_t application) { simulation_->digest().add(application_crashed, who(application, 0), simulation_->now(), 0); }
 
-void ApplicationMonitor::set_signal(std::uint32_t signal, bool high) {
-  if (!signals_[signal].set(high, simulation_->now())) return;
+void ApplicationMonitor::set_signal(std::uint32_t signal, bool high, sim::Duration latency) {
+  if (!signals_[signal].set(high, simulation_->now(), latency)) return;
   simulation_->digest().add(signal_set, signal, simulation_->now(), high ? 1 : 0);
   if (sim::TraceSink* const trace = simulation_->trace())
     trace->record({simulation_->now(), static_cast<std::uint32_t>(models::Occurrence::output_changed), {}, signal, high ? std::uint64_t{1} : std::uint64_t{0}});

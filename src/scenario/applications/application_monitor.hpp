@@ -21,7 +21,8 @@ class ApplicationMonitor {
   /// A call took so many values into the buffer of its thread.
   void on_values(std::uint32_t application, std::uint32_t thread, std::uint64_t count);
   void on_crash(std::uint32_t application);
-  void set_signal(std::uint32_t signal, bool high);
+  /// By a call whose activation was due so long ago, on the clock of its host.
+  void set_signal(std::uint32_t signal, bool high, sim::Duration latency);
 
   const DigitalOutput& signal(std::size_t number) const { return signals_[number]; }
 

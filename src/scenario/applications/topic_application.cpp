@@ -246,7 +246,7 @@ void TopicApplication::take(models::HostServices& host, std::uint32_t thread, si
   });
   for (Live::Windows& each : live.windows) each.values->add(due, kept);
   monitor_->on_values(number_, thread, count);
-  if (live.settings->signal) monitor_->set_signal(*live.settings->signal, !live.topic->is_zero(live.newest));
+  if (live.settings->signal) monitor_->set_signal(*live.settings->signal, !live.topic->is_zero(live.newest), now - due);
 }
 
 ThreadFigures TopicApplication::figures(std::size_t thread, sim::LocalTime now, sim::Duration from) const {

@@ -1,13 +1,13 @@
 // Latencies of scenarios as distributions: what a file says, and what the named operating systems stand for.
 #pragma once
 
+#include "application/latency_law.hpp"
 #include "models/host/os_latency.hpp"
 #include "scenario/description/description.hpp"
 
 namespace takt::scenario {
 
-/// The distribution that a description stands for. A senseless one (from > to, min > max, no weight) is a diagnostic.
-sim::Distribution distribution_of(const Latency& latency, json::Diagnostics& diagnostics);
+using application::distribution_of;
 
 /// The three delays of a host. Figures of the profiles: published cyclictest and network stack measurements; see
 /// docs/host-latency.md. They are examples of their kind, not promises about a certain machine.

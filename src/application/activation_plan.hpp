@@ -10,7 +10,7 @@
 namespace takt::application {
 
 /// The response time of an activation is drawn. If it is not over before the next activation is due, the activation is missed: the call does not take place, and the
-/// thread takes up the next one, which draws anew. One draw for each activation, missed or not, from begin() on.
+/// thread takes up the next one, which draws anew: one draw for each activation, missed or not, from the last begin() on.
 class ActivationPlan {
  public:
   /// The distribution outlives it.

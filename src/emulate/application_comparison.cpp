@@ -9,6 +9,7 @@ namespace {
 
 using namespace sim::literals;  // NOLINT: units
 
+constexpr std::uint64_t many_edges = 10;        // so many that those of a real node are no matter of luck
 constexpr sim::Duration not_together = 100_ms;   // nodes begin and end so far apart
 
 std::uint64_t counted_in(const json::Node& node, const char* key) {
@@ -19,6 +20,32 @@ std::uint64_t counted_in(const json::Node& node, const char* key) {
 std::string text_in(const json::Node& node, const char* key) {
   const json::Node* const found = node.find(key);
   return found == nullptr ? std::string() : found->text;
+}
+
+std::int64_t integer_in(const json::Node& node, const char* key) {
+  const json::Node* const found = node.find(key);
+  return found == nullptr ? 0 : static_cast<std::int64_t>(json::double_of(*found));
+}
+
+Times times_in(const json::Node& node, const char* key) {
+  const json::Node* const found = node.find(key);
+  if (found == nullptr) return {};
+  return {counted_in(*found, "count"), integer_in(*found, "min_ns"), integer_in(*found, "mean_ns"), integer_in(*found, "max_ns")};
+}
+
+std::optional<SignalCounts> signal_in(const json::Node& thread) {
+  const json::Node* const found = thread.find("signal");
+  if (found == nullptr) return std::nullopt;
+  return SignalCounts{counted_in(*found, "edges"), counted_in(*found, "irregular_pulses"), times_in(*found, "latency"), times_in(*found, "pulses")};
+}
+
+Times times_of(const application::DurationFigures& figures) {
+  if (figures.count() == 0) return {};
+  return {figures.count(), figures.least().ps() / 1000, figures.mean().ps() / 1000, figures.greatest().ps() / 1000};
+}
+
+SignalCounts signal_of(const scenario::DigitalOutput::Figures& figures) {
+  return {figures.latency.count(), figures.irregular_pulses, times_of(figures.latency), times_of(figures.pulses)};
 }
 
 class ThreadComparer {
@@ -54,7 +81,11 @@ class ThreadComparer {
     const std::uint64_t apart = std::max(more / 4, static_cast<std::uint64_t>(not_together / thread.every + 2));
     if (less != 0 && more - less > apart) differ(std::to_string(made.emulated.activations) + " activations, simulated " + std::to_string(made.simulated.activations));
     if (thread.publishes) at_all(made.simulated.published, made.emulated.published, "values published");
+    if (thread.signal && made.emulated.signal && made.emulated.signal->edges > made.emulated.received)
+      differ(std::to_string(made.emulated.signal->edges) + " edges, of " + std::to_string(made.emulated.received) + " values received");
     if (thread.publishes || !hears_whole_ones(thread)) return;
+    if (thread.signal && made.simulated.signal && made.simulated.signal->edges >= many_edges && (!made.emulated.signal || made.emulated.signal->edges == 0))
+      differ("no edges, simulated " + std::to_string(made.simulated.signal->edges));
     at_all(made.simulated.received, made.emulated.received, "values received");
     std::uint64_t sent = 0;
     for (const scenario::ResolvedInput& input : thread.inputs) sent += emulated(input.application, input.thread).published;
@@ -81,7 +112,9 @@ std::vector<std::vector<ThreadCounts>> threads_of(const scenario::Run& run) {
     std::vector<ThreadCounts>& threads = all.emplace_back();
     for (std::size_t t = 0; t < run.resolved().applications[a].threads.size(); ++t) {
       const scenario::ThreadFigures figures = run.thread(a, t, sim::Duration());
-      threads.push_back({figures.activations, figures.activations - figures.done, figures.published, figures.arrived, figures.lost});
+      const auto signal = run.resolved().applications[a].threads[t].signal;
+      threads.push_back({figures.activations, figures.activations - figures.done, figures.published, figures.arrived, figures.lost, times_of(figures.response),
+                         signal ? std::optional(signal_of(run.signal(*signal).figures(sim::Duration()))) : std::nullopt});
     }
   }
   return all;
@@ -104,6 +137,8 @@ bool add_threads(const std::string& line, EmulatedThreads& threads) {
         counts.published = counted_in(thread, "sent");
         counts.received = counted_in(thread, "taken");
         counts.lost = counted_in(thread, "lost");
+        counts.response = times_in(thread, "response");
+        counts.signal = signal_in(thread);
         threads[{text_in(application, "name"), text_in(thread, "name")}] = counts;
       }
     }

@@ -66,30 +66,18 @@ class Files {
     topics_.items.push_back(json::encode_value(topic));
   }
 
-  void leave_out_response(std::optional<plant::Latency>& response) {
-    if (response) left_out_.insert("drawn response times of threads");
-    response.reset();
-  }
-
   void add_application(plant::Application application) {
     for (plant::Thread& thread : application.threads) {
-      leave_out_response(thread.response);
       for (std::optional<std::string>* const topic : {&thread.publish, &thread.subscribe})
         if (*topic) *topic = name_of(**topic);
       if (thread.payload && thread.payload->copy_of) thread.payload->copy_of = name_of(*thread.payload->copy_of);
-      if (thread.signal) left_out_.insert("digital outputs");
-      thread.signal.reset();
     }
-    leave_out_response(application.scheduler.response);
     applications_.items.push_back(json::encode_value(application));
   }
 
   void add_gateway(plant::Gateway gateway) {
     gateway.from = name_of(gateway.from);
     gateway.to = name_of(gateway.to);
-    leave_out_response(gateway.receive_response);
-    leave_out_response(gateway.send_response);
-    leave_out_response(gateway.scheduler.response);
     gateways_.items.push_back(json::encode_value(gateway));
   }
 
@@ -113,6 +101,7 @@ class Files {
       destinations.items.push_back(json::Node::of_string(group_address));
     }
     file.add("dds", json::Node::of_string(planned.interface));
+    file.add("seed", json::encode_value(resolved_.scenario.seed));
     file.add("duration", json::Node::of_string(json::to_text(resolved_.scenario.duration)));
     planned.config = json::pretty(file);
     check(planned);

@@ -17,6 +17,17 @@ std::string nodes_of(const std::vector<std::string>& nodes) {
   return text.empty() ? "nobody" : text;
 }
 
+double us_of(std::int64_t ns) { return static_cast<double>(ns) / 1000; }
+
+std::string times_text(const char* what, const Times& emulated, const Times& simulated) {
+  return fmt::format("    {}: mean {:.1f} us ({:.1f}), max {:.1f} us ({:.1f})\n", what, us_of(emulated.mean_ns), us_of(simulated.mean_ns), us_of(emulated.max_ns), us_of(simulated.max_ns));
+}
+
+std::string signal_text(const SignalCounts& emulated, const SignalCounts& simulated) {
+  return fmt::format("    signal: {} edges ({}), {} pulses irregular ({})\n", emulated.edges, simulated.edges, emulated.irregular_pulses, simulated.irregular_pulses) +
+         times_text("signal latency", emulated.latency, simulated.latency) + times_text("signal pulses", emulated.pulses, simulated.pulses);
+}
+
 }  // namespace
 
 std::string to_text(const Result& result, const std::string& scenario) {
@@ -43,6 +54,8 @@ std::string to_text(const Result& result, const std::string& scenario) {
                                                 : counted("received", each.emulated.received, each.simulated.received) + counted("lost", each.emulated.lost, each.simulated.lost);
       out += fmt::format("  {:<16} {}: {} activations ({}){}{}\n", each.name, each.is_same() ? "as simulated" : "NOT as simulated", each.emulated.activations, each.simulated.activations,
                          counted("missed", each.emulated.missed, each.simulated.missed), values);
+      out += times_text("response", each.emulated.response, each.simulated.response);
+      if (each.simulated.signal) out += signal_text(each.emulated.signal.value_or(SignalCounts()), *each.simulated.signal);
       for (const std::string& difference : each.differs) out += fmt::format("    {}\n", difference);
     }
   }

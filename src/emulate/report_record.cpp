@@ -71,6 +71,28 @@ const json::Record& describe(json::Type<ProgramResult>) {
   return record;
 }
 
+const json::Record& describe(json::Type<Times>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&Times::count>("count", "How many."),
+      json::output<&Times::min_ns>("min_ns", "The least; 0 of none.", {.unit = "ns"}),
+      json::output<&Times::mean_ns>("mean_ns", "The mean; 0 of none.", {.unit = "ns"}),
+      json::output<&Times::max_ns>("max_ns", "The greatest; 0 of none.", {.unit = "ns"}),
+  };
+  static constexpr json::Record record{"times", "Times of one kind. They are not compared.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<SignalCounts>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&SignalCounts::edges>("edges", "Changes of its level."),
+      json::output<&SignalCounts::irregular_pulses>("irregular_pulses", "Pulses that are more than 10 % off."),
+      json::output<&SignalCounts::latency>("latency", "Of each edge: from the activation whose call made it, on the clock of the node."),
+      json::output<&SignalCounts::pulses>("pulses", "Whole pulses: simulated in true time, real by the clock of the node."),
+  };
+  static constexpr json::Record record{"signal", "A digital output.", outputs};
+  return record;
+}
+
 const json::Record& describe(json::Type<ThreadCounts>) {
   static constexpr json::Output outputs[] = {
       json::output<&ThreadCounts::activations>("activations", "Those that it answered and those that it missed."),
@@ -78,6 +100,8 @@ const json::Record& describe(json::Type<ThreadCounts>) {
       json::output<&ThreadCounts::published>("published", "Values that its protocol took."),
       json::output<&ThreadCounts::received>("received", "Values that came."),
       json::output<&ThreadCounts::lost>("lost", "Numbers of messages that were jumped over; of real nodes with OPC UA only."),
+      json::output<&ThreadCounts::response>("response", "From an activation to the call that answers it."),
+      json::output_if_any<&ThreadCounts::signal>("signal", "The digital output that it drives.", "of a thread with one"),
   };
   static constexpr json::Record record{"counts", "What a thread did.", outputs};
   return record;
@@ -88,7 +112,7 @@ const json::Record& describe(json::Type<ThreadComparison>) {
       json::output<&ThreadComparison::name>("name", "The thread."),
       json::output<&ThreadComparison::topic>("topic", "What it publishes or takes."),
       json::output<&ThreadComparison::publishes>("publishes", "It publishes; else it takes."),
-      json::output<&ThreadComparison::is_same>("same", "It is activated as often as the simulated one, but for a quarter, publishes or gets values if that does, and gets no more than were published."),
+      json::output<&ThreadComparison::is_same>("same", "It is activated as often as the simulated one, but for a quarter, publishes or gets values if that does, gets no more than were published, and its digital output changes if that does often, and no more often than values came."),
       json::output<&ThreadComparison::simulated>("simulated", "What the simulated one did."),
       json::output<&ThreadComparison::emulated>("emulated", "What the real one did."),
       json::output<&ThreadComparison::differs>("differs", "What is not as simulated."),

@@ -180,6 +180,27 @@ class Emulation(unittest.TestCase):
                                         faults=[{"kind": "crash", "node": "left", "at": "600ms"}]))
         self.assertEqual([(each["application"], each["whole"], each["same"]) for each in result["applications"]], [("speaks", False, True), ("hears", True, True)])
 
+    # Two hosts in namespaces: responses are waited for and drawn as in the simulated run, and a digital output follows what is published, one half period after the other.
+    def test_responses_and_a_digital_output(self):
+        applications = [{"name": "speaks", "on": "left", "threads": [{"name": "say", "publish": "level", "every": "20ms", "payload": "alternate", "response": "1ms"}]},
+                        {"name": "hears", "on": "right", "threads": [{"name": "take", "subscribe": "level", "every": "20ms", "offset": "5ms", "response": {"uniform": {"from": "3ms", "to": "6ms"}}, "signal": "valve"}]},
+                        {"name": "sleeps", "on": "right", "threads": [{"name": "late", "subscribe": "level", "every": "20ms", "response": {"table": [{"value": "2ms", "weight": 1}, {"value": "20ms", "weight": 1}]}}]}]
+        path = self.file(duration="3s", topics=[{"name": "level", "protocol": "opc-ua", "fields": {"x": "Int32"}}], applications=applications, programs=[], script=[])
+        result = self.emulate(path)
+        self.assertTrue(result["same"], json.dumps(result))
+        self.assertFalse([note for note in result["notes"] if "response" in note or "digital" in note], result["notes"])
+        threads = {thread["name"]: thread for application in result["applications"] for thread in application["threads"]}
+        self.assertEqual(threads["say"]["simulated"]["response"]["mean_ns"], 1_000_000)
+        self.assertGreaterEqual(threads["say"]["emulated"]["response"]["min_ns"], 1_000_000)
+        self.assertGreaterEqual(threads["take"]["emulated"]["response"]["min_ns"], 3_000_000)
+        self.assertGreater(threads["take"]["emulated"]["signal"]["edges"], 10)
+        self.assertGreaterEqual(threads["take"]["emulated"]["signal"]["latency"]["min_ns"], 3_000_000)
+        self.assertGreater(threads["take"]["simulated"]["signal"]["edges"], 140)   # of 150 samples
+        self.assertNotIn("signal", threads["say"]["emulated"])
+        # Half of the activations draw an interval, and are missed in both worlds; 40 is more than six standard deviations, and a machine that is busy misses more.
+        self.assertGreater(threads["late"]["simulated"]["missed"], 35)
+        self.assertGreater(threads["late"]["emulated"]["missed"], 35)
+
     def test_a_gateway_between_dds_and_opc_ua(self):
         done = subprocess.run([TAKT, "emulate", str(SOURCES / "scenarios" / "applications" / "gateway.json"), "--format", "json"], capture_output=True, text=True, timeout=1000, check=False)
         if "DDS is not in this build" in done.stderr:

@@ -110,6 +110,7 @@ class Checker {
       diagnostics_.error(application.where.at("name"), "duplicate name", {json::quote(application.name), "a name of its own for each application and gateway"});
     std::set<std::string> threads;
     published_.clear();
+    add_scheduler(application.name, application.scheduler);
     for (const Thread& thread : application.threads) {
       if (!threads.insert(thread.name).second) diagnostics_.error(thread.where.at("name"), "duplicate name", {json::quote(thread.name), "a name of its own for each thread"});
       check_phase(thread.where, "offset", thread.offset, thread.every);
@@ -120,9 +121,24 @@ class Checker {
       if (thread.buffer && !thread.subscribe) diagnostics_.error(thread.where.at("buffer"), "nothing is taken", {"a buffer", "a thread that subscribes"});
       if (thread.qos && topic && config_.topics[*topic].protocol != Protocol::dds) diagnostics_.error(thread.where.at("qos"), "not of OPC UA", {"quality of service", "a topic of DDS"});
       if (thread.qos) check_qos(*thread.qos);
-      if (thread.signal) diagnostics_.error(thread.where.at("signal"), "not on a real node", {"a digital output", "a thread without one"});
+      add_response(application.name, thread.name, thread.response);
+      if (thread.signal) check_signal(thread);
       if (topic && thread.payload && thread.payload->copy_of) check_copy(application, *thread.payload, *topic);
     }
+  }
+
+  void add_response(const std::string& of, const std::string& thread, const std::optional<plant::Latency>& response) {
+    if (response) loaded_.responses.insert_or_assign({of, thread}, application::distribution_of(*response, diagnostics_));
+  }
+
+  void add_scheduler(const std::string& of, const Scheduler& scheduler) {
+    if (scheduler.response) loaded_.scheduler_responses.insert_or_assign(of, application::distribution_of(*scheduler.response, diagnostics_));
+  }
+
+  void check_signal(const Thread& thread) {
+    if (!thread.subscribe) diagnostics_.error(thread.where.at("signal"), "nothing is taken", {"a digital output", "a thread that subscribes"});
+    if (!signals_.insert(thread.signal->name).second)
+      diagnostics_.error(thread.signal->where.place(), "duplicate name", {json::quote(thread.signal->name) + " a second time", "a name of its own for each signal"});
   }
 
   void check_copy(const plant::Application& application, const Payload& payload, std::size_t to) {
@@ -138,6 +154,9 @@ class Checker {
     if (!names.insert(gateway.name).second)
       diagnostics_.error(gateway.where.at("name"), "duplicate name", {json::quote(gateway.name), "a name of its own for each application and gateway"});
     published_.clear();
+    add_scheduler(gateway.name, gateway.scheduler);
+    add_response(gateway.name, receiving_thread, gateway.receive_response);
+    add_response(gateway.name, sending_thread, gateway.send_response);
     check_phase(gateway.where, "receive_offset", gateway.receive_offset, gateway.receive_every);
     check_phase(gateway.where, "send_offset", gateway.send_offset, gateway.send_every);
     const auto from = use(gateway.from, gateway.where.at("from"));
@@ -157,6 +176,7 @@ class Checker {
   json::Diagnostics& diagnostics_;
   bool uses_opc_ua_ = false;
   std::set<std::string> published_;  ///< topics of OPC UA, by the present application or gateway
+  std::set<std::string> signals_;
 };
 
 }  // namespace

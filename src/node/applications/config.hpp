@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "application/latency_law.hpp"
 #include "application/topic_shape.hpp"
 #include "node/config.hpp"
 #include "plant/application.hpp"
@@ -41,6 +42,7 @@ struct ApplicationsConfig {
   ClockName clock = ClockName::monotonic;
   std::optional<Duration> duration;
   bool realtime = false;
+  std::uint64_t seed = 1;
   std::optional<std::string> statistics;
   bool operator==(const ApplicationsConfig&) const = default;
 };
@@ -48,7 +50,8 @@ struct ApplicationsConfig {
 const json::Object& describe(json::Type<DdsTransport>);
 const json::Object& describe(json::Type<ApplicationsConfig>);
 
-/// The thread of a gateway that publishes.
+/// The threads of a gateway: that which takes, and that which publishes.
+inline constexpr const char* receiving_thread = "receive";
 inline constexpr const char* sending_thread = "send";
 
 /// A topic that has been checked.
@@ -65,6 +68,10 @@ struct LoadedApplications {
   std::vector<LoadedTopic> topics;  ///< as in the file
   /// By application and thread: which of the publications of its topic it is, for topics of OPC UA.
   std::map<std::pair<std::string, std::string>, std::uint16_t> writer_groups;
+  /// By application or gateway, and thread: the law of its response, where the file has one.
+  std::map<std::pair<std::string, std::string>, sim::Distribution> responses;
+  /// By application or gateway: that of its scheduler.
+  std::map<std::string, sim::Distribution> scheduler_responses;
   std::size_t topic(const std::string& name) const;
 };
 

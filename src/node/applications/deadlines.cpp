@@ -26,11 +26,23 @@ void DeadlineClock::wait_until(std::int64_t time) const {
   ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
 }
 
-void Deadlines::awake(std::int64_t now) {
+Deadlines::Deadlines(const application::ActivationGrid& grid, const application::ActivationPlan& plan, std::int64_t now) : grid_(grid), plan_(plan), first_(grid.latest_at(now) + 1), last_done_(first_ - 1) {
+  plan_.begin(first_);
+}
+
+bool Deadlines::awake(std::int64_t now) {
   const std::int64_t last_due = grid_.latest_at(now);
-  if (last_due <= number_) return;
-  missed_ += static_cast<std::uint64_t>(last_due - number_);
-  number_ = last_due;
+  if (last_due > plan_.number())
+    plan_.begin(last_due);
+  else if (!plan_.is_call())
+    plan_.next();
+  return plan_.is_call() && at() <= now;
+}
+
+void Deadlines::next() {
+  last_done_ = plan_.number();
+  ++done_;
+  plan_.next();
 }
 
 }  // namespace takt::node

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "application/activation_grid.hpp"
+#include "application/activation_plan.hpp"
 #include "node/config.hpp"
 
 namespace takt::node {
@@ -19,23 +20,31 @@ class DeadlineClock {
   ClockName name_;
 };
 
-/// The activations of a thread, from the next one that is due on.
+/// The activations of a thread, from the next one that is due on: each is answered when its response time is over, or as soon after that as the thread is let run.
 class Deadlines {
  public:
-  Deadlines(const application::ActivationGrid& grid, std::int64_t now) : grid_(grid), number_(grid.latest_at(now) + 1) {}
+  /// Grid and times in ns.
+  Deadlines(const application::ActivationGrid& grid, const application::ActivationPlan& plan, std::int64_t now);
 
-  std::int64_t due() const { return grid_.due(number_); }
-  std::int64_t number() const { return number_; }
-  /// The thread is awake, at `due` or later. Activations that were over before count as missed; the last that was due is the one to answer now.
-  void awake(std::int64_t now);
-  void next() { ++number_; }
+  /// When the activation is due that is next.
+  std::int64_t due() const { return grid_.due(plan_.number()); }
+  std::int64_t number() const { return plan_.number(); }
+  /// When the thread has to wake up for it.
+  std::int64_t at() const { return due() + plan_.response().ps() / 1000; }
+  /// The thread is awake, at `at` or later. Whether the activation is answered now. Those that were over before are missed; the last that was due is the one to answer, when its response time is over.
+  bool awake(std::int64_t now);
+  /// It has been answered.
+  void next();
 
-  std::uint64_t missed() const { return missed_; }
+  /// Of the activations of which it is known by then.
+  std::uint64_t missed(std::int64_t now) const { return static_cast<std::uint64_t>(grid_.decided(first_, last_done_, now)) - done_; }
 
  private:
   application::ActivationGrid grid_;
-  std::int64_t number_;
-  std::uint64_t missed_ = 0;
+  application::ActivationPlan plan_;
+  std::int64_t first_;
+  std::int64_t last_done_;  // below first_: none
+  std::uint64_t done_ = 0;
 };
 
 }  // namespace takt::node

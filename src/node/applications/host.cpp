@@ -54,6 +54,10 @@ struct ApplicationHost::Task {
   std::mutex mutex;                        ///< of the criteria: the thread adds, the scheduler looks
   std::optional<plant::Criterion> calls;   ///< since the scheduler runs, and so the next
   std::optional<plant::Criterion> values;  ///< of those that take
+  std::optional<std::int64_t> window_end;  ///< of the window for which the next look was drawn
+  std::int64_t look_at = 0;
+  application::OutputLevel<sim::LocalTime> level;  ///< of the signal; the thread's own
+  std::optional<std::int64_t> signal_epoch;
 
   /// The least multiple of the interval that is not shorter.
   std::int64_t window_of(const Scheduler& scheduler) const { return (ns_of(scheduler.window) + ns_of(every) - 1) / ns_of(every) * ns_of(every); }
@@ -74,10 +78,34 @@ struct ApplicationHost::Task {
     if (values) values->add(due, buffered);
   }
 
+  /// When the scheduler looks: at the end of the open window, and so long after as is drawn for it. Nothing when all tests are done. Asked by the scheduler alone.
+  std::optional<std::int64_t> next_look(const sim::Distribution& response, sim::RandomStream& chance) {
+    const std::lock_guard lock(mutex);
+    const auto window = calls->open();
+    if (!window) return std::nullopt;
+    if (window->to != window_end) {
+      window_end = window->to;
+      look_at = window->to + ns_of(response.draw(chance));
+    }
+    return look_at;
+  }
+
   void look(std::int64_t now) {
     const std::lock_guard lock(mutex);
     calls->look(now);
     if (values) values->look(now);
+  }
+
+  /// The call for the activation that was due then has taken something.
+  void set_signal(bool high, std::int64_t due, std::int64_t now) {
+    if (!statistics.signal) return;
+    if (!signal_epoch) signal_epoch = now;   // clocks count from long before, and local time ends after 106 days
+    const auto local = sim::LocalTime::from_ps((now - *signal_epoch) * 1000);
+    SignalStatistics& signal = *statistics.signal;
+    const auto edge = level.set(high, local);
+    if (!edge) return;
+    signal.figures.latency.add(Duration::from_ps((now - due) * 1000));
+    level.count(*edge, local, signal.pulse, signal.figures);
   }
 };
 
@@ -168,7 +196,9 @@ bool ApplicationHost::add_application(const plant::Application& application, std
       TopicReader* const reader = reader_of(topic, thread.qos, problem);
       if (reader == nullptr) return false;
       const bool is_copied = std::any_of(application.threads.begin(), application.threads.end(), [&](const Thread& each) { return each.payload && each.payload->copy_of == topic; });
-      watched.add(make_subscribing(topic, shape, *reader, thread.buffer.value_or(1), is_copied, watched.newest), thread.every, thread.offset, "subscribe", thread.name, topic).tests = thread.tests;
+      Task& task = watched.add(make_subscribing(topic, shape, *reader, thread.buffer.value_or(1), is_copied, watched.newest), thread.every, thread.offset, "subscribe", thread.name, topic);
+      task.tests = thread.tests;
+      if (thread.signal) task.statistics.signal = SignalStatistics{thread.signal->name, thread.signal->pulse.value_or(thread.every), {}};
     }
   }
   return true;
@@ -185,26 +215,36 @@ bool ApplicationHost::add_gateway(const plant::Gateway& given, std::string& prob
   watched.name = given.name;
   watched.scheduler = given.scheduler;
   watched.channel = std::make_unique<SharedChannel>(std::move(*mapping), buffer_of(given));
-  watched.add(make_receiving(*reader, *watched.channel), given.receive_every, given.receive_offset, "receive", "receive", given.from);
-  watched.add(make_sending(*writer, *watched.channel), given.send_every, given.send_offset, "send", "send", given.to);
+  watched.add(make_receiving(*reader, *watched.channel), given.receive_every, given.receive_offset, "receive", receiving_thread, given.from);
+  watched.add(make_sending(*writer, *watched.channel), given.send_every, given.send_offset, "send", sending_thread, given.to);
   return true;
 }
 
-void ApplicationHost::run_task(Task& task) {
+std::string ApplicationHost::path_of(const Watched& watched) const { return loaded_.config.node + "/" + watched.name; }
+
+/// The random stream is that of the simulated thread: with its seed the same responses, one after the other.
+application::ActivationPlan ApplicationHost::plan_of(const Watched& watched, const Task& task) const {
+  const auto law = loaded_.responses.find({watched.name, task.statistics.name});
+  return {task.every, law == loaded_.responses.end() ? at_once_ : law->second, sim::RandomStream(loaded_.config.seed, path_of(watched) + "/" + task.statistics.name, "response")};
+}
+
+void ApplicationHost::run_task(const Watched& watched, Task& task) {
   const DeadlineClock clock(loaded_.config.clock);
-  Deadlines deadlines({ns_of(task.every), ns_of(task.offset)}, clock.now());
+  Deadlines deadlines({ns_of(task.every), ns_of(task.offset)}, plan_of(watched, task), clock.now());
   ThreadStatistics& statistics = task.statistics;
   while (!is_over_.load(std::memory_order_relaxed)) {
     std::int64_t now = clock.now();
-    if (now < deadlines.due()) {
-      clock.wait_until(std::min(deadlines.due(), now + longest_sleep_ns));
+    if (now < deadlines.at()) {
+      clock.wait_until(std::min(deadlines.at(), now + longest_sleep_ns));
       continue;
     }
-    statistics.late.add(now - deadlines.due());
-    deadlines.awake(now);
+    statistics.late.add(now - deadlines.at());
+    if (!deadlines.awake(now)) continue;
+    statistics.response.add(now - deadlines.due());
     const CallResult result = task.work->call(now);
     // A call that ends when the next activation is due already is that one's delay, not this one's failure.
     task.add(deadlines.due(), result.buffered);
+    if (result.is_high) task.set_signal(*result.is_high, deadlines.due(), clock.now());
     ++statistics.calls;
     statistics.sent += result.sent;
     statistics.timed_out += result.timed_out;
@@ -212,23 +252,26 @@ void ApplicationHost::run_task(Task& task) {
     statistics.taken += result.taken;
     deadlines.next();
   }
-  statistics.missed = deadlines.missed();
+  statistics.missed = deadlines.missed(clock.now());
 }
 
 void ApplicationHost::run_scheduler(Watched& watched) {
   const DeadlineClock clock(loaded_.config.clock);
+  const auto law = loaded_.scheduler_responses.find(watched.name);
+  const sim::Distribution& response = law == loaded_.scheduler_responses.end() ? at_once_ : law->second;
+  std::vector<sim::RandomStream> chances(watched.tasks.size(), sim::RandomStream(loaded_.config.seed, path_of(watched), "scheduler"));
   for (const auto& task : watched.tasks) task->begin_tests(watched.scheduler, clock.now());
   while (!is_over_.load(std::memory_order_relaxed)) {
     std::optional<std::int64_t> next;
-    for (const auto& task : watched.tasks)
-      if (const auto window = task->calls->open()) next = next ? std::min(*next, window->to) : window->to;
-    if (!next) return;
     const std::int64_t now = clock.now();
-    if (now < *next) {
-      clock.wait_until(std::min(*next, now + longest_sleep_ns));
-      continue;
+    for (std::size_t t = 0; t < watched.tasks.size(); ++t) {
+      const auto at = watched.tasks[t]->next_look(response, chances[t]);
+      if (!at) continue;
+      if (*at <= now) watched.tasks[t]->look(now);
+      next = next ? std::min(*next, *at) : *at;
     }
-    for (const auto& task : watched.tasks) task->look(now);
+    if (!next) return;
+    if (now < *next) clock.wait_until(std::min(*next, now + longest_sleep_ns));
   }
 }
 
@@ -237,7 +280,7 @@ void ApplicationHost::run(bool (*stop_requested)(const void* context), const voi
   started_ = clock.now();
   ThreadGroup threads(is_over_);
   for (const auto& watched : watched_) {
-    for (const auto& task : watched->tasks) threads.start([this, &each = *task] { run_task(each); });
+    for (const auto& task : watched->tasks) threads.start([this, &of = *watched, &each = *task] { run_task(of, each); });
     threads.start([this, &each = *watched] { run_scheduler(each); });
   }
   while (!is_over_ && !stop_requested(context)) {

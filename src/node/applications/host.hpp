@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "application/activation_plan.hpp"
+#include "application/output_level.hpp"
 #include "gateway/channel.hpp"
 #include "node/applications/config.hpp"
 #include "node/applications/topic_end.hpp"
@@ -15,6 +17,13 @@
 #include "plant/criterion.hpp"
 
 namespace takt::node {
+
+/// What was seen of a digital output, by the clock of the node.
+struct SignalStatistics {
+  std::string name;
+  Duration pulse;               ///< nominal
+  application::PulseFigures figures;
+};
 
 /// What a thread of an application or gateway did.
 struct ThreadStatistics {
@@ -30,9 +39,11 @@ struct ThreadStatistics {
   std::uint64_t not_sent = 0;   ///< samples that the protocol or the socket refused
   std::uint64_t taken = 0;      ///< samples that came; those that no activation took any more are taken at the end
   std::uint64_t lost = 0;       ///< of OPC UA: numbers that were jumped over
-  Distribution late;            ///< from an activation to waking up
+  Distribution late;            ///< waking up, against when it had to: the activation and the response time that was drawn for it
+  Distribution response;        ///< from an activation to the call that answers it
   plant::CriterionFigures call_windows;   ///< criterion 1
   plant::CriterionFigures value_windows;  ///< criterion 2, of those that take
+  std::optional<SignalStatistics> signal = {};
 };
 
 struct ApplicationStatistics {
@@ -47,6 +58,7 @@ struct ApplicationsReport {
   std::string node;
   std::vector<ApplicationStatistics> all;
 };
+const json::Record& describe(json::Type<SignalStatistics>);
 const json::Record& describe(json::Type<ThreadStatistics>);
 const json::Record& describe(json::Type<ApplicationStatistics>);
 const json::Record& describe(json::Type<ApplicationsReport>);
@@ -72,10 +84,14 @@ class ApplicationHost {
   DdsParticipant* participant_of(std::uint16_t domain, std::string& problem);
   bool add_application(const plant::Application& application, std::string& problem);
   bool add_gateway(const plant::Gateway& gateway, std::string& problem);
-  void run_task(Task& task);
+  application::ActivationPlan plan_of(const Watched& watched, const Task& task) const;
+  void run_task(const Watched& watched, Task& task);
   void run_scheduler(Watched& watched);
 
+  std::string path_of(const Watched& watched) const;
+
   LoadedApplications loaded_;
+  sim::Distribution at_once_ = sim::Distribution::constant({});  // the response where the file has none: it passes by itself
   std::unique_ptr<OpcUaTopics> opc_ua_;
   std::vector<std::pair<std::uint16_t, std::unique_ptr<DdsParticipant>>> participants_;
   std::vector<std::unique_ptr<TopicWriter>> dds_writers_;

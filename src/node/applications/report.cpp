@@ -5,6 +5,8 @@
 namespace takt::node {
 namespace {
 
+double us_of(sim::Duration duration) { return static_cast<double>(duration.ps()) / 1e6; }
+
 std::string percent_of(const plant::CriterionFigures& figures) {
   const auto percent = figures.percent();
   return percent ? fmt::format("{:.1f} %", *percent) : "-";
@@ -21,6 +23,14 @@ std::string to_text(const std::vector<ApplicationStatistics>& statistics) {
                          static_cast<double>(thread.late.greatest()) / 1000);
     for (const ThreadStatistics& thread : each.threads)
       if (thread.timed_out + thread.not_sent > 0) out += fmt::format("  {}/{}: {} timed out, {} not sent\n", each.name, thread.name, thread.timed_out, thread.not_sent);
+    for (const ThreadStatistics& thread : each.threads) {
+      if (!thread.signal) continue;
+      const application::PulseFigures& figures = thread.signal->figures;
+      out += fmt::format("  {} signal {}: {} edges, {} of {} pulses irregular", each.name, thread.signal->name, figures.latency.count(), figures.irregular_pulses, figures.pulses.count());
+      if (figures.latency.count() > 0) out += fmt::format("; latency mean {:.1f} us, max {:.1f} us", us_of(figures.latency.mean()), us_of(figures.latency.greatest()));
+      if (figures.pulses.count() > 0) out += fmt::format("; pulse mean {:.1f} us", us_of(figures.pulses.mean()));
+      out += "\n";
+    }
     if (!each.channel) continue;
     const gateway::ChannelFigures& figures = *each.channel;
     out += fmt::format("  {} buffer: {} received, {} forwarded, {} overwritten, {} dropped, {} stale, {} not mapped; age mean {:.1f} us, max {:.1f} us\n", each.name, figures.received(),

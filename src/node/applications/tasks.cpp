@@ -34,16 +34,19 @@ class Publishing final : public Work {
 class Subscribing final : public Work {
  public:
   Subscribing(const std::string& name, const application::TopicShape& topic, TopicReader& reader, std::uint32_t buffer, bool is_copied, NewestSamples& newest)
-      : name_(name), reader_(reader), newest_(newest), buffer_(buffer), is_copied_(is_copied), subscription_(topic) {}
+      : name_(name), reader_(reader), newest_(newest), buffer_(buffer), is_copied_(is_copied), topic_(topic), subscription_(topic) {}
 
   CallResult call(std::int64_t) override {
     CallResult result;
+    std::optional<uadp::Octets> last;
     for (const std::vector<std::byte>& value : reader_.take()) {
       const auto fields = subscription_.take(value);
       if (!fields) continue;
       if (is_copied_) newest_.put(name_, *fields);
+      last = fields;
       ++result.taken;
     }
+    if (last) result.is_high = !topic_.is_zero(*last);
     result.buffered = std::min(result.taken, buffer_);
     return result;
   }
@@ -55,6 +58,7 @@ class Subscribing final : public Work {
   NewestSamples& newest_;
   std::uint32_t buffer_;
   bool is_copied_;
+  const application::TopicShape& topic_;
   application::Subscription subscription_;
 };
 

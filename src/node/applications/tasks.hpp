@@ -20,6 +20,7 @@ struct CallResult {
   std::uint32_t not_sent = 0;
   std::uint32_t taken = 0;     ///< samples that came
   std::uint32_t buffered = 0;  ///< those of them that the buffer held
+  std::optional<bool> is_high = {};  ///< of a subscription: whether the first field of the last one is not zero; nothing if none came
 };
 
 /// The work of a thread. `now`: nanoseconds of the clock. Called by its thread alone.

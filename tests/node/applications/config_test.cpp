@@ -112,8 +112,25 @@ TEST_F(ApplicationsFile, TakesThePlantOfAScenarioButWhatOnlyASimulatorDoes) {
                "applications": [{"name": "one", "on": "a", "threads": [{"name": "s", "subscribe": "x", "every": "5ms", "response": {"uniform": {"from": "1us", "to": "9us"}})" + thread + "}]}]}";
   };
   EXPECT_TRUE(load(file("", "")));
-  EXPECT_FALSE(load(file(R"(, "publication": "asynchronous")", R"(, "signal": "valve")")));
-  EXPECT_EQ(said_, (Lines{"/topics/0/publication: not of OPC UA", "/applications/0/threads/0/signal: not on a real node"}));
+  EXPECT_FALSE(load(file(R"(, "publication": "asynchronous")", "")));
+  EXPECT_EQ(said_, Lines{"/topics/0/publication: not of OPC UA"});
+}
+
+TEST_F(ApplicationsFile, ResponsesAndSignalsAreThoseOfAScenario) {
+  const auto file = [](const std::string& response, const std::string& more) {
+    return R"({"node": "a", "transport": {"kind": "udp", "destinations": ["239.0.0.1"]}, "seed": 7, "topics": [{"name": "x", "protocol": "opc-ua", "fields": {"n": "UInt32"}}],
+               "applications": [{"name": "one", "on": "a", "scheduler": {"response": "20us"}, "threads": [{"name": "s", "subscribe": "x", "every": "5ms", "response": )" + response + R"(, "signal": "valve"})" + more + "]}]}";
+  };
+  const auto loaded = load(file(R"({"uniform": {"from": "1us", "to": "9us"}})", ""));
+  ASSERT_TRUE(loaded) << said_.front();
+  EXPECT_EQ(loaded->config.seed, 7u);
+  EXPECT_EQ(loaded->responses.at({"one", "s"}).least(), sim::Duration::from_ps(1'000'000));
+  EXPECT_EQ(loaded->responses.at({"one", "s"}).greatest(), sim::Duration::from_ps(9'000'000));
+  EXPECT_EQ(loaded->scheduler_responses.at("one").greatest(), sim::Duration::from_ps(20'000'000));
+  EXPECT_FALSE(load(file(R"({"uniform": {"from": "9us", "to": "1us"}})", "")));
+  EXPECT_EQ(said_, Lines{"/applications/0/threads/0/response/uniform: an empty interval"});
+  EXPECT_FALSE(load(file(R"("1us")", R"(, {"name": "p", "publish": "x", "every": "5ms", "signal": "lamp"}, {"name": "t", "subscribe": "x", "every": "5ms", "signal": "valve"})")));
+  EXPECT_EQ(said_, (Lines{"/applications/0/threads/1/signal: nothing is taken", "/applications/0/threads/2/signal: duplicate name"}));
 }
 
 TEST_F(ApplicationsFile, WithoutDdsItIsRefusedByName) {

@@ -89,5 +89,46 @@ TEST(ApplicationHost, AChainOfThreeRolesTakesWhatItPublishes) {
   EXPECT_NE(json.find("\"criterion_1\""), std::string::npos);
 }
 
+// The publisher alternates, so each sample that is taken changes the output. How late the machine is nobody knows; it is not earlier than the drawn response.
+TEST(ApplicationHost, ASignalFollowsWhatAThreadTakesAfterItsResponse) {
+  const auto reserved = testing::Reservation::ports();
+  const auto listener_port = static_cast<std::uint16_t>(reserved.number() + 1);
+  const Listener listener(listener_port);
+  json::Diagnostics diagnostics;
+  const auto loaded = load_applications_text(R"({
+    "node": "all",
+    "topics": [{"name": "level", "protocol": "opc-ua", "publisher_id": 32, "fields": {"v": "Int32"}}],
+    "applications": [
+      {"name": "update", "on": "all", "threads": [{"name": "publish", "publish": "level", "every": "5ms", "payload": "alternate"}]},
+      {"name": "control", "on": "all", "threads": [{"name": "subscribe", "subscribe": "level", "every": "5ms", "response": "2ms", "signal": {"name": "valve", "pulse": "5ms"}, "buffer": 1000},
+                                                   {"name": "never", "subscribe": "level", "every": "5ms", "response": "5ms", "signal": "stuck"}]}],
+    "transport": {"kind": "udp", "interface": "lo", "port": )" + std::to_string(reserved.number()) + R"(, "destinations": ["127.0.0.1", "127.0.0.1:)" + std::to_string(listener_port) + R"("]}})", "file", diagnostics);
+  ASSERT_TRUE(loaded) << diagnostics.to_text();
+  std::string problem;
+  std::string warnings;
+  const auto host = ApplicationHost::make(*loaded, problem, warnings);
+  ASSERT_TRUE(host) << problem;
+  host->run([](const void* heard) { return static_cast<const Listener*>(heard)->has_heard_enough(); }, &listener);
+  const auto statistics = host->statistics();
+  const ThreadStatistics& taking = statistics[1].threads[0];
+  EXPECT_EQ(taking.response.count(), taking.calls);
+  EXPECT_GE(taking.response.least(), 2'000'000);
+  ASSERT_TRUE(taking.signal);
+  const application::PulseFigures& figures = taking.signal->figures;
+  EXPECT_EQ(taking.signal->name, "valve");
+  EXPECT_GT(figures.latency.count(), 0u);
+  EXPECT_LE(figures.latency.count(), taking.taken);
+  EXPECT_GE(figures.latency.least(), sim::Duration::from_ps(2'000'000'000));
+  EXPECT_EQ(figures.pulses.count(), figures.latency.count() / 2);   // each second edge is a fall
+  const ThreadStatistics& never = statistics[1].threads[1];
+  EXPECT_EQ(never.calls, 0u);
+  EXPECT_GT(never.missed, 0u);
+  EXPECT_EQ(never.signal->figures.latency.count(), 0u);
+  EXPECT_FALSE(statistics[0].threads[0].signal);
+  const std::string json = to_json({"all", statistics});
+  EXPECT_NE(json.find(R"("signal": {"name": "valve", "nominal_ns": 5000000,)"), std::string::npos) << json;
+  EXPECT_NE(to_text(statistics).find("control signal valve: "), std::string::npos);
+}
+
 }  // namespace
 }  // namespace takt::node

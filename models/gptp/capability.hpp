@@ -33,10 +33,7 @@ class Capability {
   /// The timer gptp_capable_interval.
   void interval_elapsed(sim::LocalTime now, Outputs& outputs) {
     if (!up_ || !log_interval_) return;
-    Signaling message;
-    message.header.source = self_;
-    message.header.domain = domain_;
-    message.header.sequence_id = next_sequence_++;
+    Signaling message = next_message();
     message.capable = GptpCapable{*log_interval_};
     outputs.push_back(SendMessage{self_.port, message});
     next_ = std::max(next_ + interval_of(*log_interval_), now);
@@ -44,15 +41,29 @@ class Capability {
   }
   /// The timer gptp_capable_receipt.
   void receipt_elapsed() { hears_ = false; }
+  /// Precondition: is_meant().
   void received(const Signaling& message, sim::LocalTime now, Outputs& outputs) {
-    if (!up_ || !log_interval_ || !message.capable || message.header.source.clock == self_.clock) return;
-    if (message.target != PortIdentity::all() && message.target != self_) return;
+    if (!up_ || !log_interval_ || !message.capable) return;
     const int interval = message.capable->log_interval;
     if (interval < -longest_interval || interval > longest_interval) return;
     hears_ = true;
     outputs.push_back(ArmTimer{timer(TimerPurpose::gptp_capable_receipt), now + interval_of(interval) * receipt_timeout});
   }
 
+  /// It comes from another node, and this port is meant.
+  bool is_meant(const Signaling& message) const {
+    return message.header.source.clock != self_.clock && (message.target == PortIdentity::all() || message.target == self_);
+  }
+  /// An empty Signaling of the port in the domain, for whatever has to be said.
+  Signaling next_message() {
+    Signaling message;
+    message.header.source = self_;
+    message.header.domain = domain_;
+    message.header.sequence_id = next_sequence_++;
+    return message;
+  }
+
+  bool is_up() const { return up_; }
   /// neighborGptpCapable.
   bool is_neighbor_capable() const { return !log_interval_ || hears_; }
 

@@ -15,6 +15,8 @@ constexpr std::uint16_t tlv_path_trace = 0x0008;
 constexpr std::uint16_t tlv_organization_extension_do_not_propagate = 0x8000;
 constexpr std::uint16_t gptp_capable_length = 12;
 constexpr std::uint32_t gptp_capable_subtype = 4;
+constexpr std::uint16_t interval_request_length = 12;
+constexpr std::uint32_t interval_request_subtype = 2;
 constexpr std::uint16_t follow_up_information_length = 28;
 constexpr std::uint16_t drift_tracking_length = 32;
 constexpr std::uint32_t follow_up_information_subtype = 1;
@@ -82,7 +84,9 @@ std::size_t length_of(const PdelayReq&) { return 54; }
 std::size_t length_of(const PdelayResp&) { return 54; }
 std::size_t length_of(const PdelayRespFollowUp&) { return 54; }
 std::size_t length_of(const Announce& announce) { return 64 + 4 + 8 * announce.path_trace.size(); }
-std::size_t length_of(const Signaling& signaling) { return 44 + (signaling.capable ? std::size_t{4} + gptp_capable_length : 0); }
+std::size_t length_of(const Signaling& signaling) {
+  return 44 + (signaling.request ? std::size_t{4} + interval_request_length : 0) + (signaling.capable ? std::size_t{4} + gptp_capable_length : 0);
+}
 
 // The first flag octet: twoStepFlag for a Sync without contents and for every Pdelay_Resp.
 std::uint8_t flags_of(const Message& message) {
@@ -155,6 +159,17 @@ void put_body(Writer& out, const Announce& announce) {
 
 void put_body(Writer& out, const Signaling& signaling) {
   put(out, signaling.target);
+  if (signaling.request) {
+    out.put(tlv_organization_extension);
+    out.put(interval_request_length);
+    put_24_bits(out, organization_802_1);
+    put_24_bits(out, interval_request_subtype);
+    out.put(signaling.request->link_delay);
+    out.put(signaling.request->time_sync);
+    out.put(signaling.request->announce);
+    out.put(signaling.request->flags);
+    out.put_zeros(2);
+  }
   if (!signaling.capable) return;
   out.put(tlv_organization_extension_do_not_propagate);
   out.put(gptp_capable_length);
@@ -292,20 +307,34 @@ bool get_body(Reader& in, const RawHeader& raw, Announce& announce) {
   }, [](Reader) {});
 }
 
-bool get_capable(Reader contents, std::optional<GptpCapable>& capable) {
-  if (contents.left() != gptp_capable_length) return false;
-  if (get_24_bits(contents) != organization_802_1 || get_24_bits(contents) != gptp_capable_subtype) return false;
-  GptpCapable read;
-  read.log_interval = contents.get<std::int8_t>();
-  read.flags = contents.get<std::uint8_t>();
-  capable = read;
-  return true;
+void get_capable(Reader contents, std::optional<GptpCapable>& capable) {
+  if (capable || contents.left() != gptp_capable_length) return;
+  if (get_24_bits(contents) != organization_802_1 || get_24_bits(contents) != gptp_capable_subtype) return;
+  capable.emplace();
+  capable->log_interval = contents.get<std::int8_t>();
+  capable->flags = contents.get<std::uint8_t>();
+}
+
+void get_request(Reader contents, std::optional<IntervalRequest>& request) {
+  if (request || contents.left() != interval_request_length) return;
+  if (get_24_bits(contents) != organization_802_1 || get_24_bits(contents) != interval_request_subtype) return;
+  request.emplace();
+  request->link_delay = contents.get<std::int8_t>();
+  request->time_sync = contents.get<std::int8_t>();
+  request->announce = contents.get<std::int8_t>();
+  request->flags = contents.get<std::uint8_t>();
 }
 
 /// Other TLVs than those that are known here are no mistake.
 bool get_body(Reader& in, const RawHeader&, Signaling& signaling) {
   get(in, signaling.target);
-  find_tlv(in, tlv_organization_extension_do_not_propagate, [&](Reader contents) { return get_capable(contents, signaling.capable); }, [](Reader) {});
+  while (in.left() >= 4) {
+    const auto type = in.get<std::uint16_t>();
+    const Reader contents(in.take(in.get<std::uint16_t>()));
+    if (in.failed()) return false;
+    if (type == tlv_organization_extension) get_request(contents, signaling.request);
+    if (type == tlv_organization_extension_do_not_propagate) get_capable(contents, signaling.capable);
+  }
   return in.left() == 0;
 }
 

@@ -22,7 +22,7 @@ std::optional<sim::PtpTime> joined(const Timestamp& time, Correction correction)
 }  // namespace
 
 LinkDelay::LinkDelay(const LinkDelayConfig& config, PortIdentity self)
-    : config_(config), self_(self), ratio_(config.neighbor_rate_ratio_window, config.compensate_drift) {
+    : config_(config), self_(self), interval_(config.log_pdelay_req_interval, 0), ratio_(config.neighbor_rate_ratio_window, config.compensate_drift) {
   TAKT_CHECK(config.average_over >= 1, "an average over something");
 }
 
@@ -34,6 +34,7 @@ void LinkDelay::link_up(sim::LocalTime now, Outputs& outputs) {
   ratio_.reset();
   request_.pending = false;
   answer_.reset();
+  interval_.reset();
   next_request_ = now;
   send_request(now, outputs);
 }
@@ -42,6 +43,20 @@ void LinkDelay::link_down(Outputs& outputs) {
   up_ = false;
   outputs.push_back(CancelTimer{{TimerId::no_instance, self_.port, TimerPurpose::pdelay_interval}});
   set_as_capable(false, outputs);
+}
+
+void LinkDelay::interval_requested(std::int8_t log_interval, sim::LocalTime now, Outputs& outputs) {
+  if (!up_) return;
+  const bool was_stopped = interval_.is_stopped();
+  if (!interval_.request(log_interval)) return;
+  const TimerId timer{TimerId::no_instance, self_.port, TimerPurpose::pdelay_interval};
+  if (interval_.is_stopped()) {
+    outputs.push_back(CancelTimer{timer});
+    return;
+  }
+  const sim::LocalTime soonest = now + interval_.length();
+  next_request_ = was_stopped ? soonest : std::min(next_request_, soonest);
+  outputs.push_back(ArmTimer{timer, next_request_});
 }
 
 void LinkDelay::interval_elapsed(sim::LocalTime now, Outputs& outputs) {
@@ -61,7 +76,7 @@ void LinkDelay::send_request(sim::LocalTime now, Outputs& outputs) {
   if (!request_.faulty) faults_ = 0;  // only faults in a row count
   request_ = {.sequence_id = next_sequence_++, .pending = true};
   outputs.push_back(SendMessage{self_.port, PdelayReq{header(request_.sequence_id)}});
-  next_request_ = std::max(next_request_ + interval_of(config_.log_pdelay_req_interval), now);
+  next_request_ = std::max(next_request_ + interval_.sent(), now);
   outputs.push_back(ArmTimer{{TimerId::no_instance, self_.port, TimerPurpose::pdelay_interval}, next_request_});
 }
 
@@ -148,7 +163,7 @@ Header LinkDelay::header(std::uint16_t sequence_id) const {
   header.major_sdo_id = config_.major_sdo_id;
   header.source = self_;
   header.sequence_id = sequence_id;
-  header.log_message_interval = static_cast<std::int8_t>(config_.log_pdelay_req_interval);
+  header.log_message_interval = interval_.announced();
   return header;
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "models/gptp/message_interval.hpp"
 #include "models/gptp/neighbor_rate_ratio.hpp"
 #include "models/gptp/output.hpp"
 #include "sim/check.hpp"
@@ -30,6 +31,8 @@ class LinkDelay {
 
   void link_up(sim::LocalTime now, Outputs& outputs);
   void link_down(Outputs& outputs);
+  /// The neighbour asks for another interval of Pdelay_Req, see MessageInterval. What has been measured stays.
+  void interval_requested(std::int8_t log_interval, sim::LocalTime now, Outputs& outputs);
   /// The timer pdelay_interval.
   void interval_elapsed(sim::LocalTime now, Outputs& outputs);
   void received(const PdelayReq& request, sim::LocalTime ingress, Outputs& outputs);
@@ -72,6 +75,7 @@ class LinkDelay {
 
   LinkDelayConfig config_;
   PortIdentity self_;
+  MessageInterval interval_;
   NeighborRateRatio ratio_;
   bool up_ = false;
   bool as_capable_ = false;

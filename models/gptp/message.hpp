@@ -132,10 +132,20 @@ struct GptpCapable {
   bool operator==(const GptpCapable&) const = default;
 };
 
+/// Message-interval request TLV (10.6.4.3): what the neighbour is asked to send, as logarithms; see MessageInterval for values that are no intervals.
+struct IntervalRequest {
+  std::int8_t link_delay = -128;
+  std::int8_t time_sync = -128;
+  std::int8_t announce = -128;
+  std::uint8_t flags = 0x07;                              // computeNeighborRateRatio, computeMeanLinkDelay, oneStepReceiveCapable
+  bool operator==(const IntervalRequest&) const = default;
+};
+
 struct Signaling {
   Header header = {};
   PortIdentity target = PortIdentity::all();
   std::optional<GptpCapable> capable = {};
+  std::optional<IntervalRequest> request = {};
   bool operator==(const Signaling&) const = default;
 };
 

@@ -44,7 +44,7 @@ void Node::received(PortNumber port, const Message& message, sim::LocalTime ingr
   } else if (const auto* const signaling = std::get_if<Signaling>(&message)) {
     const PtpInstance* const instance = instance_of(signaling->header.domain);
     if (instance == nullptr) return;
-    capability(static_cast<std::size_t>(instance - instances_.data()), port).received(*signaling, now, outputs);
+    take(*signaling, static_cast<std::size_t>(instance - instances_.data()), port, now, outputs);
   } else if (PtpInstance* const instance = instance_of(header_of(message).domain); instance != nullptr && is_capable(static_cast<std::size_t>(instance - instances_.data()), port)) {
     if (const auto* const sync = std::get_if<Sync>(&message)) instance->received(*sync, port, ingress, measure(port, ingress), now, outputs);
     if (const auto* const follow_up = std::get_if<FollowUp>(&message)) instance->received(*follow_up, port, now, outputs);
@@ -61,6 +61,22 @@ void Node::transmitted(const EgressReport& report, sim::LocalTime now, Outputs& 
   }
   mutable_link(report.port).transmitted(report, outputs);
   follow_capability(report.port, now, outputs);
+}
+
+void Node::take(const Signaling& signaling, std::size_t instance, PortNumber port, sim::LocalTime now, Outputs& outputs) {
+  if (!capability(instance, port).is_meant(signaling)) return;
+  capability(instance, port).received(signaling, now, outputs);
+  if (!signaling.request || !is_capable(instance, port)) return;
+  mutable_link(port).interval_requested(signaling.request->link_delay, now, outputs);
+  instances_[instance].received(*signaling.request, port, now, outputs);
+}
+
+void Node::ask_for_intervals(std::size_t instance, PortNumber port, const IntervalRequest& request, Outputs& outputs) {
+  Capability& sender = capability(instance, port);
+  if (!sender.is_up()) return;
+  Signaling message = sender.next_message();
+  message.request = request;
+  outputs.push_back(SendMessage{port, message});
 }
 
 void Node::timer_expired(const TimerId& timer, sim::LocalTime now, Outputs& outputs) {

@@ -30,6 +30,8 @@ class Node {
   /// `ingress`: the timestamp of an event message; of no meaning for others.
   void received(PortNumber port, const Message& message, sim::LocalTime ingress, sim::LocalTime now, Outputs& outputs);
   void transmitted(const EgressReport& report, sim::LocalTime now, Outputs& outputs);
+  /// Asks the neighbour at that port for other intervals: Signaling with the message-interval request TLV, once. Only if the link is up.
+  void ask_for_intervals(std::size_t instance, PortNumber port, const IntervalRequest& request, Outputs& outputs);
   void timer_expired(const TimerId& timer, sim::LocalTime now, Outputs& outputs);
 
   PtpInstance& instance(std::size_t index) { return instances_.at(index); }
@@ -43,6 +45,7 @@ class Node {
   LinkDelay& mutable_link(PortNumber port);
   PtpInstance* instance_of(std::uint8_t domain);
   Capability& capability(std::size_t instance, PortNumber port);
+  void take(const Signaling& signaling, std::size_t instance, PortNumber port, sim::LocalTime now, Outputs& outputs);
   LinkMeasure measure(PortNumber port, sim::LocalTime at) const;
   void follow_capability(PortNumber port, sim::LocalTime now, Outputs& outputs);
 

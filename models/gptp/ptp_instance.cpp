@@ -8,7 +8,9 @@
 namespace takt::models::gptp {
 
 PtpInstance::PtpInstance(const InstanceConfig& config, std::uint8_t index, PortNumber ports)
-    : config_(config), index_(index), ports_(ports), information_(ports), drift_(config.rate_ratio_drift_window) {
+    : config_(config), index_(index),
+      ports_(ports, Port{MessageInterval(config.log_sync_interval, config.sync_receipt_timeout), MessageInterval(config.log_announce_interval, config.announce_receipt_timeout)}),
+      information_(ports), drift_(config.rate_ratio_drift_window) {
   TAKT_CHECK(index != TimerId::no_instance, "an index of an instance");
   TAKT_CHECK(!config.external_roles || config.external_roles->size() == ports, "a role for each port");
   TAKT_CHECK(config.sync_receipt_timeout > 0 && config.announce_receipt_timeout > 0, "time-outs of a few intervals");
@@ -37,6 +39,8 @@ void PtpInstance::start(sim::LocalTime now, Outputs& outputs) {
 void PtpInstance::set_port_capable(PortNumber port, bool capable, sim::LocalTime now, Outputs& outputs) {
   if (at(port).capable == capable) return;
   at(port).capable = capable;
+  at(port).sync_interval.reset();
+  at(port).announce_interval.reset();
   information(port) = {.info_is = capable ? InfoIs::aged : InfoIs::disabled};
   if (started_) reselect(now, outputs);
 }
@@ -203,16 +207,32 @@ void PtpInstance::expect_sync(const PriorityVector& before, PortNumber receiver_
   if (sync_ && at(selection_.receiver).role == PortRole::time_receiver) outputs.push_back(SyncLost{index_});
 }
 
+void PtpInstance::received(const IntervalRequest& request, PortNumber number, sim::LocalTime now, Outputs& outputs) {
+  Port& port = at(number);
+  const bool was_stopped = port.announce_interval.is_stopped();
+  if (port.announce_interval.request(request.announce) && port.role == PortRole::time_transmitter) {
+    const sim::LocalTime soonest = now + port.announce_interval.length();
+    port.next_timed_announce = was_stopped ? soonest : std::min(port.next_timed_announce, soonest);
+    if (port.announce_interval.is_stopped())
+      outputs.push_back(CancelTimer{timer(number, TimerPurpose::announce_interval)});
+    else
+      outputs.push_back(ArmTimer{timer(number, TimerPurpose::announce_interval), port.next_timed_announce});
+  }
+  if (port.sync_interval.request(request.time_sync)) follow_sync_interval(number, now, outputs);
+}
+
 // PortAnnounceTransmit (10.3.16): a time transmitter announces what it knows, a root that cannot be grandmaster as well. So those behind it hear
 // that the grandmaster is gone, and one of them can take over.
 void PtpInstance::send_announce(PortNumber number, sim::LocalTime now, Outputs& outputs) {
   Port& port = at(number);
   if (port.role != PortRole::time_transmitter) return;
-  outputs.push_back(ArmTimer{timer(number, TimerPurpose::announce_interval), now + interval_of(config_.log_announce_interval)});
+  if (port.announce_interval.is_stopped()) return;
+  port.next_timed_announce = now + port.announce_interval.sent();
+  outputs.push_back(ArmTimer{timer(number, TimerPurpose::announce_interval), port.next_timed_announce});
   const bool knows = is_grandmaster() || information(selection_.receiver).info_is == InfoIs::received;
   if (!knows) return;
   Announce announce;
-  announce.header = header(number, port.next_announce++, config_.log_announce_interval);
+  announce.header = header(number, port.next_announce++, port.announce_interval.announced());
   announce.time = time_properties();
   const PriorityVector& best = selection_.grandmaster;
   announce.grandmaster_priority1 = best.root.priority1;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "models/gptp/link_delay.hpp"
+#include "models/gptp/message_interval.hpp"
 #include "models/gptp/output.hpp"
 #include "models/gptp/port_selection.hpp"
 #include "models/gptp/rate_ratio_drift.hpp"
@@ -42,6 +43,8 @@ class PtpInstance {
   void received(const Announce& announce, PortNumber port, sim::LocalTime now, Outputs& outputs);
   void received(const Sync& sync, PortNumber port, sim::LocalTime ingress, const LinkMeasure& link, sim::LocalTime now, Outputs& outputs);
   void received(const FollowUp& follow_up, PortNumber port, sim::LocalTime now, Outputs& outputs);
+  /// The neighbour asks for other intervals of Sync and Announce.
+  void received(const IntervalRequest& request, PortNumber port, sim::LocalTime now, Outputs& outputs);
   void transmitted(const EgressReport& report, Outputs& outputs);
   void timer_expired(PortNumber port, TimerPurpose purpose, sim::LocalTime now, Outputs& outputs);
 
@@ -76,6 +79,8 @@ class PtpInstance {
     SyncInformation sync = {};
   };
   struct Port {
+    MessageInterval sync_interval;
+    MessageInterval announce_interval;
     PortRole role = PortRole::disabled;
     bool capable = false;
     std::vector<ClockIdentity> path_trace = {};  // of the Announce that is valid here
@@ -84,7 +89,9 @@ class PtpInstance {
     std::uint16_t next_sync = 0;
     std::optional<SyncWaiting> waiting = {};
     std::optional<SyncLeaving> leaving = {};
-    bool has_own_interval = false;               // a relay that is not sync-locked has begun to send
+    bool has_own_interval = false;               // it has begun to send by a timer of its own
+    sim::LocalTime next_own_sync = {};           // then
+    sim::LocalTime next_timed_announce = {};
   };
 
   Port& at(PortNumber port);
@@ -115,6 +122,9 @@ class PtpInstance {
   void sync_receipt_expired(PortNumber port, sim::LocalTime now, Outputs& outputs);
   void sync_interval_elapsed(PortNumber port, sim::LocalTime now, Outputs& outputs);
   void arm_sync_receipt(PortNumber port, int log_interval, sim::LocalTime now, Outputs& outputs);
+  bool goes_along(PortNumber port) const;
+  void follow_sync_interval(PortNumber port, sim::LocalTime now, Outputs& outputs);
+  void own_sync_interval_elapsed(PortNumber port, sim::LocalTime now, Outputs& outputs);
   void send_sync(PortNumber port, const SyncInformation& sync, Outputs& outputs);
   bool is_from_transmitter(const Header& header, PortNumber port) const;
   Header header(PortNumber port, std::uint16_t sequence_id, int log_interval) const;

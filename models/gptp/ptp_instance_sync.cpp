@@ -45,10 +45,10 @@ void PtpInstance::sync_complete(const SyncWaiting& waiting, const Timestamp& ori
                                selection_.grandmaster.root.clock});
   for (PortNumber each = 1; each <= ports(); ++each) {
     if (at(each).role != PortRole::time_transmitter) continue;
-    if (config_.sync_locked && !config_.boundary)
+    if (goes_along(each))
       send_sync(each, *sync_, outputs);
     else if (!at(each).has_own_interval)
-      sync_interval_elapsed(each, now, outputs);
+      own_sync_interval_elapsed(each, now, outputs);
   }
 }
 
@@ -63,26 +63,58 @@ void PtpInstance::sync_receipt_expired(PortNumber port, sim::LocalTime now, Outp
   sync_.reset();
 }
 
-/// Port 0: the grandmaster sends at all its ports. Others: a relay that is not sync-locked sends at its own interval.
+/// Port 0: the grandmaster sends at all its ports whose interval nobody has changed.
 void PtpInstance::sync_interval_elapsed(PortNumber port, sim::LocalTime now, Outputs& outputs) {
-  const sim::Duration interval = interval_of(config_.log_sync_interval);
-  if (port == 0) {
-    if (!is_grandmaster()) return;
-    next_sync_ = std::max(next_sync_ + interval, now);
-    outputs.push_back(ArmTimer{timer(0, TimerPurpose::sync_interval), next_sync_});
-    if (!grandmaster_present()) return;
-    SyncInformation sync = source_.information_at(now);
-    sync.log_interval = static_cast<std::int8_t>(config_.log_sync_interval);
-    for (PortNumber each = 1; each <= ports(); ++each)
-      if (at(each).role == PortRole::time_transmitter) send_sync(each, sync, outputs);
-    return;
-  }
-  at(port).has_own_interval = at(port).role == PortRole::time_transmitter && !is_grandmaster() && sync_.has_value();
-  if (!at(port).has_own_interval) return;
-  outputs.push_back(ArmTimer{timer(port, TimerPurpose::sync_interval), now + interval});
-  SyncInformation sync = config_.boundary ? source_.information_at(now) : *sync_;
+  if (port != 0) return own_sync_interval_elapsed(port, now, outputs);
+  if (!is_grandmaster()) return;
+  next_sync_ = std::max(next_sync_ + interval_of(config_.log_sync_interval), now);
+  outputs.push_back(ArmTimer{timer(0, TimerPurpose::sync_interval), next_sync_});
+  if (!grandmaster_present()) return;
+  SyncInformation sync = source_.information_at(now);
   sync.log_interval = static_cast<std::int8_t>(config_.log_sync_interval);
-  send_sync(port, sync, outputs);
+  for (PortNumber each = 1; each <= ports(); ++each) {
+    if (at(each).role != PortRole::time_transmitter) continue;
+    if (goes_along(each))
+      send_sync(each, sync, outputs);
+    else if (!at(each).has_own_interval)
+      own_sync_interval_elapsed(each, now, outputs);
+  }
+}
+
+/// A port that sends when the grandmaster's timer elapses or a Sync is relayed. Others have an interval of their own: of boundary clocks, of relays that
+/// are not sync-locked, and where the neighbour has asked for another one (syncLocked, 10.3.18).
+bool PtpInstance::goes_along(PortNumber number) const {
+  const MessageInterval& interval = at(number).sync_interval;
+  if (interval.is_stopped() || interval.lingers()) return false;
+  if (is_grandmaster()) return interval.is_initial();
+  if (config_.boundary || !config_.sync_locked) return false;
+  return interval.is_initial() || (sync_ && interval.log() == sync_->log_interval);
+}
+
+void PtpInstance::own_sync_interval_elapsed(PortNumber number, sim::LocalTime now, Outputs& outputs) {
+  Port& port = at(number);
+  port.has_own_interval = port.role == PortRole::time_transmitter && !goes_along(number) && !port.sync_interval.is_stopped() && (is_grandmaster() ? grandmaster_present() : sync_.has_value());
+  if (!port.has_own_interval) return;
+  SyncInformation sync = gives_own_time() ? source_.information_at(now) : *sync_;
+  sync.log_interval = port.sync_interval.announced();
+  port.next_own_sync = now + port.sync_interval.sent();
+  outputs.push_back(ArmTimer{timer(number, TimerPurpose::sync_interval), port.next_own_sync});
+  send_sync(number, sync, outputs);
+}
+
+/// After a change of its interval: a timer of its own, or none.
+void PtpInstance::follow_sync_interval(PortNumber number, sim::LocalTime now, Outputs& outputs) {
+  Port& port = at(number);
+  if (port.role != PortRole::time_transmitter) return;
+  const bool is_timed = !port.sync_interval.is_stopped() && !goes_along(number) && (is_grandmaster() || sync_.has_value());
+  if (is_timed) {
+    const sim::LocalTime soonest = now + port.sync_interval.length();
+    port.next_own_sync = port.has_own_interval ? std::min(port.next_own_sync, soonest) : soonest;
+    outputs.push_back(ArmTimer{timer(number, TimerPurpose::sync_interval), port.next_own_sync});
+  } else if (port.has_own_interval) {
+    outputs.push_back(CancelTimer{timer(number, TimerPurpose::sync_interval)});
+  }
+  port.has_own_interval = is_timed;
 }
 
 std::optional<DriftTracking> PtpInstance::drift_of(const SyncInformation& sync, sim::LocalTime egress) const {

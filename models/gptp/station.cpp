@@ -14,6 +14,7 @@ constexpr sim::EventKind timer_due = 0;
 constexpr sim::EventKind hand_over_now = 1;
 constexpr sim::EventKind has_left = 2;
 constexpr sim::EventKind messages_have_come = 3;
+constexpr sim::EventKind ask_now = 4;
 constexpr sim::Duration software_delay = sim::Duration::from_ps(1000);  // from the last bit of a message to what it causes
 
 NodeConfig node_config(const StationPlan& plan, NodeIndex node, std::size_t ports) {
@@ -63,6 +64,15 @@ void Station::start() {
   }
   carry_out();
   note_change();
+  for (std::size_t i = 0; i < plan_.interval_requests.size(); ++i)
+    simulation_->schedule(source_, plan_.interval_requests[i].at, sim::Phase::timer, source_.id(), ask_now, i);
+}
+
+void Station::ask_for_intervals(const TimedIntervalRequest& asked) {
+  if (!up_) return;
+  outputs_.clear();
+  machine_.ask_for_intervals(asked.instance, static_cast<PortNumber>(asked.port + 1), asked.request, outputs_);
+  carry_out();
 }
 
 void Station::handle(sim::Simulation& simulation, const sim::Event& event) {
@@ -72,6 +82,7 @@ void Station::handle(sim::Simulation& simulation, const sim::Event& event) {
       break;
     case hand_over_now: hand_over(event.argument); break;
     case messages_have_come: take_in_all(); break;
+    case ask_now: ask_for_intervals(plan_.interval_requests[event.argument]); break;
     default: report_egress(event.argument); break;
   }
 }

@@ -111,6 +111,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   void expire();
   void rearm();
   void note_change();
+  void ask_for_intervals(const TimedIntervalRequest& asked);
   std::uint32_t keep(const SendMessage& message);
 
   sim::Simulation* simulation_;

@@ -240,13 +240,21 @@ std::vector<GptpMessages> gptp_messages(const scenario::Resolved& resolved, mode
   int shortest = plan.link.log_pdelay_req_interval;
   for (const models::gptp::InstanceConfig& instance : plan.instances) shortest = std::min({shortest, instance.log_sync_interval, instance.log_announce_interval});
   if (plan.log_gptp_capable_interval) shortest = std::min<int>(shortest, *plan.log_gptp_capable_interval);
+  // What anybody asks for may be relayed by all.
+  std::int64_t requests = 0;
+  for (const models::gptp::StationPlan& each : resolved.plan.gptp_stations)
+    for (const models::gptp::TimedIntervalRequest& asked : each.interval_requests) {
+      if (&each == &plan) ++requests;
+      for (const int log : {asked.request.time_sync, asked.request.announce, asked.request.link_delay})
+        if (log != models::gptp::MessageInterval::as_it_is) shortest = std::min(shortest, std::max(log, models::gptp::MessageInterval::shortest));
+    }
   const std::size_t nodes = static_cast<std::size_t>(std::count_if(stations.begin(), stations.end(), [](const auto& station) { return station.has_value(); }));
   const auto messages = [&](std::int64_t frames, std::size_t octets) {
     return GptpMessages{FrameArrivals({interval_ps(shortest) / 2, frames, 0, 0}), models::frame_length(sim::Octets{static_cast<std::uint32_t>(octets)}, false)};
   };
   // A Follow_Up has 76 octets, with Drift_Tracking 112, an Announce 68 and 8 for each node on the path; all others are shorter.
   const bool tracks = std::any_of(plan.instances.begin(), plan.instances.end(), [](const models::gptp::InstanceConfig& instance) { return instance.drift_tracking; });
-  std::vector<GptpMessages> all{messages(3 + (plan.log_gptp_capable_interval ? 3 : 2) * domains, tracks ? 112 : 76)};
+  std::vector<GptpMessages> all{messages(3 + requests + (plan.log_gptp_capable_interval ? 3 : 2) * domains, tracks ? 112 : 76)};
   if (domains > 0) all.push_back(messages(domains, 68 + 8 * std::min<std::size_t>(nodes, models::gptp::Announce::longest_path_trace)));
   return all;
 }

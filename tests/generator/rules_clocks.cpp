@@ -98,7 +98,18 @@ std::span<const Rule> clock_rules() {
       {.key = "standby_thresholds.primary_secondary_offset", .percent = 50, .words = "0s 1us 100us"},
       {.key = "standby_thresholds.waiting_time", .percent = 30, .words = "0s 1ms 1s"},
       {.key = "gptp.report_every", .percent = 30, .words = "1ms 10ms 100us"},
-      {.key = "gptp.without", .percent = 10, .make = [](Maker& m, const Scope&) -> Made { return list({text(m.draw.any(m.world.hosts))}); }},
+      // Who asks must speak gPTP.
+      {.key = "gptp.without", .percent = 10, .make = [](Maker& m, const Scope& s) -> Made {
+         return s.has("interval_requests") ? std::nullopt : Made(list({text(m.draw.any(m.world.hosts))}));
+       }},
+      {.key = "gptp.interval_requests", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return m.objects("interval_request", m.draw.between(1, 3), s); }},
+      {.key = "interval_request.at", .make = [](Maker& m, const Scope&) -> Made { return m.instant(); }},
+      {.key = "interval_request.node", .make = [](Maker& m, const Scope&) -> Made { return text(m.draw.any(m.draw.one_in(3) || m.world.switches.empty() ? m.world.hosts : m.world.switches)); }},
+      {.key = "interval_request.to", .make = [](Maker& m, const Scope& s) -> Made { return text(m.draw.any(m.world.neighbours.at(s.text("node")))); }},
+      {.key = "interval_request.domain", .percent = 30, .words = "0"},
+      {.key = "interval_request.sync", .percent = 100, .words = "-7 -5 -4 126 127"},
+      {.key = "interval_request.announce", .percent = 50, .words = "-7 -5 -4 126 127"},
+      {.key = "interval_request.link_delay", .percent = 40, .words = "-7 -6 -5 126 127"},
       {.key = "servo.first_step_threshold", .percent = 30, .words = "0s 1us 20us"},
       {.key = "servo.step_threshold", .percent = 30, .words = "0s 1us 1ms"},
       {.key = "servo.max_frequency", .percent = 20, .words = "100ppm 1000ppm"},

@@ -129,6 +129,19 @@ struct StandbyThresholds {
   bool operator==(const StandbyThresholds&) const = default;
 };
 
+/// A node asks its neighbour for other intervals: once, by Signaling with the message-interval request TLV.
+struct IntervalRequest {
+  json::Source where;
+  sim::Duration at;
+  std::string node;
+  std::string to;
+  std::uint8_t domain = 0;
+  std::optional<std::int8_t> sync = {};
+  std::optional<std::int8_t> announce = {};
+  std::optional<std::int8_t> link_delay = {};
+  bool operator==(const IntervalRequest&) const = default;
+};
+
 struct Gptp {
   json::Source where;
   std::int8_t log_sync_interval = -3;
@@ -151,6 +164,7 @@ struct Gptp {
   std::vector<GptpDomain> domains;
   bool hot_standby = false;
   std::optional<StandbyThresholds> standby_thresholds = {};
+  std::vector<IntervalRequest> interval_requests = {};
   sim::Duration report_every = sim::Duration::from_ps(10'000'000'000);
   std::vector<std::string> without;
   bool operator==(const Gptp&) const = default;
@@ -177,6 +191,7 @@ const json::Object& describe(json::Type<AnnouncedTime>);
 const json::Enumeration& describe(json::Type<ServoAlgorithm>);
 const json::Object& describe(json::Type<ServoSettings>);
 const json::Object& describe(json::Type<StandbyThresholds>);
+const json::Object& describe(json::Type<IntervalRequest>);
 const json::Enumeration& describe(json::Type<GptpRole>);
 const json::Object& describe(json::Type<GptpPortRole>);
 const json::Object& describe(json::Type<GptpNode>);

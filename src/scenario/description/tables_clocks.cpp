@@ -176,6 +176,20 @@ const json::Object& describe(json::Type<StandbyThresholds>) {
   return table;
 }
 
+const json::Object& describe(json::Type<IntervalRequest>) {
+  static constexpr json::Field fields[] = {
+      required<&IntervalRequest::at>("at", "When it asks.", {.max = 24 * 3600_s}),
+      required<&IntervalRequest::node>("node", "Who asks."),
+      required<&IntervalRequest::to>("to", "The neighbour that is asked. It does what it can, 2^-7 s to 2^4 s, until the link goes down."),
+      optional<&IntervalRequest::domain>("domain", "domainNumber. The link's delay is of no domain."),
+      optional<&IntervalRequest::sync>("sync", "timeSyncInterval: Sync every 2^this seconds; 126: as at the beginning, 127: none.", {.min = -24, .max = 127}),
+      optional<&IntervalRequest::announce>("announce", "announceInterval: Announce, likewise.", {.min = -24, .max = 127}),
+      optional<&IntervalRequest::link_delay>("link_delay", "linkDelayInterval: Pdelay_Req, likewise.", {.min = -24, .max = 127}),
+  };
+  static constexpr json::Object table = json::object<IntervalRequest>("interval_request", "A node asks its neighbour for other message intervals, by Signaling with the message-interval request TLV (IEEE 802.1AS-2020 10.6.4.3).", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<Gptp>) {
   static constexpr json::Field fields[] = {
       optional<&Gptp::log_sync_interval>("log_sync_interval", "Sync every 2^this seconds.", {.min = -7, .max = 4}),
@@ -198,6 +212,7 @@ const json::Object& describe(json::Type<Gptp>) {
       optional<&Gptp::domains>("domains", "Further domains.", {.max_items = 4}),
       optional<&Gptp::hot_standby>("hot_standby", "The first of \"domains\" is secondary to domain 0 (IEEE 802.1ASdm): time comes from the primary while it is synced, otherwise from the secondary. Both have a grandmaster of their own, by \"roles\" or as the nodes that have a \"priority1\"."),
       optional<&Gptp::standby_thresholds>("standby_thresholds", "Of the hot standby of every node."),
+      optional<&Gptp::interval_requests>("interval_requests", "What nodes ask of their neighbours, once each.", {.max_items = most_names}),
       optional<&Gptp::report_every>("report_every", "How often offsets are looked at for the report.", {.min = 1_us, .max = 3600_s}),
       optional<&Gptp::without>("without", "Nodes without gPTP.", {.max_items = most_names}),
   };

@@ -129,6 +129,7 @@ class ClockResolver {
     std::set<std::string> without(gptp.without.begin(), gptp.without.end());
     for (std::size_t i = 0; i < gptp.without.size(); ++i) node_named(gptp.without[i], gptp.where.at("without", i));
     check_classes();
+    for (const IntervalRequest& request : gptp.interval_requests) check_request(request, numbers, without);
     if (diagnostics_.has_errors()) return;
     made_.gptp.resize(r_.plan.nodes.size());
     std::vector<Instance> instances{{0, by_name(gptp.nodes)}};
@@ -138,6 +139,37 @@ class ClockResolver {
       made_.gptp[n] = static_cast<std::uint32_t>(made_.gptp_stations.size());
       made_.gptp_stations.push_back(station_of(gptp, instances, n));
     }
+  }
+
+  void check_request(const IntervalRequest& request, const std::set<std::uint8_t>& domains, const std::set<std::string>& without) {
+    if (!request.where.is_known() && diagnostics_.has_errors()) return;
+    const auto node = node_named(request.node, request.where.at("node"));
+    const auto to = r_.topology.find(request.to);
+    if (node && (!to || !r_.topology.port_towards(*node, *to))) report_no_neighbour(r_.topology, request.to, request.node, request.where.at("to"), diagnostics_);
+    for (const auto& [key, name] : {std::pair("node", &request.node), std::pair("to", &request.to)})
+      if (without.contains(*name)) diagnostics_.error(request.where.at(key), "a request without gPTP", {json::quote(*name) + ", which is in \"without\"", "a node that speaks gPTP"});
+    if (!domains.contains(request.domain)) diagnostics_.error(request.where.at("domain"), "a domain that is not there", {std::to_string(request.domain), "0, or one of \"domains\""});
+    const std::pair<std::string_view, std::optional<std::int8_t>> intervals[] = {{"sync", request.sync}, {"announce", request.announce}, {"link_delay", request.link_delay}};
+    bool asks = false;
+    for (const auto& [key, log] : intervals) {
+      asks = asks || log;
+      if (log && *log > 24 && *log < models::gptp::MessageInterval::initial)
+        diagnostics_.error(request.where.at(key), "no interval", {std::to_string(*log), "from -24 to 24, 126 (as at the beginning) or 127 (none)"});
+    }
+    if (!asks) diagnostics_.error_unless(diagnostics_.has_errors(), request.where.place(), "a request for nothing", {"none of \"sync\", \"announce\" and \"link_delay\"", "one of them"});
+  }
+
+  /// Of node `n`, when names are known to be right.
+  std::vector<models::gptp::TimedIntervalRequest> requests_of(const Gptp& gptp, const std::vector<Instance>& instances, std::uint32_t n) const {
+    std::vector<models::gptp::TimedIntervalRequest> made;
+    for (const IntervalRequest& request : gptp.interval_requests) {
+      if (request.node != r_.plan.nodes[n].name) continue;
+      const auto instance = std::ranges::find(instances, request.domain, &Instance::domain);
+      constexpr std::int8_t same = models::gptp::MessageInterval::as_it_is;
+      made.push_back({sim::TrueTime() + request.at, *r_.topology.port_towards(n, *r_.topology.find(request.to)), static_cast<std::size_t>(instance - instances.begin()),
+                      {request.link_delay.value_or(same), request.sync.value_or(same), request.announce.value_or(same)}});
+    }
+    return made;
   }
 
   void check_nodes(const json::NameMap<GptpNode>& nodes, const json::Source& where) {
@@ -184,6 +216,7 @@ class ClockResolver {
     servo.first_step_threshold = gptp.servo.first_step_threshold;
     servo.step_threshold = gptp.servo.step_threshold;
     servo.highest_frequency = gptp.servo.max_frequency;
+    plan.interval_requests = requests_of(gptp, instances, n);
     if (gptp.processing) plan.processing = distribution_of(*gptp.processing, diagnostics_);
     if (gptp.processing && plan.processing.greatest() > 1_s)
       diagnostics_.error(gptp.processing->where.place(), "a processing without a limit", {"up to " + json::to_text(plan.processing.greatest()), "a \"max\" of at most 1s"});

@@ -75,12 +75,21 @@ TEST(GptpCapable, AnIntervalThatCannotBeIsNotBelieved) {
     EXPECT_FALSE(capability.is_neighbor_capable()) << int{interval};
   }
   message.capable = GptpCapable{24};
-  message.target = {Harness::identity(2), 1};
-  capability.received(message, {}, outputs);
-  EXPECT_FALSE(capability.is_neighbor_capable()) << "meant for another port";
-  message.target = PortIdentity::all();
   capability.received(message, {}, outputs);
   EXPECT_TRUE(capability.is_neighbor_capable());
+}
+
+TEST(GptpCapable, IsMeant) {
+  const Capability capability(std::int8_t{0}, {Harness::identity(0), 1}, 0, 0);
+  Signaling message;
+  message.header.source = {Harness::identity(1), 1};
+  EXPECT_TRUE(capability.is_meant(message)) << "all are";
+  message.target = {Harness::identity(0), 2};
+  EXPECT_FALSE(capability.is_meant(message)) << "another port";
+  message.target = {Harness::identity(0), 1};
+  EXPECT_TRUE(capability.is_meant(message));
+  message.header.source = {Harness::identity(0), 2};
+  EXPECT_FALSE(capability.is_meant(message)) << "its own word";
 }
 
 }  // namespace

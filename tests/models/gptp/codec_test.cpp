@@ -60,7 +60,8 @@ std::vector<Message> one_of_each() {
   Sync tracked_sync = one_step;
   tracked_sync.one_step->drift = tracked.drift;
   return {two_step, one_step, follow_up, PdelayReq{header(7, 0)}, PdelayResp{header(7, 0), {1, 2}, requester},
-          PdelayRespFollowUp{header(7, 0), {3, 4}, requester}, announce, tracked, tracked_sync, Signaling{header(7, 0x7F)}, Signaling{header(8, 0x7F), requester, GptpCapable{-3, 1}}};
+          PdelayRespFollowUp{header(7, 0), {3, 4}, requester}, announce, tracked, tracked_sync, Signaling{header(7, 0x7F)}, Signaling{header(8, 0x7F), requester, GptpCapable{-3, 1}},
+          Signaling{header(9, 0x7F), requester, std::nullopt, IntervalRequest{-128, -4, 127, 3}}, Signaling{header(10, 0x7F), requester, GptpCapable{0, 0}, IntervalRequest{0, 126, -7}}};
 }
 
 // By hand from 10.6.4.4: TLV type, length 12, 00-80-C2, subtype 4, the interval, flags, four octets that are reserved.
@@ -68,6 +69,13 @@ TEST(Codec, SignalingSaysThatGptpIsSpoken) {
   EXPECT_EQ(hex(Signaling{header(7, 0x7F), PortIdentity::all(), GptpCapable{-1, 0}}),
             "1c12003c" "00000008" "0000000000000000" "00000000" "001122fffe3344550002" "0007057f"
             "ffffffffffffffffffff" "8000000c" "0080c2000004" "ff0000000000");
+}
+
+// By hand from 10.6.4.3: TLV type, length 12, 00-80-C2, subtype 2, the intervals of Pdelay_Req, Sync and Announce, flags, two octets that are reserved.
+TEST(Codec, SignalingAsksForIntervals) {
+  EXPECT_EQ(hex(Signaling{header(7, 0x7F), requester, std::nullopt, IntervalRequest{-128, -4, 127}}),
+            "1c12003c" "00000008" "0000000000000000" "00000000" "001122fffe3344550002" "0007057f"
+            "aabbccfffeddee010001" "0003000c" "0080c2000002" "80fc7f07" "0000");
 }
 
 // The TLV behind that of the Follow_Up: type 3, 32 octets, 00-80-C2, subtype 6; the egress with 16 bits below a nanosecond, whose clock it is, three steps, the drift.
@@ -82,7 +90,7 @@ TEST(Codec, DriftTracking) {
 
 // 802.1AS-2020 tables 10-7, 11-8 to 11-14: the numbers of octets of the PTP part.
 TEST(Codec, Lengths) {
-  const std::vector<std::size_t> lengths = {44, 76, 76, 54, 54, 54, 64 + 4 + 16, 112, 112, 44, 60};
+  const std::vector<std::size_t> lengths = {44, 76, 76, 54, 54, 54, 64 + 4 + 16, 112, 112, 44, 60, 60, 76};
   const std::vector<Message> all = one_of_each();
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(encoded_length(all[i]), lengths[i]) << i;
 }
@@ -149,8 +157,9 @@ TEST(Codec, NothingThatIsCutShortIsAMessage) {
     for (std::size_t length = 0; length < octets.size(); ++length) {  // messageLength says so
       octets[2] = static_cast<std::byte>(length >> 8);
       octets[3] = static_cast<std::byte>(length & 0xFF);
-      const bool is_whole = (octets.size() == 112 && length == 76)    // but for Drift_Tracking, which need not be there
-                            || (octets.size() == 60 && length == 44);  // nor need the gPTP-capable TLV
+      const bool is_signaling = std::holds_alternative<Signaling>(message);
+      const bool is_whole = (octets.size() == 112 && length == 76)                        // but for Drift_Tracking, which need not be there
+                            || (is_signaling && length >= 44 && (length - 44) % 16 == 0);  // nor need the TLVs of Signaling
       EXPECT_EQ(decode(octets).has_value(), is_whole) << length;
     }
   }

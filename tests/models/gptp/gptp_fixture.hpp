@@ -138,6 +138,12 @@ class Harness {
       carry_out(node, outputs);
     }
   }
+  /// A message comes at a port, out of nowhere.
+  void receive(std::size_t i, PortNumber port, const Message& message) {
+    std::vector<std::byte> octets;
+    encode(message, octets);
+    arrive(i, port, octets);
+  }
   std::function<bool(const Message&)> is_lost = [](const Message&) { return false; };
   std::map<std::size_t, int> sent;  // by length of the message
 

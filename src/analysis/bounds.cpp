@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "analysis/assessment.hpp"
+#include "analysis/dds_sources.hpp"
 #include "analysis/figure_bound.hpp"
 #include "analysis/network_bound.hpp"
 #include "analysis/outages.hpp"
@@ -24,6 +25,8 @@ using sim::Duration;
 
 
 constexpr int most_host_rounds = 64;   // until what grows still is taken for unbounded
+/// How long a message of DDS may be under way: of those that hold the least, since what answers is late by a few of them.
+constexpr Duration times_of_dds[] = {Duration::from_ps(2'000'000'000), Duration::from_ps(20'000'000'000), Duration::from_ps(200'000'000'000)};
 
 std::uint64_t bits_of(Ps work, const GraphPort& port) { return static_cast<std::uint64_t>(8 * ((work + port.octet_time - 1) / port.octet_time)); }
 
@@ -207,9 +210,7 @@ class StreamBounds {
       const Hop& other = graph_.hops[h];
       const Flow& flow = graph_.flows[other.flow];
       if (flow.source.is_limited() || flow.stream.is_none() || other.highest_class < hop.lowest_class) continue;
-      const auto sends = [&](const scenario::ResolvedParticipant& each) { return std::ranges::find(each.routes, flow.stream, &scenario::ResolvedParticipant::Route::stream) != each.routes.end(); };
-      const bool is_dds = r_.dds && std::ranges::any_of(r_.dds->participants, sends);
-      return ": " + r_.plan.streams[flow.stream.value].name + (is_dds ? ", whose heartbeats, acknowledgements and repairs of DDS are simulated" : "");
+      return ": " + r_.plan.streams[flow.stream.value].name + (flow.unlimited_reason.empty() ? "" : ", " + flow.unlimited_reason);
     }
     return {};
   }
@@ -345,7 +346,17 @@ class RequirementBounds {
 
 }  // namespace
 
-Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
+namespace {
+
+/// Hosts and network, round and round until nothing changes.
+struct Solved {
+  std::shared_ptr<HostTimes> hosts;
+  FlowGraph graph;
+  NetworkResult network;
+  std::vector<StreamBound> streams;
+  std::optional<Duration> dds_within = {};
+};
+Solved solve(const scenario::Resolved& resolved, const BoundOptions& options) {
   auto hosts = std::make_shared<HostTimes>(resolved);
   FlowGraph graph = make_flow_graph(resolved, options, *hosts);
   NetworkResult network = bound_network(resolved, graph);
@@ -354,11 +365,37 @@ Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
     graph = make_flow_graph(resolved, options, *hosts);
     network = bound_network(resolved, graph);
   }
+  std::vector<StreamBound> streams = StreamBounds(resolved, graph, network, *hosts).make();
+  return {std::move(hosts), std::move(graph), std::move(network), std::move(streams)};
+}
+
+/// Participants of DDS answer what comes: how much they send rests on how long that takes, which rests on how much they send. The first time that the bounds themselves show.
+Solved solve_with_dds(const scenario::Resolved& resolved, BoundOptions options) {
+  options.dds_within.reset();
+  options.dds_late.clear();
+  if (!resolved.dds || resolved.dds->participants.empty()) return solve(resolved, options);
+  for (const Duration within : times_of_dds) {
+    options.dds_within = within;
+    Solved solved = solve(resolved, options);
+    options.dds_late = why_dds_is_late(resolved, options, *solved.hosts, solved.streams);
+    if (!options.dds_late.empty()) continue;
+    solved.dds_within = within;
+    return solved;
+  }
+  options.dds_within.reset();
+  return solve(resolved, options);
+}
+
+}  // namespace
+
+Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
+  auto [hosts, graph, network, streams, dds_within] = solve_with_dds(resolved, options);
   Bounds bounds;
   bounds.hosts = hosts;
   bounds.every = graph.assumptions;
   bounds.rounds = network.rounds;
-  bounds.streams = StreamBounds(resolved, graph, network, *hosts).make();
+  bounds.streams = std::move(streams);
+  bounds.dds_within = dds_within;
   bounds.queues = queue_bounds(graph, network);
   bounds.passages = passages_of(graph, network);
   for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) {

@@ -21,6 +21,9 @@ struct BoundOptions {
   sim::Duration clock_error = sim::Duration::from_ps(1'000'000);
   /// False: frames are taken for fluids, which they are not. For tests that must catch a wrong bound.
   bool counts_packets = true;
+  /// Set by bound(): messages of DDS come within this time or not at all, and participants wake within it. Nothing: what they send has no curve, for the reason that follows.
+  std::optional<sim::Duration> dds_within = {};
+  std::string dds_late = {};
 };
 
 /// One egress port on the way of a stream.
@@ -119,6 +122,7 @@ struct Bounds {
   int rounds = 0;                             ///< until the fixed point
   std::shared_ptr<const HostTimes> hosts;     ///< what the threads of processors add
   Assumptions every;                          ///< that all bounds need
+  std::optional<sim::Duration> dds_within;    ///< of scenarios with DDS: no message is under way for longer, and no participant wakes later; nothing: that is not known
 };
 
 /// Never fails: what cannot be bounded has a reason instead of a bound.

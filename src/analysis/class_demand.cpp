@@ -17,11 +17,11 @@ ClassDemand::ClassDemand(const PortTraffic& traffic, models::ClassSet classes, P
     if (!counts) continue;
     Group& group = by_link[flow.link];
     const Ps work = octet_time * models::wire_length(flow.frame).count;
-    group.flows.push_back({&flow.arrivals, work});
+    const Ps least = octet_time * models::wire_length(flow.shortest.value_or(flow.frame)).count;
+    group.flows.push_back({&flow.arrivals, work, least});
     group.is_limited = group.is_limited && flow.arrivals.is_limited();
     group.at_once = std::max(group.at_once, work);
     longest_ = std::max(longest_, work);
-    const Ps least = octet_time * models::wire_length(flow.shortest.value_or(flow.frame)).count;
     shortest_ = shortest_ == 0 ? least : std::min(shortest_, least);
   }
   for (auto& [link, group] : by_link) {
@@ -77,7 +77,7 @@ std::int64_t ClassDemand::frames(Ps length) const {
     Ps least = unbounded_ps;
     for (const Flow& flow : group.flows) {
       if (group.is_limited) count += flow.arrivals->count(length);
-      least = std::min(least, flow.work);
+      least = std::min(least, flow.least);
     }
     const Ps by_link = link_work(group, length);
     if (is_bounded(by_link)) count = group.is_limited ? std::min(count, by_link / least) : by_link / least;

@@ -39,7 +39,8 @@ class ClassDemand {
  private:
   struct Flow {
     const FrameArrivals* arrivals;
-    Ps work = 0;                 // of one frame
+    Ps work = 0;                 // of one frame, the longest
+    Ps least = 0;                // of the shortest
   };
   struct Group {                 // what comes by one link
     std::vector<Flow> flows;

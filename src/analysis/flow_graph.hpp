@@ -84,6 +84,8 @@ struct Flow {
   std::string source_reason = {};       ///< why worst_source is unbounded
   bool may_miss_launch = false;         ///< the operating system may hand a frame over after its launch time
   bool launches = false;                ///< its frames have launch times
+  std::optional<sim::Octets> payload = {};   ///< of its longest frame, where the stream has longer ones; of the shortest nothing is known then
+  std::string unlimited_reason = {};    ///< why any number of frames may come at any time, as a clause about the stream: "whose ..."
   std::vector<std::uint32_t> hops;      ///< parents before children
   /// The last hop to each listener, as in the plan; several where the listener takes out copies itself.
   std::vector<std::vector<std::uint32_t>> last;

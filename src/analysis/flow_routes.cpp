@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "analysis/dds_sources.hpp"
 #include "analysis/outages.hpp"
 #include "models/egress/class_set.hpp"
 #include "models/ethernet/sizes.hpp"
@@ -73,9 +74,11 @@ class RouteMaker {
     if (!r_.plan.nodes[node].ingress) return;
     const scenario::ResolvedStream& stream = r_.streams[graph_.flows[flow].stream.value];
     const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
+    const sim::Octets largest = graph_.flows[flow].payload.value_or(stream.largest_payload);
     Hop taken;
-    taken.frame = models::frame_length(plan.headers + stream.largest_payload, plan.priority.has_value(), true);
-    taken.msdu = plan.headers + stream.largest_payload + models::r_tag;
+    taken.frame = models::frame_length(plan.headers + largest, plan.priority.has_value(), true);
+    taken.shortest = taken.frame;
+    taken.msdu = plan.headers + largest + models::r_tag;
     const models::PortConfig& config = r_.plan.port_configs[r_.plan.nodes[node].port_config];
     pass_ingress(taken, config, plan, node, *r_.topology.port_towards(node, path[path.size() - 2]), address);
     const bool is_dropped_late = taken.ats && is_bounded(taken.ats->longest_residence);
@@ -104,6 +107,8 @@ class RouteMaker {
   std::uint32_t walk(std::uint32_t flow, const scenario::Path& path, const scenario::ResolvedRedundancy* redundancy, std::size_t number, bool is_rerouted) {
     const scenario::ResolvedStream& stream = r_.streams[graph_.flows[flow].stream.value];
     const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
+    const sim::Octets largest = graph_.flows[flow].payload.value_or(stream.largest_payload);
+    const sim::Octets smallest = graph_.flows[flow].payload ? std::min(*graph_.flows[flow].payload, least_dds_message) : smallest_payload(stream);
     std::uint32_t parent = nobody;
     bool is_member = false;
     bool was_merged = false;
@@ -126,9 +131,9 @@ class RouteMaker {
         Hop made;
         made.flow = flow;
         made.port = port;
-        made.frame = models::frame_length(plan.headers + stream.largest_payload, tagged, r_tagged);
-        made.msdu = plan.headers + stream.largest_payload + (r_tagged ? models::r_tag : sim::Octets{0});
-        made.shortest = models::frame_length(plan.headers + smallest_payload(stream), tagged, r_tagged);
+        made.frame = models::frame_length(plan.headers + largest, tagged, r_tagged);
+        made.msdu = plan.headers + largest + (r_tagged ? models::r_tag : sim::Octets{0});
+        made.shortest = models::frame_length(plan.headers + smallest, tagged, r_tagged);
         made.is_copied_here = splits;
         const models::AddressIndex address = is_member && !splits ? redundancy->members[number].destination : plan.destination;
         const std::uint16_t in_port = at > 0 ? *r_.topology.port_towards(path[at], path[at - 1]) : std::uint16_t{0};
@@ -241,7 +246,8 @@ class RouteMaker {
     const bool yellow_passes = !meter.drop_on_yellow;
     const std::int64_t burst = 8 * (std::int64_t{meter.committed_burst_size.count} + (yellow_passes ? meter.excess_burst_size.count : 0));
     const auto rate = static_cast<std::int64_t>(meter.committed_information_rate.bits_per_second + (yellow_passes ? meter.excess_information_rate.bits_per_second : 0));
-    hop.metered = pattern_of_token_bucket(std::int64_t{8} * hop.frame.count, burst, rate);
+    // Of short frames more pass.
+    hop.metered = pattern_of_token_bucket(std::int64_t{8} * std::min(hop.shortest, hop.frame).count, burst, rate);
   }
 
   void set_ats(Hop& hop, const models::IngressConfig& ingress, std::uint32_t number, std::uint32_t node, std::uint16_t in_port, models::Priority priority) {
@@ -251,7 +257,8 @@ class RouteMaker {
     hold.bits = std::int64_t{8} * (scheduler.media_overhead ? models::wire_length(hop.frame) : hop.frame).count;
     hold.burst_bits = std::int64_t{8} * scheduler.committed_burst_size.count;
     hold.rate = static_cast<std::int64_t>(scheduler.committed_information_rate.bits_per_second);
-    hold.shaped = pattern_of_token_bucket(hold.bits, hold.burst_bits, hold.rate);
+    const sim::Octets shortest = std::min(hop.shortest, hop.frame);
+    hold.shaped = pattern_of_token_bucket(std::int64_t{8} * (scheduler.media_overhead ? models::wire_length(shortest) : shortest).count, hold.burst_bits, hold.rate);
     const std::uint64_t within = is_named ? 0x100000ULL + scheduler.group.value : in_port * 8ULL + ingress.traffic_class_of_priority[priority];
     hold.group = (static_cast<std::uint64_t>(node) + 1) << 32 | within;
     const sim::Duration residence = is_named ? ingress.ats_groups[scheduler.group.value].maximum_residence_time : ingress.maximum_residence_time;

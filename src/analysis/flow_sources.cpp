@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include "analysis/dds_sources.hpp"
 #include "analysis/program_assessment.hpp"
+#include "analysis/thread_arrivals.hpp"
 #include <cmath>
 #include <set>
 #include <string_view>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/applications/resolved_dds.hpp"
 #include "scenario/description/promises.hpp"
 
 namespace takt::analysis {
@@ -24,10 +27,6 @@ template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
 ArrivalPattern at_any_time() { return {1, 1, 0, unbounded_ps}; }
-
-/// A length of a clock's time in true time, at least and at most.
-Ps shortest(Ps local, const ClockQuality& clock) { return scaled_down(local, one_ppt, one_ppt + clock.fastest_ppt); }
-Ps longest(Ps local, const ClockQuality& clock) { return scaled_up(local, one_ppt, one_ppt + clock.slowest_ppt); }
 
 ArrivalPattern pattern_of(const models::TalkerPlan& talker, const ClockQuality& clock) {
   const auto periodic = [&](Ps period, Ps jitter) {
@@ -113,15 +112,20 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, b
   graph.flows.push_back(std::move(flow));
 }
 
-/// What a process publishes: `frames` in each period of its clock, each late by up to `lateness`, and handed to the port by the operating system.
-void add_late(const scenario::Resolved& r, models::NodeIndex node, models::StreamIndex stream, Ps every, std::int64_t frames, Ps lateness, const BoundOptions& options, const HostTimes& hosts, FlowGraph& graph) {
-  const ClockQuality clock = clock_quality(r, node, options);
+/// What a process publishes, and hands to the port by the operating system.
+void add_pattern(const scenario::Resolved& r, models::NodeIndex node, models::StreamIndex stream, const ArrivalPattern& pattern, const HostTimes& hosts, FlowGraph& graph) {
   const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
   Flow flow;
   flow.stream = stream;
   set_source(os, hosts.transmit(node), flow);
-  set_arrivals({std::max<Ps>(1, shortest(every, clock)), frames, 0, sum(lateness, 2 * clock.error)}, os, flow);
+  set_arrivals(pattern, os, flow);
   graph.flows.push_back(std::move(flow));
+}
+
+/// `frames` in each period of its clock, each late by up to `lateness`.
+void add_late(const scenario::Resolved& r, models::NodeIndex node, models::StreamIndex stream, Ps every, std::int64_t frames, Ps lateness, const BoundOptions& options, const HostTimes& hosts, FlowGraph& graph) {
+  const ClockQuality clock = clock_quality(r, node, options);
+  add_pattern(r, node, stream, {std::max<Ps>(1, shortest(every, clock)), frames, 0, sum(lateness, 2 * clock.error)}, hosts, graph);
 }
 
 /// Of what a participant publishes when an alarm wakes it.
@@ -134,22 +138,12 @@ void add_published(const scenario::Resolved& r, const scenario::ResolvedMember& 
   add_late(r, member.node, stream, every, frames, lateness(hosts, member), options, hosts, graph);
 }
 
-/// Topics over OPC UA, of applications and gateways: a call of a thread publishes one message at most, which is one frame. A call whose response is not over when the next one is due
-/// does not take place (scenario/applications/activations.hpp), so none is late by a period, whatever the law of its response.
+/// Topics over OPC UA, of applications and gateways: a call of a thread publishes one message at most, which is one frame.
 void add_topics(const scenario::Resolved& r, const BoundOptions& options, const HostTimes& hosts, FlowGraph& graph) {
   for (const scenario::ResolvedApplication& application : r.applications)
     for (const scenario::ResolvedThread& thread : application.threads) {
       if (!thread.publishes || !thread.stream) continue;
-      const ClockQuality clock = clock_quality(r, application.node, options);
-      const Ps latest = thread.every.ps() - 1;
-      const ThreadTime& cpu = hosts.of(application.node, thread.cpu_thread);
-      const Ps least = std::min(latest, thread.response.least().ps());
-      Ps spread = longest(latest - least, clock);
-      // One whose processor may still be at the call before may begin later than it is ready.
-      if (!thread.cpu_thread || overtakes_none(thread, cpu, clock)) spread = std::min(spread, sum(longest(std::min(latest, thread.response.greatest().ps()) - least, clock), cpu.spread()));
-      // Responses pass on the host's clock, whose instants are whole picoseconds of true time.
-      const Ps rounding = clock.slowest_ppt == 0 && clock.fastest_ppt == 0 ? 0 : 1;
-      add_late(r, application.node, *thread.stream, thread.every.ps(), 1, sum(spread, rounding), options, hosts, graph);
+      add_pattern(r, application.node, *thread.stream, calls_of(thread, hosts.of(application.node, thread.cpu_thread), clock_quality(r, application.node, options)), hosts, graph);
     }
 }
 
@@ -205,15 +199,34 @@ void add_program(const scenario::Resolved& r, const scenario::ResolvedProgram& p
   }
 }
 
-/// What participants of DDS send, and when, is settled in the run (heartbeats, acknowledgements, what is sent again): any number of frames at any time.
-void add_unknown(const scenario::Resolved& r, FlowGraph& graph) {
+/// What participants of DDS send; of some streams any number of frames at any time.
+void add_dds(const scenario::Resolved& r, const BoundOptions& options, const HostTimes& hosts, FlowGraph& graph) {
+  const DdsTraffic traffic = dds_traffic(r, options, hosts);
   std::vector<bool> is_known(r.plan.streams.size());
   for (const Flow& flow : graph.flows) is_known[flow.stream.value] = true;
+  for (const DdsSource& source : traffic.sources) {
+    const models::NodeIndex node = r.plan.streams[source.stream.value].talker;
+    const models::OsLatency& os = r.plan.os_latencies[r.plan.nodes[node.value].os_latency];
+    Flow flow;
+    flow.stream = source.stream;
+    flow.payload = source.payload;
+    set_source(os, hosts.transmit(node), flow);
+    flow.at_stack = source.arrivals.delayed(spread_of(os.transmit));
+    flow.source = source.arrivals.delayed(spread_of(flow));
+    graph.flows.push_back(std::move(flow));
+    is_known[source.stream.value] = true;
+  }
   for (const scenario::ResolvedStream& stream : r.streams) {
     if (is_known[stream.index.value]) continue;
     Flow flow;
     flow.stream = stream.index;
     flow.source = FrameArrivals(at_any_time());
+    flow.payload = stream.largest_payload;   // others are shorter
+    const auto sends = [&](const scenario::ResolvedParticipant& each) { return std::ranges::find(each.routes, stream.index, &scenario::ResolvedParticipant::Route::stream) != each.routes.end(); };
+    if (const auto why = traffic.unknown.find(stream.index.value); why != traffic.unknown.end())
+      flow.unlimited_reason = why->second;
+    else if (r.dds && std::ranges::any_of(r.dds->participants, sends))
+      flow.source = FrameArrivals({unbounded_ps, 0, 0, 0});   // a way for acknowledgements of best-effort readers, say
     graph.flows.push_back(std::move(flow));
   }
 }
@@ -228,7 +241,7 @@ void add_flows(const scenario::Resolved& resolved, const BoundOptions& options, 
     add_talker(resolved, talker, with_phases.contains(resolved.plan.streams[talker.stream.value].name), options, hosts, graph);
   for (const scenario::ResolvedProgram& program : resolved.programs) add_program(resolved, program, options, hosts, graph);
   add_topics(resolved, options, hosts, graph);
-  add_unknown(resolved, graph);
+  add_dds(resolved, options, hosts, graph);
 }
 
 std::vector<GptpMessages> gptp_messages(const scenario::Resolved& resolved, models::NodeIndex node) {

@@ -404,7 +404,7 @@ class FixedPoint {
     const Hop& link = graph_.hops[parent];
     const GraphPort& port = graph_.ports[link.port];
     if (!port.may_double && !graph_.models[link.port].config->preemption && !hop.headers_come_first && link.parents.size() <= 1)
-      arrivals.add({port.octet_time * models::wire_length(link.frame).count, 1, 0, 0});
+      arrivals.add({port.octet_time * models::wire_length(link.shortest).count, 1, 0, 0});
     return arrivals;
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/flow_graph.hpp"
+#include "analysis/thread_arrivals.hpp"
 #include "json/quantity.hpp"
 
 namespace takt::analysis {
@@ -15,7 +16,6 @@ constexpr std::int64_t inbox_messages = 256;   // of a subscription over OPC UA 
 
 /// A length of true time as a clock shows it, at most.
 Ps on_clock(Ps length, const ClockQuality& clock) { return clock.rate_ppt == 0 && clock.error == 0 ? length : sum(scaled_up(length, one_ppt + clock.rate_ppt, one_ppt), 2 * clock.error, 1); }
-Ps longest(Ps local, const ClockQuality& clock) { return scaled_up(local, one_ppt, one_ppt + clock.slowest_ppt); }
 
 /// Why nothing is certain of when the calls of a host take place; empty: all is.
 std::string doubt_of_host(const scenario::Resolved& r, models::NodeIndex node) {

@@ -105,27 +105,5 @@ TEST(Topics, AFullInboxLosesMessages) {
   EXPECT_NE(found.values_reason.find("up to 301 messages"), std::string::npos) << found.values_reason;
 }
 
-// What DDS sends may come at any time, and the reason says who that is; what goes before it has a bound.
-TEST(Topics, DdsHasNoBoundAndIsNamed) {
-  const std::string text = R"({"name": "t", "duration": "100ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]},
-   "topics": [{"name": "level", "protocol": "opc-ua", "pcp": 5, "fields": {"level": "Int32"}}, {"name": "sample", "protocol": "dds", "fields": {"level": "Int32"}}],
-   "applications": [{"name": "sensor", "on": "a", "threads": [{"name": "one", "publish": "level", "every": "1ms"}, {"name": "two", "publish": "sample", "every": "1ms"}]},
-                    {"name": "actor", "on": "b", "threads": [{"name": "one", "subscribe": "level", "every": "1ms"}, {"name": "two", "subscribe": "sample", "every": "1ms"}]}]})";
-  json::Diagnostics diagnostics;
-  const auto resolved = scenario::load_text(text, "t.json", {}, diagnostics);
-  ASSERT_NE(resolved, nullptr) << diagnostics.to_text();
-  bool has_dds = false;
-  for (const StreamBound& stream : bound(*resolved).streams) {
-    if (stream.name == "level/sensor") {
-      EXPECT_TRUE(stream.latency) << stream.reason;
-      continue;
-    }
-    has_dds = true;
-    EXPECT_FALSE(stream.latency);
-    EXPECT_NE(stream.reason.find("of DDS are simulated"), std::string::npos) << stream.name << ": " << stream.reason;
-  }
-  EXPECT_TRUE(has_dds);
-}
-
 }  // namespace
 }  // namespace takt::analysis

@@ -6,6 +6,7 @@
 
 #include "analysis/assessment.hpp"
 #include "analysis/dds_sources.hpp"
+#include "analysis/delivery_bound.hpp"
 #include "analysis/figure_bound.hpp"
 #include "analysis/network_bound.hpp"
 #include "analysis/outages.hpp"
@@ -405,6 +406,7 @@ Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
   }
   bounds.ledger = assess(resolved, graph, options);
   withdraw(bounds);
+  bounds.deliveries = delivery_bounds(resolved, options, bounds);
   add_reactions(resolved, options, bounds);
   assess_programs(resolved, bounds);
   RequirementBounds(resolved, bounds).make();

@@ -97,6 +97,20 @@ struct ReactionBound {
   Assumptions assumptions;
 };
 
+/// From a publishing thread of an application to a subscribing one that is matched with it.
+struct DeliveryBound {
+  std::size_t from_application = 0, from_thread = 0;   ///< in resolved.applications
+  std::size_t to_application = 0, to_thread = 0;
+  std::optional<sim::Duration> one_way;      ///< from the call that writes until the sample is in the reader's history, of one whose messages are not lost
+  std::string reason;                        ///< why there is none
+  /// Over DDS, of one whose messages are lost once: if the next HEARTBEAT, the ACKNACK that answers it and what is sent again come. Of samples behind it as well, which wait for it. Nothing over OPC UA.
+  std::optional<sim::Duration> repaired;
+  std::string repair_reason;                 ///< why there is none
+  bool reaches_all = false;                  ///< no message of the way is lost, so that the one way is all
+  std::string loss_reason;                   ///< what may be lost
+  Assumptions assumptions;
+};
+
 /// What a figure can be, in its unit; an end that is not there is not known.
 struct FigureRange {
   std::optional<double> least;
@@ -118,6 +132,7 @@ struct Bounds {
   std::vector<PassageBound> passages;         ///< by stream, node and port, in this order
   std::vector<std::vector<ParticipantBound>> participants;   ///< by program; none with roles
   std::vector<ReactionBound> reactions;       ///< of each program: start, halt, suspend, resume, reset, then halts by cause; of the outermost one of a tree then those of the tree
+  std::vector<DeliveryBound> deliveries;      ///< of topics, by reader and what it hears
   std::vector<RequirementBound> requirements;  ///< by Resolved::requirements
   int rounds = 0;                             ///< until the fixed point
   std::shared_ptr<const HostTimes> hosts;     ///< what the threads of processors add

@@ -73,6 +73,18 @@ std::string threads_text(const Bounds& bounds, const scenario::Resolved& r) {
   return text;
 }
 
+std::string deliveries_text(const Bounds& bounds, const scenario::Resolved& r, const std::vector<Assumption>& all) {
+  std::string text;
+  for (const ReportedDelivery& each : deliveries_of(r, bounds)) {
+    if (text.empty()) text = "\nTopics: from the call that writes a sample until a reader has it, of one that is not lost; over DDS also of one that is lost once, if its repair is not\n";
+    const DeliveryBound& bound = *each.bound;
+    const std::string loss = bound.reaches_all ? "nothing is lost" : bound.loss_reason;
+    text += fmt::format("  {:<32} {:>16} {:>16}  {} to {}{}  {}{}{}\n", each.topic, text_of(bound.one_way), bound.repaired ? text_of(bound.repaired) : "-", each.from, each.to, numbers_of(bound.assumptions, all), loss,
+                        bound.reason.empty() ? "" : "; " + bound.reason, bound.repaired || bound.repair_reason == bound.reason ? "" : "; no repair: " + bound.repair_reason);
+  }
+  return text;
+}
+
 std::string reactions_text(const Bounds& bounds, const scenario::Resolved& r, const std::vector<Assumption>& all) {
   std::string text;
   for (const ReactionBound& reaction : bounds.reactions) {
@@ -90,7 +102,7 @@ std::string reactions_text(const Bounds& bounds, const scenario::Resolved& r, co
 std::string text_report(const scenario::Resolved& resolved, const Bounds& bounds) {
   const std::vector<Assumption> all = all_assumptions(bounds);
   std::string text = fmt::format("{}: bounds of {} streams and {} Programs\n\n", resolved.scenario.name, bounds.streams.size(), resolved.programs.size());
-  text += streams_text(bounds, resolved, all) + threads_text(bounds, resolved) + reactions_text(bounds, resolved, all);
+  text += streams_text(bounds, resolved, all) + threads_text(bounds, resolved) + deliveries_text(bounds, resolved, all) + reactions_text(bounds, resolved, all);
   if (!bounds.requirements.empty()) text += "\nRequirements and what they can be at most\n";
   for (std::size_t i = 0; i < bounds.requirements.size(); ++i)
     text += fmt::format("  {:<48} {}\n", resolved.requirements[i].text, requirement_answer(bounds.requirements[i], bounds.ledger, resolved.requirements[i].from));
@@ -106,6 +118,7 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
   for (const QueueBound& queue : bounds.queues) report.queues.push_back({&queue, resolved.plan.nodes[queue.node.value].name});
   for (const ReactionBound& reaction : bounds.reactions) report.reactions.push_back({&reaction, resolved.programs[reaction.program].name});
   report.threads = threads_of(resolved, bounds);
+  report.deliveries = deliveries_of(resolved, bounds);
   for (std::size_t i = 0; i < bounds.requirements.size(); ++i) {
     const scenario::RequiredFigure& asked = resolved.requirements[i];
     std::string objection = bounds.ledger.objection(bounds.requirements[i].assumptions, asked.from);

@@ -45,6 +45,14 @@ std::vector<std::string> assumptions_of_requirement(const ReportedRequirement& r
 std::optional<Duration> worst_of(const ReportedThread& thread) { return duration_of(thread.time->worst); }
 Duration least_of_thread(const ReportedThread& thread) { return Duration::from_ps(thread.time->least); }
 std::string reason_of_thread(const ReportedThread& thread) { return thread.time->reason; }
+std::optional<Duration> one_way_of(const ReportedDelivery& delivery) { return delivery.bound->one_way; }
+std::string reason_of_delivery(const ReportedDelivery& delivery) { return delivery.bound->reason; }
+std::optional<Duration> repaired_of(const ReportedDelivery& delivery) { return delivery.bound->repaired; }
+std::string repair_reason_of(const ReportedDelivery& delivery) { return delivery.bound->repair_reason; }
+bool delivery_reaches_all(const ReportedDelivery& delivery) { return delivery.bound->reaches_all; }
+std::string loss_reason_of(const ReportedDelivery& delivery) { return delivery.bound->loss_reason; }
+std::vector<std::string> assumptions_of_delivery(const ReportedDelivery& delivery) { return names_of(delivery.bound->assumptions); }
+bool has_deliveries(const BoundReport& report) { return !report.deliveries.empty(); }
 bool has_threads(const BoundReport& report) { return !report.threads.empty(); }
 
 constexpr std::string_view reason_help = "Why there is no bound, or what is left to say of it.";
@@ -162,6 +170,33 @@ const json::Record& describe(json::Type<ReportedThread>) {
   return record;
 }
 
+std::vector<ReportedDelivery> deliveries_of(const scenario::Resolved& resolved, const Bounds& bounds) {
+  const auto name = [&](std::size_t application, std::size_t thread) { return resolved.applications[application].name + "/" + resolved.applications[application].threads[thread].name; };
+  std::vector<ReportedDelivery> all;
+  for (const DeliveryBound& each : bounds.deliveries) {
+    const std::uint32_t topic = resolved.applications[each.to_application].threads[each.to_thread].topic;
+    all.push_back({&each, resolved.topics[topic].description->name, name(each.from_application, each.from_thread), name(each.to_application, each.to_thread)});
+  }
+  return all;
+}
+
+const json::Record& describe(json::Type<ReportedDelivery>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&ReportedDelivery::topic>("topic", "The topic."),
+      json::output<&ReportedDelivery::from>("from", "The application and its thread that publishes."),
+      json::output<&ReportedDelivery::to>("to", "The application and its thread that subscribes; the two are matched."),
+      json::output<&one_way_of>("one_way_ps", "From the call that writes a sample until the reader has it, of a sample whose messages are not lost; null: unbounded."),
+      json::output<&reason_of_delivery>("reason", "Why there is no such bound."),
+      json::output<&repaired_of>("repaired_ps", "The same over DDS of a sample whose messages are lost once, and of those that wait for it, if the HEARTBEAT, the ACKNACK and the repair come; null: unbounded, or no repair."),
+      json::output<&repair_reason_of>("repair_reason", "Why there is no such bound."),
+      json::output<&delivery_reaches_all>("reaches_all", "No message is lost on that way, so that the one way is all."),
+      json::output<&loss_reason_of>("loss_reason", "What may be lost."),
+      json::output<&assumptions_of_delivery>("assumptions", assumptions_help),
+  };
+  static constexpr json::Record record{"delivery", "How long a sample of a topic takes to a reader.", outputs};
+  return record;
+}
+
 const json::Record& describe(json::Type<ReportedRequirement>) {
   static constexpr json::Output outputs[] = {
       json::output<&ReportedRequirement::text>("text", "What is asked."),
@@ -183,6 +218,7 @@ const json::Record& describe(json::Type<BoundReport>) {
       json::output<&BoundReport::queues>("queues", "Of classes that carry something."),
       json::output<&BoundReport::reactions>("reactions", "Of each Program."),
       json::only_if<&has_threads>(json::output<&BoundReport::threads>("threads", "Of hosts with processors."), "where there are some"),
+      json::only_if<&has_deliveries>(json::output<&BoundReport::deliveries>("deliveries", "Of topics, by reader and what it hears."), "where there are topics"),
       json::output<&BoundReport::requirements>("requirements", "One for each limit, in the order of the scenario."),
       json::output<&BoundReport::assumptions>("assumptions", "What any of the bounds rests on.", {.keys = "assumption"}),
   };

@@ -26,6 +26,13 @@ struct ReportedReaction {
   std::string program;
 };
 
+struct ReportedDelivery {
+  const DeliveryBound* bound = nullptr;
+  std::string topic;
+  std::string from;                ///< "sensor/publish"
+  std::string to;
+};
+
 /// A thread of a host's processor.
 struct ReportedThread {
   std::string name;                ///< "plc/control"
@@ -44,6 +51,7 @@ struct BoundReport {
   std::vector<ReportedQueue> queues;
   std::vector<ReportedReaction> reactions;
   std::vector<ReportedThread> threads;
+  std::vector<ReportedDelivery> deliveries;
   std::vector<ReportedRequirement> requirements;
   std::vector<std::pair<std::string, AssessedAssumption>> assumptions;   ///< by name
 };
@@ -60,6 +68,8 @@ const json::Record& describe(json::Type<ReportedReaction>);
 /// In the order of nodes.
 std::vector<ReportedThread> threads_of(const scenario::Resolved& resolved, const Bounds& bounds);
 const json::Record& describe(json::Type<ReportedThread>);
+std::vector<ReportedDelivery> deliveries_of(const scenario::Resolved& resolved, const Bounds& bounds);
+const json::Record& describe(json::Type<ReportedDelivery>);
 const json::Record& describe(json::Type<ReportedRequirement>);
 const json::Record& describe(json::Type<BoundReport>);
 

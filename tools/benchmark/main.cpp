@@ -2,7 +2,7 @@
 //
 //   takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION
 //            | tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS | point-setup POINTS
-//            | bound SWITCHES STREAMS
+//            | bound SWITCHES STREAMS | plant|bare-plant SIDE at-once|spread SECONDS
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -16,7 +16,8 @@ using namespace takt::benchmark;  // NOLINT
 
 int usage() {
   std::fputs("usage: takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION |\n"
-             "       tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS | point-setup POINTS | bound SWITCHES STREAMS\n", stderr);
+             "       tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS | point-setup POINTS | bound SWITCHES STREAMS |\n"
+             "       plant|bare-plant SIDE at-once|spread SECONDS\n", stderr);
   return 2;
 }
 
@@ -48,6 +49,11 @@ int main(int argc, char** argv) {
     const TreeFigures f = run_tree(number(argv[2]), number(argv[3]), number(argv[4]), std::atof(argv[5]));
     std::printf(R"({"cpu_s": %.9f, "frame_hops": %llu, "setup_cpu_s": %.9f, "setup_octets": %zu, "hosts": %zu})" "\n", f.cpu_seconds,
                 static_cast<unsigned long long>(f.frame_hops), f.setup_cpu_seconds, f.setup_octets, f.hosts);
+  } else if ((workload == "plant" || workload == "bare-plant") && argc == 5 && (std::string_view(argv[3]) == "at-once" || std::string_view(argv[3]) == "spread")) {
+    const auto run = workload == "plant" ? run_plant : run_bare_plant;
+    const PlantFigures f = run(number(argv[2]), std::string_view(argv[3]) == "spread", std::atof(argv[4]));
+    std::printf(R"({"cpu_s": %.9f, "frame_hops": %llu, "setup_cpu_s": %.9f, "octets": %zu})" "\n", f.cpu_seconds, static_cast<unsigned long long>(f.frame_hops),
+                f.setup_cpu_seconds, f.octets);
   } else if ((workload == "pair" || workload == "gptp-line") && argc == 3) {
     const PairFigures f = workload == "pair" ? run_pair(std::atof(argv[2])) : run_gptp_line(std::atof(argv[2]));
     std::printf(R"({"cpu_s": %.9f, "simulated_s": %.9f})" "\n", f.cpu_seconds, f.simulated_seconds);

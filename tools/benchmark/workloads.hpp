@@ -39,6 +39,18 @@ struct TreeFigures {
 /// millisecond to another one that lies elsewhere in the tree.
 TreeFigures run_tree(unsigned depth, unsigned fanout, unsigned hosts_per_leaf, double simulated_seconds);
 
+struct PlantFigures {
+  double cpu_seconds = 0;          ///< of the event loop
+  std::uint64_t frame_hops = 0;
+  double setup_cpu_seconds = 0;    ///< from the text of the scenario to a run that can begin
+  std::size_t octets = 0;          ///< that are allocated at the end of the run
+};
+/// A grid of `side` x `side` switches at 10 Gb/s that forward in 1 us, ten hosts on each at 1 Gb/s. Every host sends 200 octets each millisecond to a random
+/// other one: all at once, or spread over the period.
+PlantFigures run_plant(unsigned side, bool spread, double simulated_seconds);
+/// A bare loop of the same events: ports that send in turn, routes as arrays, a ring of buckets.
+PlantFigures run_bare_plant(unsigned side, bool spread, double simulated_seconds);
+
 struct PairFigures {
   double cpu_seconds = 0;
   double simulated_seconds = 0;

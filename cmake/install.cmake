@@ -6,7 +6,7 @@
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-set(takt_installed takt_base takt_program takt_handshake takt_uadp takt_pubsub takt_dds takt_gateway takt_wire takt_json takt_plant takt_node)
+set(takt_installed takt_base takt_security takt_program takt_handshake takt_uadp takt_pubsub takt_dds takt_gateway takt_wire takt_json takt_plant takt_node)
 foreach(library ${takt_installed})
   string(REPLACE "takt_" "" name ${library})
   set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
@@ -17,7 +17,7 @@ install(TARGETS takt_options ${takt_installed} EXPORT takt-targets ARCHIVE DESTI
 
 set(takt_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/takt)
 install(EXPORT takt-targets NAMESPACE takt:: DESTINATION ${takt_cmake_folder} COMPONENT takt_library)
-foreach(folder program handshake uadp pubsub dds gateway wire plant node json)
+foreach(folder security program handshake uadp pubsub dds gateway wire plant node json)
   install(DIRECTORY src/${folder}/ DESTINATION ${TAKT_INCLUDE_FOLDER}/${folder} COMPONENT takt_library FILES_MATCHING PATTERN "*.hpp"
           PATTERN node/applications EXCLUDE PATTERN node/dds EXCLUDE)  # parts of the command
 endforeach()

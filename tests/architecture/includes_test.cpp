@@ -18,7 +18,7 @@ const Prefixes base = {"sim/time.hpp", "sim/units.hpp", "sim/octets.hpp", "sim/c
 /// Draws are values; what draws them here draws them on a real node, too.
 const Prefixes chance = {"sim/random.hpp", "sim/distribution.hpp"};
 const Prefixes models = {"models/"};
-const Prefixes protocol = {"wire/", "uadp/", "pubsub/", "program/", "handshake/", "dds/", "gateway/"};
+const Prefixes protocol = {"security/", "wire/", "uadp/", "pubsub/", "program/", "handshake/", "dds/", "gateway/"};
 const Prefixes scenario = {"scenario/"};
 const Prefixes json = {"json/"};
 const Prefixes questions = {"analysis/", "explore/", "schedule_check/", "verify/"};
@@ -126,6 +126,13 @@ TEST(Includes, OurHeadersAreNamedFromTheRootOrFromSrc) {
       EXPECT_TRUE(starts_with_any(match[1], our_roots())) << file.path << ":" << i + 1 << ": " << match[1];
     }
   }
+}
+
+// Cryptography is behind one interface.
+TEST(Includes, OpenSslIsSeenBySecurityOnly) {
+  for (const SourceFile& file : product())
+    for (const Include& include : includes_of(file))
+      EXPECT_TRUE(!include.target.starts_with("openssl/") || (is_below(file.path, "src/security/") && !file.is_header())) << file.path << ":" << include.line << ": " << include.target;
 }
 
 TEST(Includes, HeavyHeadersStayInCppFiles) {

@@ -18,7 +18,7 @@ const Prefixes base = {"sim/time.hpp", "sim/units.hpp", "sim/octets.hpp", "sim/c
 /// Draws are values; what draws them here draws them on a real node, too.
 const Prefixes chance = {"sim/random.hpp", "sim/distribution.hpp"};
 const Prefixes models = {"models/"};
-const Prefixes protocol = {"security/", "wire/", "uadp/", "pubsub/", "program/", "handshake/", "dds/", "gateway/"};
+const Prefixes protocol = {"security/", "wire/", "uadp/", "pubsub/", "program/", "handshake/", "dds/", "gateway/", "opcua/"};
 const Prefixes scenario = {"scenario/"};
 const Prefixes json = {"json/"};
 const Prefixes questions = {"analysis/", "explore/", "schedule_check/", "verify/"};

@@ -1,0 +1,46 @@
+#include "opcua/channel/trust_list.hpp"
+
+#include <algorithm>
+
+namespace takt::opcua {
+namespace {
+
+using security::Certificate;
+
+constexpr int most_authorities = 8;  // of a chain
+
+const Certificate* issuer_of(const Certificate& certificate, const std::vector<Certificate>& among) {
+  const auto found = std::find_if(among.begin(), among.end(), [&](const Certificate& each) { return each.is_authority() && certificate.is_issued_by(each); });
+  return found == among.end() ? nullptr : &*found;
+}
+
+bool is_revoked(const Certificate& certificate, const Certificate& issuer, const TrustList& trust) {
+  return std::any_of(trust.revoked.begin(), trust.revoked.end(), [&](const auto& list) { return list.is_issued_by(issuer) && list.has(certificate); });
+}
+
+/// Up the chain to one that is trusted, or to its end. Nothing but the lists makes the chain: what a client brings along is not needed.
+TrustVerdict check_chain(const Certificate& certificate, const TrustList& trust) {
+  bool is_trusted = std::find(trust.trusted.begin(), trust.trusted.end(), certificate) != trust.trusted.end();
+  const Certificate* at = &certificate;
+  for (int i = 0; i < most_authorities; ++i) {
+    const Certificate* const trusted = issuer_of(*at, trust.trusted);
+    const Certificate* const issuer = trusted != nullptr ? trusted : issuer_of(*at, trust.issuers);
+    is_trusted = is_trusted || trusted != nullptr;
+    if (issuer == nullptr || issuer == at || *issuer == *at) break;
+    if (is_revoked(*at, *issuer, trust)) return {StatusCode::BadSecurityChecksFailed, "revoked by its authority"};
+    at = issuer;
+  }
+  return is_trusted ? TrustVerdict() : TrustVerdict{StatusCode::BadSecurityChecksFailed, "not in the trust list"};
+}
+
+}  // namespace
+
+TrustVerdict check_certificate(const Certificate& certificate, const TrustList& trust, std::int64_t now_s) {
+  if (!certificate.is_strong()) return {StatusCode::BadSecurityChecksFailed, "signed by less than SHA-256, or a key of less than 2048 or more than 4096 bits"};
+  if (const TrustVerdict chain = check_chain(certificate, trust); chain.status != StatusCode::Good) return chain;
+  if (now_s < certificate.valid_from() || now_s > certificate.valid_until()) return {StatusCode::BadCertificateTimeInvalid, "not valid now"};
+  if (!certificate.may_sign_and_encrypt() || !certificate.may_be_client()) return {StatusCode::BadCertificateUseNotAllowed, "not for signing, encrypting and being a client"};
+  return {};
+}
+
+}  // namespace takt::opcua

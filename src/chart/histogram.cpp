@@ -35,7 +35,7 @@ void draw_axes(Svg& svg, const HistogramTexts& texts, const Axis& x, const Axis&
 
 }  // namespace
 
-std::string histogram(const HistogramTexts& texts, const std::vector<Bar>& bars, double x_least, double x_greatest) {
+std::string histogram_element(const HistogramTexts& texts, const std::vector<Bar>& bars, double x_least, double x_greatest) {
   constexpr double right = plot_width - 25;
   double least = HUGE_VAL;
   double greatest = 1;
@@ -53,7 +53,9 @@ std::string histogram(const HistogramTexts& texts, const std::vector<Bar>& bars,
     const double to = x.at(bar.to);
     svg.mark_rectangle({from, y.at(bar.height)}, std::max(0.5, to - from), plot_bottom - y.at(bar.height), palette(0), fmt::format("{:g} to {:g}: {:g}", bar.from, bar.to, bar.height));
   }
-  return picture(svg.element(texts.title));
+  return svg.element(texts.title);
 }
+
+std::string histogram(const HistogramTexts& texts, const std::vector<Bar>& bars, double x_least, double x_greatest) { return picture(histogram_element(texts, bars, x_least, x_greatest)); }
 
 }  // namespace takt::chart

@@ -20,5 +20,7 @@ struct Bar {
 
 /// Bars from the bottom of a logarithmic axis; `x_least` to `x_greatest` is shown.
 std::string histogram(const HistogramTexts& texts, const std::vector<Bar>& bars, double x_least, double x_greatest);
+/// The same as an element of a page.
+std::string histogram_element(const HistogramTexts& texts, const std::vector<Bar>& bars, double x_least, double x_greatest);
 
 }  // namespace takt::chart

@@ -35,5 +35,7 @@ struct SequenceChart {
 };
 
 std::string sequence_chart(const SequenceChart& chart);
+/// The same as an element of a page.
+std::string sequence_chart_element(const SequenceChart& chart);
 
 }  // namespace takt::chart

@@ -79,6 +79,10 @@ void Svg::mark_rectangle(Point corner, double width, double height, std::string_
                        coordinate(height), colour, escaped(title));
 }
 
+void Svg::titled_path(std::string_view commands, std::string_view colour, double stroke_width, std::string_view title) {
+  body_ += fmt::format(R"(<path d="{}" stroke="{}" stroke-width="{}" fill="none" class="mark"><title>{}</title></path>)" "\n", commands, colour, coordinate(stroke_width), escaped(title));
+}
+
 std::string Svg::element(std::string_view label) const {
   return fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" role="img" aria-label="{2}">)" "\n{3}</svg>\n", coordinate(width_),
                      coordinate(height_), escaped(label), body_);
@@ -92,11 +96,13 @@ std::string_view style_sheet() {
          "svg .note{fill:#555;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}svg .mark{cursor:default}svg .on-dark{fill:#fff}\n";
 }
 
+std::string_view arrow_heads() {
+  return "<style>svg .arrow{marker-end:url(#arrow)}svg .arrowhead{fill:#333}</style><defs><marker id=\"arrow\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"8\" markerHeight=\"8\" "
+         "markerUnits=\"userSpaceOnUse\" orient=\"auto\"><path d=\"M0 0 L10 5 L0 10 z\" class=\"arrowhead\"/></marker></defs>";
+}
+
 std::string picture(std::string element) {
-  return element.insert(element.find('>') + 1, "<style>" + std::string(style_sheet()) +
-                                                   "svg .arrow{marker-end:url(#arrow)}</style><defs><marker id=\"arrow\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"8\" markerHeight=\"8\" "
-                                                   "markerUnits=\"userSpaceOnUse\" orient=\"auto\"><path d=\"M0 0 L10 5 L0 10 z\" fill=\"#333\"/></marker></defs>"
-                                                   "<rect width=\"100%\" height=\"100%\" class=\"paper\"/>");
+  return element.insert(element.find('>') + 1, "<style>" + std::string(style_sheet()) + "</style>" + std::string(arrow_heads()) + "<rect width=\"100%\" height=\"100%\" class=\"paper\"/>");
 }
 
 std::string_view palette(std::size_t number) {

@@ -42,6 +42,8 @@ class Svg {
   /// Marks stand for figures: they have the class `mark`, and `title` is shown when the mouse rests on them.
   void mark_circle(Point centre, double radius, std::string_view colour, std::string_view title);
   void mark_rectangle(Point corner, double width, double height, std::string_view colour, std::string_view title);
+  /// A stroke that stands for a figure.
+  void titled_path(std::string_view commands, std::string_view colour, double stroke_width, std::string_view title);
 
   /// One <svg> element for a page; `label` is what a screen reader reads.
   std::string element(std::string_view label) const;
@@ -54,6 +56,8 @@ class Svg {
 
 /// What classes look like, once for a page.
 std::string_view style_sheet();
+/// What arrows want besides, within the first <svg> element of a page that has some.
+std::string_view arrow_heads();
 /// An element as a file of its own: with the style sheet, and white behind it.
 std::string picture(std::string element);
 

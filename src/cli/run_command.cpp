@@ -1,5 +1,6 @@
 // takt run: what happens.
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -7,6 +8,7 @@
 #include "cli/load.hpp"
 #include "cli/progress.hpp"
 #include "cli/recording.hpp"
+#include "report/run_page.hpp"
 #include "results/result_json.hpp"
 #include "output/result_folder.hpp"
 #include "output/text_report.hpp"
@@ -19,6 +21,7 @@ struct RunOptions {
   ScenarioOptions scenario;
   RecordingOptions recording;
   std::string out;
+  std::string report;
   bool quiet = false;
 };
 
@@ -44,6 +47,16 @@ ExitStatus cannot_write(const std::string& problem) {
   return ExitStatus::internal_error;
 }
 
+/// The page, and the run once more for what it shows. Empty, or what went wrong.
+std::string write_page(const std::string& path, const scenario::Resolved& resolved, const results::RunResult& result) {
+  const InterruptGuard interrupt;
+  report::Replay replay(resolved, result);
+  replay.advance([&] { return interrupt.requested(); });
+  std::error_code error;
+  if (const std::filesystem::path folder = std::filesystem::path(path).parent_path(); !folder.empty()) std::filesystem::create_directories(folder, error);
+  return output::write_file(path, report::run_page(resolved, result, replay));
+}
+
 ExitStatus run(const RunOptions& options) {
   const auto resolved = load(options.scenario, options.quiet);
   if (!resolved) return ExitStatus::bad_input;
@@ -64,6 +77,8 @@ ExitStatus run(const RunOptions& options) {
     if (const std::string problem = output::write_result_folder(options.out, result, json::encode(resolved->scenario)); !problem.empty())
       return cannot_write(problem);
   }
+  if (!options.report.empty())
+    if (const std::string problem = write_page(options.report, *resolved, result); !problem.empty()) return cannot_write(problem);
   const std::string page = options.scenario.is_json() ? results::run_json(result) : options.quiet ? output::run_line(result) : output::run_report(result);
   std::fputs(page.c_str(), stdout);
   return status_of(result);
@@ -76,6 +91,7 @@ void add_run_command(Command app, ExitStatus& status) {
   const auto options = std::make_shared<RunOptions>();
   add_scenario_options(command, options->scenario);
   command.add_option("--out", options->out, "Write result.json, tables and the resolved scenario into this folder").type_name("DIR");
+  command.add_option("--report", options->report, "Write a page with pictures into this file: verdicts, network, gates, latencies, reactions").type_name("FILE.html");
   command.add_option("--pcap", options->recording.pcap, "Capture what these ports send, into DIR: all, NODE or NODE:PORT (repeatable)")
       .type_name("PORT")
       .one_value_each();
@@ -90,6 +106,7 @@ void add_run_command(Command app, ExitStatus& status) {
       "  takt run scenarios/robot-arm.json --seed 7 --duration 1min --quiet\n"
       "  takt run scenarios/robot-arm.json --set programs.0.cycle=1ms --out out/slow\n"
       "  takt run scenarios/robot-arm.json --duration 1100ms --out out/look --pcap all --timeline\n"
+      "  takt run scenarios/robot-arm.json --report out/robot-arm.html\n"
       "  takt run scenarios/robot-arm.json --format json | jq .programs.trajectory.reactions\n"
       "Exit status: 0 pass, 1 a requirement failed, 2 bad input, 3 internal error, 130 interrupted.");
   command.callback([options, &status] { status = run(*options); });

@@ -10,6 +10,7 @@
 #include "cli/load.hpp"
 #include "cli/status_line.hpp"
 #include "output/result_folder.hpp"
+#include "report/verify_page.hpp"
 #include "verify/report.hpp"
 
 namespace takt::cli {
@@ -20,6 +21,7 @@ struct VerifyOptions {
   verify::SearchOptions search;
   double budget = 60;   // millions of events
   std::string out;
+  std::string report;
   bool quiet = false;
 };
 
@@ -88,6 +90,11 @@ ExitStatus run(VerifyOptions& options) {
       return ExitStatus::internal_error;
     }
   }
+  if (!options.report.empty())
+    if (const std::string problem = output::write_file(options.report, report::verify_page(*resolved, verification, files)); !problem.empty()) {
+      std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
+      return ExitStatus::internal_error;
+    }
   verify::Witnesses witnesses;
   if (verification.contradiction)
     if (const std::string problem = write_witnesses(options.out, *resolved, *verification.contradiction, witnesses); !problem.empty())
@@ -110,10 +117,12 @@ void add_verify_command(Command app, ExitStatus& status) {
   command.add_option("--jobs", options->search.jobs, "Threads; the result is the same for any number").between(1u, 256u).type_name("N");
   command.add_option("--budget", options->budget, "What the search for the worst may cost, in millions of events").between(0.0, 1e6).type_name("M");
   command.add_option("--out", options->out, "Write into this folder, for each requirement, the scenario that replays its worst run").type_name("DIR");
+  command.add_option("--report", options->report, "Write a page with pictures into this file: simulated, worst found and bound of each requirement, and what they rest on").type_name("FILE.html");
   command.add_flag("--quiet", options->quiet, "Print one line");
   command.footer(
       "Examples:\n"
       "  takt verify scenarios/robot-arm.json --out out/worst\n"
+      "  takt verify scenarios/robot-arm.json --report out/proof.html\n"
       "  takt verify scenarios/robot-arm.json --seeds 20 --jobs 2 --format json | jq '.requirements[].verdict'\n"
       "Exit status: 0 all proved, 1 one refuted, 2 bad input, 3 a contradiction (a mistake of takt), 4 one undecided, 130 interrupted.");
   command.callback([options, &status] { status = run(*options); });

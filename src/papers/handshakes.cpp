@@ -6,6 +6,7 @@
 
 #include "papers/charts.hpp"
 #include "evaluation/evaluate.hpp"
+#include "report/sequence_figure.hpp"
 #include "scenario/resolve/resolve.hpp"
 
 namespace takt::papers {
@@ -18,7 +19,6 @@ struct Sequence {
   const char* name;
   const char* title;
   std::int64_t at_us;       // of the call
-  std::size_t caller;
   const char* call;
   char side;
   std::vector<std::pair<std::size_t, PublishedState>> changes;
@@ -29,13 +29,13 @@ struct Sequence {
 const std::vector<Sequence>& sequences() {
   using enum PublishedState;
   static const std::vector<Sequence> all = {
-      {"fig-3", "Fig. 3: starting", 100'050, 0, "Start", 0, {{1, Ready}, {0, Ready}, {1, Running}, {0, Running}}},
-      {"fig-4a", "Fig. 4 (a): halted by the master", 900'050, 0, "Halt", 'a', {{0, Halted}, {1, Halted}}},
-      {"fig-4b", "Fig. 4 (b): halted by the slave", 1'050'050, 1, "Halt", 'b', {{1, Halted}, {0, Halted}}},
-      {"fig-5a", "Fig. 5 (a): resumed by the master", 350'050, 0, "Resume", 'a', {{0, Running}, {1, Running}}},
-      {"fig-5b", "Fig. 5 (b): resumed by the slave", 250'050, 1, "Resume", 'b', {{1, Running}, {0, Running}}},
-      {"fig-6a", "Fig. 6 (a): SUSPENDED to READY by the master", 450'050, 0, "Reset", 'a', {{0, Ready}, {1, Ready}}},
-      {"fig-6b", "Fig. 6 (b): SUSPENDED to READY by the slave", 700'050, 1, "Reset", 'b', {{1, Ready}, {0, Ready}}, {{1, Running}, {0, Running}}},
+      {"fig-3", "Fig. 3: starting", 100'050, "Start", 0, {{1, Ready}, {0, Ready}, {1, Running}, {0, Running}}},
+      {"fig-4a", "Fig. 4 (a): halted by the master", 900'050, "Halt", 'a', {{0, Halted}, {1, Halted}}},
+      {"fig-4b", "Fig. 4 (b): halted by the slave", 1'050'050, "Halt", 'b', {{1, Halted}, {0, Halted}}},
+      {"fig-5a", "Fig. 5 (a): resumed by the master", 350'050, "Resume", 'a', {{0, Running}, {1, Running}}},
+      {"fig-5b", "Fig. 5 (b): resumed by the slave", 250'050, "Resume", 'b', {{1, Running}, {0, Running}}},
+      {"fig-6a", "Fig. 6 (a): SUSPENDED to READY by the master", 450'050, "Reset", 'a', {{0, Ready}, {1, Ready}}},
+      {"fig-6b", "Fig. 6 (b): SUSPENDED to READY by the slave", 700'050, "Reset", 'b', {{1, Ready}, {0, Ready}}, {{1, Running}, {0, Running}}},
   };
   return all;
 }
@@ -75,20 +75,19 @@ bool reproduce_handshakes(const ProgramsOptions& options, Reproduction& made, js
     if (!resolved) return false;
     if (options.progress) options.progress(fmt::format("Fig. 3 to 6, {} handshake", variant));
     scenario::Run run(*resolved);
-    MessageLog log(run, 0);
+    report::MessageLog log(run, 0);
     run.simulation().set_trace(&log);
     run.advance();
     for (const Sequence& sequence : sequences()) {
       made.comparisons.push_back(order_of(sequence, std::string_view(variant) == "paper", run.monitor(0)));
       if (std::string_view(variant) != "paper") continue;
-      Excerpt excerpt;
+      report::Excerpt excerpt;
       excerpt.title = sequence.title;
       excerpt.from = sim::TrueTime() + sim::Duration::from_ps(sequence.at_us * 1'000'000);
       excerpt.to = excerpt.from + shown;
       excerpt.call = sequence.call;
-      excerpt.caller = sequence.caller;
-      excerpt.side = sequence.side;
-      made.figures.push_back({sequence.name, sequence_of(run, log, excerpt)});
+      excerpt.numbers = sequence.side == 0 ? report::Numbers::start : sequence.side == 'a' ? report::Numbers::side_a : report::Numbers::side_b;
+      made.figures.push_back({sequence.name, chart::sequence_chart(report::sequence_of(run, log, excerpt))});
     }
   }
   return true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "chart/page.hpp"
 #include "chart/svg.hpp"
 #include "study/effects.hpp"
 #include "study/magnitude.hpp"
@@ -18,11 +19,6 @@ using chart::escaped;
 constexpr std::size_t most_charts = 60;     // of one kind
 constexpr std::size_t most_rows = 40;       // of a table
 constexpr std::size_t best_and_worst = 5;
-
-constexpr const char* page_style =
-    "body{font:14px/1.45 system-ui,sans-serif;color:#222;max-width:1180px;margin:24px auto;padding:0 16px}h1{font-size:22px}h2{font-size:17px;margin-top:32px;border-bottom:1px solid #ddd}"
-    "table{border-collapse:collapse;margin:8px 0}td,th{padding:3px 10px;border-bottom:1px solid #eee;text-align:left;font-variant-numeric:tabular-nums}th{font-weight:600;background:#f6f6f6}"
-    "td.n{text-align:right}.charts{display:flex;flex-wrap:wrap;gap:14px}.charts>svg{max-width:100%;height:auto}.fail{color:#c0392b}.note{color:#666}pre{white-space:pre-wrap;margin:0;font-size:12px}\n";
 
 struct Counts {
   std::size_t done = 0;
@@ -74,15 +70,12 @@ class Page {
     where_limits_break();
     failing_points();
     troubles();
-    return std::move(html_) + "</body></html>\n";
+    return std::move(html_) + chart::page_end();
   }
 
  private:
   void add(const std::string& text) { html_ += text; }
-  void section(const std::string& title, const std::string& note = "") {
-    add("<h2>" + escaped(title) + "</h2>\n");
-    if (!note.empty()) add("<p class=\"note\">" + escaped(note) + "</p>\n");
-  }
+  void section(const std::string& title, const std::string& note = "") { add(chart::section(title, note)); }
   void charts(const std::string& title, const std::string& note, const std::string& all) {
     if (all.empty()) return;
     section(title, note);
@@ -91,9 +84,8 @@ class Page {
 
   void head() {
     const Counts counts = counts_of(content_);
-    add("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">");
-    add("<link rel=\"icon\" href=\"data:,\"><title>" + escaped(content_.header.name) + "</title><style>" + page_style + std::string(chart::style_sheet()) + "</style></head><body>\n");
-    add("<h1>" + escaped(content_.header.name) + "</h1>\n<table>\n");
+    add(chart::page_head(content_.header.name));
+    add("<table>\n");
     const auto row = [&](const std::string& name, const std::string& value) { add("<tr><th>" + escaped(name) + "</th><td>" + escaped(value) + "</td></tr>\n"); };
     row("points", fmt::format("{} of {}: {} variants, {} replications", content_.rows(), content_.header.points(), content_.variants.size(), content_.header.replications));
     std::string troubled;

@@ -33,6 +33,7 @@ const Prefixes emulate = {"emulate/"};
 const Prefixes plant = {"plant/"};
 const Prefixes application = {"application/"};
 const Prefixes papers = {"papers/"};
+const Prefixes report = {"report/"};
 
 Prefixes all_of(std::initializer_list<Prefixes> parts) {
   Prefixes sum;
@@ -63,11 +64,12 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/evaluation/", all_of({below, evaluation})});
     list.push_back({"src/output/", all_of({below, questions, evaluation, output})});
     list.push_back({"src/chart/", chart});
-    list.push_back({"src/papers/", all_of({below, questions, evaluation, chart, papers})});
+    list.push_back({"src/report/", all_of({below, questions, evaluation, output, chart, report})});
+    list.push_back({"src/papers/", all_of({below, questions, evaluation, chart, report, papers})});
     list.push_back({"src/property/", all_of({below, questions, evaluation, output, {"property/"}})});
     list.push_back({"src/emulate/", all_of({below, node, emulate})});
-    list.push_back({"src/cli/", all_of({below, questions, study, evaluation, output, node, emulate, papers, cli})});
-    list.push_back({"src/main.cpp", all_of({below, questions, study, evaluation, output, node, emulate, papers, cli})});
+    list.push_back({"src/cli/", all_of({below, questions, study, evaluation, output, node, emulate, report, papers, cli})});
+    list.push_back({"src/main.cpp", all_of({below, questions, study, evaluation, output, node, emulate, report, papers, cli})});
     return list;
   }();
   return all;
@@ -92,7 +94,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, output, cli, node, emulate, plant, application, chart, papers, study, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, output, cli, node, emulate, plant, application, chart, report, papers, study, {"property/"}});
   return roots;
 }
 

@@ -8,7 +8,7 @@
 #include "scenario/run/run.hpp"
 #include "sim/trace.hpp"
 
-namespace takt::papers {
+namespace takt::report {
 
 struct LoggedMessage {
   sim::TrueTime sent;
@@ -18,10 +18,17 @@ struct LoggedMessage {
   bool is_state = false;
 };
 
+/// From then until then, both included.
+struct Span {
+  sim::TrueTime from;
+  sim::TrueTime until;
+  bool holds(sim::TrueTime time) const { return from <= time && time <= until; }
+};
+
 class MessageLog final : public sim::TraceSink {
  public:
-  /// Of program `program` of the run. No frame of it may be lost or doubled.
-  MessageLog(const scenario::Run& run, std::size_t program);
+  /// Of program `program` of the run, which has no roles: what is received within one of `spans`; none: all.
+  MessageLog(const scenario::Run& run, std::size_t program, std::vector<Span> spans = {});
 
   void record(const sim::TraceRecord& record) override;
   /// In the order of reception.
@@ -32,10 +39,11 @@ class MessageLog final : public sim::TraceSink {
     std::size_t from = 0;
     bool is_state = false;
   };
+  const models::Traffic* traffic_;
+  std::vector<Span> spans_;
   std::map<std::uint64_t, Source> streams_;
   std::map<std::uint32_t, std::size_t> participants_;    // by node
-  std::map<std::uint64_t, sim::TrueTime> under_way_;     // by frame
   std::vector<LoggedMessage> messages_;
 };
 
-}  // namespace takt::papers
+}  // namespace takt::report

@@ -1,0 +1,79 @@
+#include "chart/page.hpp"
+
+#include <fmt/format.h>
+
+#include "chart/svg.hpp"
+
+namespace takt::chart {
+namespace {
+
+constexpr std::string_view style =
+    ":root{color-scheme:light dark;--ink:#222;--paper:#fff;--faint:#666;--line:#ddd;--head:#f6f6f6}"
+    "body{font:14px/1.45 system-ui,sans-serif;color:var(--ink);background:var(--paper);max-width:1180px;margin:24px auto;padding:0 16px}"
+    "h1{font-size:22px}h2{font-size:17px;margin-top:32px;border-bottom:1px solid var(--line)}h3{font-size:14px;margin:18px 0 4px}"
+    ".table{overflow-x:auto}table{border-collapse:collapse;margin:8px 0}td,th{padding:3px 10px;border-bottom:1px solid var(--line);text-align:left;vertical-align:top;"
+    "font-variant-numeric:tabular-nums}th{font-weight:600;background:var(--head)}td.n{text-align:right;white-space:nowrap}"
+    ".charts{display:flex;flex-wrap:wrap;gap:14px;align-items:flex-start}.charts>svg{max-width:100%;height:auto}.wide{overflow-x:auto}"
+    ".pass{color:#00734f}.fail{color:#c0392b}.undecided{color:#9a6700}.note{color:var(--faint)}pre{white-space:pre-wrap;margin:0;font-size:12px}"
+    ".verdict{font-size:17px;font-weight:600;padding:10px 14px;border-left:5px solid currentColor;background:var(--head)}"
+    "details>summary{cursor:pointer;font-weight:600;margin:10px 0}"
+    "svg .stretch{fill:#009e73;opacity:.22}svg .failed{stroke:#c0392b;stroke-width:2.5}svg text.pass{fill:#00734f}svg text.fail{fill:#c0392b;font-weight:600}svg text.undecided{fill:#9a6700}\n";
+
+/// What the style sheet of charts has for white paper.
+constexpr std::string_view dark =
+    "@media screen and (prefers-color-scheme:dark){:root{--ink:#ddd;--paper:#15191c;--faint:#9aa5ad;--line:#3a4248;--head:#20262a}"
+    ".pass{color:#4cc38a}.fail{color:#ff7b6b}.undecided{color:#e3b341}svg text{fill:#ccc}svg .axis{stroke:#8a949b}svg .grid{stroke:#2c3439}svg .limit{stroke:#ff7b6b}"
+    "svg text.pass{fill:#4cc38a}svg text.fail{fill:#ff7b6b}svg text.undecided{fill:#e3b341}svg .box{fill:#20303c;stroke:#58a6d6}svg .paper{fill:#15191c}svg .arrow{stroke:#ccc}svg .arrowhead{fill:#ccc}svg .note{fill:#aab4bb;stroke:#15191c}svg [stroke=\"#000000\"]{stroke:#ddd}svg [fill=\"#000000\"]{fill:#ddd}}"
+    "@media print{body{max-width:none;margin:0}h2{break-after:avoid}svg,tr{break-inside:avoid}details{display:block}}\n";
+
+}  // namespace
+
+std::string page_head(std::string_view title) {
+  const std::string safe = escaped(title);
+  return fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">"
+                     "<link rel=\"icon\" href=\"data:,\"><title>{}</title><style>{}{}{}</style></head><body>\n<h1>{}</h1>\n",
+                     safe, style, style_sheet(), dark, safe);
+}
+
+std::string page_end() { return "</body></html>\n"; }
+
+std::string section(std::string_view title, std::string_view note) {
+  std::string text = "<h2>" + escaped(title) + "</h2>\n";
+  if (!note.empty()) text += "<p class=\"note\">" + escaped(note) + "</p>\n";
+  return text;
+}
+
+std::string charts(const std::vector<std::string>& elements) {
+  if (elements.empty()) return {};
+  std::string text = "<div class=\"charts\">\n";
+  for (const std::string& element : elements) text += element;
+  return text + "</div>\n";
+}
+
+std::string wide_chart(const std::string& element) { return "<div class=\"wide\">" + element + "</div>\n"; }
+
+void Table::row(const std::vector<Cell>& cells) {
+  if (++rows_ > most_rows_) return;
+  body_ += "<tr>";
+  for (const Cell& cell : cells) {
+    std::string looks(cell.is_number ? "n" : "");
+    if (!cell.look.empty()) looks += (looks.empty() ? "" : " ") + std::string(cell.look);
+    body_ += (looks.empty() ? std::string("<td>") : "<td class=\"" + looks + "\">") + escaped(cell.text) + "</td>";
+  }
+  body_ += "</tr>\n";
+}
+
+std::string Table::take() {
+  if (rows_ == 0) return {};
+  std::string text = "<div class=\"table\"><table>";
+  if (!heads_.empty()) {
+    text += "<tr>";
+    for (const std::string& head : heads_) text += "<th>" + escaped(head) + "</th>";
+    text += "</tr>\n";
+  }
+  text += std::move(body_);
+  if (rows_ > most_rows_) text += fmt::format("<tr><td class=\"note\" colspan=\"{}\">and {} more</td></tr>\n", heads_.size(), rows_ - most_rows_);
+  return text + "</table></div>\n";
+}
+
+}  // namespace takt::chart

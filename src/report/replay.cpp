@@ -1,0 +1,87 @@
+#include "report/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "output/text_report.hpp"
+
+namespace takt::report {
+namespace {
+
+constexpr std::size_t most_sequences = 12;     // of a program
+constexpr std::size_t most_participants = 24;   // more would not be legible
+
+/// The slowest of each kind, in the order of time.
+std::vector<const results::ReactionResult*> chosen(const std::vector<results::ReactionResult>& reactions) {
+  std::map<std::string, const results::ReactionResult*> slowest;
+  for (const results::ReactionResult& reaction : reactions) {
+    if (!reaction.completed) continue;
+    const auto [found, is_new] = slowest.emplace(reaction.kind + reaction.initiator + reaction.cause, &reaction);
+    if (!is_new && *reaction.duration() > *found->second->duration()) found->second = &reaction;
+  }
+  std::vector<const results::ReactionResult*> all;
+  for (const auto& [kind, reaction] : slowest) all.push_back(reaction);
+  std::stable_sort(all.begin(), all.end(), [](const auto* a, const auto* b) { return a->began < b->began; });
+  if (all.size() > most_sequences) all.resize(most_sequences);
+  return all;
+}
+
+}  // namespace
+
+Replay::Replay(const scenario::Resolved& resolved, const results::RunResult& result) : run_(resolved), cycle_(gate_cycle(resolved, result.simulated)) {
+  for (std::size_t p = 0; p < resolved.programs.size(); ++p) {
+    logs_.emplace_back();
+    const scenario::ResolvedProgram& program = resolved.programs[p];
+    if (program.has_roles() || program.members.size() > most_participants) continue;
+    std::vector<Span> spans;
+    for (const results::ReactionResult* reaction : chosen(result.programs[p].reactions)) {
+      const bool is_command = reaction->cause == "command";
+      excerpts_.push_back({fmt::format("{}: {} from {} at {}, {}", program.name, reaction->kind, reaction->initiator, output::readable(reaction->began.since_start()),
+                                       output::readable(*reaction->duration())),
+                           p, reaction->began, *reaction->completed, is_command ? "called" : reaction->cause, Numbers::none});
+      spans.push_back({reaction->began, *reaction->completed + program.description->cycle * 2});
+    }
+    if (spans.empty()) continue;
+    logs_.back() = std::make_unique<MessageLog>(run_, p, std::move(spans));
+    sinks_.add(*logs_.back());
+  }
+  if (cycle_) {
+    watch_ = std::make_unique<GateWatch>(run_, *cycle_);
+    sinks_.add(*watch_);
+  }
+}
+
+bool Replay::run_until(sim::TrueTime time, const std::function<bool()>& is_interrupted) {
+  constexpr std::uint64_t events_a_slice = 200'000;
+  while (!run_.simulation().run(std::min(time, run_.end()), events_a_slice))
+    if (is_interrupted()) return false;
+  return true;
+}
+
+bool Replay::advance(const std::function<bool()>& is_interrupted) {
+  if (sinks_.empty()) return true;
+  run_.simulation().set_trace(&sinks_);
+  sim::TrueTime last;
+  for (const Excerpt& excerpt : excerpts_) last = std::max(last, excerpt.to + run_.resolved().programs[excerpt.program].description->cycle * 2);
+  bool goes_on = true;
+  if (cycle_) {
+    goes_on = run_until(cycle_->from, is_interrupted);
+    watch_->look_at_gates();
+    last = std::max(last, cycle_->until);
+  }
+  if (goes_on) goes_on = run_until(last, is_interrupted);
+  run_.simulation().set_trace(nullptr);
+  return goes_on;
+}
+
+std::vector<chart::SequenceChart> Replay::sequences() const {
+  std::vector<chart::SequenceChart> all;
+  for (const Excerpt& excerpt : excerpts_) all.push_back(sequence_of(run_, *logs_[excerpt.program], excerpt));
+  return all;
+}
+
+std::optional<chart::Gantt> Replay::gates() const { return watch_ ? std::optional(watch_->figure()) : std::nullopt; }
+
+}  // namespace takt::report

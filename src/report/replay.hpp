@@ -1,0 +1,45 @@
+// A run once more, watched where its page shows it. The first one was judged and pays nothing; this one is the same by its digest.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "chart/gantt.hpp"
+#include "chart/sequence_chart.hpp"
+#include "output/fan_out.hpp"
+#include "report/gates_figure.hpp"
+#include "report/sequence_figure.hpp"
+#include "results/run_result.hpp"
+#include "scenario/run/run.hpp"
+
+namespace takt::report {
+
+class Replay {
+ public:
+  /// `result` is of a run of `resolved`; both outlive this.
+  Replay(const scenario::Resolved& resolved, const results::RunResult& result);
+  Replay(const Replay&) = delete;
+  Replay& operator=(const Replay&) = delete;
+
+  /// To the last instant that is shown; `is_interrupted` is asked now and then. False if it was interrupted.
+  bool advance(const std::function<bool()>& is_interrupted);
+
+  /// Of each kind of reaction the slowest, by program.
+  std::vector<chart::SequenceChart> sequences() const;
+  /// None without gates.
+  std::optional<chart::Gantt> gates() const;
+
+ private:
+  bool run_until(sim::TrueTime time, const std::function<bool()>& is_interrupted);
+
+  scenario::Run run_;
+  std::vector<Excerpt> excerpts_;
+  std::vector<std::unique_ptr<MessageLog>> logs_;   // by program; null: nothing is shown of it
+  std::unique_ptr<GateWatch> watch_;
+  std::optional<Span> cycle_;
+  output::FanOut sinks_;
+};
+
+}  // namespace takt::report

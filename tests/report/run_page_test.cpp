@@ -1,0 +1,93 @@
+// The page of a run shows what happened, and needs nothing else.
+#include <gtest/gtest.h>
+
+#include "evaluation/evaluate.hpp"
+#include "report/run_page.hpp"
+#include "scenario/resolve/resolve.hpp"
+
+namespace takt::report {
+namespace {
+
+struct Made {
+  std::unique_ptr<scenario::Resolved> resolved;
+  results::RunResult result;
+  std::unique_ptr<Replay> replay;
+  std::string page;
+};
+
+Made page_of(const std::string& file, const std::vector<std::string>& settings = {}) {
+  json::Diagnostics diagnostics;
+  Made made;
+  made.resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR "/scenarios/") + file, settings, diagnostics);
+  EXPECT_TRUE(made.resolved) << diagnostics.to_text();
+  scenario::Run run(*made.resolved);
+  run.advance();
+  made.result = evaluation::evaluate(run, false);
+  made.replay = std::make_unique<Replay>(*made.resolved, made.result);
+  EXPECT_TRUE(made.replay->advance([] { return false; }));
+  made.page = run_page(*made.resolved, made.result, *made.replay);
+  return made;
+}
+
+std::size_t count(const std::string& text, const std::string& piece) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + piece.size())) ++found;
+  return found;
+}
+
+/// Nothing is fetched and nothing is run: the only addresses are the names of XML.
+void expect_self_contained(const std::string& page) {
+  EXPECT_EQ(count(page, "://"), count(page, "xmlns=\"http://www.w3.org/2000/svg\""));
+  EXPECT_EQ(count(page, "<script"), 0u);
+  EXPECT_EQ(count(page, "<svg"), count(page, "</svg>"));
+}
+
+TEST(RunPage, SaysTheVerdictAndShowsEachRequirementAndEachKindOfReaction) {
+  const Made made = page_of("robot-arm.json");
+  expect_self_contained(made.page);
+  EXPECT_NE(made.page.find("robot-arm: pass, all 8 requirements hold in this run"), std::string::npos);
+  for (const results::RequirementResult& requirement : made.result.requirements) EXPECT_NE(made.page.find(requirement.text), std::string::npos) << requirement.text;
+  const auto sequences = made.replay->sequences();
+  ASSERT_EQ(sequences.size(), 4u) << "start, suspend, resume, halt";
+  // Suspended by the robot at 4.00007 s; the generator hears it 163.103 us later (README.md) by the message that arrives then.
+  const chart::SequenceChart& suspend = sequences[1];
+  ASSERT_EQ(suspend.steps.size(), 2u);
+  EXPECT_EQ(suspend.steps[0].text, "called: Suspended");
+  EXPECT_EQ(suspend.steps[1].time - suspend.steps[0].time, 163'103'000) << "README.md: +163.103 us";
+  ASSERT_FALSE(suspend.messages.empty());
+  EXPECT_EQ(suspend.messages[0].from, 1u);
+  EXPECT_EQ(suspend.messages[0].received, suspend.steps[1].time);
+}
+
+TEST(RunPage, GatesAndFramesOfOneCycle) {
+  // Class 6 is open for 100 us of 1 ms; its frame is on the wire of sw1 when the line says so.
+  const Made made = page_of("tsn/gates-on-a-line.json");
+  const auto gates = made.replay->gates();
+  ASSERT_TRUE(gates);
+  EXPECT_DOUBLE_EQ(gates->to, 1000);
+  ASSERT_EQ(gates->rows.size(), 5u);
+  const chart::GanttRow& control = gates->rows.front();
+  EXPECT_EQ(control.name, "sw1:0 to sw2, class 6");
+  ASSERT_EQ(control.stretches.size(), 1u);
+  EXPECT_DOUBLE_EQ(control.stretches[0].from, 0);
+  EXPECT_DOUBLE_EQ(control.stretches[0].to, 100);
+  ASSERT_EQ(control.bars.size(), 1u);
+  for (const chart::GanttRow& row : gates->rows)
+    for (const chart::GanttBar& bar : row.bars)
+      EXPECT_TRUE(std::any_of(row.stretches.begin(), row.stretches.end(), [&](const auto& open) { return open.from <= bar.from && bar.to <= open.to; })) << row.name << " at " << bar.from;
+}
+
+TEST(RunPage, ACrashMarksItsNodeAndTheReplayIsTheSameRun) {
+  const Made made = page_of("daisy-chain.json");
+  EXPECT_NE(made.page.find("red: failed in this run"), std::string::npos);
+  for (const chart::SequenceChart& sequence : made.replay->sequences()) EXPECT_EQ(sequence.participants.size(), 13u);
+}
+
+TEST(RunPage, FailuresAreOnTop) {
+  const Made made = page_of("robot-arm.json", {"/require/0/within=1ms"});
+  EXPECT_NE(made.page.find("robot-arm: fail, 1 of 8 requirements failed in this run"), std::string::npos);
+  EXPECT_NE(made.page.find("<p class=\"verdict fail\">"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace takt::report

@@ -95,8 +95,8 @@ void collect(std::vector<double>& values, const Sample& sample) {
 }  // namespace
 
 std::string draw(const LineChart& chart) {
-  std::vector<double> xs;
-  std::vector<double> ys;
+  std::vector<double> xs = chart.x.also;
+  std::vector<double> ys = chart.y.also;
   std::vector<std::string> names;
   std::vector<std::string> colours;
   std::vector<std::string> legend_colours;
@@ -141,7 +141,7 @@ std::string draw(const LineChart& chart) {
 }
 
 std::string draw(const BarChart& chart) {
-  std::vector<double> values;
+  std::vector<double> values = chart.y.also;
   if (chart.y.scale == Scale::linear) values.push_back(0);   // the length of a bar is its figure
   for (const auto& group : chart.bars)
     for (const auto& bar : group)

@@ -28,6 +28,7 @@ struct Series {
 struct Dimension {
   std::string label;
   Scale scale = Scale::linear;
+  std::vector<double> also = {};   ///< what the axis takes in besides the chart's figures: 0, a limit, the figures of the charts beside it
 };
 
 /// A horizontal line, such as a limit.
@@ -70,6 +71,7 @@ struct HeatMap {
   std::vector<std::string> rows;
   std::vector<std::vector<std::optional<double>>> cells;      ///< by row, then column; none: hatched grey
   std::vector<std::vector<bool>> marked;                      ///< cells with a red frame; empty: none
+  std::vector<std::vector<std::string>> notes;                ///< what the titles of cells say besides; empty: nothing
   std::string unit;
   bool is_logarithmic = false;
 };

@@ -64,7 +64,8 @@ std::string draw(const HeatMap& chart) {
     for (std::size_t c = 0; c < chart.columns.size(); ++c) {
       const double x = x0 + width * static_cast<double>(c);
       const auto& cell = chart.cells[r][c];
-      const std::string title = chart.columns[c] + ", " + chart.rows[r] + ": " + (cell ? number_text(*cell) + " " + chart.unit : "no result");
+      const bool has_note = r < chart.notes.size() && c < chart.notes[r].size() && !chart.notes[r][c].empty();
+      const std::string title = chart.columns[c] + ", " + chart.rows[r] + ": " + (cell ? number_text(*cell) + " " + chart.unit : "no result") + (has_note ? "; " + chart.notes[r][c] : "");
       svg.mark_rectangle({x + 0.5, y + 0.5}, width - 1, height - 1, cell ? css(colour_at(share(*cell))) : std::string(faint), title);
       const std::string_view look = cell && share(*cell) > 0.45 ? "cell on-dark" : "cell";
       svg.text({x + width / 2, y + height / 2 + 4}, cell ? fmt::format("{:.4g}", *cell) : "-", Anchor::middle, Class{look});

@@ -83,6 +83,44 @@ std::vector<std::uint32_t> pareto_front(const Content& content, std::size_t a, s
   return front;
 }
 
+std::vector<Influence> influences(const Content& content, std::size_t measure) {
+  const std::vector<Summary> variants = by_variant(content, measure);
+  Mean all;
+  for (const Summary& each : variants)
+    if (each.count > 0) all = {all.sum + each.mean, all.count + 1};
+  if (all.count < 2) return {};
+  const double centre = all.sum / static_cast<double>(all.count);
+  double whole = 0;
+  for (const Summary& each : variants)
+    if (each.count > 0) whole += (each.mean - centre) * (each.mean - centre);
+  if (!(whole > 0)) return {};
+  std::vector<Influence> found;
+  for (std::size_t f = 0; f < content.factors.size(); ++f) {
+    std::vector<Mean> levels(content.factors[f].texts.size());
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+      if (variants[v].count == 0) continue;
+      Mean& level = levels[content.variants[v][f]];
+      level = {level.sum + variants[v].mean, level.count + 1};
+    }
+    double part = 0;
+    for (const Mean& level : levels)
+      if (level.count > 0) part += static_cast<double>(level.count) * std::pow(level.sum / static_cast<double>(level.count) - centre, 2);
+    found.push_back({f, std::min(1.0, part / whole)});
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Influence& a, const Influence& b) { return a.share > b.share; });
+  return found;
+}
+
+bool are_crossed(const Content& content, std::size_t a, std::size_t b) {
+  const std::size_t width = content.factors[b].texts.size();
+  std::vector<bool> met(content.factors[a].texts.size() * width);
+  for (std::size_t row = 0; row < content.rows(); ++row) {
+    const Variant& variant = content.variants[content.variant[row]];
+    if (content.status[row] == Status::done) met[variant[a] * width + variant[b]] = true;
+  }
+  return 2 * static_cast<std::size_t>(std::count(met.begin(), met.end(), true)) >= met.size();
+}
+
 std::vector<Break> breaks_along(const Content& content, std::size_t factor) {
   const std::vector<double>& numbers = content.factors[factor].numbers;
   std::vector<std::uint32_t> order(numbers.size());

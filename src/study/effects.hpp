@@ -26,6 +26,17 @@ std::vector<std::optional<bool>> variants_that_pass(const Content& content);
 /// The variants that no other one beats in both measures (means), by the first measure.
 std::vector<std::uint32_t> pareto_front(const Content& content, std::size_t a, std::size_t b);
 
+/// How much of the variance of a measure between variants the levels of a factor account for by themselves: the sum of squares of its levels' means over the whole one (eta squared).
+struct Influence {
+  std::size_t factor = 0;
+  double share = 0;   ///< 0 to 1
+};
+/// The greatest first; empty if the measure is the same in all variants. Exact where every level meets every other equally often; the rest of 1 is what factors do together.
+std::vector<Influence> influences(const Content& content, std::size_t measure);
+
+/// Whether two factors can be told apart: at least half of all pairs of their levels have results. Else a chart of both would show one of them, or a third factor.
+bool are_crossed(const Content& content, std::size_t a, std::size_t b);
+
 /// For a numeric factor and one combination of the other factors' levels: up to where all points pass, and where the first does not.
 struct Break {
   std::uint32_t variant = 0;                 ///< one of the combination, for the names of the other levels

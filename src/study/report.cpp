@@ -62,6 +62,7 @@ class Page {
 
   std::string take() {
     head();
+    answer();
     main_effects();
     responses();
     heat_maps();
@@ -106,6 +107,74 @@ class Page {
     add("</table>\n");
   }
 
+  /// What holds up to where, and what matters: the questions that a study is run for.
+  void answer() {
+    if (content_.rows() < content_.header.points())
+      add(fmt::format("<p class=\"verdict undecided\">{} of {} points have been run: all of this is about a sample. takt study FILE --out STORE --resume runs the others.</p>\n", content_.rows(),
+                      content_.header.points()));
+    section("The answer");
+    std::size_t known = 0;
+    std::size_t good = 0;
+    for (const std::optional<bool>& passes : variants_that_pass(content_)) {
+      known += passes ? 1 : 0;
+      good += passes.value_or(false) ? 1 : 0;
+    }
+    const char* const look = known == 0 ? "undecided" : good == known ? "pass" : "fail";
+    add(fmt::format("<p class=\"verdict {}\">{}</p>\n", look, known == 0 ? "no variant has a result" : good == known ? fmt::format("all {} variants pass", known) : fmt::format("{} of {} variants pass", good, known)));
+    holds_up_to();
+    what_matters();
+  }
+
+  void holds_up_to() {
+    chart::Table table({"factor", "everything passes up to", "the first to break", "where", "combinations that never break"});
+    for (std::size_t f = 0; f < content_.factors.size(); ++f) {
+      const ContentFactor& factor = content_.factors[f];
+      if (!factor.is_numeric() || factor.texts.size() < 2) continue;
+      const std::vector<Break> breaks = breaks_along(content_, f);
+      const Break* first = nullptr;
+      std::size_t unbroken = 0;
+      for (const Break& one : breaks) {
+        if (!one.first_bad) ++unbroken;
+        else if (first == nullptr || factor.numbers[*one.first_bad] < factor.numbers[*first->first_bad]) first = &one;
+      }
+      if (breaks.empty()) continue;
+      const std::string everywhere = first == nullptr ? "the end" : first->last_good ? factor.texts[*first->last_good] : "nothing";
+      table.row({{factor.name}, {everywhere, true}, {first == nullptr ? "-" : factor.texts[*first->first_bad], true, first == nullptr ? "" : "fail"},
+                 {first == nullptr ? std::string() : others_of(first->variant, f)}, {fmt::format("{} of {}", unbroken, breaks.size()), true}});
+    }
+    add(table.take());
+  }
+
+  void what_matters() {
+    std::vector<std::string> heads = {"measure"};
+    for (std::size_t f = 0; f < content_.factors.size(); ++f) heads.push_back(fmt::format("{}.", f + 1));
+    heads.emplace_back("together, or by chance");
+    chart::Table table(heads);
+    for (std::size_t m = 0; m < content_.measures.size(); ++m) {
+      const std::vector<Influence> ranked = influences(content_, m);
+      if (ranked.empty()) continue;
+      std::vector<chart::Cell> cells = {{content_.measures[m].name}};
+      double rest = 1;
+      for (const Influence& each : ranked) {
+        rest -= each.share;
+        cells.push_back({fmt::format("{} {:.0f} %", content_.factors[each.factor].name, 100 * each.share)});
+      }
+      cells.push_back({fmt::format("{:.0f} %", 100 * std::max(rest, 0.0)), true});
+      table.row(cells);
+    }
+    const std::string rows = table.take();
+    if (!rows.empty()) add("<h3>What matters</h3><p class=\"note\">Share of the variance between variants for which the levels of a factor account by themselves, ranked. Where a design does not have every "
+                           "combination equally often, factors share what they cannot be told apart by.</p>\n" + rows);
+  }
+
+  /// "slaves = 3, cycle = 200us": all levels of a variant but that of one factor.
+  std::string others_of(std::uint32_t variant, std::size_t factor) const {
+    std::string text;
+    for (std::size_t g = 0; g < content_.factors.size(); ++g)
+      if (g != factor) text += (text.empty() ? "" : ", ") + content_.factors[g].name + " = " + content_.level_text(variant, g);
+    return text;
+  }
+
   void main_effects() {
     std::string all;
     std::size_t count = 0;
@@ -134,7 +203,7 @@ class Page {
     for (std::size_t m = 0; m < content_.measures.size(); ++m)
       for (std::size_t a = 0; a < content_.factors.size(); ++a)
         for (std::size_t b = a + 1; b < content_.factors.size() && count < most_charts; ++b, ++count) all += heat_map_chart(content_, a, b, m);
-    charts("Heat maps", "Means over the factors that are not named. Red frame: some point in there does not pass.", all);
+    charts("Heat maps", "Means over the factors that are not named. Red frame: some point in there does not pass; the cell tells which, and the command that makes a scenario of it. Factors that the design does not cross have no map.", all);
   }
 
   void best_and_worst_variants() {
@@ -171,8 +240,12 @@ class Page {
     std::string all;
     std::size_t count = 0;
     for (std::size_t a = 0; a < content_.measures.size(); ++a)
-      for (std::size_t b = a + 1; b < content_.measures.size() && count < 6; ++b, ++count) all += pareto_chart(content_, a, b);
-    charts("Pareto fronts", "Variants that no other one beats in both measures. Less is better, unless a limit of the measure says at_least.", all);
+      for (std::size_t b = a + 1; b < content_.measures.size() && count < 6; ++b) {
+        if (!content_.measures[a].is_limited || !content_.measures[b].is_limited) continue;   // nobody has said what is better
+        all += pareto_chart(content_, a, b);
+        ++count;
+      }
+    charts("Pareto fronts", "Variants that no other one beats in both measures, of measures whose limits say what is better.", all);
   }
 
   void where_limits_break() {
@@ -187,11 +260,8 @@ class Page {
       add("<table><tr><th>" + escaped(factor.name) + " passes up to</th><th>and breaks at</th><th>where</th></tr>\n");
       for (std::size_t i = 0; i < std::min(breaks.size(), most_rows); ++i) {
         const Break& one = breaks[i];
-        std::string where;
-        for (std::size_t g = 0; g < content_.factors.size(); ++g)
-          if (g != f) where += (where.empty() ? "" : ", ") + content_.factors[g].name + " = " + content_.level_text(one.variant, g);
         add("<tr><td>" + escaped(one.last_good ? factor.texts[*one.last_good] : "-") + "</td><td class=\"fail\">" + escaped(one.first_bad ? factor.texts[*one.first_bad] : "") + "</td><td>" +
-            escaped(where) + "</td></tr>\n");
+            escaped(others_of(one.variant, f)) + "</td></tr>\n");
       }
       if (breaks.size() > most_rows) add(fmt::format("<tr><td></td><td></td><td>and {} more combinations</td></tr>\n", breaks.size() - most_rows));
       add("</table>\n");

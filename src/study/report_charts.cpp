@@ -68,6 +68,28 @@ std::vector<chart::Rule> rules_of(const Content& content, std::size_t measure) {
   return rules;
 }
 
+/// An axis of a measure: from 0 where nothing is below, over all means and intervals of its charts, and to its limits unless they are far away. So charts of one measure can be compared.
+chart::Dimension axis_of(const Content& content, std::size_t m) {
+  chart::Dimension axis{label_of(content.measures[m]), chart::Scale::linear, {}};
+  double low = 0;
+  double high = 0;
+  const auto take = [&](const Summary& summary) {
+    if (summary.count == 0) return;
+    low = std::min(low, summary.mean - summary.half_width.value_or(0));
+    high = std::max(high, summary.mean + summary.half_width.value_or(0));
+  };
+  for (std::size_t f = 0; f < content.factors.size(); ++f)
+    for (const Summary& summary : main_effect(content, f, m)) take(summary);
+  constexpr double far = 3;   // times what was found
+  for (const PlannedLimit& limit : content.limits)
+    if (limit.measure == m && std::abs(limit.value) <= far * std::max(std::abs(low), std::abs(high))) {
+      low = std::min(low, limit.value);
+      high = std::max(high, limit.value);
+    }
+  axis.also = {low, high};
+  return axis;
+}
+
 chart::Series curve_of(const ContentFactor& factor, const std::vector<Summary>& summaries, double scale, std::string name) {
   chart::Series series;
   series.name = std::move(name);
@@ -103,7 +125,7 @@ std::string main_effect_chart(const Content& content, std::size_t f, std::size_t
     chart::LineChart line;
     line.title = title;
     line.x = {how.label, scale_of(factor)};
-    line.y = {label_of(measure)};
+    line.y = axis_of(content, m);
     line.series = {factor.texts.size() > most_levels_shown ? cloud_of(factor, summaries, how.factor) : curve_of(factor, summaries, how.factor, "")};
     line.rules = rules_of(content, m);
     line.width = 420;
@@ -113,7 +135,7 @@ std::string main_effect_chart(const Content& content, std::size_t f, std::size_t
   chart::BarChart bars;
   bars.title = title;
   bars.names = {""};
-  bars.y = {label_of(measure)};
+  bars.y = axis_of(content, m);
   bars.rules = rules_of(content, m);
   bars.width = 420;
   bars.height = 240;
@@ -131,12 +153,13 @@ std::string response_chart(const Content& content, std::size_t x, std::size_t cu
   const ContentFactor& other = content.factors[curves];
   constexpr std::size_t most_curves = 8;
   if (!factor.is_numeric() || factor.texts.size() < 2 || factor.texts.size() > most_levels_shown || other.texts.size() < 2 || other.texts.size() > most_curves) return {};
+  if (!are_crossed(content, x, curves)) return {};
   const auto effect = joint_effect(content, curves, x, m);
   const Shown how = shown(factor);
   chart::LineChart line;
   line.title = content.measures[m].name + " over " + factor.name + ", by " + other.name;
   line.x = {how.label, scale_of(factor)};
-  line.y = {label_of(content.measures[m])};
+  line.y = axis_of(content, m);
   line.rules = rules_of(content, m);
   for (const std::uint32_t level : in_order(other)) {
     line.series.push_back(curve_of(factor, effect[level], how.factor, other.name + " = " + other.texts[level]));
@@ -151,11 +174,15 @@ std::string heat_map_chart(const Content& content, std::size_t rows, std::size_t
   const ContentFactor& across = content.factors[columns];
   for (const ContentFactor* factor : {&down, &across})
     if (factor->texts.size() < 2 || factor->texts.size() > most_cells_each_way) return {};
+  if (!are_crossed(content, rows, columns)) return {};
   const auto effect = joint_effect(content, rows, columns, m);
-  std::vector<std::vector<bool>> breaks(down.texts.size(), std::vector<bool>(across.texts.size(), false));
-  const auto passes = variants_that_pass(content);
-  for (std::uint32_t v = 0; v < content.variants.size(); ++v)
-    if (passes[v] && !*passes[v]) breaks[content.variants[v][rows]][content.variants[v][columns]] = true;
+  // The first point of each cell that does not pass.
+  std::vector<std::vector<std::optional<std::uint64_t>>> breaks(down.texts.size(), std::vector<std::optional<std::uint64_t>>(across.texts.size()));
+  for (std::size_t row = 0; row < content.rows(); ++row) {
+    const Variant& variant = content.variants[content.variant[row]];
+    std::optional<std::uint64_t>& first = breaks[variant[rows]][variant[columns]];
+    if (!content.passes[row] && !first) first = content.point_of(row);
+  }
   chart::HeatMap map;
   map.title = content.measures[m].name + " by " + down.name + " and " + across.name;
   map.x_label = across.name;
@@ -168,10 +195,13 @@ std::string heat_map_chart(const Content& content, std::size_t rows, std::size_t
     map.rows.push_back(down.texts[row]);
     map.cells.emplace_back();
     map.marked.emplace_back();
+    map.notes.emplace_back();
     for (const std::uint32_t column : in_order(across)) {
       const Summary& summary = effect[row][column];
       map.cells.back().push_back(summary.count > 0 ? std::optional(summary.mean) : std::nullopt);
-      map.marked.back().push_back(breaks[row][column]);
+      const std::optional<std::uint64_t>& broken = breaks[row][column];
+      map.marked.back().push_back(broken.has_value());
+      map.notes.back().push_back(broken ? fmt::format("point {} does not pass: takt study shrink FILE {} --out worst.json", *broken, *broken) : std::string());
       if (summary.count == 0) continue;
       low = std::min(low, summary.mean);
       high = std::max(high, summary.mean);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "study/pool.hpp"
+#include "study/spread_order.hpp"
 
 namespace takt::study {
 namespace {
@@ -91,12 +92,13 @@ RunSummary run_study(const Plan& plan, Store& store, const RunOptions& options, 
   const auto is_wanted = [&](std::uint64_t point) { return !finished[point] && options.shard.has(point); };
   std::uint64_t wanted = 0;
   for (std::uint64_t point = 0; point < plan.points(); ++point) wanted += is_wanted(point) ? 1 : 0;
-  std::uint64_t next = 0;
+  const SpreadOrder order(plan.points());
+  std::uint64_t next = 0;   // in that order
   Pool pool(options.jobs, limits_of(plan), [&](std::uint64_t point) { return packed(run_point(plan, point)); });
   const std::string problem = pool.run(
       [&]() -> std::optional<std::uint64_t> {
-        while (next < plan.points() && !is_wanted(next)) ++next;
-        return next < plan.points() ? std::optional(next++) : std::nullopt;
+        while (next < plan.points() && !is_wanted(order[next])) ++next;
+        return next < plan.points() ? std::optional(order[next++]) : std::nullopt;
       },
       [&](std::uint64_t point, const Answer& answer) {
         const Outcome outcome = outcome_of(answer);

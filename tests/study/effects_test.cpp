@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "study/report.hpp"
+#include "study/spread_order.hpp"
 
 namespace takt::study {
 namespace {
@@ -66,6 +69,58 @@ TEST(Effects, WhereLimitsBreak) {
   EXPECT_EQ(breaks[0].first_bad, 1u);
   EXPECT_FALSE(breaks[1].first_bad);
   EXPECT_EQ(breaks[1].last_good, 2u);
+}
+
+TEST(Effects, InfluencesAreSharesOfTheVariance) {
+  // Means of the variants of a = 0 are 1.5, 2.5, 3.5, of a = 1 ten more; all of them 7.5. a: 6 * 5^2 = 150; b: 2 * (1 + 0 + 1) = 4; the whole 154.
+  const auto found = influences(sample(), 0);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].factor, 0u);
+  EXPECT_NEAR(found[0].share, 150.0 / 154, 1e-12);
+  EXPECT_NEAR(found[1].share, 4.0 / 154, 1e-12);
+  Content flat = sample();
+  for (double& value : flat.measures[0].values) value = 1;
+  EXPECT_TRUE(influences(flat, 0).empty()) << "nothing varies";
+}
+
+TEST(Effects, FactorsThatAreNotCrossedCannotBeToldApart) {
+  Content content = sample();
+  EXPECT_TRUE(are_crossed(content, 0, 1));
+  // One at a time: (0, 1) is the baseline, then only a or only b changes: 4 of 6 pairs.
+  for (std::size_t row = 0; row < content.rows(); ++row)
+    if (content.variants[content.variant[row]][0] == 1 && content.variants[content.variant[row]][1] > 0) content.status[row] = Status::failed;
+  EXPECT_TRUE(are_crossed(content, 0, 1));
+  // Two of six: each level of a with one of b.
+  for (std::size_t row = 0; row < content.rows(); ++row)
+    if (content.variants[content.variant[row]][0] == 0 && content.variants[content.variant[row]][1] > 0) content.status[row] = Status::failed;
+  EXPECT_FALSE(are_crossed(content, 0, 1));
+}
+
+TEST(SpreadOrder, MeetsEachPointOnceAndEveryBeginningIsASample) {
+  for (const std::uint64_t points : {1u, 2u, 3u, 10u, 100u, 618u, 1000u, 4096u}) {
+    const SpreadOrder order(points);
+    std::vector<bool> met(points);
+    for (std::uint64_t i = 0; i < points; ++i) met[order[i]] = true;
+    EXPECT_EQ(static_cast<std::uint64_t>(std::count(met.begin(), met.end(), true)), points);
+  }
+  // The first fifth of a hundred points has at least one of every ten.
+  const SpreadOrder order(100);
+  std::vector<int> of_ten(10);
+  for (std::uint64_t i = 0; i < 20; ++i) ++of_ten[order[i] / 10];
+  for (const int count : of_ten) EXPECT_GE(count, 1);
+}
+
+TEST(Report, AnswersOnTop) {
+  Content content = sample();
+  std::string html = html_report(content);
+  // (1, 2) and (1, 3) have points of 12.5 and more: y = 12 + 1 and 13; (1, 1) has 11 and 12.
+  EXPECT_NE(html.find("4 of 6 variants pass"), std::string::npos);
+  EXPECT_NE(html.find("<td>b</td><td class=\"n\">1</td><td class=\"n fail\">2</td><td>a = 1</td><td class=\"n\">1 of 2</td>"), std::string::npos) << html.substr(0, 4000);
+  EXPECT_NE(html.find("a 97 %"), std::string::npos);
+  EXPECT_EQ(html.find("have been run"), std::string::npos);
+  EXPECT_NE(html.find("takt study shrink FILE 9 --out worst.json"), std::string::npos) << "point 9 is variant 4, (1, 2), replication 1: 13";
+  content.header.variants = 60;
+  EXPECT_NE(html_report(content).find("12 of 120 points have been run"), std::string::npos);
 }
 
 TEST(Report, StandsAlone) {

@@ -281,7 +281,7 @@ class StudyTest(unittest.TestCase):
         self.assertEqual(marks["delay by size and gap"], 12)
         self.assertEqual(marks["delay over gap, by size"], 12)
         self.assertEqual(marks["variants that pass, by gap"], 4)
-        self.assertGreaterEqual(marks["delay against mean"], 13)
+        self.assertNotIn("delay against mean", marks)   # no limit says whether less of the mean is better
         subprocess.run([*common, "--hide-scrollbars", "--window-size=1200,3000", f"--screenshot={screenshot}", page.as_uri()], capture_output=True, timeout=1000, check=True)
         self.assertGreater(screenshot.stat().st_size, 50_000, "an empty page has a few kilobytes")
 

@@ -1,0 +1,112 @@
+// takt export: a scenario in the words of devices and other tools.
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <system_error>
+
+#include "cli/commands.hpp"
+#include "cli/load.hpp"
+#include "interchange/format.hpp"
+
+namespace takt::cli {
+namespace {
+
+struct ExportOptions {
+  std::string format;
+  ScenarioOptions scenario;
+  std::string node;
+  std::string folder;
+  std::vector<std::string> settings;
+  bool lossy = false;
+};
+
+std::string export_formats_help() {
+  std::string text;
+  for (const interchange::ExportFormat& format : interchange::export_formats()) {
+    text += fmt::format("  {:<10} {}\n", format.name, format.help);
+    for (const interchange::SettingInfo& setting : format.settings)
+      text += fmt::format("             -o {}={}{}: {}\n", setting.key, setting.values, setting.fallback.empty() ? "" : fmt::format(" ({})", setting.fallback), setting.help);
+  }
+  return text;
+}
+
+ExitStatus refuse_export(const std::string& text) {
+  std::fprintf(stderr, "takt: %s\n", text.c_str());
+  return ExitStatus::bad_input;
+}
+
+ExitStatus write_files(const interchange::Exported& exported, const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  for (const interchange::OutputFile& file : exported.files) {
+    const fs::path path = fs::path(folder) / file.name;
+    std::ofstream stream(path, std::ios::binary);
+    stream << file.content;
+    if (!stream.flush()) {
+      std::fprintf(stderr, "takt: cannot write %s: %s\n", path.c_str(), std::strerror(errno));
+      return ExitStatus::internal_error;
+    }
+    if (file.is_executable) fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add, error);
+  }
+  return ExitStatus::pass;
+}
+
+ExitStatus run_export(const ExportOptions& options) {
+  const interchange::ExportFormat& format = *interchange::find_export_format(options.format);
+  std::string mistake;
+  const auto settings = interchange::Settings::read(options.settings, format.settings, mistake);
+  if (!settings) return refuse_export(mistake);
+  const auto resolved = load(options.scenario);
+  if (!resolved) return ExitStatus::bad_input;
+  std::optional<std::uint32_t> node;
+  if (!options.node.empty()) {
+    node = resolved->topology.find(options.node);
+    json::Diagnostics none;
+    if (!node) {
+      const std::string suggestion = scenario::suggest_node(resolved->topology, options.node, none);
+      return refuse_export("--node: unknown node: found " + json::quote(options.node) + (suggestion.empty() ? "" : " (did you mean " + json::quote(suggestion) + "?)"));
+    }
+  }
+  const interchange::Exported exported = format.write({*resolved, node, *settings});
+  if (!exported.mistake.empty()) return refuse_export(exported.mistake);
+  for (const interchange::Loss& loss : exported.losses) std::fprintf(stderr, "takt: %s cannot say: %s: %s\n", options.format.c_str(), loss.where.c_str(), loss.what.c_str());
+  if (!exported.losses.empty() && !options.lossy) return refuse_export(fmt::format("nothing was written, since {} {} lost; --lossy writes the rest", exported.losses.size(), exported.losses.size() == 1 ? "thing would be" : "things would be"));
+  if (!options.folder.empty()) return write_files(exported, options.folder);
+  if (exported.files.size() == 1) {
+    std::fputs(exported.files.front().content.c_str(), stdout);
+    return ExitStatus::pass;
+  }
+  for (const interchange::OutputFile& file : exported.files) std::printf("==> %s <==\n%s\n", file.name.c_str(), file.content.c_str());
+  return ExitStatus::pass;
+}
+
+}  // namespace
+
+void add_export_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("export", "Write a scenario for devices and other tools: scripts of Linux, YANG, INET and the like");
+  const auto options = std::make_shared<ExportOptions>();
+  std::vector<std::string> names;
+  for (const interchange::ExportFormat& format : interchange::export_formats()) names.emplace_back(format.name);
+  command.add_option("FORMAT", options->format, "What to write (below)").required().one_of(names);
+  add_scenario_options(command, options->scenario);
+  command.add_option("--node", options->node, "Only what is for this node").type_name("NODE");
+  command.add_option("--out", options->folder, "The folder for the files; standard output if absent").type_name("DIR");
+  command.add_option("-o", options->settings, "A setting of the format (repeatable)").type_name("KEY=VALUE").one_value_each();
+  command.add_flag("--lossy", options->lossy, "Write even if something is lost that the scenario says and the format cannot");
+  command.footer(
+      "Formats:\n" + export_formats_help() +
+      "Examples:\n"
+      "  takt export linux scenarios/tsn/gates-on-a-line.json --out scripts   a script for each node\n"
+      "  takt export linux scenarios/tsn/gates-on-a-line.json --node sw1      the one of sw1, on standard output\n"
+      "  takt export dot scenarios/robot-arm.json | neato -Tsvg > arm.svg     the topology\n"
+      "Exit status: 0 written, 2 mistakes, or something is lost and --lossy is not given (nothing was written then).");
+  command.callback([options, &status] { status = run_export(*options); });
+}
+
+}  // namespace takt::cli

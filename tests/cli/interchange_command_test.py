@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""takt export and takt import as a user runs them.
+
+usage: interchange_command_test.py TAKT SOURCE_DIR
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TAKT, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+SCENARIOS = SOURCE / "scenarios"
+
+
+def takt(*arguments):
+    done = subprocess.run([TAKT, *map(str, arguments)], capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+def digest(scenario):
+    with tempfile.TemporaryDirectory() as folder:
+        status, page, error = takt("run", scenario, "--duration", "20ms", "--format", "json")
+        assert status in (0, 1), error
+        return json.loads(page)["digest"]
+
+
+class Interchange(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.out = pathlib.Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_out_and_in_again_is_the_same_run(self):
+        scenario = SCENARIOS / "clocks" / "gates-with-gptp.json"
+        status, _, error = takt("export", "linux", scenario, "--out", self.out / "scripts")
+        self.assertEqual((status, error), (0, ""))
+        files = sorted((self.out / "scripts").iterdir())
+        status, _, error = takt("import", "linux", *files, "--into", scenario, "-o", "never-open=accept", "--out", self.out / "again.json")
+        self.assertEqual(status, 0, error)
+        self.assertEqual(digest(scenario), digest(self.out / "again.json"))
+
+    def test_nothing_is_written_if_something_is_lost(self):
+        scenario = SCENARIOS / "tsn" / "ats.json"
+        status, page, error = takt("export", "linux", scenario, "--out", self.out / "scripts")
+        self.assertEqual((status, page), (2, ""))
+        self.assertIn("ATS", error)
+        self.assertFalse((self.out / "scripts").exists())
+        status, _, error = takt("export", "linux", scenario, "--out", self.out / "scripts", "--lossy")
+        self.assertEqual(status, 0, error)
+        self.assertIn("# cannot be said: ", (self.out / "scripts" / "sw3.sh").read_text())
+
+    def test_one_node_goes_to_standard_output(self):
+        status, page, _ = takt("export", "linux", SCENARIOS / "robot-arm.json", "--node", "sw1")
+        self.assertEqual(status, 0)
+        self.assertIn("==> sw1.sh <==", page)
+        self.assertNotIn("==> robot.sh <==", page)
+        status, _, error = takt("export", "linux", SCENARIOS / "robot-arm.json", "--node", "sw")
+        self.assertEqual(status, 2)
+        self.assertIn("unknown node", error)
+
+    def test_mistakes_have_places_and_nothing_is_written(self):
+        wrong = self.out / "sw1.sh"
+        wrong.write_text("tc qdisc replace dev swp0 root taprio num_tc 99\nls\n")
+        status, page, error = takt("import", "linux", wrong, "--out", self.out / "x.json")
+        self.assertEqual((status, page), (2, ""))
+        self.assertIn("sw1.sh:1:46: error", error)
+        self.assertIn("sw1.sh:2:1: error", error)
+        self.assertFalse((self.out / "x.json").exists())
+
+    def test_settings_are_those_of_the_format(self):
+        for arguments in (("-o", "gates=nowhere"), ("-o", "speed=1"), ("-o", "start=-1")):
+            status, _, error = takt("export", "linux", SCENARIOS / "robot-arm.json", *arguments)
+            self.assertEqual(status, 2)
+            self.assertIn("expected", error)
+
+    def test_help_lists_the_formats(self):
+        for command in ("export", "import"):
+            status, page, _ = takt(command, "--help")
+            self.assertEqual(status, 0)
+            self.assertIn("linux", page)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

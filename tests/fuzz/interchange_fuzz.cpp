@@ -1,0 +1,40 @@
+// Any octets as the files of every import: neither crash nor hang, and what is refused has a diagnostic. The first line says which format and under
+// which name ("linux sw1.sh"), the rest is the text.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "interchange/format.hpp"
+#include "sim/check.hpp"
+
+namespace {
+
+namespace interchange = takt::interchange;
+
+void try_import(const interchange::ImportFormat& format, const std::string& name, std::string_view text) {
+  takt::json::Diagnostics diagnostics;
+  std::string mistake;
+  const auto settings = interchange::Settings::read({}, format.settings, mistake);
+  TAKT_CHECK(settings.has_value(), "no setting is no mistake");
+  const interchange::InputFile file{name, name.substr(0, name.find('.')), std::string(text)};
+  const interchange::Imported imported = format.read({{&file, 1}, nullptr, *settings}, diagnostics);
+  TAKT_CHECK(imported.scenario.has_value() || diagnostics.has_errors(), "what is refused has a diagnostic");
+  TAKT_CHECK(!(imported.scenario.has_value() && diagnostics.has_errors()), "no scenario with a mistake");
+  TAKT_CHECK(diagnostics.to_text().size() <= std::size_t{1} << 22, "what is told to the user is bounded");
+  for (const interchange::Remark& remark : imported.remarks) TAKT_CHECK(!interchange::to_text(remark).empty(), "a remark says something");
+  if (imported.scenario) TAKT_CHECK(!interchange::sparse_text(*imported.scenario).empty(), "a scenario has a text");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::string_view text(reinterpret_cast<const char*>(data), size);
+  const std::size_t line = text.find('\n');
+  if (line == std::string_view::npos || line > 200) return 0;
+  const std::string_view first = text.substr(0, line);
+  const std::size_t blank = first.find(' ');
+  if (blank == std::string_view::npos) return 0;
+  if (const interchange::ImportFormat* const format = interchange::find_import_format(first.substr(0, blank))) try_import(*format, std::string(first.substr(blank + 1)), text.substr(line + 1));
+  return 0;
+}

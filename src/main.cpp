@@ -27,6 +27,7 @@ void add_commands(takt::cli::Command app, ExitStatus& status) {
   takt::cli::add_study_command(app, status);
   takt::cli::add_compare_command(app, status);
   takt::cli::add_paper_command(app, status);
+  takt::cli::add_schedule_command(app, status);
   takt::cli::add_export_command(app, status);
   takt::cli::add_import_command(app, status);
 }

@@ -20,6 +20,7 @@ void add_verify_command(Command app, ExitStatus& status);
 void add_study_command(Command app, ExitStatus& status);
 void add_compare_command(Command app, ExitStatus& status);
 void add_paper_command(Command app, ExitStatus& status);
+void add_schedule_command(Command app, ExitStatus& status);
 void add_export_command(Command app, ExitStatus& status);
 void add_import_command(Command app, ExitStatus& status);
 

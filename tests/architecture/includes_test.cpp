@@ -35,6 +35,8 @@ const Prefixes application = {"application/"};
 const Prefixes papers = {"papers/"};
 const Prefixes interchange = {"interchange/"};
 const Prefixes report = {"report/"};
+const Prefixes schedule = {"schedule/"};
+const Prefixes interchange_schedules = {"interchange/schedules/"};
 
 Prefixes all_of(std::initializer_list<Prefixes> parts) {
   Prefixes sum;
@@ -57,7 +59,9 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/node/", all_of({base, chance, protocol, plant, application, node, json})});
     list.push_back({"src/json/", all_of({base, json})});
     list.push_back({"src/results/", all_of({base, json, results})});
-    const Prefixes below = all_of({kernel, models, protocol, plant, application, json, results, scenario});
+    list.push_back({"src/schedule/", all_of({base, chance, schedule})});
+    list.push_back({"src/interchange/schedules/", all_of({base, json, schedule, interchange_schedules})});
+    const Prefixes below = all_of({schedule, kernel, models, protocol, plant, application, json, results, scenario});
     list.push_back({"src/scenario/", below});
     // Beside the questions, but its points are results as result.json has them, and its report is drawn.
     list.push_back({"src/study/", all_of({below, questions, evaluation, output, chart, study})});
@@ -96,7 +100,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, output, cli, node, emulate, plant, application, chart, report, papers, study, interchange, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, output, cli, node, emulate, plant, application, chart, report, papers, study, schedule, interchange_schedules, interchange, {"property/"}});
   return roots;
 }
 

@@ -1,0 +1,176 @@
+// takt schedule: routes, phases and gate lists that are found, or why there are none.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "interchange/schedules/instances.hpp"
+#include "interchange/schedules/report.hpp"
+#include "interchange/schedules/write.hpp"
+#include "json/quantity.hpp"
+#include "schedule/decide.hpp"
+#include "schedule/gate_lists.hpp"
+#include "schedule_check/instance_check.hpp"
+
+namespace takt::cli {
+namespace {
+
+using schedule::Decision;
+using Clock = std::chrono::steady_clock;
+
+struct ScheduleOptions {
+  std::vector<std::string> files;
+  std::string routes = "search";
+  std::string objective = "feasible";
+  std::string limit = "10s";
+  std::uint64_t seed = 1;
+  std::uint32_t jobs = 0;
+  std::uint32_t entries = 1'000'000;
+  bool gates = false;
+  std::optional<std::string> out;
+  std::optional<std::string> certificate;
+  std::string format = "text";
+};
+
+/// Two kinds of mistakes: told as text, or as JSON where the output is JSON.
+ExitStatus report_mistakes(const json::Diagnostics& diagnostics, const ScheduleOptions& options) {
+  if (options.format == "json") std::fputs(json::pretty(diagnostics.to_json()).c_str(), stdout);
+  else std::fputs(diagnostics.to_text().c_str(), stderr);
+  return ExitStatus::bad_input;
+}
+
+/// A file of one instance, or in a folder ("DIR/") one for each.
+std::string path_for(const std::string& out, const schedule::Problem& problem, const char* ending) { return out.ends_with('/') ? out + problem.name + ending : out; }
+
+bool write_file(const std::string& path, const std::string& text) {
+  std::FILE* const file = std::fopen(path.c_str(), "wb");
+  const bool written = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  if ((file != nullptr && std::fclose(file) != 0) || !written) {
+    std::fprintf(stderr, "takt: cannot write %s\n", path.c_str());
+    return false;
+  }
+  return true;
+}
+
+schedule::SearchOptions search_options(const ScheduleOptions& options, Clock::time_point begin, sim::Duration limit) {
+  schedule::SearchOptions how;
+  how.routes = options.routes == "search" ? schedule::RouteChoice::search : schedule::RouteChoice::shortest;
+  how.seed = options.seed;
+  how.jobs = options.jobs == 0 ? std::max(1u, std::thread::hardware_concurrency()) : options.jobs;
+  how.attempts = 1'000'000;
+  const auto end = begin + std::chrono::nanoseconds(limit.ps() / 1'000);
+  how.stop = [end] { return Clock::now() > end; };
+  return how;
+}
+
+schedule::Objective objective_of(const std::string& name) {
+  if (name == "latency") return schedule::Objective::latency;
+  if (name == "entries") return schedule::Objective::entries;
+  return name == "slack" ? schedule::Objective::slack : schedule::Objective::feasible;
+}
+
+/// Whoever is wrong, takt must not say it. False: it was about to.
+bool is_judged_right(const schedule::Problem& problem, const Decision& decision) {
+  std::vector<std::string> wrong;
+  if (decision.verdict == Decision::Verdict::scheduled) {
+    schedule::Problem with_margin = problem;
+    with_margin.model.margin = decision.margin;
+    wrong = schedule_check::check(with_margin, decision.found.solution);
+  }
+  if (decision.certificate)
+    if (const std::string why = schedule_check::why_not_proved(problem, *decision.certificate); !why.empty()) wrong.push_back("the certificate proves nothing: " + why);
+  for (const std::string& each : wrong) std::fprintf(stderr, "takt: %s is answered wrongly: %s\n", problem.name.c_str(), each.c_str());
+  return wrong.empty();
+}
+
+ExitStatus schedule_instance(const schedule::Problem& problem, const ScheduleOptions& options, sim::Duration limit, json::Node& reports) {
+  const auto begin = Clock::now();
+  Decision decision = schedule::decide(problem, search_options(options, begin, limit), objective_of(options.objective));
+  std::optional<std::string> no_lists;
+  if (options.gates && decision.verdict == Decision::Verdict::scheduled) no_lists = schedule::make_gate_lists(problem, decision.found.solution, {options.entries});
+  const double took = std::chrono::duration<double>(Clock::now() - begin).count();
+  if (!is_judged_right(problem, decision)) return ExitStatus::internal_error;
+  const interchange::schedules::ScheduleReport report = interchange::schedules::report(problem, decision, no_lists);
+  std::optional<std::string> solution, certificate;
+  if (decision.verdict == Decision::Verdict::scheduled) solution = json::compact(interchange::schedules::write_solution(problem, decision.found.solution)) + "\n";
+  if (decision.certificate) certificate = json::compact(interchange::schedules::write_certificate(problem, *decision.certificate)) + "\n";
+  if (options.format == "json") reports.items.push_back(json::ShapeOf<interchange::schedules::ScheduleReport>::write(report));
+  if (options.format == "text") std::fputs((interchange::schedules::text_of(report) + fmt::format("  in {:.3f} ms\n", took * 1e3)).c_str(), stdout);
+  if (options.format == "neutral") std::fputs((solution ? *solution : certificate.value_or(std::string())).c_str(), stdout);
+  if (options.out && solution && !write_file(path_for(*options.out, problem, ".solution.json"), *solution)) return ExitStatus::internal_error;
+  if (options.certificate && certificate && !write_file(path_for(*options.certificate, problem, ".certificate.json"), *certificate)) return ExitStatus::internal_error;
+  if (decision.verdict == Decision::Verdict::infeasible) return ExitStatus::requirement_failed;
+  return decision.verdict == Decision::Verdict::undecided || no_lists ? ExitStatus::undecided : ExitStatus::pass;
+}
+
+/// Of several instances the worst counts: undecided, then infeasible, then scheduled.
+ExitStatus worse(ExitStatus a, ExitStatus b) {
+  const auto rank = [](ExitStatus s) { return s == ExitStatus::pass ? 0 : s == ExitStatus::requirement_failed ? 1 : s == ExitStatus::undecided ? 2 : 3; };
+  return rank(b) > rank(a) ? b : a;
+}
+
+ExitStatus run(const ScheduleOptions& options) {
+  json::Diagnostics diagnostics;
+  const auto limit = json::parse_duration(options.limit);
+  if (!limit || (*limit).ps() <= 0) {
+    diagnostics.error({"--limit", 0, 0, ""}, "not a time to search", {json::quote(options.limit), "a duration such as \"10s\""});
+    return report_mistakes(diagnostics, options);
+  }
+  interchange::schedules::InstanceReader reader(options.files);
+  ExitStatus status = ExitStatus::pass;
+  json::Node reports = json::Node::array();
+  bool any = false;
+  while (!reader.is_at_end()) {
+    const auto problem = reader.next(diagnostics);
+    if (!problem && !diagnostics.has_errors()) break;
+    if (problem && options.routes == "given")
+      for (const schedule::Stream& stream : problem->streams)
+        if (!stream.route) diagnostics.error({options.files.front(), 0, 0, ""}, fmt::format("stream {} has no route", json::quote(stream.name)), {"--routes given", "--routes shortest or search"});
+    if (diagnostics.has_errors()) return report_mistakes(diagnostics, options);
+    any = true;
+    status = worse(status, schedule_instance(*problem, options, *limit, reports));
+    if (status == ExitStatus::internal_error) return status;
+  }
+  if (!any) {
+    diagnostics.error({options.files.front(), 0, 0, ""}, "a network without streams", {"no streams beside it", "a set of streams behind it"});
+    return report_mistakes(diagnostics, options);
+  }
+  if (options.format == "json") std::fputs(json::pretty(reports.items.size() == 1 ? reports.items.front() : reports).c_str(), stdout);
+  return status;
+}
+
+}  // namespace
+
+void add_schedule_command(Command app, ExitStatus& status) {
+  const Command command = app.add_subcommand("schedule", "Find routes, phases and gate lists, or say why there are none");
+  const auto options = std::make_shared<ScheduleOptions>();
+  command.add_option("INSTANCE", options->files, "Instances: TAS_Benchmark, TSNBenchScenarios, tsnkit, TSNsched, ECRTS'25 or neutral, told by their content; network and streams one after the other where they are two files").required();
+  command.add_option("--routes", options->routes, "given: streams without a route are refused; shortest: one way each; search: other ways, too (search)").one_of({"given", "shortest", "search"}).type_name("ROUTES");
+  command.add_option("--objective", options->objective, "feasible: the first schedule; latency, entries: the best of twelve attempts; slack: the greatest clock error (feasible)")
+      .one_of({"feasible", "latency", "entries", "slack"})
+      .type_name("WHAT");
+  command.add_option("--limit", options->limit, "How long to search each instance (10s)").type_name("D");
+  command.add_option("--seed", options->seed, "Another seed of the search (1)").type_name("N");
+  command.add_option("--jobs", options->jobs, "Threads; the result is the same for any number (all processors)").type_name("N");
+  command.add_flag("--gates", options->gates, "Gate control lists, too");
+  command.add_option("--entries", options->entries, "Entries that a list may have, where the port takes more").type_name("N");
+  command.add_option("--out", options->out, "Where the schedule goes, as neutral JSON; DIR/ for one file an instance").type_name("FILE");
+  command.add_option("--certificate", options->certificate, "Where a proof of infeasibility goes; DIR/ for one file an instance").type_name("FILE");
+  command.add_option("--format", options->format, "text, json or neutral (the schedule or the certificate)").one_of({"text", "json", "neutral"}).type_name("FORMAT");
+  command.footer(
+      "Examples:\n"
+      "  takt schedule instance.json --out schedule.json          a schedule, or the reason why there is none\n"
+      "  takt schedule ring.top set1.pat set2.pat                 several sets of streams on one network\n"
+      "  takt schedule task.csv topo.csv --gates --entries 16     with lists that a small switch takes\n"
+      "  takt schedule cell.json --objective slack                how far clocks may differ\n"
+      "Exit status: 0 scheduled, 1 infeasible (proved), 4 undecided (or no lists), 2 mistakes (all of them are listed), 3 internal error.");
+  command.callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace takt::cli

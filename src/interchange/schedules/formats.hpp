@@ -1,0 +1,25 @@
+// The readers, one for each format; instances.hpp finds the one that fits. Each tells all mistakes that it finds; the problem counts only if there are none.
+#pragma once
+
+#include <string_view>
+
+#include "interchange/schedules/builder.hpp"
+#include "interchange/schedules/instances.hpp"
+#include "json/document.hpp"
+
+namespace takt::interchange::schedules {
+
+schedule::Problem read_neutral(const json::Document& document, json::Diagnostics& diagnostics);
+schedule::Problem read_tas_benchmark(const json::Document& document, json::Diagnostics& diagnostics);
+schedule::Problem read_tsnsched(const json::Document& document, json::Diagnostics& diagnostics);
+/// A topology (".top") and a set of streams (".pat").
+schedule::Problem read_tsn_bench_scenario(const json::Document& topology, const json::Document& streams, json::Diagnostics& diagnostics);
+
+schedule::Problem read_tsnkit(const TextFile& tasks, const TextFile& topology, json::Diagnostics& diagnostics);
+/// Streams of the given traffic class at 100 Mbit/s are scheduled.
+schedule::Problem read_ecrts(const TextFile& streams, json::Diagnostics& diagnostics);
+
+/// "folder/name.json" is "name".
+std::string stem_of(std::string_view path);
+
+}  // namespace takt::interchange::schedules

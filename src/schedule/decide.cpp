@@ -1,0 +1,87 @@
+#include "schedule/decide.hpp"
+
+#include <algorithm>
+
+#include "schedule/gate_lists.hpp"
+#include "schedule/refute.hpp"
+
+namespace takt::schedule {
+namespace {
+
+std::int64_t longest_list(const Problem& problem, const Solution& solution) {
+  Solution with_lists = solution;
+  if (make_gate_lists(problem, with_lists, {})) return longest_time;
+  return static_cast<std::int64_t>(most_entries(with_lists));
+}
+
+Decision decide_as_it_is(const Problem& problem, const SearchOptions& options) {
+  Decision decision;
+  decision.how = "first fit";
+  decision.margin = problem.model.margin;
+  if (!options.score) decision.found = place_once(problem, options);
+  if (options.score || !decision.found.is_complete()) {
+    decision.certificate = refute(problem, options.stop);
+    if (decision.certificate) {
+      decision.verdict = Decision::Verdict::infeasible;
+      return decision;
+    }
+    decision.how = "search";
+    decision.found = search(problem, options);
+  }
+  if (decision.found.is_complete()) decision.verdict = Decision::Verdict::scheduled;
+  return decision;
+}
+
+/// Doubles the margin until nothing is found, then halves the difference, to the ns.
+Decision decide_with_slack(Problem problem, SearchOptions options) {
+  Decision best = decide_as_it_is(problem, options);
+  if (best.verdict != Decision::Verdict::scheduled) return best;
+  constexpr Ps ns = 1'000;
+  options.attempts = std::min<std::uint32_t>(options.attempts, 4);
+  const auto try_margin = [&](Ps margin) {
+    problem.model.margin = margin;
+    Decision decision = decide_as_it_is(problem, options);
+    if (decision.verdict != Decision::Verdict::scheduled) return false;
+    best = std::move(decision);
+    return true;
+  };
+  Ps good = problem.model.margin, step = ns;
+  while (step < longest_time / 4 && try_margin(good + step)) good += step, step *= 2;
+  for (step /= 2; step >= ns && !options.stop(); step /= 2)
+    if (try_margin(good + step)) good += step;
+  return best;
+}
+
+}  // namespace
+
+Ps sum_of_latencies(const Problem& problem, const Solution& solution) {
+  const Timing timing(problem, solution.timing);
+  Ps sum = 0;
+  for (StreamIndex s = 0; s < solution.streams.size(); ++s) {
+    if (!solution.streams[s]) continue;
+    const Placement& placement = *solution.streams[s];
+    const Stream& stream = problem.streams[s];
+    Ps longest = 0;
+    for (std::size_t k = 0; k < placement.starts.front().size(); ++k) {
+      Ps begin = longest_time;
+      for (std::size_t hop = 0; hop < placement.route.size(); ++hop)
+        if (problem.links[placement.route[hop]].from == stream.talker) begin = std::min(begin, placement.starts[hop][k]);
+      for (std::size_t hop = 0; hop < placement.route.size(); ++hop) {
+        const Link& link = problem.links[placement.route[hop]];
+        if (std::find(stream.listeners.begin(), stream.listeners.end(), link.to) == stream.listeners.end()) continue;
+        longest = std::max(longest, placement.starts[hop][k] + timing.to_listener(stream, link) - begin);
+      }
+    }
+    sum += longest;
+  }
+  return sum;
+}
+
+Decision decide(const Problem& problem, const SearchOptions& options, Objective objective) {
+  SearchOptions with = options;
+  if (objective == Objective::latency) with.score = [&problem](const Solution& solution) { return sum_of_latencies(problem, solution); };
+  if (objective == Objective::entries) with.score = [&problem](const Solution& solution) { return longest_list(problem, solution); };
+  return objective == Objective::slack ? decide_with_slack(problem, with) : decide_as_it_is(problem, with);
+}
+
+}  // namespace takt::schedule

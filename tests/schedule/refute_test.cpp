@@ -1,0 +1,125 @@
+// Proofs, each at the least number that makes it one, and not one below.
+#include "schedule/refute.hpp"
+
+#include <gtest/gtest.h>
+
+#include "schedule_check/instance_check.hpp"
+#include "small_problem.hpp"
+
+namespace takt::schedule {
+namespace {
+
+using Kind = Certificate::Kind;
+
+std::optional<Kind> refuted(const Problem& problem) {
+  const auto certificate = refute(problem);
+  if (!certificate) return std::nullopt;
+  EXPECT_EQ(schedule_check::why_not_proved(problem, *certificate), "");
+  return certificate->kind;
+}
+
+TEST(Refute, Latency) {
+  Problem problem = line(2, 0, us);
+  Stream& stream = add_stream(problem, "h0", "h1", 10, 1000 * us);
+  stream.latency = 3 * 9'904'000 + 2 * us;
+  EXPECT_EQ(refuted(problem), std::nullopt);
+  --*stream.latency;
+  EXPECT_EQ(refuted(problem), Kind::latency);
+  stream.latency.reset();
+  stream.release = 7 * us;
+  stream.deadline = 7 * us + 3 * 9'904'000 + 2 * us;
+  EXPECT_EQ(refuted(problem), std::nullopt);
+  --*stream.deadline;
+  EXPECT_EQ(refuted(problem), Kind::latency);
+}
+
+TEST(Refute, Load) {
+  Problem problem = line(2);
+  add_stream(problem, "h0", "h1", 50, 100 * us);
+  add_stream(problem, "h0", "h1", 75, 150 * us);
+  EXPECT_EQ(refuted(problem), std::nullopt);   // exactly full
+  problem.streams[1].octets += 1;
+  EXPECT_EQ(refuted(problem), Kind::load);
+}
+
+// Two frames of 10 us that must be out of h0 within 20 us (less one gap), and a third.
+TEST(Refute, Interval) {
+  Problem problem = line(2, 0, 0);
+  for (int i = 0; i < 2; ++i) {
+    Stream& stream = add_stream(problem, "h0", "h1", 10, 1000 * us);
+    stream.deadline = 4 * 9'904'000 + 96'000;
+  }
+  EXPECT_EQ(refuted(problem), std::nullopt);
+  for (Stream& stream : problem.streams) --*stream.deadline;
+  EXPECT_EQ(refuted(problem), Kind::interval);
+}
+
+// 100 and 150 us have 50 us in common.
+TEST(Refute, FoldedLoad) {
+  Problem problem = line(2);
+  problem.model.is_strict = true;
+  add_stream(problem, "h0", "h1", 20, 100 * us);
+  add_stream(problem, "h0", "h1", 30, 150 * us);
+  EXPECT_EQ(refuted(problem), std::nullopt);
+  problem.streams[1].octets += 1;
+  EXPECT_EQ(refuted(problem), Kind::folded);
+  problem.model.is_strict = false;
+  EXPECT_EQ(refuted(problem), std::nullopt) << "repetitions may differ";
+}
+
+// Round a ring the long way would be too slow: both must take the same link.
+TEST(Refute, WaysThatAreTooSlowAreNone) {
+  Problem problem = line(3, 0, us);
+  for (const auto& [a, b] : {std::pair("b0", "b2"), std::pair("b2", "b0")}) {
+    Link link = problem.links.back();
+    link.from = node_of(problem, a);
+    link.to = node_of(problem, b);
+    link.name = std::string(a) + ">" + b;
+    problem.links.push_back(link);
+  }
+  for (const char* station : {"x", "y"}) {
+    problem.nodes.push_back({station, false});
+    problem.links.push_back({std::string(station) + ">b0", node_of(problem, station), node_of(problem, "b0"), 8'000, 0, us, std::nullopt, 1024});
+    problem.nodes.push_back({std::string(station) + "2", false});
+    problem.links.push_back({"b2>" + std::string(station) + "2", node_of(problem, "b2"), node_of(problem, std::string(station) + "2"), 8'000, 0, 0, std::nullopt, 1024});
+    Stream& stream = add_stream(problem, station, std::string(station) + "2", 60, 100 * us);
+    stream.latency = 3 * 59'904'000 + 2 * us;   // three links and two bridges; the other way has four and three
+  }
+  const auto certificate = refute(problem);
+  ASSERT_TRUE(certificate);
+  EXPECT_TRUE(certificate->in_time);
+  EXPECT_EQ(schedule_check::why_not_proved(problem, *certificate), "");
+  for (Stream& stream : problem.streams) *stream.latency += 59'904'000 + us;
+  EXPECT_EQ(refuted(problem), std::nullopt);
+  EXPECT_NE(schedule_check::why_not_proved(problem, *certificate), "") << "it was a proof of the other problem only";
+}
+
+TEST(Refute, SpoiltCertificatesProveNothing) {
+  Problem problem = line(2);
+  problem.model.is_strict = true;
+  add_stream(problem, "h0", "h1", 20, 100 * us);
+  add_stream(problem, "h0", "h1", 31, 150 * us);
+  const auto good = refute(problem);
+  ASSERT_TRUE(good);
+  Certificate bad = *good;
+  bad.modulus *= 2;   // 20/50 + 31/50 of 100
+  EXPECT_NE(schedule_check::why_not_proved(problem, bad), "");
+  bad = *good;
+  bad.modulus = 25 * us;
+  EXPECT_NE(schedule_check::why_not_proved(problem, bad), "");
+  bad = *good;
+  bad.streams.pop_back();
+  EXPECT_NE(schedule_check::why_not_proved(problem, bad), "");
+  bad = *good;
+  bad.streams.push_back(bad.streams.front());
+  EXPECT_NE(schedule_check::why_not_proved(problem, bad), "");
+  bad = *good;
+  bad.links = {link_of(problem, "b1>b0")};
+  EXPECT_NE(schedule_check::why_not_proved(problem, bad), "");
+  bad = *good;
+  bad.kind = Kind::load;
+  EXPECT_NE(schedule_check::why_not_proved(problem, bad), "");
+}
+
+}  // namespace
+}  // namespace takt::schedule

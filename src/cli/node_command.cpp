@@ -1,4 +1,5 @@
 // takt node: a participant of Programs on this machine, or applications and gateways.
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -9,6 +10,7 @@
 #include "node/applications/host.hpp"
 #include "node/applications/statistics_file.hpp"
 #include "node/built_in_values.hpp"
+#include "node/log.hpp"
 #include "node/real_node.hpp"
 
 namespace takt::cli {
@@ -62,11 +64,13 @@ ExitStatus run_node(const std::string& file, bool is_check) {
   std::string warnings;
   std::vector<std::unique_ptr<node::BuiltInValues>> values;
   std::vector<node::Application*> applications;
+  std::signal(SIGPIPE, SIG_IGN);  // who reads the log may go; the node does not go with him
+  node::Log log(stdout);
   for (const node::LoadedProgram& program : loaded->programs) {
-    values.push_back(std::make_unique<node::BuiltInValues>(loaded->config, program.endpoint.format->shape(), stdout, loaded->programs.size() > 1));
+    values.push_back(std::make_unique<node::BuiltInValues>(loaded->config, program.endpoint.format->shape(), log, loaded->programs.size() > 1));
     applications.push_back(values.back().get());
   }
-  const auto live = node::RealNode::make(*loaded, stdout, applications, problem, warnings);
+  const auto live = node::RealNode::make(*loaded, log, applications, problem, warnings);
   if (!live) {
     std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
     return ExitStatus::internal_error;

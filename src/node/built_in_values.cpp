@@ -75,8 +75,8 @@ double value_of(const Source& source, double message, std::int64_t time_ns) {
   return source.value + source.amplitude * std::sin(2 * std::numbers::pi * phase);
 }
 
-BuiltInValues::BuiltInValues(const Config& config, const wire::ProgramShape& shape, std::FILE* log, bool is_named)
-    : program_(is_named ? "\"program\": " + json::quote(shape.name) + ", " : std::string()), log_values_every_(config.log_values_every), log_(log) {
+BuiltInValues::BuiltInValues(const Config& config, const wire::ProgramShape& shape, Log& log, bool is_named)
+    : program_(is_named ? "\"program\": " + json::quote(shape.name) + ", " : std::string()), log_values_every_(config.log_values_every), log_(&log) {
   for (const wire::DataSetShape& from : shape.data_sets) {
     DataSet& data_set = data_sets_.emplace_back();
     data_set.name = from.name;
@@ -115,8 +115,7 @@ void BuiltInValues::consume(std::size_t number, std::int64_t time_ns, uadp::Octe
     if (field.count > 1) line += ']';
   }
   line += "}}\n";
-  std::fputs(line.c_str(), log_);
-  std::fflush(log_);
+  log_->write(line);
 }
 
 }  // namespace takt::node

@@ -1,12 +1,12 @@
 // Process data of a node without an application: fields from simple sources, and a log of what is received.
 #pragma once
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "node/application.hpp"
 #include "node/config.hpp"
+#include "node/log.hpp"
 
 namespace takt::node {
 
@@ -14,7 +14,7 @@ class BuiltInValues final : public Application {
  public:
   /// For one Program of the node. `config` has been checked. Received values go to `log`, which outlives this; `is_named`: with the
   /// name of the Program.
-  BuiltInValues(const Config& config, const wire::ProgramShape& shape, std::FILE* log, bool is_named = false);
+  BuiltInValues(const Config& config, const wire::ProgramShape& shape, Log& log, bool is_named = false);
 
   void produce(std::size_t data_set, std::int64_t time_ns, std::span<std::byte> fields) override;
   void consume(std::size_t data_set, std::int64_t time_ns, uadp::Octets fields) override;
@@ -37,7 +37,7 @@ class BuiltInValues final : public Application {
   std::vector<DataSet> data_sets_;
   std::string program_;  ///< as a member with a comma behind it; or empty
   std::optional<Duration> log_values_every_;
-  std::FILE* log_;
+  Log* log_;
 };
 
 /// The value of a source for the message with this number, from 0 on, at this time.

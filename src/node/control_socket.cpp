@@ -40,6 +40,13 @@ void limit_connecting(const FileDescriptor& fd) {
   ::setsockopt(fd.number(), SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
 }
 
+/// The user of the node, or root: the mode of the socket says the same, but somebody may have changed that.
+bool is_permitted(const FileDescriptor& client) {
+  ucred peer = {};
+  socklen_t size = sizeof peer;
+  return ::getsockopt(client.number(), SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && (peer.uid == ::geteuid() || peer.uid == 0);
+}
+
 bool somebody_listens(const sockaddr_un& address) {
   const FileDescriptor probe(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   limit_connecting(probe);
@@ -108,6 +115,7 @@ void ControlSocket::accept_new() {
   for (;;) {
     FileDescriptor client(::accept4(listening_.number(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
     if (!client.is_open()) return;
+    if (!is_permitted(client)) continue;
     if (clients_.size() == most_clients) clients_.erase(clients_.begin());
     clients_.push_back(std::move(client));
   }
@@ -117,14 +125,14 @@ std::optional<std::string> ControlSocket::next() {
   accept_new();
   std::array<char, most_octets_of_request> buffer;
   for (std::size_t i = 0; i < clients_.size();) {
-    const ssize_t size = ::recv(clients_[i].number(), buffer.data(), buffer.size(), MSG_DONTWAIT);
+    const ssize_t size = ::recv(clients_[i].number(), buffer.data(), buffer.size(), MSG_DONTWAIT | MSG_TRUNC);
     if (size < 0 && (errno == EAGAIN || errno == EINTR)) {
       ++i;
       continue;
     }
     asking_ = std::move(clients_[i]);
     clients_.erase(clients_.begin() + static_cast<std::ptrdiff_t>(i));
-    if (size > 0) return std::string(buffer.data(), static_cast<std::size_t>(size));
+    if (size > 0 && static_cast<std::size_t>(size) <= buffer.size()) return std::string(buffer.data(), static_cast<std::size_t>(size));
   }
   return std::nullopt;
 }

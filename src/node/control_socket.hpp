@@ -22,7 +22,7 @@ std::string default_control_path(std::string_view node);
 class ControlSocket {
  public:
   /// Null, and `problem` says why, if it cannot be had: the path is too long, or somebody listens there already. A socket that a killed
-  /// node has left is replaced. Only the user of the node may use it.
+  /// node has left is replaced. Only the user of the node, and root, may use it: its mode says so, and the credentials of each client.
   static std::unique_ptr<ControlSocket> open(const std::string& path, std::string& problem);
   ~ControlSocket();
   ControlSocket(const ControlSocket&) = delete;

@@ -42,7 +42,12 @@ class HostedProgram {
   program::StatusCode change(Membership what);
   void finished() { carry_out(part_.finished(now())); }
   /// A message of any Program has come.
-  void receive(uadp::Octets message) { carry_out(part_.receive(now(), message)); }
+  wire::Verdict receive(uadp::Octets message) {
+    wire::NodeOutputs& outputs = part_.receive(now(), message);
+    const wire::Verdict verdict = outputs.verdict;
+    carry_out(outputs);
+    return verdict;
+  }
 
   /// When it has to be woken next.
   sim::LocalTime next_time() const;

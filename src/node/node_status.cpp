@@ -78,6 +78,22 @@ std::string text_of_program(const std::string& name, const json::Node& root) {
   return out;
 }
 
+/// Who is refused: "  refused of 10.0.0.3:4840, publisher 3: 12 signature, 1 token".
+std::string lines_of_sources(const json::Node& root) {
+  std::string out;
+  const json::Node* const sources = root.find("sources");
+  for (std::size_t s = 0; sources != nullptr && s < sources->items.size(); ++s) {
+    const json::Node& source = sources->items[s];
+    const json::Node* const refused = source.find("refused");
+    if (refused == nullptr || refused->items.empty()) continue;
+    out += fmt::format("  refused of {}, publisher {}:", scalar(source.find("address")), scalar(source.find("publisher_id")));
+    for (const json::Node& each : refused->items) out += fmt::format("{} {} {}", &each == &refused->items.front() ? "" : ",", scalar(each.find("messages")), scalar(each.find("verdict")));
+    out += "\n";
+  }
+  if (const std::string left_out = scalar(root.find("log_lines_left_out")); left_out != "-" && left_out != "0") out += fmt::format("  {} lines of the log left out\n", left_out);
+  return out;
+}
+
 bool is_of_program(const json::Node& node) { return node.find("state") != nullptr && node.find("statistics") != nullptr; }
 
 }  // namespace
@@ -88,12 +104,12 @@ std::string status_text(const std::string& json) {
   if (!document) return json + "\n";
   const json::Node& root = document->root();
   const std::string name = scalar(root.find("node"));
-  if (is_of_program(root)) return text_of_program(name, root);
+  if (is_of_program(root)) return text_of_program(name, root) + lines_of_sources(root);
   const json::Node* const programs = root.find("programs");
   if (programs == nullptr || !std::all_of(programs->items.begin(), programs->items.end(), is_of_program)) return json + "\n";
   std::string out;
   for (const json::Node& program : programs->items) out += (out.empty() ? "" : "\n") + text_of_program(name, program);
-  return out;
+  return out + lines_of_sources(root);
 }
 
 }  // namespace takt::node

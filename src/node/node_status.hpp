@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "node/config.hpp"
+#include "node/sources.hpp"
 #include "node/statistics.hpp"
 #include "wire/program_node.hpp"
 
@@ -23,6 +24,8 @@ struct NodeStatus {
   std::string node;
   std::vector<ProgramStatus> programs;  ///< at least one
   std::int64_t time_ns = 0;             ///< now, on the node's clock
+  std::vector<HeardSource> sources = {};
+  std::uint64_t log_lines_left_out = 0;
 };
 const json::Record& describe(json::Type<ProgramStatus>);
 const json::Record& describe(json::Type<NodeStatus>);

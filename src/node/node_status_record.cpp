@@ -220,6 +220,8 @@ const json::Record& describe(json::Type<NodeStatus>) {
       json::output<&NodeStatus::node>("node", "Its name."),
       json::only_if<&is_alone>(json::spread<&only_program>(), "of a node with one Program"),
       json::only_if<&has_several>(json::output<&NodeStatus::programs>("programs", "Each of them."), "of a node with several Programs"),
+      json::output<&NodeStatus::sources>("sources", "Whom it hears, and what is refused of them; 64 senders at most, and the others together."),
+      json::output<&NodeStatus::log_lines_left_out>("log_lines_left_out", "Lines of its log that were left out: too many at once, or nobody reads them."),
   };
   static constexpr json::Record record{"node_status", "What a node says of itself.", outputs};
   return record;

@@ -29,7 +29,7 @@ std::uint32_t incarnation_now() {
 
 }  // namespace
 
-std::unique_ptr<RealNode> RealNode::make(const LoadedConfig& loaded, std::FILE* log, const std::vector<Application*>& applications, std::string& problem,
+std::unique_ptr<RealNode> RealNode::make(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, std::string& problem,
                                          std::string& warnings) {
   const Config& config = loaded.config;
   std::unique_ptr<Socket> socket = std::visit([&problem](const auto& transport) { return open_socket(transport, problem); }, config.transport);
@@ -53,16 +53,17 @@ std::unique_ptr<RealNode> RealNode::make(const LoadedConfig& loaded, std::FILE* 
   return node;
 }
 
-RealNode::RealNode(const LoadedConfig& loaded, std::unique_ptr<Socket> socket, std::FILE* log)
+RealNode::RealNode(const LoadedConfig& loaded, std::unique_ptr<Socket> socket, Log& log)
     : config_(loaded.config),
       script_(loaded.script),
       outermost_(outermost(loaded.programs)),
       socket_(std::move(socket)),
       clock_(loaded.config.clock, loaded.programs.front().endpoint.cycle),
+      out_(log),
       log_(log),
       incarnation_(incarnation_now()) {}
 
-void RealNode::host(const LoadedConfig& loaded, std::FILE* log, const std::vector<Application*>& applications, Duration lead) {
+void RealNode::host(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, Duration lead) {
   const bool are_several = loaded.programs.size() > 1;
   for (std::size_t i = 0; i < loaded.programs.size(); ++i)
     programs_.push_back(std::make_unique<HostedProgram>(loaded.programs[i], HostedProgram::Node{config_, *socket_, clock_, incarnation_, lead},
@@ -90,13 +91,14 @@ void RealNode::run(bool (*stop_requested)(const void* context), const void* cont
     wake_due(clock_.now());
     const bool is_asked = std::any_of(waiting.begin() + 2, waiting.end(), [](const pollfd& each) { return each.revents != 0; });
     if (is_asked) take_requests();
+    if (!out_.is_idle()) out_.flush();
   }
   log_.ended(status_now());
 }
 
 NodeStatus RealNode::status_now(std::optional<std::size_t> only) const {
   const sim::LocalTime time = clock_.now();
-  NodeStatus status{config_.node, {}, clock_.nanoseconds_at(time)};
+  NodeStatus status{config_.node, {}, clock_.nanoseconds_at(time), sources_.all(), out_.lines_left_out()};
   for (std::size_t i = 0; i < programs_.size(); ++i)
     if (!only || *only == i) status.programs.push_back(programs_[i]->status(time, socket_->send_failures()));
   return status;
@@ -110,14 +112,20 @@ sim::LocalTime RealNode::next_time() const {
   return next;
 }
 
-/// A message that no Program knows counts as foreign at the first.
 void RealNode::take_received() {
   for (int i = 0; i < most_messages_at_once; ++i) {
-    const uadp::Octets message = socket_->next();
-    if (message.empty()) return;
-    const auto found = programs_.size() == 1 ? programs_.begin() : std::find_if(programs_.begin(), programs_.end(), [&](const auto& program) { return program->knows(message); });
-    (found == programs_.end() ? programs_.front() : *found)->receive(message);
+    const auto arrival = socket_->take();
+    if (!arrival) return;
+    const wire::Verdict verdict = arrival->verdict == wire::Verdict::taken ? take(arrival->message) : arrival->verdict;
+    const std::int64_t now_ns = clock_.nanoseconds_at(clock_.now());
+    if (sources_.count(*arrival, verdict, now_ns)) log_.refused(now_ns, to_text(arrival->from), publisher_id_of(arrival->message), wire::name_of(verdict));
   }
+}
+
+/// A message that no Program knows counts as foreign at the first.
+wire::Verdict RealNode::take(uadp::Octets message) {
+  const auto found = programs_.size() == 1 ? programs_.begin() : std::find_if(programs_.begin(), programs_.end(), [&](const auto& program) { return program->knows(message); });
+  return (found == programs_.end() ? programs_.front() : *found)->receive(message);
 }
 
 void RealNode::wake_due(sim::LocalTime now) {
@@ -135,7 +143,11 @@ void RealNode::act(const LoadedCall& call) {
 }
 
 void RealNode::take_requests() {
-  while (const auto request = control_->next()) control_->answer(answer_to(*request));
+  for (std::size_t i = 0; i < ControlSocket::most_clients; ++i) {
+    const auto request = control_->next();
+    if (!request) return;
+    control_->answer(answer_to(*request));
+  }
 }
 
 /// Requests are method names in lower case, "join", "leave" or "status"; behind a space there may be the name of a Program.

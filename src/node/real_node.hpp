@@ -11,8 +11,10 @@
 #include "node/config.hpp"
 #include "node/control_socket.hpp"
 #include "node/hosted_program.hpp"
+#include "node/log.hpp"
 #include "node/node_status.hpp"
 #include "node/socket.hpp"
+#include "node/sources.hpp"
 #include "node/transition_log.hpp"
 
 namespace takt::node {
@@ -22,7 +24,7 @@ class RealNode {
   /// Null, and `problem` says why, if the machine does not give what the file asks for. What it can do without is a line of
   /// `warnings`. `applications` by Program of the file that this node is in; where there is none, or null, process data are zeros. They
   /// and `log` outlive the node.
-  static std::unique_ptr<RealNode> make(const LoadedConfig& loaded, std::FILE* log, const std::vector<Application*>& applications, std::string& problem, std::string& warnings);
+  static std::unique_ptr<RealNode> make(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, std::string& problem, std::string& warnings);
 
   /// Runs until the file's duration is over or `stop_requested` says so, which is asked after every wake-up.
   void run(bool (*stop_requested)(const void* context), const void* context);
@@ -39,8 +41,8 @@ class RealNode {
   std::string status() const { return to_json(status_now()); }
 
  private:
-  RealNode(const LoadedConfig& loaded, std::unique_ptr<Socket> socket, std::FILE* log);
-  void host(const LoadedConfig& loaded, std::FILE* log, const std::vector<Application*>& applications, Duration lead);
+  RealNode(const LoadedConfig& loaded, std::unique_ptr<Socket> socket, Log& log);
+  void host(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, Duration lead);
 
   /// Of one of its Programs, or of all.
   NodeStatus status_now(std::optional<std::size_t> only = {}) const;
@@ -48,6 +50,7 @@ class RealNode {
   void wake_due(sim::LocalTime now);
   void act(const LoadedCall& call);
   void take_received();
+  wire::Verdict take(uadp::Octets message);
   void take_requests();
   std::string answer_to(std::string_view request);
   std::string answer_to_membership(Membership what, std::string_view of);
@@ -62,7 +65,9 @@ class RealNode {
   std::unique_ptr<ControlSocket> control_;  ///< null: none is wanted
   Clock clock_;
   AbsoluteTimer timer_;
+  Log& out_;
   TransitionLog log_;
+  SourceTable sources_;
   std::uint32_t incarnation_;
   std::vector<std::unique_ptr<HostedProgram>> programs_;
   std::vector<std::unique_ptr<wire::Nesting>> nestings_;

@@ -19,19 +19,13 @@ std::string_view name_of(handshake::Alarm alarm) {
   return "?";
 }
 
-/// A line is written whole and at once, so that a killed node leaves no half of one.
-void write(std::FILE* file, const std::string& line) {
-  std::fputs(line.c_str(), file);
-  std::fflush(file);
-}
-
 }  // namespace
 
-TransitionLog::TransitionLog(std::FILE* file, std::string_view program)
-    : file_(file), program_(program.empty() ? std::string() : "\"program\": " + json::quote(program) + ", "), names_(program_) {}
+TransitionLog::TransitionLog(Log& log, std::string_view program)
+    : log_(&log), program_(program.empty() ? std::string() : "\"program\": " + json::quote(program) + ", "), names_(program_) {}
 
 void TransitionLog::started(std::int64_t time, std::string_view node, std::uint32_t incarnation) {
-  write(file_, fmt::format("{{\"time_ns\": {}, \"event\": \"start\", \"node\": {}, \"incarnation\": {}}}\n", time,
+  log_->write(fmt::format("{{\"time_ns\": {}, \"event\": \"start\", \"node\": {}, \"incarnation\": {}}}\n", time,
                            json::quote(node), incarnation));
 }
 
@@ -41,39 +35,44 @@ void TransitionLog::stepped(std::int64_t time, const handshake::Outputs& outputs
   if (!is_news && !outputs.raised && outputs.change_count == 0) return;
   const std::string runs = fmt::format("\"run\": {}, \"intent_run\": {}", after.run, after.intent.run);
   if (outputs.raised)
-    write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"intent\", \"kind\": \"{}\", \"cause\": \"{}\", {}}}\n", time, names_,
+    log_->write(fmt::format("{{\"time_ns\": {}, {}\"event\": \"intent\", \"kind\": \"{}\", \"cause\": \"{}\", {}}}\n", time, names_,
                              handshake::name_of(outputs.raised_kind), name_of(outputs.alarm), runs));
   for (const handshake::StateChange& change : outputs.changes())
-    write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"transition\", \"number\": {}, \"from\": \"{}\", \"to\": \"{}\", {}}}\n", time, names_, change.transition,
+    log_->write(fmt::format("{{\"time_ns\": {}, {}\"event\": \"transition\", \"number\": {}, \"from\": \"{}\", \"to\": \"{}\", {}}}\n", time, names_, change.transition,
                              handshake::name_of(change.from), handshake::name_of(change.to), runs));
-  if (!outputs.raised && outputs.change_count == 0) write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"run\", {}}}\n", time, names_, runs));
+  if (!outputs.raised && outputs.change_count == 0) log_->write(fmt::format("{{\"time_ns\": {}, {}\"event\": \"run\", {}}}\n", time, names_, runs));
 }
 
 void TransitionLog::called(std::int64_t time, program::Method method, program::StatusCode status) {
-  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"call\", \"method\": \"{}\", \"good\": {}, \"status\": \"{}\"}}\n", time, names_, program::name_of(method),
+  log_->write(fmt::format("{{\"time_ns\": {}, {}\"event\": \"call\", \"method\": \"{}\", \"good\": {}, \"status\": \"{}\"}}\n", time, names_, program::name_of(method),
                            program::is_good(status), program::name_of(status)));
 }
 
 void TransitionLog::bound(std::int64_t time, std::string_view role, std::string_view node, std::uint32_t life) {
-  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"bound\", \"role\": {}, \"to\": {}, \"life\": {}}}\n", time, program_, json::quote(role),
+  log_->write(fmt::format("{{\"time_ns\": {}, {}\"event\": \"bound\", \"role\": {}, \"to\": {}, \"life\": {}}}\n", time, program_, json::quote(role),
                            node.empty() ? "null" : json::quote(node), life));
 }
 
 void TransitionLog::took_role(std::int64_t time, std::string_view role, std::uint32_t life) {
   names_ = program_ + "\"role\": " + json::quote(role) + ", ";
   last_ = {};
-  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"role taken\", \"life\": {}}}\n", time, names_, life));
+  log_->write(fmt::format("{{\"time_ns\": {}, {}\"event\": \"role taken\", \"life\": {}}}\n", time, names_, life));
 }
 
 void TransitionLog::dropped_role(std::int64_t time) {
-  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"role dropped\"}}\n", time, names_));
+  log_->write(fmt::format("{{\"time_ns\": {}, {}\"event\": \"role dropped\"}}\n", time, names_));
   names_ = program_;
 }
 
 void TransitionLog::membership(std::int64_t time, Membership what) {
-  write(file_, fmt::format("{{\"time_ns\": {}, {}\"event\": \"{}\"}}\n", time, program_, what == Membership::join ? "join" : "leave"));
+  log_->write(fmt::format("{{\"time_ns\": {}, {}\"event\": \"{}\"}}\n", time, program_, what == Membership::join ? "join" : "leave"));
 }
 
-void TransitionLog::ended(const NodeStatus& status) { write(file_, "{\"event\": \"end\", " + to_json(status).substr(1) + "\n"); }
+void TransitionLog::refused(std::int64_t time, std::string_view address, std::optional<std::uint64_t> publisher_id, std::string_view verdict) {
+  log_->write(fmt::format("{{\"time_ns\": {}, \"event\": \"refused\", \"address\": {}, \"publisher_id\": {}, \"verdict\": \"{}\"}}\n", time, json::quote(address),
+                          publisher_id ? std::to_string(*publisher_id) : "null", verdict));
+}
+
+void TransitionLog::ended(const NodeStatus& status) { log_->finish("{\"event\": \"end\", " + to_json(status).substr(1) + "\n"); }
 
 }  // namespace takt::node

@@ -1,11 +1,11 @@
 // What a node does, as JSON lines: one object an event, written at once.
 #pragma once
 
-#include <cstdio>
 #include <string>
 #include <string_view>
 
 #include "handshake/io.hpp"
+#include "node/log.hpp"
 #include "node/node_status.hpp"
 #include "program/method.hpp"
 
@@ -13,8 +13,8 @@ namespace takt::node {
 
 class TransitionLog {
  public:
-  /// `file` outlives the log. What a Program does is named with it, unless the name is empty.
-  explicit TransitionLog(std::FILE* file, std::string_view program = {});
+  /// `log` outlives it. What a Program does is named with it, unless the name is empty.
+  explicit TransitionLog(Log& log, std::string_view program = {});
 
   /// Times are nanoseconds of the node's clock.
   void started(std::int64_t time, std::string_view node, std::uint32_t incarnation);
@@ -29,10 +29,13 @@ class TransitionLog {
   void dropped_role(std::int64_t time);
   void membership(std::int64_t time, Membership what);
 
+  /// A sender is refused for this reason for the first time.
+  void refused(std::int64_t time, std::string_view address, std::optional<std::uint64_t> publisher_id, std::string_view verdict);
+
   void ended(const NodeStatus& status);
 
  private:
-  std::FILE* file_;
+  Log* log_;
   std::string program_;           ///< as a member with a comma behind it; or empty
   std::string names_;             ///< the same, and the role
   handshake::Word last_;          ///< whose run and intent have been written

@@ -41,8 +41,12 @@ void Communication::update(sim::LocalTime now) {
   for (Subscriber* each : subscribers_) each->update(state());
 }
 
-void Communication::poll(sim::LocalTime now) {
-  for (uadp::Octets octets = subscribed_.next(); !octets.empty(); octets = subscribed_.next()) received(octets, now);
+void Communication::poll(sim::LocalTime now, std::size_t most) {
+  for (std::size_t i = 0; i < most; ++i) {
+    const uadp::Octets octets = subscribed_.next();
+    if (octets.empty()) return;
+    received(octets, now);
+  }
 }
 
 void Communication::received(uadp::Octets network_message, sim::LocalTime now) {

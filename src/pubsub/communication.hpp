@@ -23,8 +23,8 @@ class Communication {
   /// Call it after a component below was enabled or disabled.
   void update(sim::LocalTime now);
 
-  /// Takes all that the stack has received.
-  void poll(sim::LocalTime now);
+  /// Takes what the stack has received, `most` messages at most: what comes faster than it is taken does not keep the caller.
+  void poll(sim::LocalTime now, std::size_t most = 1024);
   /// Takes one NetworkMessage.
   void received(uadp::Octets network_message, sim::LocalTime now);
 

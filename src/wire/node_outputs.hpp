@@ -18,6 +18,7 @@
 #include "sim/time.hpp"
 #include "uadp/octets.hpp"
 #include "wire/role_format.hpp"
+#include "wire/verdict.hpp"
 
 namespace takt::wire {
 
@@ -85,6 +86,8 @@ class NodeOutputs {
 
   /// Of a call; Good for every other turn.
   program::StatusCode status = program::StatusCode::Good;
+  /// Of a message that has come.
+  Verdict verdict = Verdict::taken;
 
   /// The next one, which lasts until the next turn; null when all have been taken.
   const Entry* next() {

@@ -67,22 +67,20 @@ void ProgramEndpoint::set_cycle_alarm(const Turn& turn) {
   turn.out.add(side_, SetAlarm{cycle_alarm, sim::LocalTime() + settings_.offset + settings_.cycle * next_cycle_});
 }
 
-void ProgramEndpoint::receive(const Turn& turn, uadp::Octets network_message) {
+Verdict ProgramEndpoint::receive(const Turn& turn, uadp::Octets network_message) {
   const auto message = settings_.format->decode(network_message);
   if (!message) {
     ++counts_.foreign;
-    return;
+    return settings_.format->refusal_of(network_message);
   }
   const std::uint8_t sender = std::visit([](const auto& m) { return m.sender; }, *message);
   const std::size_t peer = sender == settings_.handshake.index ? participant_.peer_count() : participant_.peer_of(sender);
   if (peer >= participant_.peer_count() || participant_.participant_of(peer) != sender) {
     ++counts_.unsubscribed;
-    return;
+    return Verdict::unsubscribed;
   }
-  if (const auto* const state = std::get_if<StateMessage>(&*message))
-    receive_state(turn, peer, *state);
-  else
-    receive_data(turn, peer, std::get<ProcessDataMessage>(*message));
+  if (const auto* const state = std::get_if<StateMessage>(&*message)) return receive_state(turn, peer, *state);
+  return receive_data(turn, peer, std::get<ProcessDataMessage>(*message));
 }
 
 void ProgramEndpoint::expect(std::size_t peer, std::optional<std::uint32_t> incarnation) {
@@ -92,27 +90,29 @@ void ProgramEndpoint::expect(std::size_t peer, std::optional<std::uint32_t> inca
 
 void ProgramEndpoint::expect_nobody() { expected_.assign(participant_.peer_count(), std::nullopt); }
 
-void ProgramEndpoint::receive_state(const Turn& turn, std::size_t peer, const StateMessage& message) {
+Verdict ProgramEndpoint::receive_state(const Turn& turn, std::size_t peer, const StateMessage& message) {
   if (!expected_.empty() && expected_[peer] != message.word.incarnation) {
     ++counts_.unsubscribed;
-    return;
+    return Verdict::unsubscribed;
   }
-  if (!is_new(states_[peer], message.sequence, message.word.incarnation, turn.now)) return;
+  if (!is_new(states_[peer], message.sequence, message.word.incarnation, turn.now)) return Verdict::stale;
   ++counts_.taken;
   turn.out.add(side_, Heard{peer, message.word});
   step(turn, Input::received(peer, message.word, message.sequence));
+  return Verdict::taken;
 }
 
-void ProgramEndpoint::receive_data(const Turn& turn, std::size_t peer, const ProcessDataMessage& message) {
+Verdict ProgramEndpoint::receive_data(const Turn& turn, std::size_t peer, const ProcessDataMessage& message) {
   const bool has_runs = settings_.handshake.variant == handshake::Variant::robust;
   const bool counts = has_runs ? participant_.process_data_counts(peer, message.run) : participant_.process_data_counts(peer);
   if (!counts) {
     ++counts_.not_running;
-    return;
+    return Verdict::not_running;
   }
-  if (!is_new(data_[message.data_set], message.sequence, has_runs ? message.run : 0, turn.now)) return;
+  if (!is_new(data_[message.data_set], message.sequence, has_runs ? message.run : 0, turn.now)) return Verdict::stale;
   ++counts_.taken;
   turn.out.add(side_, message);
+  return Verdict::taken;
 }
 
 bool ProgramEndpoint::is_new(Arrivals& arrivals, std::uint16_t sequence, std::uint32_t life, sim::LocalTime now) {

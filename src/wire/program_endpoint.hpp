@@ -71,7 +71,7 @@ class ProgramEndpoint {
   /// Publishes an own data set now, if the participant is Running. False if it is not.
   bool publish_data(const Turn& turn, std::uint8_t data_set);
   /// A NetworkMessage has come; of whom and whether it is sound is found out here.
-  void receive(const Turn& turn, uadp::Octets network_message);
+  Verdict receive(const Turn& turn, uadp::Octets network_message);
   /// An alarm has come due.
   void wake(const Turn& turn, std::size_t alarm);
 
@@ -93,8 +93,8 @@ class ProgramEndpoint {
   static constexpr std::size_t initialised_alarm = 1;
   static constexpr std::size_t first_peer_alarm = 2;  // one for each peer: its MessageReceiveTimeout
 
-  void receive_state(const Turn& turn, std::size_t peer, const StateMessage& message);
-  void receive_data(const Turn& turn, std::size_t peer, const ProcessDataMessage& message);
+  Verdict receive_state(const Turn& turn, std::size_t peer, const StateMessage& message);
+  Verdict receive_data(const Turn& turn, std::size_t peer, const ProcessDataMessage& message);
   bool is_new(Arrivals& arrivals, std::uint16_t sequence, std::uint32_t life, sim::LocalTime now);
   void publish_state(const Turn& turn);
   void publish_process_data(const Turn& turn);

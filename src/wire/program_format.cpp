@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "uadp/network_message.hpp"
 #include "uadp/octets.hpp"
 
 namespace takt::wire {
@@ -97,6 +98,24 @@ std::optional<ProgramMessage> ProgramFormat::decode(uadp::Octets octets) const {
   if (group == state_writer_group) return decode_state(static_cast<std::uint8_t>(sender), octets);
   if (data_set >= data_.size()) return std::nullopt;
   return decode_data(static_cast<std::uint8_t>(data_set), octets);
+}
+
+Verdict ProgramFormat::refusal_of(uadp::Octets octets) const {
+  uadp::NetworkMessage message;
+  const uadp::DecodeStatus status = uadp::decode(octets, message);
+  if (status == uadp::DecodeStatus::secured) return Verdict::secured;
+  if (status != uadp::DecodeStatus::ok) return Verdict::not_uadp;
+  const auto& id = message.header.publisher_id;
+  const auto& group = message.header.group;
+  if (!id || id->type != uadp::PublisherIdType::UInt16) return Verdict::other_publisher;
+  const std::size_t sender = static_cast<std::uint16_t>(id->number - shape_.first_publisher_id);
+  if (sender >= states_.size()) return Verdict::other_publisher;
+  if (!group || !group->writer_group_id) return Verdict::other_group;
+  const bool is_state = group->writer_group_id == state_writer_group;
+  const std::size_t data_set = static_cast<std::uint16_t>(*group->writer_group_id - first_data_writer_group);
+  if (!is_state && (data_set >= data_.size() || shape_.data_sets[data_set].from != sender)) return Verdict::other_group;
+  if (group->group_version != group_version_) return Verdict::other_version;
+  return (is_state ? states_[sender] : data_[data_set]).matches(octets) ? Verdict::impossible : Verdict::other_layout;
 }
 
 std::optional<ProgramMessage> ProgramFormat::decode_state(std::uint8_t sender, uadp::Octets octets) const {

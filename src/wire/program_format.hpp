@@ -9,6 +9,7 @@
 #include "handshake/word.hpp"
 #include "uadp/periodic_fixed.hpp"
 #include "wire/program_shape.hpp"
+#include "wire/verdict.hpp"
 
 namespace takt::wire {
 
@@ -68,6 +69,8 @@ class ProgramFormat {
   /// Nothing if the octets are no message of this Program, or say what no participant says. Octets behind a message (padding of
   /// Ethernet) are passed over.
   std::optional<ProgramMessage> decode(uadp::Octets octets) const;
+  /// Why `decode` gives nothing for these octets.
+  Verdict refusal_of(uadp::Octets octets) const;
 
  private:
   std::optional<ProgramMessage> decode_state(std::uint8_t sender, uadp::Octets octets) const;

@@ -32,6 +32,7 @@ ProgramNode::ProgramNode(NodeSettings settings) : settings_(std::move(settings))
 void ProgramNode::begin() {
   arrivals_.clear();
   sequence_ = 0;
+  next_other_life_ = {};
   if (settings_.roles && settings_.roles->offer) {
     const Offer& offer = *settings_.roles->offer;
     TAKT_CHECK(offer.life != 0, "0 is no life");
@@ -68,6 +69,7 @@ ProgramEndpoint& ProgramNode::join(Nesting& nesting, Side side) {
 Turn ProgramNode::turn(sim::LocalTime now) {
   NodeOutputs& out = nesting_ == nullptr ? outputs_ : nesting_->outputs();
   out.status = program::StatusCode::Good;
+  out.verdict = Verdict::taken;
   return {now, out};
 }
 
@@ -114,11 +116,15 @@ NodeOutputs& ProgramNode::receive(sim::LocalTime now, uadp::Octets network_messa
   const Turn turn = this->turn(now);
   const auto message = settings_.roles ? settings_.roles->format->decode(network_message) : std::nullopt;
   if (!message) {
-    if (endpoint_) endpoint_->receive(turn, network_message);
+    turn.out.verdict = endpoint_ ? endpoint_->receive(turn, network_message) : settings_.endpoint.format->decode(network_message) ? Verdict::unsubscribed : settings_.endpoint.format->refusal_of(network_message);
+    if (turn.out.verdict == Verdict::other_group && settings_.roles) turn.out.verdict = settings_.roles->format->refusal_of(network_message);
   } else if (const auto* const announcement = std::get_if<AnnouncementMessage>(&*message)) {
-    if (binder_ && !take(turn, *announcement)) return turn.out;
+    turn.out.verdict = !binder_ ? Verdict::unsubscribed : take(turn, *announcement) ? Verdict::taken : Verdict::stale;
+    if (binder_ && turn.out.verdict != Verdict::taken) return turn.out;
   } else if (candidate_) {
-    take(turn, std::get<TableMessage>(*message));
+    turn.out.verdict = take(turn, std::get<TableMessage>(*message)) ? Verdict::taken : Verdict::stale;
+  } else {
+    turn.out.verdict = Verdict::unsubscribed;
   }
   settle(turn);
   return turn.out;
@@ -167,7 +173,10 @@ bool ProgramNode::take(const Turn& turn, const TableMessage& message) {
   if (!arrivals_.front().take(message.sequence, message.incarnation, turn.now, announce_timeout(settings_.roles->announce_cycle))) return false;
   const Binding before = self();
   const auto role = candidate_->role();
-  const Candidate::Change change = candidate_->table(std::span(message.bindings).first(settings_.roles->format->roles()), message.used_lives[before.candidate]);
+  // Lives that lie far apart have no order, so tables and announcements that are under way could chase each other for ever; a node that changes its life once in a while only ends that.
+  const std::uint32_t used_life = turn.now >= next_other_life_ ? message.used_lives[before.candidate] : 0;
+  const Candidate::Change change = candidate_->table(std::span(message.bindings).first(settings_.roles->format->roles()), used_life);
+  if (change == Candidate::Change::none && self() != before) next_other_life_ = turn.now + settings_.roles->announce_cycle;
   if (change == Candidate::Change::released) {
     endpoint_.reset();
     turn.out.add(side_, RoleDropped{*role, before});

@@ -110,6 +110,7 @@ class ProgramNode {
   std::optional<handshake::Candidate> candidate_;
   std::vector<Arrivals> arrivals_;      ///< announcements by candidate; at a candidate the tables
   std::uint16_t sequence_ = 0;          ///< of its tables or announcements
+  sim::LocalTime next_other_life_;      ///< a candidate does not begin another because of a table before
   NodeOutputs outputs_;                 ///< without nesting
   Nesting* nesting_ = nullptr;
   handshake::Side side_ = handshake::Side::outer;

@@ -85,6 +85,19 @@ auto RoleFormat::decode(uadp::Octets octets) const -> std::optional<std::variant
   return std::nullopt;
 }
 
+Verdict RoleFormat::refusal_of(uadp::Octets octets) const {
+  if (octets.size() < fields_at) return Verdict::not_uadp;
+  const auto group = uadp::load_little_endian<std::uint16_t>(octets.data() + writer_group_at);
+  if (group != table_writer_group && group != announcement_writer_group) return Verdict::other_group;
+  constexpr std::size_t version_at = 7;
+  if (uadp::load_little_endian<std::uint32_t>(octets.data() + version_at) != version_of(shape_)) return Verdict::other_version;
+  const auto id = uadp::load_little_endian<std::uint16_t>(octets.data() + publisher_id_at);
+  const std::size_t candidate = static_cast<std::uint16_t>(id - shape_.program.first_publisher_id - shape_.program.participants.size());
+  const bool is_table = group == table_writer_group;
+  if (is_table ? id != shape_.program.first_publisher_id : candidate >= candidates()) return Verdict::other_publisher;
+  return (is_table ? table_.front() : announcements_[candidate]).matches(octets) ? Verdict::impossible : Verdict::other_layout;
+}
+
 /// A master can say so: candidates that there are, each in one role at most, with lives that there are.
 bool RoleFormat::is_sound(const TableMessage& message) const {
   std::uint64_t bound = 0;

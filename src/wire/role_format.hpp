@@ -55,6 +55,8 @@ class RoleFormat {
   uadp::Octets encode(const TableMessage& message, std::span<std::byte> target) const;
   /// Nothing if the octets are neither, or say what nobody says.
   std::optional<std::variant<AnnouncementMessage, TableMessage>> decode(uadp::Octets octets) const;
+  /// Why `decode` gives nothing for octets that are no message of the Program's participants either.
+  Verdict refusal_of(uadp::Octets octets) const;
 
  private:
   std::optional<AnnouncementMessage> decode_announcement(uadp::Octets octets, std::uint8_t candidate) const;

@@ -41,7 +41,8 @@ int main(int argc, char** argv) {
 
   std::string problem;
   std::string warnings;
-  const auto robot = takt::node::RealNode::make(*file, stdout, {&data}, problem, warnings);
+  takt::node::Log log(stdout);
+  const auto robot = takt::node::RealNode::make(*file, log, {&data}, problem, warnings);
   std::fputs((problem + warnings).c_str(), stderr);
   if (!robot) return 3;
   robot->run([](const void*) { return stopped != 0; }, nullptr);

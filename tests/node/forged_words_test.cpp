@@ -1,6 +1,8 @@
 // One packet of a stranger: nodes survive it, can be asked what they think of it, and the group can be started afterwards.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "support/word_bench.hpp"
 
 namespace takt::node {
@@ -98,6 +100,47 @@ TEST(ForgedWords, ALifeFarAhead) {
     bench.ask();
     bench.run(100_ms);
     expect_that_it_starts(bench);
+  }
+}
+
+/// What a stranger makes of the announcements that it has heard.
+using Forgery = std::function<void(std::vector<std::byte>& announcement, std::uint32_t turn)>;
+
+// While they come, nothing can be promised. Once they have ended, roles are bound to nodes that are there and the group goes on, as `on_replacement: restart` says.
+TEST(ForgedWords, AFloodOfAnnouncements) {
+  const auto set_life = [](std::vector<std::byte>& octets, std::uint32_t life) { uadp::store_little_endian(octets.data() + wire::fields_at, life % 0xFFFFFFU + 1); };
+  const auto life_of = [](const std::vector<std::byte>& octets) { return uadp::load_little_endian<std::uint32_t>(octets.data() + wire::fields_at); };
+  const std::vector<std::pair<std::string, Forgery>> floods = {
+      {"the next life", [&](auto& octets, std::uint32_t turn) { set_life(octets, life_of(octets) + turn); }},
+      {"lives far apart", [&](auto& octets, std::uint32_t turn) { set_life(octets, life_of(octets) + turn * 0x654321U); }},
+      {"half of all lives away", [&](auto& octets, std::uint32_t) { set_life(octets, life_of(octets) + 0x7FFFFFU); }},
+      {"its own life, leaving", [](auto& octets, std::uint32_t) { octets[wire::fields_at + 4] = std::byte{1}; }},
+      {"its own life, without skills", [](auto& octets, std::uint32_t) { std::fill(octets.begin() + wire::fields_at + 5, octets.end(), std::byte{0}); }},
+      {"the last life", [&](auto& octets, std::uint32_t) { set_life(octets, 0xFFFFFEU); }},
+      {"the former life", [&](auto& octets, std::uint32_t) { set_life(octets, life_of(octets) - 2); }},
+  };
+  for (const auto& [name, forge] : floods) {
+    for (const std::int64_t every_us : {130, 1000, 4000, 9000}) {
+      SCOPED_TRACE(name + " every " + std::to_string(every_us) + " us");
+      test::WordBench bench("roles-restart");
+      bench.run(60_ms);
+      ASSERT_EQ(bench.call(0, program::Method::Start), program::StatusCode::Good) << bench.ask();
+      bench.run(60_ms);
+      ASSERT_TRUE(bench.all_in(PublishedState::Running)) << bench.ask();
+      for (std::uint32_t turn = 1; turn <= 400; ++turn) {
+        for (std::vector<std::byte> message : bench.heard()) {
+          if (uadp::load_little_endian<std::uint16_t>(message.data() + 5) != wire::announcement_writer_group) continue;
+          message = test::WordBench::forged(std::move(message), static_cast<std::uint16_t>(turn));
+          forge(message, turn);
+          bench.say(message);
+        }
+        bench.run(every_us * sim::Duration::from_ps(1'000'000));
+      }
+      bench.run(300_ms);
+      EXPECT_TRUE(bench.member(0).binder()->complete()) << bench.ask();
+      EXPECT_TRUE(bench.all_in(PublishedState::Running)) << bench.ask();
+      EXPECT_EQ(bench.member(0).state(), PublishedState::Running);
+    }
   }
 }
 

@@ -391,9 +391,12 @@ class Mistakes(NodeTest):
 class Namespaces(NodeTest):
     """Three namespaces, each joined to a Linux bridge by a veth pair. Needs root."""
 
+    made = 0  # the kernel takes its time to take namespaces down
+
     def setUp(self):
         super().setUp()
-        self.tag = f"tk{os.getpid() % 10000}"
+        Namespaces.made += 1
+        self.tag = f"tk{os.getpid() % 10000}{chr(ord('a') + Namespaces.made % 26)}"
         self.addCleanup(self.take_down)
         try:
             self.ip("link", "add", f"{self.tag}br", "type", "bridge", "mcast_snooping", "0")

@@ -4,6 +4,7 @@
 #include <poll.h>
 
 #include "node/socket.hpp"
+#include "node/sources.hpp"
 #include "pubsub/communication.hpp"
 #include "pubsub/data_set.hpp"
 #include "support/reservation.hpp"
@@ -59,6 +60,39 @@ TEST(Sockets, CarryDataSets) {
   }
   EXPECT_EQ(here->send_failures(), 0u);
   EXPECT_EQ(receiving.verdicts()[uadp::DecodeStatus::ok], 3u);
+}
+
+// A turn of the loop takes so many and no more, whatever they are.
+TEST(Sockets, EmptyAndLongOnesCount) {
+  const auto ports = testing::Reservation::ports();
+  const std::uint16_t port = ports.number();
+  const auto there = open(port, port);
+  const auto stranger = open(static_cast<std::uint16_t>(port + 1), port);
+  const std::vector<std::byte> octets(1501, std::byte{0x91});
+  for (const std::size_t size : {0, 1501, 7, 0, 1500}) stranger->publish(uadp::Octets(octets).first(size), {});
+  std::vector<std::pair<wire::Verdict, std::size_t>> seen;
+  while (const auto arrival = there->take()) {
+    seen.emplace_back(arrival->verdict, arrival->message.size());
+    EXPECT_EQ(to_text(arrival->from), "127.0.0.1:" + std::to_string(port + 1));
+  }
+  using enum wire::Verdict;
+  EXPECT_EQ(seen, (std::vector<std::pair<wire::Verdict, std::size_t>>{{empty, 0}, {too_long, 0}, {taken, 7}, {empty, 0}, {taken, 1500}}));
+}
+
+// Whoever sends under ever new names does not fill the memory, and does not displace those of whom something is taken.
+TEST(Sources, AreBounded) {
+  SourceTable table;
+  const auto from = [](std::uint8_t a, std::uint8_t b) { return Arrival{wire::Verdict::taken, {}, {SenderAddress::Kind::udp, {10, 0, a, b, 0, 1}}}; };
+  EXPECT_FALSE(table.count(from(0, 0), wire::Verdict::taken, 0));
+  int told = 0;
+  for (int i = 0; i < 2000; ++i) told += table.count(from(static_cast<std::uint8_t>(1 + i / 250), static_cast<std::uint8_t>(i % 250)), wire::Verdict::not_uadp, i) ? 1 : 0;
+  ASSERT_EQ(table.all().size(), SourceTable::most_sources + 1);
+  EXPECT_EQ(told, 64) << "63 that have a place, and the others";
+  EXPECT_EQ(table.all().back().refused(), 2000u - 63);
+  table.count(from(99, 99), wire::Verdict::vlan, 20'000'000'000);
+  EXPECT_EQ(table.all().front().count(wire::Verdict::taken), 1u);
+  EXPECT_EQ(table.all()[1].count(wire::Verdict::vlan), 1u) << "in the place of the one that was silent longest";
+  EXPECT_FALSE(table.count(from(99, 99), wire::Verdict::vlan, 20'000'000'001)) << "told once";
 }
 
 TEST(Sockets, SayWhatIsInTheWayOfLaunchTimes) {

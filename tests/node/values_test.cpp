@@ -69,7 +69,8 @@ TEST(BuiltInValues, CountersConstantsAndSines) {
   config.sources[0].amplitude = 2;
   config.sources[1].value = 32'766;
   config.sources[2].value = 1;
-  BuiltInValues values(config, shape(), stdout);
+  Log log(stdout);
+  BuiltInValues values(config, shape(), log);
   std::array<std::byte, octets> fields{};
   const std::array<std::int16_t, 3> counted = {32'766, 32'767, 32'767};  // stays at the end of its range
   for (std::size_t i = 0; i < counted.size(); ++i) {
@@ -91,7 +92,8 @@ TEST(BuiltInValues, OutOfRangeIsTheEndOfTheRange) {
     config.sources = {source(SourceKind::constant, "n")};
     config.sources[0].value = value;
     std::array<std::byte, 8> fields{};
-    BuiltInValues(config, wide, stdout).produce(0, 0, fields);
+    Log log(stdout);
+    BuiltInValues(config, wide, log).produce(0, 0, fields);
     EXPECT_EQ(uadp::load_little_endian<std::int64_t>(fields.data()), expected);
   }
 }

@@ -46,6 +46,9 @@ inline const WordBenchGroup& word_bench_group(const std::string& kind) {
       {"roles",
        {R"({"name": "cell", "master": "plc", "cycle": "1ms", "announce_every": "5ms", "candidates": ["a", "b", "c"], "roles": [{"name": "left", "skill": "welding"}, {"name": "hand", "skill": "gripping"}]})",
         {{"plc", ""}, {"a", R"(, "offers": ["welding"])"}, {"b", R"(, "offers": ["welding"])"}, {"c", R"(, "offers": ["gripping"])"}}}},
+      {"roles-restart",
+       {R"({"name": "cell", "master": "plc", "cycle": "1ms", "announce_every": "5ms", "on_replacement": "restart", "candidates": ["a", "b", "c"], "roles": [{"name": "left", "skill": "welding"}, {"name": "hand", "skill": "gripping"}]})",
+        {{"plc", ""}, {"a", R"(, "offers": ["welding"])"}, {"b", R"(, "offers": ["welding"])"}, {"c", R"(, "offers": ["gripping"])"}}}},
       {"nested-roles",
        {R"({"name": "line", "master": "plc", "slaves": ["left", "right"], "cycle": "1ms"},
            {"name": "cell", "within": "line", "master": "right", "cycle": "1ms", "announce_every": "5ms", "candidates": ["a", "b"], "roles": [{"name": "tool", "skill": "welding"}]})",
@@ -132,7 +135,7 @@ class WordBench {
       for (const auto& seat : each->seats) status.programs.push_back({&seat->of.program, &seat->member, &seat->cycles, &seat->peers, now_, 0});
       const std::string json = node::to_json(status);
       all += json + "\n" + node::status_text(json);
-      node::TransitionLog(sink_.get()).ended(status);
+      node::TransitionLog(log_).ended(status);
     }
     return all;
   }
@@ -152,7 +155,7 @@ class WordBench {
   };
   struct Seat {
     Seat(WordBench& of_bench, const node::LoadedProgram& program, std::size_t node)
-        : bench(of_bench), of(program), number(node), member(settings(program, node)), peers(member.peer_count()), log(of_bench.sink_.get()),
+        : bench(of_bench), of(program), number(node), member(settings(program, node)), peers(member.peer_count()), log(of_bench.log_),
           alarms(member.alarm_count()) {}
     static wire::NodeSettings settings(wire::NodeSettings settings, std::size_t node) {
       settings.set_incarnation(static_cast<std::uint32_t>(1000 + node));
@@ -230,6 +233,7 @@ class WordBench {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   std::unique_ptr<std::FILE, Close> sink_{std::fopen("/dev/null", "w")};
+  node::Log log_{sink_.get()};
   sim::LocalTime now_;
   std::uint64_t count_ = 0;
   std::priority_queue<Event> events_;

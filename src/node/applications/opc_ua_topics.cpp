@@ -10,8 +10,9 @@ struct OpcUaTopics::Shared {
   Shared(std::unique_ptr<Socket> given, std::int64_t (*clock)()) : socket(std::move(given)), now_ns(clock), epoch_ns(clock()) {}
 
   sim::LocalTime now() const { return sim::LocalTime::from_ps((now_ns() - epoch_ns) * 1000); }
-  /// Gives what the socket holds to all readers, `most_taken` messages at most. With the lock held.
+  /// Gives what the socket holds to all readers; what comes while it does so waits for the next time. With the lock held.
   void distribute();
+  static constexpr int most_at_once = 1024;  // more than a socket holds
 
   std::mutex mutex;  ///< of all that is below
   std::unique_ptr<Socket> socket;
@@ -72,10 +73,11 @@ class OpcUaTopics::Reader final : public TopicReader {
 };
 
 void OpcUaTopics::Shared::distribute() {
-  for (std::size_t i = 0; i < most_taken; ++i) {
-    const uadp::Octets message = socket->next();
-    if (message.empty()) return;
-    for (const auto& reader : readers) reader->receive(message);
+  for (int i = 0; i < most_at_once; ++i) {
+    const auto arrival = socket->take();
+    if (!arrival) return;
+    if (arrival->verdict != wire::Verdict::taken) continue;  // counts, too: a flood of it does not hold the lock
+    for (const auto& reader : readers) reader->receive(arrival->message);
   }
 }
 

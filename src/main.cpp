@@ -30,6 +30,7 @@ void add_commands(takt::cli::Command app, ExitStatus& status) {
   takt::cli::add_schedule_command(app, status);
   takt::cli::add_export_command(app, status);
   takt::cli::add_import_command(app, status);
+  takt::cli::add_studio_command(app, status);
 }
 
 ExitStatus main_with(int argc, char** argv) {

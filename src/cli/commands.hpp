@@ -23,5 +23,6 @@ void add_paper_command(Command app, ExitStatus& status);
 void add_schedule_command(Command app, ExitStatus& status);
 void add_export_command(Command app, ExitStatus& status);
 void add_import_command(Command app, ExitStatus& status);
+void add_studio_command(Command app, ExitStatus& status);
 
 }  // namespace takt::cli

@@ -35,6 +35,7 @@ const Prefixes application = {"application/"};
 const Prefixes papers = {"papers/"};
 const Prefixes interchange = {"interchange/"};
 const Prefixes report = {"report/"};
+const Prefixes studio = {"studio/"};
 const Prefixes schedule = {"schedule/"};
 const Prefixes interchange_schedules = {"interchange/schedules/"};
 
@@ -74,8 +75,9 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/property/", all_of({below, questions, evaluation, output, {"property/"}})});
     list.push_back({"src/interchange/", all_of({below, chart, interchange})});
     list.push_back({"src/emulate/", all_of({below, node, emulate})});
-    list.push_back({"src/cli/", all_of({below, questions, study, evaluation, output, node, emulate, report, papers, interchange, cli})});
-    list.push_back({"src/main.cpp", all_of({below, questions, study, evaluation, output, node, emulate, report, papers, interchange, cli})});
+    list.push_back({"src/studio/", all_of({below, questions, evaluation, output, chart, report, studio})});
+    list.push_back({"src/cli/", all_of({below, questions, study, evaluation, output, node, emulate, report, studio, papers, interchange, cli})});
+    list.push_back({"src/main.cpp", all_of({below, questions, study, evaluation, output, node, emulate, report, studio, papers, interchange, cli})});
     return list;
   }();
   return all;
@@ -100,7 +102,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, output, cli, node, emulate, plant, application, chart, report, papers, study, schedule, interchange_schedules, interchange, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, output, cli, node, emulate, plant, application, chart, report, studio, papers, study, schedule, interchange_schedules, interchange, {"property/"}});
   return roots;
 }
 

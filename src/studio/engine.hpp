@@ -1,0 +1,75 @@
+// Works at the latest text of a scenario, in the background: checked, run, bounded, searched for the worst. A newer text ends the work at an older one.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace takt::studio {
+
+/// How far the work at a text has come.
+enum class Stage : std::uint8_t {
+  empty,      ///< no text yet
+  checking,   ///< is it sound?
+  refused,    ///< it is not; the diagnostics say why
+  running,    ///< the scenario as it is
+  proving,    ///< bounds of its requirements
+  searching,  ///< for the worst runs
+  done,
+};
+const char* name_of(Stage stage);
+
+/// What is known of a text. Parts that are not there yet are empty.
+struct Findings {
+  std::uint64_t version = 0;    ///< another one after every change
+  std::uint64_t revision = 0;   ///< of the text, as set_text said
+  Stage stage = Stage::empty;
+  std::string diagnostics;      ///< JSON, as of `takt check --format json`
+  std::string network;          ///< an <svg> element
+  std::string result;           ///< JSON, as of `takt run --format json`
+  std::string proofs;           ///< JSON, as of `takt verify --format json`, before or after the search
+  std::string trouble;          ///< what went wrong beside mistakes of the text
+};
+
+/// What the work at a text may cost.
+struct Effort {
+  std::uint64_t run_events = 200'000'000;
+  std::uint64_t search_events = 20'000'000;
+};
+
+class Engine {
+ public:
+  /// `file_name` stands in diagnostics; files that a scenario names are looked for beside it.
+  explicit Engine(std::string file_name, Effort effort = {});
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+  ~Engine();
+
+  /// The text from now on.
+  void set_text(std::uint64_t revision, std::string text);
+  /// What is known now, or, if that is of `version` still, when something else is known, but after `most` at the latest.
+  Findings wait_for_other(std::uint64_t version, std::chrono::milliseconds most);
+
+ private:
+  void work();
+  void work_at(std::uint64_t revision, const std::string& text);
+  bool is_current(std::uint64_t revision);
+  template <class Change>
+  bool publish(std::uint64_t revision, const Change& change);
+
+  const std::string file_name_;
+  const Effort effort_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::string text_;
+  std::uint64_t revision_ = 0;
+  bool has_work_ = false;
+  bool ends_ = false;
+  Findings findings_;
+  std::thread worker_;   // last: it uses all of the above
+};
+
+}  // namespace takt::studio

@@ -1,0 +1,165 @@
+#include "studio/server.hpp"
+
+#include <httplib.h>
+#include <sys/random.h>
+
+#include <array>
+#include <charconv>
+
+#include "json/node.hpp"
+#include "security/secret.hpp"
+#include "sim/check.hpp"
+
+namespace takt::studio {
+namespace {
+
+constexpr std::size_t largest_text = 8'000'000;   // octets
+constexpr std::chrono::milliseconds longest_wait{15'000};
+constexpr const char* json_type = "application/json; charset=utf-8";
+
+/// 128 random bits as hexadecimal digits.
+std::string new_token() {
+  std::array<unsigned char, 16> octets{};
+  TAKT_CHECK(getrandom(octets.data(), octets.size(), 0) == static_cast<ssize_t>(octets.size()), "the operating system has random numbers");
+  std::string token;
+  constexpr const char* digits = "0123456789abcdef";
+  for (const unsigned char octet : octets) {
+    token += digits[octet >> 4];
+    token += digits[octet & 15];
+  }
+  return token;
+}
+
+std::string text_json(std::string_view text) { return json::compact(json::Node::of_string(text)); }
+
+std::uint64_t number_in(const std::string& text) {
+  std::uint64_t number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+/// JSON that is text already, or null.
+std::string embedded(const std::string& text) { return text.empty() ? "null" : text; }
+
+}  // namespace
+
+class Server::Routes {
+ public:
+  Routes(Engine& engine, Document& document, const Assets& assets, std::string schema)
+      : engine_(engine), document_(document), assets_(assets), schema_(std::move(schema)), token_(new_token()) {
+    // A port that somebody listens at is taken; by default httplib would share it.
+    server_.set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
+    server_.set_payload_max_length(largest_text);
+    server_.set_read_timeout(10);
+    server_.set_write_timeout(10);
+    server_.set_keep_alive_max_count(1000);
+    server_.set_default_headers({{"Content-Security-Policy", "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; connect-src 'self'; frame-ancestors 'none'; "
+                                                             "base-uri 'none'; form-action 'none'"},
+                                 {"X-Content-Type-Options", "nosniff"},
+                                 {"Referrer-Policy", "no-referrer"},
+                                 {"Cross-Origin-Resource-Policy", "same-origin"},
+                                 {"Cache-Control", "no-store"}});
+    server_.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) { return admit(request, response); });
+    add_page();
+    add_interface();
+  }
+
+  /// Names that only this page has are asked for: a name that leads here by DNS (rebinding), and pages of others, get nothing.
+  httplib::Server::HandlerResponse admit(const httplib::Request& request, httplib::Response& response) {
+    const std::string host = request.get_header_value("Host");
+    const bool is_ours = host == own_host("127.0.0.1") || host == own_host("localhost");
+    const std::string origin = request.get_header_value("Origin");
+    const bool is_foreign = !origin.empty() && origin != "http://" + host;
+    if (!is_ours || is_foreign) return refuse(response, 403, "this page is for the address that takt studio has printed");
+    if (request.path.rfind("/api/", 0) == 0 && !is_token(request.get_header_value("X-Takt-Token"))) return refuse(response, 403, "the token of the address is missing");
+    if (request.path == "/" && !is_token(request.get_param_value("token"))) return refuse(response, 403, "the token of the address is missing");
+    return httplib::Server::HandlerResponse::Unhandled;
+  }
+
+  httplib::Server server_;
+  std::uint16_t port_ = 0;
+  const std::string& token() const { return token_; }
+
+ private:
+  std::string own_host(const char* name) const { return std::string(name) + ":" + std::to_string(port_); }
+
+  static httplib::Server::HandlerResponse refuse(httplib::Response& response, int status, const std::string& why) {
+    response.status = status;
+    response.set_content(why + "\n", "text/plain; charset=utf-8");
+    return httplib::Server::HandlerResponse::Handled;
+  }
+
+  bool is_token(const std::string& given) const {
+    return given.size() == token_.size() && security::equal_in_constant_time(std::as_bytes(std::span(given)), std::as_bytes(std::span(token_)));
+  }
+
+  void add_page() {
+    const auto serve = [this](const char* path, std::string_view content, const char* type) {
+      server_.Get(path, [content, type](const httplib::Request&, httplib::Response& response) { response.set_content(content.data(), content.size(), type); });
+    };
+    serve("/", assets_.html, "text/html; charset=utf-8");
+    serve("/page.js", assets_.script, "text/javascript; charset=utf-8");
+    serve("/page.css", assets_.style, "text/css; charset=utf-8");
+  }
+
+  void add_interface() {
+    server_.Get("/api/schema", [this](const httplib::Request&, httplib::Response& response) { response.set_content(schema_, json_type); });
+    server_.Get("/api/file", [this](const httplib::Request&, httplib::Response& response) {
+      std::string problem;
+      const auto saved = document_.saved(problem);
+      const auto draft = document_.draft();
+      response.set_content("{\"path\": " + text_json(document_.path()) + ", \"saved\": " + (saved ? text_json(*saved) : "null") + ", \"draft\": " + (draft ? text_json(*draft) : "null") +
+                               ", \"problem\": " + text_json(problem) + "}",
+                           json_type);
+    });
+    server_.Put("/api/text", [this](const httplib::Request& request, httplib::Response& response) {
+      const std::string problem = document_.keep_draft(request.body);
+      engine_.set_text(number_in(request.get_param_value("revision")), request.body);
+      tell(response, problem);
+    });
+    server_.Put("/api/file", [this](const httplib::Request& request, httplib::Response& response) { tell(response, document_.save(request.body)); });
+    server_.Get("/api/findings", [this](const httplib::Request& request, httplib::Response& response) {
+      const Findings f = engine_.wait_for_other(number_in(request.get_param_value("after")), longest_wait);
+      response.set_content("{\"version\": " + std::to_string(f.version) + ", \"revision\": " + std::to_string(f.revision) + ", \"stage\": " + text_json(name_of(f.stage)) + ", \"diagnostics\": " +
+                               embedded(f.diagnostics) + ", \"network\": " + text_json(f.network) + ", \"result\": " + embedded(f.result) + ", \"proofs\": " + embedded(f.proofs) +
+                               ", \"trouble\": " + text_json(f.trouble) + "}",
+                           json_type);
+    });
+  }
+
+  static void tell(httplib::Response& response, const std::string& problem) {
+    if (!problem.empty()) response.status = 500;
+    response.set_content("{\"problem\": " + text_json(problem) + "}", json_type);
+  }
+
+  Engine& engine_;
+  Document& document_;
+  const Assets assets_;
+  const std::string schema_;
+  const std::string token_;
+};
+
+Server::Server(Engine& engine, Document& document, const Assets& assets, std::string schema) : routes_(std::make_unique<Routes>(engine, document, assets, std::move(schema))) {}
+Server::~Server() = default;
+
+bool Server::bind(std::uint16_t port) {
+  if (port == 0) {
+    const int found = routes_->server_.bind_to_any_port("127.0.0.1");
+    if (found <= 0) return false;
+    routes_->port_ = static_cast<std::uint16_t>(found);
+    return true;
+  }
+  routes_->port_ = port;
+  return routes_->server_.bind_to_port("127.0.0.1", port);
+}
+
+std::uint16_t Server::port() const { return routes_->port_; }
+const std::string& Server::token() const { return routes_->token(); }
+std::string Server::address() const { return "http://127.0.0.1:" + std::to_string(port()) + "/?token=" + token(); }
+void Server::listen() { routes_->server_.listen_after_bind(); }
+void Server::stop() { routes_->server_.stop(); }
+
+}  // namespace takt::studio

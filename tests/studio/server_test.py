@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""takt studio lets nobody in who has not its address: foreign origins, other names, wrong tokens, huge and broken bodies; and a killed engine loses no text.
+
+  server_test.py TAKT SOURCE
+"""
+import http.client
+import json
+import pathlib
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import unittest
+
+
+class Studio:
+    """A running `takt studio` on a scenario of a folder of its own."""
+
+    def __init__(self, folder):
+        self.file = folder / "plant.json"
+        self.process = subprocess.Popen([TAKT, "studio", self.file], stdout=subprocess.PIPE, text=True)
+        address = self.process.stdout.readline().strip()
+        found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/\?token=([0-9a-f]{32})", address)
+        assert found, address
+        self.port, self.token = int(found.group(1)), found.group(2)
+
+    def ask(self, method, path, body=None, **headers):
+        """Status and body; `token=None` sends none."""
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        sent = {"X-Takt-Token": self.token} | {name.replace("_", "-"): value for name, value in headers.items()}
+        connection.request(method, path, body=body, headers={name: value for name, value in sent.items() if value is not None})
+        response = connection.getresponse()
+        answer = response.status, response.read().decode(), dict(response.getheaders())
+        connection.close()
+        return answer
+
+    def stop(self):
+        self.process.send_signal(signal.SIGTERM)
+        status = self.process.wait(60)
+        self.process.stdout.close()
+        return status
+
+
+class ServerTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        shutil.copy(SOURCE / "scenarios" / "direct-link.json", self.folder / "plant.json")
+        self.studio = Studio(self.folder)
+
+    def tearDown(self):
+        if self.studio.process.poll() is None:
+            self.assertEqual(self.studio.stop(), 0)
+        shutil.rmtree(self.folder)
+
+    def test_the_address_opens_the_page_and_nothing_else_does(self):
+        ask, token = self.studio.ask, self.studio.token
+        status, body, headers = ask("GET", f"/?token={token}", X_Takt_Token=None)
+        self.assertEqual(status, 200)
+        self.assertIn("<title>takt studio</title>", body)
+        self.assertIn("frame-ancestors 'none'", headers["Content-Security-Policy"])
+        self.assertEqual(ask("GET", "/", X_Takt_Token=None)[0], 403)
+        self.assertEqual(ask("GET", f"/?token={token[:-1]}", X_Takt_Token=None)[0], 403)
+        self.assertEqual(ask("GET", "/api/file", X_Takt_Token=None)[0], 403)
+        self.assertEqual(ask("GET", "/api/file", X_Takt_Token="0" * 32)[0], 403)
+        self.assertEqual(ask("GET", f"/api/file?token={token}", X_Takt_Token=None)[0], 403)
+        self.assertEqual(ask("GET", "/api/file")[0], 200)
+
+    def test_other_origins_and_other_names_are_refused(self):
+        ask, port = self.studio.ask, self.studio.port
+        self.assertEqual(ask("GET", "/api/file", Origin=f"http://127.0.0.1:{port}")[0], 200)
+        for origin in ("http://example.org", "null", f"https://127.0.0.1:{port}", f"http://127.0.0.1:{port + 1}"):
+            self.assertEqual(ask("GET", "/api/file", Origin=origin)[0], 403, origin)
+        # A name of somebody's that leads to 127.0.0.1.
+        for host in (f"example.org:{port}", "127.0.0.1", f"127.0.0.1:{port}.example.org", ""):
+            self.assertEqual(ask("GET", "/api/file", Host=host)[0], 403, host)
+        self.assertEqual(ask("GET", "/api/file", Host=f"localhost:{port}")[0], 200)
+
+    def test_only_this_machine_is_listened_to(self):
+        sockets = subprocess.run(["ss", "-Htln", f"sport = :{self.studio.port}"], capture_output=True, text=True).stdout if shutil.which("ss") else ""
+        for line in sockets.splitlines():
+            self.assertTrue(line.split()[3].startswith("127.0.0.1:"), line)
+
+    def test_huge_and_broken_requests_disturb_nobody(self):
+        self.assertEqual(self.studio.ask("PUT", "/api/text?revision=1", body=b"x" * 9_000_000)[0], 413)
+        for octets in (b"\0" * 1000, b"GET / HTTP/1.1\r\n" + b"A: b\r\n" * 10_000 + b"\r\n", b"PUT /api/text HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\n", b"GET " + b"/" * 100_000 + b" HTTP/1.1\r\n\r\n"):
+            with socket.create_connection(("127.0.0.1", self.studio.port), timeout=30) as connection:
+                try:
+                    connection.sendall(octets)
+                    connection.shutdown(socket.SHUT_WR)
+                    while connection.recv(65536):
+                        pass
+                except OSError:
+                    pass   # it may hang up
+        silent = [socket.create_connection(("127.0.0.1", self.studio.port)) for _ in range(3)]   # who says nothing
+        self.assertEqual(self.studio.ask("GET", "/api/file")[0], 200)
+        for each in silent:
+            each.close()
+        status, body, _ = self.studio.ask("PUT", "/api/text?revision=2", body=b"\xff\xfe{[")
+        self.assertEqual(status, 200)
+        while (found := json.loads(self.studio.ask("GET", "/api/findings?after=0")[1]))["stage"] != "refused":
+            pass
+        self.assertGreater(found["diagnostics"]["errors"], 0)
+
+    def test_a_killed_engine_loses_no_text(self):
+        text = (self.folder / "plant.json").read_text().replace("pair", "twins")
+        self.assertEqual(json.loads(self.studio.ask("PUT", "/api/text?revision=5", body=text.encode())[1]), {"problem": ""})
+        self.studio.process.kill()
+        self.studio.process.wait()
+        self.studio.process.stdout.close()
+        self.studio = Studio(self.folder)
+        file = json.loads(self.studio.ask("GET", "/api/file")[1])
+        self.assertEqual(file["draft"], text)
+        self.assertNotEqual(file["saved"], text)
+        self.assertEqual(json.loads(self.studio.ask("PUT", "/api/file", body=text.encode())[1]), {"problem": ""})
+        file = json.loads(self.studio.ask("GET", "/api/file")[1])
+        self.assertEqual((file["saved"], file["draft"]), (text, None))
+        self.assertEqual((self.folder / "plant.json").read_text(), text)
+
+    def test_a_port_that_is_taken_is_told(self):
+        done = subprocess.run([TAKT, "studio", self.studio.file, "--port", str(self.studio.port)], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("is not to be had", done.stderr)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    TAKT, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

@@ -7,6 +7,7 @@
 
 #include "interchange/graph/graph.hpp"
 #include "interchange/linux/linux.hpp"
+#include "interchange/yang/yang.hpp"
 
 namespace takt::interchange {
 namespace {
@@ -14,12 +15,15 @@ namespace {
 const std::array exports{
     ExportFormat{"linux", "a script for each node (tc, ethtool, bridge, ip) and ptp4l.conf", "queues, gates, shapers, preemption, SDU sizes, policing, launch times, filtering entries, gPTP",
                  "times of hosts and switches; streams, programs, applications, faults, requirements", linux_export_settings, export_linux},
+    ExportFormat{"yang", "instance data of IEEE 802.1Q modules for each node", "queues, gates, shapers, preemption, SDU sizes; policing and ATS (published dialect)",
+                 "times of hosts and switches; clocks, streams, programs, applications, faults, requirements", yang_export_settings, export_yang},
     ExportFormat{"dot", "the topology for Graphviz", "nodes, links", "all else", {}, export_dot},
 };
 
 const std::array imports{
     ImportFormat{"linux", "what Linux machines are set to", "NODE.sh (commands), NODE.*.json (of `tc -j qdisc show`, `ip -j -d link show`, `bridge -j vlan show`), NODE.*.conf (ptp4l); *.names.json of an export",
                  linux_import_settings, true, false, import_linux},
+    ImportFormat{"yang", "instance data of devices: the published modules and those of 2018", "NODE.json, NODE.xml; *.names.json of an export", {}, true, false, import_yang},
 };
 
 std::string cell(std::string_view text) {

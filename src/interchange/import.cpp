@@ -96,7 +96,7 @@ void simplify(Node& node, std::string_view key) {
 void Imported::remark(RemarkKind kind, json::Place place, std::string text) { remarks.push_back({kind, std::move(place), std::move(text)}); }
 
 std::string to_text(const Remark& remark) {
-  constexpr std::string_view words[] = {"changed", "lost", "ignored"};
+  constexpr std::string_view words[] = {"changed", "lost", "ignored", "odd"};
   std::string text = remark.place.file;
   if (remark.place.line != 0) text += ":" + std::to_string(remark.place.line) + ":" + std::to_string(remark.place.column);
   return text + ": " + std::string(words[static_cast<std::size_t>(remark.kind)]) + ": " + remark.text;

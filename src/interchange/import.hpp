@@ -26,6 +26,7 @@ enum class RemarkKind : std::uint8_t {
   changed,   ///< said in another way, which means the same from some time on
   lost,      ///< takt does otherwise
   ignored,   ///< has no meaning in takt
+  odd,       ///< taken as it stands, and probably not meant
 };
 
 struct Remark {

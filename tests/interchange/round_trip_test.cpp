@@ -66,5 +66,14 @@ TEST(RoundTrip, ByScriptsOfLinux) {
   EXPECT_GE(counted.cannot, 5u);   // ATS, FRER, cut-through ...
 }
 
+TEST(RoundTrip, ByYangOfThePublishedModules) {
+  const Counted counted = all_go_round("yang");
+  EXPECT_GE(counted.went_round, 30u);
+  EXPECT_GE(counted.cannot, 5u);
+}
+TEST(RoundTrip, ByYangInXml) { EXPECT_GE(all_go_round("yang", {"encoding=xml"}).went_round, 30u); }
+TEST(RoundTrip, ByYangOf2018) { EXPECT_GE(all_go_round("yang", {"dialect=2018"}).went_round, 25u); }
+TEST(RoundTrip, ByYangOf2018InXml) { EXPECT_GE(all_go_round("yang", {"dialect=2018", "encoding=xml"}).went_round, 25u); }
+
 }  // namespace
 }  // namespace takt::interchange::test

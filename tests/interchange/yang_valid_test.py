@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""What takt export writes as YANG is valid: asked is yanglint with the modules of IEEE, which are not part of the repository.
+
+usage: yang_valid_test.py TAKT SOURCE_DIR       TAKT_YANG_MODULES is a folder with published/, fixes/, 2018/ and ietf/ (docs/interchange.md); without it the test is skipped
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TAKT, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+MODULES = pathlib.Path(os.environ.get("TAKT_YANG_MODULES", ""))
+SKIPPED = 77
+
+PUBLISHED = ("types bridge preemption-bridge sched-bridge psfp-bridge ats-bridge cbsa-bridge").split()
+
+
+def newest(folder, name):
+    return str(sorted((MODULES / folder).glob(f"{name}@*.yang"))[-1])
+
+
+def yanglint(dialect, corrected):
+    common = [newest("ietf", "iana-if-type")]
+    if dialect == "2018":
+        paths = ["2018", "ietf"]
+        files = [newest("2018", f"ieee802-dot1q-{name}") for name in ("types", "bridge", "preemption", "sched")]
+    else:
+        paths = (["fixes"] if corrected else []) + ["published", "ietf"]
+        first = "fixes" if corrected else "published"
+        files = [newest(first, "ieee802-dot1q-sched"), newest(first, "ieee802-dot1q-psfp")]
+        files += [newest("published", f"ieee802-dot1q-{name}") for name in PUBLISHED]
+        files += [newest("published", name) for name in ("ieee802-dot1cb-stream-identification", "ieee802-ethernet-mac-merge")]
+    command = ["yanglint", "-D"]
+    for path in paths:
+        command += ["-p", str(MODULES / path)]
+    return command + ["-t", "config", "-e", *common, *files]
+
+
+def main():
+    if not (MODULES / "published").is_dir() or shutil.which("yanglint") is None:
+        print("skipped: no modules (TAKT_YANG_MODULES) or no yanglint (Debian: libyang2-tools)")
+        return SKIPPED
+    bad = checked = 0
+    names = [f"{folder}{name}" for folder, name in (("tsn/", "preemption-on-a-line"), ("tsn/", "policing"), ("tsn/", "automatic-gates"), ("tsn/", "ats"), ("tsn/", "cqf"), ("tsn/", "gates-on-a-line"),
+                                                    ("validation/", "credit-and-gates"), ("validation/", "gates-behind-stream-gates"), ("", "robot-arm"))]
+    for name in names:
+        for dialect in ("published", "2018"):
+            for encoding in ("json", "xml"):
+                with tempfile.TemporaryDirectory() as folder:
+                    subprocess.run([TAKT, "export", "yang", SOURCE / "scenarios" / f"{name}.json", "-o", f"dialect={dialect}", "-o", f"encoding={encoding}", "--lossy", "--out", folder], check=True, capture_output=True)
+                    files = [path for path in pathlib.Path(folder).iterdir() if not path.name.endswith(".names.json")]
+                    for corrected in (True, False) if dialect == "published" else (False,):
+                        for path in sorted(files)[:4]:
+                            done = subprocess.run([*yanglint(dialect, corrected), str(path)], capture_output=True, text=True)
+                            checked += 1
+                            if done.returncode != 0:
+                                bad += 1
+                                errors = [line for line in (done.stdout + done.stderr).splitlines() if "err" in line]
+                                print(f"{name} {dialect} {encoding} {'corrected' if corrected else ''} {path.name}: {errors[:2]}")
+    print(f"{checked} checked, {bad} invalid")
+    return 1 if bad or not checked else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

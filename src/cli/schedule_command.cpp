@@ -13,10 +13,13 @@
 #include "interchange/schedules/instances.hpp"
 #include "interchange/schedules/report.hpp"
 #include "interchange/schedules/write.hpp"
+#include "json/document.hpp"
+#include "json/fields.hpp"
 #include "json/quantity.hpp"
 #include "schedule/decide.hpp"
 #include "schedule/gate_lists.hpp"
 #include "schedule_check/instance_check.hpp"
+#include "synthesis/report.hpp"
 
 namespace takt::cli {
 namespace {
@@ -109,6 +112,30 @@ ExitStatus schedule_instance(const schedule::Problem& problem, const ScheduleOpt
   return decision.verdict == Decision::Verdict::undecided || no_lists ? ExitStatus::undecided : ExitStatus::pass;
 }
 
+/// A scenario: what comes out is one, too.
+ExitStatus schedule_scenario(const ScheduleOptions& options, sim::Duration limit) {
+  json::Diagnostics diagnostics;
+  scenario::Scenario wanted;
+  const auto document = json::parse_file(options.files.front(), diagnostics);
+  if (!document || !json::decode(*document, wanted, diagnostics)) return report_mistakes(diagnostics, options);
+  synthesis::ScenarioOptions how;
+  how.may_route = options.routes == "search";
+  how.entries = std::min<std::uint32_t>(options.entries, scenario::most_gate_entries);
+  how.search = search_options(options, Clock::now(), limit);
+  const auto answer = synthesis::schedule_scenario(wanted, how, diagnostics);
+  if (!answer) return report_mistakes(diagnostics, options);
+  for (const std::string& each : answer->wrong) std::fprintf(stderr, "takt: %s is answered wrongly: %s\n", wanted.name.c_str(), each.c_str());
+  if (!answer->wrong.empty()) return ExitStatus::internal_error;
+  if (options.format == "json") std::fputs(json::write(*answer).c_str(), stdout);
+  if (options.format == "text") std::fputs(synthesis::text_of(wanted.name, *answer).c_str(), stdout);
+  if (options.format == "neutral" && answer->instance) std::fputs((json::compact(interchange::schedules::write_problem(*answer->instance)) + "\n").c_str(), stdout);
+  if (options.out && answer->resolved && !write_file(*options.out, json::encode(answer->resolved->scenario))) return ExitStatus::internal_error;
+  if (options.certificate && answer->certificate && !write_file(*options.certificate, json::compact(interchange::schedules::write_certificate(*answer->instance, *answer->certificate)) + "\n"))
+    return ExitStatus::internal_error;
+  if (answer->verdict == Decision::Verdict::infeasible) return ExitStatus::requirement_failed;
+  return answer->verdict == Decision::Verdict::scheduled ? ExitStatus::pass : ExitStatus::undecided;
+}
+
 /// Of several instances the worst counts: undecided, then infeasible, then scheduled.
 ExitStatus worse(ExitStatus a, ExitStatus b) {
   const auto rank = [](ExitStatus s) { return s == ExitStatus::pass ? 0 : s == ExitStatus::requirement_failed ? 1 : s == ExitStatus::undecided ? 2 : 3; };
@@ -122,6 +149,7 @@ ExitStatus run(const ScheduleOptions& options) {
     diagnostics.error({"--limit", 0, 0, ""}, "not a time to search", {json::quote(options.limit), "a duration such as \"10s\""});
     return report_mistakes(diagnostics, options);
   }
+  if (options.files.size() == 1 && !interchange::schedules::is_instance(options.files.front())) return schedule_scenario(options, *limit);
   interchange::schedules::InstanceReader reader(options.files);
   ExitStatus status = ExitStatus::pass;
   json::Node reports = json::Node::array();
@@ -150,7 +178,7 @@ ExitStatus run(const ScheduleOptions& options) {
 void add_schedule_command(Command app, ExitStatus& status) {
   const Command command = app.add_subcommand("schedule", "Find routes, phases and gate lists, or say why there are none");
   const auto options = std::make_shared<ScheduleOptions>();
-  command.add_option("INSTANCE", options->files, "Instances: TAS_Benchmark, TSNBenchScenarios, tsnkit, TSNsched, ECRTS'25 or neutral, told by their content; network and streams one after the other where they are two files").required();
+  command.add_option("SCENARIO|INSTANCE", options->files, "A scenario with automatic gates, or instances: TAS_Benchmark, TSNBenchScenarios, tsnkit, TSNsched, ECRTS'25 or neutral, told by their content; network and streams one after the other where they are two files").required();
   command.add_option("--routes", options->routes, "given: streams without a route are refused; shortest: one way each; search: other ways, too (search)").one_of({"given", "shortest", "search"}).type_name("ROUTES");
   command.add_option("--objective", options->objective, "feasible: the first schedule; latency, entries: the best of twelve attempts; slack: the greatest clock error (feasible)")
       .one_of({"feasible", "latency", "entries", "slack"})
@@ -160,11 +188,12 @@ void add_schedule_command(Command app, ExitStatus& status) {
   command.add_option("--jobs", options->jobs, "Threads; the result is the same for any number (all processors)").type_name("N");
   command.add_flag("--gates", options->gates, "Gate control lists, too");
   command.add_option("--entries", options->entries, "Entries that a list may have, where the port takes more").type_name("N");
-  command.add_option("--out", options->out, "Where the schedule goes, as neutral JSON; DIR/ for one file an instance").type_name("FILE");
+  command.add_option("--out", options->out, "Where the schedule goes: of a scenario a scenario, of an instance neutral JSON; DIR/ for one file an instance").type_name("FILE");
   command.add_option("--certificate", options->certificate, "Where a proof of infeasibility goes; DIR/ for one file an instance").type_name("FILE");
   command.add_option("--format", options->format, "text, json or neutral (the schedule or the certificate)").one_of({"text", "json", "neutral"}).type_name("FORMAT");
   command.footer(
       "Examples:\n"
+      "  takt schedule plant.json --out scheduled.json            a scenario with offsets, paths and gate lists, judged\n"
       "  takt schedule instance.json --out schedule.json          a schedule, or the reason why there is none\n"
       "  takt schedule ring.top set1.pat set2.pat                 several sets of streams on one network\n"
       "  takt schedule task.csv topo.csv --gates --entries 16     with lists that a small switch takes\n"

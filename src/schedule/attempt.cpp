@@ -13,6 +13,9 @@ Ps phase(Ps at, Ps period) {
   return rest < 0 ? rest + period : rest;
 }
 
+/// Of a stream that stays: more than all others together can come to.
+constexpr std::uint64_t priceless = std::uint64_t{1} << 40;
+
 GateTiming timing_of(const Problem& problem) { return problem.model.no_wait && problem.model.margin > 0 ? GateTiming::flowing : GateTiming::held; }
 
 }  // namespace
@@ -20,15 +23,20 @@ GateTiming timing_of(const Problem& problem) { return problem.model.no_wait && p
 Ground::Ground(const Problem& problem, const SearchOptions& options)
     : options_(options), timing_(problem, timing_of(problem)), periods_(problem), routes_(timing_), asked_(problem.streams.size()), ways_(problem.streams.size()) {
   first_.reserve(problem.streams.size());
-  for (StreamIndex s = 0; s < problem.streams.size(); ++s) {
-    first_.push_back(routes_.first(s));
-    if (!first_.back() || start_window(problem.streams[s], *first_.back()).is_empty()) is_possible_ = false;
+  for (StreamIndex s = 0; s < problem.streams.size(); ++s) first_.push_back(routes_.first(s));
+}
+
+Ground::Ground(const Problem& problem, const SearchOptions& options, std::vector<Way> ways, std::vector<std::optional<Ps>> fixed)
+    : options_(options), timing_(problem, GateTiming::held), periods_(problem), routes_(timing_), fixed_(std::move(fixed)), asked_(problem.streams.size()), ways_(problem.streams.size()) {
+  for (Way& way : ways) {
+    ways_[first_.size()] = {way};
+    first_.push_back(std::move(way));
   }
 }
 
 const std::vector<Way>& Ground::ways(StreamIndex stream) const {
   std::call_once(asked_[stream], [&] {
-    if (!first_[stream]) return;
+    if (!first_[stream] || !ways_[stream].empty()) return;
     const std::size_t most = options_.routes == RouteChoice::search ? options_.most_ways : 1;
     sim::RandomStream random(options_.seed, problem().streams[stream].name, "ways");
     ways_[stream] = routes_.several(stream, *first_[stream], most, random);
@@ -226,7 +234,7 @@ Attempt::Spot Attempt::cheapest(StreamIndex stream) {
 /// Moves somebody elsewhere, so that what comes next finds other gaps.
 void Attempt::perturb() {
   const auto stream = static_cast<StreamIndex>(random_.below(stands_.size()));
-  if (stands_[stream].way == nullptr) return;
+  if (stands_[stream].way == nullptr || price_[stream] >= priceless) return;
   const Stand before = stands_[stream];
   take_out(stream);
   if (!place_free(stream, true)) put(stream, before);
@@ -240,7 +248,13 @@ void Attempt::remember_best() {
 
 bool Attempt::run(std::uint64_t most_steps, const Stop& stop) {
   std::vector<StreamIndex> waiting;
+  for (StreamIndex s = 0; s < stands_.size(); ++s) {
+    if (!ground_.fixed(s)) continue;
+    put(s, {&*ground_.first(s), *ground_.fixed(s), {}});
+    price_[s] = priceless;
+  }
   for (const StreamIndex s : order()) {
+    if (ground_.fixed(s)) continue;
     if (!place_free(s, number_ % 4 == 2)) waiting.push_back(s);
     if ((steps_ & 63) == 0 && stop()) return false;
   }
@@ -253,7 +267,7 @@ bool Attempt::run(std::uint64_t most_steps, const Stop& stop) {
     waiting.pop_back();
     ++steps_;
     Spot spot = cheapest(stream);
-    if (spot.stand.way == nullptr) return false;
+    if (spot.stand.way == nullptr || spot.cost >= priceless) return false;
     met.clear();
     if (spot.cost > 0) find_conflicts(stream, spot.stand, met);
     for (const StreamIndex other : met) {

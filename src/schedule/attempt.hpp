@@ -15,6 +15,8 @@ namespace takt::schedule {
 class Ground {
  public:
   Ground(const Problem& problem, const SearchOptions& options);
+  /// With one given way for each stream, and a start for those that stay where they are.
+  Ground(const Problem& problem, const SearchOptions& options, std::vector<Way> ways, std::vector<std::optional<Ps>> fixed);
 
   const Problem& problem() const { return timing_.problem(); }
   const Timing& timing() const { return timing_; }
@@ -23,8 +25,8 @@ class Ground {
   const std::optional<Way>& first(StreamIndex stream) const { return first_[stream]; }
   /// Thread-safe, and the same whoever asks when.
   const std::vector<Way>& ways(StreamIndex stream) const;
-  /// Streams that have no way at all.
-  bool is_possible() const { return is_possible_; }
+  /// Nothing: it may be moved.
+  std::optional<Ps> fixed(StreamIndex stream) const { return fixed_.empty() ? std::nullopt : fixed_[stream]; }
 
  private:
   SearchOptions options_;
@@ -32,7 +34,7 @@ class Ground {
   Periods periods_;
   Routes routes_;
   std::vector<std::optional<Way>> first_;
-  bool is_possible_ = true;
+  std::vector<std::optional<Ps>> fixed_;
   mutable std::deque<std::once_flag> asked_;
   mutable std::vector<std::vector<Way>> ways_;
 };

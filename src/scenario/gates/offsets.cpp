@@ -1,9 +1,12 @@
 #include "scenario/gates/offsets.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 #include <tuple>
+
+#include "schedule/phases.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -35,6 +38,7 @@ struct Forbidden {
   std::int64_t end(std::int64_t x) const { return x + length - depth(x); }
 };
 
+std::int64_t floor_to_ns(std::int64_t ps) { return (ps - modulo(ps, ps_per_ns)); }
 std::int64_t ceil_to_ns(std::int64_t ps) { return (ps + ps_per_ns - 1) / ps_per_ns * ps_per_ns; }
 
 class OffsetSearch {
@@ -64,7 +68,7 @@ class OffsetSearch {
       const auto at = std::ranges::find(order, *next);
       std::rotate(order.begin(), at, at + 1);
     }
-    return best;
+    return least == 0 ? best : search(best, least);
   }
 
  private:
@@ -148,6 +152,52 @@ class OffsetSearch {
     return failed;
   }
 
+  /// Where first fit finds nothing: whoever is in the way is moved, too. What does better counts.
+  std::vector<ChosenOffset> search(std::vector<ChosenOffset> best, std::size_t least) {
+    std::vector<schedule::Mover> movers;
+    for (std::uint32_t u = 0; u < problem_.movable.size(); ++u) {
+      schedule::Mover mover{"unit " + std::to_string(u), period_of(u).ps(), {}, {}};
+      for (const std::uint32_t s : problem_.movable[u]) {
+        if (problem_.gates.streams[s].period != period_of(u)) return best;   // its streams do not repeat as one
+        claim(s, mover);
+      }
+      movers.push_back(std::move(mover));
+    }
+    for (std::uint32_t s = 0; s < problem_.gates.streams.size(); ++s) {
+      if (unit_of_[s] != nobody) continue;
+      schedule::Mover mover{"stream " + std::to_string(s), problem_.gates.streams[s].period.ps(), {}, 0};
+      claim(s, mover);
+      movers.push_back(std::move(mover));
+    }
+    constexpr std::uint32_t most_attempts = 16;
+    const auto phases = schedule::find_phases(static_cast<std::uint32_t>(problem_.gates.ports.size() + queues_.size()), movers, most_attempts);
+    if (!phases) return best;
+    for (std::uint32_t u = 0; u < problem_.movable.size(); ++u) {
+      chosen_[u].offset = Duration::from_ps((*phases)[u]);
+      placed_[u] = true;
+    }
+    std::size_t meetings = 0;
+    for (std::uint32_t u = 0; u < problem_.movable.size(); ++u) {
+      chosen_[u].meetings = meetings_at(forbidden_of(u), chosen_[u].offset.ps());
+      meetings += chosen_[u].meetings.size();
+    }
+    return meetings < least ? chosen_ : best;
+  }
+
+  /// What a stream occupies, in whole ns outwards: ports, and at its talker the queue in which those of one class must not come in any order.
+  void claim(std::uint32_t s, schedule::Mover& mover) {
+    const ScheduledStream& what = problem_.gates.streams[s];
+    for (std::uint32_t h = 0; h < what.hops.size(); ++h) {
+      const Crossing own{s, h};
+      const std::int64_t from = floor_to_ns(crossings_.earliest(own).ps());
+      mover.claims.push_back({what.hops[h].port, from, ceil_to_ns(crossings_.free_again(own).ps()) - from});
+      if (what.hops[h].previous || problem_.waiting != Waiting::at_gates) continue;
+      const auto queue = queues_.try_emplace(std::pair(what.hops[h].port, what.hops[h].traffic_class), static_cast<std::uint32_t>(queues_.size())).first->second;
+      const std::int64_t come = floor_to_ns((what.release - what.early).ps());
+      mover.claims.push_back({static_cast<std::uint32_t>(problem_.gates.ports.size()) + queue, come, ceil_to_ns(what.release.ps()) + ps_per_ns - come});
+    }
+  }
+
   /// Beyond the common multiple of all intervals everything comes again.
   static std::int64_t repeats_after(const std::vector<Forbidden>& forbidden, std::int64_t period) {
     sim::int128 common = 1;
@@ -211,6 +261,7 @@ class OffsetSearch {
   std::vector<ChosenOffset> chosen_;       // by unit
   std::vector<bool> placed_;
   std::size_t questions_ = 0;
+  std::map<std::pair<std::uint32_t, models::TrafficClass>, std::uint32_t> queues_;   // at talkers: resources behind the ports
 };
 
 }  // namespace

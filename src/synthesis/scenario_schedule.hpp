@@ -1,0 +1,44 @@
+// A scenario with "gates": "auto" gets offsets, paths and gate lists, or a reason why not.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/resolve/resolved.hpp"
+#include "schedule/decide.hpp"
+
+namespace takt::synthesis {
+
+struct ScenarioOptions {
+  bool may_route = true;                 ///< streams without a path and with "offset": "auto" may get one
+  std::uint32_t entries = 1024;          ///< a gate list may have
+  schedule::SearchOptions search;
+};
+
+/// How one scheduled stream fared.
+struct JudgedStream {
+  std::string name;
+  sim::Duration planned;                 ///< latency that the schedule promises, from the release on
+  std::uint64_t delivered = 0;           ///< in the run
+  sim::Duration simulated;               ///< the greatest latency there
+  std::optional<sim::Duration> bound;    ///< from production on
+};
+
+struct ScenarioSchedule {
+  schedule::Decision::Verdict verdict = schedule::Decision::Verdict::undecided;
+  std::string how;                                     ///< "given paths", "searched paths", or what stood in the way
+  std::unique_ptr<scenario::Resolved> resolved;        ///< if scheduled; its `scenario` is the answer
+  std::optional<schedule::Problem> instance;           ///< what the certificate is of, and the left-over streams
+  std::optional<schedule::Certificate> certificate;
+  std::vector<schedule::LeftOver> left_over;
+  std::size_t most_entries = 0;
+  std::vector<std::string> wrong;                      ///< what a judge found; takt is wrong then
+  std::vector<JudgedStream> streams;
+};
+
+/// Mistakes of the scenario go to `diagnostics`; then the answer is nothing.
+std::optional<ScenarioSchedule> schedule_scenario(const scenario::Scenario& wanted, const ScenarioOptions& options, json::Diagnostics& diagnostics);
+
+}  // namespace takt::synthesis

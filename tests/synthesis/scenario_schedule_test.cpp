@@ -1,0 +1,102 @@
+// Scenarios that get a schedule: by their own paths, by others, or not at all.
+#include "synthesis/scenario_schedule.hpp"
+
+#include <gtest/gtest.h>
+
+#include "json/document.hpp"
+#include "json/fields.hpp"
+#include "scenario/resolve/resolve.hpp"
+
+namespace takt::synthesis {
+namespace {
+
+using Verdict = schedule::Decision::Verdict;
+
+/// A ring of four switches; x and h1 are at sw1, y and h2 at sw2. Frames of 1400 octets (1446 with headers, 11.728 us with preamble and gap) each so many us.
+std::string two_streams(int every_us, const std::string& more = "") {
+  return R"({"name": "two-ways", "duration": "2ms", "network": {"generate": [{"topology": "ring", "switches": 4, "forwarding_delay": "1us"}],
+ "nodes": {"x": {"kind": "host"}, "y": {"kind": "host"}}, "links": [{"ends": ["x", "sw1"]}, {"ends": ["y", "sw2"]}]}, "gates": {"plan": "auto", "classes": [6]},
+ "streams": [{"name": "a", "from": "h1", "to": "h2", "payload": "1400B", "every": ")" + std::to_string(every_us) + R"(us", "offset": "auto", "pcp": 6},
+  {"name": "b", "from": "x", "to": "y", "payload": "1400B", "every": ")" + std::to_string(every_us) + R"(us", "offset": "auto", "pcp": 6}])" + more + "}";
+}
+
+std::optional<ScenarioSchedule> scheduled(const std::string& text, bool may_route, std::uint32_t entries = 1024, std::string* told = nullptr) {
+  json::Diagnostics diagnostics;
+  scenario::Scenario wanted;
+  const auto document = json::parse(text, "test.json", diagnostics);
+  EXPECT_TRUE(document && json::decode(*document, wanted, diagnostics)) << diagnostics.to_text();
+  ScenarioOptions options;
+  options.may_route = may_route;
+  options.entries = entries;
+  options.search.attempts = 20;
+  auto answer = schedule_scenario(wanted, options, diagnostics);
+  if (told != nullptr) *told = diagnostics.to_text();
+  else EXPECT_EQ(diagnostics.errors(), 0u) << diagnostics.to_text();
+  EXPECT_TRUE(!answer || answer->wrong.empty()) << answer->wrong.front();
+  return answer;
+}
+
+TEST(ScenarioSchedule, GivenPathsDoWhereThereIsRoom) {
+  const auto answer = scheduled(two_streams(50), false);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->verdict, Verdict::scheduled);
+  EXPECT_EQ(answer->how, "given paths");
+  ASSERT_EQ(answer->streams.size(), 2u);
+  for (const JudgedStream& each : answer->streams) {
+    EXPECT_EQ(each.simulated, each.planned);
+    EXPECT_EQ(each.bound, each.planned);
+  }
+}
+
+// Two frames of 11.7 us do not fit into 20 us on sw1 to sw2: one has to go round.
+TEST(ScenarioSchedule, SearchesPathsWhereGivenOnesDoNot) {
+  const auto answer = scheduled(two_streams(20), true);
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->verdict, Verdict::scheduled);
+  EXPECT_EQ(answer->how, "searched paths");
+  // What comes out is a scenario that is taken as it is.
+  json::Diagnostics diagnostics;
+  const auto again = scenario::load_text(json::encode(answer->resolved->scenario), "again.json", {}, diagnostics);
+  ASSERT_TRUE(again) << diagnostics.to_text();
+  std::size_t longest = 0;
+  for (const scenario::Stream& stream : again->scenario.streams) {
+    ASSERT_TRUE(stream.path && stream.offset && !stream.offset->is_auto);
+    longest = std::max(longest, stream.path->size());
+  }
+  EXPECT_EQ(longest, 6u);   // x or h1, sw1, sw4, sw3, sw2, and the listener
+}
+
+TEST(ScenarioSchedule, ProvesThatGivenPathsAreTooFull) {
+  const auto answer = scheduled(two_streams(20), false);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->verdict, Verdict::infeasible);
+  ASSERT_TRUE(answer->certificate);
+  EXPECT_EQ(answer->certificate->kind, schedule::Certificate::Kind::load);
+  EXPECT_EQ(answer->instance->links[answer->certificate->links.front()].name, "sw1>sw2");
+}
+
+// The way round takes five links, some 63 us: a required latency of 50 us forbids it.
+TEST(ScenarioSchedule, RequirementsLimitTheWay) {
+  const std::string limit = R"(, "require": [{"stream": "a", "latency": "50us"}, {"stream": "b", "latency": "50us"}])";
+  const auto answer = scheduled(two_streams(20, limit), true);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->verdict, Verdict::infeasible);
+  EXPECT_TRUE(answer->certificate && answer->certificate->in_time);
+}
+
+TEST(ScenarioSchedule, ListsThatAreTooLongAreSaid) {
+  const auto answer = scheduled(two_streams(50), false, 4);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->verdict, Verdict::undecided);
+  EXPECT_NE(answer->how.find("and 4 are allowed"), std::string::npos) << answer->how;
+}
+
+TEST(ScenarioSchedule, WithoutAutomaticGatesThereIsNothingToDo) {
+  std::string text = two_streams(50), told;
+  text.replace(text.find("\"plan\": \"auto\", \"classes\": [6]"), 30, "\"plan\": \"none\"               ");
+  EXPECT_FALSE(scheduled(text, true, 1024, &told));
+  EXPECT_NE(told.find("nothing to schedule"), std::string::npos) << told;
+}
+
+}  // namespace
+}  // namespace takt::synthesis

@@ -6,7 +6,7 @@
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-set(takt_installed takt_base takt_security takt_program takt_handshake takt_uadp takt_pubsub takt_dds takt_gateway takt_wire takt_json takt_plant takt_node)
+set(takt_installed takt_base takt_security takt_message_security takt_program takt_handshake takt_uadp takt_pubsub takt_dds takt_gateway takt_wire takt_json takt_plant takt_node)
 foreach(library ${takt_installed})
   string(REPLACE "takt_" "" name ${library})
   set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})

@@ -69,9 +69,9 @@ DecodeStatus get_flags(Reader& reader, FlagOctets& octets) {
   if (has(octets.first, flags::extended_1)) octets.extended_1 = reader.get<std::uint8_t>();
   if (has(octets.extended_1, flags::extended_2)) octets.extended_2 = reader.get<std::uint8_t>();
   if (reader.failed()) return DecodeStatus::truncated;
+  // Without a PublisherId its type says nothing; open62541 1.5 leaves that of the configured one there.
   const unsigned id_type = octets.extended_1 & flags::publisher_id_type_mask;
-  if (id_type > static_cast<unsigned>(PublisherIdType::String)) return DecodeStatus::reserved;
-  if (id_type != 0 && !has(octets.first, flags::publisher_id)) return DecodeStatus::malformed;
+  if (has(octets.first, flags::publisher_id) && id_type > static_cast<unsigned>(PublisherIdType::String)) return DecodeStatus::reserved;
   if (has(octets.extended_2, flags::extended_2_reserved)) return DecodeStatus::reserved;
   const unsigned type = octets.extended_2 >> flags::message_type_shift & flags::message_type_mask;
   return type > static_cast<unsigned>(NetworkMessageType::DiscoveryAnnouncement) ? DecodeStatus::reserved : DecodeStatus::ok;
@@ -117,7 +117,11 @@ DecodeStatus decode(Octets octets, NetworkMessage& message) {
   }
   if (has(flag.extended_1, flags::security)) message.security = get_security_header(reader);
   if (reader.failed()) return DecodeStatus::truncated;
-  if (message.security) return DecodeStatus::secured;
+  if (message.security) {
+    message.payload_offset = reader.position();
+    message.payload = reader.rest();
+    return DecodeStatus::secured;
+  }
   return get_payload(reader, message);
 }
 

@@ -20,7 +20,9 @@ TEST(Malformed, NetworkMessages) {
   EXPECT_EQ(verdict_of("02"), DecodeStatus::version);
   EXPECT_EQ(verdict_of("01"), DecodeStatus::ok) << "no PublisherId, no header, an empty payload";
   EXPECT_EQ(verdict_of("9105"), DecodeStatus::reserved) << "type 5 of PublisherId";
-  EXPECT_EQ(verdict_of("8101"), DecodeStatus::malformed) << "a type without a PublisherId";
+  EXPECT_EQ(verdict_of("8101"), DecodeStatus::ok) << "a type without a PublisherId says nothing";
+  EXPECT_EQ(verdict_of("8107"), DecodeStatus::ok) << "not even one that is reserved";
+  EXPECT_EQ(verdict_of("9107"), DecodeStatus::reserved);
   EXPECT_EQ(verdict_of("2110"), DecodeStatus::reserved) << "bit 4 of GroupFlags";
   EXPECT_EQ(verdict_of("2101"), DecodeStatus::truncated) << "no WriterGroupId";
   EXPECT_EQ(verdict_of("4100"), DecodeStatus::malformed) << "no DataSetMessage";
@@ -34,6 +36,22 @@ TEST(Malformed, NetworkMessages) {
   EXPECT_EQ(verdict_of("8180020200" "3f00"), DecodeStatus::malformed) << "no type 63";
   EXPECT_EQ(verdict_of("9104ffffff7f"), DecodeStatus::truncated) << "a PublisherId of 2 GiB";
   EXPECT_EQ(verdict_of("9104feffffff"), DecodeStatus::truncated) << "a length of -2";
+}
+
+// Beginnings of what open62541 1.5 sends with PublisherId off: the type bits are those of the PublisherId that it does not send.
+TEST(Malformed, StrangersWithoutAPublisherId) {
+  for (const std::string hex : {"8101e11000", "e10101640001" "0100" "01000000"}) {
+    const std::vector<std::byte> octets = octets_of(hex);
+    NetworkMessage message;
+    EXPECT_EQ(decode(octets, message), DecodeStatus::ok) << hex;
+    EXPECT_FALSE(message.header.publisher_id) << hex;
+  }
+  const std::vector<std::byte> octets = octets_of("e101016400010100" "01000000");
+  NetworkMessage message;
+  ASSERT_EQ(decode(octets, message), DecodeStatus::ok);
+  EXPECT_EQ(message.header.group->writer_group_id, 100);
+  EXPECT_EQ(message.count(), 1u);
+  EXPECT_EQ(message.writer_id(0), 1);
 }
 
 TEST(Malformed, WhatIsNotSupportedIsToldByName) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/schedule_change.hpp"
 #include "interchange/schedules/instances.hpp"
 #include "interchange/schedules/report.hpp"
 #include "interchange/schedules/write.hpp"
@@ -39,6 +40,8 @@ struct ScheduleOptions {
   std::optional<std::string> out;
   std::optional<std::string> certificate;
   std::string format = "text";
+  std::optional<std::string> to;
+  ChangeOptions change;
 };
 
 /// Two kinds of mistakes: told as text, or as JSON where the output is JSON.
@@ -150,13 +153,24 @@ ExitStatus run(const ScheduleOptions& options) {
     return report_mistakes(diagnostics, options);
   }
   if (options.files.size() == 1 && !interchange::schedules::is_instance(options.files.front())) return schedule_scenario(options, *limit);
+  if (!options.to && (options.change.add || options.change.plant || !options.change.remove.empty() || !options.change.fail.empty())) {
+    diagnostics.error({"command line", 0, 0, ""}, "a change without a schedule", {"--add, --remove, --fail or --plant", "--to SCHEDULE as well"});
+    return report_mistakes(diagnostics, options);
+  }
   interchange::schedules::InstanceReader reader(options.files);
   ExitStatus status = ExitStatus::pass;
   json::Node reports = json::Node::array();
   bool any = false;
   while (!reader.is_at_end()) {
-    const auto problem = reader.next(diagnostics);
+    auto problem = reader.next(diagnostics);
     if (!problem && !diagnostics.has_errors()) break;
+    if (problem && options.to) {
+      ChangeOptions change = options.change;
+      change.schedule = *options.to;
+      change.out = options.out;
+      change.is_json = options.format == "json";
+      return change_schedule(std::move(*problem), change);
+    }
     if (problem && options.routes == "given")
       for (const schedule::Stream& stream : problem->streams)
         if (!stream.route) diagnostics.error({options.files.front(), 0, 0, ""}, fmt::format("stream {} has no route", json::quote(stream.name)), {"--routes given", "--routes shortest or search"});
@@ -190,6 +204,11 @@ void add_schedule_command(Command app, ExitStatus& status) {
   command.add_option("--entries", options->entries, "Entries that a list may have, where the port takes more").type_name("N");
   command.add_option("--out", options->out, "Where the schedule goes: of a scenario a scenario, of an instance neutral JSON; DIR/ for one file an instance").type_name("FILE");
   command.add_option("--certificate", options->certificate, "Where a proof of infeasibility goes; DIR/ for one file an instance").type_name("FILE");
+  command.add_option("--to", options->to, "A schedule of the instance (as --out writes it) that runs and is changed; nobody moves who need not").type_name("SCHEDULE");
+  command.add_option("--add", options->change.add, "Streams that come: {\"streams\": [...]} as in a neutral instance").type_name("FILE");
+  command.add_option("--remove", options->change.remove, "A stream that goes (repeatable)").type_name("STREAM").one_value_each();
+  command.add_option("--fail", options->change.fail, "A link that is gone: its streams take other ways (repeatable)").type_name("LINK").one_value_each();
+  command.add_option("--plant", options->change.plant, "Where the instance goes as it is after the change").type_name("FILE");
   command.add_option("--format", options->format, "text, json or neutral (the schedule or the certificate)").one_of({"text", "json", "neutral"}).type_name("FORMAT");
   command.footer(
       "Examples:\n"
@@ -197,6 +216,8 @@ void add_schedule_command(Command app, ExitStatus& status) {
       "  takt schedule instance.json --out schedule.json          a schedule, or the reason why there is none\n"
       "  takt schedule ring.top set1.pat set2.pat                 several sets of streams on one network\n"
       "  takt schedule task.csv topo.csv --gates --entries 16     with lists that a small switch takes\n"
+      "  takt schedule plant.json --to schedule.json --add new.json --out changed.json\n"
+      "                                                           a stream more, the others stay\n"
       "  takt schedule cell.json --objective slack                how far clocks may differ\n"
       "Exit status: 0 scheduled, 1 infeasible (proved), 4 undecided (or no lists), 2 mistakes (all of them are listed), 3 internal error.");
   command.callback([options, &status] { status = run(*options); });

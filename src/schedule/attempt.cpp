@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "sim/check.hpp"
+#include "schedule/fit.hpp"
 
 namespace takt::schedule {
 namespace {
@@ -72,29 +72,6 @@ std::vector<StreamIndex> Attempt::order() {
   return streams;
 }
 
-/// The first start in [from, until] where nobody is met.
-std::optional<Ps> Attempt::fit(StreamIndex stream, const Way& way, Ps from, Ps until) const {
-  const std::uint32_t period = ground_.periods().of(stream);
-  Ps at = from;
-  std::uint32_t pushes = 0;
-  constexpr std::uint32_t most_pushes = 1'000'000;
-  const std::size_t hops = way.links.size();
-  // Once round the links without being pushed is a place.
-  for (std::size_t hop = 0, passed = 0; passed < hops; hop = hop + 1 == hops ? 0 : hop + 1) {
-    const Ps push = board_.push(way.links[hop], period, at + way.lags[hop], way.occupied[hop]);
-    if (push == 0) {
-      ++passed;
-      continue;
-    }
-    at += push;
-    if (at > until || ++pushes > most_pushes) return std::nullopt;
-    // What is next in another row may push again.
-    passed = ground_.periods().size() > 1 ? 0 : 1;
-  }
-  if (at > until) return std::nullopt;
-  return at;
-}
-
 void Attempt::put(StreamIndex stream, Stand stand) {
   const std::uint32_t period = ground_.periods().of(stream);
   const Way& way = *stand.way;
@@ -119,10 +96,10 @@ bool Attempt::place_free(StreamIndex stream, bool at_random) {
     std::optional<Ps> at;
     if (at_random) {
       const Ps from = window.first + static_cast<Ps>(random_.below(static_cast<std::uint64_t>(window.last - window.first) + 1));
-      at = fit(stream, way, from, window.last);
-      if (!at) at = fit(stream, way, window.first, from);
+      at = first_fit(board_, ground_.periods(), ground_.periods().of(stream), way, from, window.last);
+      if (!at) at = first_fit(board_, ground_.periods(), ground_.periods().of(stream), way, window.first, from);
     } else {
-      at = fit(stream, way, window.first, window.last);
+      at = first_fit(board_, ground_.periods(), ground_.periods().of(stream), way, window.first, window.last);
     }
     if (at) put(stream, {&way, *at, {}});
     return at.has_value();

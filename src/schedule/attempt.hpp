@@ -86,7 +86,6 @@ class Attempt {
 
   std::vector<StreamIndex> order();
   bool place_free(StreamIndex stream, bool at_random);
-  std::optional<Ps> fit(StreamIndex stream, const Way& way, Ps from, Ps until) const;
   void put(StreamIndex stream, Stand stand);
   void take_out(StreamIndex stream);
   Spot cheapest(StreamIndex stream);

@@ -19,6 +19,16 @@ Periods::Periods(const Problem& problem) {
     for (std::size_t b = 0; b < periods_.size(); ++b) common_[a * periods_.size() + b] = std::gcd(periods_[a], periods_[b]);
 }
 
+void Periods::add(Ps period) {
+  const auto known = std::find(periods_.begin(), periods_.end(), period);
+  of_stream_.push_back(static_cast<std::uint32_t>(known - periods_.begin()));
+  if (known != periods_.end()) return;
+  periods_.push_back(period);
+  common_.resize(periods_.size() * periods_.size());
+  for (std::size_t a = 0; a < periods_.size(); ++a)
+    for (std::size_t b = 0; b < periods_.size(); ++b) common_[a * periods_.size() + b] = std::gcd(periods_[a], periods_[b]);
+}
+
 namespace {
 
 /// An instant, which may lie before 0, within a period.

@@ -21,6 +21,10 @@ class Periods {
   Ps operator[](std::uint32_t index) const { return periods_[index]; }
   std::size_t size() const { return periods_.size(); }
   std::uint32_t of(StreamIndex stream) const { return of_stream_[stream]; }
+  /// A stream more, behind all others.
+  void add(Ps period);
+  /// The last one is none any more.
+  void drop_last() { of_stream_.pop_back(); }
   Ps common(std::uint32_t a, std::uint32_t b) const { return common_[a * periods_.size() + b]; }   ///< the gcd
  private:
   std::vector<Ps> periods_;

@@ -15,8 +15,9 @@ namespace takt::schedule {
 /// - load: the streams must cross the links, and bring more than there are links.
 /// - interval: the jobs must be sent on the link between `from` and `until`, and take longer.
 /// - folded: the streams must cross the link strictly periodically, and fill more than the modulus.
+/// - pair: two strictly periodic streams of one listener each meet on some link that both must cross, whatever their phases: they have too little time to wait for each other.
 struct Certificate {
-  enum class Kind : std::uint8_t { latency, load, interval, folded };
+  enum class Kind : std::uint8_t { latency, load, interval, folded, pair };
   Kind kind = Kind::latency;
   std::vector<StreamIndex> streams;
   NodeIndex listener = 0;

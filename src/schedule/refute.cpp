@@ -74,6 +74,66 @@ class Refuter {
     }
     for (LinkIndex l = 0; l < problem_.links.size() && !stop_(); ++l)
       if (auto found = interval(l)) return found;
+    return problem_.model.is_strict ? pair() : std::nullopt;
+  }
+
+  /// A stream at the links that it must cross.
+  struct Trail {
+    StreamIndex stream;
+    Ps slack;                                   ///< of its latency
+    std::vector<std::pair<LinkIndex, Ps>> at;   ///< ascending links, and the earliest start on each
+  };
+
+  /// Where frames of two streams are on their way for long, and neither may wait for long, the one that is sent faster comes too close to the other on some link.
+  std::optional<Certificate> pair() {
+    std::vector<Trail> trails;
+    for (StreamIndex s = 0; s < problem_.streams.size() && !stop_(); ++s) {
+      const Stream& stream = problem_.streams[s];
+      if (!stream.latency || stream.listeners.size() != 1) continue;
+      const auto starts = crossings_.earliest_starts(stream);
+      Trail trail{s, *stream.latency - crossings_.arrival(stream, stream.listeners.front(), starts), {}};
+      for (const LinkIndex l : crossings_.needed(stream, in_time_)) trail.at.emplace_back(l, starts[l]);
+      std::sort(trail.at.begin(), trail.at.end());
+      if (trail.slack >= 0) trails.push_back(std::move(trail));
+    }
+    std::vector<std::pair<Ps, Ps>> forbidden;
+    for (std::size_t i = 0; i < trails.size() && !stop_(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const Trail& a = trails[j];
+        const Trail& b = trails[i];
+        const Ps every = std::gcd(problem_.streams[a.stream].period, problem_.streams[b.stream].period);
+        forbidden.clear();
+        bool covered = false;
+        for (auto x = a.at.begin(), y = b.at.begin(); x != a.at.end() && y != b.at.end() && !covered;) {
+          if (x->first != y->first) {
+            if (x->first < y->first) ++x;
+            else ++y;
+            continue;
+          }
+          // From b's phase less a's: the first and the last that make them meet here however they wait.
+          const Ps apart = y->second - x->second;
+          const Ps first = 1 - work(b.stream, x->first) - apart + a.slack, last = work(a.stream, x->first) - apart - b.slack - 1;
+          ++x;
+          ++y;
+          if (last < first) continue;
+          covered = last - first + 1 >= every;
+          const Ps begin = (first % every + every) % every;
+          forbidden.emplace_back(begin, std::min(begin + (last - first), every - 1));
+          if (begin + (last - first) >= every) forbidden.emplace_back(0, begin + (last - first) - every);
+        }
+        if (!covered) {
+          std::sort(forbidden.begin(), forbidden.end());
+          Ps until = 0;
+          for (const auto& [from, to] : forbidden)
+            if (from <= until) until = std::max(until, to + 1);
+          covered = until >= every;
+        }
+        if (!covered) continue;
+        Certificate certificate;
+        certificate.kind = Certificate::Kind::pair;
+        certificate.streams = {a.stream, b.stream};
+        return certificate;
+      }
     return std::nullopt;
   }
 

@@ -27,6 +27,11 @@ Routes::Routes(const Timing& timing)
   }
 }
 
+void Routes::close(LinkIndex link) {
+  is_closed_[link] = 1;
+  for (auto& steps : steps_to_) steps.clear();
+}
+
 /// How many links lie between each node and that one, not through end stations.
 const std::vector<std::uint16_t>& Routes::steps_to(NodeIndex node) {
   auto& steps = steps_to_[node];

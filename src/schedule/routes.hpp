@@ -21,7 +21,7 @@ class Routes {
   /// Up to `most` different ways, the first one first; the others avoid what was taken before, at random. Prescribed ways stay alone.
   std::vector<Way> several(StreamIndex stream, const Way& first, std::size_t most, sim::RandomStream& random) const;
   /// Takes no way over these links from now on (they have failed); prescribed ways over them are none.
-  void close(LinkIndex link) { is_closed_[link] = 1; }
+  void close(LinkIndex link);
 
  private:
   std::optional<std::vector<LinkIndex>> shortest_by_steps(const Stream& stream);

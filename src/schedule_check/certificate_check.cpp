@@ -42,6 +42,7 @@ class Proof {
       case Certificate::Kind::load: return load();
       case Certificate::Kind::interval: return interval();
       case Certificate::Kind::folded: return folded();
+      case Certificate::Kind::pair: return pair();
     }
     return "no kind";
   }
@@ -166,6 +167,43 @@ class Proof {
       sum += static_cast<int128>(work(a, link)) * (certificate_.modulus / std::gcd(a.period, certificate_.modulus));
     }
     return sum > certificate_.modulus ? "" : "the modulus is long enough";
+  }
+
+  /// Each phase of the second against the first, less what is free: what is left is walked from end to end.
+  std::string pair() const {
+    if (!problem_.model.is_strict) return "streams need not repeat with their periods";
+    if (certificate_.streams.size() != 2) return "not two streams";
+    const Stream& a = problem_.streams[certificate_.streams[0]];
+    const Stream& b = problem_.streams[certificate_.streams[1]];
+    if (!a.latency || !b.latency || a.listeners.size() != 1 || b.listeners.size() != 1) return "not two streams with a latency and one listener each";
+    const auto at_a = starts(a, nullptr, {}), at_b = starts(b, nullptr, {});
+    const int128 slack_a = *a.latency - arrival(a, a.listeners[0], at_a), slack_b = *b.latency - arrival(b, b.listeners[0], at_b);
+    if (slack_a < 0 || slack_b < 0) return "one of them is too late even alone";
+    // The fastest way takes each link that must be crossed; so a stream starts there from its earliest time on, and at most its slack later.
+    const int128 every = std::gcd(a.period, b.period);
+    struct Zone {
+      int128 from, until;   // both outside
+    };
+    std::vector<Zone> zones;
+    for (LinkIndex l = 0; l < problem_.links.size(); ++l) {
+      if (at_a[l] == no_way || at_b[l] == no_way || must_cross(a, {l}).empty() || must_cross(b, {l}).empty()) continue;
+      const Link& link = problem_.links[l];
+      const int128 least = at_b[l] - at_a[l] - slack_a, most = at_b[l] - at_a[l] + slack_b;   // start of b less that of a, at equal phases
+      if (-static_cast<int128>(work(b, link)) - least < work(a, link) - most) zones.push_back({-static_cast<int128>(work(b, link)) - least, work(a, link) - most});
+    }
+    for (int128 phase = 0; phase < every;) {
+      int128 next = phase;
+      for (const Zone& zone : zones) {
+        // The copy of the zone that begins last before the phase.
+        int128 turns = (phase - zone.from) / every;
+        while (zone.from + turns * every >= phase) --turns;
+        while (zone.from + (turns + 1) * every < phase) ++turns;
+        next = std::max(next, zone.until + turns * every);
+      }
+      if (next == phase) return "they need not meet";
+      phase = next;
+    }
+    return "";
   }
 
   const Problem& problem_;

@@ -94,6 +94,26 @@ TEST(Refute, WaysThatAreTooSlowAreNone) {
   EXPECT_NE(schedule_check::why_not_proved(problem, *certificate), "") << "it was a proof of the other problem only";
 }
 
+// Frames of 1 and of 10 us over five links: on each further one the long ones are 9 us more behind. Phases of the second that are forbidden on link i: from -10 - 9 i to 1 - 9 i us, together
+// 11 + 4 * 9 us, ends excluded.
+TEST(Refute, PairsThatCannotPassEachOther) {
+  Problem problem = line(4, 0, us);
+  problem.model.is_strict = true;
+  add_stream(problem, "h0", "h3", 1, 47 * us);
+  add_stream(problem, "h0", "h3", 10, 47 * us);
+  problem.streams[0].latency = 5 * 904'000 + 4 * us;
+  problem.streams[1].latency = 5 * 9'904'000 + 4 * us;
+  EXPECT_EQ(refuted(problem), std::nullopt);
+  for (Stream& stream : problem.streams) --stream.period;
+  EXPECT_EQ(refuted(problem), Kind::pair);
+  const auto certificate = refute(problem);
+  ASSERT_TRUE(certificate);
+  // A ps to wait is enough.
+  ++*problem.streams[0].latency;
+  EXPECT_EQ(refuted(problem), std::nullopt);
+  EXPECT_NE(schedule_check::why_not_proved(problem, *certificate), "");
+}
+
 TEST(Refute, SpoiltCertificatesProveNothing) {
   Problem problem = line(2);
   problem.model.is_strict = true;

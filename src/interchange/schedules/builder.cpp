@@ -8,6 +8,20 @@ namespace takt::interchange::schedules {
 
 using namespace schedule;
 
+Builder::Builder(const Problem& problem, json::Diagnostics& diagnostics) : diagnostics_(diagnostics), problem_(problem) {
+  for (NodeIndex n = 0; n < problem.nodes.size(); ++n) nodes_.emplace(problem.nodes[n].name, n);
+  for (LinkIndex l = 0; l < problem.links.size(); ++l) {
+    links_.emplace(problem.links[l].name, l);
+    between_.emplace(std::uint64_t{problem.links[l].from} << 32 | problem.links[l].to, l);
+  }
+  for (StreamIndex s = 0; s < problem.streams.size(); ++s) streams_.emplace(problem.streams[s].name, s);
+}
+
+std::optional<StreamIndex> Builder::stream(const std::string& name) const {
+  const auto found = streams_.find(name);
+  return found == streams_.end() ? std::nullopt : std::optional(found->second);
+}
+
 void Builder::add_node(const std::string& name, bool is_bridge, const json::Place& where) {
   if (!nodes_.emplace(name, static_cast<NodeIndex>(problem_.nodes.size())).second) return diagnostics_.error(where, fmt::format("node {} is there twice", json::quote(name)));
   problem_.nodes.push_back({name, is_bridge});

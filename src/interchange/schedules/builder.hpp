@@ -20,6 +20,8 @@ inline constexpr Range time_range{0, schedule::longest_time};
 class Builder {
  public:
   explicit Builder(json::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  /// Goes on with a problem.
+  Builder(const schedule::Problem& problem, json::Diagnostics& diagnostics);
 
   void add_node(const std::string& name, bool is_bridge, const json::Place& where);
   bool has_node(const std::string& name) const { return nodes_.contains(name); }
@@ -28,6 +30,7 @@ class Builder {
   void add_link(schedule::Link link, const std::string& from, const std::string& to, const json::Place& where);
   schedule::NodeIndex node(const std::string& name, const json::Place& where);
   std::optional<schedule::LinkIndex> link(const std::string& name) const;
+  std::optional<schedule::StreamIndex> stream(const std::string& name) const;
   std::optional<schedule::LinkIndex> link_between(const std::string& from, const std::string& to) const;
   /// Orders the links of a route so that each is behind the one that it continues; told if that cannot be, or if it misses a listener.
   void set_route(schedule::Stream& stream, std::vector<schedule::LinkIndex> links, const json::Place& where);

@@ -10,6 +10,8 @@
 namespace takt::interchange::schedules {
 
 schedule::Problem read_neutral(const json::Document& document, json::Diagnostics& diagnostics);
+/// One entry of its "streams".
+void read_neutral_stream(const Pick& pick, json::Reader& reader, Builder& builder);
 schedule::Problem read_tas_benchmark(const json::Document& document, json::Diagnostics& diagnostics);
 schedule::Problem read_tsnsched(const json::Document& document, json::Diagnostics& diagnostics);
 /// A topology (".top") and a set of streams (".pat").

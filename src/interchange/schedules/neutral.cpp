@@ -30,7 +30,9 @@ void read_link(const Pick& pick, json::Reader& reader, Builder& builder) {
   builder.add_link(std::move(link), pick.text("from"), pick.text("to"), where);
 }
 
-void read_stream(const Pick& pick, json::Reader& reader, Builder& builder) {
+}  // namespace
+
+void read_neutral_stream(const Pick& pick, json::Reader& reader, Builder& builder) {
   const json::Place where = reader.source(pick.node()).place();
   const std::size_t mistakes = builder.diagnostics().errors();
   Stream stream;
@@ -62,8 +64,6 @@ void read_stream(const Pick& pick, json::Reader& reader, Builder& builder) {
   builder.add_stream(std::move(stream), where);
 }
 
-}  // namespace
-
 Problem read_neutral(const json::Document& document, json::Diagnostics& diagnostics) {
   json::Reader reader(document, diagnostics);
   const Pick top(reader, document.root());
@@ -82,7 +82,7 @@ Problem read_neutral(const json::Document& document, json::Diagnostics& diagnost
     for (const Node& each : links->items) read_link(Pick(reader, each), reader, builder);
   if (diagnostics.has_errors()) return {};
   if (const Node* const streams = top.need_array("streams"))
-    for (const Node& each : streams->items) read_stream(Pick(reader, each), reader, builder);
+    for (const Node& each : streams->items) read_neutral_stream(Pick(reader, each), reader, builder);
   return std::move(builder.problem());
 }
 

@@ -21,6 +21,18 @@ const json::Record& describe(json::Type<LeftOverReport>) {
   return record;
 }
 
+const json::Record& describe(json::Type<ChangeReport>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&ChangeReport::change>("change", "add, remove or fail."),
+      json::output<&ChangeReport::name>("name", "Of the stream, or of the link that failed."),
+      json::output<&ChangeReport::done>("done", "Whether there is a place for all that it concerns."),
+      json::output<&ChangeReport::moved>("moved", "Streams that move."),
+      json::output<&ChangeReport::lost>("lost", "Streams that have no place any more."),
+  };
+  static constexpr json::Record record{"change", "A change of a schedule that runs.", outputs};
+  return record;
+}
+
 const json::Record& describe(json::Type<ScheduleReport>) {
   static constexpr json::Output outputs[] = {
       json::output<&ScheduleReport::instance>("instance", "Its name."),
@@ -28,7 +40,7 @@ const json::Record& describe(json::Type<ScheduleReport>) {
       json::output<&ScheduleReport::streams>("streams", "Streams to schedule."),
       json::output<&ScheduleReport::links>("links", "Links of the network, by direction."),
       json::output<&ScheduleReport::verdict>("verdict", "scheduled, infeasible or undecided."),
-      json::output<&ScheduleReport::how>("how", "first fit or search; of an infeasible one the kind of its certificate: latency, load, interval, folded."),
+      json::output<&ScheduleReport::how>("how", "first fit or search; of an infeasible one the kind of its certificate: latency, load, interval, folded, pair."),
       json::output_if_any<&ScheduleReport::proof>("proof", "Why there is no schedule.", "infeasible"),
       json::output<&ScheduleReport::busiest_link>("busiest_link", "Share of its time that the busiest link is used by what is scheduled."),
       json::output_if_any<&ScheduleReport::normalised_latency>("normalised_latency", "Mean over the streams: latency over the least on any way.", "scheduled"),
@@ -67,6 +79,9 @@ std::string proof_of(const Problem& problem, const Certificate& certificate) {
     }
     case Kind::interval:
       return fmt::format("{} frames must be sent on {} from {} to {}, and take longer", certificate.jobs.size(), json::quote(problem.links[certificate.links.front()].name), in_us(certificate.from), in_us(certificate.until));
+    case Kind::pair:
+      return fmt::format("{} and {} meet on some link that both must cross, whatever their phases: neither may wait long enough for the other", json::quote(problem.streams[certificate.streams[0]].name),
+                         json::quote(problem.streams[certificate.streams[1]].name));
     case Kind::folded: {
       double sum = 0;
       for (const StreamIndex s : certificate.streams)
@@ -122,7 +137,7 @@ std::uint64_t count_waiting(const Problem& problem, const Solution& solution) {
 
 ScheduleReport report(const Problem& problem, const Decision& decision, const std::optional<std::string>& no_lists) {
   static constexpr const char* verdicts[] = {"scheduled", "infeasible", "undecided"};
-  static constexpr const char* kinds[] = {"latency", "load", "interval", "folded"};
+  static constexpr const char* kinds[] = {"latency", "load", "interval", "folded", "pair"};
   constexpr std::size_t most_measured = 5'000;
   ScheduleReport report;
   report.instance = problem.name;
@@ -147,6 +162,18 @@ ScheduleReport report(const Problem& problem, const Decision& decision, const st
     }
   }
   return report;
+}
+
+std::string text_of(const ChangeReport& report) {
+  const auto names = [](const std::vector<std::string>& list) {
+    std::string text;
+    for (const std::string& each : list) text += (text.empty() ? "" : ", ") + json::quote(each);
+    return text;
+  };
+  std::string text = fmt::format("{} {}: {}", report.change, json::quote(report.name), report.done ? "done" : report.lost.empty() ? "no place" : "not for all");
+  if (!report.moved.empty()) text += ", moved: " + names(report.moved);
+  if (!report.lost.empty()) text += ", lost: " + names(report.lost);
+  return text + "\n";
 }
 
 std::string text_of(const ScheduleReport& report) {

@@ -33,11 +33,22 @@ struct ScheduleReport {
   std::vector<LeftOverReport> left_over;
 };
 
+/// One change of a schedule that runs.
+struct ChangeReport {
+  std::string change;                        ///< "add", "remove", "fail"
+  std::string name;                          ///< of the stream, or of the link that failed
+  bool done = false;
+  std::vector<std::string> moved;            ///< streams that move
+  std::vector<std::string> lost;             ///< streams that have no place any more
+};
+
 const json::Record& describe(json::Type<LeftOverReport>);
+const json::Record& describe(json::Type<ChangeReport>);
 const json::Record& describe(json::Type<ScheduleReport>);
 
 ScheduleReport report(const schedule::Problem& problem, const schedule::Decision& decision, const std::optional<std::string>& no_lists);
 /// A few lines for people.
 std::string text_of(const ScheduleReport& report);
+std::string text_of(const ChangeReport& report);
 
 }  // namespace takt::interchange::schedules

@@ -136,7 +136,7 @@ Node write_certificate(const Problem& problem, const Certificate& certificate) {
   using Kind = Certificate::Kind;
   Node all = Node::object();
   all.add("problem", Node::of_string(problem.name));
-  static constexpr std::string_view names[] = {"latency", "load", "interval", "folded"};
+  static constexpr std::string_view names[] = {"latency", "load", "interval", "folded", "pair"};
   all.add("kind", Node::of_string(names[static_cast<std::size_t>(certificate.kind)]));
   if (certificate.in_time) all.add("in_time", Node::of_bool(true));
   switch (certificate.kind) {
@@ -162,6 +162,9 @@ Node write_certificate(const Problem& problem, const Certificate& certificate) {
       all.add("jobs", std::move(jobs));
       break;
     }
+    case Kind::pair:
+      all.add("streams", stream_names(problem, certificate.streams));
+      break;
     case Kind::folded:
       all.add("link", Node::of_string(problem.links[certificate.links.front()].name));
       all.add("modulus", Node::of_integer(certificate.modulus));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "interchange/schedules/report.hpp"
+#include "interchange/schedules/solutions.hpp"
 #include "interchange/schedules/write.hpp"
 #include "schedule/gate_lists.hpp"
 #include "schedule/refute.hpp"
@@ -140,6 +141,30 @@ TEST(Instances, WhatIsNoInstanceIsTold) {
   EXPECT_NE(told.find("not an instance"), std::string::npos);
   EXPECT_FALSE(read({{"x.json", "{\"format\": \"schedule-problem-1\", "}}, &told));
   EXPECT_NE(told.find("x.json:1:"), std::string::npos) << told;
+}
+
+TEST(Solutions, SurviveARoundTrip) {
+  const auto problem = read({{"n.json", neutral}});
+  const schedule::Decision decision = schedule::decide(*problem, {});
+  ASSERT_TRUE(decision.found.is_complete());
+  const std::string written = json::pretty(write_solution(*problem, decision.found.solution));
+  json::Diagnostics diagnostics;
+  const auto document = json::parse(written, "s.json", diagnostics);
+  const schedule::Solution again = read_solution(*document, *problem, diagnostics);
+  EXPECT_EQ(diagnostics.to_text(), "");
+  EXPECT_EQ(json::pretty(write_solution(*problem, again)), written);
+}
+
+TEST(Solutions, NameWhatIsThere) {
+  const auto problem = read({{"n.json", neutral}});
+  json::Diagnostics diagnostics;
+  const auto document = json::parse(R"({"streams": {"s": {"route": ["a>sw", "sw>c"], "start": [0]}, "t": {}}})", "s.json", diagnostics);
+  read_solution(*document, *problem, diagnostics);
+  EXPECT_EQ(diagnostics.to_text(), "s.json:1:38: error at /streams/s/route/1: there is no link \"sw>c\"\ns.json:1:62: error at /streams/t: there is no stream \"t\"\n");
+  json::Diagnostics more;
+  const auto streams = json::parse(R"({"streams": [{"name": "s", "talker": "a", "listeners": ["b"], "octets": 64, "period": 1000000}, {"name": "u", "talker": "a", "listeners": ["b"], "octets": 64, "period": 1000000}]})", "add.json", more);
+  EXPECT_EQ(read_streams(*streams, *problem, more).size(), 1u);
+  EXPECT_EQ(more.to_text(), "add.json:1:14: error at /streams/0: stream \"s\" is there twice\n");
 }
 
 TEST(Report, SaysWhyInWords) {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
+#include <ctime>
 
 #include "interchange/schedules/report.hpp"
 #include "interchange/schedules/solutions.hpp"
@@ -18,7 +18,6 @@ namespace takt::cli {
 namespace {
 
 namespace instances = interchange::schedules;
-using Clock = std::chrono::steady_clock;
 
 ExitStatus tell_mistakes(const json::Diagnostics& diagnostics, bool as_json) {
   if (as_json) std::fputs(json::pretty(diagnostics.to_json()).c_str(), stdout);
@@ -33,28 +32,28 @@ class Changer {
 
   void add(schedule::Stream stream) {
     const std::string name = stream.name;
-    const auto begin = Clock::now();
+    const std::clock_t begin = std::clock();
     const auto added = plant_.add(std::move(stream));
     note("add", name, begin, added ? added->moved : std::vector<schedule::StreamIndex>{}, {}, added.has_value());
   }
   void remove(schedule::StreamIndex stream) {
-    const auto begin = Clock::now();
+    const std::clock_t begin = std::clock();
     plant_.remove(stream);
     note("remove", plant_.problem().streams[stream].name, begin, {}, {}, true);
   }
   void fail(schedule::LinkIndex link) {
-    const auto begin = Clock::now();
+    const std::clock_t begin = std::clock();
     const auto rerouted = plant_.fail(link);
     note("fail", plant_.problem().links[link].name, begin, rerouted.moved, rerouted.lost, rerouted.lost.empty());
   }
 
   std::vector<instances::ChangeReport> reports;
-  double slowest = 0;   ///< seconds
+  double slowest = 0;   ///< seconds of the processor
   double together = 0;
 
  private:
-  void note(const char* what, const std::string& name, Clock::time_point begin, const std::vector<schedule::StreamIndex>& moved, const std::vector<schedule::StreamIndex>& lost, bool is_done) {
-    const double took = std::chrono::duration<double>(Clock::now() - begin).count();
+  void note(const char* what, const std::string& name, std::clock_t begin, const std::vector<schedule::StreamIndex>& moved, const std::vector<schedule::StreamIndex>& lost, bool is_done) {
+    const double took = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     slowest = std::max(slowest, took);
     together += took;
     instances::ChangeReport report{what, name, is_done, {}, {}};
@@ -130,7 +129,7 @@ ExitStatus change_schedule(schedule::Problem problem, const ChangeOptions& optio
     else std::fputs(instances::text_of(each).c_str(), stdout);
   }
   if (options.is_json) std::fputs(json::pretty(rows).c_str(), stdout);
-  else std::fputs(fmt::format("{} changes in {:.3f} ms, the slowest in {:.3f} ms; {} streams are scheduled\n", changer.reports.size(), changer.together * 1e3, changer.slowest * 1e3, after.streams.size()).c_str(), stdout);
+  else std::fputs(fmt::format("{} changes in {:.3f} ms of the processor, the slowest in {:.3f} ms; {} streams are scheduled\n", changer.reports.size(), changer.together * 1e3, changer.slowest * 1e3, after.streams.size()).c_str(), stdout);
   const auto write = [](const std::string& path, const json::Node& node) {
     const std::string problem_with_it = output::write_file(path, json::compact(node) + "\n");
     if (!problem_with_it.empty()) std::fprintf(stderr, "takt: cannot write %s\n", problem_with_it.c_str());

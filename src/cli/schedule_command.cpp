@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <memory>
 #include <optional>
 #include <string>
@@ -96,18 +97,18 @@ bool is_judged_right(const schedule::Problem& problem, const Decision& decision)
 }
 
 ExitStatus schedule_instance(const schedule::Problem& problem, const ScheduleOptions& options, sim::Duration limit, json::Node& reports) {
-  const auto begin = Clock::now();
-  Decision decision = schedule::decide(problem, search_options(options, begin, limit), objective_of(options.objective));
+  const std::clock_t begin = std::clock();
+  Decision decision = schedule::decide(problem, search_options(options, Clock::now(), limit), objective_of(options.objective));
   std::optional<std::string> no_lists;
   if (options.gates && decision.verdict == Decision::Verdict::scheduled) no_lists = schedule::make_gate_lists(problem, decision.found.solution, {options.entries});
-  const double took = std::chrono::duration<double>(Clock::now() - begin).count();
+  const double took = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   if (!is_judged_right(problem, decision)) return ExitStatus::internal_error;
   const interchange::schedules::ScheduleReport report = interchange::schedules::report(problem, decision, no_lists);
   std::optional<std::string> solution, certificate;
   if (decision.verdict == Decision::Verdict::scheduled) solution = json::compact(interchange::schedules::write_solution(problem, decision.found.solution)) + "\n";
   if (decision.certificate) certificate = json::compact(interchange::schedules::write_certificate(problem, *decision.certificate)) + "\n";
   if (options.format == "json") reports.items.push_back(json::ShapeOf<interchange::schedules::ScheduleReport>::write(report));
-  if (options.format == "text") std::fputs((interchange::schedules::text_of(report) + fmt::format("  in {:.3f} ms\n", took * 1e3)).c_str(), stdout);
+  if (options.format == "text") std::fputs((interchange::schedules::text_of(report) + fmt::format("  in {:.3f} ms of the processor\n", took * 1e3)).c_str(), stdout);
   if (options.format == "neutral") std::fputs((solution ? *solution : certificate.value_or(std::string())).c_str(), stdout);
   if (options.out && solution && !write_file(path_for(*options.out, problem, ".solution.json"), *solution)) return ExitStatus::internal_error;
   if (options.certificate && certificate && !write_file(path_for(*options.certificate, problem, ".certificate.json"), *certificate)) return ExitStatus::internal_error;

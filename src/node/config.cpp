@@ -12,6 +12,7 @@ namespace takt::node {
 namespace {
 
 constexpr std::uint32_t last_publisher_id = 0xFFFF;
+constexpr std::size_t most_message_octets = 1472;  // what UDP over IPv4 leaves of an Ethernet frame
 
 /// Checks what the fields of a file mean together.
 class Checker {
@@ -27,6 +28,7 @@ class Checker {
     check_offers(config_, all_, diagnostics_);
     if (loaded_.programs.empty()) refuse_stranger();
     if (!diagnostics_.has_errors()) join();
+    load_keys_of_node();
     for (Source& source : config_.sources) check(source);
     for (const ScriptEntry& entry : config_.script) check(entry);
     std::stable_sort(loaded_.script.begin(), loaded_.script.end(), [](const LoadedCall& a, const LoadedCall& b) { return a.at < b.at; });
@@ -119,6 +121,22 @@ class Checker {
     if (program.roles.empty() || data.from == program.master) return data.from == config_.node;
     return config_.node != program.master &&
            std::any_of(program.roles.begin(), program.roles.end(), [&](const Role& role) { return role.name == data.from && may_have(config_, role); });
+  }
+
+  /// What security adds fits into messages, too.
+  void load_keys_of_node() {
+    if (!config_.security) return;
+    const MessageSecurity& security = *config_.security;
+    const json::Place place = security.where.at("keys");
+    const std::size_t slash = place.file.rfind('/');
+    loaded_.keys = load_keys((security.keys.starts_with('/') || slash == std::string::npos ? "" : place.file.substr(0, slash + 1)) + security.keys, place, diagnostics_);
+    if (loaded_.keys && loaded_.keys->policy != security.policy) diagnostics_.error(place, "keys of another policy", {"other lengths", "those of \"policy\" beside it"});
+    for (const LoadedProgram& each : loaded_.programs) {
+      if (!each.endpoint.format) continue;
+      const std::size_t longest = each.endpoint.format->longest() + security::added_octets(security.mode);
+      if (longest > most_message_octets)
+        diagnostics_.error(each.program.where.at("process_data"), "more than one frame", {std::to_string(longest) + " octets with all headers and a signature", "at most " + std::to_string(most_message_octets)});
+    }
   }
 
   void check(Source& source) {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "json/fields.hpp"
+#include "node/key_file.hpp"
+#include "node/message_security.hpp"
 #include "sim/time.hpp"
 #include "plant/protocol.hpp"
 #include "wire/program_node.hpp"
@@ -94,6 +96,7 @@ struct Config {
   bool realtime = false;
   std::optional<Duration> launch_lead;
   std::optional<std::string> control;
+  std::optional<MessageSecurity> security;
   std::vector<Source> sources;
   std::optional<Duration> log_values_every;
   std::vector<ScriptEntry> script;
@@ -128,6 +131,7 @@ struct LoadedConfig {
   Config config;
   std::vector<LoadedProgram> programs;  ///< in the order of the file; at least one
   std::vector<LoadedCall> script;       ///< by time
+  std::optional<LoadedKeys> keys = {};  ///< if its messages are secured
 };
 
 /// Which of a node's Programs a command that names none is for: the only one that is not nested in another of them.

@@ -103,6 +103,7 @@ const json::Object& describe(json::Type<Config>) {
       optional<&Config::launch_lead>("launch_lead", "Publish so long before the cycle's instant and let the kernel hold the message back until then (SO_TXTIME); a warning where it cannot.",
                                      {.min = 1_us, .max = 1_s}),
       optional<&Config::control>("control", "Path of the control socket; \"\" for none. If absent, takt-NODE.sock where the user's run-time files are.", {.max_length = 107}),
+      optional<&Config::security>("security", "Messages of its programs are signed, or signed and encrypted; neither if absent."),
       optional<&Config::sources>("sources", "Values of own data sets; fields without a source are 0.", {.max_items = 10'000}),
       optional<&Config::log_values_every>("log_values_every", "Log values that are received, each data set at most so often; 0 is each message.", {.max = 3600_s}),
       optional<&Config::script>("script", "Methods that are called at this node.", {.max_items = 10'000}),

@@ -137,7 +137,7 @@ class EthernetSocket final : public Socket {
       if (!vlan) vlan = static_cast<std::uint16_t>(get16(frame.data() + 2) & most_vlan);
       frame = frame.subspan(4);
     }
-    const bool fits = reception_.vlan ? vlan == reception_.vlan : vlan.value_or(0) == 0;
+    const bool fits = vlan.value_or(0) == reception_.vlan.value_or(0);  // a tag of VLAN 0 tells a priority only (IEEE 802.1Q, 6.9)
     if (!is_addressed()) arrival.verdict = wire::Verdict::address;
     else if (!fits) arrival.verdict = wire::Verdict::vlan;
     else if (frame.size() <= 2) arrival.verdict = wire::Verdict::too_short;

@@ -108,7 +108,8 @@ void HostedProgram::wake_others(sim::LocalTime now) {
 void HostedProgram::act(const wire::Publish& message) {
   const bool is_data = !message.is_state() && !message.is_of_roles();
   if (is_data && application_ != nullptr) application_->produce(message.data_set(), now_ns(), message.fields());
-  node_.socket.publish(message.octets, message.destination);
+  const uadp::Octets octets = node_.security != nullptr ? node_.security->seal(message.octets) : uadp::Octets(message.octets);
+  if (!octets.empty()) node_.socket.publish(octets, message.destination);
   if (message.is_state()) peers_.published(message.word, now());
 }
 

@@ -12,6 +12,7 @@
 #include "node/statistics.hpp"
 #include "node/transition_log.hpp"
 #include "wire/nesting.hpp"
+#include "node/node_security.hpp"
 #include "wire/program_node.hpp"
 
 namespace takt::node {
@@ -29,6 +30,7 @@ class HostedProgram {
     const Clock& clock;
     std::uint32_t incarnation = 0;
     Duration lead;  ///< 0: no launch times
+    NodeSecurity* security = nullptr;  ///< if its messages are secured
   };
   /// `application` may be null; it outlives this.
   HostedProgram(const LoadedProgram& loaded, const Node& node, TransitionLog log, Application* application);

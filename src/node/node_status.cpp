@@ -90,6 +90,8 @@ std::string lines_of_sources(const json::Node& root) {
     for (const json::Node& each : refused->items) out += fmt::format("{} {} {}", &each == &refused->items.front() ? "" : ",", scalar(each.find("messages")), scalar(each.find("verdict")));
     out += "\n";
   }
+  if (const json::Node* const security = root.find("security"); security != nullptr)
+    out += fmt::format("  security: group {}, key {}, life {}, {} messages without a key\n", scalar(security->find("group")), scalar(security->find("token")), scalar(security->find("life")), scalar(security->find("unsealed")));
   if (const std::string left_out = scalar(root.find("log_lines_left_out")); left_out != "-" && left_out != "0") out += fmt::format("  {} lines of the log left out\n", left_out);
   return out;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "node/config.hpp"
+#include "node/node_security.hpp"
 #include "node/sources.hpp"
 #include "node/statistics.hpp"
 #include "wire/program_node.hpp"
@@ -26,6 +27,7 @@ struct NodeStatus {
   std::int64_t time_ns = 0;             ///< now, on the node's clock
   std::vector<HeardSource> sources = {};
   std::uint64_t log_lines_left_out = 0;
+  std::optional<SecurityStatus> security = {};
 };
 const json::Record& describe(json::Type<ProgramStatus>);
 const json::Record& describe(json::Type<NodeStatus>);

@@ -185,6 +185,9 @@ std::vector<Peer> peers_of(const ProgramStatus& status) {
   return all;
 }
 
+bool is_secured(const NodeStatus& status) { return status.security.has_value(); }
+const SecurityStatus& security_of(const NodeStatus& status) { return *status.security; }
+
 bool is_alone(const NodeStatus& status) { return status.programs.size() == 1; }
 bool has_several(const NodeStatus& status) { return !is_alone(status); }
 const ProgramStatus& only_program(const NodeStatus& status) { return status.programs.front(); }
@@ -221,6 +224,7 @@ const json::Record& describe(json::Type<NodeStatus>) {
       json::only_if<&is_alone>(json::spread<&only_program>(), "of a node with one Program"),
       json::only_if<&has_several>(json::output<&NodeStatus::programs>("programs", "Each of them."), "of a node with several Programs"),
       json::output<&NodeStatus::sources>("sources", "Whom it hears, and what is refused of them; 64 senders at most, and the others together."),
+      json::only_if<&is_secured>(json::output<&security_of>("security", "Its secured messages."), "of a node with secured messages"),
       json::output<&NodeStatus::log_lines_left_out>("log_lines_left_out", "Lines of its log that were left out: too many at once, or nobody reads them."),
   };
   static constexpr json::Record record{"node_status", "What a node says of itself.", outputs};

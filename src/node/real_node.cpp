@@ -46,6 +46,10 @@ std::unique_ptr<RealNode> RealNode::make(const LoadedConfig& loaded, Log& log, c
     if (!node->control_ && config.control) return nullptr;
     if (!node->control_) warnings += "without takt ctl: " + std::exchange(problem, {}) + "\n";
   }
+  if (config.security) {
+    node->security_ = NodeSecurity::make(loaded, problem);
+    if (!node->security_) return nullptr;
+  }
   node->host(loaded, log, applications, config.launch_lead && refused_launch.empty() ? *config.launch_lead : Duration());
   if (!refused_launch.empty()) warnings += "without launch times: " + refused_launch + "\n";
   if (config.realtime)
@@ -66,7 +70,7 @@ RealNode::RealNode(const LoadedConfig& loaded, std::unique_ptr<Socket> socket, L
 void RealNode::host(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, Duration lead) {
   const bool are_several = loaded.programs.size() > 1;
   for (std::size_t i = 0; i < loaded.programs.size(); ++i)
-    programs_.push_back(std::make_unique<HostedProgram>(loaded.programs[i], HostedProgram::Node{config_, *socket_, clock_, incarnation_, lead},
+    programs_.push_back(std::make_unique<HostedProgram>(loaded.programs[i], HostedProgram::Node{config_, *socket_, clock_, incarnation_, lead, security_.get()},
                                                         TransitionLog(log, are_several ? loaded.programs[i].program.name : std::string()),
                                                         i < applications.size() ? applications[i] : nullptr));
   for (std::size_t i = 0; i < programs_.size(); ++i)
@@ -98,7 +102,7 @@ void RealNode::run(bool (*stop_requested)(const void* context), const void* cont
 
 NodeStatus RealNode::status_now(std::optional<std::size_t> only) const {
   const sim::LocalTime time = clock_.now();
-  NodeStatus status{config_.node, {}, clock_.nanoseconds_at(time), sources_.all(), out_.lines_left_out()};
+  NodeStatus status{config_.node, {}, clock_.nanoseconds_at(time), sources_.all(), out_.lines_left_out(), security_ ? std::optional(security_->status()) : std::nullopt};
   for (std::size_t i = 0; i < programs_.size(); ++i)
     if (!only || *only == i) status.programs.push_back(programs_[i]->status(time, socket_->send_failures()));
   return status;
@@ -124,6 +128,11 @@ void RealNode::take_received() {
 
 /// A message that no Program knows counts as foreign at the first.
 wire::Verdict RealNode::take(uadp::Octets message) {
+  if (security_) {
+    const NodeSecurity::Opened opened = security_->open(message);
+    if (opened.verdict != wire::Verdict::taken) return opened.verdict;
+    message = opened.clear;
+  }
   const auto found = programs_.size() == 1 ? programs_.begin() : std::find_if(programs_.begin(), programs_.end(), [&](const auto& program) { return program->knows(message); });
   return (found == programs_.end() ? programs_.front() : *found)->receive(message);
 }

@@ -12,6 +12,7 @@
 #include "node/control_socket.hpp"
 #include "node/hosted_program.hpp"
 #include "node/log.hpp"
+#include "node/node_security.hpp"
 #include "node/node_status.hpp"
 #include "node/socket.hpp"
 #include "node/sources.hpp"
@@ -68,6 +69,7 @@ class RealNode {
   Log& out_;
   TransitionLog log_;
   SourceTable sources_;
+  std::unique_ptr<NodeSecurity> security_;
   std::uint32_t incarnation_;
   std::vector<std::unique_ptr<HostedProgram>> programs_;
   std::vector<std::unique_ptr<wire::Nesting>> nestings_;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "node/config.hpp"
+#include "security/secure_channel.hpp"
 #include "node/node_status.hpp"
 #include "node/statistics.hpp"
 #include "node/transition_log.hpp"
@@ -29,6 +30,7 @@ namespace takt::test {
 struct WordBenchGroup {
   std::string programs;                                     ///< as in a node's file, one or several
   std::vector<std::pair<std::string, std::string>> nodes;  ///< names, and more members of their files
+  std::string security = {};                               ///< members of their "security", whose keys change every 40 ms
 };
 
 inline const WordBenchGroup& word_bench_group(const std::string& kind) {
@@ -46,6 +48,8 @@ inline const WordBenchGroup& word_bench_group(const std::string& kind) {
       {"roles",
        {R"({"name": "cell", "master": "plc", "cycle": "1ms", "announce_every": "5ms", "candidates": ["a", "b", "c"], "roles": [{"name": "left", "skill": "welding"}, {"name": "hand", "skill": "gripping"}]})",
         {{"plc", ""}, {"a", R"(, "offers": ["welding"])"}, {"b", R"(, "offers": ["welding"])"}, {"c", R"(, "offers": ["gripping"])"}}}},
+      {"secured", {one + "}", three, R"("mode": "sign-and-encrypt")"}},
+      {"signed", {one + "}", three, R"("mode": "sign", "policy": "aes256-ctr")"}},
       {"roles-restart",
        {R"({"name": "cell", "master": "plc", "cycle": "1ms", "announce_every": "5ms", "on_replacement": "restart", "candidates": ["a", "b", "c"], "roles": [{"name": "left", "skill": "welding"}, {"name": "hand", "skill": "gripping"}]})",
         {{"plc", ""}, {"a", R"(, "offers": ["welding"])"}, {"b", R"(, "offers": ["welding"])"}, {"c", R"(, "offers": ["gripping"])"}}}},
@@ -65,10 +69,28 @@ class WordBench {
     for (std::size_t i = configs.size(); i < group.nodes.size(); ++i) configs.push_back(load(group, i));
     for (const auto& each : configs) nodes_.push_back(std::make_unique<Node>(*this, *each, nodes_.size()));
     for (const auto& node : nodes_)
-      for (const auto& seat : node->seats) seat->carry_out(seat->member.start(now_));
+      for (const auto& seat : node->seats) {
+        if (node->loaded.config.security) seat->open_channel(1);
+        seat->carry_out(seat->member.start(now_));
+      }
   }
 
   std::size_t size() const { return nodes_.size(); }
+  /// What became of messages of a secured group.
+  std::uint64_t opened(security::SecurityVerdict verdict) const {
+    const auto found = opened_.find(verdict);
+    return found == opened_.end() ? 0 : found->second;
+  }
+  /// From now on everything that is said is written down, too.
+  void record(std::vector<std::vector<std::byte>>& all) { record_ = &all; }
+  /// A node of a secured group is killed and started again: it knows what its memory holds.
+  void restart(std::size_t node, std::uint16_t life) {
+    Seat& seat = *nodes_[node]->seats[0];
+    for (std::uint64_t& alarm : seat.alarms) ++alarm;
+    seat.member.crash();
+    seat.open_channel(life);
+    seat.carry_out(seat.member.start(now_));
+  }
   /// The programs in which a node is.
   std::size_t seats(std::size_t node) const { return nodes_[node]->seats.size(); }
   wire::ProgramNode& member(std::size_t node, std::size_t seat = 0) { return nodes_[node]->seats[seat]->member; }
@@ -123,7 +145,7 @@ class WordBench {
     for (const auto& node : nodes_)
       for (const auto& seat : node->seats) {
         const std::vector<std::byte> exact(octets);  // of its own: sanitizers see what is read behind it
-        seat->carry_out(seat->member.receive(now_, exact));
+        seat->hear(exact);
       }
   }
 
@@ -165,6 +187,19 @@ class WordBench {
       while (const auto output = outputs.next())
         std::visit([&](const auto& what) { (output->side == side ? this : nested)->act(what); }, output->what);
     }
+    /// A message has come; what its security refuses is counted and goes no further.
+    void hear(const std::vector<std::byte>& octets) {
+      if (!channel) return carry_out(member.receive(bench.now_, octets));
+      const security::Opened opened = channel->open(octets, ns());
+      ++bench.opened_[opened.verdict];
+      if (opened.verdict == security::SecurityVerdict::good) carry_out(member.receive(bench.now_, opened.clear));
+    }
+    /// The node is restarted: it has its windows, and another life.
+    void open_channel(std::uint16_t life) {
+      const auto& secured = *bench.nodes_[number]->loaded.config.security;
+      windows.resize(security::ReplayMemory::most_streams);
+      channel.emplace(security::ChannelSettings{secured.mode, security::Nonces::lives, static_cast<std::uint16_t>(1 + number), life}, bench.nodes_[number]->loaded.keys->ring(secured.key_lifetime), security::ReplayMemory(windows));
+    }
     std::int64_t ns() const { return bench.now_.since_start().ps() / 1000; }
     void act(const wire::SetAlarm& set) {
       const std::uint64_t setting = ++alarms[set.alarm];
@@ -173,13 +208,15 @@ class WordBench {
       });
     }
     void act(const wire::Publish& message) {
-      const std::vector<std::byte> copy(message.octets.begin(), message.octets.end());
+      const uadp::Octets sealed = channel ? channel->seal(message.octets, ns()) : uadp::Octets(message.octets);
+      const std::vector<std::byte> copy(sealed.begin(), sealed.end());
+      if (bench.record_ != nullptr) bench.record_->push_back(copy);
       bench.streams_[{uadp::load_little_endian<std::uint16_t>(copy.data() + 2), message.destination.writer_group_id}] = copy;
       for (const auto& other : bench.nodes_)
         if (other->number != number)
           for (const auto& seat : other->seats)
             if (seat->of.program.name == of.program.name)
-              bench.at(bench.now_ + sim::Duration::from_ps(20'000'000), [to = seat.get(), copy] { to->carry_out(to->member.receive(to->bench.now_, copy)); });
+              bench.at(bench.now_ + sim::Duration::from_ps(20'000'000), [to = seat.get(), copy] { to->hear(copy); });
       if (message.is_state()) peers.published(message.word, bench.now_);
     }
     void act(const wire::Stepped& step) { log.stepped(ns(), step.outputs, step.after); }
@@ -198,6 +235,8 @@ class WordBench {
     node::CycleStatistics cycles;
     node::PeerWatch peers;
     node::TransitionLog log;
+    std::vector<security::StoredWindow> windows;
+    std::optional<security::SecureChannel> channel;
     std::vector<std::uint64_t> alarms;  ///< which setting of each is the valid one
   };
   struct Node {
@@ -219,11 +258,18 @@ class WordBench {
 
   static std::shared_ptr<node::LoadedConfig> load(const WordBenchGroup& group, std::size_t node) {
     const std::filesystem::path path = std::filesystem::temp_directory_path() / ("takt-word-bench-" + std::to_string(::getpid()) + ".json");
+    const std::filesystem::path keys = path.string() + ".keys";
+    if (!group.security.empty()) {
+      const bool is_256 = group.security.find("aes256") != std::string::npos;
+      std::ofstream(keys) << R"({"group": "cell", "policy": ")" << (is_256 ? "aes256-ctr" : "aes128-ctr") << R"(", "secret": ")" << std::string(64, '5') << "\"}";
+      std::filesystem::permissions(keys, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    }
     std::ofstream(path) << R"({"node": ")" << group.nodes[node].first << R"(", "transport": {"kind": "ethernet", "interface": "eth0"}, "programs": [)" << group.programs << "]"
-                        << group.nodes[node].second << "}";
+                        << group.nodes[node].second << (group.security.empty() ? "" : R"(, "security": {"key_lifetime": "40ms", "keys": ")" + keys.string() + "\", " + group.security + "}") << "}";
     json::Diagnostics diagnostics;
     std::shared_ptr<node::LoadedConfig> loaded = node::load_config(path.string(), diagnostics);
     std::filesystem::remove(path);
+    std::filesystem::remove(keys);
     if (!loaded) throw std::runtime_error(diagnostics.to_text());
     return loaded;
   }
@@ -235,6 +281,8 @@ class WordBench {
   std::unique_ptr<std::FILE, Close> sink_{std::fopen("/dev/null", "w")};
   node::Log log_{sink_.get()};
   sim::LocalTime now_;
+  std::map<security::SecurityVerdict, std::uint64_t> opened_;
+  std::vector<std::vector<std::byte>>* record_ = nullptr;
   std::uint64_t count_ = 0;
   std::priority_queue<Event> events_;
   std::map<std::pair<std::uint16_t, std::uint16_t>, std::vector<std::byte>> streams_;

@@ -1,0 +1,31 @@
+// What the file of a node says of the security of its messages. Keys are in a file of their own.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "json/fields.hpp"
+#include "security/secure_channel.hpp"
+#include "sim/time.hpp"
+
+// Words of files for values of protocol code: a description is looked for in the namespace of what it describes.
+namespace takt::security {
+const json::Enumeration& describe(json::Type<MessageMode>);
+const json::Enumeration& describe(json::Type<MessagePolicy>);
+}  // namespace takt::security
+
+namespace takt::node {
+
+struct MessageSecurity {
+  json::Source where;
+  security::MessageMode mode = security::MessageMode::sign_and_encrypt;
+  security::MessagePolicy policy = security::MessagePolicy::aes128_ctr;
+  sim::Duration key_lifetime = sim::Duration::from_ps(3'600'000'000'000'000);
+  std::string keys;                      ///< a file, below the folder of the node's unless it begins with a slash
+  std::optional<std::string> memory;
+  bool operator==(const MessageSecurity&) const = default;
+};
+
+const json::Object& describe(json::Type<MessageSecurity>);
+
+}  // namespace takt::node

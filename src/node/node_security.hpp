@@ -1,0 +1,50 @@
+// The secured messages of a node: one channel for all of its Programs that are secured, with the keys of its file, its memory and the time of day.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "node/config.hpp"
+#include "node/key_file.hpp"
+#include "node/security_memory.hpp"
+#include "security/secure_channel.hpp"
+#include "wire/verdict.hpp"
+
+namespace takt::node {
+
+/// What `takt ctl status` says of it. Nothing of a key.
+struct SecurityStatus {
+  std::string group;
+  std::uint32_t token = 0;               ///< that it sends with; 0: none yet
+  std::uint64_t unsealed = 0;
+  std::uint32_t life = 0;
+};
+const json::Record& describe(json::Type<SecurityStatus>);
+
+class NodeSecurity {
+ public:
+  /// Null, and `problem` says why, if there is no memory to be had.
+  static std::unique_ptr<NodeSecurity> make(const LoadedConfig& loaded, std::string& problem);
+
+  /// Empty if it cannot be sent now; counted.
+  uadp::Octets seal(uadp::Octets clear) { return channel_.seal(clear, now_ns()); }
+  struct Opened {
+    wire::Verdict verdict = wire::Verdict::taken;
+    uadp::Octets clear;
+  };
+  Opened open(uadp::Octets message);
+  SecurityStatus status() const;
+
+ private:
+  NodeSecurity(const LoadedKeys& keys, sim::Duration lifetime, const security::ChannelSettings& settings, std::unique_ptr<SecurityMemory> memory, int clock);
+  std::int64_t now_ns() const;
+
+  std::string group_;
+  std::unique_ptr<SecurityMemory> memory_;
+  int clock_;
+  security::SecureChannel channel_;
+};
+
+}  // namespace takt::node

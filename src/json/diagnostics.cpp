@@ -117,9 +117,45 @@ std::vector<Diagnostic> Diagnostics::sorted() const {
   return result;
 }
 
+namespace {
+
+/// Whether they say the same of different places of one file.
+bool say_the_same(const Diagnostic& a, const Diagnostic& b) {
+  return a.severity == b.severity && a.place.file == b.place.file && a.message == b.message && a.details.found == b.details.found && a.details.expected == b.details.expected &&
+         a.details.suggestion == b.details.suggestion;
+}
+
+/// "  the same at 5:9 (/links/1/rate), 6:9 (/links/2/rate) and 37 more places".
+std::string others_text(const std::vector<const Diagnostic*>& others) {
+  constexpr std::size_t most = 3;
+  std::string text = "  the same at ";
+  for (std::size_t i = 0; i < std::min(most, others.size()); ++i) {
+    const Place& place = others[i]->place;
+    if (i > 0) text += i + 1 == others.size() ? " and " : ", ";
+    if (place.line != 0) text += fmt::format("{}:{}", place.line, place.column);
+    if (!place.pointer.empty()) text += place.line != 0 ? " (" + visible(place.pointer) + ")" : visible(place.pointer);
+  }
+  if (others.size() > most) text += fmt::format(" and {} more places", others.size() - most);
+  return text + "\n";
+}
+
+}  // namespace
+
 std::string Diagnostics::to_text() const {
+  constexpr std::size_t fewest_to_group = 3;   // two take two lines, grouped or not
   std::string text;
-  for (const Diagnostic& diagnostic : sorted()) text += json::to_text(diagnostic) + "\n";
+  const std::vector<Diagnostic> all_kept = sorted();
+  std::vector<bool> is_told(all_kept.size(), false);
+  for (std::size_t i = 0; i < all_kept.size(); ++i) {
+    if (is_told[i]) continue;
+    text += json::to_text(all_kept[i]) + "\n";
+    std::vector<const Diagnostic*> others;
+    for (std::size_t j = i + 1; j < all_kept.size(); ++j)
+      if (!is_told[j] && say_the_same(all_kept[i], all_kept[j])) others.push_back(&all_kept[j]);
+    if (others.size() + 1 < fewest_to_group) continue;
+    for (const Diagnostic* other : others) is_told[static_cast<std::size_t>(other - all_kept.data())] = true;
+    text += others_text(others);
+  }
   const std::size_t all = errors_ + warnings_;
   if (all > kept_.size()) text += fmt::format("... and {} more\n", all - kept_.size());
   return text;

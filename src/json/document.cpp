@@ -222,11 +222,14 @@ std::optional<Document> parse(std::string_view text, std::string file_name, Diag
                       {fmt::format("{} octets", text.size()), fmt::format("at most {}", max_text_size), ""});
     return std::nullopt;
   }
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);   // editors of Windows put it there
   if (auto error = find_bad_octet(text)) {
     diagnostics.error({file_name, error->position.line, error->position.column, ""}, std::move(error->message),
                       std::move(error->details));
     return std::nullopt;
   }
+  const auto without = without_trailing_commas(text);
+  if (without) text = *without;
   TreeBuilder builder(text, file_name, diagnostics);
   if (!nlohmann::json::sax_parse(text.begin(), text.end(), &builder, nlohmann::json::input_format_t::json, true, true))
     return std::nullopt;

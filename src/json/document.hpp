@@ -50,7 +50,7 @@ std::string pointer_step(std::size_t index);
 Place place_of(const Tree& tree, const Node& node);
 Place place_of(const Tree& tree, Position position, std::string pointer);
 
-/// Reads one JSON text (RFC 8259; // and /* */ comments are allowed; no byte order mark).
+/// Reads one JSON text (RFC 8259; // and /* */ comments, a byte order mark and a comma after the last element are allowed).
 /// A text that is not JSON or exceeds a limit is one diagnostic, and nothing is returned. A key that occurs twice in
 /// one object is a diagnostic too, but the document is returned (with the first value), so that the rest can be
 /// checked.

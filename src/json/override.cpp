@@ -100,8 +100,10 @@ class Override {
  public:
   Override(const Document& document, Diagnostics& diagnostics) : tree_(*document.tree()), diagnostics_(diagnostics) {}
 
-  /// What follows comes from a source of this name.
-  void begin(std::string name) {
+  /// What follows comes from a source of this name, and is written there.
+  void begin(std::string name, const Place& place = {}) {
+    position_.line = place.line;
+    position_.column = place.column;
     name_ = std::move(name);
     pointer_.clear();
     position_.source = static_cast<std::uint32_t>(tree_.sources.size());
@@ -204,7 +206,7 @@ Node* Override::enter(Node& node, const std::string& step) {
 }
 
 bool Override::fail(std::string message, Details details) {
-  diagnostics_.error({name_, 0, 0, pointer_}, std::move(message), std::move(details));
+  diagnostics_.error({name_, position_.line, position_.column, pointer_}, std::move(message), std::move(details));
   return false;
 }
 
@@ -222,7 +224,7 @@ bool replace(Document& document, std::span<const Replacement> replacements, Diag
   Override edit(document, diagnostics);
   bool is_done = true;
   for (const Replacement& replacement : replacements) {
-    edit.begin(replacement.origin);
+    edit.begin(replacement.place.line != 0 ? replacement.place.file : replacement.origin, replacement.place);
     is_done = edit.replace(replacement) && is_done;
   }
   if (is_done) document = Document(edit.take_tree());

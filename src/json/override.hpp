@@ -24,7 +24,8 @@ bool apply(Document& document, std::string_view option, Diagnostics& diagnostics
 struct Replacement {
   std::string pointer;  ///< RFC 6901 or dotted, as above; the last step "-" appends to an array
   Node value;
-  std::string origin;   ///< names the source of the value in diagnostics: "slaves = 3"
+  std::string origin;   ///< names the source of the value in diagnostics, "slaves = 3", if it is not written anywhere:
+  Place place = {};     ///< where it is written, which diagnostics name instead
 };
 
 /// Applies all of them in their order, with one copy of the document. False, diagnostics and an unchanged document, if

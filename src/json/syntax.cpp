@@ -217,7 +217,6 @@ bool is_word_of_json(std::string_view token) { return is_number(token) || is_lit
 SyntaxError explain(Cursor cursor, Before before) {
   cursor.skip_space();
   std::string expected;
-  bool is_after_comma = false;
   const auto take = [&cursor](char separator) {
     if (cursor.peek() != separator || cursor.at_end()) return false;
     cursor.advance(1);
@@ -235,15 +234,13 @@ SyntaxError explain(Cursor cursor, Before before) {
       expected = "a value or \"]\"";
       break;
     case Before::array_item:
-      is_after_comma = take(',');
-      expected = is_after_comma ? "a value" : "\",\" or \"]\"";
+      expected = take(',') ? "a value" : "\",\" or \"]\"";
       break;
     case Before::object_start:
       expected = "a name in double quotes or \"}\"";
       break;
     case Before::object_member:
-      is_after_comma = take(',');
-      expected = is_after_comma ? "a name in double quotes" : "\",\" or \"}\"";
+      expected = take(',') ? "a name in double quotes" : "\",\" or \"}\"";
       break;
     case Before::whole_value:
       expected = "the end of the text";
@@ -252,17 +249,33 @@ SyntaxError explain(Cursor cursor, Before before) {
 
   if (before != Before::whole_value)
     if (const auto error = token_error(cursor, expected)) return *error;
-  const char c = cursor.peek();
   std::string message = "not valid JSON";
   if (cursor.at_end())
     message = before == Before::nothing ? "the text is empty" : "the text ends too early";
   else if (before == Before::whole_value)
     message = "text after the JSON value";
-  else if (is_after_comma && (c == ']' || c == '}'))
-    message = "a comma after the last element";
   else if (expected.starts_with("\",\""))
     message = "a missing comma";
   return {cursor.position(), message, {token_text(cursor), expected, ""}};
+}
+
+std::optional<std::string> without_trailing_commas(std::string_view text) {
+  std::optional<std::string> result;
+  Cursor cursor(text);
+  std::size_t comma = std::string_view::npos;   // the last token, if it is a comma behind a value
+  bool is_after_value = false;
+  for (cursor.skip_space(); !cursor.at_end(); cursor.skip_space()) {
+    const std::size_t here = cursor.offset();
+    const char c = cursor.take_token().front();
+    const bool closes = c == ']' || c == '}';
+    if (closes && comma != std::string_view::npos) {
+      if (!result) result.emplace(text);
+      (*result)[comma] = ' ';
+    }
+    comma = c == ',' && is_after_value ? here : std::string_view::npos;
+    is_after_value = closes || c == '"' || is_word(c);
+  }
+  return result;
 }
 
 std::optional<SyntaxError> find_bad_octet(std::string_view text) {
@@ -274,7 +287,6 @@ std::optional<SyntaxError> find_bad_octet(std::string_view text) {
         std::move(message),
         {fmt::format("the octet 0x{:02X}", static_cast<unsigned char>(text[offset])), std::move(expected), ""}};
   };
-  if (text.starts_with("\xEF\xBB\xBF")) return error_at(0, "a byte order mark", "UTF-8 without one (RFC 8259, 8.1)");
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return error_at(0, "a text in UTF-16", "UTF-8");
 
   for (std::size_t i = 0; i < text.size();) {

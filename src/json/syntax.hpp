@@ -54,7 +54,11 @@ struct SyntaxError {
 /// there.
 SyntaxError explain(Cursor cursor, Before before);
 
-/// A NUL, an octet that is not UTF-8, or a byte order mark, if the text has one.
+/// The text with a space in place of each comma that follows a value and stands before a closing bracket: people leave it there when they
+/// take the last line away. Nothing if there is none. Places stay the same.
+std::optional<std::string> without_trailing_commas(std::string_view text);
+
+/// A NUL, an octet that is not UTF-8, or UTF-16, if the text has one. A byte order mark of UTF-8 must be gone already.
 std::optional<SyntaxError> find_bad_octet(std::string_view text);
 
 }  // namespace takt::json

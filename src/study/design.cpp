@@ -199,7 +199,7 @@ json::Replacement failure_of(const std::pair<std::string, std::string>& link, co
   fault.add("link", std::move(ends));
   fault.add("at", json::Node::of_string(json::to_text(failures.at)));
   if (failures.lasts) fault.add("for", json::Node::of_string(json::to_text(*failures.lasts)));
-  return {"/faults/-", std::move(fault), origin};
+  return {"/faults/-", std::move(fault), origin, failures.where.place()};
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ class FactorPlanner {
       for (const auto& [name, patch] : *factor_.patches) add_patch(name, patch);
     if (factor_.topologies)
       for (const auto& [name, topology] : *factor_.topologies)
-        planned_.levels.push_back({name, std::nullopt, {{"/network", network_of(topology, folder_, diagnostics_), fmt::format("factor {} = {}", factor_.name, name)}}});
+        planned_.levels.push_back({name, std::nullopt, {{"/network", network_of(topology, folder_, diagnostics_), fmt::format("factor {} = {}", factor_.name, name), factor_.where.at("topologies")}}});
     for (std::size_t i = 0; i < planned_.levels.size(); ++i)
       for (std::size_t j = 0; j < i && planned_.levels.size() <= 1000; ++j)
         if (planned_.levels[i].text == planned_.levels[j].text)
@@ -62,7 +62,7 @@ class FactorPlanner {
     level.text = text_of(value);
     if (const auto magnitude = magnitude_of(value)) level.number = magnitude->number;
     const std::string origin = fmt::format("factor {} = {}", factor_.name, level.text);
-    for (const Setting& setting : factor_.set) level.replacements.push_back({setting.at, content_of(setting, value, place), origin});
+    for (const Setting& setting : factor_.set) level.replacements.push_back({setting.at, content_of(setting, value, place), origin, place});
     return level;
   }
 
@@ -158,7 +158,7 @@ class FactorPlanner {
   void add_patch(const std::string& name, const Patch& patch) {
     Level level;
     level.text = name;
-    for (const auto& [pointer, value] : patch) level.replacements.push_back({pointer, value.node, fmt::format("factor {} = {}", factor_.name, name)});
+    for (const auto& [pointer, value] : patch) level.replacements.push_back({pointer, value.node, fmt::format("factor {} = {}", factor_.name, name), value.where.place()});
     planned_.levels.push_back(std::move(level));
   }
 

@@ -108,13 +108,13 @@ namespace {
 /// The base with what the levels and the seed change in it; false if that cannot be put there.
 bool vary(const Plan& plan, const Variant& variant, std::uint64_t seed, json::Document& document, json::Diagnostics& diagnostics) {
   std::vector<json::Replacement> replacements;
-  if (plan.base.root().find("faults") == nullptr) replacements.push_back({"/faults", json::Node::array(), "no faults"});
+  if (plan.base.root().find("faults") == nullptr) replacements.push_back({"/faults", json::Node::array(), "no faults", plan.study.where.place()});
   for (std::size_t f = 0; f < plan.factors.size(); ++f) {
     if (plan.factors[f].levels.empty()) continue;   // link failures that are not enumerated yet
     const Level& level = plan.level_of(variant, f);
     replacements.insert(replacements.end(), level.replacements.begin(), level.replacements.end());
   }
-  replacements.push_back({"/seed", json::Node::of_integer(static_cast<sim::int128>(seed)), "replications"});
+  replacements.push_back({"/seed", json::Node::of_integer(static_cast<sim::int128>(seed)), "replications", plan.study.where.at("replications")});
   return json::replace(document, replacements, diagnostics);
 }
 

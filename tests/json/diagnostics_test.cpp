@@ -42,6 +42,17 @@ TEST(Diagnostics, CountAllButKeepFew) {
   EXPECT_EQ(diagnostics.to_text(), "a:1:1: error: m\na:2:1: error: m\n... and 3 more\n");
 }
 
+TEST(Diagnostics, TheSameOfManyPlacesIsToldOnce) {
+  Diagnostics diagnostics;
+  for (std::uint32_t line = 1; line <= 6; ++line) diagnostics.error({"a", line, 2, "/x/" + std::to_string(line)}, "m", {"f", "e", ""});
+  diagnostics.error({"a", 3, 1, ""}, "n");
+  diagnostics.error({"a", 4, 1, ""}, "n");
+  EXPECT_EQ(diagnostics.to_text(),
+            "a:1:2: error at /x/1: m: found f, expected e\n"
+            "  the same at 2:2 (/x/2), 3:2 (/x/3), 4:2 (/x/4) and 2 more places\n"
+            "a:3:1: error: n\na:4:1: error: n\n");
+}
+
 TEST(Diagnostics, AsJson) {
   Diagnostics diagnostics;
   diagnostics.error({"a.json", 3, 7, "/x"}, "m", {"f", "", "s"});

@@ -96,7 +96,7 @@ TEST(Syntax, SaysWhereWhatAndWhatElse) {
       {"{} x", "a.json:1:4: error: text after the JSON value: found \"x\", expected the end of the text\n"},
       {"1 2", "a.json:1:3: error: text after the JSON value: found \"2\", expected the end of the text\n"},
       {"[1, 2", "a.json:1:6: error: the text ends too early: found the end of the text, expected \",\" or \"]\"\n"},
-      {"[1,]", "a.json:1:4: error: a comma after the last element: found \"]\", expected a value\n"},
+      {"[1,,]", "a.json:1:4: error: not valid JSON: found \",\", expected a value\n"},
       {"[1,,2]", "a.json:1:4: error: not valid JSON: found \",\", expected a value\n"},
       {"[,1]", "a.json:1:2: error: not valid JSON: found \",\", expected a value or \"]\"\n"},
       {"[1}", "a.json:1:3: error: a missing comma: found \"}\", expected \",\" or \"]\"\n"},
@@ -104,8 +104,6 @@ TEST(Syntax, SaysWhereWhatAndWhatElse) {
       {"{\"a\" 1}", "a.json:1:6: error: not valid JSON: found \"1\", expected \":\" after the name\n"},
       {"{\"a\":}", "a.json:1:6: error: not valid JSON: found \"}\", expected a value\n"},
       {"{\"a\":1 \"b\":2}", "a.json:1:8: error: a missing comma: found the string \"b\", expected \",\" or \"}\"\n"},
-      {"{\"a\":1,}",
-       "a.json:1:8: error: a comma after the last element: found \"}\", expected a name in double quotes\n"},
       {"{1:2}", "a.json:1:2: error: not valid JSON: found \"1\", expected a name in double quotes or \"}\"\n"},
       {"{a:1}",
        "a.json:1:2: error: a word without quotes: found \"a\", expected a name in double quotes or \"}\" (texts stand "
@@ -151,14 +149,23 @@ TEST(Syntax, SaysWhereWhatAndWhatElse) {
        "a.json:1:5: error: a comment that is not closed: found the end of the text, expected */ at the end of the "
        "comment\n"},
       {"# no\n1", "a.json:1:1: error: not a comment: found \"#\", expected // or /* */ around a comment\n"},
-      {"\xEF\xBB\xBF{}",
-       "a.json:1:1: error: a byte order mark: found the octet 0xEF, expected UTF-8 without one (RFC 8259, 8.1)\n"},
+      {"\xEF\xBB\xBF{]", "a.json:1:2: error: not valid JSON: found \"]\", expected a name in double quotes or \"}\"\n"},
+      {"\xFE\xFF{}", "a.json:1:1: error: a text in UTF-16: found the octet 0xFE, expected UTF-8\n"},
+      {"[1,],", "a.json:1:5: error: text after the JSON value: found \",\", expected the end of the text\n"},
+      {"{\"a\":1,,}", "a.json:1:8: error: not valid JSON: found \",\", expected a name in double quotes\n"},
+      {"{\"a\",}", "a.json:1:5: error: not valid JSON: found \",\", expected \":\" after the name\n"},
       {"[\"a\",\n\"b\xC0\xAF\"]", "a.json:2:3: error: not UTF-8: found the octet 0xC0, expected text in UTF-8\n"},
       {"[\"\xED\xA0\x80\"]", "a.json:1:3: error: not UTF-8: found the octet 0xED, expected text in UTF-8\n"},
       {std::string("{}\0{", 4),
        "a.json:1:3: error: a NUL in the text: found the octet 0x00, expected text without NUL\n"},
   };
   for (const auto& [text, expected] : cases) EXPECT_EQ(refusal(text), expected) << text;
+}
+
+TEST(Syntax, WhatEditorsAndPeopleLeaveBehindIsAllowed) {
+  EXPECT_EQ(compact(must_parse("\xEF\xBB\xBF{\"a\": [1, 2,], // last\n \"b\": {\"c\": \",]\", /* , */ }, }").root()), "{\"a\": [1, 2], \"b\": {\"c\": \",]\"}}");
+  const auto document = must_parse("[1, ]");
+  EXPECT_EQ(document.root().items.size(), 1u);
 }
 
 TEST(Syntax, CommentsAreAllowedEverywhere) {

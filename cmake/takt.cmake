@@ -67,6 +67,15 @@ function(takt_precompiled target kind)
   target_precompile_headers(${target} REUSE_FROM ${headers})
 endfunction()
 
+# takt_feature(NAME FOUND): something optional that `takt --version` tells of; NAME is what people call it, FOUND whether this build has it.
+function(takt_feature name)
+  set(has without)
+  if(${ARGN})
+    set(has with)
+  endif()
+  set_property(GLOBAL APPEND PROPERTY TAKT_FEATURES "${has} ${name}")
+endfunction()
+
 # takt_library(NAME [SINGLY] SOURCES a.cpp ... QUICKLY b.cpp ... LINKS other ...): one layer of the house; it links only what the layer may use.
 # QUICKLY are sources whose speed nobody notices (descriptions, commands, reports): they are compiled with -Og, in two thirds of the time that -O1 takes. Several sources are compiled at a
 # time (TAKT_UNITY), since most of what they take is the headers; SINGLY not, where what the optimiser sees at a time decides about the speed. Headers are included from the repository's root ("sim/time.hpp") or from src/ ("handshake/participant.hpp").

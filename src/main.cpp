@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/commands.hpp"
+#include "cli/revision.hpp"
 #include "results/version.hpp"
 #include "sim/check.hpp"
 
@@ -33,9 +34,16 @@ void add_commands(takt::cli::Command app, ExitStatus& status) {
   takt::cli::add_studio_command(app, status);
 }
 
+/// "takt 0.1.0, revision 26f987b12345", and what this build has and has not.
+std::string version_text() {
+  std::string text = std::string("takt ") + takt::results::version;
+  if (*takt::cli::revision != '\0') text += std::string(", revision ") + takt::cli::revision;
+  return text + (*takt::cli::features == '\0' ? "" : "\n") + takt::cli::features;
+}
+
 ExitStatus main_with(int argc, char** argv) {
   return takt::cli::run_command_line(argc, argv, "takt: simulates TSN networks whose nodes run distributed OPC UA Programs",
-                                     std::string("takt ") + takt::results::version,
+                                     version_text(),
                                      "Examples:\n"
                                      "  takt run scenarios/robot-arm.json      simulate and judge a scenario\n"
                                      "  takt check scenarios/robot-arm.json    what the scenario resolves to\n"

@@ -7,6 +7,7 @@
 #include "analysis/server_network_file.hpp"
 #include "cli/commands.hpp"
 #include "cli/load.hpp"
+#include "cli/terminal.hpp"
 #include "json/quantity.hpp"
 
 namespace takt::cli {
@@ -16,7 +17,7 @@ ExitStatus report_mistakes(const json::Diagnostics& diagnostics, bool as_json) {
   if (as_json)
     std::fputs(json::pretty(diagnostics.to_json()).c_str(), stdout);
   else
-    std::fputs(diagnostics.to_text().c_str(), stderr);
+    tell(diagnostics);
   return ExitStatus::bad_input;
 }
 
@@ -80,7 +81,7 @@ void add_bound_command(Command app, ExitStatus& status) {
       return;
     }
     const analysis::Bounds bounds = analysis::bound(*resolved, how);
-    std::fputs((options->is_json() ? analysis::json_report(*resolved, bounds) : analysis::text_report(*resolved, bounds)).c_str(), stdout);
+    print(options->is_json() ? analysis::json_report(*resolved, bounds) : analysis::text_report(*resolved, bounds));
     status = ExitStatus::pass;
   });
 }

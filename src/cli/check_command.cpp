@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/load.hpp"
+#include "cli/terminal.hpp"
 #include "output/text_report.hpp"
 #include "schedule_check/check.hpp"
 
@@ -35,7 +36,7 @@ void add_check_command(Command app, ExitStatus& status) {
       }
     }
     const std::string page = options->is_json() ? json::encode(resolved->scenario) : output::check_report(*resolved);
-    std::fputs(page.c_str(), stdout);
+    print(page);
     status = ExitStatus::pass;
   });
 }

@@ -1,6 +1,11 @@
 #include "cli/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "json/node.hpp"
+#include "json/suggest.hpp"
 
 namespace takt::cli {
 
@@ -87,6 +92,45 @@ void Command::callback(const std::function<void()>& run) const { app_->callback(
 void Command::require_subcommand() const { app_->require_subcommand(1); }
 bool Command::has_chosen_subcommand() const { return !app_->get_subcommands().empty(); }
 
+namespace {
+
+/// The sub-command that was chosen last: "merge" of "takt study merge".
+const CLI::App& chosen(const CLI::App& app) {
+  const auto below = app.get_subcommands();
+  return below.empty() ? app : chosen(*below.front());
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* const option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  return names;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  const std::string nearest = json::suggest(word, candidates);
+  return nearest.empty() ? "" : " (did you mean \"" + nearest + "\"?)";
+}
+
+/// An option that no command has, or a word too many.
+std::string unexpected(const CLI::App& app) {
+  const CLI::App& command = chosen(app);
+  const std::vector<std::string> words = app.remaining(true);
+  if (words.empty()) return "too many arguments";
+  const std::string word = words.front().substr(0, words.front().find('='));
+  const std::string suggestion = word.starts_with("-") ? did_you_mean(word, option_names(command)) : "";
+  return (&command == &app ? "takt" : command.get_name()) + " does not take " + json::quote(words.front()) + suggestion;
+}
+
+}  // namespace
+
 ExitStatus run_command_line(int argc, char** argv, const std::string& help, const std::string& version, const std::string& footer,
                             const std::function<void(Command, ExitStatus&)>& add) {
   CLI::App app(help);
@@ -95,8 +139,18 @@ ExitStatus run_command_line(int argc, char** argv, const std::string& help, cons
   app.footer(footer);
   ExitStatus status = ExitStatus::pass;
   add(Command(app), status);
+  if (argc > 1 && argv[1][0] != '-') {
+    const std::vector<std::string> names = command_names(app);
+    if (std::find(names.begin(), names.end(), argv[1]) == names.end()) {
+      std::fprintf(stderr, "takt: no command is called %s%s\nRun takt --help for all of them.\n", json::quote(argv[1]).c_str(), did_you_mean(argv[1], names).c_str());
+      return ExitStatus::bad_input;
+    }
+  }
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    std::fprintf(stderr, "takt: %s\nRun takt%s --help for what it takes.\n", unexpected(app).c_str(), &chosen(app) == &app ? "" : (" " + chosen(app).get_name()).c_str());
+    return ExitStatus::bad_input;
   } catch (const CLI::ParseError& error) {
     // Help and version are "errors" of the library with status 0.
     return app.exit(error) == 0 ? ExitStatus::pass : ExitStatus::bad_input;

@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/study_progress.hpp"
+#include "cli/terminal.hpp"
 #include "json/record.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "study/compare.hpp"
@@ -40,11 +41,11 @@ ExitStatus run(const CompareOptions& options) {
   const auto a = load(options.a, options.overrides_of_a, diagnostics);
   // The mistakes of one file are told once.
   if (options.a == options.b && diagnostics.has_errors()) {
-    std::fputs(diagnostics.to_text().c_str(), stderr);
+    tell(diagnostics);
     return ExitStatus::bad_input;
   }
   const auto b = load(options.b, options.overrides_of_b, diagnostics);
-  std::fputs(diagnostics.to_text().c_str(), stderr);
+  tell(diagnostics);
   if (!a || !b || diagnostics.has_errors()) return ExitStatus::bad_input;
   const InterruptGuard interrupt;
   StudyProgress progress(!options.quiet);

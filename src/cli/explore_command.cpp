@@ -12,6 +12,8 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/status_line.hpp"
+#include "cli/terminal.hpp"
+#include "output/result_folder.hpp"
 #include "explore/report/replay.hpp"
 #include "explore/report/report.hpp"
 #include "explore/report/schedule.hpp"
@@ -171,7 +173,7 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
   }
   json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(options.scenario, {}, diagnostics);
-  std::fputs(diagnostics.to_text().c_str(), stderr);
+  tell(diagnostics);
   if (!resolved) return {};
   for (std::uint32_t number = 0; number < resolved->programs.size(); ++number) {
     const scenario::ResolvedProgram& each = resolved->programs[number];
@@ -210,7 +212,7 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
 bool replays(const std::string& text, const explore::Replay& replayed, explore::Property property) {
   json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(text, "finding", {}, diagnostics);
-  std::fputs(diagnostics.to_text().c_str(), stderr);
+  tell(diagnostics);
   if (!resolved) return false;
   scenario::Run run(*resolved);
   constexpr auto last_moments = sim::Duration::from_ps(10'000'000'000);
@@ -261,6 +263,10 @@ bool write_findings(const Subject& subject, const explore::SearchResult& result,
 ExitStatus run(const ExploreOptions& options) {
   const std::vector<Subject> subjects = subjects_of(options);
   if (subjects.empty()) return ExitStatus::bad_input;
+  if (const std::string problem = options.out.empty() ? std::string() : output::prepare_folder(options.out); !problem.empty()) {
+    std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
+    return ExitStatus::internal_error;
+  }
   const InterruptGuard interrupt;
   ExitStatus status = ExitStatus::pass;
   json::Node pages = json::Node::array();
@@ -279,7 +285,7 @@ ExitStatus run(const ExploreOptions& options) {
       pages.items.push_back(json::ShapeOf<explore::Exploration>::write({options.scenario.empty() ? "" : subject.name, subject.query, result, spent}));
     } else {
       if (subjects.size() > 1) std::printf("Program %s\n", subject.name.c_str());
-      std::fputs(explore::text_report(subject.query, result, spent).c_str(), stdout);
+      print(explore::text_report(subject.query, result, spent));
     }
     if (!options.out.empty() && !write_findings(subject, result, options.out)) return ExitStatus::internal_error;
     if (!result.all_hold()) status = result.interrupted && !result.any_violated() && status == ExitStatus::pass ? ExitStatus::interrupted : ExitStatus::requirement_failed;

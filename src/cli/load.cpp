@@ -1,5 +1,8 @@
 #include "cli/load.hpp"
 
+#include "cli/input_kind.hpp"
+#include "cli/terminal.hpp"
+
 #include <cstdio>
 
 namespace takt::cli {
@@ -20,11 +23,13 @@ std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, bool is
   if (options.duration) overrides.push_back("/duration=" + *options.duration);
   json::Diagnostics diagnostics;
   auto resolved = scenario::load_file(options.file, overrides, diagnostics);
+  if (!resolved)
+    if (json::Diagnostics other; belongs_elsewhere(options.file, InputKind::scenario, other)) diagnostics = other;
   if (!resolved && options.is_json()) {
     std::fputs(json::pretty(diagnostics.to_json()).c_str(), stdout);
     return nullptr;
   }
-  if (!resolved || !is_quiet) std::fputs(diagnostics.to_text().c_str(), stderr);
+  if (!resolved || !is_quiet) tell(diagnostics);
   return resolved;
 }
 

@@ -7,6 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/terminal.hpp"
 #include "node/applications/host.hpp"
 #include "node/applications/statistics_file.hpp"
 #include "node/built_in_values.hpp"
@@ -25,7 +26,7 @@ ExitStatus run_applications(const std::string& file, bool is_check) {
   json::Diagnostics diagnostics;
   const auto loaded = node::load_applications(file, diagnostics);
   const bool is_sound = loaded && (is_check || node::check_statistics(loaded->config, diagnostics));
-  std::fputs(diagnostics.to_text().c_str(), stderr);
+  tell(diagnostics);
   if (!is_sound) return ExitStatus::bad_input;
   if (is_check) return ExitStatus::pass;
   std::string problem;
@@ -57,7 +58,7 @@ ExitStatus run_node(const std::string& file, bool is_check) {
   if (node::is_applications_file(file)) return run_applications(file, is_check);
   json::Diagnostics diagnostics;
   const auto loaded = node::load_config(file, diagnostics);
-  std::fputs(diagnostics.to_text().c_str(), stderr);
+  tell(diagnostics);
   if (!loaded) return ExitStatus::bad_input;
   if (is_check) return ExitStatus::pass;
   std::string problem;

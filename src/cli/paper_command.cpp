@@ -4,6 +4,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/real_coexistence.hpp"
+#include "cli/terminal.hpp"
 #include "papers/coexistence/report.hpp"
 #include "papers/report.hpp"
 #include "papers/validation/report.hpp"
@@ -32,7 +33,7 @@ ExitStatus hand_over(const PaperOptions& options, const std::optional<Reproducti
     if (is_json)
       std::fputs(json::pretty(diagnostics.to_json()).c_str(), stdout);
     else
-      std::fputs(diagnostics.to_text().c_str(), stderr);
+      tell(diagnostics);
     return ExitStatus::bad_input;
   }
   if (!options.out.empty()) {

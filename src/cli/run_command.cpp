@@ -1,6 +1,5 @@
 // takt run: what happens.
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -8,6 +7,7 @@
 #include "cli/load.hpp"
 #include "cli/progress.hpp"
 #include "cli/recording.hpp"
+#include "cli/terminal.hpp"
 #include "report/run_page.hpp"
 #include "results/result_json.hpp"
 #include "output/result_folder.hpp"
@@ -23,6 +23,7 @@ struct RunOptions {
   std::string out;
   std::string report;
   bool quiet = false;
+  bool all = false;
 };
 
 /// Simulates in slices, so that the bar moves and Ctrl-C is seen. True if the end was reached.
@@ -52,9 +53,14 @@ std::string write_page(const std::string& path, const scenario::Resolved& resolv
   const InterruptGuard interrupt;
   report::Replay replay(resolved, result);
   replay.advance([&] { return interrupt.requested(); });
-  std::error_code error;
-  if (const std::filesystem::path folder = std::filesystem::path(path).parent_path(); !folder.empty()) std::filesystem::create_directories(folder, error);
   return output::write_file(path, report::run_page(resolved, result, replay));
+}
+
+/// What is wrong with the places that results go to; empty: nothing.
+std::string unwritable(const RunOptions& options) {
+  std::string problem = options.out.empty() ? std::string() : output::prepare_folder(options.out);
+  if (problem.empty() && !options.report.empty()) problem = output::prepare_file(options.report);
+  return problem;
 }
 
 ExitStatus run(const RunOptions& options) {
@@ -66,9 +72,11 @@ ExitStatus run(const RunOptions& options) {
     diagnostics.error({"command line", 0, 0, ""}, "a recording without a folder", {"--pcap, --timeline, --waves, --clocks or --frames", "--out DIR"});
   Recording recording(options.recording, options.out, live, diagnostics);
   if (diagnostics.has_errors()) {
-    std::fputs(diagnostics.to_text().c_str(), stderr);
+    tell(diagnostics);
     return ExitStatus::bad_input;
   }
+  // Nobody waits an hour to hear that the disk is not there.
+  if (const std::string problem = unwritable(options); !problem.empty()) return cannot_write(problem);
   if (const std::string problem = recording.open(); !problem.empty()) return cannot_write(problem);
   const bool complete = simulate(live, !options.quiet && !options.scenario.is_json());
   const results::RunResult result = evaluation::evaluate(live, !complete);
@@ -79,8 +87,8 @@ ExitStatus run(const RunOptions& options) {
   }
   if (!options.report.empty())
     if (const std::string problem = write_page(options.report, *resolved, result); !problem.empty()) return cannot_write(problem);
-  const std::string page = options.scenario.is_json() ? results::run_json(result) : options.quiet ? output::run_line(result) : output::run_report(result);
-  std::fputs(page.c_str(), stdout);
+  const std::string page = options.scenario.is_json() ? results::run_json(result) : options.quiet ? output::run_line(result) : output::run_report(result, {page_width(), options.all});
+  print(page);
   return status_of(result);
 }
 
@@ -99,6 +107,7 @@ void add_run_command(Command app, ExitStatus& status) {
   command.add_flag("--waves", options->recording.waves, "Write links, queues, gates and digital outputs as DIR/waves.vcd, for GTKWave");
   command.add_flag("--clocks", options->recording.clocks, "Write the offsets of all clocks from their grandmasters as DIR/clocks.csv");
   command.add_flag("--frames", options->recording.frames, "Write what became of each frame, and when, as DIR/frames.csv");
+  command.add_flag("--all", options->all, "Print all changes of state, reactions, streams and so on, however many there are");
   command.add_flag("--quiet", options->quiet, "Print one line");
   command.footer(
       "Examples:\n"

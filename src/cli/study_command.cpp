@@ -6,8 +6,10 @@
 #include <thread>
 
 #include "cli/commands.hpp"
+#include "cli/input_kind.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/study_progress.hpp"
+#include "cli/terminal.hpp"
 #include "results/version.hpp"
 #include "output/result_folder.hpp"
 #include "study/content.hpp"
@@ -48,7 +50,9 @@ ExitStatus bad(const std::string& message) {
 std::unique_ptr<study::Plan> load_plan(const std::string& file) {
   json::Diagnostics diagnostics;
   auto plan = study::load_plan(file, diagnostics);
-  std::fputs(diagnostics.to_text().c_str(), stderr);
+  if (!plan)
+    if (json::Diagnostics other; belongs_elsewhere(file, InputKind::study, other)) diagnostics = other;
+  tell(diagnostics);
   return plan;
 }
 
@@ -119,7 +123,7 @@ ExitStatus answer(study::Plan& plan, const StudyOptions& options, const study::R
   if (!question) return bad("--find: " + problem);
   json::Diagnostics diagnostics;
   study::check_names_of_measures(plan, plan.study.measures.size(), diagnostics);
-  std::fputs(diagnostics.to_text().c_str(), stderr);
+  tell(diagnostics);
   if (diagnostics.has_errors()) return ExitStatus::bad_input;
   const study::Finding finding = study::find(plan, *question, how);
   if (!finding.problem.empty()) {

@@ -9,6 +9,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/load.hpp"
 #include "cli/status_line.hpp"
+#include "cli/terminal.hpp"
 #include "output/result_folder.hpp"
 #include "report/verify_page.hpp"
 #include "verify/report.hpp"
@@ -72,6 +73,12 @@ ExitStatus status_of(const verify::Verification& verification) {
 ExitStatus run(VerifyOptions& options) {
   const auto resolved = load(options.scenario, options.quiet);
   if (!resolved) return ExitStatus::bad_input;
+  std::string unwritable = options.out.empty() ? std::string() : output::prepare_folder(options.out);
+  if (unwritable.empty() && !options.report.empty()) unwritable = output::prepare_file(options.report);
+  if (!unwritable.empty()) {
+    std::fprintf(stderr, "takt: cannot write: %s\n", unwritable.c_str());
+    return ExitStatus::internal_error;
+  }
   const InterruptGuard interrupt;
   StatusLine line(!options.quiet && !options.scenario.is_json());
   verify::Options what;
@@ -103,7 +110,7 @@ ExitStatus run(VerifyOptions& options) {
   const std::string page = options.scenario.is_json() ? verify::json_report(name, verification, files, witnesses)
                            : options.quiet            ? name + ": " + verify::name_of(verification.verdict()) + "\n"
                                                       : verify::text_report(name, verification, files, witnesses);
-  std::fputs(page.c_str(), stdout);
+  print(page);
   return status_of(verification);
 }
 

@@ -62,6 +62,8 @@ constexpr std::size_t most_pointers = 10'000;  // nobody reads what comes of the
 
 void Diagnostics::error(Place place, std::string message, Details details) {
   if (!place.pointer.empty() && unreadable_.contains(place.pointer)) return consequence();
+  // A value without a file was made in place of one that could not be read, which has been told.
+  if (place.file.empty() && errors_ > 0) return consequence();
   ++errors_;
   note_refused(place.pointer);
   keep(Severity::error, std::move(place), std::move(message), std::move(details));

@@ -68,6 +68,22 @@ std::string failure(const std::string& path) { return fmt::format("{}: {}", path
 
 }  // namespace
 
+std::string prepare_file(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) return folder.string() + ": " + error.message();
+  if (std::filesystem::is_directory(path, error)) return path + ": " + std::strerror(EISDIR);
+  const std::string temporary = path + ".part";
+  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+  if (file < 0) return failure(temporary);
+  ::close(file);
+  ::unlink(temporary.c_str());
+  return {};
+}
+
+std::string prepare_folder(const std::string& folder) { return prepare_file((std::filesystem::path(folder) / "result.json").string()); }
+
 std::string write_file(const std::string& path, const std::string& content) {
   const std::string temporary = path + ".part";
   const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);

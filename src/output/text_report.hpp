@@ -3,13 +3,14 @@
 
 #include <string>
 
+#include "output/table.hpp"
 #include "results/run_result.hpp"
 #include "scenario/resolve/resolved.hpp"
 
 namespace takt::output {
 
 /// The whole report of a run.
-std::string run_report(const results::RunResult& result);
+std::string run_report(const results::RunResult& result, const Layout& layout = {});
 /// One line: the verdict and the digest.
 std::string run_line(const results::RunResult& result);
 /// What a scenario resolves to: nodes, paths, load of links and queues.

@@ -30,6 +30,11 @@ std::optional<json::Document> base_of(const Study& study, const std::string& pat
   }
   if (!study.base) return std::nullopt;   // reported by the table
   const std::filesystem::path beside = std::filesystem::path(path).parent_path() / *study.base;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(beside, error)) {
+    diagnostics.error(study.where.at("base"), "no such scenario", {beside.string(), "the path of a scenario, beside the study"});
+    return std::nullopt;
+  }
   return json::parse_file(beside.string(), diagnostics);
 }
 

@@ -91,7 +91,8 @@ class Help(CliTest):
     def test_version(self):
         status, out, err = takt("--version")
         self.assertEqual((status, err), (0, ""))
-        self.assertRegex(out, r"^takt \d+\.\d+\.\d+\n$")
+        self.assertRegex(out, r"^takt \d+\.\d+\.\d+(, revision [0-9a-f]{12}( with changes)?)?\n((with|without) [^\n]+\n)+$")
+        self.assertRegex(out, r"\n(with|without) DDS on real nodes \(Cyclone DDS\)\n")
 
     def test_wrong_usage_is_bad_input(self):
         for arguments in ((), ("simulate",), ("run",), ("run", shipped(), "--colour"), ("run", shipped(), "--format", "xml"),
@@ -100,6 +101,107 @@ class Help(CliTest):
                 status, out, err = takt(*arguments)
                 self.assertEqual((status, out), (2, ""))
                 self.assertNotEqual(err, "")
+
+
+class Mistaken(CliTest):
+    def test_a_command_that_is_not_there(self):
+        for word, meant in (("rnu", "run"), ("chek", "check"), ("Verify", "verify"), ("stduy", "study")):
+            with self.subTest(word):
+                status, out, err = takt(word, shipped())
+                self.assertEqual((status, out), (2, ""))
+                self.assertEqual(err, f'takt: no command is called "{word}" (did you mean "{meant}"?)\nRun takt --help for all of them.\n')
+        self.assertEqual(takt("frobnicate")[2], 'takt: no command is called "frobnicate"\nRun takt --help for all of them.\n')
+
+    def test_an_option_that_is_not_there(self):
+        status, out, err = takt("run", shipped(), "--sed", "4")
+        self.assertEqual((status, out), (2, ""))
+        self.assertIn('takt: run does not take "--sed" (did you mean "--seed"?)\n', err)
+        self.assertIn('takt: run does not take "again"\n', takt("run", shipped(), "again")[2])
+
+    def test_files_for_other_commands_are_recognised(self):
+        study = SCENARIOS / "studies" / "slaves-hops-cycle.json"
+        status, out, err = takt("run", study)
+        self.assertEqual((status, out), (2, ""))
+        self.assertEqual(err, f"{study}:1:1: error: a file for another command: found a study, which takt study takes, expected a scenario\n")
+        self.assertIn("found a scenario, which takt run, check, bound or verify takes, expected a study", takt("study", shipped())[2])
+        takt("run", self.write(SMALL % "1ms"), "--out", self.folder / "out")
+        self.assertIn("found the result of a run", takt("check", self.folder / "out" / "result.json")[2])
+
+    def test_what_editors_leave_behind(self):
+        path = self.folder / "bom.json"
+        path.write_bytes(b"\xef\xbb\xbf" + (SMALL % "1ms").replace("}]}", "},],}").encode())
+        self.assertEqual(takt("run", path, "--quiet")[0], 0)
+
+
+class Terminal(CliTest):
+    def on_terminal(self, *arguments, columns=80, **environment):
+        """Standard output and status of takt on a terminal of that width."""
+        import fcntl
+        import struct
+        import termios
+        leader, follower = pty.openpty()
+        fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 50, columns, 0, 0))
+        surroundings = {key: value for key, value in os.environ.items() if key != "NO_COLOR"} | {"TERM": "xterm"} | environment
+        process = subprocess.Popen([TAKT, *map(str, arguments)], stdout=follower, stderr=subprocess.PIPE, env=surroundings)
+        os.close(follower)
+        out = b""
+        while True:
+            try:
+                part = os.read(leader, 65536)
+            except OSError:   # the other end is closed
+                break
+            if not part:
+                break
+            out += part
+        os.close(leader)
+        process.stderr.close()
+        return out.decode().replace("\r\n", "\n"), process.wait()
+
+    def test_verdicts_are_coloured_and_nothing_else(self):
+        path = self.write(SMALL % "1ns")
+        plain = takt("run", path)[1]
+        page, status = self.on_terminal("run", path, columns=200)
+        self.assertEqual(status, 1)
+        self.assertIn("\033[1;31mFAIL\033[0m", page)
+        self.assertIn("small: \033[1;31mfail\033[0m (1 of 1 requirements)", page)
+        self.assertEqual(re.sub(r"\033\[[0-9;]*m", "", page), plain)
+        self.assertNotIn("\033", plain)
+        self.assertIn("\033[32mpass\033[0m", self.on_terminal("run", self.write(SMALL % "1ms"))[0])
+
+    def test_no_color_and_dumb_terminals_are_respected(self):
+        path = self.write(SMALL % "1ms")
+        self.assertNotIn("\033", self.on_terminal("run", path, NO_COLOR="1")[0])
+        self.assertNotIn("\033", self.on_terminal("run", path, TERM="dumb")[0])
+        self.assertIn("\033", self.on_terminal("run", path, NO_COLOR="")[0])   # empty means: not set
+
+    def test_tables_fit_eighty_columns(self):
+        for name in ("robot-arm", "line-of-switches", "tsn/frer-ring" if (SCENARIOS / "tsn/frer-ring.json").exists() else "redundant-ring"):
+            with self.subTest(name):
+                page, _ = self.on_terminal("run", shipped(name), "--duration", "1.2s", NO_COLOR="1")
+                table = page[page.index("Streams, slowest first") if "Streams, slowest first" in page else page.index(" slowest of "):page.index("usiest ports")]
+                self.assertLessEqual(max(map(len, table.splitlines())), 80, table)
+                self.assertIn("a wider terminal shows", table)
+
+    def test_decimal_points_stand_below_each_other(self):
+        page = takt("run", shipped(), "--duration", "2s")[1]
+        rows = page[page.index("Streams, slowest first"):page.index("Busiest ports")].splitlines()[2:-1]
+        for column in range(5):
+            points = {[m.start() for m in re.finditer(r"\.\d", row)][column] for row in rows}
+            self.assertEqual(len(points), 1, rows)
+
+    def test_long_lists_are_elided_in_the_middle(self):
+        script = ", ".join(f'{{"at": "{20 + 10 * i}ms", "program": "p", "call": "{("Suspend", "Resume")[i % 2]}", "on": "b"}}' for i in range(40))
+        path = self.write('{"name": "many", "duration": "500ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]},'
+                          '"programs": [{"name": "p", "master": "a", "slaves": ["b"], "cycle": "1ms"}], "script": [{"at": "0ms", "program": "p", "call": "Start"}, ' + script + "]}")
+        short = takt("run", path)[1]
+        whole = takt("run", path, "--all")[1]
+        self.assertRegex(short, r"\n  \.\.\. \d+ more, which --all shows\n")
+        self.assertNotIn("--all shows", whole)
+        for page in (short, whole):   # both ends are there
+            self.assertIn("Start on a", page)
+            self.assertIn(" 410 ms                Resume on b", page)
+        self.assertEqual(whole.count("Suspend on b"), 20)
+        self.assertLess(short.count("Suspend on b"), 20)
 
 
 class Status(CliTest):
@@ -291,6 +393,15 @@ class Folder(CliTest):
                 self.assertEqual(status, 3)
                 self.assertRegex(err, r"^takt: cannot write results: .*\n$")
         self.assertEqual({p.name for p in self.folder.iterdir()}, {"s.json"})
+
+    def test_an_impossible_place_is_found_before_the_run(self):
+        path = self.write(SMALL % "1ms")
+        for option in ("--out", "--report"):
+            with self.subTest(option):   # an hour of simulation would take minutes
+                status, _, err = takt("run", shipped(), "--duration", "100h", option, path / "below", timeout=30)
+                self.assertEqual(status, 3)
+                self.assertRegex(err, r"takt: cannot write results: .*\n$")
+        self.assertEqual(takt("verify", shipped(), "--budget", "1000000", "--out", path / "below", timeout=60)[0], 3)
 
     def test_bad_input_writes_nothing(self):
         path = self.write('{"name": "x", "duration": "1ms", "network": {}}')

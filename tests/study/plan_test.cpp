@@ -58,7 +58,7 @@ TEST(Plan, VariantsThatAreNoScenarioTellWhy) {
   ASSERT_TRUE(plan);
   EXPECT_NE(mistakes_of(*plan, 0).find("did you mean \"payload\"?"), std::string::npos);
   // Where the level that does it is written; `takt study` names it with the variant.
-  EXPECT_NE(mistakes_of(*plan, 1).find("study.json:4:92: error at /streams/0/payload"), std::string::npos) << mistakes_of(*plan, 1);
+  EXPECT_NE(mistakes_of(*plan, 1).find("study.json:5:154: error at /streams/0/payload"), std::string::npos) << mistakes_of(*plan, 1);
 }
 
 // What a point may take and what the file says about itself are no part of what the points are.
@@ -108,7 +108,7 @@ TEST(Plan, MistakesOfAnInlineBase) {
   EXPECT_EQ(first.find("/scenario/scenario"), std::string::npos) << first;
   // What a factor has put there is its own: the pointer is the one that the factor sets.
   const std::string second = mistakes_of(*plan, 1);
-  EXPECT_NE(second.find(path + ":9:80: error at /streams/0/payload"), std::string::npos) << second;
+  EXPECT_NE(second.find(path + ":6:82: error at /streams/0/payload"), std::string::npos) << second;
 }
 
 // Gates are a factor like any other; where they do not fit, the reason is told, or kept.

@@ -6,9 +6,11 @@ usage: cluster_test.py TAKT SOURCE_FOLDER
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 import one_node_slurm
 
@@ -29,9 +31,14 @@ def by_slurm(out):
         with one_node_slurm.Slurm(scratch) as slurm:
             done = subprocess.run(["sbatch", "--wait", f"--array=1-{TASKS}", SCRIPT, STUDY, out], capture_output=True, text=True, check=False, timeout=1000, cwd=out,
                                   env={**slurm.environment, "TAKT": str(TAKT)})
-            logs = sorted(out.glob("*.log"))
+            logs = sorted(out.glob("part-*.log"))
             assert done.returncode == 0, (done.stderr, [log.read_text() for log in logs])
             assert len(logs) == TASKS, logs
+            # One share is lost, and sent again by itself.
+            (out / "part-2.sqlite").unlink()
+            again = subprocess.run(["sbatch", "--wait", "--array=2", SCRIPT, STUDY, out, str(TASKS)], capture_output=True, text=True, check=False, timeout=1000, cwd=out,
+                                   env={**slurm.environment, "TAKT": str(TAKT)})
+            assert again.returncode == 0, (again.stderr, [log.read_text() for log in logs])
     except one_node_slurm.Unavailable as problem:
         return str(problem)
     return ""
@@ -73,6 +80,23 @@ def main():
         assert " 0 run now" in after, after
         whole = run(TAKT, "study", STUDY, "--out", folder / "whole.sqlite")
         assert after.split()[-1] == whole.split()[-1], (after, whole)
+        # A share of its own, whatever the array is; its log is beside its part.
+        lone = folder / "lone"
+        run(SCRIPT, STUDY, lone, TASKS, env={**os.environ, "TAKT": str(TAKT), "SLURM_ARRAY_TASK_ID": "2", "SLURM_ARRAY_TASK_MIN": "2", "SLURM_ARRAY_TASK_MAX": "2"})
+        assert "part-2.sqlite" in (lone / "part-2.log").read_text()
+        for wrong in (("4", "3"), ("2", "x"), ("2",)):   # beyond the last; no number; an array that does not begin at 1
+            refused = subprocess.run([SCRIPT, STUDY, lone, *wrong[1:]], capture_output=True, text=True, check=False, timeout=100,
+                                     env={**os.environ, "TAKT": str(TAKT), "SLURM_ARRAY_TASK_ID": wrong[0], "SLURM_ARRAY_TASK_MIN": "2", "SLURM_ARRAY_TASK_MAX": "5"})
+            assert refused.returncode == 2, refused
+        assert sorted(part.name for part in lone.glob("part-*.sqlite")) == ["part-2.sqlite"]
+        # Out of time: the task ends cleanly, and goes on when it comes back.
+        slow = subprocess.Popen([SCRIPT, STUDY, folder / "slow", "1"], env={**os.environ, "TAKT": str(TAKT), "SLURM_ARRAY_TASK_ID": "1"})
+        while not (folder / "slow" / "part-1.sqlite").exists() and slow.poll() is None:
+            time.sleep(0.01)
+        slow.send_signal(signal.SIGUSR1)
+        assert slow.wait(timeout=100) in (0, 130)   # 0: it had ended already
+        run(SCRIPT, STUDY, folder / "slow", "1", env={**os.environ, "TAKT": str(TAKT), "SLURM_ARRAY_TASK_ID": "1"})
+        assert (folder / "slow" / "part-1.log").read_text().strip().endswith(whole.split()[-1])
         # A task that is requeued goes on.
         run(SCRIPT, STUDY, out, env={**task_environment(), "SLURM_ARRAY_TASK_ID": "2"})
 

@@ -119,6 +119,28 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return nearest.empty() ? "" : " (did you mean \"" + nearest + "\"?)";
 }
 
+/// What man pages and completions are made of: a command, its options, and the commands below it.
+json::Node description_of(const CLI::App& app) {
+  json::Node node = json::Node::object();
+  node.add("name", json::Node::of_string(app.get_name()));
+  node.add("help", json::Node::of_string(app.get_description()));
+  node.add("footer", json::Node::of_string(app.get_footer()));
+  json::Node options = json::Node::array();
+  for (const CLI::Option* const option : app.get_options()) {
+    json::Node each = json::Node::object();
+    each.add("name", json::Node::of_string(option->get_positional() ? option->get_name(true) : option->get_name(false, true)));
+    each.add("help", json::Node::of_string(option->get_description()));
+    each.add("value", json::Node::of_string(option->get_items_expected_max() == 0 ? "" : option->get_type_name()));
+    each.add("positional", json::Node::of_bool(option->get_positional()));
+    options.items.push_back(std::move(each));
+  }
+  node.add("options", std::move(options));
+  json::Node commands = json::Node::array();
+  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) commands.items.push_back(description_of(*command));
+  node.add("commands", std::move(commands));
+  return node;
+}
+
 /// An option that no command has, or a word too many.
 std::string unexpected(const CLI::App& app) {
   const CLI::App& command = chosen(app);
@@ -139,6 +161,10 @@ ExitStatus run_command_line(int argc, char** argv, const std::string& help, cons
   app.footer(footer);
   ExitStatus status = ExitStatus::pass;
   add(Command(app), status);
+  if (argc == 2 && std::string_view(argv[1]) == "--describe") {
+    std::fputs(json::pretty(description_of(app)).c_str(), stdout);
+    return ExitStatus::pass;
+  }
   if (argc > 1 && argv[1][0] != '-') {
     const std::vector<std::string> names = command_names(app);
     if (std::find(names.begin(), names.end(), argv[1]) == names.end()) {

@@ -69,7 +69,8 @@ class Command {
   CLI::App* app_;
 };
 
-/// Parses and runs what the sub-commands that `add` has added say; they set the status. Help and mistakes are printed here.
+/// Parses and runs what the sub-commands that `add` has added say; they set the status. Help and mistakes are printed here, and with --describe alone all commands and
+/// options as JSON, of which tools/manuals makes man pages and completions.
 ExitStatus run_command_line(int argc, char** argv, const std::string& help, const std::string& version, const std::string& footer,
                             const std::function<void(Command, ExitStatus&)>& add);
 

@@ -75,6 +75,7 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/property/", all_of({below, questions, evaluation, output, {"property/"}})});
     list.push_back({"src/interchange/", all_of({below, chart, interchange})});
     list.push_back({"src/emulate/", all_of({below, node, emulate})});
+    list.push_back({"src/python/", all_of({below, questions, study, evaluation, output, chart, report})});
     list.push_back({"src/studio/", all_of({below, questions, evaluation, output, chart, report, studio})});
     list.push_back({"src/cli/", all_of({below, questions, study, evaluation, output, node, emulate, report, studio, papers, interchange, cli})});
     list.push_back({"src/main.cpp", all_of({below, questions, study, evaluation, output, node, emulate, report, studio, papers, interchange, cli})});

@@ -62,18 +62,18 @@ set(CPACK_COMPONENT_TAKT_MANUALS_GROUP takt)
 set(CPACK_COMPONENT_TAKT_LIBRARY_GROUP takt-dev)
 set(CPACK_DEBIAN_TAKT_PACKAGE_NAME takt)
 set(CPACK_DEBIAN_TAKT_PACKAGE_SECTION net)
-set(CPACK_COMPONENT_GROUP_TAKT_DESCRIPTION "simulator of TSN networks that run distributed OPC UA Programs
- takt simulates TSN networks whose nodes run distributed OPC UA Programs,
- down to the picosecond and reproducibly to the bit. From the same file it
- bounds reactions, searches for the worst run, proves the handshake, and
- starts real nodes with the same code.")
+set(CPACK_DEBIAN_TAKT_DESCRIPTION "simulator of TSN networks that run distributed OPC UA Programs
+takt simulates TSN networks whose nodes run distributed OPC UA Programs,
+down to the picosecond and reproducibly to the bit. From the same file it
+bounds reactions, searches for the worst run, proves the handshake, and
+starts real nodes with the same code.")
 set(CPACK_DEBIAN_TAKT-DEV_PACKAGE_NAME takt-dev)
 set(CPACK_DEBIAN_TAKT-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_TAKT-DEV_PACKAGE_DEPENDS "libfmt-dev, nlohmann-json3-dev, libssl-dev")
 set(CPACK_DEBIAN_TAKT-DEV_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_COMPONENT_GROUP_TAKT-DEV_DESCRIPTION "Programs, PubSub, DDS and gateways of takt for own applications
- The protocol code that takt simulates, and the real node that hosts it: for
- applications that are Programs themselves. find_package(takt) finds it.")
+set(CPACK_DEBIAN_TAKT-DEV_DESCRIPTION "Programs, PubSub, DDS and gateways of takt for own applications
+The protocol code that takt simulates, and the real node that hosts it: for
+applications that are Programs themselves. find_package(takt) finds it.")
 if(TARGET takt_python)
   list(APPEND CPACK_COMPONENTS_ALL takt_python)
   set(CPACK_COMPONENT_TAKT_PYTHON_GROUP python3-takt)
@@ -81,8 +81,8 @@ if(TARGET takt_python)
   set(CPACK_DEBIAN_PYTHON3-TAKT_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON3-TAKT_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
   set(CPACK_DEBIAN_PYTHON3-TAKT_PACKAGE_SUGGESTS "python3-pandas")
-  set(CPACK_COMPONENT_GROUP_PYTHON3-TAKT_DESCRIPTION "simulator of TSN networks, as a Python module
- takt for Python and notebooks: load, run, bound and verify scenarios, run
- studies, and have frames and latencies as NumPy arrays without copies.")
+  set(CPACK_DEBIAN_PYTHON3-TAKT_DESCRIPTION "simulator of TSN networks, as a Python module
+takt for Python and notebooks: load, run, bound and verify scenarios, run
+studies, and have frames and latencies as NumPy arrays without copies.")
 endif()
 include(CPack)

@@ -206,7 +206,7 @@ std::vector<std::string> timeline_of(const Run& run) {
   return pictures;
 }
 
-std::string bound(const Scenario& scenario, const std::string& clock_error) {
+std::string bounds_of(const Scenario& scenario, const std::string& clock_error) {
   analysis::BoundOptions how;
   const auto error = json::parse_duration(clock_error);
   if (!error) throw Mistake("clock_error: not a duration: " + json::quote(clock_error));
@@ -215,7 +215,7 @@ std::string bound(const Scenario& scenario, const std::string& clock_error) {
   return analysis::json_report(*scenario.resolved, analysis::bound(*scenario.resolved, how));
 }
 
-std::string verify(const Scenario& scenario, unsigned seeds, unsigned jobs, double budget, const Progress& progress) {
+std::string verification_of(const Scenario& scenario, unsigned seeds, unsigned jobs, double budget, const Progress& progress) {
   Watch watch(progress);
   std::string report;
   {
@@ -375,8 +375,8 @@ PYBIND11_MODULE(_takt, m) {
       .def("timeline", &timeline_of)
       .def("page", [](const Run& r) { return report::run_page(*r.resolved, r.result, *replay_of(r)); });
   m.def("run", &run);
-  m.def("bound", &bound);
-  m.def("verify", &verify);
+  m.def("bound", &bounds_of);
+  m.def("verify", &verification_of);
 
   py::class_<study::Plan, PlanPointer>(m, "Plan")
       .def_property_readonly("name", [](const study::Plan& p) { return p.study.name; })

@@ -5,8 +5,14 @@
 #include <algorithm>
 #include <array>
 
+#include "interchange/csv/streams.hpp"
 #include "interchange/graph/graph.hpp"
+#include "interchange/inet/inet.hpp"
 #include "interchange/linux/linux.hpp"
+#include "interchange/lldp/lldp.hpp"
+#include "interchange/pcap/import.hpp"
+#include "interchange/qcc/qcc.hpp"
+#include "interchange/wireshark/wireshark.hpp"
 #include "interchange/yang/yang.hpp"
 
 namespace takt::interchange {
@@ -17,13 +23,23 @@ const std::array exports{
                  "times of hosts and switches; streams, programs, applications, faults, requirements", linux_export_settings, export_linux},
     ExportFormat{"yang", "instance data of IEEE 802.1Q modules for each node", "queues, gates, shapers, preemption, SDU sizes; policing and ATS (published dialect)",
                  "times of hosts and switches; clocks, streams, programs, applications, faults, requirements", yang_export_settings, export_yang},
+    ExportFormat{"inet", "a network (NED) and its configuration (ini) for INET 4.6", "network, streams with UDP, queues, gates, shapers, redundancy", "requirements, verification, bounds", {}, export_inet},
+    ExportFormat{"qcc", "requests for streams as a CUC gives them (ieee802-dot1q-cnc-config)", "streams with intervals, sizes, offsets, priorities, listeners; required latencies", "network, nodes, ports, clocks, faults", {}, export_qcc},
+    ExportFormat{"wireshark", "a profile of Wireshark for captures of the scenario: ethers, colorfilters, dfilter_buttons, preferences", "names of addresses, priorities, streams", "all else", {}, export_wireshark},
+    ExportFormat{"graphml", "the topology as GraphML", "nodes, links, ports, rates, delays", "all else", {}, export_graphml},
     ExportFormat{"dot", "the topology for Graphviz", "nodes, links", "all else", {}, export_dot},
+    ExportFormat{"svg", "the topology as a picture", "nodes, links", "all else", {}, export_svg},
 };
 
 const std::array imports{
     ImportFormat{"linux", "what Linux machines are set to", "NODE.sh (commands), NODE.*.json (of `tc -j qdisc show`, `ip -j -d link show`, `bridge -j vlan show`), NODE.*.conf (ptp4l); *.names.json of an export",
                  linux_import_settings, true, false, import_linux},
     ImportFormat{"yang", "instance data of devices: the published modules and those of 2018", "NODE.json, NODE.xml; *.names.json of an export", {}, true, false, import_yang},
+    ImportFormat{"lldp", "the topology that LLDP daemons see", "NODE.*.json, NODE.*.json0 (of `lldpcli -f json show neighbors details` and `show chassis` on each machine)", {}, false, false, import_lldp},
+    ImportFormat{"inet", "a network of INET: the TSN subset of NED and ini", "*.ned, one .ini", inet_import_settings, false, false, import_inet},
+    ImportFormat{"graphml", "a topology as GraphML", "one .graphml", graphml_import_settings, false, false, import_graphml},
+    ImportFormat{"csv", "a table of streams", "*.csv with a header: name, from, to, payload, every; offset, jitter, pcp, vlan, encapsulation, latency", {}, true, false, import_csv},
+    ImportFormat{"pcap", "the talkers of a running plant, by what a capture holds: period, jitter, sizes", "captures of Ethernet (pcap, pcapng); *.names.json of an export", {}, true, true, import_pcap},
 };
 
 std::string cell(std::string_view text) {

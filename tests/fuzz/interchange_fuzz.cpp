@@ -1,9 +1,10 @@
 // Any octets as the files of every import: neither crash nor hang, and what is refused has a diagnostic. The first line says which format and under
-// which name ("linux sw1.sh"), the rest is the text.
+// which name ("linux sw1.sh"), the rest is the text; a line "==== a.ini" begins a further file.
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "interchange/format.hpp"
 #include "sim/check.hpp"
@@ -17,8 +18,19 @@ void try_import(const interchange::ImportFormat& format, const std::string& name
   std::string mistake;
   const auto settings = interchange::Settings::read({}, format.settings, mistake);
   TAKT_CHECK(settings.has_value(), "no setting is no mistake");
-  const interchange::InputFile file{name, name.substr(0, name.find('.')), std::string(text)};
-  const interchange::Imported imported = format.read({{&file, 1}, nullptr, *settings}, diagnostics);
+  std::vector<interchange::InputFile> files;
+  std::string current = name;
+  constexpr std::string_view mark = "\n==== ";
+  while (true) {
+    const std::size_t next = files.size() < 4 ? text.find(mark) : std::string_view::npos;
+    files.push_back({current, current.substr(0, current.find('.')), std::string(text.substr(0, next))});
+    if (next == std::string_view::npos) break;
+    text.remove_prefix(next + mark.size());
+    const std::size_t line = text.find('\n');
+    current = std::string(text.substr(0, std::min<std::size_t>(line, 100)));
+    text.remove_prefix(line == std::string_view::npos ? text.size() : line);
+  }
+  const interchange::Imported imported = format.read({files, nullptr, *settings}, diagnostics);
   TAKT_CHECK(imported.scenario.has_value() || diagnostics.has_errors(), "what is refused has a diagnostic");
   TAKT_CHECK(!(imported.scenario.has_value() && diagnostics.has_errors()), "no scenario with a mistake");
   TAKT_CHECK(diagnostics.to_text().size() <= std::size_t{1} << 22, "what is told to the user is bounded");

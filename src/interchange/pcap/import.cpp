@@ -1,0 +1,247 @@
+#include "interchange/pcap/import.hpp"
+
+#include <fmt/format.h>
+#include <pcap/pcap.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <set>
+#include <tuple>
+
+#include "interchange/device_import.hpp"
+#include "json/quantity.hpp"
+
+namespace takt::interchange {
+namespace {
+
+using sim::Duration;
+
+constexpr std::size_t most_frames = std::size_t{1} << 22;
+constexpr std::size_t most_flows = 4096;
+
+/// Frames that belong together: from one address to another, with one tag, to one UDP port or with one EtherType.
+struct FlowKey {
+  std::uint64_t source = 0, destination = 0;
+  bool tagged = false;
+  std::uint16_t vlan = 0;
+  std::uint8_t pcp = 0;
+  std::uint16_t ether_type = 0;
+  std::uint16_t udp_port = 0;   ///< 0: no UDP
+  auto operator<=>(const FlowKey&) const = default;
+};
+
+struct Flow {
+  std::vector<std::int64_t> times_ns;
+  std::uint32_t largest = 0, smallest = 0xFFFF'FFFF;   ///< payload
+};
+
+std::string address_text(std::uint64_t address) {
+  std::string text;
+  for (int shift = 40; shift >= 0; shift -= 8) text += fmt::format("{}{:02x}", text.empty() ? "" : ":", address >> shift & 0xFF);
+  return text;
+}
+
+class Capture {
+ public:
+  Capture(const InputFile& file, Imported& imported, json::Diagnostics& diagnostics) : file_(file), imported_(imported), diagnostics_(diagnostics) {}
+
+  std::map<FlowKey, Flow> read() {
+    char why[PCAP_ERRBUF_SIZE] = "";
+    if (file_.text.empty()) return refuse("an empty file");
+    // fmemopen wants writable memory; nothing is written.
+    FILE* const stream = fmemopen(const_cast<char*>(file_.text.data()), file_.text.size(), "rb");
+    if (stream == nullptr) return refuse("no memory");
+    const std::unique_ptr<pcap_t, void (*)(pcap_t*)> capture(pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, why), &pcap_close);
+    if (!capture) {
+      std::fclose(stream);
+      return refuse(why);
+    }
+    if (pcap_datalink(capture.get()) != DLT_EN10MB) return refuse("no Ethernet");
+    pcap_pkthdr* header = nullptr;
+    const u_char* octets = nullptr;
+    int status = 0;
+    std::size_t count = 0;
+    while ((status = pcap_next_ex(capture.get(), &header, &octets)) == 1) {
+      if (++count > most_frames) return refuse(fmt::format("more than {} frames", most_frames));
+      take({octets, header->caplen}, header->len, static_cast<std::int64_t>(header->ts.tv_sec) * 1'000'000'000 + header->ts.tv_usec);
+    }
+    if (status == PCAP_ERROR) return refuse(fmt::format("{} after frame {}", pcap_geterr(capture.get()), count));
+    if (flows_.empty()) return refuse("no frames of streams");
+    if (others_ > 0) imported_.remark(RemarkKind::ignored, {file_.name, 0, 0, ""}, fmt::format("{} frames of gPTP, LLDP, ARP and the like", others_));
+    return std::move(flows_);
+  }
+
+ private:
+  std::map<FlowKey, Flow> refuse(const std::string& found) {
+    diagnostics_.error({file_.name, 0, 0, ""}, "no capture that is read", {found, "pcap or pcapng of Ethernet"});
+    return {};
+  }
+
+  static std::uint64_t number(std::span<const u_char> octets, std::size_t at, std::size_t count) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < count; ++i) value = value << 8 | octets[at + i];
+    return value;
+  }
+
+  void take(std::span<const u_char> octets, std::uint32_t length, std::int64_t time) {
+    if (octets.size() < 14) { ++others_; return; }
+    FlowKey key;
+    key.destination = number(octets, 0, 6);
+    key.source = number(octets, 6, 6);
+    std::size_t at = 12;
+    key.ether_type = static_cast<std::uint16_t>(number(octets, at, 2));
+    if (key.ether_type == 0x8100 && octets.size() >= 18) {
+      const auto tag = static_cast<std::uint16_t>(number(octets, 14, 2));
+      key.tagged = true;
+      key.pcp = static_cast<std::uint8_t>(tag >> 13);
+      key.vlan = tag & 0xFFF;
+      at = 16;
+      key.ether_type = static_cast<std::uint16_t>(number(octets, at, 2));
+    }
+    at += 2;
+    std::int64_t payload = static_cast<std::int64_t>(length) - static_cast<std::int64_t>(at);
+    const bool is_management = key.ether_type == 0x88F7 || key.ether_type == 0x88CC || key.ether_type == 0x0806 || key.ether_type == 0x86DD || key.ether_type < 0x0600;
+    if (is_management || payload < 1) { ++others_; return; }
+    if (key.ether_type == 0x0800) {
+      // IPv4 with UDP, whole; the rest of IP is no stream of a plant.
+      if (octets.size() < at + 28 || octets[at] >> 4 != 4 || octets[at + 9] != 17) { ++others_; return; }
+      const std::size_t header = static_cast<std::size_t>(octets[at] & 15) * 4;
+      if (header < 20 || octets.size() < at + header + 8) { ++others_; return; }
+      key.udp_port = static_cast<std::uint16_t>(number(octets, at + header + 2, 2));
+      payload = static_cast<std::int64_t>(number(octets, at + header + 4, 2)) - 8;
+    }
+    if (payload < 1 || payload > 1500) { ++others_; return; }
+    const auto flow = flows_.find(key);
+    if (flow == flows_.end() && flows_.size() >= most_flows) { ++others_; return; }
+    Flow& made = flow == flows_.end() ? flows_[key] : flow->second;
+    made.times_ns.push_back(time);
+    made.largest = std::max(made.largest, static_cast<std::uint32_t>(payload));
+    made.smallest = std::min(made.smallest, static_cast<std::uint32_t>(payload));
+  }
+
+  const InputFile& file_;
+  Imported& imported_;
+  json::Diagnostics& diagnostics_;
+  std::map<FlowKey, Flow> flows_;
+  std::size_t others_ = 0;
+};
+
+class Builder {
+ public:
+  Builder(const ImportRequest& request, const Names& names, Imported& imported) : names_(names), imported_(imported) {
+    if (request.base != nullptr) scenario_ = *request.base;
+    has_base_ = request.base != nullptr;
+  }
+
+  void add(const std::string& file, const std::map<FlowKey, Flow>& flows, std::int64_t begin) {
+    for (const auto& [key, flow] : flows) add(file, key, flow, begin);
+  }
+
+  scenario::Scenario take(const std::string& name, Duration length) {
+    if (!has_base_) {
+      scenario_.name = name;
+      scenario_.duration = length;
+      for (const std::string& host : hosts_) {
+        scenario_.network.nodes.emplace_back(host, scenario::Node(scenario::HostNode{}));
+        scenario::Link link;
+        link.ends = {host, "sw"};
+        scenario_.network.links.push_back(std::move(link));
+      }
+      scenario_.network.nodes.emplace_back("sw", scenario::Node(scenario::SwitchNode{}));
+    }
+    return std::move(scenario_);
+  }
+
+ private:
+  std::string host_of(std::uint64_t address) {
+    std::string name = names_.node(address_text(address)).value_or("");
+    if (name.empty()) {
+      name = (address >> 40 & 1) != 0 ? "group-" : "host-";
+      name += fmt::format("{:06x}", address & 0xFF'FFFF);
+    }
+    hosts_.insert(name);
+    return name;
+  }
+
+  void add(const std::string& file, const FlowKey& key, const Flow& flow, std::int64_t begin) {
+    const json::Place place{file, 0, 0, ""};
+    const std::string what = address_text(key.source) + " to " + address_text(key.destination) + (key.udp_port != 0 ? fmt::format(", UDP port {}", key.udp_port) : fmt::format(", EtherType {:04x}", key.ether_type));
+    if (flow.times_ns.size() < 3) return imported_.remark(RemarkKind::lost, place, what + fmt::format(": {} frames, too few to see a period", flow.times_ns.size()));
+    scenario::Stream stream;
+    stream.from = host_of(key.source);
+    stream.to.names = {host_of(key.destination)};
+    if ((key.destination >> 40 & 1) != 0) imported_.remark(RemarkKind::lost, place, what + ": who listens to a group is in no capture; one host stands for all");
+    if (stream.from == stream.to.names.front()) return imported_.remark(RemarkKind::lost, place, what + ": to itself");
+    stream.name = stream.from + "-to-" + stream.to.names.front();
+    for (int i = 2; std::ranges::any_of(scenario_.streams, [&](const scenario::Stream& each) { return each.name == stream.name; }); ++i) stream.name = stream.from + "-to-" + stream.to.names.front() + "-" + std::to_string(i);
+    stream.payload = sim::Octets{flow.largest};
+    stream.encapsulation = key.udp_port != 0 ? scenario::Encapsulation::udp : scenario::Encapsulation::ethernet;
+    if (key.tagged) {
+      stream.pcp = key.pcp;
+      stream.vlan = key.vlan == 0xFFF ? std::uint16_t{0} : key.vlan;
+    }
+    if (flow.smallest != flow.largest) imported_.remark(RemarkKind::lost, place, what + fmt::format(": {} to {} octets; all frames have {}", flow.smallest, flow.largest, flow.largest));
+    set_times(flow, begin, stream, place, what);
+    scenario_.streams.push_back(std::move(stream));
+  }
+
+  /// Frame k at offset + k * period + what is left, from 0 to the jitter: the period is the mean gap in whole ns.
+  void set_times(const Flow& flow, std::int64_t begin, scenario::Stream& stream, const json::Place& place, const std::string& what) {
+    std::vector<std::int64_t> times = flow.times_ns;
+    std::ranges::sort(times);
+    const auto gaps = static_cast<std::int64_t>(times.size()) - 1;
+    const std::int64_t mean = std::max<std::int64_t>((times.back() - times.front() + gaps / 2) / gaps, 1);
+    std::int64_t least = 0, most = 0;
+    for (std::int64_t k = 0; k <= gaps; ++k) {
+      const std::int64_t left = times[static_cast<std::size_t>(k)] - times.front() - k * mean;
+      least = std::min(least, left);
+      most = std::max(most, left);
+    }
+    const std::int64_t jitter = most - least;
+    if (jitter >= mean) {
+      stream.exponential = scenario::ExponentialGaps{Duration::from_ps(mean * 1000)};
+      return imported_.remark(RemarkKind::lost, place, what + ": no period (frames stray by " + json::to_text(Duration::from_ps(jitter * 1000)) + " at a mean gap of " + json::to_text(Duration::from_ps(mean * 1000)) + "), so random gaps of that mean");
+    }
+    stream.every = Duration::from_ps(mean * 1000);
+    std::int64_t offset = (times.front() + least - begin) % mean;
+    if (offset < 0) offset += mean;
+    stream.offset = json::OrAuto<Duration>(Duration::from_ps(offset * 1000));
+    stream.jitter = Duration::from_ps(jitter * 1000);
+  }
+
+  const Names& names_;
+  Imported& imported_;
+  scenario::Scenario scenario_;
+  bool has_base_ = false;
+  std::set<std::string> hosts_;
+};
+
+}  // namespace
+
+Imported import_pcap(const ImportRequest& request, json::Diagnostics& diagnostics) {
+  Imported imported;
+  Names names;
+  std::vector<std::pair<const InputFile*, std::map<FlowKey, Flow>>> captures;
+  for (const InputFile& file : request.files) {
+    if (is_names_file(file)) names.read(file, diagnostics);
+    else captures.emplace_back(&file, Capture(file, imported, diagnostics).read());
+  }
+  if (captures.empty() && !diagnostics.has_errors()) diagnostics.error({request.files.empty() ? "" : request.files.front().name, 0, 0, ""}, "no capture", {"only a table of names", "a pcap file"});
+  if (diagnostics.has_errors()) return imported;
+  std::int64_t begin = std::numeric_limits<std::int64_t>::max(), end = std::numeric_limits<std::int64_t>::min();
+  for (const auto& [file, flows] : captures)
+    for (const auto& [key, flow] : flows) {
+      begin = std::min(begin, *std::ranges::min_element(flow.times_ns));
+      end = std::max(end, *std::ranges::max_element(flow.times_ns));
+    }
+  Builder builder(request, names, imported);
+  for (const auto& [file, flows] : captures) builder.add(file->name, flows, begin);
+  const Duration length = Duration::from_ps(std::clamp<std::int64_t>(end - begin, 1'000'000, 3'600'000'000'000) * 1000);
+  imported.scenario = builder.take(captures.front().first->device, length);
+  if (request.base == nullptr) imported.remark(RemarkKind::lost, {captures.front().first->name, 0, 0, ""}, "the network, which is in no capture (--into): all hosts are at one switch of 1 Gb/s");
+  return imported;
+}
+
+}  // namespace takt::interchange

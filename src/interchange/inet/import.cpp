@@ -3,11 +3,11 @@
 #include <map>
 #include <numeric>
 
+#include "interchange/inet/gate_circles.hpp"
 #include "interchange/inet/inet.hpp"
 #include "interchange/inet/ini.hpp"
 #include "interchange/inet/ned.hpp"
 #include "json/quantity.hpp"
-#include "models/egress/class_set.hpp"
 
 namespace takt::interchange {
 namespace inet {
@@ -425,22 +425,6 @@ class Reader {
 
   /// One list for a port of eight: the least common cycle, and an entry at each change; the lists are in force from 0 on.
   void read_gates(const std::string& queue, scenario::Egress& egress) {
-    struct ClassGate {
-      bool initially = true;
-      std::vector<std::int64_t> durations;
-      std::int64_t sum = 0, offset = 0;
-      bool is_open(std::int64_t at) const {
-        if (sum == 0) return initially;
-        std::int64_t within = (at + offset) % sum;
-        bool open = initially;
-        for (const std::int64_t length : durations) {
-          if (within < length) break;
-          within -= length;
-          open = !open;
-        }
-        return open;
-      }
-    };
     std::array<ClassGate, 8> gates;
     std::int64_t cycle = 1;
     bool any = false;
@@ -468,28 +452,7 @@ class Reader {
       }
     }
     if (!any || diagnostics_.has_errors()) return;
-    std::vector<std::int64_t> changes = {0};
-    if (cycle == 1) cycle = 1'000'000'000;
-    for (const ClassGate& gate : gates) {
-      if (gate.sum == 0) continue;
-      std::int64_t at = -(gate.offset % gate.sum);
-      for (std::size_t i = 0; at < cycle; i = (i + 1) % gate.durations.size()) {
-        if (at > 0) changes.push_back(at);
-        at += gate.durations[i];
-        if (changes.size() > 100'000) break;
-      }
-    }
-    std::ranges::sort(changes);
-    changes.erase(std::unique(changes.begin(), changes.end()), changes.end());
-    scenario::Gates made;
-    for (std::size_t i = 0; i < changes.size(); ++i) {
-      scenario::GateEntry entry;
-      for (std::uint8_t q = 0; q < 8; ++q)
-        if (gates[q].is_open(changes[i])) entry.open.push_back(q);
-      entry.interval = Duration::from_ps((i + 1 < changes.size() ? changes[i + 1] : cycle) - changes[i]);
-      if (!made.entries.empty() && made.entries.back().open == entry.open) made.entries.back().interval += entry.interval;
-      else made.entries.push_back(std::move(entry));
-    }
+    scenario::Gates made = one_list(gates, cycle == 1 ? 1'000'000'000 : cycle);
     if (made.entries.size() > 1024) { error(line(queue + "transmissionGate[0].durations") != nullptr ? line(queue + "transmissionGate[0].durations")->place : network_.place, "a gate list that takt does not have", std::to_string(made.entries.size()) + " entries", "at most 1024"); return; }
     if (made.entries.size() == 1 && made.entries.front().open.size() == 8) return;
     egress.gates = std::move(made);

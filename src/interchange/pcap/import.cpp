@@ -187,28 +187,46 @@ class Builder {
     scenario_.streams.push_back(std::move(stream));
   }
 
-  /// Frame k at offset + k * period + what is left, from 0 to the jitter: the period is the mean gap in whole ns.
+  struct Grid {
+    std::int64_t least = 0, jitter = 0;   ///< ns: where the first frame may stand, how far frames stray behind
+  };
+  static Grid grid_of(const std::vector<std::int64_t>& times, std::int64_t period) {
+    std::int64_t least = 0, most = 0;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const std::int64_t left = times[k] - times.front() - static_cast<std::int64_t>(k) * period;
+      least = std::min(least, left);
+      most = std::max(most, left);
+    }
+    return {least, most - least};
+  }
+
+  /// A round period that the frames bear out as well as their mean gap: jitter makes the mean wrong by a part of it for each gap.
+  static std::int64_t rounded(std::int64_t mean, std::int64_t jitter, std::int64_t gaps) {
+    const std::int64_t doubt = jitter / gaps + 1;
+    for (const std::int64_t step : {1'000'000, 500'000, 250'000, 125'000, 100'000, 50'000, 25'000, 10'000, 5'000, 1'000, 500, 100, 10}) {
+      const std::int64_t round = (mean + step / 2) / step * step;
+      if (round > 0 && std::abs(round - mean) <= doubt) return round;
+    }
+    return mean;
+  }
+
+  /// Frame k at offset + k * period + what is left, from 0 to the jitter: the period is the mean gap, or a round one as near as the jitter lets tell.
   void set_times(const Flow& flow, std::int64_t begin, scenario::Stream& stream, const json::Place& place, const std::string& what) {
     std::vector<std::int64_t> times = flow.times_ns;
     std::ranges::sort(times);
     const auto gaps = static_cast<std::int64_t>(times.size()) - 1;
     const std::int64_t mean = std::max<std::int64_t>((times.back() - times.front() + gaps / 2) / gaps, 1);
-    std::int64_t least = 0, most = 0;
-    for (std::int64_t k = 0; k <= gaps; ++k) {
-      const std::int64_t left = times[static_cast<std::size_t>(k)] - times.front() - k * mean;
-      least = std::min(least, left);
-      most = std::max(most, left);
-    }
-    const std::int64_t jitter = most - least;
-    if (jitter >= mean) {
+    if (const std::int64_t jitter = grid_of(times, mean).jitter; jitter >= mean) {
       stream.exponential = scenario::ExponentialGaps{Duration::from_ps(mean * 1000)};
       return imported_.remark(RemarkKind::lost, place, what + ": no period (frames stray by " + json::to_text(Duration::from_ps(jitter * 1000)) + " at a mean gap of " + json::to_text(Duration::from_ps(mean * 1000)) + "), so random gaps of that mean");
     }
-    stream.every = Duration::from_ps(mean * 1000);
-    std::int64_t offset = (times.front() + least - begin) % mean;
-    if (offset < 0) offset += mean;
+    const std::int64_t period = rounded(mean, grid_of(times, mean).jitter, gaps);
+    const Grid grid = grid_of(times, period);
+    stream.every = Duration::from_ps(period * 1000);
+    std::int64_t offset = (times.front() + grid.least - begin) % period;
+    if (offset < 0) offset += period;
     stream.offset = json::OrAuto<Duration>(Duration::from_ps(offset * 1000));
-    stream.jitter = Duration::from_ps(jitter * 1000);
+    stream.jitter = Duration::from_ps(std::min(grid.jitter, period) * 1000);
   }
 
   const Names& names_;

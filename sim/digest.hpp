@@ -45,10 +45,16 @@ class Content {
 constexpr std::uint64_t hash_of(std::span<const std::byte> octets) {
   Content hash(octets.size());
   std::uint64_t word = 0;
-  for (std::size_t i = 0; i < octets.size(); ++i) {
-    word = word << 8 | static_cast<std::uint64_t>(octets[i]);
-    if (i % 8 == 7 || i + 1 == octets.size()) hash.add(word);
+  std::size_t at = 0;
+  for (; octets.size() - at >= 8; at += 8) {   // spelt out, so that it becomes one load
+    const std::byte* const from = octets.data() + at;
+    const auto octet = [&](std::size_t i) { return static_cast<std::uint64_t>(from[i]) << (56 - 8 * i); };
+    word = octet(0) | octet(1) | octet(2) | octet(3) | octet(4) | octet(5) | octet(6) | octet(7);
+    hash.add(word);
   }
+  if (at == octets.size()) return hash.value();
+  for (; at < octets.size(); ++at) word = word << 8 | static_cast<std::uint64_t>(octets[at]);
+  hash.add(word);
   return hash.value();
 }
 

@@ -89,6 +89,7 @@ void Station::handle(sim::Simulation& simulation, const sim::Event& event) {
 
 void Station::expire() {
   const sim::LocalTime now = local();
+  is_expiring_ = true;
   due_.clear();
   for (const Armed& armed : armed_)
     if (armed.at <= now) due_.push_back(armed);
@@ -102,10 +103,12 @@ void Station::expire() {
     machine_.timer_expired(armed.timer, now, outputs_);
     carry_out();
   }
+  is_expiring_ = false;
   rearm();
 }
 
 void Station::rearm() {
+  if (is_expiring_) return;   // once at its end
   sim::LocalTime first = sim::LocalTime::never();
   for (const Armed& armed : armed_) first = std::min(first, armed.at);
   if (first == sim::LocalTime::never() || !up_)
@@ -117,13 +120,19 @@ void Station::rearm() {
 void Station::clock_changed(const LocalClock&, sim::TrueTime) { rearm(); }
 
 void Station::carry_out() {
+  bool timers_changed = false;
   for (const Output& output : outputs_) {
     if (const auto* const message = std::get_if<SendMessage>(&output)) {
       send(*message);
     } else if (const auto* const arm = std::get_if<ArmTimer>(&output)) {
-      std::erase_if(armed_, [&](const Armed& armed) { return armed.timer == arm->timer; });
-      armed_.push_back({arm->timer, arm->at});
+      timers_changed = true;
+      const auto found = std::ranges::find(armed_, arm->timer, &Armed::timer);
+      if (found != armed_.end())
+        found->at = arm->at;
+      else
+        armed_.push_back({arm->timer, arm->at});
     } else if (const auto* const cancel = std::get_if<CancelTimer>(&output)) {
+      timers_changed = true;
       std::erase_if(armed_, [&](const Armed& armed) { return armed.timer == cancel->timer; });
     } else if (const auto* const sample = std::get_if<SyncSample>(&output)) {
       discipline(*sample);
@@ -137,7 +146,7 @@ void Station::carry_out() {
     }
   }
   note_change();
-  rearm();
+  if (timers_changed) rearm();
 }
 
 std::uint32_t Station::keep(const SendMessage& message) {

@@ -133,6 +133,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   sim::Timer timer_;
   std::vector<Armed> armed_;
   std::vector<Armed> due_;                 // at this instant
+  bool is_expiring_ = false;
   std::vector<Waiting> waiting_;           // by slot
   std::vector<std::uint32_t> free_slots_;
   std::vector<sim::LocalTime> egress_of_slot_;

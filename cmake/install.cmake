@@ -19,7 +19,7 @@ set(takt_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/takt)
 install(EXPORT takt-targets NAMESPACE takt:: DESTINATION ${takt_cmake_folder} COMPONENT takt_library)
 foreach(folder security program handshake uadp pubsub dds gateway wire plant node json)
   install(DIRECTORY src/${folder}/ DESTINATION ${TAKT_INCLUDE_FOLDER}/${folder} COMPONENT takt_library FILES_MATCHING PATTERN "*.hpp"
-          PATTERN node/applications EXCLUDE PATTERN node/dds EXCLUDE)  # parts of the command
+          PATTERN node/applications EXCLUDE PATTERN node/dds EXCLUDE PATTERN node/server EXCLUDE)  # parts of the command
 endforeach()
 install(FILES sim/time.hpp sim/units.hpp sim/check.hpp sim/octets.hpp DESTINATION ${TAKT_INCLUDE_FOLDER}/sim COMPONENT takt_library)
 configure_package_config_file(cmake/takt-config.cmake.in ${PROJECT_BINARY_DIR}/takt-config.cmake INSTALL_DESTINATION ${takt_cmake_folder})

@@ -1,6 +1,7 @@
 // takt node: a participant of Programs on this machine, or applications and gateways.
 #include <csignal>
 #include <cstdio>
+#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "node/built_in_values.hpp"
 #include "node/log.hpp"
 #include "node/real_node.hpp"
+#include "node/server/opcua_server.hpp"
+#include "results/version.hpp"
 
 namespace takt::cli {
 namespace {
@@ -54,12 +57,26 @@ ExitStatus run_applications(const std::string& file, bool is_check) {
   return ExitStatus::pass;
 }
 
+/// The hash of a line of standard input, for a file of users.
+ExitStatus hash_password() {
+  std::string password;
+  if (!std::getline(std::cin, password) || password.empty() || password.size() > 64) {
+    std::fputs("takt: a password of 1 to 64 octets on standard input\n", stderr);
+    return ExitStatus::bad_input;
+  }
+  std::printf("%s\n", node::hash_of_password(password).c_str());
+  return ExitStatus::pass;
+}
+
 ExitStatus run_node(const std::string& file, bool is_check) {
   if (node::is_applications_file(file)) return run_applications(file, is_check);
   json::Diagnostics diagnostics;
   const auto loaded = node::load_config(file, diagnostics);
+  const bool has_server = loaded && loaded->config.server;
+  const bool has_users = has_server && loaded->config.server->users;
+  auto users = has_users ? node::load_users(*loaded->config.server->users, diagnostics) : std::vector<opcua::User>();
   tell(diagnostics);
-  if (!loaded) return ExitStatus::bad_input;
+  if (!loaded || !users) return ExitStatus::bad_input;
   if (is_check) return ExitStatus::pass;
   std::string problem;
   std::string warnings;
@@ -71,14 +88,26 @@ ExitStatus run_node(const std::string& file, bool is_check) {
     values.push_back(std::make_unique<node::BuiltInValues>(loaded->config, program.endpoint.format->shape(), log, loaded->programs.size() > 1));
     applications.push_back(values.back().get());
   }
-  const auto live = node::RealNode::make(*loaded, log, applications, problem, warnings);
+  node::HandOver hand_over;
+  const std::string folder = file.substr(0, file.find('/') == std::string::npos ? 0 : file.rfind('/'));
+  const auto server = has_server ? node::OpcUaServer::make(*loaded, std::move(*users), folder, hand_over, results::version, problem) : nullptr;
+  if (has_server && !server) {
+    std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
+    return ExitStatus::internal_error;
+  }
+  const auto live = node::RealNode::make(*loaded, log, applications, problem, warnings, server ? &hand_over : nullptr);
   if (!live) {
     std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
     return ExitStatus::internal_error;
   }
   print_warnings(warnings);
   const InterruptGuard interrupt;
+  if (server) {
+    std::fprintf(stderr, "%s", server->text().c_str());
+    server->start();
+  }
   live->run([](const void* guard) { return static_cast<const InterruptGuard*>(guard)->requested(); }, &interrupt);
+  if (server) server->stop();
   std::fputs(node::status_text(live->status()).c_str(), stderr);
   return ExitStatus::pass;
 }
@@ -89,7 +118,9 @@ void add_node_command(Command app, ExitStatus& status) {
   const Command command = app.add_subcommand("node", "Run a participant of Programs, or applications and gateways, on this machine");
   const auto file = std::make_shared<std::string>();
   const auto is_check = std::make_shared<bool>(false);
-  command.add_option("CONFIG", *file, "The file of the node (JSON, comments allowed)").required();
+  const auto is_hash = std::make_shared<bool>(false);
+  command.add_option("CONFIG", *file, "The file of the node (JSON, comments allowed)");
+  command.add_flag("--hash-password", *is_hash, "Print the hash of the password on standard input, for a file of users of the server");
   command.add_flag("--check", *is_check, "Say whether the file is sound, and no more");
   command.footer(
       "Examples:\n"
@@ -100,7 +131,10 @@ void add_node_command(Command app, ExitStatus& status) {
       "Standard output is one JSON object a line: transitions, calls, intents, received values if asked for, and statistics at the end,\n"
       "which standard error has as text. takt ctl speaks to a node while it runs.\n"
       "Exit status: 0 ended or stopped, 2 bad input, 3 the machine does not let it (port, interface, permission).");
-  command.callback([file, is_check, &status] { status = run_node(*file, *is_check); });
+  command.callback([file, is_check, is_hash, &status] {
+    if (file->empty() && !*is_hash) std::fputs("takt: CONFIG is required: the file of the node\n", stderr);
+    status = *is_hash ? hash_password() : file->empty() ? ExitStatus::bad_input : run_node(*file, *is_check);
+  });
 }
 
 }  // namespace takt::cli

@@ -11,6 +11,7 @@
 #include "json/fields.hpp"
 #include "node/key_file.hpp"
 #include "node/message_security.hpp"
+#include "node/server_config.hpp"
 #include "sim/time.hpp"
 #include "plant/protocol.hpp"
 #include "wire/program_node.hpp"
@@ -100,6 +101,7 @@ struct Config {
   std::vector<Source> sources;
   std::optional<Duration> log_values_every;
   std::vector<ScriptEntry> script;
+  std::optional<ServerConfig> server;
   bool operator==(const Config&) const = default;
 };
 

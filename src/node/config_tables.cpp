@@ -107,6 +107,7 @@ const json::Object& describe(json::Type<Config>) {
       optional<&Config::sources>("sources", "Values of own data sets; fields without a source are 0.", {.max_items = 10'000}),
       optional<&Config::log_values_every>("log_values_every", "Log values that are received, each data set at most so often; 0 is each message.", {.max = 3600_s}),
       optional<&Config::script>("script", "Methods that are called at this node.", {.max_items = 10'000}),
+      optional<&Config::server>("server", "An OPC UA server (opc.tcp) in front of its Programs; none if absent."),
   };
   static constexpr std::string_view members[] = {"program", "programs"};
   static constexpr json::Group groups[] = {json::exactly_one_of(members)};

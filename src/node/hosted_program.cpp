@@ -25,8 +25,8 @@ std::int64_t thread_cpu_ns() {
   return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
 }
 
-HostedProgram::HostedProgram(const LoadedProgram& loaded, const Node& node, TransitionLog log, Application* application)
-    : loaded_(loaded), node_(node), log_(std::move(log)), application_(application), part_(settings_on(node, loaded)), alarms_(part_.alarm_count(), sim::LocalTime::never()), peers_(part_.peer_count()) {}
+HostedProgram::HostedProgram(const LoadedProgram& loaded, const Node& node, std::size_t number, TransitionLog log, Application* application)
+    : loaded_(loaded), node_(node), log_(std::move(log)), application_(application), part_(settings_on(node, loaded)), alarms_(part_.alarm_count(), sim::LocalTime::never()), peers_(part_.peer_count()), reporter_(node.hand_over, number, part_.peer_count()) {}
 
 std::unique_ptr<wire::Nesting> HostedProgram::nest(HostedProgram& outer, HostedProgram& inner) {
   outer.other_ = &inner;
@@ -38,12 +38,15 @@ std::unique_ptr<wire::Nesting> HostedProgram::nest(HostedProgram& outer, HostedP
 void HostedProgram::start() {
   cpu_at_last_cycle_ns_ = thread_cpu_ns();
   carry_out(part_.start(now()));
+  reporter_.methods(part_);
 }
 
 program::StatusCode HostedProgram::call(program::Method method) {
   wire::NodeOutputs& outputs = part_.call(now(), method);
   const program::StatusCode status = outputs.status;
+  reporter_.calling(method);
   carry_out(outputs);
+  reporter_.calling({});
   log_.called(now_ns(), method, status);
   return status;
 }
@@ -105,6 +108,11 @@ void HostedProgram::wake_others(sim::LocalTime now) {
   }
 }
 
+void HostedProgram::act(const wire::Heard& heard) {
+  peers_.heard(heard.peer, heard.word, now());
+  reporter_.heard(heard.peer, heard.word, part_);
+}
+
 void HostedProgram::act(const wire::Publish& message) {
   const bool is_data = !message.is_state() && !message.is_of_roles();
   if (is_data && application_ != nullptr) application_->produce(message.data_set(), now_ns(), message.fields());
@@ -124,15 +132,20 @@ void HostedProgram::act(const wire::RoleBound& bound) {
   log_.bound(now_ns(), program.roles[bound.role].name, bound.binding.bound() ? std::string_view(program.candidates[bound.binding.candidate]) : std::string_view(), bound.binding.life);
 }
 
-void HostedProgram::act(const wire::RoleTaken& taken) { log_.took_role(now_ns(), loaded_.program.roles[taken.role].name, taken.self.life); }
+void HostedProgram::act(const wire::RoleTaken& taken) {
+  log_.took_role(now_ns(), loaded_.program.roles[taken.role].name, taken.self.life);
+  reporter_.methods(part_);
+}
 
 void HostedProgram::act(const wire::RoleDropped&) {
   peers_.forget(0);
   log_.dropped_role(now_ns());
+  reporter_.methods(part_);
 }
 
 void HostedProgram::act(const wire::Stepped& step) {
   log_.stepped(now_ns(), step.outputs, step.after);
+  reporter_.stepped(step.outputs, part_);
   if (application_ == nullptr) return;
   for (const handshake::StateChange& change : step.outputs.changes()) application_->changed(change);
 }

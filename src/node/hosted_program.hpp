@@ -8,6 +8,7 @@
 #include "node/clock.hpp"
 #include "node/config.hpp"
 #include "node/node_status.hpp"
+#include "node/program_reporter.hpp"
 #include "node/socket.hpp"
 #include "node/statistics.hpp"
 #include "node/transition_log.hpp"
@@ -31,9 +32,10 @@ class HostedProgram {
     std::uint32_t incarnation = 0;
     Duration lead;  ///< 0: no launch times
     NodeSecurity* security = nullptr;  ///< if its messages are secured
+    HandOver* hand_over = nullptr;     ///< to the node's server, if it has one
   };
-  /// `application` may be null; it outlives this.
-  HostedProgram(const LoadedProgram& loaded, const Node& node, TransitionLog log, Application* application);
+  /// `number` among the node's Programs. `application` may be null; it outlives this.
+  HostedProgram(const LoadedProgram& loaded, const Node& node, std::size_t number, TransitionLog log, Application* application);
 
   /// Joins two Programs of a node, where one is nested in the other. Both outlive what is returned, which outlives their use.
   static std::unique_ptr<wire::Nesting> nest(HostedProgram& outer, HostedProgram& inner);
@@ -70,7 +72,7 @@ class HostedProgram {
   void act(const wire::SetAlarm& alarm) { alarms_[alarm.alarm] = alarm.time; }
   void act(const wire::Publish& message);
   void act(const wire::Stepped& step);
-  void act(const wire::Heard& heard) { peers_.heard(heard.peer, heard.word, now()); }
+  void act(const wire::Heard& heard);
   void act(const wire::ProcessDataMessage& message);
   void act(const wire::RoleBound& bound);
   void act(const wire::RoleTaken& taken);
@@ -93,6 +95,7 @@ class HostedProgram {
   CycleStatistics cycles_;
   std::int64_t cpu_at_last_cycle_ns_ = 0;
   PeerWatch peers_;
+  ProgramReporter reporter_;
 };
 
 }  // namespace takt::node

@@ -30,13 +30,14 @@ std::uint32_t incarnation_now() {
 }  // namespace
 
 std::unique_ptr<RealNode> RealNode::make(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, std::string& problem,
-                                         std::string& warnings) {
+                                         std::string& warnings, HandOver* hand_over) {
   const Config& config = loaded.config;
   std::unique_ptr<Socket> socket = std::visit([&problem](const auto& transport) { return open_socket(transport, problem); }, config.transport);
   if (!socket) return nullptr;
   std::string refused_launch;
   if (config.launch_lead) refused_launch = socket->enable_launch_times(config.clock);
   std::unique_ptr<RealNode> node(new RealNode(loaded, std::move(socket), log));
+  node->hand_over_ = hand_over;
   if (!node->timer_.is_open()) {
     problem = std::string("a timer: ") + std::strerror(errno);
     return nullptr;
@@ -70,7 +71,7 @@ RealNode::RealNode(const LoadedConfig& loaded, std::unique_ptr<Socket> socket, L
 void RealNode::host(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, Duration lead) {
   const bool are_several = loaded.programs.size() > 1;
   for (std::size_t i = 0; i < loaded.programs.size(); ++i)
-    programs_.push_back(std::make_unique<HostedProgram>(loaded.programs[i], HostedProgram::Node{config_, *socket_, clock_, incarnation_, lead, security_.get()},
+    programs_.push_back(std::make_unique<HostedProgram>(loaded.programs[i], HostedProgram::Node{config_, *socket_, clock_, incarnation_, lead, security_.get(), hand_over_}, i,
                                                         TransitionLog(log, are_several ? loaded.programs[i].program.name : std::string()),
                                                         i < applications.size() ? applications[i] : nullptr));
   for (std::size_t i = 0; i < programs_.size(); ++i)
@@ -82,10 +83,10 @@ void RealNode::run(bool (*stop_requested)(const void* context), const void* cont
   log_.started(clock_.nanoseconds_at(started_), config_.node, incarnation_);
   for (const auto& program : programs_) program->start();
   std::vector<pollfd> waiting;
-  waiting.reserve(3 + ControlSocket::most_clients);
+  waiting.reserve(4 + ControlSocket::most_clients);
   for (;;) {
     timer_.set(clock_, next_time());
-    waiting.assign({{socket_->file_descriptor(), POLLIN, 0}, {timer_.file_descriptor(), POLLIN, 0}});
+    waiting.assign({{socket_->file_descriptor(), POLLIN, 0}, {timer_.file_descriptor(), POLLIN, 0}, {hand_over_ != nullptr ? hand_over_->calls_descriptor() : -1, POLLIN, 0}});
     if (control_) control_->add_to(waiting);
     // A signal interrupts the wait; one that came just before it is seen a second later.
     ::poll(waiting.data(), waiting.size(), 1000);
@@ -93,9 +94,11 @@ void RealNode::run(bool (*stop_requested)(const void* context), const void* cont
     if (config_.duration && clock_.now() - started_ >= *config_.duration) break;
     take_received();
     wake_due(clock_.now());
-    const bool is_asked = std::any_of(waiting.begin() + 2, waiting.end(), [](const pollfd& each) { return each.revents != 0; });
+    if (waiting[2].revents != 0) take_calls();
+    const bool is_asked = std::any_of(waiting.begin() + 3, waiting.end(), [](const pollfd& each) { return each.revents != 0; });
     if (is_asked) take_requests();
     if (!out_.is_idle()) out_.flush();
+    if (hand_over_ != nullptr) hand_over_->flush();
   }
   log_.ended(status_now());
 }
@@ -149,6 +152,15 @@ void RealNode::act(const LoadedCall& call) {
     hosted.call(*method);
   else
     hosted.change(std::get<Membership>(call.what));
+}
+
+/// Clients of the server call like anybody else.
+void RealNode::take_calls() {
+  hand_over_->clear_calls_wake();
+  while (const auto call = hand_over_->next_call()) {
+    const program::StatusCode status = call->program < programs_.size() ? programs_[call->program]->call(call->method) : program::StatusCode::BadNodeIdUnknown;
+    hand_over_->report({.news = {}, .answered = call->serial, .status = status});
+  }
 }
 
 void RealNode::take_requests() {

@@ -23,9 +23,10 @@ namespace takt::node {
 class RealNode {
  public:
   /// Null, and `problem` says why, if the machine does not give what the file asks for. What it can do without is a line of
-  /// `warnings`. `applications` by Program of the file that this node is in; where there is none, or null, process data are zeros. They
-  /// and `log` outlive the node.
-  static std::unique_ptr<RealNode> make(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, std::string& problem, std::string& warnings);
+  /// `warnings`. `applications` by Program of the file that this node is in; where there is none, or null, process data are zeros. They,
+  /// `log` and `hand_over`, which is null without a server, outlive the node.
+  static std::unique_ptr<RealNode> make(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, std::string& problem, std::string& warnings,
+                                        HandOver* hand_over = nullptr);
 
   /// Runs until the file's duration is over or `stop_requested` says so, which is asked after every wake-up.
   void run(bool (*stop_requested)(const void* context), const void* context);
@@ -43,6 +44,7 @@ class RealNode {
 
  private:
   RealNode(const LoadedConfig& loaded, std::unique_ptr<Socket> socket, Log& log);
+  void take_calls();
   void host(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, Duration lead);
 
   /// Of one of its Programs, or of all.
@@ -64,6 +66,7 @@ class RealNode {
   std::optional<std::size_t> outermost_;    ///< what a request is for that names no Program
   std::unique_ptr<Socket> socket_;
   std::unique_ptr<ControlSocket> control_;  ///< null: none is wanted
+  HandOver* hand_over_ = nullptr;           ///< null: no server
   Clock clock_;
   AbsoluteTimer timer_;
   Log& out_;

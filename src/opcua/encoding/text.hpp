@@ -26,6 +26,7 @@ struct Text {
   friend auto operator<=>(const Text& a, const Text& b) { return a.value <=> b.value; }
   friend bool operator==(const Text& a, std::string_view b) { return a.value == b; }
   friend bool operator==(const Text& a, const char* b) { return a.value == b; }
+  friend bool operator==(const Text& a, const std::string& b) { return a.value == b; }
 };
 
 /// A ByteString.

@@ -1,0 +1,34 @@
+// The folder of a server's own key and certificate and of those whom it trusts, as other tools lay it out.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "opcua/channel/trust_list.hpp"
+#include "opcua/server/outside.hpp"
+#include "security/random.hpp"
+
+namespace takt::node {
+
+class Pki {
+ public:
+  explicit Pki(std::string folder) : folder_(std::move(folder)) {}
+
+  /// Makes the folders, and at the first start a key, which only its owner may read, and a certificate for ten years. Nothing, and `problem` says why, if
+  /// that cannot be, or if others may read the key.
+  std::optional<opcua::Identity> identity(const security::OwnCertificate& of, security::RandomOctets& random, std::string& problem) const;
+  /// trusted/certs, trusted/crl, issuers/certs, issuers/crl; DER or PEM. What is none of these is passed over.
+  opcua::TrustList trust_list() const;
+  /// Whether what `trust_list` gives may have changed since `stamp`, which is set to now's.
+  bool has_changed(std::int64_t& stamp) const;
+  /// Keeps a certificate in rejected/, so that it can be moved to trusted/certs; at most so many.
+  void keep_rejected(const security::Certificate& certificate) const;
+  static constexpr std::size_t most_rejected = 64;
+
+  const std::string& folder() const { return folder_; }
+
+ private:
+  std::string folder_;
+};
+
+}  // namespace takt::node

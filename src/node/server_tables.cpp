@@ -1,0 +1,103 @@
+// The words of "server" in node files.
+#include <charconv>
+
+#include "node/server_config.hpp"
+
+namespace takt::node {
+namespace {
+
+using json::name;
+using json::optional;
+using json::required;
+using namespace sim::literals;  // NOLINT: units in limits
+
+}  // namespace
+
+std::optional<EndpointAddress> parse_endpoint(const std::string& url) {
+  constexpr std::string_view scheme = "opc.tcp://";
+  if (!url.starts_with(scheme)) return std::nullopt;
+  const std::string_view rest = std::string_view(url).substr(scheme.size());
+  const std::size_t colon = rest.find(':');
+  EndpointAddress made;
+  made.address = rest.substr(0, colon) == "localhost" ? "127.0.0.1" : std::string(rest.substr(0, colon));
+  if (colon == std::string_view::npos) {
+    made.port = 4840;
+    return made.address.empty() ? std::nullopt : std::optional(made);
+  }
+  const char* const end = rest.data() + rest.size();
+  const auto parsed = std::from_chars(rest.data() + colon + 1, end, made.port);
+  const bool is_sound = parsed.ec == std::errc() && parsed.ptr == end && made.port != 0 && made.address.find_first_not_of("0123456789.") == std::string::npos && !made.address.empty();
+  return is_sound ? std::optional(made) : std::nullopt;
+}
+
+const json::Enumeration& describe(json::Type<ServerPolicy>) {
+  static constexpr json::EnumName names[] = {name(ServerPolicy::none, "None", "no security: for reading, where the network is trusted"),
+                                             name(ServerPolicy::basic256_sha256, "Basic256Sha256", "RSA PKCS #1, AES-256, SHA-256"),
+                                             name(ServerPolicy::aes128_sha256_rsa_oaep, "Aes128_Sha256_RsaOaep", "RSA PKCS #1 and OAEP, AES-128, SHA-256"),
+                                             name(ServerPolicy::aes256_sha256_rsa_pss, "Aes256_Sha256_RsaPss", "RSA PSS and OAEP, AES-256, SHA-256")};
+  static constexpr json::Enumeration table = json::enumeration<ServerPolicy>("a security policy", names);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<ServerMode>) {
+  static constexpr json::EnumName names[] = {name(ServerMode::sign, "Sign", "signed, and readable by everybody on the way"),
+                                             name(ServerMode::sign_and_encrypt, "SignAndEncrypt", "signed and encrypted")};
+  static constexpr json::Enumeration table = json::enumeration<ServerMode>("a message security mode", names);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<UserRole>) {
+  static constexpr json::EnumName names[] = {name(UserRole::observer, "observer", "reads and subscribes"), name(UserRole::operator_, "operator", "calls methods as well"),
+                                             name(UserRole::engineer, "engineer", "an operator who also looks after the trust list")};
+  static constexpr json::Enumeration table = json::enumeration<UserRole>("a role", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<ServerLimits>) {
+  static constexpr json::Field fields[] = {
+      optional<&ServerLimits::connections>("connections", "At once; 100 if absent.", {.min = 2, .max = 1000}),
+      optional<&ServerLimits::chunk_octets>("chunk_octets", "Of a chunk; 65536 if absent.", {.min = 8192, .max = 1'048'576}),
+      optional<&ServerLimits::request_octets>("request_octets", "Of a request; 1 MiB if absent.", {.min = 8192, .max = 16'777'216}),
+      optional<&ServerLimits::request_chunks>("request_chunks", "Of a request; 64 if absent.", {.min = 1, .max = 1024}),
+      optional<&ServerLimits::output_octets>("output_octets", "Waiting for a client that does not read; 4 MiB if absent.", {.min = 65'536, .max = 67'108'864}),
+      optional<&ServerLimits::channels_per_second>("channels_per_second", "Secured channels that are opened or renewed; 12 if absent.", {.min = 1, .max = 1000}),
+      optional<&ServerLimits::sessions>("sessions", "At once; 50 if absent.", {.min = 1, .max = 1000}),
+      optional<&ServerLimits::subscriptions>("subscriptions", "Of all sessions; 200 if absent.", {.min = 1, .max = 10'000}),
+      optional<&ServerLimits::subscriptions_of_session>("subscriptions_of_session", "20 if absent.", {.min = 1, .max = 1000}),
+      optional<&ServerLimits::items>("items", "Monitored items of a subscription; 1000 if absent.", {.min = 1, .max = 100'000}),
+      optional<&ServerLimits::queue>("queue", "Values of a monitored item that wait; 100 if absent.", {.min = 1, .max = 10'000}),
+      optional<&ServerLimits::event_queue>("event_queue", "Events of a monitored item that wait; 1000 if absent.", {.min = 1, .max = 100'000}),
+      optional<&ServerLimits::publish_requests>("publish_requests", "Of a session that wait; 40 if absent.", {.min = 2, .max = 1000}),
+      optional<&ServerLimits::operations>("operations", "Of a request: nodes to read, methods to call, items to create; 1000 if absent.", {.min = 1, .max = 10'000}),
+      optional<&ServerLimits::hello_within>("hello_within", "In which a connection says Hello, and then opens its channel; 10 s if absent.", {.min = 100_ms, .max = 120_s}),
+      optional<&ServerLimits::idle_channel>("idle_channel", "How long a channel is kept without a session; 60 s if absent.", {.min = 100_ms, .max = 3600_s}),
+      optional<&ServerLimits::output_stall>("output_stall", "How long a client may not read what waits for it; 30 s if absent.", {.min = 100_ms, .max = 3600_s}),
+      optional<&ServerLimits::call_within>("call_within", "In which the Program answers a call; 5 s if absent.", {.min = 10_ms, .max = 60_s}),
+      optional<&ServerLimits::least_session>("least_session", "Shortest time-out of a session; 10 s if absent.", {.min = 100_ms, .max = 3600_s}),
+      optional<&ServerLimits::most_session>("most_session", "Longest time-out of a session; 1 h if absent.", {.min = 1_s, .max = 86'400_s}),
+      optional<&ServerLimits::least_token>("least_token", "Shortest lifetime of a channel's keys; 10 s if absent.", {.min = 100_ms, .max = 3600_s}),
+      optional<&ServerLimits::most_token>("most_token", "Longest lifetime of a channel's keys; 1 h if absent.", {.min = 1_s, .max = 86'400_s}),
+      optional<&ServerLimits::least_publishing>("least_publishing", "Shortest publishing interval; 10 ms if absent.", {.min = 1_ms, .max = 60_s}),
+  };
+  static constexpr json::Object table = json::object<ServerLimits>("server_limits", "How much a server takes.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<ServerConfig>) {
+  static constexpr json::Field fields[] = {
+      required<&ServerConfig::endpoint>("endpoint", "\"opc.tcp://127.0.0.1:4840\": the IPv4 address and the port that it listens at; 0.0.0.0 for all addresses.", {.min_length = 1, .max_length = 256}),
+      optional<&ServerConfig::application_uri>("application_uri", "Who it is, also in its certificate; urn:takt:NODE if absent.", {.min_length = 1, .max_length = 256}),
+      optional<&ServerConfig::pki>("pki", "Folder of its key, its certificate and whom it trusts, made at the first start; NODE-pki beside this file if absent.", {.min_length = 1, .max_length = 4096}),
+      optional<&ServerConfig::policies>("policies", "Security policies that it offers; all but None if absent.", {.min_items = 1, .max_items = 4}),
+      optional<&ServerConfig::modes>("modes", "Security modes that it offers with them; SignAndEncrypt if absent.", {.min_items = 1, .max_items = 2}),
+      optional<&ServerConfig::anonymous>("anonymous", "Lets clients in without a name, as observers."),
+      optional<&ServerConfig::users>("users", "File of users, which only its owner may read (docs/opcua-server.md).", {.min_length = 1, .max_length = 4096}),
+      optional<&ServerConfig::calls_without_encryption>("calls_without_encryption", "Operators may call methods over None and Sign, too."),
+      optional<&ServerConfig::halt_without_encryption>("halt_without_encryption", "Operators may call Halt over None and Sign, too."),
+      optional<&ServerConfig::limits>("limits", "How much it takes."),
+  };
+  static constexpr json::Object table = json::object<ServerConfig>("server", "The OPC UA server (opc.tcp) of a node: its Programs for OPC UA clients.", fields);
+  return table;
+}
+
+}  // namespace takt::node

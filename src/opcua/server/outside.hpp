@@ -1,0 +1,43 @@
+// What a server needs of its host.
+#pragma once
+
+#include <string_view>
+
+#include "opcua/server/session.hpp"
+#include "program/method.hpp"
+#include "security/certificate.hpp"
+
+namespace takt::opcua {
+
+/// Calls of methods go out here, and are answered by Services::answered.
+class ProgramHost {
+ public:
+  virtual ~ProgramHost() = default;
+  /// False: it cannot be handed over now.
+  virtual bool call(std::uint64_t serial, std::size_t program, program::Method method) = 0;
+};
+
+/// What people should know.
+class ServerLog {
+ public:
+  virtual ~ServerLog() = default;
+  /// Said once of a source and a reason.
+  virtual void refused(std::string_view source, std::string_view what) = 0;
+  /// A certificate that is not trusted; it is kept, so that it can be.
+  virtual void rejected(const security::Certificate& certificate) = 0;
+};
+
+/// Carries the body of a response to where its request came from.
+class Responder {
+ public:
+  virtual ~Responder() = default;
+  virtual void respond(ConnectionId connection, std::uint32_t request_id, Octets body) = 0;
+};
+
+/// Who the server is.
+struct Identity {
+  security::PrivateKey key;
+  security::Certificate certificate;
+};
+
+}  // namespace takt::opcua

@@ -1,0 +1,173 @@
+// All services of the server: sessions, address space, subscriptions, calls. It knows no connections and no octets of messages; `server.hpp` does.
+#pragma once
+
+#include <memory>
+
+#include "opcua/address_space/program_nodes.hpp"
+#include "opcua/server/outside.hpp"
+#include "opcua/server/subscription.hpp"
+
+namespace takt::opcua {
+
+class Services {
+ public:
+  /// All but the descriptions outlive it.
+  Services(const ServerSettings& settings, const Identity& identity, security::RandomOctets& random, ProgramHost& host, ServerLog& log, Responder& responder,
+           const std::vector<ProgramDescription>& programs, Now now);
+
+  // Discovery and sessions (session_services.cpp).
+  Answer<FindServersResponse> find_servers(const Request& request, const FindServersRequest& body);
+  Answer<GetEndpointsResponse> get_endpoints(const Request& request, const GetEndpointsRequest& body);
+  Answer<CreateSessionResponse> create_session(const Request& request, const CreateSessionRequest& body);
+  Answer<ActivateSessionResponse> activate_session(const Request& request, const ActivateSessionRequest& body);
+  Answer<CloseSessionResponse> close_session(const Request& request, const CloseSessionRequest& body);
+  Answer<CancelResponse> cancel(const Request& request, const CancelRequest& body);
+  /// The session that the request names and may use. Null, and why.
+  Session* session_for(const Request& request, StatusCode& why, bool must_be_active);
+
+  // Browsing (view_services.cpp).
+  Answer<BrowseResponse> browse(const Request& request, const BrowseRequest& body);
+  Answer<BrowseNextResponse> browse_next(const Request& request, const BrowseNextRequest& body);
+  Answer<TranslateBrowsePathsToNodeIdsResponse> translate(const Request& request, const TranslateBrowsePathsToNodeIdsRequest& body);
+  Answer<RegisterNodesResponse> register_nodes(const Request& request, const RegisterNodesRequest& body);
+  Answer<UnregisterNodesResponse> unregister_nodes(const Request& request, const UnregisterNodesRequest& body);
+
+  // Attributes and methods (attribute_services.cpp).
+  Answer<ReadResponse> read(const Request& request, const ReadRequest& body);
+  Answer<WriteResponse> write(const Request& request, const WriteRequest& body);
+  /// Answered when the Programs have.
+  void call(const Request& request, const CallRequest& body);
+
+  // Monitored items (item_services.cpp).
+  Answer<CreateMonitoredItemsResponse> create_items(const Request& request, const CreateMonitoredItemsRequest& body);
+  Answer<ModifyMonitoredItemsResponse> modify_items(const Request& request, const ModifyMonitoredItemsRequest& body);
+  Answer<SetMonitoringModeResponse> set_monitoring_mode(const Request& request, const SetMonitoringModeRequest& body);
+  Answer<DeleteMonitoredItemsResponse> delete_items(const Request& request, const DeleteMonitoredItemsRequest& body);
+
+  // Subscriptions (subscription_services.cpp).
+  Answer<CreateSubscriptionResponse> create_subscription(const Request& request, const CreateSubscriptionRequest& body);
+  Answer<ModifySubscriptionResponse> modify_subscription(const Request& request, const ModifySubscriptionRequest& body);
+  Answer<SetPublishingModeResponse> set_publishing_mode(const Request& request, const SetPublishingModeRequest& body);
+  Answer<DeleteSubscriptionsResponse> delete_subscriptions(const Request& request, const DeleteSubscriptionsRequest& body);
+  Answer<TransferSubscriptionsResponse> transfer(const Request& request, const TransferSubscriptionsRequest& body);
+  Answer<RepublishResponse> republish(const Request& request, const RepublishRequest& body);
+  /// Answered when there is something to publish.
+  void publish(const Request& request, const PublishRequest& body);
+
+  // What happens otherwise (services.cpp).
+  void news(const ProgramNews& news);
+  void answered(std::uint64_t serial, StatusCode status, Now now);
+  void disconnected(ConnectionId connection);
+  void advance(Now now);
+  sim::LocalTime next_time() const;
+  std::size_t sessions() const { return sessions_.size(); }
+  bool has_session(ConnectionId connection) const;
+  const AddressSpace& space() const { return space_; }
+
+  /// Writes a response with its header, or a fault.
+  template <Structure Response>
+  void respond(ConnectionId connection, std::uint32_t request_id, std::uint32_t handle, Response response, Now now) {
+    response.response_header.timestamp = now.utc;
+    response.response_header.request_handle = handle;
+    Encoder encoder;
+    encode_message(encoder, response);
+    responder_.respond(connection, request_id, encoder.octets());
+  }
+  void fault(ConnectionId connection, std::uint32_t request_id, std::uint32_t handle, StatusCode result, Now now) {
+    ServiceFault made;
+    made.response_header.service_result = result;
+    respond(connection, request_id, handle, std::move(made), now);
+  }
+
+ private:
+  struct PendingCall {
+    ConnectionId connection = 0;
+    std::uint32_t request_id = 0;
+    std::uint32_t handle = 0;
+    std::size_t missing = 0;
+    sim::LocalTime until;
+    CallResponse response;
+  };
+  /// One method of a pending call.
+  struct PendingMethod {
+    std::uint64_t call = 0;
+    std::size_t result = 0;
+    std::size_t program = 0;
+    CallRecord record;
+  };
+  struct SignIns {
+    std::size_t failed = 0;
+    sim::LocalTime refused_until;
+  };
+
+  // services.cpp
+  void add_server_nodes(Now now);
+  void set_standard(std::uint32_t id, Variant value);
+  std::vector<std::byte> random_octets(std::size_t count);
+  void tell(const Event& event);
+  void finish(std::uint64_t call, Now now);
+
+  // session_services.cpp
+  ApplicationDescription application(const Request& request) const;
+  List<EndpointDescription> endpoints(const Request& request) const;
+  bool is_offered(const ChannelSecurity& security) const;
+  bool make_room(Now now);
+  StatusCode sign_in(const Request& request, Session& session, const ExtensionObject& token);
+  StatusCode check_password(const Request& request, const Session& session, const UserNameIdentityToken& token, Text& user, Role& role);
+  void note_sign_in(const Request& request, bool is_good);
+  void end(const NodeId& token, bool deletes_subscriptions, StatusCode why, Now now);
+
+  // view_services.cpp
+  BrowseResult browse(Session& session, const BrowseDescription& what, std::size_t most);
+  void cut_references(Session& session, BrowseResult& result, std::size_t most);
+  ReferenceDescription describe(const Reference& reference, std::uint32_t mask) const;
+  BrowsePathResult translate(const BrowsePath& path) const;
+
+  // attribute_services.cpp
+  bool may_call(const Session& session, program::Method method) const;
+  DataValue value_for(const Session* session, const Node& node, AttributeId attribute, Now now) const;
+  DataValue read_one(const Session& session, const ReadValueId& what, TimestampsToReturn times, Now now) const;
+  StatusCode begin_method(const Request& request, const CallMethodRequest& method, std::uint64_t call, std::size_t index);
+  ProgramNodes* program_with(const NodeId& id, std::size_t& index);
+
+  // item_services.cpp
+  MonitoredItemCreateResult create_item(const Request& request, Subscription& subscription, const MonitoredItemCreateRequest& wanted, TimestampsToReturn times);
+  StatusCode set_parameters(MonitoredItem& item, const Node& node, const MonitoringParameters& wanted, double least_sampling, std::uint32_t& queue, double& sampling,
+                            ExtensionObject& filter_result);
+  void watch(const Subscription& subscription, const MonitoredItem& item, bool begins);
+  void put_current(Subscription& subscription, MonitoredItem& item, Now now);
+  void changed(const Node& node, AttributeId attribute);
+
+  // subscription_services.cpp
+  Subscription* subscription_of(const Request& request, std::uint32_t id);
+  void revise(Subscription& subscription, double interval, std::uint32_t lifetime, std::uint32_t keep_alive) const;
+  void remove(std::uint32_t subscription);
+  bool has_subscriptions(const NodeId& session) const;
+  void answer_publishes(Session& session, Now now);
+  void refuse_publishes(Session& session, StatusCode why, Now now);
+  void expire(Subscription& subscription, Now now);
+
+  const ServerSettings& settings_;
+  const Identity& identity_;
+  security::RandomOctets& random_;
+  ProgramHost& host_;
+  ServerLog& log_;
+  Responder& responder_;
+  AddressSpace space_;
+  std::vector<std::unique_ptr<ProgramNodes>> programs_;
+  std::map<NodeId, Session> sessions_;                      ///< by token
+  std::map<std::uint32_t, Subscription> subscriptions_;
+  std::map<std::pair<NodeId, AttributeId>, std::vector<std::pair<std::uint32_t, std::uint32_t>>> watchers_;  ///< subscriptions and their items
+  std::map<std::uint64_t, PendingCall> calls_;
+  std::map<std::uint64_t, PendingMethod> methods_;
+  std::map<std::string, SignIns> sign_ins_;                 ///< by source; bounded
+  std::uint64_t last_serial_ = 0;
+  std::uint32_t last_session_ = 0;
+  std::uint32_t last_subscription_ = 0;
+  std::uint32_t last_item_ = 0;
+  std::uint64_t events_ = 0;
+  std::vector<std::byte> process_;                          ///< first half of all EventIds
+  Now now_;                                                 ///< of what is happening
+};
+
+}  // namespace takt::opcua

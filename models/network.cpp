@@ -400,6 +400,16 @@ void Network::make_nodes() {
 }
 
 /// What leaves the node leaves by a filtering entry.
+void Network::tell_ways() {
+  traffic_.tell_separations(*simulation_);
+  for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
+    if (plan_.nodes[n].forwards())
+      bridges_[n]->tell_arrivals();
+    else if (hosts_[n])
+      hosts_[n]->tell_arrivals();
+  }
+}
+
 bool Network::chooses_ports(NodeIndex node) const { return plan_.nodes[node.value].forwards() || ports(node).size() > 1; }
 
 sim::Duration Network::fixed_delay_of(NodeIndex node) const {

@@ -61,6 +61,10 @@ class Network final : private LinkLocalSender {
   /// Another static filtering entry: frames to the address leave the node, which forwards or has several ports, through these ports.
   void reroute(NodeIndex node, VlanId vlan, AddressIndex address, std::span<const std::uint16_t> ports);
 
+  /// Whoever records the run (Simulation::set_trace) is told also where frames come from and what becomes of copies: `arrived` and
+  /// `separated`. It takes time, and changes nothing.
+  void tell_ways();
+
   sim::Simulation& simulation() { return *simulation_; }
   Traffic& traffic() { return traffic_; }
   const Traffic& traffic() const { return traffic_; }

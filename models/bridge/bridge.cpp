@@ -56,6 +56,8 @@ void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
   FrameIndex frame = arrival.frame;
   Link& link = ports_[arrival.port].incoming();
   if (arrival.is_uncertain() && !link.receive(simulation, frame, arrival.flags)) return;
+  if (tells_arrivals_ && simulation.trace() != nullptr)
+    simulation.trace()->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id_, frame.value, arrival.port});
   const bool only_header = (arrival.flags & ArrivalArgument::header_only) != 0;
   Header header;
   if (only_header) {

@@ -43,6 +43,11 @@ class alignas(64) Bridge final : public sim::Component {
   }
   /// Some port takes tags off.
   void set_untags() { looks_closer_ = true; }
+  /// Whoever records the run is told of each frame that comes.
+  void tell_arrivals() {
+    tells_arrivals_ = true;
+    looks_closer_ = true;
+  }
   /// The host of the station; it outlives the bridge.
   void set_host(InternalReceiver& host) {
     host_ = &host;
@@ -94,6 +99,7 @@ class alignas(64) Bridge final : public sim::Component {
   ForwardingJitter* jitter_ = nullptr;
   std::vector<Arrived> arrived_;          // at this instant; waits for the chain
   InternalReceiver* host_ = nullptr;      // of a station
+  bool tells_arrivals_ = false;
 };
 
 }  // namespace takt::models

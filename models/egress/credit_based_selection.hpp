@@ -27,6 +27,12 @@ class CreditBasedSelection {
   void force_gate(const GateInForce& gate, sim::TrueTime now, std::optional<bool> open);
   /// `now` if the credit is not negative, otherwise when to ask again. The gate is open.
   sim::TrueTime ready_time(const GateInForce& gate, sim::TrueTime now);
+  /// How many bits the credit lacks, rounded up.
+  std::uint32_t missing_bits(const GateInForce& gate, sim::TrueTime now) {
+    const CreditBasedShaper& credit = credit_at(gate, now);
+    const sim::int128 missing = -credit.credit(now).units;
+    return missing <= 0 ? 0 : static_cast<std::uint32_t>((missing + credit.units_per_bit() - 1) / credit.units_per_bit());
+  }
   /// The credit, which knows of its gate up to `now`.
   CreditBasedShaper& credit_at(const GateInForce& gate, sim::TrueTime now) {
     follow_gate(gate, now);

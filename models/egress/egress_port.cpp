@@ -138,6 +138,7 @@ void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame) {
   admit(simulation, frame);
   path_ = Path::general;
   promised_ = clock_->true_after(answer.ask_again, now);
+  if (simulation.trace() != nullptr) [[unlikely]] tell_refusal(simulation, q, frame, promised_);
   wake_at(simulation, promised_);
 }
 
@@ -162,6 +163,7 @@ inline void EgressPort::settle_one(sim::Simulation& simulation, FrameIndex frame
   }
   admit(simulation, frame);
   promised_ = shaping_->is_gated_only(q) ? ready : sim::TrueTime::never();
+  if (simulation.trace() != nullptr) [[unlikely]] tell_refusal(simulation, q, frame, ready);
   wake_at(simulation, ready);
 }
 
@@ -182,6 +184,8 @@ inline void EgressPort::settle_waiting(sim::Simulation& simulation) {
       start(simulation, frame);
       find_path();
       ready = link_.free_at();
+    } else if (simulation.trace() != nullptr) [[unlikely]] {
+      tell_refusal(simulation, q, frame, ready);
     }
   }
   if (!queues_.empty()) wake_at(simulation, ready);
@@ -237,6 +241,7 @@ void EgressPort::settle_all_classes(sim::Simulation& simulation) {
   MacMerge* const merge = extras_ ? extras_->merge.get() : nullptr;
   sim::TrueTime next = link_.free_at();
   if (now >= next) {
+    if (simulation.trace() != nullptr) [[unlikely]] tell_refusals(simulation);
     const Selection selection = select_at_free_medium(now);
     next = selection.ask_again;
     if (selection.found) {

@@ -191,6 +191,10 @@ class alignas(64) EgressPort final : public sim::Component {
   void admit(sim::Simulation& simulation, FrameIndex frame);
   [[gnu::noinline]] void admit_to_full_queue(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, DropReason reason);
   void give_up(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
+  // For who records the run: why what waits at the free medium may not start.
+  [[gnu::noinline]] void tell_refusals(sim::Simulation& simulation);
+  [[gnu::noinline]] void tell_refusal(sim::Simulation& simulation, TrafficClass q, FrameIndex first, sim::TrueTime until);
+  void tell(sim::Simulation& simulation, const Refusal& refusal, sim::TrueTime until);
   void wake_at(sim::Simulation& simulation, sim::TrueTime time);
   PortShaping& make_shaping();
   Extras& make_extras();

@@ -1,4 +1,4 @@
-// What few ports do: preemption, cut-through, and sharing bandwidth.
+// What few ports do: preemption, cut-through, and sharing bandwidth; and what all say to who records the run.
 #include <algorithm>
 
 #include "models/egress/egress_port.hpp"
@@ -148,6 +148,46 @@ bool EgressPort::may_cut_through(sim::Simulation& simulation, const Extras::Head
   const Frame& record = shared_->traffic->frame(header.frame);
   if (shaping_->is_timed(q) || !shaping_->fits_max_sdu(q, record.msdu + (record.r_tagged ? r_tag.count : 0))) return false;
   return shaping_->ready_time(now, q, {record.length, {}}) == now;
+}
+
+void EgressPort::tell(sim::Simulation& simulation, const Refusal& refusal, sim::TrueTime until) {
+  simulation.trace()->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::refused), id(), static_cast<std::uint64_t>(until.ps()), refusal.pack()});
+}
+
+void EgressPort::tell_refusal(sim::Simulation& simulation, TrafficClass q, FrameIndex first, sim::TrueTime until) {
+  tell(simulation, shaping_->refusal(simulation.now(), q, {shared_->traffic->frame(first).length, eligible_of(first)}), until);
+}
+
+/// Asks what transmission selection will ask now, of each class; to ask twice changes nothing.
+void EgressPort::tell_refusals(sim::Simulation& simulation) {
+  const sim::TrueTime now = simulation.now();
+  MacMerge* const merge = extras_ ? extras_->merge.get() : nullptr;
+  const HoldRequest hold = merge != nullptr ? hold_request(now) : HoldRequest{};
+  const sim::TrueTime held_until = hold.until == sim::LocalTime::never() ? sim::TrueTime::never() : clock_->true_at(hold.until);
+  for (ClassSet left = candidates(); left != 0;) {
+    const TrafficClass q = highest_class(left);
+    left = without(left, q);
+    if (hold.hold && merge->is_preemptable(q)) {
+      tell(simulation, {.hindrance = Hindrance::hold, .traffic_class = q}, held_until);
+      continue;
+    }
+    if (!shaping_) continue;
+    const FrameIndex first = first_of(q).frame;
+    const sim::TrueTime ready = shaping_->ready_time(now, q, {shared_->traffic->frame(first).length, eligible_of(first)});
+    if (ready != now) tell_refusal(simulation, q, first, ready);
+  }
+  if (merge == nullptr || !merge->rest()) return;
+  const MacMerge::Rest& rest = *merge->rest();
+  Refusal refusal{.hindrance = Hindrance::hold, .traffic_class = rest.traffic_class, .of_rest = true};
+  if (hold.hold) {
+    tell(simulation, refusal, held_until);
+  } else if (shaping_) {
+    const sim::TrueTime ready = shaping_->rest_ready_time(now, rest.traffic_class, rest.remaining.count);
+    if (ready == now) return;
+    refusal = shaping_->gate_refusal(now, rest.traffic_class);
+    refusal.of_rest = true;
+    tell(simulation, refusal, ready);
+  }
 }
 
 void EgressPort::set_link_up(sim::Simulation& simulation, bool up) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 
 #include "models/egress/cyclic_schedule.hpp"
 #include "models/egress/gate_control_list.hpp"
@@ -46,6 +48,11 @@ class GateSchedule {
   ConfigChange request_change(sim::LocalTime now, const AdminConfig& admin);
 
   GateStates gate_states(sim::LocalTime now) { return states_in(here(now)); }
+  /// The entry of the list that is in force, from 0; nothing before the first list.
+  std::optional<std::size_t> entry(sim::LocalTime now) {
+    const Place& place = here(now);
+    return schedule_.span_of(place).list == nullptr ? std::nullopt : std::optional<std::size_t>(place.entry);
+  }
   bool is_open(TrafficClass q, sim::LocalTime now) { return is_open_in(here(now), q); }
   /// The first instant at or after `now` at which gate q is closed, looking through consecutive open entries, over the ends of
   /// cycles and a pending change; never() if it stays open.

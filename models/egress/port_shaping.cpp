@@ -52,6 +52,22 @@ sim::TrueTime PortShaping::ready_time(sim::TrueTime now, TrafficClass q, const H
 
 sim::TrueTime PortShaping::rest_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t remaining) { return gate_ready_time(now, q, remaining, {}); }
 
+Refusal PortShaping::gate_refusal(sim::TrueTime now, TrafficClass q) {
+  Refusal refusal{.hindrance = Hindrance::gate_closed, .traffic_class = q, .amount = Refusal::no_entry};
+  if (is_stuck(q)) return refusal;
+  const sim::LocalTime local = clock_->local_at(now);
+  if (gates_.is_open(q, local)) refusal.hindrance = Hindrance::guard;
+  if (const std::optional<std::size_t> entry = gates_.entry(local)) refusal.amount = static_cast<std::uint32_t>(*entry);
+  return refusal;
+}
+
+Refusal PortShaping::refusal(sim::TrueTime now, TrafficClass q, const Head& head) {
+  if (is_timed(q) && head.eligible > clock_->local_at(now)) return {.hindrance = Hindrance::not_eligible, .traffic_class = q};
+  CreditBasedSelection* const credit = credit_based(q);
+  if (credit == nullptr || gate_ready_time(now, q, head.length, {}) != now) return gate_refusal(now, q);
+  return {.hindrance = Hindrance::credit, .traffic_class = q, .amount = credit->missing_bits(gate_of(q), now)};
+}
+
 void PortShaping::force_gate(sim::TrueTime now, TrafficClass q, std::optional<bool> open) {
   has_gates_ = true;
   // Up to now its gate was as it was before.

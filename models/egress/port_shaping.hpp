@@ -15,6 +15,7 @@
 #include "models/egress/gate_schedule.hpp"
 #include "models/egress/shaping_config.hpp"
 #include "models/ethernet/sizes.hpp"
+#include "models/ethernet/traffic.hpp"
 
 namespace takt::models {
 
@@ -40,6 +41,10 @@ class PortShaping {
   sim::TrueTime ready_time(sim::TrueTime now, TrafficClass q, const Head& head, sim::Duration delay = {});
   /// For the rest of a frame that was cut: its gate must let it end, its credit does not matter.
   sim::TrueTime rest_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t remaining);
+  /// Why ready_time() is not `now`.
+  Refusal refusal(sim::TrueTime now, TrafficClass q, const Head& head);
+  /// The same of rest_ready_time().
+  Refusal gate_refusal(sim::TrueTime now, TrafficClass q);
   /// No credit has a say in this class: when its gate lets a frame pass the frame may start.
   bool is_gated_only(TrafficClass q) const { return !std::holds_alternative<CreditPtr>(selection_[q]); }
 

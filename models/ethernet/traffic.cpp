@@ -75,6 +75,8 @@ FrameIndex Traffic::separate(FrameIndex index) {
   frames_[made].references = 1;
   if (!original.payload.is_none()) ++payloads_[original.payload].references;
   --original.references;
+  if (told_ != nullptr && told_->trace() != nullptr)
+    told_->trace()->record({told_->now(), static_cast<std::uint32_t>(Occurrence::separated), {}, made.value, index.value});
   return made;
 }
 

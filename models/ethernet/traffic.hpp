@@ -30,6 +30,35 @@ enum class Occurrence : std::uint32_t {
   output_changed = 12,  ///< a digital output of an application changes; what = its number, detail = its level (trace only)
   dequeued = 8,  ///< a frame leaves a queue, to be sent or because it is given up (trace only)
   job_done = 15,  ///< a thread of a processor has done a job; what = its response time (digest only)
+  refused = 16,   ///< frames of a class wait although the medium is free; what = until when at most, as a true time, detail = Refusal (trace only)
+  processing = 17,  ///< a frame waits for the processor of its host, or is on it; what = frame (trace only)
+  arrived = 18,   ///< a frame has come to a node; what = frame, detail = by which of its ports (Network::tell_ways() only)
+  separated = 19,  ///< a copy of a frame goes on as another record; what = that one, detail = the one before (Network::tell_ways() only)
+};
+
+/// Why a class of a port with a free medium may not start its first frame.
+enum class Hindrance : std::uint8_t {
+  gate_closed,   ///< its transmission gate is closed; amount = the entry of the list, from 0, or no_entry
+  guard,         ///< the frame would not end before its gate closes; amount = the entry of the list, or no_entry
+  credit,        ///< its credit is negative; amount = how many bits are missing, rounded up
+  not_eligible,  ///< its launch time, or its ATS eligibility time, is still to come
+  hold,          ///< the MAC holds preemptable frames
+  count
+};
+
+/// The detail of a trace record of refused. It holds for the class until the port decides again, at the longest until the time that the record names.
+struct Refusal {
+  static constexpr std::uint32_t no_entry = 0xFFFF'FFFF;
+  Hindrance hindrance = Hindrance::gate_closed;
+  TrafficClass traffic_class = 0;
+  bool of_rest = false;         ///< of a frame that was cut
+  std::uint32_t amount = 0;
+  constexpr std::uint64_t pack() const {
+    return static_cast<std::uint64_t>(hindrance) << 56 | static_cast<std::uint64_t>(traffic_class) << 48 | static_cast<std::uint64_t>(of_rest) << 40 | amount;
+  }
+  static constexpr Refusal unpack(std::uint64_t detail) {
+    return {static_cast<Hindrance>(detail >> 56), static_cast<TrafficClass>(detail >> 48 & 0xFF), (detail >> 40 & 1) != 0, static_cast<std::uint32_t>(detail)};
+  }
 };
 
 /// The detail of a trace record of started, cut or resumed: octets (of the frame; of the fragment that ends; of the rest, FCS
@@ -169,6 +198,14 @@ class Traffic {
 
   std::size_t live_frames() const { return frames_.live(); }
 
+  /// Whoever records the run is told that the frame waits for the processor of its host.
+  static void tell_processing(sim::Simulation& simulation, sim::ComponentId where, FrameIndex frame) {
+    if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
+      trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::processing), where, frame.value, 0});
+  }
+  /// From now on whoever records that run is told of each copy that gets a record of its own.
+  void tell_separations(const sim::Simulation& simulation) { told_ = &simulation; }
+
  private:
   static constexpr std::uint32_t most_references = 0x7FFF'FFFF;
   static bool is_under_way(const Frame& frame) { return frame.references - 1 < most_references; }
@@ -191,6 +228,7 @@ class Traffic {
   FramePool frames_;
   PayloadPool payloads_;
   DeliveryBook book_;
+  const sim::Simulation* told_ = nullptr;   // null: nobody asks which record was made of which
 };
 
 }  // namespace takt::models

@@ -75,6 +75,7 @@ void Host::receive_flagged(sim::Simulation& simulation, sim::EventKind kind, Arr
     return;
   } else if (cpu_ != nullptr) {
     const std::uint32_t stream = traffic_->frame(arrival.frame).stream.value;
+    Traffic::tell_processing(simulation, id(), arrival.frame);
     cpu_->submit(stack_thread_, *this, id().index, stream, ArrivalArgument::pack(arrival.frame, arrival.port), simulation.now());
     return;
   }
@@ -103,6 +104,8 @@ void Host::note_delivery(sim::Simulation& simulation, FrameIndex index) {
 std::optional<FrameIndex> Host::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
   FrameIndex frame = arrival.frame;
   if (arrival.is_uncertain() && !ports_[arrival.port].incoming().receive(simulation, frame, arrival.flags)) return std::nullopt;
+  if (tells_arrivals_ && simulation.trace() != nullptr)
+    simulation.trace()->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id(), frame.value, arrival.port});
   if (!up_ || traffic_->frame(frame).bad_fcs) {
     traffic_->drop(frame, up_ ? DropReason::bad_fcs : DropReason::node_down, id(), simulation);
     return std::nullopt;

@@ -45,6 +45,11 @@ class Host final : public sim::Component, public InternalReceiver, public CpuUse
   /// Takes the link-local frames.
   void set_link_local_receiver(LinkLocalReceiver* receiver) { link_local_ = receiver; }
   ListenerRedundancy& redundancy() { return redundancy_; }
+  /// Whoever records the run is told of each frame that comes.
+  void tell_arrivals() {
+    tells_arrivals_ = true;
+    looks_closer_ = true;
+  }
   /// A host that is down takes no frames.
   void set_up(bool up) {
     up_ = up;
@@ -97,6 +102,7 @@ class Host final : public sim::Component, public InternalReceiver, public CpuUse
   std::vector<Arrived> arrived_;     // at this instant, by several ways
   Cpu* cpu_ = nullptr;               // null: what comes takes no time of a processor
   std::uint32_t stack_thread_ = 0;
+  bool tells_arrivals_ = false;
 };
 
 }  // namespace takt::models

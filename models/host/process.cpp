@@ -36,10 +36,12 @@ Process::Process(sim::Simulation& simulation, Traffic& traffic, HostOutput& outp
 void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (event.kind() == transmit_now) {
     const auto frame = static_cast<std::uint32_t>(event.argument);
-    if (threads_.transmit)
+    if (threads_.transmit) {
+      Traffic::tell_processing(simulation, id(), FrameIndex{frame});
       cpu_->submit(*threads_.transmit, *this, source_.id().index, traffic_->frame(FrameIndex{frame}).stream.value, job_number(JobKind::frame, 0, frame), simulation.now());
-    else
+    } else {
       hand_over(FrameIndex{frame}, true);
+    }
     return;
   }
   TAKT_CHECK(event.kind() < alarms_.size(), "an alarm that was never set");

@@ -147,6 +147,7 @@ void Talker::job_ended(sim::Simulation& simulation, std::uint64_t job, Ending en
 void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (event.kind() == transmit_now) {
     if (cpu_ != nullptr) [[unlikely]] {
+      Traffic::tell_processing(simulation, source_.id(), FrameIndex{static_cast<std::uint32_t>(event.argument)});
       cpu_->submit(stack_thread_, *this, source_.id().index, 0, event.argument, simulation.now());
       return;
     }

@@ -41,7 +41,7 @@ class Recording {
  private:
   struct Capture {
     std::string file;
-    std::vector<output::PortId> ports;  ///< none: all
+    std::vector<models::PortId> ports;  ///< none: all
   };
   void select_ports(const std::string& text, json::Diagnostics& diagnostics);
   void write_states();

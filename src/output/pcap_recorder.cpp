@@ -34,7 +34,7 @@ PcapRecorder::~PcapRecorder() {
   pcap_close(format_);
 }
 
-std::string PcapRecorder::add(const std::string& path, const std::vector<PortId>& ports) {
+std::string PcapRecorder::add(const std::string& path, const std::vector<models::PortId>& ports) {
   File file{path, path + ".part", nullptr};
   file.dumper = pcap_dump_open(format_, file.temporary.c_str());
   if (file.dumper == nullptr) return pcap_geterr(format_);
@@ -42,9 +42,9 @@ std::string PcapRecorder::add(const std::string& path, const std::vector<PortId>
   files_.push_back(std::move(file));
   if (ports.empty())
     for (std::vector<std::uint32_t>& files : files_of_port_) files.push_back(number);
-  for (const PortId& id : ports) {
+  for (const models::PortId& id : ports) {
     const std::uint32_t position = directory_.find(id);
-    TAKT_CHECK(position != PortDirectory::none, "a captured port is one of the network");
+    TAKT_CHECK(position != models::PortDirectory::none, "a captured port is one of the network");
     files_of_port_[position].push_back(number);
   }
   return {};
@@ -53,7 +53,7 @@ std::string PcapRecorder::add(const std::string& path, const std::vector<PortId>
 void PcapRecorder::record(const sim::TraceRecord& record) {
   if (record.kind != static_cast<std::uint32_t>(models::Occurrence::started)) return;
   const std::uint32_t port = directory_.find(record.where);
-  if (port == PortDirectory::none || files_of_port_[port].empty()) return;
+  if (port == models::PortDirectory::none || files_of_port_[port].empty()) return;
   const models::FrameIndex frame{static_cast<std::uint32_t>(record.what)};
   const std::span<const std::byte> octets = encode_frame(*network_, frame, buffer_);
   pcap_pkthdr header{};

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "output/frame_octets.hpp"
-#include "output/port_directory.hpp"
+#include "models/port_directory.hpp"
 #include "sim/trace.hpp"
 
 struct pcap;
@@ -28,7 +28,7 @@ class PcapRecorder final : public sim::TraceSink {
 
   /// One more file: of these ports, or of all ports if none is named. A port may be in several files. Returns an empty text, or
   /// what went wrong.
-  [[nodiscard]] std::string add(const std::string& path, const std::vector<PortId>& ports);
+  [[nodiscard]] std::string add(const std::string& path, const std::vector<models::PortId>& ports);
 
   void record(const sim::TraceRecord& record) override;
 
@@ -48,7 +48,7 @@ class PcapRecorder final : public sim::TraceSink {
   static std::string finish(File& file);
 
   const models::Network* network_;
-  PortDirectory directory_;
+  models::PortDirectory directory_;
   pcap* format_ = nullptr;
   std::vector<File> files_;
   std::vector<std::vector<std::uint32_t>> files_of_port_;

@@ -43,7 +43,7 @@ TimelineRecorder::TimelineRecorder(const models::Network& network, std::string p
 void TimelineRecorder::name_ports() {
   const std::vector<models::NodePlan>& nodes = network_->plan().nodes;
   for (std::uint32_t n = 0; n < nodes.size(); ++n) name_process(n + 1, nodes[n].name);
-  for (const PortDirectory::Port& port : directory_.ports()) {
+  for (const models::PortDirectory::Port& port : directory_.ports()) {
     const std::string_view peer = port.peer.is_none() ? std::string_view("nothing") : nodes[port.peer.value].name;
     name_thread(port.id.node.value + 1, port.id.port + 1u, fmt::format("port {} to {}", port.id.port, peer));
   }
@@ -96,8 +96,8 @@ void TimelineRecorder::record(const sim::TraceRecord& record) {
   const bool begins = kind == models::Occurrence::started || kind == models::Occurrence::resumed;
   if (!begins && kind != models::Occurrence::cut && kind != models::Occurrence::drop) return;
   const std::uint32_t position = directory_.find(record.where);
-  if (position == PortDirectory::none) return;
-  const PortDirectory::Port& port = directory_.ports()[position];
+  if (position == models::PortDirectory::none) return;
+  const models::PortDirectory::Port& port = directory_.ports()[position];
   Slice& slice = slices_[position];
   const auto octets = models::TransmissionDetail::unpack(record.detail).octets;
   if (kind == models::Occurrence::cut) {
@@ -122,7 +122,7 @@ void TimelineRecorder::write_slice(std::uint32_t position) {
   Slice& slice = slices_[position];
   if (!slice.is_open) return;
   slice.is_open = false;
-  const PortDirectory::Port& port = directory_.ports()[position];
+  const models::PortDirectory::Port& port = directory_.ports()[position];
   const std::uint32_t mcrc = slice.is_cut ? models::mcrc.count : 0;
   const auto wire = std::int64_t{models::preamble_and_sfd.count} + slice.octets + mcrc;
   const char* const part = slice.is_continued ? (slice.is_cut ? R"(,"fragment":"middle")" : R"(,"fragment":"last")") : (slice.is_cut ? R"(,"fragment":"first")" : "");

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "output/port_directory.hpp"
+#include "models/port_directory.hpp"
 #include "output/streaming_file.hpp"
 #include "sim/trace.hpp"
 
@@ -56,7 +56,7 @@ class TimelineRecorder final : public sim::TraceSink {
   void event(std::string_view text);
 
   const models::Network* network_;
-  PortDirectory directory_;
+  models::PortDirectory directory_;
   StreamingFile file_;
   bool first_ = true;
   std::vector<std::string> groups_;

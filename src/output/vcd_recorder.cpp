@@ -34,7 +34,7 @@ std::string code_of(std::size_t number) {
 VcdRecorder::VcdRecorder(const models::Network& network, std::string path)
     : network_(&network), directory_(network), file_(std::move(path)) {
   const std::vector<models::NodePlan>& nodes = network.plan().nodes;
-  for (const PortDirectory::Port& port : directory_.ports()) {
+  for (const models::PortDirectory::Port& port : directory_.ports()) {
     const std::string_view peer = port.peer.is_none() ? std::string_view("nothing") : nodes[port.peer.value].name;
     const std::string scope = fmt::format("{}\nport{}_to_{}", identifier(nodes[port.id.node.value].name), port.id.port, identifier(peer));
     add_signal(scope, "busy", 1, 0);
@@ -52,7 +52,7 @@ VcdRecorder::VcdRecorder(const models::Network& network, std::string path)
 
 /// The gates of the port are others from now on.
 void VcdRecorder::look_at_gates(std::uint32_t position, sim::TrueTime now) {
-  const PortDirectory::Port& port = directory_.ports()[position];
+  const models::PortDirectory::Port& port = directory_.ports()[position];
   const models::EgressPort& live = network_->ports(port.id.node)[port.id.port];
   if (live.shaping() == nullptr || !live.shaping()->has_gates()) return;
   gates_[position].schedule = std::as_const(*live.shaping()).gates();
@@ -62,7 +62,7 @@ void VcdRecorder::look_at_gates(std::uint32_t position, sim::TrueTime now) {
 
 /// Notes when they next change.
 void VcdRecorder::follow_gates(std::uint32_t position) {
-  const PortDirectory::Port& port = directory_.ports()[position];
+  const models::PortDirectory::Port& port = directory_.ports()[position];
   const models::LocalClock& clock = network_->ports(port.id.node)[port.id.port].clock();
   Gates& followed = gates_[position];
   const sim::LocalTime change = followed.schedule.next_change(clock.local_at(followed.next));
@@ -71,7 +71,7 @@ void VcdRecorder::follow_gates(std::uint32_t position) {
 }
 
 std::uint64_t VcdRecorder::states(std::uint32_t position, sim::TrueTime at) {
-  const PortDirectory::Port& port = directory_.ports()[position];
+  const models::PortDirectory::Port& port = directory_.ports()[position];
   const models::EgressPort& live = network_->ports(port.id.node)[port.id.port];
   if (live.shaping() == nullptr || !live.shaping()->has_gates()) return 0xFF;
   return live.shaping()->with_forced(gates_[position].schedule.gate_states(live.clock().local_at(at)));
@@ -95,9 +95,9 @@ void VcdRecorder::record(const sim::TraceRecord& record) {
     return;
   }
   const std::uint32_t position = directory_.find(record.where);
-  if (position == PortDirectory::none) return;
+  if (position == models::PortDirectory::none) return;
   advance_to(record.time);
-  const PortDirectory::Port& port = directory_.ports()[position];
+  const models::PortDirectory::Port& port = directory_.ports()[position];
   const SignalId first = position * signals_of_a_port;
 
   const models::PortQueues& queues = network_->ports(port.id.node)[port.id.port].queues();

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "output/port_directory.hpp"
+#include "models/port_directory.hpp"
 #include "output/streaming_file.hpp"
 #include "sim/trace.hpp"
 
@@ -69,7 +69,7 @@ class VcdRecorder final : public sim::TraceSink {
   void write_value(const Signal& signal);
 
   const models::Network* network_;
-  PortDirectory directory_;
+  models::PortDirectory directory_;
   StreamingFile file_;
   std::vector<Signal> signals_;  // signals_of_a_port for each port, then the added ones
   std::vector<SignalId> outputs_;

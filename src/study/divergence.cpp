@@ -6,7 +6,7 @@
 #include <deque>
 
 #include "models/ethernet/traffic.hpp"
-#include "output/port_directory.hpp"
+#include "models/port_directory.hpp"
 #include "scenario/run/run.hpp"
 #include "sim/trace.hpp"
 
@@ -65,8 +65,8 @@ class Side : public sim::TraceSink {
     const std::string frame = fmt::format("frame {} of {}", h.sequence, h.stream < streams.size() ? streams[h.stream].name : "?");
     if (h.kind == models::Occurrence::produced) return frame + " is handed over by its application";
     std::string where = "somewhere";
-    if (h.port != output::PortDirectory::none) {
-      const output::PortDirectory::Port& port = directory_.ports()[h.port];
+    if (h.port != models::PortDirectory::none) {
+      const models::PortDirectory::Port& port = directory_.ports()[h.port];
       where = nodes[port.id.node.value].name + (port.peer.is_none() ? "" : " towards " + nodes[port.peer.value].name);
     }
     if (h.kind == models::Occurrence::drop) return fmt::format("{} is dropped at {}: {}", frame, where, models::name_of(static_cast<models::DropReason>(h.detail)));
@@ -75,7 +75,7 @@ class Side : public sim::TraceSink {
   }
 
   scenario::Run run_;
-  output::PortDirectory directory_;
+  models::PortDirectory directory_;
   std::deque<Instant> instants_;
   bool is_over_ = false;
 };

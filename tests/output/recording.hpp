@@ -11,7 +11,7 @@
 #include <string>
 
 #include "models/ethernet/sizes.hpp"
-#include "output/port_directory.hpp"
+#include "models/port_directory.hpp"
 #include "tests/models/network_fixture.hpp"
 
 namespace takt::output::test {

@@ -29,6 +29,11 @@ class Run {
   sim::Simulation& simulation() { return simulation_; }
   const sim::Simulation& simulation() const { return simulation_; }
   const models::Network& network() const { return network_; }
+  /// Hands all that happens from now on to the sink: also the ways of frames, so that explanations can be made of it. Null: to nobody.
+  void explain_to(sim::TraceSink* sink) {
+    simulation_.set_trace(sink);
+    if (sink != nullptr) network_.tell_ways();
+  }
   /// Of trees of nested programs.
   const std::vector<std::unique_ptr<TreeMonitor>>& trees() const { return trees_; }
   const ProgramMonitor& monitor(std::size_t program) const { return *programs_[program]->monitor; }

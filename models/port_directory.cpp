@@ -1,13 +1,13 @@
-#include "output/port_directory.hpp"
+#include "models/port_directory.hpp"
 
 #include <algorithm>
 
-namespace takt::output {
+namespace takt::models {
 
-PortDirectory::PortDirectory(const models::Network& network) {
-  const models::NetworkPlan& plan = network.plan();
+PortDirectory::PortDirectory(const Network& network) {
+  const NetworkPlan& plan = network.plan();
   for (std::uint32_t n = 0; n < plan.nodes.size(); ++n) {
-    const std::span<const models::EgressPort> ports = network.ports({n});
+    const std::span<const EgressPort> ports = network.ports({n});
     for (std::size_t p = 0; p < ports.size(); ++p) {
       const sim::ComponentId component = ports[p].id();
       if (by_component_.size() <= component.index) by_component_.resize(component.index + std::size_t{1}, none);
@@ -15,13 +15,13 @@ PortDirectory::PortDirectory(const models::Network& network) {
       ports_.push_back({{{n}, static_cast<std::uint16_t>(p)}, {}, {}, component});
     }
   }
-  const auto connect = [&](const models::LinkPlan::End& from, const models::LinkPlan::End& to, const models::LinkPlan& link) {
+  const auto connect = [&](const LinkPlan::End& from, const LinkPlan::End& to, const LinkPlan& link) {
     const std::uint32_t position = find(PortId{from.node, from.port});
     TAKT_CHECK(position != none, "a link ends at a port");
     ports_[position].peer = to.node;
     ports_[position].octet_time = link.rate.octet_time();
   };
-  for (const models::LinkPlan& link : plan.links) {
+  for (const LinkPlan& link : plan.links) {
     connect(link.a, link.b, link);
     connect(link.b, link.a, link);
   }
@@ -32,4 +32,4 @@ std::uint32_t PortDirectory::find(PortId id) const {
   return found != ports_.end() && found->id == id ? static_cast<std::uint32_t>(found - ports_.begin()) : none;
 }
 
-}  // namespace takt::output
+}  // namespace takt::models

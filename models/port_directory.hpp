@@ -8,11 +8,11 @@
 
 #include "models/network.hpp"
 
-namespace takt::output {
+namespace takt::models {
 
 /// A port of a network, by node and number.
 struct PortId {
-  models::NodeIndex node;
+  NodeIndex node;
   std::uint16_t port = 0;
   auto operator<=>(const PortId&) const = default;
 };
@@ -21,12 +21,12 @@ class PortDirectory {
  public:
   struct Port {
     PortId id;
-    models::NodeIndex peer;
+    NodeIndex peer;
     sim::Duration octet_time;   ///< of its link
     sim::ComponentId component;
   };
 
-  explicit PortDirectory(const models::Network& network);
+  explicit PortDirectory(const Network& network);
 
   /// All ports, by node and number.
   std::span<const Port> ports() const { return ports_; }
@@ -42,4 +42,4 @@ class PortDirectory {
   std::vector<std::uint32_t> by_component_;
 };
 
-}  // namespace takt::output
+}  // namespace takt::models

@@ -25,6 +25,7 @@ void add_commands(takt::cli::Command app, ExitStatus& status) {
   takt::cli::add_explore_command(app, status);
   takt::cli::add_bound_command(app, status);
   takt::cli::add_verify_command(app, status);
+  takt::cli::add_explain_command(app, status);
   takt::cli::add_study_command(app, status);
   takt::cli::add_compare_command(app, status);
   takt::cli::add_paper_command(app, status);

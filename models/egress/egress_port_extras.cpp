@@ -162,32 +162,41 @@ void EgressPort::tell_refusal(sim::Simulation& simulation, TrafficClass q, Frame
 void EgressPort::tell_refusals(sim::Simulation& simulation) {
   const sim::TrueTime now = simulation.now();
   MacMerge* const merge = extras_ ? extras_->merge.get() : nullptr;
-  const HoldRequest hold = merge != nullptr ? hold_request(now) : HoldRequest{};
-  const sim::TrueTime held_until = hold.until == sim::LocalTime::never() ? sim::TrueTime::never() : clock_->true_at(hold.until);
+  // What keeps all preemptable classes: a hold, or the rest of a cut frame, before which none of them may go.
+  std::optional<Refusal> of_preemptable;
+  sim::TrueTime until = sim::TrueTime::never();
+  if (merge != nullptr) {
+    const HoldRequest hold = hold_request(now);
+    if (hold.hold) {
+      of_preemptable = Refusal{.hindrance = Hindrance::hold};
+      if (hold.until != sim::LocalTime::never()) until = clock_->true_at(hold.until);
+    } else if (merge->rest() && shaping_) {
+      const MacMerge::Rest& rest = *merge->rest();
+      const sim::TrueTime ready = shaping_->rest_ready_time(now, rest.traffic_class, rest.remaining.count);
+      if (ready != now) {
+        of_preemptable = shaping_->gate_refusal(now, rest.traffic_class);
+        until = ready;
+      }
+    }
+  }
+  const auto tell_of_preemptable = [&](TrafficClass q, bool of_rest) {
+    Refusal refusal = *of_preemptable;
+    refusal.traffic_class = q;
+    refusal.of_rest = of_rest;
+    tell(simulation, refusal, until);
+  };
   for (ClassSet left = candidates(); left != 0;) {
     const TrafficClass q = highest_class(left);
     left = without(left, q);
-    if (hold.hold && merge->is_preemptable(q)) {
-      tell(simulation, {.hindrance = Hindrance::hold, .traffic_class = q}, held_until);
-      continue;
+    if (of_preemptable && merge->is_preemptable(q)) {
+      tell_of_preemptable(q, false);
+    } else if (shaping_) {
+      const FrameIndex first = first_of(q).frame;
+      const sim::TrueTime ready = shaping_->ready_time(now, q, {shared_->traffic->frame(first).length, eligible_of(first)});
+      if (ready != now) tell_refusal(simulation, q, first, ready);
     }
-    if (!shaping_) continue;
-    const FrameIndex first = first_of(q).frame;
-    const sim::TrueTime ready = shaping_->ready_time(now, q, {shared_->traffic->frame(first).length, eligible_of(first)});
-    if (ready != now) tell_refusal(simulation, q, first, ready);
   }
-  if (merge == nullptr || !merge->rest()) return;
-  const MacMerge::Rest& rest = *merge->rest();
-  Refusal refusal{.hindrance = Hindrance::hold, .traffic_class = rest.traffic_class, .of_rest = true};
-  if (hold.hold) {
-    tell(simulation, refusal, held_until);
-  } else if (shaping_) {
-    const sim::TrueTime ready = shaping_->rest_ready_time(now, rest.traffic_class, rest.remaining.count);
-    if (ready == now) return;
-    refusal = shaping_->gate_refusal(now, rest.traffic_class);
-    refusal.of_rest = true;
-    tell(simulation, refusal, ready);
-  }
+  if (of_preemptable && merge->rest()) tell_of_preemptable(merge->rest()->traffic_class, true);
 }
 
 void EgressPort::set_link_up(sim::Simulation& simulation, bool up) {

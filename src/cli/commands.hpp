@@ -16,6 +16,7 @@ void add_ctl_command(Command app, ExitStatus& status);
 void add_emulate_command(Command app, ExitStatus& status);
 void add_explore_command(Command app, ExitStatus& status);
 void add_bound_command(Command app, ExitStatus& status);
+void add_explain_command(Command app, ExitStatus& status);
 void add_verify_command(Command app, ExitStatus& status);
 void add_study_command(Command app, ExitStatus& status);
 void add_compare_command(Command app, ExitStatus& status);

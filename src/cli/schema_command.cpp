@@ -8,6 +8,7 @@
 #include "analysis/report_record.hpp"
 #include "cli/commands.hpp"
 #include "emulate/emulation.hpp"
+#include "explain/explanation.hpp"
 #include "explore/report/report.hpp"
 #include "interchange/schedules/report.hpp"
 #include "json/record.hpp"
@@ -51,6 +52,7 @@ constexpr std::array file_kinds{
     written_as<results::RunResult>("result", "takt run: result.json"),
     written_as<analysis::BoundReport>("bound", "takt bound --format json"),
     written_as<verify::Report>("verify", "takt verify --format json"),
+    written_as<explain::Explanation>("explain", "takt explain --format json"),
     written_as<explore::Exploration>("explore", "takt explore --format json"),
     written_as<interchange::schedules::ScheduleReport>("schedule", "takt schedule --format json"),
     written_as<study::Comparison>("compare", "takt compare --format json"),
@@ -84,7 +86,7 @@ void add_schema_command(Command app, ExitStatus& status) {
   const auto options = std::make_shared<Options>();
   std::vector<std::string> names;
   for (const FileKind& kind : file_kinds) names.emplace_back(kind.name);
-  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result, bound, verify, explore, schedule, compare, status, statistics (of a node of applications) or emulate (takt check --format json writes a scenario)").one_of(names);
+  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result, bound, verify, explain, explore, schedule, compare, status, statistics (of a node of applications) or emulate (takt check --format json writes a scenario)").one_of(names);
   command.add_flag("--reference", options->as_reference, "Markdown for people instead: every key with unit, range, default and meaning");
   command.footer("Examples:\n  takt schema > scenarios/takt.schema.json\n  takt schema study > scenarios/studies/takt-study.schema.json\n  takt schema scenario --reference | less");
   command.callback([options, &status] {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "explain/reaction_chain.hpp"
 #include "scenario/run/run.hpp"
 #include "sim/trace.hpp"
 
@@ -20,14 +21,7 @@ struct Passage {
   sim::TrueTime left;          ///< its last bit is on the wire
 };
 
-/// A frame that has come to a listener.
-struct Arrival {
-  models::StreamIndex stream;
-  models::NodeIndex listener;
-  sim::TrueTime produced;
-  sim::TrueTime at;
-  sim::Duration latency() const { return at - produced; }
-};
+using explain::Arrival;
 
 class FrameLog final : public sim::TraceSink {
  public:

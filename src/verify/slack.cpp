@@ -122,11 +122,8 @@ std::vector<SlackPart> parts_of_latency(const LooseEnd& end, const analysis::Bou
 
 std::vector<SlackPart> parts_of_reaction(const LooseEnd& end, const analysis::Bounds& bounds, const scenario::Resolved& resolved, const std::function<bool()>& interrupted) {
   if (!end.requirement.requirement) return {};
-  std::vector<bool> words(resolved.plan.streams.size());
-  for (const scenario::ResolvedProgram& program : resolved.programs)
-    for (const scenario::ResolvedMember& each : program.participants()) words[each.state.value] = true;
   scenario::Run run(resolved);
-  FrameLog log(run.network(), {}, {}, std::move(words));
+  FrameLog log(run.network(), {}, {}, explain::streams_of_words(resolved));
   if (!replay(run, log, interrupted)) return {};
   return reaction_parts(run, log, bounds, resolved.requirements[*end.requirement.requirement], end.measured, end.bound);
 }
@@ -135,7 +132,7 @@ std::vector<SlackPart> parts_of_reaction(const LooseEnd& end, const analysis::Bo
 
 bool is_tight(RequirementKind kind, double tightness) { return tightness >= (kind == RequirementKind::reaction ? 0.9 : 0.85); }
 
-std::vector<SlackPart> slack_of(const LooseEnd& end, const analysis::Bounds& bounds, const std::function<bool()>& interrupted) {
+std::vector<SlackPart> parts_in_order(const LooseEnd& end, const analysis::Bounds& bounds, const std::function<bool()>& interrupted) {
   json::Diagnostics diagnostics;
   const auto resolved = scenario::resolve(end.worst, diagnostics);
   if (!resolved) return {};
@@ -148,6 +145,11 @@ std::vector<SlackPart> slack_of(const LooseEnd& end, const analysis::Bounds& bou
   if (parts.empty()) return parts;
   TAKT_CHECK(sum_of(parts, &SlackPart::run) == end.measured, "the parts of a run add up to what it took");
   TAKT_CHECK(sum_of(parts, &SlackPart::bound) == end.bound, "the parts of a bound add up to it");
+  return parts;
+}
+
+std::vector<SlackPart> slack_of(const LooseEnd& end, const analysis::Bounds& bounds, const std::function<bool()>& interrupted) {
+  std::vector<SlackPart> parts = parts_in_order(end, bounds, interrupted);
   std::stable_sort(parts.begin(), parts.end(), [](const SlackPart& a, const SlackPart& b) { return a.given_away() > b.given_away(); });
   return parts;
 }

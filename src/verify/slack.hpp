@@ -32,8 +32,10 @@ struct LooseEnd {
   const scenario::Scenario& worst;
 };
 
-/// Replays the worst run; the parts, from the one that gives most away. Nothing if the figure is of a frame that is still under way at the end, of
+/// Replays the worst run; the parts, in the order of the way. Nothing if the figure is of a frame that is still under way at the end, of
 /// a kind that has no parts, or if `interrupted` says so.
+std::vector<SlackPart> parts_in_order(const LooseEnd& end, const analysis::Bounds& bounds, const std::function<bool()>& interrupted);
+/// The same, from the one that gives most away.
 std::vector<SlackPart> slack_of(const LooseEnd& end, const analysis::Bounds& bounds, const std::function<bool()>& interrupted);
 
 }  // namespace takt::verify

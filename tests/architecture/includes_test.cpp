@@ -24,6 +24,7 @@ const Prefixes json = {"json/"};
 const Prefixes questions = {"analysis/", "explore/", "schedule_check/", "synthesis/", "verify/"};
 const Prefixes results = {"results/"};
 const Prefixes evaluation = {"evaluation/"};
+const Prefixes explain = {"explain/"};
 const Prefixes output = {"output/"};
 const Prefixes chart = {"chart/"};
 const Prefixes study = {"study/"};
@@ -64,21 +65,22 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/interchange/schedules/", all_of({base, json, schedule, interchange_schedules})});
     const Prefixes below = all_of({schedule, kernel, models, protocol, plant, application, json, results, scenario});
     list.push_back({"src/scenario/", below});
+    list.push_back({"src/explain/", all_of({below, explain})});
     // Beside the questions, but its points are results as result.json has them, and its report is drawn.
-    list.push_back({"src/study/", all_of({below, questions, evaluation, output, chart, study})});
-    for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, evaluation})});
+    list.push_back({"src/study/", all_of({below, questions, evaluation, explain, output, chart, study})});
+    for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, evaluation, explain})});
     list.push_back({"src/evaluation/", all_of({below, evaluation})});
-    list.push_back({"src/output/", all_of({below, questions, evaluation, output})});
+    list.push_back({"src/output/", all_of({below, questions, evaluation, explain, output})});
     list.push_back({"src/chart/", chart});
-    list.push_back({"src/report/", all_of({below, questions, evaluation, output, chart, report})});
+    list.push_back({"src/report/", all_of({below, questions, evaluation, explain, output, chart, report})});
     list.push_back({"src/papers/", all_of({below, questions, evaluation, chart, report, papers})});
     list.push_back({"src/property/", all_of({below, questions, evaluation, output, {"property/"}})});
     list.push_back({"src/interchange/", all_of({below, chart, interchange})});
     list.push_back({"src/emulate/", all_of({below, node, emulate})});
-    list.push_back({"src/python/", all_of({below, questions, study, evaluation, output, chart, report})});
-    list.push_back({"src/studio/", all_of({below, questions, evaluation, output, chart, report, studio})});
-    list.push_back({"src/cli/", all_of({below, questions, study, evaluation, output, node, emulate, report, studio, papers, interchange, cli})});
-    list.push_back({"src/main.cpp", all_of({below, questions, study, evaluation, output, node, emulate, report, studio, papers, interchange, cli})});
+    list.push_back({"src/python/", all_of({below, questions, study, evaluation, explain, output, chart, report})});
+    list.push_back({"src/studio/", all_of({below, questions, evaluation, explain, output, chart, report, studio})});
+    list.push_back({"src/cli/", all_of({below, questions, study, evaluation, explain, output, node, emulate, report, studio, papers, interchange, cli})});
+    list.push_back({"src/main.cpp", all_of({below, questions, study, evaluation, explain, output, node, emulate, report, studio, papers, interchange, cli})});
     return list;
   }();
   return all;
@@ -103,7 +105,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, output, cli, node, emulate, plant, application, chart, report, studio, papers, study, schedule, interchange_schedules, interchange, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, explain, output, cli, node, emulate, plant, application, chart, report, studio, papers, study, schedule, interchange_schedules, interchange, {"property/"}});
   return roots;
 }
 

@@ -16,6 +16,7 @@
 #include "results/result_json.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
+#include "tests/explain/checked_ways.hpp"
 #include "tests/generator/schema_validation.hpp"
 #include "tests/wire_checker/checked_run.hpp"
 #include "verify/monitor.hpp"
@@ -48,6 +49,7 @@ class Checks {
     check("digest", [&] { digests(); });
     if (is_ideal()) check("wire", [&] { wire(); });
     check("frames", [&] { frames(); });
+    check("ways", [&] { ways(); });
     if (r_.applications.empty()) {
       check("bound", [&] { bounds(); });
       if (options_.verify_events > 0) check("verify", [&] { verification(); });
@@ -152,6 +154,19 @@ class Checks {
     expect(references <= in_flight, [&] { return std::to_string(references) + " references of live frames, " + std::to_string(in_flight) + " frames on their way"; });
     for (const results::StreamResult& stream : result_->streams)
       expect(stream.sent + stream.copies == stream.delivered + stream.dropped_in_all() + stream.in_flight, [&] { return stream.name + ": its frames do not add up"; });
+  }
+
+  void ways() {
+    scenario::Run run(r_);
+    wire_checker::WireChecker checker(r_.plan, wire_checker::changes_of(r_), wire_checker::directory_of(run.network()), [&run](models::FrameIndex handle) -> const models::Frame& { return run.network().traffic().frame(handle); });
+    explain::CheckedWays ways(run, is_ideal() ? &checker : nullptr);
+    run.advance();
+    const std::string found = ways.finish();
+    expect(found.empty(), [&] { return found; });
+    expect(run.simulation().digest().value() == digest_, [] { return std::string("the digest of a run that is explained differs"); });
+    if (!is_ideal()) return;
+    checker.finish(run.end().ps());
+    expect(checker.violations().all().empty(), [&] { return checker.violations().all(); });
   }
 
   void bounds() {

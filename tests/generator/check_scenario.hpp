@@ -5,6 +5,7 @@
 //   digest     it is the same with a recorder and without, and whatever the order of equal events
 //   wire       the wire checker finds nothing (scenarios whose clocks are ideal)
 //   frames     what was sent or copied was delivered, dropped, or is on its way; nothing leaks
+//   ways       the latency of every frame is explained: parts add up, and what they blame was on that wire; deliveries and losses are all there
 //   bound      no run exceeds a bound
 //   verify     contradicts neither itself nor a run, and its worst runs can be replayed
 #pragma once

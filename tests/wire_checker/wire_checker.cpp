@@ -86,8 +86,11 @@ void WireChecker::announce_cut_through() {
 void WireChecker::record(const sim::TraceRecord& record) {
   if (record.time.ps() > batch_time_) work_up_to(record.time.ps(), false);
   if (record.time.ps() < batch_time_) violations_.add(record.time.ps(), "trace", "time runs backwards");
+  // What the model says of its reasons is no evidence.
+  const auto kind = static_cast<Occurrence>(record.kind);
+  if (kind == Occurrence::refused || kind == Occurrence::processing || kind == Occurrence::arrived || kind == Occurrence::separated) return;
   Recorded recorded{record, {}, long_ago, false};
-  if (static_cast<Occurrence>(record.kind) != Occurrence::gates_changed) {
+  if (kind != Occurrence::gates_changed) {
     const models::FrameIndex handle{static_cast<std::uint32_t>(record.what)};
     recorded.frame = frame_of_(handle);
     handles_.insert(handle.value);

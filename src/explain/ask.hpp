@@ -1,0 +1,33 @@
+// Questions to a scenario: it is run, and what was asked about is explained.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "explain/explanation.hpp"
+#include "explain/reaction_chain.hpp"
+#include "scenario/resolve/resolved.hpp"
+
+namespace takt::explain {
+
+/// Asked between slices of a run; true: no more.
+using Interrupted = std::function<bool()>;
+
+struct FrameQuestion {
+  enum class Which : std::uint8_t { slowest, lost, number };
+  std::optional<models::StreamIndex> stream = {};   ///< all streams but those of gPTP, if absent; with `number` there must be one
+  Which which = Which::slowest;                     ///< of all deliveries; the first that is dropped (no copy that was eliminated); that number
+  std::uint64_t number = 0;
+  TrueTime from = {};                               ///< of frames that are produced then or later
+};
+
+/// The frame, once for each of its ends that was asked for: of the slowest and of a lost one that end, of a number all of them. Empty if there is none, or if it was interrupted.
+std::vector<ExplainedFrame> explain_frame(const scenario::Resolved& resolved, const FrameQuestion& question, const Interrupted& interrupted = {});
+
+/// The critical path of the reaction: the longest, or the one that took so long. Nothing if there is none, or if it was interrupted. The scenario is run twice: first to find
+/// the chain, then to follow its messages.
+std::optional<ExplainedReaction> explain_reaction(const scenario::Resolved& resolved, const scenario::AskedReaction& asked, TrueTime from, std::optional<Duration> took = {}, const Interrupted& interrupted = {});
+
+}  // namespace takt::explain

@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "explain/explanation.hpp"
+#include "json/quantity.hpp"
+
+namespace takt::explain {
+namespace {
+
+/// Where the part passes: what a node does to a frame that has come belongs to that node.
+std::string place_of(const ExplainedHop& hop, const ExplainedPart& part, bool before_start) {
+  if (!hop.port) return hop.node;
+  const bool at_next = part.cause == "forwarding" || part.cause == "jitter" || part.cause == "os_receive" || (part.cause == "processor" && !before_start);
+  if (at_next) return hop.to.value_or("");
+  return part.cause == "cable" ? "" : fmt::format("{}:{} to {}", hop.node, *hop.port, hop.to.value_or("nothing"));
+}
+
+std::string blame_of(const ExplainedPart& part) {
+  std::string text = part.words;
+  if (part.stream) text += fmt::format(": {} frame {}", *part.stream, *part.sequence);
+  if (part.gate_entry) text += fmt::format(" (entry {})", *part.gate_entry);
+  if (part.missing_bits) text += fmt::format(" ({} bits missing)", *part.missing_bits);
+  return text;
+}
+
+std::string share_of(Duration part, Duration whole) {
+  return whole > Duration() ? fmt::format("{:.1f} %", 100.0 * static_cast<double>(part.ps()) / static_cast<double>(whole.ps())) : "";
+}
+
+std::string end_of(const ExplainedFrame& frame) {
+  const std::string where = frame.port ? fmt::format("{}:{}", frame.node, *frame.port) : frame.node;
+  if (frame.reason) return fmt::format("dropped at {}: {}", where, *frame.reason);
+  return frame.end == "delivered" ? "delivered at " + where : "under way at the end, at " + where;
+}
+
+void add_frame(std::string& page, const ExplainedFrame& frame, std::string_view indent) {
+  page += fmt::format("{}{} frame {} from {}: {}, {} after it was produced at {}\n", indent, frame.stream, frame.sequence, frame.talker, end_of(frame), json::to_text(frame.takes), json::to_text(frame.produced.since_start()));
+  std::string last = "-";
+  for (const ExplainedHop& hop : frame.hops)
+    for (const ExplainedPart& part : hop.parts) {
+      std::string where = place_of(hop, part, hop.started && part.at < *hop.started);
+      const bool is_same = where == last;
+      if (!where.empty()) last = where;
+      page += fmt::format("{}  {:<24} {:<58} {:>14} {:>7}\n", indent, is_same ? "" : where, blame_of(part), json::to_text(part.takes), share_of(part.takes, frame.takes));
+    }
+}
+
+void add_reaction(std::string& page, const ExplainedReaction& reaction) {
+  page += fmt::format("Program {}: {} from {} at {} took {}\n", reaction.program, reaction.kind, reaction.cause, json::to_text(reaction.began.since_start()), json::to_text(reaction.takes));
+  for (const ExplainedStep& step : reaction.steps) {
+    page += fmt::format("  {:<24} {:<58} {:>14} {:>7}\n", step.who, step.what, json::to_text(step.takes), share_of(step.takes, reaction.takes));
+    if (step.message) add_frame(page, *step.message, "      ");
+  }
+}
+
+}  // namespace
+
+std::string text_of(const Explanation& explanation) {
+  std::string page = fmt::format("{}: {}\n\n", explanation.scenario, explanation.question);
+  if (explanation.reaction) add_reaction(page, *explanation.reaction);
+  for (const ExplainedFrame& frame : explanation.frames) add_frame(page, frame, "");
+  if (explanation.bound) {
+    page += fmt::format("{}Bound {}\n  {:<24} {:<58} {:>14} {:>14}\n", page.ends_with("\n\n") ? "" : "\n", json::to_text(*explanation.bound), "where", "what", "bound", "worst run");
+    for (const ExplainedShare& share : explanation.shares)
+      page += fmt::format("  {:<24} {:<58} {:>14} {:>14}\n", share.where, share.what, share.bound ? json::to_text(*share.bound) : "", share.run ? json::to_text(*share.run) : "");
+  }
+  return page;
+}
+
+}  // namespace takt::explain

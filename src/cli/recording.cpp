@@ -3,13 +3,106 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "json/quantity.hpp"
+
 namespace takt::cli {
 
 Recording::Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, json::Diagnostics& diagnostics)
     : options_(options), folder_(folder), run_(&run) {
   for (const std::string& text : options.pcap) select_ports(text, diagnostics);
+  select(diagnostics);
   if (options.clocks && run.clocks() == nullptr)
     diagnostics.error({"--clocks", 0, 0, ""}, "no clocks to record", {"a scenario without gPTP", "\"gptp\" in \"clocks\""});
+}
+
+/// Each state is the number that Programs publish: 11 Halted, 12 Ready, 13 Running, 14 Suspended, 15 Halted.INIT; 0: dead, or nobody.
+class Recording::ProgramWaves final : public sim::TraceSink {
+ public:
+  ProgramWaves(const scenario::Run& run, output::VcdRecorder& waves, sim::TrueTime from) : run_(run), waves_(waves), from_(from) {
+    for (std::size_t p = 0; p < run.resolved().programs.size(); ++p) {
+      const scenario::ResolvedProgram& program = run.resolved().programs[p];
+      Shown shown;
+      for (const std::string& participant : program.participant_names)
+        shown.signals.push_back(waves.add_signal("program " + program.name, participant, 8, static_cast<std::uint64_t>(handshake::PublishedState::Halted)));
+      shown_.push_back(std::move(shown));
+    }
+  }
+
+  /// What has changed since the last record.
+  void record(const sim::TraceRecord&) override {
+    changes_.clear();
+    for (std::size_t p = 0; p < shown_.size(); ++p) {
+      Shown& shown = shown_[p];
+      const scenario::ProgramMonitor& monitor = run_.monitor(p);
+      for (; shown.states < monitor.history().size(); ++shown.states) {
+        const scenario::StateRecord& state = monitor.history()[shown.states];
+        changes_.push_back({state.time, shown.signals[state.participant], static_cast<std::uint64_t>(state.change.to)});
+      }
+      for (; shown.lives < monitor.lives().size(); ++shown.lives) {
+        const scenario::LifeRecord& life = monitor.lives()[shown.lives];
+        changes_.push_back({life.time, shown.signals[life.participant], life.is_back ? static_cast<std::uint64_t>(handshake::PublishedState::Halted) : 0});
+      }
+    }
+    std::ranges::stable_sort(changes_, {}, &Change::time);
+    for (const Change& change : changes_) waves_.set(change.signal, std::max(change.time, from_), change.value);
+  }
+
+ private:
+  struct Change {
+    sim::TrueTime time;
+    output::VcdRecorder::SignalId signal = 0;
+    std::uint64_t value = 0;
+  };
+  struct Shown {
+    std::vector<output::VcdRecorder::SignalId> signals;   // by participant
+    std::size_t states = 0;                               // that have been shown
+    std::size_t lives = 0;
+  };
+  const scenario::Run& run_;
+  output::VcdRecorder& waves_;
+  sim::TrueTime from_;
+  std::vector<Shown> shown_;
+  std::vector<Change> changes_;   // kept for its room
+};
+
+Recording::~Recording() { run_->simulation().set_trace(nullptr); }
+
+void Recording::Ways::ended(const explain::Way& way) {
+  if (timeline != nullptr && selection.has(way)) timeline->add_way(way);
+  if (hops != nullptr) hops->ended(way);
+}
+
+void Recording::select(json::Diagnostics& diagnostics) {
+  const auto time = [&](const char* option, const std::optional<std::string>& text, sim::TrueTime& value) {
+    if (!text) return;
+    if (const auto parsed = json::parse_duration(*text))
+      value = sim::TrueTime() + *parsed;
+    else
+      diagnostics.error({option, 0, 0, ""}, "not a time", {json::quote(*text), "a duration since the start, such as \"1500ms\""});
+  };
+  output::Selection& selection = ways_.selection;
+  time("--from", options_.from, selection.from);
+  time("--to", options_.to, selection.to);
+  if (selection.to < selection.from) diagnostics.error({"--to", 0, 0, ""}, "an end before the beginning", {json::quote(*options_.to), "a time after that of --from"});
+  const auto& streams = run_->network().traffic().streams();
+  if (!options_.streams.empty()) selection.streams.resize(streams.size());
+  for (const std::string& name : options_.streams) {
+    const auto found = std::ranges::find(streams, name, &models::Stream::name);
+    if (found == streams.end())
+      diagnostics.error({"--stream " + name, 0, 0, ""}, "no such stream", {json::quote(name), "the name of a stream, as result.json lists them"});
+    else
+      selection.streams[static_cast<std::size_t>(found - streams.begin())] = true;
+  }
+}
+
+/// Each recorder hears what is selected.
+void Recording::add_sink(sim::TraceSink& sink) {
+  if (ways_.selection.is_all()) {
+    sinks_.add(sink);
+    return;
+  }
+  selected_.push_back(std::make_unique<output::SelectedSink>(run_->network(), ways_.selection, sink));
+  sinks_.add(*selected_.back());
 }
 
 void Recording::select_ports(const std::string& text, json::Diagnostics& diagnostics) {
@@ -45,11 +138,11 @@ std::string Recording::open() {
     pcap_ = std::make_unique<output::PcapRecorder>(run_->network());
     for (const Capture& capture : captures_)
       if (std::string problem = pcap_->add((folder / capture.file).string(), capture.ports); !problem.empty()) return problem;
-    sinks_.add(*pcap_);
+    add_sink(*pcap_);
   }
   if (options_.timeline) {
-    timeline_ = std::make_unique<output::TimelineRecorder>(run_->network(), (folder / "timeline.json").string());
-    sinks_.add(*timeline_);
+    timeline_ = std::make_unique<output::TimelineRecorder>(run_->network(), (folder / "timeline.json").string(), ways_.selection.from, ways_.selection.to);
+    add_sink(*timeline_);
   }
   if (options_.waves) {
     waves_ = std::make_unique<output::VcdRecorder>(run_->network(), (folder / "waves.vcd").string());
@@ -57,7 +150,10 @@ std::string Recording::open() {
       const scenario::ResolvedApplication& application = run_->resolved().applications[signal.application];
       waves_->add_output(run_->resolved().topology.nodes[application.node.value].name + "\n" + application.name, signal.name);
     }
-    sinks_.add(*waves_);
+    waves_->begin_at(ways_.selection.from);
+    program_waves_ = std::make_unique<ProgramWaves>(*run_, *waves_, ways_.selection.from);
+    add_sink(*program_waves_);
+    add_sink(*waves_);
   }
   if (options_.clocks) {
     clocks_ = std::make_unique<output::ClockSeries>(run_->network(), (folder / "clocks.csv").string());
@@ -65,14 +161,24 @@ std::string Recording::open() {
   }
   if (options_.frames) {
     frames_ = std::make_unique<output::FrameSeries>(run_->network(), (folder / "frames.csv").string());
-    sinks_.add(*frames_);
+    add_sink(*frames_);
+    hops_ = std::make_unique<output::HopSeries>(run_->network(), ways_.selection, (folder / "hops.csv").string());
   }
-  run_->simulation().set_trace(&sinks_);
+  if (!timeline_ && !hops_) {
+    run_->simulation().set_trace(&sinks_);
+    return {};
+  }
+  ways_.timeline = timeline_.get();
+  ways_.hops = hops_.get();
+  way_recorder_ = std::make_unique<explain::WayRecorder>(run_->network(), ways_);
+  sinks_.add(*way_recorder_);
+  run_->explain_to(&sinks_);
   return {};
 }
 
 std::string Recording::close() {
   run_->simulation().set_trace(nullptr);
+  if (way_recorder_) way_recorder_->finish(run_->simulation().now());
   std::string problem;
   if (pcap_) problem = pcap_->close();
   if (timeline_) {
@@ -87,6 +193,8 @@ std::string Recording::close() {
   }
   if (frames_)
     if (std::string other = frames_->close(); problem.empty()) problem = std::move(other);
+  if (hops_)
+    if (std::string other = hops_->close(); problem.empty()) problem = std::move(other);
   return problem;
 }
 
@@ -119,6 +227,21 @@ void Recording::write_faults(const std::string& program, const std::vector<scena
     if (time <= run_->simulation().now()) timeline_->change_state(track, time, std::string(text));
 }
 
+/// Each from its cause to the last who was there; and the calls of the script.
+void Recording::write_reactions(const std::string& group, const scenario::ProgramMonitor& monitor) {
+  const auto track = timeline_->add_state_track(group, "reactions");
+  sim::TrueTime free;
+  for (const handshake::Reaction& reaction : monitor.reactions()) {
+    if (reaction.began < free) continue;   // it has come while another one was under way
+    timeline_->change_state(track, reaction.began, handshake::name_of(reaction.kind));
+    if (reaction.outcome != handshake::ReactionOutcome::completed) continue;
+    timeline_->change_state(track, reaction.completed, "");
+    free = reaction.completed;
+  }
+  const auto calls = timeline_->add_state_track(group, "calls");
+  for (const scenario::CallRecord& call : monitor.calls()) timeline_->mark(calls, call.time, program::name_of(call.method));
+}
+
 void Recording::write_states() {
   for (std::size_t p = 0; p < run_->resolved().programs.size(); ++p) {
     const scenario::ResolvedProgram& program = run_->resolved().programs[p];
@@ -127,6 +250,7 @@ void Recording::write_states() {
       timeline_->change_state(track, sim::TrueTime(), handshake::name_of(handshake::PublishedState::Halted));
       for (const auto& [time, state] : states_of(run_->monitor(p), i)) timeline_->change_state(track, time, state);
     }
+    write_reactions("program " + program.name, run_->monitor(p));
     if (!run_->monitor(p).faults().empty()) write_faults(program.name, run_->monitor(p).faults());
     for (std::size_t role = 0; run_->roles(p) != nullptr && role + 1 < program.participant_names.size(); ++role) {
       const auto track = timeline_->add_state_track("program " + program.name, program.participant_names[role + 1] + " is");

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "output/clock_series.hpp"
 #include "output/fan_out.hpp"
+#include "explain/way_recorder.hpp"
 #include "output/frame_series.hpp"
+#include "output/hop_series.hpp"
 #include "output/pcap_recorder.hpp"
 #include "output/timeline_recorder.hpp"
 #include "output/vcd_recorder.hpp"
@@ -21,6 +24,9 @@ struct RecordingOptions {
   bool waves = false;
   bool clocks = false;
   bool frames = false;
+  std::optional<std::string> from;   ///< a duration since the start
+  std::optional<std::string> to;
+  std::vector<std::string> streams;  ///< none: all
   bool is_wanted() const { return !pcap.empty() || timeline || waves || clocks || frames; }
 };
 
@@ -31,7 +37,7 @@ class Recording {
   Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, json::Diagnostics& diagnostics);
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
-  ~Recording() { run_->simulation().set_trace(nullptr); }
+  ~Recording();
 
   /// Opens the files, whose folder is made if it is not there. An empty text, or what went wrong.
   [[nodiscard]] std::string open();
@@ -43,8 +49,22 @@ class Recording {
     std::string file;
     std::vector<models::PortId> ports;  ///< none: all
   };
+  /// Who is told of ways: the time line and the table of hops.
+  struct Ways final : explain::WaySink {
+    bool wants(models::StreamIndex stream) const override { return selection.has(stream); }
+    void ended(const explain::Way& way) override;
+    output::Selection selection;
+    output::TimelineRecorder* timeline = nullptr;
+    output::HopSeries* hops = nullptr;
+  };
+  /// Shows the states of Programs as signals, as they change.
+  class ProgramWaves;
+
+  void select(json::Diagnostics& diagnostics);
+  void add_sink(sim::TraceSink& sink);
   void select_ports(const std::string& text, json::Diagnostics& diagnostics);
   void write_states();
+  void write_reactions(const std::string& group, const scenario::ProgramMonitor& monitor);
   void write_faults(const std::string& program, const std::vector<scenario::ProgramFault>& faults);
 
   RecordingOptions options_;
@@ -57,6 +77,11 @@ class Recording {
   std::unique_ptr<output::VcdRecorder> waves_;
   std::unique_ptr<output::ClockSeries> clocks_;
   std::unique_ptr<output::FrameSeries> frames_;
+  std::unique_ptr<output::HopSeries> hops_;
+  Ways ways_;
+  std::unique_ptr<explain::WayRecorder> way_recorder_;
+  std::unique_ptr<ProgramWaves> program_waves_;
+  std::vector<std::unique_ptr<output::SelectedSink>> selected_;
 };
 
 }  // namespace takt::cli

@@ -103,10 +103,13 @@ void add_run_command(Command app, ExitStatus& status) {
   command.add_option("--pcap", options->recording.pcap, "Capture what these ports send, into DIR: all, NODE or NODE:PORT (repeatable)")
       .type_name("PORT")
       .one_value_each();
-  command.add_flag("--timeline", options->recording.timeline, "Write frames and states as DIR/timeline.json, for ui.perfetto.dev");
-  command.add_flag("--waves", options->recording.waves, "Write links, queues, gates and digital outputs as DIR/waves.vcd, for GTKWave");
+  command.add_flag("--timeline", options->recording.timeline, "Write frames, their ways and waits, gates and states as DIR/timeline.json, for ui.perfetto.dev");
+  command.add_flag("--waves", options->recording.waves, "Write links, queues, gates, states of Programs and digital outputs as DIR/waves.vcd and waves.gtkw, for GTKWave");
   command.add_flag("--clocks", options->recording.clocks, "Write the offsets of all clocks from their grandmasters as DIR/clocks.csv");
-  command.add_flag("--frames", options->recording.frames, "Write what became of each frame, and when, as DIR/frames.csv");
+  command.add_flag("--frames", options->recording.frames, "Write what became of each frame, and when, as DIR/frames.csv, and where its time went at each hop as DIR/hops.csv");
+  command.add_option("--from", options->recording.from, "Record from then on").type_name("D");
+  command.add_option("--to", options->recording.to, "Record until then").type_name("D");
+  command.add_option("--stream", options->recording.streams, "Record frames of this stream only (repeatable)").type_name("NAME").one_value_each();
   command.add_flag("--all", options->all, "Print all changes of state, reactions, streams and so on, however many there are");
   command.add_flag("--quiet", options->quiet, "Print one line");
   command.footer(
@@ -116,6 +119,7 @@ void add_run_command(Command app, ExitStatus& status) {
       "  takt run scenarios/robot-arm.json --set programs.0.cycle=1ms --out out/slow\n"
       "  takt run scenarios/robot-arm.json --duration 1100ms --out out/look --pcap all --timeline\n"
       "  takt run scenarios/robot-arm.json --report out/robot-arm.html\n"
+      "  takt run scenarios/robot-arm.json --out out/look --frames --stream camera --from 1s --to 1100ms\n"
       "  takt run scenarios/robot-arm.json --format json | jq .programs.trajectory.reactions\n"
       "Exit status: 0 pass, 1 a requirement failed, 2 bad input, 3 internal error, 130 interrupted.");
   command.callback([options, &status] { status = run(*options); });

@@ -88,6 +88,7 @@ ExitStatus run(VerifyOptions& options) {
   what.search.progress = [&](std::uint64_t events, std::uint64_t of) {
     if (line.is_due()) line.show(fmt::format("searching for the worst: {:.0f} %", 100.0 * static_cast<double>(events) / static_cast<double>(of)));
   };
+  what.helps = true;
   what.proof.interrupted = what.search.interrupted;
   const verify::Verification verification = verify::verify(*resolved, what);
   std::vector<std::string> files(verification.lines.size());

@@ -95,6 +95,9 @@ const json::Record& describe(json::Type<ExplainedReaction>);
 const json::Record& describe(json::Type<ExplainedShare>);
 const json::Record& describe(json::Type<Explanation>);
 
+/// Where a part passes: "sw1:0 to robot", or the node itself; what a node does to a frame that has come belongs to that node.
+std::string place_of(const ExplainedHop& hop, const ExplainedPart& part);
+
 /// The same as a page for people.
 std::string text_of(const Explanation& explanation);
 

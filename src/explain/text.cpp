@@ -8,14 +8,6 @@
 namespace takt::explain {
 namespace {
 
-/// Where the part passes: what a node does to a frame that has come belongs to that node.
-std::string place_of(const ExplainedHop& hop, const ExplainedPart& part, bool before_start) {
-  if (!hop.port) return hop.node;
-  const bool at_next = part.cause == "forwarding" || part.cause == "jitter" || part.cause == "os_receive" || (part.cause == "processor" && !before_start);
-  if (at_next) return hop.to.value_or("");
-  return part.cause == "cable" ? "" : fmt::format("{}:{} to {}", hop.node, *hop.port, hop.to.value_or("nothing"));
-}
-
 std::string blame_of(const ExplainedPart& part) {
   std::string text = part.words;
   if (part.stream) text += fmt::format(": {} frame {}", *part.stream, *part.sequence);
@@ -39,9 +31,9 @@ void add_frame(std::string& page, const ExplainedFrame& frame, std::string_view 
   std::string last = "-";
   for (const ExplainedHop& hop : frame.hops)
     for (const ExplainedPart& part : hop.parts) {
-      std::string where = place_of(hop, part, hop.started && part.at < *hop.started);
+      std::string where = place_of(hop, part);
       const bool is_same = where == last;
-      if (!where.empty()) last = where;
+      last = where;
       page += fmt::format("{}  {:<24} {:<58} {:>14} {:>7}\n", indent, is_same ? "" : where, blame_of(part), json::to_text(part.takes), share_of(part.takes, frame.takes));
     }
 }
@@ -55,6 +47,12 @@ void add_reaction(std::string& page, const ExplainedReaction& reaction) {
 }
 
 }  // namespace
+
+std::string place_of(const ExplainedHop& hop, const ExplainedPart& part) {
+  if (!hop.port) return hop.node;
+  const bool at_next = part.cause == "forwarding" || part.cause == "jitter" || part.cause == "os_receive" || part.cause == "processor";
+  return at_next ? hop.to.value_or("") : fmt::format("{}:{} to {}", hop.node, *hop.port, hop.to.value_or("nothing"));
+}
 
 std::string text_of(const Explanation& explanation) {
   std::string page = fmt::format("{}: {}\n\n", explanation.scenario, explanation.question);

@@ -28,8 +28,13 @@ WayRecorder::WayRecorder(const models::Network& network, WaySink& sink) : networ
 models::NodeIndex WayRecorder::node_of(sim::ComponentId component) const { return {component.index < node_of_component_.size() ? node_of_component_[component.index] : none}; }
 
 WayRecorder::Copy* WayRecorder::copy_of(std::uint64_t record) {
-  const auto found = copies_.find(static_cast<std::uint32_t>(record));
-  return found == copies_.end() || found->second.journey == none ? nullptr : &found->second;
+  const auto number = static_cast<std::uint32_t>(record);
+  return number >= copies_.size() || copies_[number].journey == none ? nullptr : &copies_[number];
+}
+
+WayRecorder::Copy& WayRecorder::make_copy(std::uint32_t record) {
+  if (record >= copies_.size()) copies_.resize(record + std::size_t{1});
+  return copies_[record];
 }
 
 WayRecorder::Place* WayRecorder::place_at(Copy& copy, models::NodeIndex node) {
@@ -93,19 +98,18 @@ void WayRecorder::produced(const sim::TraceRecord& record) {
   journey.produced = frame.produced;
   journey.visits.clear();
   journey.records.assign(1, handle);
-  Copy& copy = copies_[handle];
+  Copy& copy = make_copy(handle);
   copy.journey = number;
   copy.ports.clear();
   copy.places.assign(1, {journey.talker});
 }
 
 void WayRecorder::separated(const sim::TraceRecord& record) {
-  const Copy* const before = copy_of(record.detail);
-  if (before == nullptr) return;
-  const auto made = static_cast<std::uint32_t>(record.what);
-  Copy copy = *before;   // the map may move what it holds
-  journeys_[copy.journey].records.push_back(made);
-  copies_[made] = std::move(copy);
+  if (copy_of(record.detail) == nullptr) return;
+  const auto number = static_cast<std::uint32_t>(record.what);
+  Copy& made = make_copy(number);
+  made = *copy_of(record.detail);
+  journeys_[made.journey].records.push_back(number);
 }
 
 void WayRecorder::arrived(const sim::TraceRecord& record) {
@@ -354,9 +358,7 @@ void WayRecorder::dropped(const sim::TraceRecord& record) {
 /// The last copy that shares a record ends it.
 void WayRecorder::copy_ends(std::uint32_t record, const models::Frame& frame) {
   if (frame.references != 1) return;
-  const auto found = copies_.find(record);
-  const std::uint32_t number = found->second.journey;
-  copies_.erase(found);
+  const std::uint32_t number = std::exchange(copies_[record].journey, none);
   if (std::erase(journeys_[number].records, record) == 1 && journeys_[number].records.empty()) free_journeys_.push_back(number);
 }
 
@@ -370,7 +372,7 @@ void WayRecorder::finish(TrueTime now) {
     std::vector<bool> goes_on(journey.visits.size());
     for (const Visit& visit : journey.visits)
       if (visit.from != none) goes_on[visit.from] = true;
-    const Copy& copy = copies_.at(journey.records.front());
+    const Copy& copy = copies_[journey.records.front()];
     ended_in_host_ = false;
     const auto tell = [&](std::uint32_t last) {
       Way way = way_of(copy, last, nullptr, now);

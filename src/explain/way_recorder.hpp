@@ -2,7 +2,6 @@
 // what a port was used for only while somebody whom it follows waits there.
 #pragma once
 
-#include <unordered_map>
 #include <vector>
 
 #include "explain/port_account.hpp"
@@ -84,6 +83,7 @@ class WayRecorder final : public sim::TraceSink {
   };
 
   Copy* copy_of(std::uint64_t record);
+  Copy& make_copy(std::uint32_t record);
   models::NodeIndex node_of(sim::ComponentId component) const;
   static Place* place_at(Copy& copy, models::NodeIndex node);
   static std::uint32_t visit_at(const Copy& copy, std::uint32_t position);
@@ -114,7 +114,7 @@ class WayRecorder final : public sim::TraceSink {
   std::vector<bool> wanted_;               // by stream
   std::vector<PortAccount> accounts_;      // by port
   std::vector<std::uint32_t> waiting_;     // by port: how many whom we follow
-  std::unordered_map<std::uint32_t, Copy> copies_;   // by record
+  std::vector<Copy> copies_;               // by record
   std::vector<Journey> journeys_;
   std::vector<std::uint32_t> free_journeys_;
   bool ended_in_host_ = false;             // the way that is being made ends behind a bridge's part of a station

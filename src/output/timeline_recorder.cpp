@@ -32,12 +32,14 @@ std::string microseconds(sim::Duration duration) {
 
 }  // namespace
 
-TimelineRecorder::TimelineRecorder(const models::Network& network, std::string path)
-    : network_(&network), directory_(network), file_(std::move(path)) {
+TimelineRecorder::TimelineRecorder(const models::Network& network, std::string path, sim::TrueTime from, sim::TrueTime to)
+    : network_(&network), from_(from), to_(to), directory_(network), followed_gates_(network, directory_), file_(std::move(path)) {
   file_.write("{\"displayTimeUnit\":\"ns\",\"traceEvents\":[\n");
   name_ports();
   slices_.resize(directory_.ports().size());
   for (const models::Stream& stream : network.traffic().streams()) stream_names_.push_back(quoted(stream.name));
+  gate_tracks_.assign(directory_.ports().size(), no_track);
+  for (std::uint32_t position = 0; position < directory_.ports().size(); ++position) show_gates(position, sim::TrueTime());
 }
 
 void TimelineRecorder::name_ports() {
@@ -84,15 +86,87 @@ TimelineRecorder::TrackId TimelineRecorder::add_state_track(std::string_view gro
 void TimelineRecorder::change_state(TrackId id, sim::TrueTime time, std::string_view state) {
   Track& track = tracks_[id];
   TAKT_CHECK(time >= track.since, "the states of a track follow each other");
-  if (!track.state.empty())
+  const sim::TrueTime begin = std::max(track.since, from_);
+  const sim::TrueTime end = std::min(time, to_);
+  if (!track.state.empty() && (begin < end || (begin == end && track.since == time)))
     event(fmt::format(R"({{"ph":"X","pid":{},"tid":{},"ts":{},"dur":{},"name":{}}})", track.process, track.thread,
-                      microseconds(track.since.since_start()), microseconds(time - track.since), quoted(track.state)));
+                      microseconds(begin.since_start()), microseconds(end - begin), quoted(track.state)));
   track.since = time;
   track.state = state;
 }
 
+void TimelineRecorder::mark(TrackId id, sim::TrueTime time, std::string_view text) {
+  if (time < from_ || time > to_) return;
+  event(fmt::format(R"({{"ph":"i","s":"t","pid":{},"tid":{},"ts":{},"name":{}}})", tracks_[id].process, tracks_[id].thread, microseconds(time.since_start()), quoted(text)));
+}
+
+void TimelineRecorder::add_way(const explain::Way& way) {
+  const std::string& stream = stream_names_[way.frame.stream.value];
+  ++ways_;
+  bool has_begun = false;
+  for (std::size_t i = 0; i < way.hops.size(); ++i) {
+    const explain::Hop& hop = way.hops[i];
+    const std::uint32_t process = hop.port.node.value + 1;
+    const std::uint32_t thread = hop.port.port + 1u;
+    if (!hop.is_told)
+      for (const explain::Part& part : hop.parts) {
+        if (!explain::is_waiting(part.cause) || part.cause == explain::Cause::preemption || part.cause == explain::Cause::processor) continue;
+        std::string who;
+        if (part.who) who = fmt::format(R"(,"for":{},"for_sequence":{})", stream_names_[part.who->stream.value], part.who->sequence);
+        if (part.amount != explain::Part::no_amount) who += fmt::format(R"(,"{}":{})", part.cause == explain::Cause::credit ? "missing_bits" : "gate_entry", part.amount);
+        const std::string place = fmt::format(R"("cat":"waiting","id":{},"pid":{},"tid":{})", ++waits_, process, thread);
+        event(fmt::format(R"({{"ph":"b",{},"ts":{},"name":{},"args":{{"stream":{},"sequence":{}{}}}}})", place, microseconds(part.begin.since_start()), quoted(explain::words_of(part.cause)), stream, way.frame.sequence, who));
+        event(fmt::format(R"({{"ph":"e",{},"ts":{},"name":{}}})", place, microseconds((part.begin + part.length).since_start()), quoted(explain::words_of(part.cause))));
+      }
+    if (hop.started == sim::TrueTime::never()) continue;
+    // An arrow begins at the first hop, or where this copy leaves the way of others.
+    const bool is_last = i + 1 == way.hops.size() || way.hops[i + 1].started == sim::TrueTime::never();
+    if (is_last && !has_begun) continue;
+    if (!is_last && way.hops[i + 1].is_told) continue;
+    event(fmt::format(R"({{"ph":"{}","cat":"way","id":{},"pid":{},"tid":{},"ts":{},"name":{}{}}})", !has_begun ? "s" : is_last ? "f" : "t", ways_, process, thread, microseconds(hop.started.since_start()), stream,
+                      is_last ? R"(,"bp":"e")" : ""));
+    has_begun = true;
+  }
+}
+
+/// The classes whose gates are open, as the state of a track beside the port.
+void TimelineRecorder::show_gates(std::uint32_t position, sim::TrueTime time) {
+  if (!followed_gates_.has_gates(position)) return;
+  const models::PortDirectory::Port& port = directory_.ports()[position];
+  if (gate_tracks_[position] == no_track) {
+    constexpr std::uint32_t behind_ports = 0x1'0000;
+    Track track;
+    track.process = port.id.node.value + 1;
+    track.thread = port.id.port + behind_ports;
+    track.since = time;
+    name_thread(track.process, track.thread, fmt::format("port {}: open gates", port.id.port));
+    gate_tracks_[position] = static_cast<TrackId>(tracks_.size());
+    tracks_.push_back(std::move(track));
+  }
+  const std::uint64_t states = followed_gates_.states(position, time);
+  std::string open;
+  for (int q = models::traffic_class_count - 1; q >= 0; --q)
+    if ((states >> q & 1) != 0) open += fmt::format("{}{}", open.empty() ? "" : " ", q);
+  const std::string text = open.empty() ? "none" : open;
+  if (text != tracks_[gate_tracks_[position]].state) change_state(gate_tracks_[position], time, text);
+}
+
+void TimelineRecorder::follow_gates(sim::TrueTime now) {
+  while (followed_gates_.next_time() <= now) {
+    const GateFollower::Change change = followed_gates_.pop();
+    show_gates(change.position, change.time);
+  }
+}
+
 void TimelineRecorder::record(const sim::TraceRecord& record) {
   const auto kind = static_cast<models::Occurrence>(record.kind);
+  follow_gates(record.time);
+  if (kind == models::Occurrence::gates_changed) {
+    const std::uint32_t position = directory_.find(record.where);
+    followed_gates_.look_at(position, record.time);
+    show_gates(position, record.time);
+    return;
+  }
   const bool begins = kind == models::Occurrence::started || kind == models::Occurrence::resumed;
   if (!begins && kind != models::Occurrence::cut && kind != models::Occurrence::drop) return;
   const std::uint32_t position = directory_.find(record.where);
@@ -133,6 +207,7 @@ void TimelineRecorder::write_slice(std::uint32_t position) {
 
 std::string TimelineRecorder::close(sim::TrueTime end) {
   for (std::uint32_t position = 0; position < slices_.size(); ++position) write_slice(position);
+  follow_gates(end);
   for (TrackId track = 0; track < tracks_.size(); ++track) change_state(track, std::max(end, tracks_[track].since), "");
   file_.write("\n]}\n");
   return file_.close();

@@ -1,13 +1,15 @@
 // Writes a time line in the Chrome trace event format, which ui.perfetto.dev opens: a process for each node with a thread for each
-// port, on which every frame is a slice from the first bit of its preamble to its last bit; drops are marks; and a track for
-// whatever has a state, such as the participants of a Program.
+// port, on which every frame is a slice from the first bit of its preamble to its last bit; drops are marks; arrows lead from hop to hop, and what a frame waits for
+// stands beside the port; and a track for whatever has a state, such as the participants of a Program.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "explain/way.hpp"
 #include "models/port_directory.hpp"
+#include "output/gate_follower.hpp"
 #include "output/streaming_file.hpp"
 #include "sim/trace.hpp"
 
@@ -17,14 +19,20 @@ class TimelineRecorder final : public sim::TraceSink {
  public:
   using TrackId = std::uint32_t;
 
-  /// Writes as it records. The network outlives the recorder.
-  TimelineRecorder(const models::Network& network, std::string path);
+  /// Writes as it records. The network outlives the recorder. What states and gates are before `from` or after `to` is left out.
+  TimelineRecorder(const models::Network& network, std::string path, sim::TrueTime from = {}, sim::TrueTime to = sim::TrueTime::never());
 
   /// A track that shows states; tracks of one group stand together.
   TrackId add_state_track(std::string_view group, std::string_view name);
   /// From that time on the track is in that state; an empty text: in none. The times of a track ascend, but it may be told its past at
   /// any time before close().
   void change_state(TrackId track, sim::TrueTime time, std::string_view state);
+
+  /// A mark on a track.
+  void mark(TrackId track, sim::TrueTime time, std::string_view text);
+
+  /// The way of a frame, when it has ended: an arrow from hop to hop, and each wait at a port as a slice of its own with its cause. Hops that an earlier way has shared are left out.
+  void add_way(const explain::Way& way);
 
   void record(const sim::TraceRecord& record) override;
 
@@ -49,14 +57,20 @@ class TimelineRecorder final : public sim::TraceSink {
     bool is_continued = false;   // of a frame that was cut before
     bool is_cut = false;
   };
+  static constexpr TrackId no_track = 0xFFFF'FFFF;
   void write_slice(std::uint32_t position);
+  void follow_gates(sim::TrueTime now);
+  void show_gates(std::uint32_t position, sim::TrueTime time);
   void name_ports();
   void name_process(std::uint32_t process, std::string_view name);
   void name_thread(std::uint32_t process, std::uint32_t thread, std::string_view name);
   void event(std::string_view text);
 
   const models::Network* network_;
+  sim::TrueTime from_;
+  sim::TrueTime to_;
   models::PortDirectory directory_;
+  GateFollower followed_gates_;
   StreamingFile file_;
   bool first_ = true;
   std::vector<std::string> groups_;
@@ -64,6 +78,9 @@ class TimelineRecorder final : public sim::TraceSink {
   std::vector<Track> tracks_;
   std::vector<Slice> slices_;              // by position of the port in the directory
   std::vector<std::string> stream_names_;  // escaped
+  std::vector<TrackId> gate_tracks_;       // by port; none: it has shown no gates
+  std::uint64_t ways_ = 0;
+  std::uint64_t waits_ = 0;
 };
 
 }  // namespace takt::output

@@ -32,56 +32,46 @@ std::string code_of(std::size_t number) {
 }  // namespace
 
 VcdRecorder::VcdRecorder(const models::Network& network, std::string path)
-    : network_(&network), directory_(network), file_(std::move(path)) {
+    : network_(&network), directory_(network), followed_gates_(network, directory_), path_(path), file_(std::move(path)) {
   const std::vector<models::NodePlan>& nodes = network.plan().nodes;
   for (const models::PortDirectory::Port& port : directory_.ports()) {
     const std::string_view peer = port.peer.is_none() ? std::string_view("nothing") : nodes[port.peer.value].name;
-    const std::string scope = fmt::format("{}\nport{}_to_{}", identifier(nodes[port.id.node.value].name), port.id.port, identifier(peer));
+    const std::string scope = fmt::format("{}\nport{}_to_{}", nodes[port.id.node.value].name, port.id.port, peer);
     add_signal(scope, "busy", 1, 0);
     add_signal(scope, "queued_frames", 32, 0);
     add_signal(scope, "gates", models::traffic_class_count, 0xFF);
   }
   begun_.resize(directory_.ports().size());
   free_at_.resize(directory_.ports().size());
-  gates_.resize(directory_.ports().size());
-  for (std::uint32_t position = 0; position < gates_.size(); ++position) {
-    look_at_gates(position, sim::TrueTime());
-    signals_[position * signals_of_a_port + gates].value = states(position, sim::TrueTime());
-  }
-}
-
-/// The gates of the port are others from now on.
-void VcdRecorder::look_at_gates(std::uint32_t position, sim::TrueTime now) {
-  const models::PortDirectory::Port& port = directory_.ports()[position];
-  const models::EgressPort& live = network_->ports(port.id.node)[port.id.port];
-  if (live.shaping() == nullptr || !live.shaping()->has_gates()) return;
-  gates_[position].schedule = std::as_const(*live.shaping()).gates();
-  gates_[position].next = now;
-  follow_gates(position);
-}
-
-/// Notes when they next change.
-void VcdRecorder::follow_gates(std::uint32_t position) {
-  const models::PortDirectory::Port& port = directory_.ports()[position];
-  const models::LocalClock& clock = network_->ports(port.id.node)[port.id.port].clock();
-  Gates& followed = gates_[position];
-  const sim::LocalTime change = followed.schedule.next_change(clock.local_at(followed.next));
-  followed.next = change == sim::LocalTime::never() ? sim::TrueTime::never() : clock.true_at(change);
-  if (followed.next != sim::TrueTime::never()) gate_changes_.push({followed.next, position});
-}
-
-std::uint64_t VcdRecorder::states(std::uint32_t position, sim::TrueTime at) {
-  const models::PortDirectory::Port& port = directory_.ports()[position];
-  const models::EgressPort& live = network_->ports(port.id.node)[port.id.port];
-  if (live.shaping() == nullptr || !live.shaping()->has_gates()) return 0xFF;
-  return live.shaping()->with_forced(gates_[position].schedule.gate_states(live.clock().local_at(at)));
+  for (std::uint32_t position = 0; position < directory_.ports().size(); ++position)
+    signals_[position * signals_of_a_port + gates].value = followed_gates_.states(position, sim::TrueTime());
 }
 
 VcdRecorder::SignalId VcdRecorder::add_signal(std::string_view scope, std::string_view name, unsigned bits, std::uint64_t initial) {
   TAKT_CHECK(!declared_, "signals are added before anything is recorded");
   TAKT_CHECK(bits >= 1 && bits <= 64, "a signal has 1 to 64 bits");
-  signals_.push_back({std::string(scope), identifier(name), code_of(signals_.size()), bits, initial});
+  // Names that differ in characters only which a VCD does not know get a number.
+  std::string known, parent;
+  std::string_view rest = scope;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    known += (known.empty() ? "" : "\n") + std::string(rest.substr(0, end));
+    parent += (parent.empty() ? "" : "\n") + unique_in(parent, known, rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  const std::string plain = unique_in(parent, known + "\n\n" + std::string(name), name);
+  signals_.push_back({parent, plain, code_of(signals_.size()), bits, initial});
   return static_cast<SignalId>(signals_.size() - 1);
+}
+
+/// The name, in that scope, of what is called `name` and told apart by `full`.
+std::string VcdRecorder::unique_in(const std::string& scope, const std::string& full, std::string_view name) {
+  if (const auto known = names_.find(full); known != names_.end()) return known->second;
+  const std::string plain = identifier(name);
+  std::string made = plain;
+  for (std::size_t number = 2; !taken_.insert(scope + "\n" + made).second; ++number) made = plain + "_" + std::to_string(number);
+  names_.emplace(full, made);
+  return made;
 }
 
 void VcdRecorder::set(SignalId signal, sim::TrueTime time, std::uint64_t value) {
@@ -119,8 +109,8 @@ void VcdRecorder::record(const sim::TraceRecord& record) {
       falls_.push({free_at_[position], first + busy});
       break;
     case models::Occurrence::gates_changed:
-      look_at_gates(position, record.time);
-      change(first + gates, record.time, states(position, record.time));
+      followed_gates_.look_at(position, record.time);
+      change(first + gates, record.time, followed_gates_.states(position, record.time));
       break;
     default: break;
   }
@@ -129,12 +119,34 @@ void VcdRecorder::record(const sim::TraceRecord& record) {
 std::string VcdRecorder::close(sim::TrueTime end) {
   advance_to(end);
   if (end > time_) file_.write(fmt::format("#{}\n", end.ps()));
-  return file_.close();
+  if (std::string problem = file_.close(); !problem.empty()) return problem;
+  StreamingFile save(path_.ends_with(".vcd") ? path_.substr(0, path_.size() - 4) + ".gtkw" : path_ + ".gtkw");
+  save.write(save_file());
+  return save.close();
+}
+
+/// GTKWave's own format: flags of how to show what follows (0x28: a bit; 0x22: a number in hexadecimal), then names with their scopes; @200: a comment.
+std::string VcdRecorder::save_file() const {
+  const std::size_t slash = path_.rfind('/');
+  std::string text = "[*] written by takt\n[dumpfile] \"" + path_.substr(slash == std::string::npos ? 0 : slash + 1) + "\"\n";
+  std::string scope;
+  for (const Signal& signal : signals_) {
+    std::string dotted = signal.scope;
+    std::replace(dotted.begin(), dotted.end(), '\n', '.');
+    if (dotted != scope) text += "@200\n-" + dotted + "\n";
+    scope = dotted;
+    text += (signal.bits == 1 ? "@28\n" : "@22\n") + dotted + "." + signal.name + (signal.bits == 1 ? "" : fmt::format("[{}:0]", signal.bits - 1)) + "\n";
+  }
+  return text;
 }
 
 /// The header, with scopes in the order of their first signal, and the values at time zero.
 void VcdRecorder::declare() {
   declared_ = true;
+  while (followed_gates_.next_time() <= time_ && time_ > sim::TrueTime()) {
+    const GateFollower::Change change = followed_gates_.pop();
+    signals_[change.position * signals_of_a_port + gates].value = followed_gates_.states(change.position, change.time);
+  }
   file_.write("$version takt $end\n$timescale 1 ps $end\n");
   // Signals of one scope stand together; a scope is opened once for each run of its signals.
   std::vector<const Signal*> order;
@@ -164,7 +176,7 @@ void VcdRecorder::declare() {
     file_.write(fmt::format("$var wire {} {} {}{} $end\n", signal->bits, signal->code, signal->name, range));
   }
   enter({});
-  file_.write("$enddefinitions $end\n#0\n$dumpvars\n");
+  file_.write(fmt::format("$enddefinitions $end\n#{}\n$dumpvars\n", time_.ps()));
   for (const Signal& signal : signals_) write_value(signal);
   file_.write("$end\n");
 }
@@ -175,18 +187,15 @@ void VcdRecorder::advance_to(sim::TrueTime time) {
   TAKT_CHECK(time >= time_, "a wave form is recorded in the order of time");
   for (;;) {
     const sim::TrueTime fall = falls_.empty() ? sim::TrueTime::never() : falls_.top().time;
-    const sim::TrueTime gate = gate_changes_.empty() ? sim::TrueTime::never() : gate_changes_.top().time;
+    const sim::TrueTime gate = followed_gates_.next_time();
     if (std::min(fall, gate) > time) return;
     if (fall <= gate) {
       const Fall next = falls_.top();
       falls_.pop();
       if (free_at_[next.signal / signals_of_a_port] == next.time) change(next.signal, next.time, 0);  // else it was cut
     } else {
-      const Fall next = gate_changes_.top();
-      gate_changes_.pop();
-      if (gates_[next.signal].next != next.time) continue;  // of a list that was replaced
-      change(next.signal * signals_of_a_port + gates, next.time, states(next.signal, next.time));
-      follow_gates(next.signal);
+      const GateFollower::Change next = followed_gates_.pop();
+      change(next.position * signals_of_a_port + gates, next.time, followed_gates_.states(next.position, next.time));
     }
   }
 }

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <queue>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "models/port_directory.hpp"
+#include "output/gate_follower.hpp"
 #include "output/streaming_file.hpp"
 #include "sim/trace.hpp"
 
@@ -32,9 +35,12 @@ class VcdRecorder final : public sim::TraceSink {
   /// The next digital output of the scenario, by number from 0: what Occurrence::output_changed tells of it is recorded.
   void add_output(std::string_view scope, std::string_view name) { outputs_.push_back(add_signal(scope, name, 1, 0)); }
 
+  /// Nothing before that is written. Before anything is recorded.
+  void begin_at(sim::TrueTime from) { time_ = from; }
+
   void record(const sim::TraceRecord& record) override;
 
-  /// Writes what comes until `end` and gives the file its name. Returns an empty text, or what went wrong.
+  /// Writes what comes until `end` and gives the file its name; beside it a save file for GTKWave, FILE.gtkw, which shows all signals. Returns an empty text, or what went wrong.
   [[nodiscard]] std::string close(sim::TrueTime end);
 
  private:
@@ -53,33 +59,29 @@ class VcdRecorder final : public sim::TraceSink {
       return a.time != b.time ? a.time > b.time : a.signal > b.signal;
     }
   };
-  /// The gates of a port, followed along its list; a copy, so that the port does not notice.
-  struct Gates {
-    models::GateSchedule schedule;
-    sim::TrueTime next = sim::TrueTime::never();   // when they next change
-  };
   enum PortSignal : std::uint32_t { busy, queued_frames, gates, signals_of_a_port };
 
   void declare();
-  void look_at_gates(std::uint32_t position, sim::TrueTime now);
-  void follow_gates(std::uint32_t position);
-  std::uint64_t states(std::uint32_t position, sim::TrueTime at);
+  std::string save_file() const;
+  std::string unique_in(const std::string& scope, const std::string& full, std::string_view name);
   void advance_to(sim::TrueTime time);
   void change(SignalId signal, sim::TrueTime time, std::uint64_t value);
   void write_value(const Signal& signal);
 
   const models::Network* network_;
   models::PortDirectory directory_;
+  GateFollower followed_gates_;
+  std::string path_;
   StreamingFile file_;
   std::vector<Signal> signals_;  // signals_of_a_port for each port, then the added ones
   std::vector<SignalId> outputs_;
   std::priority_queue<Fall, std::vector<Fall>, std::greater<>> falls_;
   std::vector<sim::TrueTime> begun_;     // by port: when the first bit of what it sends left
   std::vector<sim::TrueTime> free_at_;   // by port: when the last bit of what it sends leaves
-  std::vector<Gates> gates_;             // by port
-  std::priority_queue<Fall, std::vector<Fall>, std::greater<>> gate_changes_;  // signal: the port's position
   sim::TrueTime time_;           // of the last time stamp in the file
   bool declared_ = false;
+  std::map<std::string, std::string> names_;   // by what they are called
+  std::set<std::string> taken_;                // in their scopes
 };
 
 }  // namespace takt::output

@@ -47,6 +47,16 @@ std::string slack_text(const Line& line) {
   return out + "\n";
 }
 
+/// What took most of the worst run, and what would help.
+std::string help_text(const Line& line) {
+  std::string out;
+  for (const WeightyPart& part : line.weighty)
+    out += fmt::format("{} {} at {} ({})", out.empty() ? "             most of the worst run:" : ",", figure(part.takes), part.where, part.what);
+  if (!out.empty()) out += "\n";
+  for (const Remedy& remedy : line.remedies) out += fmt::format("             would be proved with: {} {} (bound {})\n", remedy.what, remedy.value, figure(remedy.bound));
+  return out;
+}
+
 /// Eight columns would not fit, so each requirement has several lines.
 std::string line_text(const Line& line, const std::string& file) {
   std::string out = fmt::format("  {:<9}  {}\n", name_of(line.verdict), line.requirement.text);
@@ -56,6 +66,7 @@ std::string line_text(const Line& line, const std::string& file) {
   if (!line.reason.empty() && line.verdict != Conclusion::pass) out += fmt::format("             {}\n", line.reason);
   if (!line.remark.empty() && line.verdict == Conclusion::pass) out += fmt::format("             {}\n", line.remark);
   out += slack_text(line);
+  out += help_text(line);
   if (!file.empty()) out += fmt::format("             replay: takt run {}\n", file);
   return out;
 }

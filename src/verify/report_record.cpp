@@ -23,6 +23,8 @@ bool is_exhaustive(const ReportedLine& row) { return row.line->exhaustive; }
 std::optional<std::string> reason(const ReportedLine& row) { return unless_empty(row.line->reason); }
 std::optional<std::string> remark(const ReportedLine& row) { return unless_empty(row.line->remark); }
 const std::vector<SlackPart>& slack(const ReportedLine& row) { return row.line->slack; }
+const std::vector<WeightyPart>& weighty(const ReportedLine& row) { return row.line->weighty; }
+const std::vector<Remedy>& remedies(const ReportedLine& row) { return row.line->remedies; }
 std::vector<std::string> assumptions(const ReportedLine& row) { return analysis::names_of(row.line->assumptions); }
 
 std::string witness_run(const ReportedContradiction& contradiction) { return contradiction.witnesses.run; }
@@ -50,6 +52,26 @@ const json::Record& describe(json::Type<SlackPart>) {
   return record;
 }
 
+const json::Record& describe(json::Type<WeightyPart>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&WeightyPart::where>("where", "A port, a node, or participants."),
+      json::output<&WeightyPart::what>("what", "What takes time there."),
+      json::output<&WeightyPart::takes>("takes_ps", "How long, all occurrences together."),
+  };
+  static constexpr json::Record record{"weighty_part", "A part of the worst run that was found.", outputs};
+  return record;
+}
+
+const json::Record& describe(json::Type<Remedy>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&Remedy::what>("what", "What would be another: \"payload of camera at most\"."),
+      json::output<&Remedy::value>("value", "The value that is nearest to the present one."),
+      json::output<&Remedy::bound>("bound_ps", "What no run exceeds then."),
+  };
+  static constexpr json::Record record{"remedy", "A change with which the requirement would be proved.", outputs};
+  return record;
+}
+
 const json::Record& describe(json::Type<ReportedLine>) {
   static constexpr json::Output outputs[] = {
       json::output<&text_of>("text", "What is required."),
@@ -64,6 +86,8 @@ const json::Record& describe(json::Type<ReportedLine>) {
       json::output<&reason>("reason", "Why it is not proved; null: it is."),
       json::output<&remark>("remark", "How it is proved, where that is no bound."),
       json::output<&slack>("gives_away", "Where the bound gives away what the worst run does not take; empty where it is tight."),
+      json::output<&weighty>("most", "Of what is not proved: what took most of the worst run, at most three parts; `takt explain` has them all."),
+      json::output<&remedies>("would_help", "Of what is not proved: changes to the scenario with each of which it would be, all else being as it is."),
       json::output<&assumptions>("assumptions", "Names of what the bound or proof rests on."),
       json::output<&ReportedLine::file>("file", "The scenario that replays the worst run; null: not written."),
   };

@@ -43,6 +43,8 @@ struct Report {
 
 const json::Record& describe(json::Type<ReportedVariable>);
 const json::Record& describe(json::Type<SlackPart>);
+const json::Record& describe(json::Type<WeightyPart>);
+const json::Record& describe(json::Type<Remedy>);
 const json::Record& describe(json::Type<ReportedLine>);
 const json::Record& describe(json::Type<ReportedAssumption>);
 const json::Record& describe(json::Type<ReportedContradiction>);

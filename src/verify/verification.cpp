@@ -74,6 +74,15 @@ void add_slack(Verification& result, const analysis::Bounds& bounds, const std::
       line.slack = slack_of({line.requirement, *line.adversarial, *line.bound, line.longest}, bounds, interrupted);
 }
 
+void add_help(Verification& result, const scenario::Resolved& resolved, const std::function<bool()>& interrupted) {
+  if (result.contradiction || result.partial) return;
+  for (Line& line : result.lines) {
+    if (line.verdict == Conclusion::pass) continue;
+    if (line.adversarial) line.weighty = weightiest_parts(line.longest, line.requirement, *line.adversarial, interrupted);
+    line.remedies = remedies_for(resolved, line.requirement, interrupted);
+  }
+}
+
 }  // namespace
 
 Verification conclude(Search found, const std::vector<Proof>& proofs, const analysis::AssumptionLedger& ledger) {
@@ -99,6 +108,7 @@ Verification verify(const scenario::Resolved& resolved, const Options& options) 
   const std::vector<Proof> proofs = prove(resolved, bounds, requirements, options.proof);
   Verification result = conclude(std::move(found), proofs, bounds.ledger);
   add_slack(result, bounds, options.search.interrupted);
+  if (options.helps) add_help(result, resolved, options.search.interrupted);
   return result;
 }
 

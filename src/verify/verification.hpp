@@ -7,6 +7,7 @@
 
 #include "verify/adversary.hpp"
 #include "verify/bounds.hpp"
+#include "verify/remedy.hpp"
 #include "verify/slack.hpp"
 
 namespace takt::verify {
@@ -33,6 +34,8 @@ struct Line {
   std::uint64_t runs = 0;
   bool exhaustive = false;
   std::vector<SlackPart> slack;             ///< where the bound gives away what the worst run does not take, unless it is tight
+  std::vector<WeightyPart> weighty;         ///< what took most of `adversarial`; only of what is not proved, and with Options::helps
+  std::vector<Remedy> remedies;             ///< with what it could be proved; likewise
   /// adversarial / bound: at 1 the bound cannot be improved. Nothing without either.
   std::optional<double> tightness() const;
 };
@@ -50,6 +53,7 @@ struct Verification {
 struct Options {
   SearchOptions search;
   ProofOptions proof;
+  bool helps = false;                       ///< say of what is not proved what would help
 };
 
 /// What follows from runs and proofs, one proof for each finding; `ledger` is that of the bounds, before any run.

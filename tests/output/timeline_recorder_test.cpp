@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "explain/way_recorder.hpp"
 #include "tests/output/recording.hpp"
 
 namespace takt::output {
@@ -90,6 +91,42 @@ TEST(TimelineRecorder, StatesAreSlicesOnTracks) {
   }
   EXPECT_EQ(slices, (std::vector<std::string>{"Halted 6/1 0.0 5.0", "Halted 6/2 1e-06 6.999999", "Ready 6/1 5.0 4.0"}));
   EXPECT_TRUE(labels.contains("generator\\1\n"));
+}
+
+// a's two frames of 64 octets at 1 Gb/s: the second waits 672 ns for the first (see hop_series_test.cpp), then both pass the bridge: an arrow each from a's port to that of sw.
+TEST(TimelineRecorder, ArrowsLeadFromHopToHopAndWaitsHaveACause) {
+  struct Ways final : explain::WaySink {
+    bool wants(models::StreamIndex) const override { return true; }
+    void ended(const explain::Way& way) override { timeline->add_way(way); }
+    TimelineRecorder* timeline = nullptr;
+  } ways;
+  Folder folder;
+  PlanBuilder builder;
+  const models::NodeIndex a = builder.host("a");
+  const models::NodeIndex sw = builder.bridge("sw", 1_us);
+  const models::NodeIndex b = builder.host("b");
+  builder.link(a, sw, 1_Gbps, 100_ns);
+  builder.link(sw, b, 1_Gbps, 100_ns);
+  const models::StreamIndex stream = builder.stream(a, {b});
+  builder.send_at(stream, 8_B, {0_ns, 0_ns});
+  NetworkRun run(builder.plan);
+  TimelineRecorder timeline(*run.network, folder / "timeline.json");
+  ways.timeline = &timeline;
+  explain::WayRecorder recorder(*run.network, ways);
+  run.simulation.set_trace(&recorder);
+  run.network->tell_ways();
+  run.until(10_us);
+  ASSERT_EQ(timeline.close(at(10_us)), "");
+  std::vector<std::string> arrows, waits;
+  const json written = json::parse(content_of(folder / "timeline.json"));
+  for (const json& event : written.at("traceEvents")) {
+    const std::string kind = event.at("ph");
+    const auto place = [&] { return kind + " " + event.at("pid").dump() + "/" + event.at("tid").dump() + " " + event.at("ts").dump(); };
+    if (kind == "s" || kind == "t" || kind == "f") arrows.push_back(place());
+    if (kind == "b" || kind == "e") waits.push_back(place() + " " + event.at("name").get<std::string>());
+  }
+  EXPECT_EQ(arrows, (std::vector<std::string>{"s 1/1 0.0", "f 2/2 1.676", "s 1/1 0.672", "f 2/2 2.348"}));
+  EXPECT_EQ(waits, (std::vector<std::string>{"b 1/1 0.0 behind its own class", "e 1/1 0.672 behind its own class"}));
 }
 
 TEST(TimelineRecorder, ChangesNoRun) {

@@ -179,5 +179,25 @@ TEST(VcdRecorder, ChangesNoRun) {
   }
 }
 
+// "a b" and "a/b" are both a_b to a wave form: the second one gets a number, and the save file of GTKWave knows it.
+TEST(VcdRecorder, NamesAreUniqueAndTheSaveFileHasThem) {
+  Folder folder;
+  PlanBuilder builder;
+  builder.link(builder.host("a b"), builder.host("a/b"), 1_Gbps, 0_ns);
+  NetworkRun run(builder.plan);
+  VcdRecorder recorder(*run.network, folder / "waves.vcd");
+  run.simulation.set_trace(&recorder);
+  run.until(1_us);
+  run.simulation.set_trace(nullptr);
+  ASSERT_EQ(recorder.close(at(1_us)), "");
+  const Dump dump = parse(content_of(folder / "waves.vcd"));
+  EXPECT_TRUE(dump.waves.contains("a_b.port0_to_a_b.busy"));
+  EXPECT_TRUE(dump.waves.contains("a_b_2.port0_to_a_b.busy"));
+  EXPECT_EQ(dump.waves.size(), 6u);
+  const std::string save = content_of(folder / "waves.gtkw");
+  EXPECT_NE(save.find("[dumpfile] \"waves.vcd\""), std::string::npos);
+  for (const char* const line : {"@28\na_b.port0_to_a_b.busy\n", "@22\na_b_2.port0_to_a_b.gates[7:0]\n"}) EXPECT_NE(save.find(line), std::string::npos) << line;
+}
+
 }  // namespace
 }  // namespace takt::output

@@ -1,0 +1,51 @@
+#include "output/gate_follower.hpp"
+
+#include <utility>
+
+namespace takt::output {
+
+GateFollower::GateFollower(const models::Network& network, const models::PortDirectory& directory) : network_(&network), directory_(&directory), gates_(directory.ports().size()) {
+  for (std::uint32_t position = 0; position < gates_.size(); ++position) look_at(position, sim::TrueTime());
+}
+
+const models::EgressPort& GateFollower::live(std::uint32_t position) const {
+  const models::PortId id = directory_->ports()[position].id;
+  return network_->ports(id.node)[id.port];
+}
+
+bool GateFollower::has_gates(std::uint32_t position) const { return live(position).shaping() != nullptr && live(position).shaping()->has_gates(); }
+
+void GateFollower::look_at(std::uint32_t position, sim::TrueTime now) {
+  if (!has_gates(position)) return;
+  gates_[position].schedule = std::as_const(*live(position).shaping()).gates();
+  gates_[position].next = now;
+  follow(position);
+}
+
+/// Notes when they next change.
+void GateFollower::follow(std::uint32_t position) {
+  const models::LocalClock& clock = live(position).clock();
+  Gates& followed = gates_[position];
+  const sim::LocalTime change = followed.schedule.next_change(clock.local_at(followed.next));
+  followed.next = change == sim::LocalTime::never() ? sim::TrueTime::never() : clock.true_at(change);
+  if (followed.next != sim::TrueTime::never()) changes_.push({followed.next, position});
+}
+
+std::uint64_t GateFollower::states(std::uint32_t position, sim::TrueTime at) {
+  if (!has_gates(position)) return 0xFF;
+  return live(position).shaping()->with_forced(gates_[position].schedule.gate_states(live(position).clock().local_at(at)));
+}
+
+sim::TrueTime GateFollower::next_time() {
+  while (!changes_.empty() && gates_[changes_.top().position].next != changes_.top().time) changes_.pop();
+  return changes_.empty() ? sim::TrueTime::never() : changes_.top().time;
+}
+
+GateFollower::Change GateFollower::pop() {
+  const Change change = changes_.top();
+  changes_.pop();
+  follow(change.position);
+  return change;
+}
+
+}  // namespace takt::output

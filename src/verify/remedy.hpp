@@ -1,0 +1,34 @@
+// What would help: with which other payload, cycle, load, link rate or priority a requirement can be proved that is not as things are; and what takes most of its time.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "results/run_result.hpp"
+#include "scenario/resolve/resolved.hpp"
+
+namespace takt::verify {
+
+/// One change to the scenario, all else being as it is.
+struct Remedy {
+  std::string what;          ///< "payload of camera at most"
+  std::string value;         ///< "812B"
+  sim::Duration bound;       ///< with it
+};
+
+/// Looks for each, by bisection over the bound, and bounds the scenario that it found once more, as its file says it. Finds what is monotone: a bound that is no greater with less
+/// payload, load or initialisation, or a faster link. Of a requirement without a limit on a time none.
+std::vector<Remedy> remedies_for(const scenario::Resolved& resolved, const results::RequirementResult& requirement, const std::function<bool()>& interrupted);
+
+/// A part of a latency or a reaction.
+struct WeightyPart {
+  std::string where;
+  std::string what;
+  sim::Duration takes;       ///< in all, if it occurs several times
+};
+
+/// Of the run that took so long the three parts that took most of it, greatest first. Nothing if the requirement is about no such time.
+std::vector<WeightyPart> weightiest_parts(const scenario::Scenario& run, const results::RequirementResult& requirement, sim::Duration measured, const std::function<bool()>& interrupted);
+
+}  // namespace takt::verify

@@ -1,0 +1,55 @@
+// What would help, where that can be worked out by hand.
+#include "verify/remedy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/verify/support.hpp"
+#include "verify/report.hpp"
+
+namespace takt::verify {
+namespace {
+
+using sim::Duration;
+
+// A frame with a payload of p octets has, with its preamble and a VLAN tag, 58 + p octets: at 1 Gbit/s (58 + p) * 8 ns, and 50 ns of cable. 1000 octets take 8514 ns. Within 5 us come 560:
+// 618 * 8 + 50 = 4994 ns. At 2.5 Gbit/s an octet lasts 3.2 ns: 1058 * 3.2 + 50 = 3435.6 ns. There is nobody else, so neither load nor priority helps.
+constexpr const char* alone = R"({"name": "alone", "duration": "10ms", "network": {"nodes": {"a": {"kind": "host", "os": "none"}, "b": {"kind": "host", "os": "none"}},
+  "links": [{"ends": ["a", "b"], "rate": "1Gbps", "length": "10m"}]},
+  "streams": [{"name": "s", "from": "a", "to": "b", "payload": "1000B", "every": "1ms", "pcp": 3}], "require": [{"stream": "s", "latency": "5us"}]})";
+
+TEST(Remedies, GreatestPayloadAndLeastRate) {
+  const auto scenario = resolved(alone);
+  Options options = small();
+  options.helps = true;
+  const Verification found = verify(*scenario, options);
+  ASSERT_EQ(found.lines.size(), 1u);
+  const Line& line = found.lines[0];
+  EXPECT_EQ(line.verdict, Conclusion::refuted);
+  std::vector<std::string> texts;
+  for (const Remedy& remedy : line.remedies) texts.push_back(remedy.what + " " + remedy.value + " " + std::to_string(remedy.bound.ps()));
+  EXPECT_EQ(texts, (std::vector<std::string>{"payload of s at most 560B 4994000", "rate of all links at least 2.5Gbps 3435600"}));
+  ASSERT_FALSE(line.weighty.empty());
+  EXPECT_EQ(line.weighty[0].where, "a:0 to b");
+  EXPECT_EQ(line.weighty[0].what, "transmission");
+  EXPECT_EQ(line.weighty[0].takes, Duration::from_ps(8'464'000));
+  const std::string page = text_report("alone", found, {""});
+  EXPECT_NE(page.find("would be proved with: payload of s at most 560B (bound 4.994 us)"), std::string::npos) << page;
+  EXPECT_NE(page.find("most of the worst run: 8.464 us at a:0 to b (transmission)"), std::string::npos) << page;
+}
+
+TEST(Remedies, NoneOfWhatIsProvedOrNotAskedFor) {
+  EXPECT_TRUE(verify(*resolved(alone), small()).lines[0].remedies.empty());
+  std::string proved = alone;
+  proved.replace(proved.find("5us"), 3, "9us");
+  Options options = small();
+  options.helps = true;
+  const Verification found = verify(*resolved(proved), options);
+  EXPECT_EQ(found.lines[0].verdict, Conclusion::pass);
+  EXPECT_TRUE(found.lines[0].remedies.empty());
+  EXPECT_TRUE(found.lines[0].weighty.empty());
+}
+
+}  // namespace
+}  // namespace takt::verify

@@ -136,6 +136,36 @@ class All(RecordingsTest):
                 shutil.rmtree(out)
 
 
+class Dissector(RecordingsTest):
+    """With tools/wireshark/takt.lua no frame of takt is mere data, and no message of OPC UA PubSub ends too early."""
+
+    def test_every_frame_is_known(self):
+        seen = collections.Counter()
+        script = ["-X", f"lua_script:{SCENARIOS.parent / 'tools' / 'wireshark' / 'takt.lua'}"]
+        for name in ("robot-arm", "three-slaves-star", "redundant-ring", "applications/opc-ua", "applications/gateway", "applications/dds", "tsn/frer-ring", "tsn/cqf", "clocks/two-nodes"):
+            with self.subTest(name=name):
+                _, out = self.record(SCENARIOS / f"{name}.json", "--duration", "1100ms", "--pcap", "all")
+                command = ["tshark", "-n", "-r", str(out / "all.pcap"), "-c", "20000", *script, "-T", "fields", "-e", "frame.protocols", "-e", "_ws.malformed", "-e", "takt_uadp.cut_short"]
+                done = subprocess.run(command, capture_output=True, text=True, timeout=1000, check=True)
+                rows = [line.split("\t") for line in done.stdout.splitlines()]
+                self.assertTrue(rows)
+                self.assertFalse([row for row in rows if "data" in row[0].split(":") or row[1] or row[2]])
+                seen.update(protocol for row in rows for protocol in set(row[0].split(":")))
+                shutil.rmtree(out)
+        for protocol in ("takt_uadp", "takt_stream", "rtps", "ptp", "ieee8021cb"):
+            self.assertGreater(seen[protocol], 0, protocol)
+
+    def test_fields_of_a_state(self):
+        _, out = self.record(SCENARIOS / "robot-arm.json", "--duration", "1100ms", "--pcap", "generator")
+        command = ["tshark", "-n", "-r", str(out / "generator.pcap"), "-X", f"lua_script:{SCENARIOS.parent / 'tools' / 'wireshark' / 'takt.lua'}", "-Y", "takt_uadp.program.state", "-T", "fields",
+                   "-e", "takt_uadp.program.state", "-e", "takt_uadp.writer_group_id", "-e", "takt_uadp.publisher_id"]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=1000, check=True)
+        states = [line.split("\t") for line in done.stdout.splitlines()]
+        self.assertEqual({(row[1], row[2]) for row in states}, {("1", "1")})
+        order = [state for i, (state, *_) in enumerate(states) if i == 0 or states[i - 1][0] != state]
+        self.assertEqual(order, ["11", "15", "12", "13"])   # Halted, Halted.INIT, Ready, Running: as the start of the README
+
+
 class RTags(RecordingsTest):
     """Member frames carry an R-TAG behind the VLAN tag: both members the same numbers, one after the other."""
 

@@ -25,7 +25,7 @@ std::int64_t column(const std::string& line, std::size_t number) {
   return field.empty() ? -1 : std::stoll(field);
 }
 
-// Two frames of 64 octets at once at 1 Gb/s over a cable of 100 ns: the first has come after (8 + 64) * 8 + 100 ns = 676 ns, the second waits for (8 + 64 + 12) * 8 ns = 672 ns before.
+// Two frames of 64 octets of priority 0, class 1 of eight, at once at 1 Gb/s over a cable of 100 ns: the first has come after (8 + 64) * 8 + 100 ns = 676 ns, the second waits for (8 + 64 + 12) * 8 ns = 672 ns before.
 TEST(HopSeries, AFrameThatWaitsForAnother) {
   const Folder folder;
   PlanBuilder builder;
@@ -51,8 +51,8 @@ TEST(HopSeries, AFrameThatWaitsForAnother) {
   EXPECT_EQ(head,
             "stream,sequence,node,port,to,class,produced_ps,came_ps,started_ps,octets,cuts,os_transmit_ps,processor_ps,launch_time_ps,ats_ps,higher_class_ps,precedence_ps,own_class_ps,lower_class_ps,gate_closed_ps,"
             "guard_ps,credit_ps,hold_ps,preemption_ps,transmission_ps,cable_ps,forwarding_ps,jitter_ps,os_receive_ps");
-  EXPECT_EQ(first, "s,0,a,0,b,0,0,0,0,64,0,0,0,0,0,0,0,0,0,0,0,0,0,0,576000,100000,0,0,0");
-  EXPECT_EQ(second, "s,1,a,0,b,0,0,0,672000,64,0,0,0,0,0,0,0,672000,0,0,0,0,0,0,576000,100000,0,0,0");
+  EXPECT_EQ(first, "s,0,a,0,b,1,0,0,0,64,0,0,0,0,0,0,0,0,0,0,0,0,0,0,576000,100000,0,0,0");
+  EXPECT_EQ(second, "s,1,a,0,b,1,0,0,672000,64,0,0,0,0,0,0,0,672000,0,0,0,0,0,0,576000,100000,0,0,0");
 }
 
 TEST(HopSeries, OnlyWhatIsSelected) {

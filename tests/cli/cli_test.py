@@ -359,7 +359,7 @@ class Folder(CliTest):
         out_folder = self.folder / "frames"
         _, out, _ = takt("run", shipped(), "--duration", "1.2s", "--out", out_folder, "--frames", "--format", "json")
         report = json.loads(out)
-        self.assertEqual({p.name for p in out_folder.iterdir()}, self.FILES | {"frames.csv"})
+        self.assertEqual({p.name for p in out_folder.iterdir()}, self.FILES | {"frames.csv", "hops.csv"})
         latencies = {}
         with (out_folder / "frames.csv").open(encoding="utf-8", newline="") as file:
             for row in csv.DictReader(file):

@@ -64,7 +64,7 @@ class KeepingSocket final : public Socket {
  public:
   explicit KeepingSocket(std::vector<Message>& messages) : messages_(messages) {}
   void publish(uadp::Octets message, const pubsub::Destination&) override { messages_.emplace_back(message.begin(), message.end()); }
-  uadp::Octets next() override { return {}; }
+  std::optional<Arrival> take() override { return std::nullopt; }
   int file_descriptor() const override { return -1; }
   std::uint64_t send_failures() const override { return 0; }
   std::string enable_launch_times(ClockName) override { return {}; }

@@ -155,7 +155,6 @@ void EgressPort::tell(sim::Simulation& simulation, const Refusal& refusal, sim::
 }
 
 void EgressPort::tell_refusal(sim::Simulation& simulation, TrafficClass q, FrameIndex first, sim::TrueTime until) {
-  if (queues_.frames(q) == 0) return;   // the frame found no room: it does not wait, it is no more
   tell(simulation, shaping_->refusal(simulation.now(), q, {shared_->traffic->frame(first).length, eligible_of(first)}), until);
 }
 

@@ -6,6 +6,7 @@
 #include "plant/keys.hpp"
 #include "plant/protocol.hpp"
 #include "sim/check.hpp"
+#include "uadp/variant.hpp"
 
 namespace takt::application {
 
@@ -34,7 +35,17 @@ std::vector<std::byte> TopicShape::zeros() const {
 }
 
 bool TopicShape::is_zero(uadp::Octets value_of_topic) const {
-  const uadp::Octets first = value_of_topic.subspan(value.offset, uadp::fixed_octets(value.type));
+  // What was received is shorter where a field is Bad, so that its places are not those of zeros().
+  uadp::Reader reader(value_of_topic);
+  uadp::Variant found;
+  std::size_t at = 0;
+  for (const DataSetField& field : fields) {
+    found = uadp::get_variant(reader);
+    if (at + header_of(field) == value.offset) break;
+    at += header_of(field) + octets_of(field);
+  }
+  if (reader.failed() || found.type != value.type) return true;
+  const uadp::Octets first = found.octets.first(std::min(found.octets.size(), uadp::fixed_octets(value.type)));
   return std::all_of(first.begin(), first.end(), [](std::byte octet) { return octet == std::byte{0}; });
 }
 

@@ -75,6 +75,16 @@ TEST(Publication, AFieldWithoutAValueIsNoneOfDds) {
   EXPECT_FALSE(Publication(shape, {}).copy(fields));
 }
 
+// A Bad field is a Variant of a StatusCode, of 5 octets: what is behind it stands elsewhere, and there may be nothing.
+TEST(TopicShape, ABadFieldIsShorterThanItsValue) {
+  const TopicShape shape = shape_of(topic_of(plant::Protocol::opc_ua), {"part"});
+  EXPECT_FALSE(shape.is_zero(octets({19, 0, 0, 0, 0x80, 7, 2, 0, 0, 0})));   // the UInt32 that counts is behind the Bad part
+  EXPECT_TRUE(shape.is_zero(octets({19, 0, 0, 0, 0x80, 7, 0, 0, 0, 0})));
+  EXPECT_TRUE(shape.is_zero(octets({5, 41, 0, 19, 0, 0, 0, 0x80})));          // it has no value itself
+  EXPECT_TRUE(shape.is_zero(octets({5, 41, 0})));
+  EXPECT_TRUE(shape.is_zero({}));
+}
+
 struct Wire final : pubsub::PublishedData {
   void publish(uadp::Octets message, const pubsub::Destination&) override { messages.emplace_back(message.begin(), message.end()); }
   std::vector<std::vector<std::byte>> messages;

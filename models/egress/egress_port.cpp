@@ -138,6 +138,7 @@ void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame) {
   admit(simulation, frame);
   path_ = Path::general;
   promised_ = clock_->true_after(answer.ask_again, now);
+  // A frame that found no room is no more.
   if (simulation.trace() != nullptr && !queues_.empty()) [[unlikely]] tell_refusal(simulation, q, frame, promised_);
   wake_at(simulation, promised_);
 }
@@ -163,6 +164,7 @@ inline void EgressPort::settle_one(sim::Simulation& simulation, FrameIndex frame
   }
   admit(simulation, frame);
   promised_ = shaping_->is_gated_only(q) ? ready : sim::TrueTime::never();
+  // As above.
   if (simulation.trace() != nullptr && !queues_.empty()) [[unlikely]] tell_refusal(simulation, q, frame, ready);
   wake_at(simulation, ready);
 }

@@ -7,7 +7,7 @@
 
 namespace takt::models {
 
-Network::Network(sim::Simulation& simulation, NetworkPlan plan) : simulation_(&simulation), plan_(std::move(plan)) {
+Network::Network(sim::Simulation& simulation, NetworkPlan plan, Share share) : simulation_(&simulation), plan_(std::move(plan)), share_(share) {
   shared_.traffic = &traffic_;
   number_ports();
   make_clocks();
@@ -26,6 +26,10 @@ Network::Network(sim::Simulation& simulation, NetworkPlan plan) : simulation_(&s
   set_up_gptp();
   add_talkers();
   add_loads();
+  for (const LinkPlan& link : plan_.links) {
+    cross(link.a, link.b);
+    cross(link.b, link.a);
+  }
   for (std::size_t p = 0; p < first_port_.back(); ++p) ports_[p].prepare();
 }
 
@@ -397,12 +401,25 @@ void Network::keep_arrivals(StreamIndex stream) {
 }
 
 void Network::start() {
-  for (const auto& clock : clocks_)
-    if (clock) clock->start(*simulation_);
-  for (const auto& station : stations_)
-    if (station) station->start();
-  for (const auto& talker : talkers_) talker->start(*simulation_);
-  for (const auto& process : processes_) process->start();
+  for (std::uint32_t n = 0; n < clocks_.size(); ++n)
+    if (clocks_[n] && has(NodeIndex{n})) clocks_[n]->start(*simulation_);
+  for (std::uint32_t n = 0; n < stations_.size(); ++n)
+    if (stations_[n] && has(NodeIndex{n})) stations_[n]->start();
+  for (const auto& talker : talkers_)
+    if (has(traffic_.stream(talker->stream()).talker)) talker->start(*simulation_);
+  for (std::size_t p = 0; p < processes_.size(); ++p)
+    if (has(host_of_process_[p])) processes_[p]->start();
+}
+
+void Network::cross(const LinkPlan::End& from, const LinkPlan::End& to) {
+  if (has(from.node) && !has(to.node)) mutable_ports(from.node)[from.port].link().cross(*share_.exchange, share_.part_of(to.node));
+}
+
+void Network::adopt(const Network& other) {
+  if (adopted_.empty()) adopted_.assign(plan_.nodes.size(), this);
+  for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n)
+    if (other.has(NodeIndex{n})) adopted_[n] = &other;
+  traffic_.adopt(other.traffic_);
 }
 
 }  // namespace takt::models

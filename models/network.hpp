@@ -16,6 +16,7 @@
 #include "models/host/process.hpp"
 #include "models/host/talker.hpp"
 #include "models/ingress/ingress_pipeline.hpp"
+#include "models/parts/share.hpp"
 #include "models/plan.hpp"
 
 namespace takt::models {
@@ -23,7 +24,8 @@ namespace takt::models {
 class Network final : private LinkLocalSender {
  public:
   /// The plan is taken by value: latencies and port configurations stay alive with the network.
-  Network(sim::Simulation& simulation, NetworkPlan plan);
+  /// Of a share only its nodes act, and what they send to others goes by its exchange, which outlives the network.
+  Network(sim::Simulation& simulation, NetworkPlan plan, Share share = {});
   ~Network();
   Network(const Network&) = delete;
   Network& operator=(const Network&) = delete;
@@ -42,6 +44,11 @@ class Network final : private LinkLocalSender {
 
   /// Schedules the first events of talkers and starts the processes. Call once, at time zero.
   void start();
+
+  /// Whether the node acts in this network.
+  bool has(NodeIndex node) const { return share_.has(node); }
+  /// At the end of a divided run: the nodes of another part's network, which outlives this one, are found here, too, as are the accounts of streams.
+  void adopt(const Network& other);
 
   /// Management sets ConfigChange at a port, at the present instant.
   ConfigChange request_gates(NodeIndex node, std::uint16_t port, const GateConfig& gates);
@@ -72,26 +79,27 @@ class Network final : private LinkLocalSender {
 
   /// The ports of a node, by port number.
   std::span<const EgressPort> ports(NodeIndex node) const {
-    return {ports_.get() + first_port_[node.value], first_port_[node.value + 1] - first_port_[node.value]};
+    const Network& from = network_of(node);
+    return {from.ports_.get() + first_port_[node.value], first_port_[node.value + 1] - first_port_[node.value]};
   }
   /// Precondition: it forwards, or has several ports.
-  const Bridge& bridge(NodeIndex node) const { return *bridges_[node.value]; }
+  const Bridge& bridge(NodeIndex node) const { return *network_of(node).bridges_[node.value]; }
   /// What the node shows as time.
-  const LocalClock& clock(NodeIndex node) const { return clocks_[node.value] ? clocks_[node.value]->disciplined() : ideal_clock_; }
+  const LocalClock& clock(NodeIndex node) const { return clocks_[node.value] ? network_of(node).clocks_[node.value]->disciplined() : ideal_clock_; }
   /// Null where the node knows true time.
-  const NodeClock* node_clock(NodeIndex node) const { return clocks_[node.value].get(); }
+  const NodeClock* node_clock(NodeIndex node) const { return network_of(node).clocks_[node.value].get(); }
   /// Null where there is no gPTP.
-  const gptp::Station* station(NodeIndex node) const { return stations_[node.value].get(); }
+  const gptp::Station* station(NodeIndex node) const { return network_of(node).stations_[node.value].get(); }
   /// The stream in which all gPTP messages are counted, if there is gPTP.
   std::optional<StreamIndex> gptp_stream() const { return gptp_stream_; }
   /// The ingress chain of a node that forwards, or null.
-  IngressPipeline* ingress(NodeIndex node) const { return ingress_[node.value].get(); }
+  IngressPipeline* ingress(NodeIndex node) const { return network_of(node).ingress_[node.value].get(); }
   /// Null where programs and the protocol stack take no time.
-  Cpu* cpu(NodeIndex node) const { return cpus_[node.value].get(); }
+  Cpu* cpu(NodeIndex node) const { return network_of(node).cpus_[node.value].get(); }
   /// Null for bridges.
-  Host* host(NodeIndex node) const { return hosts_[node.value].get(); }
+  Host* host(NodeIndex node) const { return network_of(node).hosts_[node.value].get(); }
   /// Null for hosts that are not connected, and for bridges.
-  HostOutput* output(NodeIndex node) const { return outputs_[node.value].get(); }
+  HostOutput* output(NodeIndex node) const { return network_of(node).outputs_[node.value].get(); }
 
  private:
   /// Two ports whose cables bypasses have joined.
@@ -110,6 +118,9 @@ class Network final : private LinkLocalSender {
   std::span<EgressPort> mutable_ports(NodeIndex node) {
     return {ports_.get() + first_port_[node.value], first_port_[node.value + 1] - first_port_[node.value]};
   }
+  /// In which network the node acts, as far as that is known here.
+  const Network& network_of(NodeIndex node) const { return adopted_.empty() ? *this : *adopted_[node.value]; }
+  void cross(const LinkPlan::End& from, const LinkPlan::End& to);
   void number_ports();
   void make_nodes();
   void add_loads();
@@ -141,6 +152,8 @@ class Network final : private LinkLocalSender {
 
   sim::Simulation* simulation_;
   NetworkPlan plan_;
+  Share share_;
+  std::vector<const Network*> adopted_;   // by node: where it acts; empty until adopt()
   Traffic traffic_;
   EgressPort::Shared shared_;
   /// Tells who waits for a time of a node's clock when the clock changes.

@@ -73,6 +73,8 @@ class Digest {
   void add(Key key, TrueTime when, std::uint64_t what) {
     sum_ += folded_product(key.hash ^ static_cast<std::uint64_t>(when.ps()), what ^ 0xD1B54A32D192ED03ULL);
   }
+  /// All records that the other one has.
+  void add(const Digest& other) { sum_ += other.sum_; }
   std::uint64_t value() const { return sum_; }
 
  private:

@@ -9,6 +9,19 @@ namespace takt::sim {
 
 void Histogram::add_octave(std::size_t octave) { octaves_[octave] = std::make_unique<Octave>(); }
 
+void Histogram::add(const Histogram& other) {
+  count_ += other.count_;
+  sum_ += other.sum_;
+  sum_of_squares_ += other.sum_of_squares_;
+  least_ = std::min(least_, other.least_);
+  greatest_ = std::max(greatest_, other.greatest_);
+  for (std::size_t octave = 0; octave < octaves_.size(); ++octave) {
+    if (!other.octaves_[octave]) continue;
+    if (!octaves_[octave]) add_octave(octave);
+    for (std::size_t bucket = 0; bucket < sub_buckets; ++bucket) (*octaves_[octave])[bucket] += (*other.octaves_[octave])[bucket];
+  }
+}
+
 Duration Histogram::lower_edge(Place place) {
   if (place.octave == 0) return Duration::from_ps(static_cast<std::int64_t>(place.bucket));
   return Duration::from_ps(static_cast<std::int64_t>((place.bucket + sub_buckets) << (place.octave - 1)));

@@ -29,6 +29,8 @@ class Histogram {
     recent_ = &(*octaves_[place.octave])[place.bucket];
     ++*recent_;
   }
+  /// Counts what the other one has counted, too: as if each sample had been added here.
+  void add(const Histogram& other);
   /// Brings what add() will probably touch towards the cache.
   void prefetch() const { __builtin_prefetch(recent_, 1); }
 

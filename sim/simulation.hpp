@@ -62,6 +62,23 @@ class Simulation {
       queue_.push({time, order, serial_kind, argument});
   }
 
+  // One run in several simulations at once, of which each acts for some of the components: see models/parts.
+  /// An event of a source that acts in another simulation of the same run. Precondition: run() has not come to `time` yet.
+  void receive(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument) {
+    TAKT_CHECK(time > now_, "an event of another part comes before its time");
+    if (tie_shuffle_ != 0) [[unlikely]]
+      push_shuffled(time, order, serial_kind, argument);
+    else
+      queue_.push({time, order, serial_kind, argument});
+  }
+  /// The time of the next event, or never. Precondition: run() has come to an end.
+  TrueTime next_time() { return queue_.first_time(); }
+  /// What has happened in another simulation of the same run has happened here, but for the last `repeated` events, which were handled in both.
+  void adopt(const Simulation& other, std::uint64_t repeated) {
+    events_ += other.events_ - repeated;
+    digest_.add(other.digest_);
+  }
+
   /// Asks for component.settle() at the end of the present instant. The component remembers that it has asked.
   void settle_later(Component& component) { settling_.push_back(&component); }
 

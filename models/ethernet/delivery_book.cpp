@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/check.hpp"
+
 namespace takt::models {
 
 DeliveryBook::Entry& DeliveryBook::entry_of(StreamIndex stream) {
@@ -41,6 +43,24 @@ void DeliveryBook::drop(const Frame& frame, DropReason reason) {
     for (const LaterAccount& account : entry.accounts) boundaries.push_back(account.first_sequence);
     arrivals.ledger.fold(boundaries);
   }
+}
+
+void DeliveryBook::adopt(const DeliveryBook& other) {
+  TAKT_CHECK(entries_.size() == other.entries_.size() && !keeps_arrivals() && !other.keeps_arrivals(), "parts of a run keep the same accounts, and no arrivals");
+  for (std::size_t e = 0; e < entries_.size(); ++e) {
+    for (std::size_t a = 0; a < entries_[e].accounts.size(); ++a) {
+      LaterAccount& account = entries_[e].accounts[a];
+      const LaterAccount& more = other.entries_[e].accounts[a];
+      account.first_sequence = std::min(account.first_sequence, more.first_sequence);
+      account.delivered += more.delivered;
+      account.latency.add(more.latency);
+      for (std::size_t reason = 0; reason < account.dropped.size(); ++reason) account.dropped[reason] += more.dropped[reason];
+    }
+  }
+}
+
+bool DeliveryBook::keeps_arrivals() const {
+  return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) { return !entry.arrivals.empty(); });
 }
 
 std::span<const LaterAccount> DeliveryBook::accounts(StreamIndex stream) const {

@@ -35,6 +35,11 @@ class DeliveryBook {
   bool concerns(StreamIndex stream) const { return stream.value < entries_.size() && entries_[stream.value].is_kept; }
   bool is_empty() const { return entries_.empty(); }
 
+  /// What another part of a divided run has counted of the same streams counts here, too. Precondition: neither keeps arrivals.
+  void adopt(const DeliveryBook& other);
+  /// Whether arrivals are kept of any stream.
+  bool keeps_arrivals() const;
+
   void deliver(const Frame& frame, NodeIndex listener, sim::TrueTime now);
   void drop(const Frame& frame, DropReason reason);
 

@@ -47,7 +47,11 @@ sim::TrueTime Link::transmit_rest(sim::Simulation& simulation, FrameIndex frame,
 
 sim::TrueTime Link::schedule_arrival(sim::Simulation& simulation, FrameIndex frame, Octets told_after, unsigned flags) {
   const sim::TrueTime arrival = simulation.now() + octet_time() * told_after.count + delay();
-  simulation.schedule(source_, arrival, order_, static_cast<sim::EventKind>(NodeEvent::frame_arrived), ArrivalArgument::pack(frame, port(), flags));
+  constexpr auto kind = static_cast<sim::EventKind>(NodeEvent::frame_arrived);
+  if (exchange_ != nullptr) [[unlikely]]
+    exchange_->send(far_part_, {arrival, order_, source_.next_serial_word() | kind, ArrivalArgument::pack(FrameIndex{0}, port(), flags)}, frame);
+  else
+    simulation.schedule(source_, arrival, order_, kind, ArrivalArgument::pack(frame, port(), flags));
   return arrival;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "models/ethernet/frame_exchange.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "models/ethernet/traffic.hpp"
 #include "models/fault/link_fault.hpp"
@@ -82,8 +83,13 @@ class Link {
   void expect_faults(const sim::Simulation& simulation, std::string_view path);
   /// Precondition: expect_faults().
   void add_impairment(const Impairment& impairment) { fault_->add(impairment); }
+  /// The receiver acts in another part of a divided run; `exchange` brings frames there. Preconditions: no fault is expected, no header noticed, no frame cut.
+  void cross(FrameExchange& exchange, std::uint32_t part) {
+    exchange_ = &exchange;
+    far_part_ = part;
+  }
   /// Nothing of all that: transmit() will do.
-  bool is_plain() const { return !checks_ && reception_.noticed_priorities == 0; }
+  bool is_plain() const { return !checks_ && reception_.noticed_priorities == 0 && exchange_ == nullptr; }
 
   // The sending port.
   /// When the medium is free for the next frame: the gap after the last one is over.
@@ -174,6 +180,8 @@ class Link {
   std::unique_ptr<LinkFault> fault_;
   std::vector<Withdrawn> withdrawn_;
   bool checks_ = false;
+  std::uint32_t far_part_ = 0;
+  FrameExchange* exchange_ = nullptr;        // null: the receiver acts here
 };
 
 }  // namespace takt::models

@@ -40,16 +40,43 @@ inline FrameIndex Traffic::make(StreamIndex index, Octets payload, sim::TrueTime
   return handle;
 }
 
-inline FrameIndex Traffic::make(StreamIndex index, std::span<const std::byte> octets, sim::TrueTime now) {
-  const FrameIndex handle = make(index, Octets{static_cast<std::uint32_t>(octets.size())}, now);
+inline PayloadIndex Traffic::keep(std::span<const std::byte> octets) {
   const PayloadIndex payload = payloads_.allocate();
   Payload& copy = payloads_[payload];
   TAKT_CHECK(octets.size() <= copy.octets.size(), "a payload fits into one frame");
   copy.references = 1;
   copy.length = static_cast<std::uint16_t>(octets.size());
   std::copy(octets.begin(), octets.end(), copy.octets.begin());
-  frames_[handle].payload = payload;
+  return payload;
+}
+
+inline FrameIndex Traffic::make(StreamIndex index, std::span<const std::byte> octets, sim::TrueTime now) {
+  const FrameIndex handle = make(index, Octets{static_cast<std::uint32_t>(octets.size())}, now);
+  frames_[handle].payload = keep(octets);
   return handle;
+}
+
+FrameIndex Traffic::take_over(const Frame& frame, std::span<const std::byte> payload) {
+  const FrameIndex handle = frames_.allocate();
+  frames_[handle] = frame;
+  frames_[handle].references = 1;
+  if (!frame.payload.is_none()) frames_[handle].payload = keep(payload);
+  return handle;
+}
+
+void Traffic::adopt(const Traffic& other) {
+  TAKT_CHECK(streams_.size() == other.streams_.size(), "parts of a run have the same streams");
+  for (std::size_t s = 0; s < streams_.size(); ++s) {
+    Stream& stream = streams_[s];
+    const Stream& more = other.streams_[s];
+    stream.sent += more.sent;
+    stream.delivered += more.delivered;
+    stream.copies += more.copies;
+    stream.latency.add(more.latency);
+    for (std::size_t reason = 0; reason < stream.dropped.size(); ++reason) stream.dropped[reason] += more.dropped[reason];
+  }
+  book_.adopt(other.book_);
+  adopted_.push_back(&other);
 }
 
 FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::TrueTime now) { return make(index, payload, now); }

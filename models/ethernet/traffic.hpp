@@ -126,6 +126,11 @@ class Traffic {
   FrameIndex produce(StreamIndex stream, Octets payload, sim::TrueTime now);
   FrameIndex produce(StreamIndex stream, std::span<const std::byte> payload, sim::TrueTime now);
 
+  /// A frame that another part of a divided run has sent, with its octets, if it has any, goes on here.
+  FrameIndex take_over(const Frame& frame, std::span<const std::byte> payload);
+  /// What another part of a divided run has counted, and the frames that are under way there, count here, too. It stays as it is from now on, and outlives this.
+  void adopt(const Traffic& other);
+
   /// One more copy of the frame is under way.
   void copy(FrameIndex index) {
     Frame& frame = frames_[index];
@@ -194,6 +199,7 @@ class Traffic {
   template <class Visit>
   void for_each_live(Visit&& visit) const {
     frames_.for_each_live(visit);
+    for (const Traffic* const other : adopted_) other->for_each_live(visit);
   }
 
   std::size_t live_frames() const { return frames_.live(); }
@@ -212,6 +218,7 @@ class Traffic {
   FrameIndex make(StreamIndex stream, Octets payload, sim::TrueTime now);
   FrameIndex make(StreamIndex stream, std::span<const std::byte> payload, sim::TrueTime now);
   FrameIndex separate(FrameIndex index);
+  PayloadIndex keep(std::span<const std::byte> octets);
   /// One frame less carries the payload.
   void release(PayloadIndex index) {
     Payload& payload = payloads_[index];
@@ -228,6 +235,7 @@ class Traffic {
   FramePool frames_;
   PayloadPool payloads_;
   DeliveryBook book_;
+  std::vector<const Traffic*> adopted_;
   const sim::Simulation* told_ = nullptr;   // null: nobody asks which record was made of which
 };
 

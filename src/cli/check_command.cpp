@@ -7,6 +7,8 @@
 #include "cli/commands.hpp"
 #include "cli/load.hpp"
 #include "cli/terminal.hpp"
+#include "cli/threads.hpp"
+#include "output/division_report.hpp"
 #include "output/text_report.hpp"
 #include "schedule_check/check.hpp"
 
@@ -15,13 +17,15 @@ namespace takt::cli {
 void add_check_command(Command app, ExitStatus& status) {
   const Command command = app.add_subcommand("check", "Say whether a scenario is sound and what it resolves to");
   const auto options = std::make_shared<ScenarioOptions>();
+  const auto threads = std::make_shared<std::uint32_t>(0);
   add_scenario_options(command, *options);
+  command.add_option("--threads", *threads, "Say also how a run on so many threads is divided").type_name("N").between(std::uint32_t{1}, most_threads);
   command.footer(
       "Examples:\n"
       "  takt check scenarios/robot-arm.json                 nodes, paths, load of links and queues\n"
       "  takt check scenarios/robot-arm.json --format json   the resolved scenario, all defaults filled in\n"
       "Exit status: 0 sound, 2 mistakes (all of them are listed).");
-  command.callback([options, &status] {
+  command.callback([options, threads, &status] {
     const auto resolved = load(*options);
     if (!resolved) {
       status = ExitStatus::bad_input;
@@ -35,7 +39,8 @@ void add_check_command(Command app, ExitStatus& status) {
         return;
       }
     }
-    const std::string page = options->is_json() ? json::encode(resolved->scenario) : output::check_report(*resolved);
+    std::string page = options->is_json() ? json::encode(resolved->scenario) : output::check_report(*resolved);
+    if (*threads > 0 && !options->is_json()) page += "\n" + output::division_report(scenario::divide(*resolved, *threads));
     print(page);
     status = ExitStatus::pass;
   });

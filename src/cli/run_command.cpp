@@ -1,6 +1,8 @@
 // takt run: what happens.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
@@ -8,11 +10,13 @@
 #include "cli/progress.hpp"
 #include "cli/recording.hpp"
 #include "cli/terminal.hpp"
+#include "cli/threads.hpp"
 #include "report/run_page.hpp"
 #include "results/result_json.hpp"
 #include "output/result_folder.hpp"
 #include "output/text_report.hpp"
 #include "evaluation/evaluate.hpp"
+#include "scenario/run/divided_run.hpp"
 
 namespace takt::cli {
 namespace {
@@ -22,6 +26,7 @@ struct RunOptions {
   RecordingOptions recording;
   std::string out;
   std::string report;
+  std::uint32_t threads = 1;
   bool quiet = false;
   bool all = false;
 };
@@ -34,6 +39,23 @@ bool simulate(scenario::Run& run, bool show_progress) {
   while (!run.advance(events_a_slice)) {
     if (interrupt.requested()) return false;
     progress.update(run.simulation().now().since_start(), run.end().since_start(), run.simulation().event_count());
+  }
+  return true;
+}
+
+/// The same on several threads, in slices of time, each about as many events.
+bool simulate(scenario::DividedRun& run, bool show_progress) {
+  const InterruptGuard interrupt;
+  Progress progress(show_progress);
+  constexpr std::uint64_t events_a_slice = 2'000'000;
+  sim::Duration slice = sim::Duration::from_ps(std::max<std::int64_t>(1, run.end().ps() / 10'000));
+  while (run.now() < run.end()) {
+    if (interrupt.requested()) return false;
+    const std::uint64_t before = run.event_count();
+    run.advance(run.now().plus_saturated(slice));
+    if (run.event_count() - before < events_a_slice / 2) slice = std::min(slice * 2, run.end() - sim::TrueTime());
+    if (run.event_count() - before > events_a_slice * 2) slice = std::max(slice / 2, sim::Duration::from_ps(1));
+    progress.update(run.now().since_start(), run.end().since_start(), run.event_count());
   }
   return true;
 }
@@ -66,21 +88,26 @@ std::string unwritable(const RunOptions& options) {
 ExitStatus run(const RunOptions& options) {
   const auto resolved = load(options.scenario, options.quiet);
   if (!resolved) return ExitStatus::bad_input;
-  scenario::Run live(*resolved);
   json::Diagnostics diagnostics;
   if (options.recording.is_wanted() && options.out.empty())
     diagnostics.error({"command line", 0, 0, ""}, "a recording without a folder", {"--pcap, --timeline, --waves, --clocks or --frames", "--out DIR"});
-  Recording recording(options.recording, options.out, live, diagnostics);
+  const scenario::Division division = division_for(*resolved, options.threads, options.recording.is_wanted() ? "recordings are made in the order of events" : "");
+  std::optional<scenario::Run> whole;
+  std::optional<scenario::DividedRun> divided;
+  division.is_divided() ? void(divided.emplace(*resolved, division)) : void(whole.emplace(*resolved));
+  std::optional<Recording> recording;
+  if (whole) recording.emplace(options.recording, options.out, *whole, diagnostics);
   if (diagnostics.has_errors()) {
     tell(diagnostics);
     return ExitStatus::bad_input;
   }
   // Nobody waits an hour to hear that the disk is not there.
   if (const std::string problem = unwritable(options); !problem.empty()) return cannot_write(problem);
-  if (const std::string problem = recording.open(); !problem.empty()) return cannot_write(problem);
-  const bool complete = simulate(live, !options.quiet && !options.scenario.is_json());
-  const results::RunResult result = evaluation::evaluate(live, !complete);
-  if (const std::string problem = recording.close(); !problem.empty()) return cannot_write(problem);
+  if (const std::string problem = recording ? recording->open() : ""; !problem.empty()) return cannot_write(problem);
+  const bool show_progress = !options.quiet && !options.scenario.is_json();
+  const bool complete = whole ? simulate(*whole, show_progress) : simulate(*divided, show_progress);
+  const results::RunResult result = evaluation::evaluate(whole ? *whole : divided->gathered(), !complete);
+  if (const std::string problem = recording ? recording->close() : ""; !problem.empty()) return cannot_write(problem);
   if (!options.out.empty()) {
     if (const std::string problem = output::write_result_folder(options.out, result, json::encode(resolved->scenario)); !problem.empty())
       return cannot_write(problem);
@@ -110,6 +137,7 @@ void add_run_command(Command app, ExitStatus& status) {
   command.add_option("--from", options->recording.from, "Record from then on").type_name("D");
   command.add_option("--to", options->recording.to, "Record until then").type_name("D");
   command.add_option("--stream", options->recording.streams, "Record frames of this stream only (repeatable)").type_name("NAME").one_value_each();
+  add_threads_option(command, options->threads);
   command.add_flag("--all", options->all, "Print all changes of state, reactions, streams and so on, however many there are");
   command.add_flag("--quiet", options->quiet, "Print one line");
   command.footer(
@@ -119,6 +147,7 @@ void add_run_command(Command app, ExitStatus& status) {
       "  takt run scenarios/robot-arm.json --set programs.0.cycle=1ms --out out/slow\n"
       "  takt run scenarios/robot-arm.json --duration 1100ms --out out/look --pcap all --timeline\n"
       "  takt run scenarios/robot-arm.json --report out/robot-arm.html\n"
+      "  takt run scenarios/ring-1000.json --threads 2\n"
       "  takt run scenarios/robot-arm.json --out out/look --frames --stream camera --from 1s --to 1100ms\n"
       "  takt run scenarios/robot-arm.json --format json | jq .programs.trajectory.reactions\n"
       "Exit status: 0 pass, 1 a requirement failed, 2 bad input, 3 internal error, 130 interrupted.");

@@ -15,6 +15,7 @@
 #include "output/text_report.hpp"
 #include "results/result_json.hpp"
 #include "scenario/resolve/resolve.hpp"
+#include "scenario/run/divided_run.hpp"
 #include "scenario/run/run.hpp"
 #include "tests/explain/checked_ways.hpp"
 #include "tests/generator/schema_validation.hpp"
@@ -47,6 +48,8 @@ class Checks {
     if (!result_) return;
     check("load", [&] { copy(text); });
     check("digest", [&] { digests(); });
+    const scenario::Division division = scenario::divide_at_random(r_, 2 + static_cast<unsigned>(digest_ % 3), digest_);
+    if (division.is_divided()) check("threads", [&] { threads(division); });
     if (is_ideal()) check("wire", [&] { wire(); });
     check("frames", [&] { frames(); });
     check("ways", [&] { ways(); });
@@ -124,6 +127,13 @@ class Checks {
     while (!run.advance(997)) continue;
     expect(run.simulation().digest().value() == digest_, [] { return std::string("the digest of a run in steps differs"); });
     expect(results::run_json(evaluation::evaluate(run, false)) == results::run_json(*result_), [] { return std::string("the result of a run in steps differs"); });
+  }
+
+  void threads(const scenario::Division& division) {
+    scenario::DividedRun run(r_, division);
+    while (run.now() < run.end()) run.advance(run.now() + sim::Duration::from_ps(run.end().ps() / 3 + 1));
+    expect(results::run_json(evaluation::evaluate(run.gathered(), false)) == results::run_json(*result_),
+           [&] { return "the result of a run in " + std::to_string(division.parts) + " parts differs"; });
   }
 
   void wire() {

@@ -3,6 +3,7 @@
 //   load       what the loader takes, the schema takes; and a copy with all defaults is the same scenario: the same digest
 //   run        a run comes to its end without a broken invariant, and all its reports can be written
 //   digest     it is the same with a recorder and without, and whatever the order of equal events
+//   threads    so is the result on several threads, whatever part a node is in (scenarios that can be divided)
 //   wire       the wire checker finds nothing (scenarios whose clocks are ideal)
 //   frames     what was sent or copied was delivered, dropped, or is on its way; nothing leaks
 //   ways       the latency of every frame is explained: parts add up, and what they blame was on that wire; deliveries and losses are all there

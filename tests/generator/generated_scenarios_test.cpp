@@ -37,6 +37,7 @@ TEST(GeneratedScenarios, NothingIsWrong) {
   }
   // A check that applies to nothing would find nothing.
   for (const char* check : {"run", "load", "digest", "wire", "frames", "bound", "verify"}) EXPECT_GT(done[check], static_cast<int>(count / 4)) << check;
+  EXPECT_GT(done["threads"], static_cast<int>(count / 8));
 }
 
 TEST(GeneratedScenarios, NorWithWhatWasFound) {

@@ -40,22 +40,41 @@ wire::NodeSettings node_settings(const ResolvedProgram& program, std::size_t m, 
 
 }  // namespace
 
-/// Calls the methods that the scenario's script asks for, before anything else of their instant.
+/// Calls the methods that the scenario's script asks for, before anything else of their instant. Of a divided run part 0 says that it has happened, and
+/// that part does it where the node acts.
 class Run::Script final : public sim::Component {
  public:
-  Script(Run& run, sim::Simulation& simulation) : run_(&run), source_(simulation.add(*this)) {
+  Script(Run& run, sim::Simulation& simulation, bool is_first_part) : run_(&run), source_(simulation.add(*this)), is_first_part_(is_first_part) {
     const std::vector<ResolvedAction>& actions = run.resolved_->script;
     for (std::size_t i = 0; i < actions.size(); ++i)
-      simulation.schedule(source_, actions[i].at, sim::Phase::control, source_.id(), 0, i);
+      if (is_first_part_ || is_here(actions[i])) simulation.schedule(source_, actions[i].at, sim::Phase::control, source_.id(), 0, i);
   }
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override {
     const ResolvedAction& action = run_->resolved_->script[event.argument];
-    simulation.digest().add(script_action, action.what.index(), simulation.now(), content_of(action));
-    std::visit([this](const auto& what) { act(what); }, action.what);
+    if (is_first_part_)
+      simulation.digest().add(script_action, action.what.index(), simulation.now(), content_of(action));
+    else
+      ++repeated_;
+    if (is_here(action)) std::visit([this](const auto& what) { act(what); }, action.what);
   }
 
+  /// Events that part 0 has handled, too.
+  std::uint64_t repeated() const { return repeated_; }
+
  private:
+  bool is_here(const ResolvedAction& action) const {
+    return std::visit([this](const auto& what) { return is_here(what); }, action.what);
+  }
+  bool is_here(const ResolvedCall&) const { return is_first_part_; }
+  bool is_here(const ResolvedMembership&) const { return is_first_part_; }
+  bool is_here(const ResolvedLink& change) const { return run_->network_.has(run_->resolved_->plan.links[change.link].a.node); }
+  bool is_here(const ResolvedRoutes&) const { return true; }
+  template <class OfNode>
+  bool is_here(const OfNode& change) const {
+    return run_->network_.has(change.node);
+  }
+
   /// Nobody has the role: refused.
   void act(const ResolvedCall& call) {
     const LiveProgram& live = *run_->programs_[call.program];
@@ -88,16 +107,19 @@ class Run::Script final : public sim::Component {
 
   Run* run_;
   sim::EventSource source_;
+  bool is_first_part_;
+  std::uint64_t repeated_ = 0;
 };
 
-Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle)
-    : resolved_(&resolved), instants_(account_instants(resolved)), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan) {
+Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle, models::Share share)
+    : resolved_(&resolved), instants_(account_instants(resolved)), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan, share) {
+  TAKT_CHECK(share.is_whole() || !resolved.scenario.clocks.gptp, "a run with gPTP is not divided");
   simulation_.set_tie_shuffle(tie_shuffle);
   for (std::uint32_t i = 0; i < resolved.programs.size(); ++i) add_program(i, resolved.programs[i]);
   nest_programs();
   application_monitor_ = std::make_unique<ApplicationMonitor>(simulation_, resolved.signals, instants_);
   for (std::uint32_t i = 0; i < resolved.applications.size(); ++i) add_application(i, resolved.applications[i]);
-  script_ = std::make_unique<Script>(*this, simulation_);
+  script_ = std::make_unique<Script>(*this, simulation_, share.part == 0);
   if (resolved.scenario.clocks.gptp) {
     clock_monitor_ = std::make_unique<ClockMonitor>(simulation_, network_, resolved.scenario.clocks.gptp->report_every, instants_);
     clock_monitor_->start();
@@ -111,6 +133,12 @@ Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle)
 }
 
 Run::~Run() = default;
+
+void Run::adopt(const Run& other) {
+  simulation_.adopt(other.simulation_, other.script_->repeated());
+  network_.adopt(other.network_);
+  adopted_.push_back(&other);
+}
 
 auto Run::LiveProgram::who_is(std::size_t participant) const -> const LiveMember* {
   if (!roles || participant == 0) return &members[participant];

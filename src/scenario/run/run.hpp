@@ -17,8 +17,9 @@ namespace takt::scenario {
 
 class Run {
  public:
-  /// Everything is built and scheduled; nothing has happened yet. `resolved` outlives the run.
-  explicit Run(const Resolved& resolved, std::uint64_t tie_shuffle = 0);
+  /// Everything is built and scheduled; nothing has happened yet. `resolved` outlives the run. Of a share only its nodes act (DividedRun); Programs and applications
+  /// act in part 0, and there is no gPTP.
+  explicit Run(const Resolved& resolved, std::uint64_t tie_shuffle = 0, models::Share share = {});
   ~Run();
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
@@ -29,6 +30,9 @@ class Run {
   sim::Simulation& simulation() { return simulation_; }
   const sim::Simulation& simulation() const { return simulation_; }
   const models::Network& network() const { return network_; }
+  models::Network& network() { return network_; }
+  /// At the end of a divided run: what has happened in another part, which stays as it is and outlives this one, has happened here. Precondition: this is part 0.
+  void adopt(const Run& other);
   /// Hands all that happens from now on to the sink: also the ways of frames, so that explanations can be made of it. Null: to nobody.
   void explain_to(sim::TraceSink* sink) {
     simulation_.set_trace(sink);
@@ -38,7 +42,11 @@ class Run {
   const std::vector<std::unique_ptr<TreeMonitor>>& trees() const { return trees_; }
   const ProgramMonitor& monitor(std::size_t program) const { return *programs_[program]->monitor; }
   /// Null where nothing takes time of a processor.
-  const CpuMonitor* cpu_monitor(models::NodeIndex node) const { return cpu_monitors_[node.value].get(); }
+  const CpuMonitor* cpu_monitor(models::NodeIndex node) const {
+    for (const Run* const other : adopted_)
+      if (other->network_.has(node)) return other->cpu_monitors_[node.value].get();
+    return cpu_monitors_[node.value].get();
+  }
   /// Null without gPTP.
   const ClockMonitor* clocks() const { return clock_monitor_.get(); }
   /// Takes the series of clock offsets from now on. Precondition: there is gPTP.
@@ -94,6 +102,7 @@ class Run {
   std::unique_ptr<Script> script_;
   std::unique_ptr<ClockMonitor> clock_monitor_;
   std::vector<std::unique_ptr<CpuMonitor>> cpu_monitors_;   // by node; null where there is no processor
+  std::vector<const Run*> adopted_;
 };
 
 }  // namespace takt::scenario

@@ -1,0 +1,12 @@
+// How a run on several threads is divided, for people.
+#pragma once
+
+#include <string>
+
+#include "scenario/division/division.hpp"
+
+namespace takt::output {
+
+std::string division_report(const scenario::Division& division);
+
+}  // namespace takt::output

@@ -1,0 +1,77 @@
+#include "scenario/division/blocks.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace takt::scenario {
+namespace {
+
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t root(std::uint32_t of) {
+    while (parent_[of] != of) of = parent_[of] = parent_[parent_[of]];
+    return of;
+  }
+  void unite(std::uint32_t a, std::uint32_t b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+const models::PortConfig& config_of(const models::NetworkPlan& plan, const models::LinkPlan::End& end) {
+  return plan.port_configs[end.port_config.value_or(plan.nodes[end.node.value].port_config)];
+}
+
+/// The nodes with Programs, applications and gateways: their monitors see them all.
+std::vector<std::uint32_t> watched_nodes(const Resolved& resolved) {
+  std::vector<std::uint32_t> nodes;
+  for (const ResolvedProgram& program : resolved.programs)
+    for (const ResolvedMember& member : program.members) nodes.push_back(member.node.value);
+  for (const ResolvedApplication& application : resolved.applications) nodes.push_back(application.node.value);
+  return nodes;
+}
+
+}  // namespace
+
+Blocks blocks_of(const Resolved& resolved) {
+  const models::NetworkPlan& plan = resolved.plan;
+  const std::size_t nodes = plan.nodes.size();
+  Sets sets(nodes);
+  std::vector<std::uint32_t> cables(nodes, 0);
+  std::vector<bool> cuts_through(nodes, false);
+  for (const models::LinkPlan& link : plan.links)
+    for (const models::LinkPlan::End& end : {link.a, link.b}) {
+      ++cables[end.node.value];
+      if (config_of(plan, end).cut_through != 0) cuts_through[end.node.value] = true;
+    }
+  for (const models::LinkPlan& link : plan.links) {
+    const std::uint32_t a = link.a.node.value, b = link.b.node.value;
+    const bool cuts = config_of(plan, link.a).preemption.has_value() || config_of(plan, link.b).preemption.has_value();
+    // A host alone is nothing to a thread: it would only shorten promises.
+    const bool is_drop_cable = (cables[a] == 1 && !plan.nodes[a].forwards()) || (cables[b] == 1 && !plan.nodes[b].forwards());
+    if (link.may_fail || cuts || cuts_through[a] || cuts_through[b] || is_drop_cable) sets.unite(a, b);
+  }
+  const std::vector<std::uint32_t> watched = watched_nodes(resolved);
+  for (const std::uint32_t node : watched) sets.unite(watched.front(), node);
+
+  Blocks blocks;
+  std::vector<std::uint32_t> number(nodes, 0xFFFF'FFFF);
+  for (std::uint32_t n = 0; n < nodes; ++n) {
+    std::uint32_t& block = number[sets.root(n)];
+    if (block == 0xFFFF'FFFF) block = blocks.count++;
+    blocks.of_node.push_back(block);
+  }
+  if (!watched.empty()) blocks.home = blocks.of_node[watched.front()];
+  return blocks;
+}
+
+std::string why_whole(const Resolved& resolved) {
+  if (resolved.scenario.clocks.gptp) return "clocks that gPTP synchronises are watched all at once";
+  if (!resolved.redundancies.empty()) return "first copies of redundant streams are told from others over the whole network";
+  for (const models::ImpairmentPlan& impairment : resolved.plan.impairments)
+    if (impairment.impairment.duplication) return "first copies of frames that a link doubles are told from others over the whole network";
+  return {};
+}
+
+}  // namespace takt::scenario

@@ -1,0 +1,89 @@
+#include "scenario/run/divided_run.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <map>
+#include <thread>
+#include <utility>
+
+namespace takt::scenario {
+
+/// The exchange is there before the network that sends by it, and knows the network afterwards.
+struct DividedRun::PartOfRun final : models::FrameExchange {
+  PartOfRun(const Resolved& resolved, const Division& division, std::uint32_t number, std::uint64_t tie_shuffle)
+      : run(resolved, tie_shuffle, {division.part_of_node, number, this}), part(run.simulation(), run.network(), division.parts) {}
+  void send(std::uint32_t to, const sim::Event& arrival, models::FrameIndex frame) override { part.send(to, arrival, frame); }
+
+  Run run;
+  models::Part part;
+};
+
+namespace {
+
+/// Calls work(part) for each part, on a thread each. What one of them throws comes out here.
+template <class Work>
+void on_threads(std::size_t parts, Work&& work) {
+  std::vector<std::exception_ptr> thrown(parts);
+  const auto guarded = [&](std::size_t part) {
+    try {
+      work(part);
+    } catch (...) {
+      thrown[part] = std::current_exception();
+    }
+  };
+  std::vector<std::thread> threads;
+  for (std::size_t part = 1; part < parts; ++part) threads.emplace_back(guarded, part);
+  guarded(0);
+  for (std::thread& thread : threads) thread.join();
+  for (const std::exception_ptr& each : thrown)
+    if (each) std::rethrow_exception(each);
+}
+
+}  // namespace
+
+DividedRun::DividedRun(const Resolved& resolved, const Division& division, std::uint64_t tie_shuffle) : parts_(division.parts) {
+  on_threads(division.parts, [&](std::size_t p) { parts_[p] = std::make_unique<PartOfRun>(resolved, division, static_cast<std::uint32_t>(p), tie_shuffle); });
+  std::map<std::pair<std::uint32_t, std::uint32_t>, models::Mailbox*> between;
+  for (const Boundary& boundary : division.boundaries) {
+    mailboxes_.push_back(std::make_unique<models::Mailbox>());
+    between[{boundary.from, boundary.to}] = mailboxes_.back().get();
+  }
+  for (const Boundary& boundary : division.boundaries)
+    parts_[boundary.from]->part.add_neighbour({boundary.to, boundary.promise, between.at({boundary.from, boundary.to}), between.at({boundary.to, boundary.from})});
+}
+
+DividedRun::~DividedRun() = default;
+
+sim::TrueTime DividedRun::end() const { return parts_.front()->run.end(); }
+
+std::uint64_t DividedRun::event_count() const {
+  std::uint64_t sum = 0;
+  for (const auto& each : parts_) sum += each->run.simulation().event_count();
+  return sum;
+}
+
+void DividedRun::advance(sim::TrueTime until) {
+  until = std::min(until, end());
+  std::atomic<bool> stop = false;
+  on_threads(parts_.size(), [&](std::size_t p) {
+    try {
+      parts_[p]->part.advance(until, stop);
+    } catch (...) {
+      stop.store(true, std::memory_order_relaxed);   // the others would wait for ever
+      throw;
+    }
+  });
+  now_ = until;
+}
+
+const Run& DividedRun::gathered() {
+  if (!is_gathered_) {
+    for (const auto& each : parts_) each->part.take_mail();
+    for (std::size_t p = 1; p < parts_.size(); ++p) parts_[0]->run.adopt(parts_[p]->run);
+    is_gathered_ = true;
+  }
+  return parts_[0]->run;
+}
+
+}  // namespace takt::scenario

@@ -2,7 +2,7 @@
 //
 //   takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION
 //            | tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS | point-setup POINTS
-//            | bound SWITCHES STREAMS | plant|bare-plant SIDE at-once|spread SECONDS
+//            | bound SWITCHES STREAMS | plant|bare-plant SIDE at-once|spread SECONDS | parallel-plant SIDE at-once|spread SECONDS THREADS
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -17,7 +17,7 @@ using namespace takt::benchmark;  // NOLINT
 int usage() {
   std::fputs("usage: takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION |\n"
              "       tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS | point-setup POINTS | bound SWITCHES STREAMS |\n"
-             "       plant|bare-plant SIDE at-once|spread SECONDS\n", stderr);
+             "       plant|bare-plant SIDE at-once|spread SECONDS | parallel-plant SIDE at-once|spread SECONDS THREADS\n", stderr);
   return 2;
 }
 
@@ -54,6 +54,9 @@ int main(int argc, char** argv) {
     const PlantFigures f = run(number(argv[2]), std::string_view(argv[3]) == "spread", std::atof(argv[4]));
     std::printf(R"({"cpu_s": %.9f, "frame_hops": %llu, "setup_cpu_s": %.9f, "octets": %zu})" "\n", f.cpu_seconds, static_cast<unsigned long long>(f.frame_hops),
                 f.setup_cpu_seconds, f.octets);
+  } else if (workload == "parallel-plant" && argc == 6) {
+    const ParallelFigures f = run_parallel_plant(number(argv[2]), std::string_view(argv[3]) == "spread", std::atof(argv[4]), number(argv[5]));
+    std::printf(R"({"one_wall_s": %.9f, "wall_s": %.9f, "threads": %u, "same": %s})" "\n", f.one_wall_seconds, f.wall_seconds, f.threads, f.is_same ? "true" : "false");
   } else if ((workload == "pair" || workload == "gptp-line") && argc == 3) {
     const PairFigures f = workload == "pair" ? run_pair(std::atof(argv[2])) : run_gptp_line(std::atof(argv[2]));
     std::printf(R"({"cpu_s": %.9f, "simulated_s": %.9f})" "\n", f.cpu_seconds, f.simulated_seconds);

@@ -1,6 +1,7 @@
 // A plant: a grid of switches, ten hosts on each, one stream a host to a random other one. Beside it a bare loop of the same events, which knows nothing but
 // ports that send in turn and routes that were looked up before: what such a network could cost.
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "measure.hpp"
 #include "scenario/resolve/resolve.hpp"
+#include "scenario/run/divided_run.hpp"
 #include "scenario/run/run.hpp"
 #include "workloads.hpp"
 
@@ -199,6 +201,33 @@ PlantFigures run_plant(unsigned side, bool spread, double simulated_seconds) {
   figures.octets = allocated_octets() - octets_before;
   for (std::uint32_t n = 0; n < run->network().plan().nodes.size(); ++n)
     for (const models::EgressPort& port : run->network().ports(models::NodeIndex{n})) figures.frame_hops += port.frames_sent();
+  return figures;
+}
+
+ParallelFigures run_parallel_plant(unsigned side, bool spread, double simulated_seconds, unsigned threads) {
+  ParallelFigures figures;
+  json::Diagnostics diagnostics;
+  const auto resolved = scenario::load_text(plant_text(side, spread, simulated_seconds), "plant.json", {}, diagnostics);
+  if (!resolved) {
+    std::fputs(diagnostics.to_text().c_str(), stderr);
+    std::abort();
+  }
+  const auto seconds = [](auto&& what) {
+    const auto before = std::chrono::steady_clock::now();
+    what();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  };
+  std::uint64_t digest = 0;
+  {
+    scenario::Run run(*resolved);
+    figures.one_wall_seconds = seconds([&] { run.advance(); });
+    digest = run.simulation().digest().value();
+  }
+  const scenario::Division division = scenario::divide(*resolved, threads);
+  scenario::DividedRun run(*resolved, division);
+  figures.threads = division.parts;
+  figures.wall_seconds = seconds([&] { run.advance(run.end()); });
+  figures.is_same = run.gathered().simulation().digest().value() == digest;
   return figures;
 }
 

@@ -48,6 +48,15 @@ struct PlantFigures {
 /// A grid of `side` x `side` switches at 10 Gb/s that forward in 1 us, ten hosts on each at 1 Gb/s. Every host sends 200 octets each millisecond to a random
 /// other one: all at once, or spread over the period.
 PlantFigures run_plant(unsigned side, bool spread, double simulated_seconds);
+
+struct ParallelFigures {
+  double one_wall_seconds = 0;     ///< by the clock, of the event loop on one thread
+  double wall_seconds = 0;         ///< on several
+  unsigned threads = 0;            ///< that there were
+  bool is_same = false;            ///< the digest
+};
+/// That plant, first on one thread and then on so many.
+ParallelFigures run_parallel_plant(unsigned side, bool spread, double simulated_seconds, unsigned threads);
 /// A bare loop of the same events: ports that send in turn, routes as arrays, a ring of buckets.
 PlantFigures run_bare_plant(unsigned side, bool spread, double simulated_seconds);
 

@@ -21,21 +21,25 @@ struct DividedRun::PartOfRun final : models::FrameExchange {
 
 namespace {
 
-/// Calls work(part) for each part, on a thread each. What one of them throws comes out here.
-template <class Work>
-void on_threads(std::size_t parts, Work&& work) {
+/// Calls work(part) for each part, on a thread each. What one of them throws, or that there is no further thread, comes out here; give_up() is called at once then.
+template <class Work, class GiveUp>
+void on_threads(std::size_t parts, Work&& work, GiveUp&& give_up) {
   std::vector<std::exception_ptr> thrown(parts);
-  const auto guarded = [&](std::size_t part) {
+  const auto guarded = [&](std::size_t part, auto&& what) {
     try {
-      work(part);
+      what();
     } catch (...) {
       thrown[part] = std::current_exception();
+      give_up();
     }
   };
-  std::vector<std::thread> threads;
-  for (std::size_t part = 1; part < parts; ++part) threads.emplace_back(guarded, part);
-  guarded(0);
-  for (std::thread& thread : threads) thread.join();
+  {
+    std::vector<std::jthread> others;   // joined also where the machine gives no further one
+    guarded(0, [&] {
+      for (std::size_t part = 1; part < parts; ++part) others.emplace_back([&, part] { guarded(part, [&] { work(part); }); });
+      work(0);
+    });
+  }
   for (const std::exception_ptr& each : thrown)
     if (each) std::rethrow_exception(each);
 }
@@ -43,7 +47,7 @@ void on_threads(std::size_t parts, Work&& work) {
 }  // namespace
 
 DividedRun::DividedRun(const Resolved& resolved, const Division& division, std::uint64_t tie_shuffle) : parts_(division.parts) {
-  on_threads(division.parts, [&](std::size_t p) { parts_[p] = std::make_unique<PartOfRun>(resolved, division, static_cast<std::uint32_t>(p), tie_shuffle); });
+  on_threads(division.parts, [&](std::size_t p) { parts_[p] = std::make_unique<PartOfRun>(resolved, division, static_cast<std::uint32_t>(p), tie_shuffle); }, [] {});
   std::map<std::pair<std::uint32_t, std::uint32_t>, models::Mailbox*> between;
   for (const Boundary& boundary : division.boundaries) {
     mailboxes_.push_back(std::make_unique<models::Mailbox>());
@@ -66,14 +70,8 @@ std::uint64_t DividedRun::event_count() const {
 void DividedRun::advance(sim::TrueTime until) {
   until = std::min(until, end());
   std::atomic<bool> stop = false;
-  on_threads(parts_.size(), [&](std::size_t p) {
-    try {
-      parts_[p]->part.advance(until, stop);
-    } catch (...) {
-      stop.store(true, std::memory_order_relaxed);   // the others would wait for ever
-      throw;
-    }
-  });
+  // Without one of them the others would wait for ever.
+  on_threads(parts_.size(), [&](std::size_t p) { parts_[p]->part.advance(until, stop); }, [&] { stop.store(true, std::memory_order_relaxed); });
   now_ = until;
 }
 

@@ -31,9 +31,16 @@ Network::Network(sim::Simulation& simulation, NetworkPlan plan, Share share) : s
     cross(link.b, link.a);
   }
   for (std::size_t p = 0; p < first_port_.back(); ++p) ports_[p].prepare();
+  note_routes();
 }
 
 Network::~Network() = default;
+
+void Network::note_routes() {
+  routes_.emplace(traffic_.streams().size());
+  for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n)
+    if (plan_.nodes[n].kind == NodeKind::bridge) bridges_[n]->note_routes(*routes_, static_cast<std::uint32_t>(first_port_[n]));
+}
 
 void Network::make_clocks() {
   clocks_.resize(plan_.nodes.size());
@@ -259,6 +266,7 @@ void Network::force_gate(NodeIndex node, std::uint16_t port, TrafficClass q, std
 
 void Network::reroute(NodeIndex node, VlanId vlan, AddressIndex address, std::span<const std::uint16_t> ports) {
   bridges_[node.value]->filtering_database().assign(vlan, address, ports);
+  if (routes_) routes_->forget();
 }
 
 void Network::number_ports() {

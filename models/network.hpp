@@ -120,6 +120,7 @@ class Network final : private LinkLocalSender {
   }
   /// In which network the node acts, as far as that is known here.
   const Network& network_of(NodeIndex node) const { return adopted_.empty() ? *this : *adopted_[node.value]; }
+  void note_routes();
   void cross(const LinkPlan::End& from, const LinkPlan::End& to);
   void number_ports();
   void make_nodes();
@@ -175,6 +176,7 @@ class Network final : private LinkLocalSender {
   std::vector<std::unique_ptr<Cpu>> cpus_;            // by node; null where nothing takes time
   std::vector<std::unique_ptr<OsLatency>> thread_latencies_;   // of processes on threads with a law of their own
   std::vector<std::unique_ptr<Host>> hosts_;          // by node; null for bridges
+  std::optional<Routes> routes_;
   std::vector<std::unique_ptr<Bridge>> bridges_;      // by node; null for hosts with one port
   std::vector<std::unique_ptr<ForwardingJitter>> jitters_;   // of bridges that have one
   std::vector<std::unique_ptr<HostOutput>> outputs_;  // by node; null for bridges

@@ -53,6 +53,7 @@ struct Event {
   static constexpr std::uint64_t order_of(Phase phase, ComponentId target, ComponentId source) {
     return static_cast<std::uint64_t>(phase) << 60 | static_cast<std::uint64_t>(target.index) << 30 | source.index;
   }
+  static constexpr int source_bits = 30;
   static constexpr std::uint64_t pair_mask = (1ULL << 60) - 1;
 
   constexpr EventKind kind() const { return static_cast<EventKind>(serial_kind & 0xFFFF); }

@@ -5,6 +5,64 @@
 
 namespace takt::sim {
 
+void NearEvents::load(std::vector<Event>& events) {
+  TAKT_CHECK(empty(), "events are loaded when none are left");
+  std::swap(batch_, events);
+  std::sort(batch_.begin(), batch_.end(), [](const Event& a, const Event& b) { return b < a; });
+  find_rest_time();
+}
+
+void NearEvents::find_rest_time() {
+  rest_time_ = TrueTime::never();
+  if (!batch_.empty()) rest_time_ = batch_.back().time;
+  if (!heap_.empty()) rest_time_ = std::min(rest_time_, heap_.first_time());
+}
+
+/// The array is full, or the event is not before the rest; of the same instant it may come before what the array holds.
+void NearEvents::push_long(const Event& event) {
+  if (count_ == most_sorted) {
+    const std::uint32_t spilt = most_sorted - refilled;
+    for (std::uint32_t i = 0; i < spilt; ++i) heap_.push(sorted_[i]);
+    std::copy(sorted_.begin() + spilt, sorted_.begin() + count_, sorted_.begin());
+    count_ -= spilt;
+  }
+  if (count_ > 0 && event < sorted_[0])
+    insert(event);
+  else
+    heap_.push(event);
+  find_rest_time();
+}
+
+Event NearEvents::take_of_rest() {
+  if (heap_.empty()) {
+    const Event event = batch_.back();
+    batch_.pop_back();
+    return event;
+  }
+  if (!batch_.empty() && (batch_.back().time < heap_.first_time() || (batch_.back().time == heap_.first_time() && batch_.back() < heap_.first()))) {
+    const Event event = batch_.back();
+    batch_.pop_back();
+    return event;
+  }
+  return heap_.pop();
+}
+
+void NearEvents::refill() {
+  std::uint32_t taken = 0;
+  if (heap_.empty()) {
+    taken = static_cast<std::uint32_t>(std::min<std::size_t>(refilled, batch_.size()));
+    std::copy(batch_.end() - taken, batch_.end(), sorted_.begin());
+    batch_.resize(batch_.size() - taken);
+    count_ = taken;
+    rest_time_ = batch_.empty() ? TrueTime::never() : batch_.back().time;
+    return;
+  }
+  while (taken < refilled && has_rest()) sorted_[most_sorted - ++taken] = take_of_rest();   // the first at the top
+  std::copy(sorted_.end() - taken, sorted_.end(), sorted_.begin());
+  count_ = taken;
+  find_rest_time();
+}
+
 void EventQueue::push_elsewhere(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument) {
   const Event event(time, order, serial_kind, argument);
   if (time >= near_end_) {
@@ -48,9 +106,9 @@ std::size_t EventQueue::next_occupied(std::size_t from) const {
   return word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
 }
 
-/// Moves the events of the next bucket that has any into the empty near heap.
+/// Moves the events of the next bucket that has any into the empty near part.
 void EventQueue::advance() {
-  TAKT_CHECK(near_.empty() && waiting_ > 0, "the calendar advances only when the heap is empty");
+  TAKT_CHECK(near_.empty() && waiting_ > 0, "the calendar advances only when the near part is empty");
   if (waiting_ < near_only_limit / 4) {
     collapse();
     return;
@@ -71,28 +129,30 @@ void EventQueue::advance() {
   const std::size_t bucket = bucket_of(near_end_);
   near_end_ = buckets_after(near_end_, 1);
   horizon_ = buckets_after(near_end_, buckets_.size() - 1);
-  load_bucket(bucket);
+  scratch_.clear();
+  empty_bucket(bucket, scratch_);
   while (!beyond_.empty() && beyond_.first_time() < horizon_) {
     const Event event = beyond_.pop();
     if (event.time < near_end_) {
-      near_.push(event);
+      scratch_.push_back(event);
       --waiting_;
     } else {
       put_into_bucket(event);
     }
   }
-  TAKT_CHECK(!near_.empty(), "an occupied bucket holds an event");
+  TAKT_CHECK(!scratch_.empty(), "an occupied bucket holds an event");
+  near_.load(scratch_);
 }
 
-void EventQueue::load_bucket(std::size_t bucket) {
+void EventQueue::empty_bucket(std::size_t bucket, std::vector<Event>& into) {
   std::uint32_t slot = buckets_[bucket];
   buckets_[bucket] = none;
   occupied_[bucket / 64] &= ~(1ULL << (bucket % 64));
   while (slot != none) {
     Waiting& waiting = pool_[slot];
     const std::uint32_t next = waiting.next;
-    if (next != none) __builtin_prefetch(&pool_[next]);  // while this one is sorted in
-    near_.push(waiting.event);
+    if (next != none) __builtin_prefetch(&pool_[next]);  // while this one is copied
+    into.push_back(waiting.event);
     waiting.next = free_;
     free_ = slot;
     slot = next;
@@ -101,7 +161,7 @@ void EventQueue::load_bucket(std::size_t bucket) {
   }
 }
 
-/// Lays the events out anew with buckets so narrow that the near heap stays small. Called when the near heap is crowded.
+/// Lays the events out anew with buckets so narrow that the near part stays small. Called when it is crowded.
 void EventQueue::spread() {
   std::vector<Event>& all = scratch_;
   all.clear();
@@ -126,22 +186,22 @@ void EventQueue::spread() {
   width_log2_ = std::min(40, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(1, 8 * spacing)))));
   near_end_ = buckets_after(TrueTime::from_ps(start >> width_log2_ << width_log2_), 1);
   horizon_ = buckets_after(near_end_, buckets_.size() - 1);
-  for (const Event& event : all) {
-    if (event.time < near_end_)
-      near_.push(event);
-    else
-      push_far(event);
-  }
-  // Many events at one instant cannot be spread; do not try again before the heap has doubled.
+  const auto far = std::find_if(all.begin(), all.end(), [this](const Event& event) { return event.time >= near_end_; });
+  std::for_each(far, all.end(), [this](const Event& event) { push_far(event); });
+  all.erase(far, all.end());
+  near_.load(all);
+  // Many events at one instant cannot be spread; do not try again before they have doubled.
   crowded_ = std::max<std::size_t>(near_only_limit, 2 * near_.size());
 }
 
-/// Back to one heap: few events are left.
+/// Back to the near part alone: few events are left.
 void EventQueue::collapse() {
   near_end_ = horizon_ = TrueTime::never();
+  scratch_.clear();
   for (std::size_t bucket = 0; bucket < buckets_.size() && in_buckets_ > 0; ++bucket)
-    if (buckets_[bucket] != none) load_bucket(bucket);
-  beyond_.drain([this](const Event& event) { near_.push(event); });
+    if (buckets_[bucket] != none) empty_bucket(bucket, scratch_);
+  beyond_.drain([this](const Event& event) { scratch_.push_back(event); });
+  near_.load(scratch_);
   waiting_ = 0;
   crowded_ = near_only_limit;
 }

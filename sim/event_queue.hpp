@@ -3,7 +3,7 @@
 // The events of the near future lie in a short sorted array, where a pop is a decrement and a push moves the few events
 // that come before it. From a few dozen events on, later ones wait unsorted in a calendar of equally wide buckets, and
 // those beyond the calendar in a heap; so the cost of an event hardly grows with the population. Many events at one
-// instant cannot be spread over buckets: then a heap takes the place of the array. The order never depends on the layout:
+// instant cannot be spread over buckets: they are sorted once, and the array is filled from them. The order never depends on the layout:
 // every event passes through the near part, which holds all events before `near_end_`.
 #pragma once
 
@@ -32,6 +32,12 @@ class EventHeap {
       first = time < first ? time : first;
     }
     return TrueTime::from_ps(first);
+  }
+
+  /// The first event. Precondition: not empty.
+  const Event& first() {
+    if (hole_) fill_hole();
+    return items_[0];
   }
 
   /// Removes and returns the first event. Precondition: not empty.
@@ -99,33 +105,39 @@ class EventHeap {
   bool hole_ = false;
 };
 
-/// The near part: a sorted array while it is short, a heap while it is long.
+/// The near part: a short sorted array of the very next events, and behind them the rest, of which a part is sorted once and what comes later is in a heap.
 class NearEvents {
  public:
   static constexpr std::uint32_t most_sorted = 64;
 
-  bool empty() const { return count_ == 0 && heap_.empty(); }
-  std::size_t size() const { return count_ + heap_.size(); }
-  TrueTime first_time() const { return count_ > 0 ? sorted_[count_ - 1].time : heap_.first_time(); }
+  bool empty() const { return count_ == 0 && !has_rest(); }
+  std::size_t size() const { return count_ + batch_.size() + heap_.size(); }
+  /// Precondition: not empty.
+  TrueTime first_time() {
+    if (count_ == 0) [[unlikely]] refill();
+    return sorted_[count_ - 1].time;
+  }
 
   /// The event that will be popped after `ahead` others, if that is known without work.
   const Event* upcoming(std::uint32_t ahead) const { return ahead < count_ ? &sorted_[count_ - 1 - ahead] : nullptr; }
+  /// The first event, or null.
+  const Event* first() {
+    if (count_ == 0) [[unlikely]] {
+      if (!has_rest()) return nullptr;
+      refill();
+    }
+    return &sorted_[count_ - 1];
+  }
 
   [[gnu::always_inline]] Event pop() {
     if (count_ == 0) [[unlikely]] refill();
     return sorted_[--count_];
   }
 
-  /// Sorts the event in, where the array has room for it; otherwise it does nothing and returns false.
+  /// Sorts the event in, where it comes before the rest and the array has room for it; otherwise it does nothing and returns false.
   [[gnu::always_inline]] bool push_if_short(const Event& event) {
-    if (count_ >= room_) [[unlikely]] return false;
-    Event* const first = sorted_.data();
-    Event* at = first + count_++;
-    while (at != first && at[-1] < event) {
-      *at = at[-1];
-      --at;
-    }
-    *at = event;
+    if (count_ >= most_sorted || event.time >= rest_time_) [[unlikely]] return false;
+    insert(event);
     return true;
   }
 
@@ -133,33 +145,41 @@ class NearEvents {
     if (!push_if_short(event)) [[unlikely]] push_long(event);
   }
 
+  /// Takes over events in any order. Precondition: empty. `events` is empty afterwards.
+  void load(std::vector<Event>& events);
+
   template <class Sink>
   void drain(Sink&& sink) {
     while (count_ > 0) sink(sorted_[--count_]);
+    for (const Event& event : batch_) sink(event);
+    batch_.clear();
     heap_.drain(sink);
-    room_ = most_sorted;
+    rest_time_ = TrueTime::never();
   }
 
  private:
-  /// While the heap holds events, the array holds none.
-  [[gnu::noinline]] void push_long(const Event& event) {
-    room_ = 0;
-    while (count_ > 0) heap_.push(sorted_[--count_]);
-    heap_.push(event);
-  }
-  [[gnu::noinline]] void refill() {
-    if (heap_.size() > most_sorted / 2) {
-      sorted_[count_++] = heap_.pop();
-      return;
+  static constexpr std::uint32_t refilled = 48;   // leaves room for what is pushed meanwhile
+
+  bool has_rest() const { return !batch_.empty() || !heap_.empty(); }
+  [[gnu::always_inline]] void insert(const Event& event) {
+    Event* const first = sorted_.data();
+    Event* at = first + count_++;
+    while (at != first && at[-1] < event) {
+      *at = at[-1];
+      --at;
     }
-    room_ = most_sorted;
-    std::uint32_t at = count_ = static_cast<std::uint32_t>(heap_.size());
-    while (at > 0) sorted_[--at] = heap_.pop();
+    *at = event;
   }
+  void push_long(const Event& event);
+  void refill();
+  /// The first event of the rest. Precondition: has_rest().
+  Event take_of_rest();
+  void find_rest_time();
 
   std::uint32_t count_ = 0;
-  std::uint32_t room_ = most_sorted;       ///< of the array: none while the heap holds events
-  std::array<Event, most_sorted> sorted_;  ///< descending: the first event is the last one
+  TrueTime rest_time_ = TrueTime::never();  ///< of the first event of the rest: what is earlier belongs into the array
+  std::array<Event, most_sorted> sorted_;   ///< descending: the first event is the last one
+  std::vector<Event> batch_;                ///< descending
   EventHeap heap_;
 };
 
@@ -179,6 +199,12 @@ class EventQueue {
 
   /// Removes and returns the first event. Precondition: first_time() has just been asked and was not never.
   Event pop() { return near_.pop(); }
+
+  /// The first event if it is of this instant, exactly; null otherwise. Precondition: an event of `now` has been popped last.
+  const Event* next_at(TrueTime now) {
+    const Event* const event = near_.first();   // what is not in the near part is later
+    return event != nullptr && event->time == now ? event : nullptr;
+  }
 
   /// The event that will probably be popped after `ahead` others, or null. A hint: a push may come in between.
   const Event* upcoming(std::uint32_t ahead) const { return near_.upcoming(ahead); }
@@ -202,7 +228,7 @@ class EventQueue {
   void push_far(const Event& event);
   void put_into_bucket(const Event& event);
   void advance();
-  void load_bucket(std::size_t bucket);
+  void empty_bucket(std::size_t bucket, std::vector<Event>& into);
   void spread();
   void collapse();
   std::size_t bucket_of(TrueTime time) const {
@@ -228,7 +254,7 @@ class EventQueue {
   std::vector<Waiting> pool_;
   std::uint32_t free_ = none;
   EventHeap beyond_;
-  std::vector<Event> scratch_;  // of spread(), kept so that it allocates once
+  std::vector<Event> scratch_;  // of spread() and advance(), kept so that it allocates once
 };
 
 }  // namespace takt::sim

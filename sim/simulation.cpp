@@ -57,7 +57,7 @@ std::uint64_t Simulation::unshuffled(std::uint64_t order) const {
 
 bool Simulation::run(TrueTime until, std::uint64_t max_events) {
   if (tie_shuffle_ != 0) return loop<true, false>(until, max_events);
-  return components_.size() < many_components ? loop<false, false>(until, max_events) : loop<false, true>(until, max_events);
+  return has_many_components() ? loop<false, true>(until, max_events) : loop<false, false>(until, max_events);
 }
 
 /// Three steps: the component itself, then what it will need, then what only that leads to.

@@ -94,6 +94,17 @@ class Simulation {
     return next != nullptr && next->time > now_ && settling_.empty();
   }
 
+  /// Whether the next event is for the same component, in the same phase of the present instant. Those of one component follow one another, but with
+  /// the tie shuffle. Precondition: `event` is being handled, and events_follow_targets().
+  bool another_follows(const Event& event) {
+    const Event* const next = queue_.next_at(now_);
+    return next != nullptr && (next->order ^ event.order) >> Event::source_bits == 0;
+  }
+  /// Neither the tie shuffle nor a recorder, which is told in the order of settling, is there.
+  bool events_follow_targets() const { return tie_shuffle_ == 0 && trace_ == nullptr; }
+  /// Whether their state does not stay in the nearest caches.
+  bool has_many_components() const { return components_.size() >= many_components; }
+
   /// Handles the events up to and including `until`, at most about `max_events` of them. Returns true when `until` has been
   /// reached (now() is `until` then), false when there is more to do. It never stops in the middle of an instant.
   bool run(TrueTime until, std::uint64_t max_events = ~0ULL);

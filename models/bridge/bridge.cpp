@@ -8,14 +8,54 @@ constexpr auto leaves_now = static_cast<sim::EventKind>(NodeEvent::first_free);
 constexpr auto stored_for_host = static_cast<sim::EventKind>(static_cast<unsigned>(NodeEvent::first_free) + 1);
 }
 
+/// Of a frame that is on its stream's route the port is remembered.
+inline std::uint32_t Bridge::port_for(Frame& frame) {
+  if (routes_ == nullptr || !frame.on_route || frame.hop >= Routes::most_hops) return filtering_database_.port_at_once(frame.vlan, frame.destination);
+  const std::uint32_t port = routes_->at(frame) - first_port_;
+  if (port >= port_count_) [[unlikely]] return look_up(frame);
+  ++frame.hop;
+  return port;
+}
+
+std::uint32_t Bridge::look_up(Frame& frame) {
+  const FilteringDatabase::Entry entry = filtering_database_.find(frame.vlan, frame.destination);
+  const bool is_one = entry.found() && entry.is_one_port();
+  if (is_one) routes_->at(frame) = first_port_ + entry.port();
+  ++frame.hop;
+  return is_one ? entry.port() : FilteringDatabase::not_at_once;
+}
+
 /// The way of nearly every frame: it calls nothing but what it ends with.
-inline void Bridge::pass_on(sim::Simulation& simulation, ArrivalArgument arrival) {
-  const Frame& frame = traffic_->frame(arrival.frame);
-  const std::uint32_t port = filtering_database_.port_at_once(frame.vlan, frame.destination);
-  if (port != FilteringDatabase::not_at_once && port != arrival.port) [[likely]]
-    ports_[port].offer_last(simulation, arrival.frame, frame, arrival.port);
-  else
+inline void Bridge::pass_on(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
+  Frame& frame = traffic_->frame(arrival.frame);
+  const std::uint32_t port = port_for(frame);
+  if (port == FilteringDatabase::not_at_once || port == arrival.port) [[unlikely]] {
     forward(simulation, arrival.frame, arrival.port, nullptr);
+    return;
+  }
+  EgressPort& egress = ports_[port];
+  if (routes_ != nullptr && egress.decides_by_itself() && (holds_ || (!simulation.instant_is_surely_complete() && simulation.events_follow_targets()))) {
+    if (holds_ || simulation.another_follows(event))
+      hold(arrival.frame, arrival, egress);
+    else
+      egress.take_alone(simulation, arrival.frame, frame, arrival.port);
+    return;
+  }
+  egress.offer_last(simulation, arrival.frame, frame, arrival.port);
+}
+
+/// More may come to the bridge at this instant. All of it is for the bridge's own events, one after the other, so the ports need not wait for the end of the instant, when
+/// they have long left the cache.
+void Bridge::hold(FrameIndex frame, const ArrivalArgument& arrival, EgressPort& port) {
+  if (port.gather(frame, arrival.port)) held_.push_back(&port);
+  holds_ = true;
+}
+
+/// Nothing more comes to the bridge at this instant.
+void Bridge::release(sim::Simulation& simulation) {
+  for (EgressPort* const port : held_) port->decide(simulation);
+  held_.clear();
+  holds_ = false;
 }
 
 void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
@@ -23,9 +63,11 @@ void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (event.kind() != static_cast<sim::EventKind>(NodeEvent::frame_arrived)) [[unlikely]]
     event.kind() == stored_for_host ? take_stored(simulation, arrival) : leave(simulation, event.kind(), arrival.port);
   else if (looks_closer_ || arrival.flags != 0) [[unlikely]]
-    receive_flagged(simulation, arrival);
+    receive_flagged(simulation, event, arrival);
   else
-    pass_on(simulation, arrival);
+    pass_on(simulation, event, arrival);
+  // Whatever the last event was: what it held and what was held before it.
+  if (holds_ && !simulation.another_follows(event)) release(simulation);
 }
 
 /// A frame is through the part of the bridge that takes a random time.
@@ -34,15 +76,22 @@ void Bridge::leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16
   jitter_->leave(from, [&](FrameIndex frame) { forward(simulation, frame, from, nullptr); });
 }
 
-void Bridge::receive_flagged(sim::Simulation& simulation, ArrivalArgument arrival) {
+void Bridge::receive_flagged(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
   if (looks_closer_ || arrival.flags != ArrivalArgument::preemptable)
     look_closer(simulation, arrival);
   else if (ports_[arrival.port].incoming().receive(simulation, arrival.frame, arrival.flags))
-    pass_on(simulation, arrival);
+    pass_on(simulation, event, arrival);
 }
 
 void Bridge::prefetch(const sim::Event& event, Ahead ahead) const {
   const Frame& frame = traffic_->frame(ArrivalArgument::unpack(event.argument).frame);
+  if (routes_ != nullptr && frame.on_route && frame.hop < Routes::most_hops) {
+    if (ahead == Ahead::two_events)
+      routes_->prefetch(frame);
+    else if (const std::uint32_t port = routes_->at(frame) - first_port_; port < port_count_)
+      ports_[port].prefetch_hot();
+    return;
+  }
   if (ahead == Ahead::two_events) {
     filtering_database_.prefetch(frame.vlan, frame.destination);
     return;

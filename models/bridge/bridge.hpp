@@ -7,6 +7,7 @@
 #include "models/bridge/filtering_database.hpp"
 #include "models/bridge/forwarding_jitter.hpp"
 #include "models/bridge/internal_port.hpp"
+#include "models/bridge/routes.hpp"
 #include "models/egress/egress_port.hpp"
 #include "models/ingress/ingress_chain.hpp"
 #include "sim/simulation.hpp"
@@ -33,6 +34,11 @@ class alignas(64) Bridge final : public sim::Component {
   void set_ingress_chain(IngressChain* chain) {
     chain_ = chain;
     looks_closer_ = true;
+  }
+  /// What is found in the filtering database is noted there; `first_port` is the number of the bridge's first port. `routes` outlives the bridge. Not for stations.
+  void note_routes(Routes& routes, std::uint32_t first_port) {
+    routes_ = &routes;
+    first_port_ = first_port;
   }
   /// Takes the link-local frames.
   void set_link_local_receiver(LinkLocalReceiver* receiver) { link_local_ = receiver; }
@@ -73,9 +79,13 @@ class alignas(64) Bridge final : public sim::Component {
     bool only_header = false;
     Header header;
   };
-  void pass_on(sim::Simulation& simulation, ArrivalArgument arrival);
+  void pass_on(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
+  std::uint32_t port_for(Frame& frame);
+  [[gnu::noinline]] std::uint32_t look_up(Frame& frame);
+  [[gnu::noinline]] void hold(FrameIndex frame, const ArrivalArgument& arrival, EgressPort& port);
+  [[gnu::noinline]] void release(sim::Simulation& simulation);
   [[gnu::noinline]] void leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16_t from);
-  [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, ArrivalArgument arrival);
+  [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   void look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
   void pass_through(sim::Simulation& simulation, std::span<const FrameIndex> frames, std::uint16_t from, const Header* header);
   // `rank` is the number of the port by which the frame came, or greater than that of any port.
@@ -89,8 +99,12 @@ class alignas(64) Bridge final : public sim::Component {
   Traffic* traffic_;
   EgressPort* ports_;
   bool looks_closer_ = false;
+  bool holds_ = false;                    // held_ is not empty
+  std::uint32_t first_port_ = 0;
+  Routes* routes_ = nullptr;              // null in stations and hosts
   FilteringDatabase filtering_database_;
   std::size_t port_count_;
+  std::vector<EgressPort*> held_;         // to which frames have come at this instant, and more may
   IngressChain* chain_ = nullptr;
   LinkLocalReceiver* link_local_ = nullptr;
   sim::Duration forwarding_delay_;

@@ -39,6 +39,7 @@ inline void EgressPort::find_path() {
 
 /// To be called when the port gets other features.
 void EgressPort::find_gates() {
+  is_simple_ = !shaping_ && !extras_;
   only_gates_ = shaping_ && !extras_ && shaping_->has_only_gates() ? &shaping_->gates() : nullptr;
   find_path();
 }

@@ -58,6 +58,30 @@ class alignas(64) EgressPort final : public sim::Component {
       take_last(simulation, frame, record, rank);
   }
 
+  // For a bridge that knows when nothing more comes to it at an instant; what else happens at the instant does not concern a port that decides_by_itself().
+  /// It has neither gates nor shapers nor other features, so that it depends on what is in its queues and on its medium alone.
+  bool decides_by_itself() const { return is_simple_; }
+  /// offer() without settling: decide() follows at this instant. True if it is the first frame of this instant.
+  bool gather(FrameIndex frame, std::uint32_t rank) {
+    if (has_arrival_) {
+      more_arrivals_.push_back({frame, rank});
+      return false;
+    }
+    has_arrival_ = true;
+    arrival_ = {frame, rank};
+    return true;
+  }
+  void decide(sim::Simulation& simulation) { settle(simulation); }
+  /// Both, of the only frame of this instant.
+  void take_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
+    if (path_ == Path::plain && simulation.now() >= link_.free_at() && !has_arrival_) [[likely]] {
+      start(simulation, frame, record);
+      return;
+    }
+    static_cast<void>(gather(frame, rank));
+    settle(simulation);
+  }
+
   /// The same for a frame of which only the header has come: it may start at once if this port cuts its class through, the medium
   /// is free, nothing waits and the link it comes from is as fast. Otherwise it is offered at `stored`, when it has wholly come
   /// and the node's fixed delay is over, or dropped then if it turns out to be damaged. `from` is the link by which it comes.
@@ -215,6 +239,7 @@ class alignas(64) EgressPort final : public sim::Component {
   // One cache line holds all that a frame touches at a port that is free.
   bool settling_ = false;
   bool has_arrival_ = false;
+  bool is_simple_ = false;                   // neither extras nor shaping
   Path path_ = Path::plain;
   TrafficClass sending_ = 0;                 // the class of the frame under way, if there is shaping
   ClassSet ranked_ = every_class;            // those that do not share bandwidth: the most urgent one goes first

@@ -52,12 +52,14 @@ struct alignas(64) Frame {
   VlanId vlan = 0;
   std::uint16_t r_tag_sequence = 0;
   Priority priority = 0;
+  std::uint8_t hop = 0;            ///< how many bridges it has passed: see Routes
   Priority queue_priority = 0;     ///< what decides about the queue: the priority, or the internal priority value of a stream gate
   bool tagged : 1 = false;
   bool r_tagged : 1 = false;       ///< carries an R-TAG with r_tag_sequence (IEEE 802.1CB 7.8)
   bool bad_fcs : 1 = false;        ///< damaged on its way
   bool drop_eligible : 1 = false;  ///< DEI
   bool link_local : 1 = false;     ///< ends at the next node, see link_local.hpp
+  bool on_route : 1 = false;       ///< VLAN and destination are those of its stream: see Routes
   bool marked : 1 = false;         ///< eligible and queue_priority belong to the node where the frame is and end with it
 };
 static_assert(sizeof(Frame) == 64);

@@ -36,6 +36,8 @@ inline FrameIndex Traffic::make(StreamIndex index, Octets payload, sim::TrueTime
   frame.bad_fcs = false;
   frame.drop_eligible = false;
   frame.link_local = stream.link_local;
+  frame.on_route = true;
+  frame.hop = 0;
   frame.marked = false;
   return handle;
 }

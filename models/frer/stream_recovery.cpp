@@ -30,6 +30,7 @@ std::optional<FrameIndex> StreamRecovery::receive(Traffic& traffic, FrameIndex i
 
   const FrameIndex own = traffic.own(index);
   Frame& frame = traffic.frame(own);
+  frame.on_route = false;
   frame.destination = config_.destination;
   frame.vlan = config_.vlan;
   if (frame.r_tagged && !config_.keep_r_tag) traffic.set_tags(own, frame.tagged, false);

@@ -45,6 +45,7 @@ class StreamSplit {
  private:
   static void address(Traffic& traffic, FrameIndex index, const StreamMember& member, SequenceNumber number) {
     Frame& frame = traffic.frame(index);
+    frame.on_route = false;
     frame.destination = member.destination;
     frame.vlan = member.vlan;
     frame.r_tag_sequence = number;

@@ -29,30 +29,31 @@ std::uint32_t Bridge::look_up(Frame& frame) {
 inline void Bridge::pass_on(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
   Frame& frame = traffic_->frame(arrival.frame);
   const std::uint32_t port = port_for(frame);
-  if (port == FilteringDatabase::not_at_once || port == arrival.port) [[unlikely]] {
-    forward(simulation, arrival.frame, arrival.port, nullptr);
-    return;
-  }
-  EgressPort& egress = ports_[port];
-  if (routes_ != nullptr && egress.decides_by_itself() && (holds_ || (!simulation.instant_is_surely_complete() && simulation.events_follow_targets()))) {
-    if (holds_ || simulation.another_follows(event))
-      hold(arrival.frame, arrival, egress);
-    else
-      egress.take_alone(simulation, arrival.frame, frame, arrival.port);
-    return;
-  }
-  egress.offer_last(simulation, arrival.frame, frame, arrival.port);
+  if (port != FilteringDatabase::not_at_once && port != arrival.port && simulation.instant_is_surely_complete() && !holds_) [[likely]]
+    ports_[port].offer_last(simulation, arrival.frame, frame, arrival.port);
+  else
+    pass_on_among_others(simulation, event, arrival, port);
 }
 
-/// More may come to the bridge at this instant. All of it is for the bridge's own events, one after the other, so the ports need not wait for the end of the instant, when
+/// More may come to the bridge at this instant. All of it is for the bridge's own events, one after the other, so its plain ports need not wait for the end of the instant, when
 /// they have long left the cache.
-void Bridge::hold(FrameIndex frame, const ArrivalArgument& arrival, EgressPort& port) {
-  if (port.gather(frame, arrival.port)) held_.push_back(&port);
-  holds_ = true;
+void Bridge::pass_on_among_others(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port) {
+  if (port == FilteringDatabase::not_at_once || port == arrival.port) {
+    forward(simulation, arrival.frame, arrival.port, nullptr);
+  } else if (EgressPort& egress = ports_[port]; routes_ == nullptr || !egress.decides_by_itself() || !simulation.events_follow_targets()) {
+    egress.offer_last(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
+  } else if (holds_ || simulation.another_follows(event)) {
+    if (egress.gather(arrival.frame, arrival.port)) held_.push_back(&egress);
+    holds_ = true;
+  } else {
+    egress.take_alone(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
+  }
+  release_if_last(simulation, event);
 }
 
-/// Nothing more comes to the bridge at this instant.
-void Bridge::release(sim::Simulation& simulation) {
+/// When nothing more comes to the bridge at this instant, whatever the last event was.
+inline void Bridge::release_if_last(sim::Simulation& simulation, const sim::Event& event) {
+  if (!holds_ || simulation.another_follows(event)) return;
   for (EgressPort* const port : held_) port->decide(simulation);
   held_.clear();
   holds_ = false;
@@ -60,14 +61,20 @@ void Bridge::release(sim::Simulation& simulation) {
 
 void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
-  if (event.kind() != static_cast<sim::EventKind>(NodeEvent::frame_arrived)) [[unlikely]]
-    event.kind() == stored_for_host ? take_stored(simulation, arrival) : leave(simulation, event.kind(), arrival.port);
-  else if (looks_closer_ || arrival.flags != 0) [[unlikely]]
-    receive_flagged(simulation, event, arrival);
+  if (looks_closer_ || arrival.flags != 0 || event.kind() != static_cast<sim::EventKind>(NodeEvent::frame_arrived)) [[unlikely]]
+    handle_seldom(simulation, event, arrival);
   else
     pass_on(simulation, event, arrival);
-  // Whatever the last event was: what it held and what was held before it.
-  if (holds_ && !simulation.another_follows(event)) release(simulation);
+}
+
+void Bridge::handle_seldom(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
+  if (event.kind() == static_cast<sim::EventKind>(NodeEvent::frame_arrived))
+    receive_flagged(simulation, event, arrival);
+  else if (event.kind() == stored_for_host)
+    take_stored(simulation, arrival);
+  else
+    leave(simulation, event.kind(), arrival.port);
+  release_if_last(simulation, event);
 }
 
 /// A frame is through the part of the bridge that takes a random time.

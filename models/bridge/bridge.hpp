@@ -82,8 +82,9 @@ class alignas(64) Bridge final : public sim::Component {
   void pass_on(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   std::uint32_t port_for(Frame& frame);
   [[gnu::noinline]] std::uint32_t look_up(Frame& frame);
-  [[gnu::noinline]] void hold(FrameIndex frame, const ArrivalArgument& arrival, EgressPort& port);
-  [[gnu::noinline]] void release(sim::Simulation& simulation);
+  [[gnu::noinline]] void pass_on_among_others(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port);
+  void release_if_last(sim::Simulation& simulation, const sim::Event& event);
+  [[gnu::noinline]] void handle_seldom(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   [[gnu::noinline]] void leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16_t from);
   [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   void look_closer(sim::Simulation& simulation, ArrivalArgument arrival);

@@ -39,7 +39,8 @@ inline void EgressPort::find_path() {
 
 /// To be called when the port gets other features.
 void EgressPort::find_gates() {
-  is_simple_ = !shaping_ && !extras_;
+  // gPTP hands its messages over after the arrivals of an instant, and they go before them.
+  is_simple_ = !shaping_ && !extras_ && shared_ != nullptr && shared_->link_local == nullptr;
   only_gates_ = shaping_ && !extras_ && shaping_->has_only_gates() ? &shaping_->gates() : nullptr;
   find_path();
 }

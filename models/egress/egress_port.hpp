@@ -59,7 +59,8 @@ class alignas(64) EgressPort final : public sim::Component {
   }
 
   // For a bridge that knows when nothing more comes to it at an instant; what else happens at the instant does not concern a port that decides_by_itself().
-  /// It has neither gates nor shapers nor other features, so that it depends on what is in its queues and on its medium alone.
+  /// It has neither gates nor shapers nor other features, so that it depends on what is in its queues and on its medium alone;
+  /// and nobody but the bridge hands frames to it, as gPTP would.
   bool decides_by_itself() const { return is_simple_; }
   /// offer() without settling: decide() follows at this instant. True if it is the first frame of this instant.
   bool gather(FrameIndex frame, std::uint32_t rank) {
@@ -239,7 +240,7 @@ class alignas(64) EgressPort final : public sim::Component {
   // One cache line holds all that a frame touches at a port that is free.
   bool settling_ = false;
   bool has_arrival_ = false;
-  bool is_simple_ = false;                   // neither extras nor shaping
+  bool is_simple_ = false;                   // neither extras nor shaping, and no gPTP in the network
   Path path_ = Path::plain;
   TrafficClass sending_ = 0;                 // the class of the frame under way, if there is shaping
   ClassSet ranked_ = every_class;            // those that do not share bandwidth: the most urgent one goes first

@@ -20,6 +20,7 @@ Network::Network(sim::Simulation& simulation, NetworkPlan plan, Share share) : s
   for (const FilteringPlan& entry : plan_.filtering)
     bridges_[entry.node.value]->filtering_database().add(entry.vlan, entry.address, entry.port);
   set_up_ingress();
+  set_up_talker_ats();
   set_up_redundancy();
   set_up_faults();
   announce_cut_through();
@@ -165,6 +166,14 @@ void Network::set_up_ingress() {
     bridges_[n]->set_ingress_chain(ingress_[n].get());
     for (EgressPort& port : mutable_ports(node))
       if (port.is_connected()) port.link().check_arrivals();
+  }
+}
+
+void Network::set_up_talker_ats() {
+  for (const TalkerAtsPlan& shaped : plan_.talker_ats) {
+    const NodeIndex talker = plan_.streams[shaped.stream.value].talker;
+    output_of_host(talker).shape(shaped.stream, shaped.committed_information_rate, shaped.committed_burst_size, shaped.media_overhead);
+    for (EgressPort& port : mutable_ports(talker)) port.link().check_arrivals();
   }
 }
 

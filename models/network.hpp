@@ -135,6 +135,7 @@ class Network final : private LinkLocalSender {
   void add_talkers();
   void add_talker(const TalkerPlan& talker);
   void set_up_ingress();
+  void set_up_talker_ats();
   void set_up_redundancy();
   void set_up_faults();
   void change_link(std::uint32_t link, bool up);

@@ -99,6 +99,14 @@ struct TalkerPlan {
   std::string name = {};                                 ///< in the random streams, if not that of the stream
 };
 
+/// An ATS scheduler at the talker of a stream; see TalkerAts.
+struct TalkerAtsPlan {
+  StreamIndex stream;
+  sim::DataRate committed_information_rate;   ///< as in AtsSchedulerConfig, as are the others
+  Octets committed_burst_size{0};
+  bool media_overhead = true;
+};
+
 /// Addresses 0 .. nodes-1 are the unicast addresses of the nodes; further ones are groups.
 struct NetworkPlan {
   std::vector<NodePlan> nodes;
@@ -109,6 +117,7 @@ struct NetworkPlan {
   std::vector<PortConfig> port_configs = {PortConfig{}};
   std::vector<OsLatency> os_latencies = {OsLatency{}};
   std::vector<IngressConfig> ingress_configs;
+  std::vector<TalkerAtsPlan> talker_ats;    ///< at most one of a stream
   std::vector<HostSplitPlan> host_splits;
   std::vector<HostRecoveryPlan> host_recoveries;
   std::vector<ImpairmentPlan> impairments;

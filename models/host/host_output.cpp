@@ -3,11 +3,12 @@
 namespace takt::models {
 
 void HostOutput::offer(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, sim::LocalTime local_now) {
-  const Frame& record = traffic_->frame(frame);
+  Frame& record = traffic_->frame(frame);
   if (!up_ || (record.marked && record.eligible < local_now)) {
     traffic_->drop(frame, up_ ? DropReason::late_launch : DropReason::node_down, port().id(), simulation);
     return;
   }
+  if (!ats_.is_empty()) ats_.shape(record, local_now);   // before the members part: what is shaped is the stream, once
   if (redundancy_.is_empty() || redundancy_.find(record.stream) == nullptr) {
     if (bridge_ != nullptr)
       bridge_->send(simulation, frame, rank);

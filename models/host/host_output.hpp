@@ -7,6 +7,7 @@
 #include "models/bridge/bridge.hpp"
 #include "models/egress/egress_port.hpp"
 #include "models/frer/host_redundancy.hpp"
+#include "models/host/talker_ats.hpp"
 
 namespace takt::models {
 
@@ -34,6 +35,11 @@ class HostOutput {
     redundancy_.add(stream, config);
     plain_ = false;
   }
+  /// A stream of this host is shaped by eligibility times; parameters as in TalkerAts::add.
+  void shape(StreamIndex stream, sim::DataRate rate, Octets burst, bool counts_overhead) {
+    ats_.add(stream, rate, burst, counts_overhead);
+    plain_ = false;
+  }
   TalkerRedundancy& redundancy() { return redundancy_; }
   /// Some frames carry a launch time, or the host may go down.
   void look_closer() { plain_ = false; }
@@ -47,6 +53,7 @@ class HostOutput {
   bool plain_ = true;
   bool up_ = true;
   TalkerRedundancy redundancy_;
+  TalkerAts ats_;
 };
 
 }  // namespace takt::models

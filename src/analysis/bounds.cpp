@@ -129,7 +129,8 @@ class StreamBounds {
       }
       if (!is_bounded(stack.worst)) wait_for_ever(thread_name(plan.listeners[l], &models::CpuPlan::receive) + ": " + stack.reason, bound);
     }
-    if (!is_bounded(flow.worst_source)) wait_for_ever(thread_name(plan.talker, &models::CpuPlan::transmit) + ": " + flow.source_reason, bound);
+    if (!flow.hold_reason.empty()) wait_for_ever(flow.hold_reason, bound);
+    else if (!is_bounded(flow.worst_source)) wait_for_ever(thread_name(plan.talker, &models::CpuPlan::transmit) + ": " + flow.source_reason, bound);
     if (bound.latency) bound.reason.clear();   // whatever one of the two analyses says
     if (!flow.loss_at_host.empty()) lose(bound, flow.loss_at_host);
     if (flow.may_miss_launch) lose(bound, "the operating system may hand a frame over after its launch time");

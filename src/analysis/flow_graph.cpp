@@ -88,7 +88,7 @@ void note_unordered_classes(FlowGraph& graph) {
     for (const std::uint32_t h : graph.ports[p].hops) {
       const Hop& hop = graph.hops[h];
       // By flow, not by stream: what a talker sends that babbles has no launch times.
-      const bool has_times = hop.parents.empty() ? graph.flows[hop.flow].launches : hop.ats && hop.ats->is_minded;
+      const bool has_times = hop.parents.empty() ? graph.flows[hop.flow].is_timed : hop.ats && hop.ats->is_minded;
       for (models::TrafficClass q = hop.lowest_class; q <= hop.highest_class; ++q)
         if (models::contains(timed, q) && !has_times) graph.models[p].unordered = models::with(graph.models[p].unordered, q);
     }

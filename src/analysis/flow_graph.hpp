@@ -83,7 +83,10 @@ struct Flow {
   std::optional<std::uint32_t> train = {};   ///< flows with the same number are handed to the port one behind the other, in the order of the graph's flows
   std::string source_reason = {};       ///< why worst_source is unbounded
   bool may_miss_launch = false;         ///< the operating system may hand a frame over after its launch time
-  bool launches = false;                ///< its frames have launch times
+  FrameArrivals handed_over = {};       ///< if it is timed: as frames come to the interface, where they wait for their times ...
+  Ps waits = 0;                         ///< ... for so long
+  std::string hold_reason = {};         ///< why its ATS scheduler at the talker may hold it for ever; empty: it does not
+  bool is_timed = false;                ///< its frames have launch times, or eligibility times of a scheduler at the talker
   std::optional<sim::Octets> payload = {};   ///< of its longest frame, where the stream has longer ones; of the shortest nothing is known then
   std::string unlimited_reason = {};    ///< why any number of frames may come at any time, as a clause about the stream: "whose ..."
   std::vector<std::uint32_t> hops;      ///< parents before children

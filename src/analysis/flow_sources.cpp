@@ -96,8 +96,10 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, b
   set_source(os, stack, flow);
   const Ps handed_over = flow.worst_source;
   if (talker.launch) {
-    flow.launches = true;
+    flow.is_timed = true;
+    const Ps handed_over_at_least = flow.best_source;
     flow.worst_source = longest(talker.launch->ps(), clock) + 2 * clock.error;
+    flow.waits = std::max<Ps>(0, flow.worst_source - handed_over_at_least);
     // The clock is read in whole picoseconds: up to one of them is over already.
     const Ps unread = clock.slowest_ppt == 0 && clock.fastest_ppt == 0 ? 0 : 1;
     flow.best_source = std::max<Ps>(0, shortest(std::max<Ps>(0, talker.launch->ps() - unread), clock) - 2 * clock.error);
@@ -105,6 +107,7 @@ void add_talker(const scenario::Resolved& r, const models::TalkerPlan& talker, b
     flow.may_miss_launch = sum(handed_over, unread) > std::max<Ps>(0, shortest(talker.launch->ps(), clock) - 2 * clock.error);
   }
   set_arrivals(pattern, os, flow);
+  if (talker.launch) flow.handed_over = flow.at_stack.delayed(is_bounded(stack.worst) ? stack.worst - stack.least : unbounded_ps);
   // One that is handed over too late is lost only then, and under way until then.
   if (flow.may_miss_launch) flow.worst_source = std::max(flow.worst_source, handed_over);
   if (const auto* const periodic = std::get_if<models::PeriodicSchedule>(&talker.schedule); periodic != nullptr && has_phase && !talker.babbles && stack.worst == 0)
@@ -231,6 +234,57 @@ void add_dds(const scenario::Resolved& r, const BoundOptions& options, const Hos
   }
 }
 
+/// ATS schedulers at talkers, each alone in its group: frames are held until their tokens are there, no longer than a bucket of its own keeps back what comes (as at a
+/// bridge, see NetworkBound).
+class TalkerHolds {
+ public:
+  TalkerHolds(const scenario::Resolved& r, const BoundOptions& options) : r_(r), options_(options) {}
+
+  void apply(FlowGraph& graph) const {
+    for (const models::TalkerAtsPlan& shaped : r_.plan.talker_ats) {
+      const auto is_its = [&](const Flow& flow) { return flow.stream == shaped.stream; };
+      const bool is_alone = std::ranges::count_if(graph.flows, is_its) == 1;   // else several take the tokens of one bucket
+      for (Flow& flow : graph.flows)
+        if (is_its(flow)) hold(shaped, is_alone, flow);
+    }
+  }
+
+ private:
+  void hold(const models::TalkerAtsPlan& shaped, bool is_alone, Flow& flow) const {
+    const models::StreamPlan& plan = r_.plan.streams[shaped.stream.value];
+    const ClockQuality clock = clock_quality(r_, plan.talker, options_);
+    const std::int64_t bits = bits_of(shaped, flow.payload.value_or(r_.streams[shaped.stream.value].largest_payload));
+    const std::int64_t burst = std::int64_t{8} * shaped.committed_burst_size.count;
+    const auto rate = static_cast<std::int64_t>(shaped.committed_information_rate.bits_per_second);
+    const Ps held = is_alone ? longest_hold(flow.source, bits, burst, slowest_rate(rate, clock)) : unbounded_ps;
+    flow.is_timed = true;
+    if (held == 0 && clock.error == 0) return;   // what comes keeps to the bucket
+    flow.produced.reset();
+    flow.train.reset();
+    const Ps late = sum(held, 2 * clock.error);
+    flow.handed_over = flow.source;
+    flow.waits = late;
+    flow.worst_source = sum(flow.worst_source, late);
+    if (!is_bounded(late)) flow.hold_reason = is_alone ? "more may come to its ATS scheduler at the talker than its rate" : "several sources take the tokens of its ATS scheduler at the talker";
+    flow.source = flow.source.delayed(late);
+    if (has_one_length(shaped.stream)) flow.source.add(by_clock(pattern_of_token_bucket(bits, burst, rate), clock));
+  }
+
+  std::int64_t bits_of(const models::TalkerAtsPlan& shaped, sim::Octets payload) const {
+    const models::StreamPlan& plan = r_.plan.streams[shaped.stream.value];
+    const sim::Octets frame = models::frame_length(plan.headers + payload, plan.priority.has_value(), false);
+    return std::int64_t{8} * (shaped.media_overhead ? models::wire_length(frame) : frame).count;
+  }
+  /// Of short frames a bucket lets more pass.
+  bool has_one_length(models::StreamIndex stream) const {
+    const auto talker = std::ranges::find(r_.plan.talkers, stream, &models::TalkerPlan::stream);
+    return talker != r_.plan.talkers.end() && !std::holds_alternative<models::TraceSchedule>(talker->schedule);
+  }
+
+  const scenario::Resolved& r_;
+  const BoundOptions& options_;
+};
+
 Ps interval_ps(int log_seconds) { return rounded_up(std::ldexp(1e12, log_seconds)); }
 
 }  // namespace
@@ -242,6 +296,7 @@ void add_flows(const scenario::Resolved& resolved, const BoundOptions& options, 
   for (const scenario::ResolvedProgram& program : resolved.programs) add_program(resolved, program, options, hosts, graph);
   add_topics(resolved, options, hosts, graph);
   add_dds(resolved, options, hosts, graph);
+  TalkerHolds(resolved, options).apply(graph);
 }
 
 std::vector<GptpMessages> gptp_messages(const scenario::Resolved& resolved, models::NodeIndex node) {

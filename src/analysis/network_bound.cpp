@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "analysis/by_clock.hpp"
 #include "analysis/flow_sources.hpp"
 #include "models/egress/class_set.hpp"
 #include "models/ethernet/sizes.hpp"
@@ -328,15 +329,6 @@ class FixedPoint {
     return description.algorithm != scenario::Recovery::match || (flow.source.is_limited() && flow.source.count(spread) <= 1);
   }
 
-  /// What a bucket that fills by that clock lets through, in true time.
-  static ArrivalPattern by_clock(ArrivalPattern pattern, const ClockQuality& clock) {
-    if (is_bounded(pattern.period)) pattern.period = std::max<Ps>(1, scaled_down(pattern.period, one_ppt, one_ppt + clock.fastest_ppt));
-    pattern.jitter = sum(scaled_up(pattern.jitter, one_ppt, one_ppt + clock.slowest_ppt), 2 * clock.error);
-    return pattern;
-  }
-  /// The rate of a bucket that fills by that clock, at least.
-  static std::int64_t slowest_rate(const AtsHold& hold, const ClockQuality& clock) { return scaled_down(hold.rate, one_ppt + clock.slowest_ppt, one_ppt); }
-
   /// The delay at the port before, with what the scheduler of this hop holds the frame after it.
   Ps delay_with_hold(const Hop& hop, std::uint32_t parent) const {
     const Ps delay = result_.hops[parent].delay;
@@ -357,7 +349,7 @@ class FixedPoint {
     if (holds_nobody(hop)) return result_.hops[parent].delay;
     Ps least = unbounded_ps;
     const bool is_alone = std::all_of(group.begin(), group.end(), [&](std::uint32_t other) { return graph_.hops[other].flow == hop.flow && graph_.hops[other].parents == hop.parents; });
-    if (is_alone && !mine.is_shared) least = sum(result_.hops[parent].delay, longest_hold(arrivals_at_scheduler(hop, parent), mine.bits, mine.burst_bits, slowest_rate(mine, clock)), error);
+    if (is_alone && !mine.is_shared) least = sum(result_.hops[parent].delay, longest_hold(arrivals_at_scheduler(hop, parent), mine.bits, mine.burst_bits, slowest_rate(mine.rate, clock)), error);
     Ps longest = 0;
     Ps hold = 0;
     for (const std::uint32_t other : group) {
@@ -371,7 +363,7 @@ class FixedPoint {
       longest = std::max(longest, result_.hops[sibling.parents.front()].delay);
       const AtsHold& its = *sibling.ats;
       if (clock.rate_ppt == 0 && port.clock.rate_ppt == 0 && error == 0 && port.clock.error == 0 && is_shaped_alike(before, its)) continue;
-      hold = std::max(hold, longest_hold(arrivals_[sibling.parents.front()], its.bits, its.burst_bits, slowest_rate(its, clock)));
+      hold = std::max(hold, longest_hold(arrivals_[sibling.parents.front()], its.bits, its.burst_bits, slowest_rate(its.rate, clock)));
     }
     if (!is_alone && (hold != 0 || error != 0)) return least;
     return std::min(least, sum(longest, hold, error));
@@ -386,7 +378,7 @@ class FixedPoint {
       const Hop& sibling = graph_.hops[other];
       const AtsHold& its = *sibling.ats;
       return sibling.parents.size() == 1 && !its.is_shared && !graph_.ports[graph_.hops[sibling.parents.front()].port].may_double &&
-             longest_hold(arrivals_at_scheduler(sibling, sibling.parents.front()), its.bits, its.burst_bits, slowest_rate(its, clock)) == 0;
+             longest_hold(arrivals_at_scheduler(sibling, sibling.parents.front()), its.bits, its.burst_bits, slowest_rate(its.rate, clock)) == 0;
     });
   }
 
@@ -410,8 +402,9 @@ class FixedPoint {
 
   /// Frames wait for their eligibility times in the queue: there they are from before the scheduler until they are sent.
   void count_held_frames(std::uint32_t p) {
+    const auto waits_at_talker = [&](const Hop& hop) { return hop.parents.empty() && graph_.flows[hop.flow].waits > 0; };
     const auto held_in = [&](models::TrafficClass q) {
-      return std::any_of(graph_.ports[p].hops.begin(), graph_.ports[p].hops.end(), [&](std::uint32_t h) { return is_held(graph_.hops[h]) && graph_.hops[h].highest_class == q; });
+      return std::any_of(graph_.ports[p].hops.begin(), graph_.ports[p].hops.end(), [&](std::uint32_t h) { return (is_held(graph_.hops[h]) || waits_at_talker(graph_.hops[h])) && graph_.hops[h].highest_class == q; });
     };
     for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q) {
       PortClassBound& bound = result_.ports[p].classes[q];
@@ -427,6 +420,9 @@ class FixedPoint {
           const std::uint32_t parent = hop.parents.front();
           arrivals = arrivals_at_scheduler(hop, parent);
           stays = sum(stays, delay_with_hold(hop, parent) - result_.hops[parent].least_delay);
+        } else if (waits_at_talker(hop)) {
+          arrivals = graph_.flows[hop.flow].handed_over;
+          stays = sum(stays, graph_.flows[hop.flow].waits);
         }
         const bool is_known = arrivals.is_limited() && is_bounded(stays) && hop.parents.size() <= 1;
         const std::int64_t count = is_known ? arrivals.count(stays) : 0;

@@ -7,12 +7,12 @@
 namespace takt::explain {
 namespace {
 
-Cause cause_of(models::Hindrance hindrance, bool at_talker) {
+Cause cause_of(models::Hindrance hindrance, bool has_launch_time) {
   switch (hindrance) {
     case models::Hindrance::gate_closed: return Cause::gate_closed;
     case models::Hindrance::guard: return Cause::guard;
     case models::Hindrance::credit: return Cause::credit;
-    case models::Hindrance::not_eligible: return at_talker ? Cause::launch_time : Cause::ats;
+    case models::Hindrance::not_eligible: return has_launch_time ? Cause::launch_time : Cause::ats;
     case models::Hindrance::hold: return Cause::hold;
     case models::Hindrance::count: break;
   }
@@ -85,7 +85,7 @@ void PortAccount::explain(const Waiting& waiting, std::vector<Part>& parts) cons
       if (!is_ours(told) || until <= at) continue;
       const bool has_amount = refusal.hindrance == models::Hindrance::credit || ((refusal.hindrance == models::Hindrance::gate_closed || refusal.hindrance == models::Hindrance::guard) && refusal.amount != models::Refusal::no_entry);
       const TrueTime so_far = std::min(until, end);
-      append(parts, {cause_of(refusal.hindrance, waiting.at_talker), at, so_far - at, {}, has_amount ? refusal.amount : Part::no_amount});
+      append(parts, {cause_of(refusal.hindrance, waiting.has_launch_time), at, so_far - at, {}, has_amount ? refusal.amount : Part::no_amount});
       at = so_far;
     }
     if (at < end) {

@@ -24,7 +24,7 @@ class PortAccount {
     TrueTime until;
     models::TrafficClass traffic_class = 0;
     bool is_rest = false;       ///< of a frame that was cut
-    bool at_talker = false;     ///< what is not eligible has a launch time
+    bool has_launch_time = false;   ///< what is not eligible waits for it, not for an ATS scheduler's time
   };
   /// The parts of that time, appended. Precondition: the account has not been told to forget since.
   void explain(const Waiting& waiting, std::vector<Part>& parts) const;

@@ -131,6 +131,7 @@ WayRecorder::Visit& WayRecorder::visit(Copy& copy, std::uint32_t position, TrueT
   Visit made;
   made.position = position;
   made.from = place->from;
+  made.has_launch_time = made.from == none && !is_shaped_at_talker(journey.frame.stream);
   made.octet_time = port.octet_time;
   made.hop.port = port.id;
   made.hop.peer = port.peer;
@@ -138,6 +139,11 @@ WayRecorder::Visit& WayRecorder::visit(Copy& copy, std::uint32_t position, TrueT
   made.hop.started = TrueTime::never();
   journey.visits.push_back(std::move(made));
   return journey.visits.back();
+}
+
+bool WayRecorder::is_shaped_at_talker(models::StreamIndex stream) const {
+  const std::vector<models::TalkerAtsPlan>& shaped = network_->plan().talker_ats;
+  return std::ranges::find(shaped, stream, &models::TalkerAtsPlan::stream) != shaped.end();
 }
 
 void WayRecorder::wait_at(std::uint32_t position, Visit& visit) {
@@ -153,7 +159,7 @@ void WayRecorder::waits_no_more(std::uint32_t position, Visit& visit, TrueTime n
 }
 
 void WayRecorder::explain_wait(Visit& visit, TrueTime from, TrueTime until, bool is_rest) {
-  if (from < until) accounts_[visit.position].explain({from, until, visit.hop.traffic_class, is_rest, visit.from == none}, visit.hop.parts);
+  if (from < until) accounts_[visit.position].explain({from, until, visit.hop.traffic_class, is_rest, visit.has_launch_time}, visit.hop.parts);
 }
 
 void WayRecorder::started(const sim::TraceRecord& record) {
@@ -278,7 +284,7 @@ Way WayRecorder::way_of(const Copy& copy, std::uint32_t last, const Place* place
     const bool has_started = hop.started != TrueTime::never();
     if (visit.is_waiting) {
       const TrueTime since = has_started ? visit.last_free : hop.came;
-      if (since < until) accounts_[visit.position].explain({since, until, hop.traffic_class, has_started, visit.from == none}, hop.parts);
+      if (since < until) accounts_[visit.position].explain({since, until, hop.traffic_class, has_started, visit.has_launch_time}, hop.parts);
     } else if (has_started) {
       const bool arrives = !is_last || place != nullptr;
       const bool at_host = is_last && place != nullptr && network_->plan().nodes[place->node.value].is_end_station() && (ended_in_host_ || !network_->plan().nodes[place->node.value].forwards());

@@ -53,6 +53,7 @@ class WayRecorder final : public sim::TraceSink {
     Duration octet_time;
     Duration cable;
     Duration node_delay;
+    bool has_launch_time = false;     ///< what is not eligible waits for it: else an ATS scheduler holds it
     bool is_waiting = false;          // it, or its rest
     bool is_told = false;             // in the way of another copy
     bool is_over = false;             // its frame has ended behind it
@@ -104,6 +105,7 @@ class WayRecorder final : public sim::TraceSink {
 
   /// The way up to the visit `last`, and on to `place`, if it came there; otherwise it ended at that port or on the wire behind it.
   Way way_of(const Copy& copy, std::uint32_t last, const Place* place, TrueTime ended);
+  bool is_shaped_at_talker(models::StreamIndex stream) const;
   void add_talker(const Copy& copy, TrueTime until, Way& way) const;
   void add_flight(const Visit& visit, TrueTime until, bool arrives, const Place* host, std::vector<Part>& parts) const;
 

@@ -76,14 +76,15 @@ std::string shares_text(const models::ShapingConfig& shaping) {
   return text;
 }
 
-std::string port_text(const models::PortConfig& config, bool is_host) {
+/// In a class that sends by eligibility times, a host without ATS schedulers has launch times.
+std::string port_text(const models::PortConfig& config, bool has_launch_times) {
   Line line;
   if (config.shaping.gates) line.add(gates_text(*config.shaping.gates));
   for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
     if (const models::CreditBased* const shaper = config.shaping.shaper_of(q))
       line.add(fmt::format("shaper of class {}: {}{}", q, json::to_text(shaper->idle_slope), shaper->of_whole_cycle ? "" : " while open"));
   if (config.shaping.shared() != 0) line.add(shares_text(config.shaping));
-  if (const models::ClassSet timed = config.shaping.timed(); timed != 0) line.add((is_host ? "launch times:" : "ATS:") + classes(timed));
+  if (const models::ClassSet timed = config.shaping.timed(); timed != 0) line.add((has_launch_times ? "launch times:" : "ATS:") + classes(timed));
   for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
     if (config.shaping.queue_max_sdu[q].count > 0) line.add(fmt::format("SDU of class {}: at most {} B", q, config.shaping.queue_max_sdu[q].count));
   if (config.preemption) line.add(preemption_text(*config.preemption));
@@ -94,10 +95,11 @@ std::string port_text(const models::PortConfig& config, bool is_host) {
 
 std::string ports_page(const Resolved& r, std::size_t most_rows) {
   Page page("Ports beyond strict priority (numbers are traffic classes)");
+  const auto is_shaped = [&](models::NodeIndex node) { return std::ranges::any_of(r.plan.talker_ats, [&](const models::TalkerAtsPlan& shaped) { return r.plan.streams[shaped.stream.value].talker == node; }); };
   const auto add = [&](const models::LinkPlan::End& end, const models::LinkPlan::End& peer) {
     const models::NodePlan& node = r.plan.nodes[end.node.value];
     page.add(fmt::format("{}:{} to {}", node.name, end.port, r.plan.nodes[peer.node.value].name),
-             port_text(r.plan.port_configs[end.port_config.value_or(node.port_config)], !node.forwards()));
+             port_text(r.plan.port_configs[end.port_config.value_or(node.port_config)], !node.forwards() && !is_shaped(end.node)));
   };
   for (const models::LinkPlan& link : r.plan.links) {
     add(link.a, link.b);

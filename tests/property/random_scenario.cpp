@@ -258,13 +258,32 @@ class Maker {
     if (has(Feature::queue_limits) && draw.one_in(2)) node.add("queues", queues(name));
     const std::string all = egress(name, false);
     if (!all.empty() && draw.one_in(2)) node.add("egress", "[" + all + "]");
+    else if (const std::string shaped = talker_ats(h); !shaped.empty()) {
+      node.add("egress", "[{\"ats\": [0, 1, 2, 3, 4, 5, 6, 7]}]");
+      node.add("ats", shaped);
+    }
     return node.object();
   }
+
+  /// Schedulers for some of what the host sends; nothing if there are none, or something else would select frames.
+  std::string talker_ats(std::size_t h) const {
+    Draw draw(w_.seed, "talker ats " + host_name(h));
+    if (!has(Feature::ats) || has(Feature::shapers) || has(Feature::launch) || draw.one_in(3)) return "";
+    Parts schedulers;
+    for (std::size_t s = 0; s < w_.streams; ++s) {
+      if (talker_of(s) != h || draw.one_in(4)) continue;
+      schedulers.add("{\"stream\": " + in_quotes(stream_name(s)) + ", \"rate\": " + in_quotes(slow_ ? draw.any({"1Mbps", "3Mbps"}) : draw.any({"4Mbps", "10Mbps", "33333333bps"})) + ", \"burst\": " + in_quotes(draw.any({"1550B", "2000B", "4000B"})) +
+                     ", \"length\": " + in_quotes(draw.any({"wire", "frame"})) + "}");
+    }
+    return schedulers.empty() ? "" : schedulers.array();
+  }
+
+  std::size_t talker_of(std::size_t s) const { return Draw(w_.seed, "stream " + stream_name(s)).below(w_.hosts); }
 
   std::string stream(std::size_t s) const {
     Draw draw(w_.seed, "stream " + stream_name(s));
     Parts parts;
-    const std::size_t from = draw.below(w_.hosts);
+    const std::size_t from = draw.below(w_.hosts);   // talker_of(s)
     const std::size_t to = (from + 1 + draw.below(w_.hosts - 1)) % w_.hosts;
     parts.add("name", in_quotes(stream_name(s)));
     parts.add("from", in_quotes(host_name(from)));

@@ -95,7 +95,7 @@ const BadCase cases[] = {
      R"(2:14: error at /network/nodes/sw/egress/0/untagged: tags taken off before a switch: found a port to "far", which would forget the priorities, expected ports to hosts)"},
     {"AHostForwardsNothing", with_host_egress(R"({"cut_through": [3], "ats": [2]})"),
      R"(2:17: error at /network/nodes/a/egress/0/cut_through: cut-through in a host: found a host, which forwards nothing, expected a switch
-2:29: error at /network/nodes/a/egress/0/ats: ATS in a host: found a host, whose frames meet no ATS scheduler, expected a switch; "launch" of a stream for a host)"},
+2:29: error at /network/nodes/a/egress/0/ats: ATS in a host: found a host, whose frames meet no ATS scheduler, expected schedulers in its "ats", or "launch" of a stream)"},
     {"AHostWithoutTags", with_host_egress(R"({"untagged": true})"),
      R"(2:14: error at /network/nodes/a/egress/0/untagged: tags taken off before a switch: found a port to "sw", which would forget the priorities, expected ports to hosts)"},
     {"NegativeLaunch", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "1B", "every": "1ms", "pcp": 3, "launch": "-1us"})"),

@@ -66,6 +66,7 @@ class RequestWriter {
     const Duration every = stream.burst ? stream.burst->every : stream.every.value_or(Duration::from_ps(1'000'000));
     if (stream.burst && stream.burst->spacing > Duration()) exported_.lose(where, "the distance between the frames of a burst");
     if (stream.launch) exported_.lose(where, "launch times");
+    if (std::ranges::find(r_.plan.talker_ats, resolved.index, &models::TalkerAtsPlan::stream) != r_.plan.talker_ats.end()) exported_.lose(where, "its ATS scheduler at the talker");
     std::uint64_t numerator = whole_ns(every, where, "an interval"), denominator = 1'000'000'000;
     const std::uint64_t common = std::gcd(numerator, denominator);
     const std::uint64_t offset = whole_ns(stream.offset ? stream.offset->value : Duration(), where, "an offset");

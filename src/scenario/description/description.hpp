@@ -183,6 +183,7 @@ struct EndStation {
   std::optional<Processing> processing = {};
   std::vector<std::string> offers = {};
   std::optional<Cpu> cpu = {};
+  std::vector<TalkerAts> ats = {};
   bool operator==(const EndStation&) const = default;
 };
 

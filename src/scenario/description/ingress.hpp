@@ -119,6 +119,16 @@ struct AtsEntry {
   bool operator==(const AtsEntry&) const = default;
 };
 
+/// An ATS scheduler of what an end station itself sends.
+struct TalkerAts {
+  json::Source where;
+  std::string stream;
+  DataRate rate;
+  Octets burst{0};
+  LengthOf length = LengthOf::wire;
+  bool operator==(const TalkerAts&) const = default;
+};
+
 struct AtsGroupEntry {
   json::Source where;
   std::string name;
@@ -192,6 +202,7 @@ const json::Object& describe(json::Type<StreamGateEntryList>);
 const json::Object& describe(json::Type<Meter>);
 const json::Enumeration& describe(json::Type<LengthOf>);
 const json::Object& describe(json::Type<AtsEntry>);
+const json::Object& describe(json::Type<TalkerAts>);
 const json::Object& describe(json::Type<AtsGroupEntry>);
 const json::Object& describe(json::Type<Cqf>);
 const json::Object& describe(json::Type<Ingress>);

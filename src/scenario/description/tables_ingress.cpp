@@ -159,6 +159,18 @@ const json::Object& describe(json::Type<AtsEntry>) {
   return table;
 }
 
+const json::Object& describe(json::Type<TalkerAts>) {
+  static constexpr json::Field fields[] = {
+      required<&TalkerAts::stream>("stream", "A stream that the node sends; its class is one of \"ats\" in \"egress\"."),
+      required<&TalkerAts::rate>("rate", "Committed information rate.", {.min = DataRate{1}, .max = highest_rate}),
+      required<&TalkerAts::burst>("burst", "Committed burst size, at least the longest frame.", {.min = Octets{1}}),
+      optional<&TalkerAts::length>("length", "What rate and burst count."),
+  };
+  static constexpr json::Object table =
+      json::object<TalkerAts>("talker_ats", "An ATS scheduler of a stream at its talker (IEEE 802.1Q 8.6.5.6 in an end station), alone in its group.", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<AtsGroupEntry>) {
   static constexpr json::Field fields[] = {
       required<&AtsGroupEntry::name>("name", "Unique in the switch.", {.min_length = 1, .max_length = 200}),

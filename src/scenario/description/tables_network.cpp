@@ -196,6 +196,8 @@ constexpr json::Field os_field = optional<&EndStation::os, Owner>("os", "The ope
 template <class Owner>
 constexpr json::Field processing_field = optional<&EndStation::processing, Owner>("processing", "How long Programs work at process data before they reply.");
 template <class Owner>
+constexpr json::Field ats_field = optional<&EndStation::ats, Owner>("ats", "ATS schedulers of streams that the node itself sends.", {.max_items = 4096});
+template <class Owner>
 constexpr json::Field offers_field =
     optional<&EndStation::offers, Owner>("offers", "Skills that the node announces to programs with roles that need one of them.", {.max_items = 8});
 template <class Owner>
@@ -225,6 +227,7 @@ const json::Object& describe(json::Type<HostNode>) {
       processing_field<HostNode>,
       offers_field<HostNode>,
       cpu_field<HostNode>,
+      ats_field<HostNode>,
   };
   static constexpr json::Object table = json::object<HostNode>("host", "An end station.", fields);
   return table;
@@ -259,6 +262,7 @@ const json::Object& describe(json::Type<StationNode>) {
       processing_field<StationNode>,
       offers_field<StationNode>,
       cpu_field<StationNode>,
+      ats_field<StationNode>,
   };
   static constexpr json::Object table = json::object<StationNode>(
       "station", "A bridged end station: a host whose interface is a bridge of up to eight ports, with one clock and one power supply. What it sends itself competes with what it forwards.", fields);

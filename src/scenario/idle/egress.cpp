@@ -132,8 +132,9 @@ class EgressTeller {
       warn(place, "ATS without a scheduler", {"class " + std::to_string(q) + " at " + usage_.name(ports_) + ": its streams meet no ATS scheduler in the switch", "a filter with \"ats\" in its \"ingress\""});
   }
   bool has_ats(const StreamAtPort& at) const {
-    if (!at.filter) return false;
     const Resolved& r = usage_.resolved();
+    if (usage_.plan(at).talker.value == at.node) return std::ranges::find(r.plan.talker_ats, at.stream, &models::TalkerAtsPlan::stream) != r.plan.talker_ats.end();
+    if (!at.filter) return false;
     return !r.plan.ingress_configs[*r.plan.nodes[at.node].ingress].stream_filters[*at.filter].ats_scheduler.is_none();
   }
 

@@ -111,7 +111,9 @@ class EgressResolver {
     if (egress.untagged && config.cut_through != 0)
       refuse("cut_through", "cut-through where tags are taken off", "\"untagged\" too: such frames are stored", "one of them");
     if (!node.forwards() && config.cut_through != 0) refuse("cut_through", "cut-through in a host", "a host, which forwards nothing", "a switch");
-    if (!node.forwards() && !egress.ats.empty()) refuse("ats", "ATS in a host", "a host, whose frames meet no ATS scheduler", "a switch; \"launch\" of a stream for a host");
+    const EndStation* const talker = end_station_of(node.description);
+    if (!node.forwards() && !egress.ats.empty() && (talker == nullptr || talker->ats.empty()) && !diagnostics_.is_refused(node.where.at("ats")))
+      refuse("ats", "ATS in a host", "a host, whose frames meet no ATS scheduler", "schedulers in its \"ats\", or \"launch\" of a stream");
     if (const models::ClassSet both = config.preemption ? static_cast<models::ClassSet>(config.preemption->preemptable & config.cut_through) : models::ClassSet{0}; both != 0)
       refuse("cut_through", "cut-through of a preemptable class", classes(both) + ", whose frames may be cut while they come", "express classes");
     const models::ClassSet ats = set_of(egress.ats);

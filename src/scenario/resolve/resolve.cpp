@@ -30,6 +30,7 @@
 #include "scenario/resolve/requirements.hpp"
 #include "scenario/resolve/roles.hpp"
 #include "scenario/resolve/stream_builder.hpp"
+#include "scenario/resolve/talker_ats.hpp"
 #include "scenario/resolve/trace_file.hpp"
 #include "scenario/resolve/windows.hpp"
 
@@ -64,6 +65,7 @@ class Resolver {
     resolve_ingress(r_, diagnostics_);
     r_.ports = demands_of(r_, diagnostics_);
     check_policing(r_, diagnostics_);
+    resolve_talker_ats(r_, diagnostics_);
     resolve_gates_and_offsets(r_, diagnostics_);
     check_cut_through(r_, diagnostics_);
     check_slopes(r_, diagnostics_);

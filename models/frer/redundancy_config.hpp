@@ -18,7 +18,7 @@ namespace takt::models {
 struct StreamMember {
   AddressIndex destination;
   VlanId vlan = 0;
-  std::uint16_t port = 0;   ///< of a host that splits: through which it sends the member; not used in bridges
+  std::uint16_t port = 0;   ///< through which the node that splits sends the member; bridges go by their filtering databases, and by this where they must not send back
   bool operator==(const StreamMember&) const = default;
 };
 

@@ -17,20 +17,27 @@ class StreamSplit {
     TAKT_CHECK(!config_.members.empty(), "a stream is split into members");
   }
 
-  /// One frame for each member, in their order; the caller's copy of the frame is one of them. They differ in destination and
-  /// VLAN, carry the same R-TAG, and are 6 octets longer than the frame was unless it had one. Each further one counts among
-  /// the stream's copies. The span lives until the next call.
-  std::span<const FrameIndex> split(Traffic& traffic, FrameIndex frame) {
+  static constexpr std::uint16_t any_port = 0xFFFF;
+
+  /// One frame for each member, in their order, but none for those that would leave by the port `except`; the caller's copy of the frame is one of them. They differ in
+  /// destination and VLAN, carry the same R-TAG, and are 6 octets longer than the frame was unless it had one. Each further one counts among the stream's copies. The span
+  /// lives until the next call.
+  std::span<const FrameIndex> split(Traffic& traffic, FrameIndex frame, std::uint16_t except = any_port) {
     ++counters_.frames;
     const Frame& original = traffic.frame(frame);
     const SequenceNumber number = original.r_tagged ? original.r_tag_sequence : generation_.next();
-    const std::size_t last = config_.members.size() - 1;
+    std::size_t last = config_.members.size();
+    while (last-- > 0 && is_left_out(last, except)) {}
+    TAKT_CHECK(last < config_.members.size(), "a stream is split into members that leave by other ports than it came by");
+    std::size_t made = 0;
     for (std::size_t i = 0; i <= last; ++i) {
-      frames_[i] = i < last ? traffic.duplicate(frame) : traffic.own(frame);
-      address(traffic, frames_[i], config_.members[i], number);
+      if (is_left_out(i, except)) continue;
+      frames_[made] = i < last ? traffic.duplicate(frame) : traffic.own(frame);
+      address(traffic, frames_[made], config_.members[i], number);
+      ++made;
     }
-    counters_.copies += last;
-    return frames_;
+    counters_.copies += made - 1;
+    return std::span(frames_).first(made);
   }
 
   struct Counters {
@@ -43,6 +50,7 @@ class StreamSplit {
   SequenceGeneration& sequence_generation() { return generation_; }
 
  private:
+  bool is_left_out(std::size_t member, std::uint16_t except) const { return except != any_port && config_.members[member].port == except; }
   static void address(Traffic& traffic, FrameIndex index, const StreamMember& member, SequenceNumber number) {
     Frame& frame = traffic.frame(index);
     frame.on_route = false;

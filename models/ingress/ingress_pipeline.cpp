@@ -60,7 +60,8 @@ std::span<const FrameIndex> IngressPipeline::pass(sim::Simulation& simulation, c
     frame = *passed;
   }
   if (!police(simulation, frame, ingress, functions)) return {};
-  if (functions.split != none && !is_member) return splits_[functions.split].split.split(*traffic_, frame);
+  // Members that are not recovered here pass; what has been made one again is copied anew, but not back to where it came from.
+  if (functions.split != none && (!is_member || functions.recovery != none)) return splits_[functions.split].split.split(*traffic_, frame, is_member ? ingress.port : StreamSplit::any_port);
   out_ = frame;
   return {&out_, 1};
 }

@@ -335,7 +335,7 @@ class RequirementBounds {
   static RequirementBound of_losses(const StreamBound& stream) {
     RequirementBound bound;
     bound.assumptions = stream.assumptions;
-    if (stream.loses_nothing)
+    if (stream.reaches_all)   // of a redundant stream a frame counts whose copies are all lost
       bound.count = 0;
     else
       bound.reason = stream.loss_reason;

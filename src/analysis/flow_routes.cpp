@@ -10,6 +10,7 @@
 #include "models/ethernet/sizes.hpp"
 #include "scenario/resolve/cqf.hpp"
 #include "scenario/resolve/port_configs.hpp"
+#include "scenario/resolve/redundancy.hpp"
 #include "sim/check.hpp"
 
 namespace takt::analysis {
@@ -17,6 +18,7 @@ namespace {
 
 using models::NodeIndex;
 using models::TrafficClass;
+using scenario::Path;
 
 class RouteMaker {
  public:
@@ -38,16 +40,24 @@ class RouteMaker {
     if (rerouted && !rerouted->empty()) {
       prefixes_.clear();
       for (const PossiblePath& each : *rerouted) {
-        note_last(flow, each.listener, walk(flow, each.path, nullptr, 0, true));
+        note_last(flow, each.listener, walk(flow, each.path, nullptr, {}, true));
         receive(flow, each.path, plan.destination);
       }
       share_schedulers(flow);
       return;
     }
+    prefixes_.clear();
     for (std::size_t i = 0; i < stream.paths.size(); ++i) {
-      const std::size_t members = redundancy != nullptr ? redundancy->members.size() : 1;
-      note_last(flow, i / members, walk(flow, stream.paths[i], redundancy, i % members, false));
-      receive(flow, stream.paths[i], redundancy != nullptr && redundancy->merges_in_host ? redundancy->members[i % members].destination : plan.destination);
+      const Path& path = stream.paths[i];
+      if (redundancy == nullptr) {
+        note_last(flow, i, walk(flow, path, nullptr, {}, false));
+        receive(flow, path, plan.destination);
+        continue;
+      }
+      const std::vector<scenario::OnHop> hops = scenario::on_hops(r_, *redundancy, i);
+      note_last(flow, redundancy->is_ladder() ? 0 : i / redundancy->members.size(), walk(flow, path, redundancy, hops, false));
+      receive(flow, path, redundancy->merges_in_host ? redundancy->members[*hops.back().member].destination : plan.destination);
+      if (redundancy->is_ladder() && i == 0) add_late_copies(flow, path, *redundancy, hops);
     }
   }
 
@@ -67,6 +77,31 @@ class RouteMaker {
 
  private:
   static constexpr std::uint32_t nobody = 0xFFFF'FFFF;
+
+  /// What goes over the links of a ladder and comes to no listener: copies that end where one has passed before, at a relay that they have come by. No relay sends back by the
+  /// port by which a frame came.
+  void add_late_copies(std::uint32_t flow, const Path& path, const scenario::ResolvedRedundancy& redundancy, const std::vector<scenario::OnHop>& hops) {
+    const auto split = std::ranges::find(path, redundancy.split) + 1;
+    std::vector<Path> open{Path(path.begin(), split)};
+    const std::size_t common = open.front().size() - 1;
+    while (!open.empty()) {
+      const Path way = std::move(open.back());
+      open.pop_back();
+      for (auto link = redundancy.member_of_link.lower_bound({way.back(), 0}); link != redundancy.member_of_link.end() && link->first.first == way.back(); ++link) {
+        const std::uint32_t next = link->first.second;
+        if (next == redundancy.merge || (way.size() > 1 && next == way[way.size() - 2])) continue;
+        Path longer = way;
+        longer.push_back(next);
+        if (std::ranges::find(way, next) == way.end()) {
+          open.push_back(std::move(longer));
+          continue;
+        }
+        std::vector<scenario::OnHop> on(hops.begin(), hops.begin() + static_cast<std::ptrdiff_t>(common));
+        for (std::size_t i = common; i + 1 < longer.size(); ++i) on.push_back({redundancy.member_of_link.at({longer[i], longer[i + 1]}), true});
+        walk(flow, longer, &redundancy, on, false);
+      }
+    }
+  }
 
   /// In a station what is for the host passes the ingress, too. How meters and buckets stand there is not followed.
   void receive(std::uint32_t flow, const scenario::Path& path, models::AddressIndex address) {
@@ -103,39 +138,37 @@ class RouteMaker {
     return prefixes_.try_emplace(scenario::Path(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(at) + 1), prefixes_.size() + 1).first->second;
   }
 
-  /// Adds the hops of one path that are not there yet; the last one.
-  std::uint32_t walk(std::uint32_t flow, const scenario::Path& path, const scenario::ResolvedRedundancy* redundancy, std::size_t number, bool is_rerouted) {
+  /// Adds the hops of one path that are not there yet; the last one. `on` says what of a redundant stream goes over each of them.
+  std::uint32_t walk(std::uint32_t flow, const Path& path, const scenario::ResolvedRedundancy* redundancy, const std::vector<scenario::OnHop>& on, bool is_rerouted) {
     const scenario::ResolvedStream& stream = r_.streams[graph_.flows[flow].stream.value];
     const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
     const sim::Octets largest = graph_.flows[flow].payload.value_or(stream.largest_payload);
     const sim::Octets smallest = graph_.flows[flow].payload ? std::min(*graph_.flows[flow].payload, least_dds_message) : smallest_payload(stream);
     std::uint32_t parent = nobody;
-    bool is_member = false;
-    bool was_merged = false;
     bool tagged = plan.priority.has_value();
     for (std::size_t at = 0; at + 1 < path.size(); ++at) {
       const std::uint16_t port_number = *r_.topology.port_towards(path[at], path[at + 1]);
-      const bool splits = redundancy != nullptr && path[at] == redundancy->split;
-      if (redundancy != nullptr) {
-        was_merged = was_merged || (is_member && path[at] == redundancy->merge);
-        is_member = splits || (is_member && path[at] != redundancy->merge);
-      }
+      const scenario::OnHop here = redundancy != nullptr ? on[at] : scenario::OnHop{};
+      const scenario::OnHop before = redundancy != nullptr && at > 0 ? on[at - 1] : scenario::OnHop{};
+      const scenario::ResolvedRedundancy::Relay* const relay = redundancy != nullptr ? redundancy->relay_at(path[at]) : nullptr;
+      const bool splits = redundancy != nullptr && (path[at] == redundancy->split || (relay != nullptr && relay->out.size() > 1));
       const std::uint32_t port = port_at_.at({path[at], port_number});
       const models::PortConfig& config = r_.plan.port_configs[graph_.ports[port].config];
       if (scenario::strips_tags(r_.topology, config, path[at], at == 0)) tagged = false;
-      const std::size_t member = is_rerouted ? number_of_prefix(path, at) : is_member ? number + 1 : 0;
+      // In a ladder, too, what has come another way is another flow until all of it is one again.
+      const bool is_by_prefix = is_rerouted || (here.member && redundancy->is_ladder());
+      const std::size_t member = is_by_prefix ? number_of_prefix(path, at) : here.member ? *here.member + 1 : 0;
       const auto [known, is_new] = hop_at_.try_emplace({member, path[at], port_number}, static_cast<std::uint32_t>(graph_.hops.size()));
       const std::uint32_t hop = known->second;
       if (is_new) {
-        const bool r_tagged = is_member || (was_merged && redundancy->description->keep_tag);
         Hop made;
         made.flow = flow;
         made.port = port;
-        made.frame = models::frame_length(plan.headers + largest, tagged, r_tagged);
-        made.msdu = plan.headers + largest + (r_tagged ? models::r_tag : sim::Octets{0});
-        made.shortest = models::frame_length(plan.headers + smallest, tagged, r_tagged);
+        made.frame = models::frame_length(plan.headers + largest, tagged, here.r_tagged);
+        made.msdu = plan.headers + largest + (here.r_tagged ? models::r_tag : sim::Octets{0});
+        made.shortest = models::frame_length(plan.headers + smallest, tagged, here.r_tagged);
         made.is_copied_here = splits;
-        const models::AddressIndex address = is_member && !splits ? redundancy->members[number].destination : plan.destination;
+        const models::AddressIndex address = before.member ? redundancy->members[*before.member].destination : plan.destination;
         const std::uint16_t in_port = at > 0 ? *r_.topology.port_towards(path[at], path[at - 1]) : std::uint16_t{0};
         made.lowest_class = made.highest_class = config.traffic_class_of_priority[at == 0 ? plan.priority_at_talker() : plan.priority.value_or(0)];
         if (at > 0) pass_ingress(made, config, plan, path[at], in_port, address);   // what a station sends itself does not come in

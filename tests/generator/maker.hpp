@@ -106,6 +106,7 @@ class Maker {
   std::vector<Group> groups;              ///< the programs: what each is
   bool inner_has_roles = false;           ///< instead of a group of its own with roles
   std::vector<std::string> skills;        ///< that are offered
+  std::map<std::string, std::string> shaped_at;   ///< streams that a talker shapes, and the talker
   std::map<std::string, Node> kept;       ///< what rules make once for the whole scenario
   /// The scenario as far as it has been made.
   const Node& root() const { return *root_; }

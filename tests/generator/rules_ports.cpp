@@ -94,6 +94,30 @@ Made shares(Maker& m, const Scope& s) {
   return made;
 }
 
+/// All classes of a host that shapes a stream, which is to be its own; none if it launches frames or shapes them otherwise.
+Made talker_classes(Maker& m, const Scope& s, const std::string& host) {
+  if (m.wants(Feature::launch) || !taken(s, "shapers").empty() || m.streams == 0) return std::nullopt;
+  if (!m.shaped_at.try_emplace("s" + std::to_string(m.draw.below(m.streams)), host).second) return std::nullopt;
+  return numbers({0, 1, 2, 3, 4, 5, 6, 7});
+}
+
+Made talker_schedulers(Maker& m, const Scope& s) {
+  Node made = Node::array();
+  for (const auto& [stream, host] : m.shaped_at)
+    if (host == s.name) made.items.push_back(m.object("talker_ats", &s, stream));
+  if (made.items.empty()) return std::nullopt;
+  return made;
+}
+/// A stream that it will send, if no other talker has it; the class may not be one of its ports, which is refused.
+Made station_schedulers(Maker& m, const Scope& s) {
+  if (m.wants(Feature::launch) || m.streams == 0) return std::nullopt;
+  const Node* const egress = s.made->find("egress");
+  if (egress == nullptr || egress->items.empty() || egress->items[0].find("ats") == nullptr) return std::nullopt;
+  const std::string stream = "s" + std::to_string(m.draw.below(m.streams));
+  if (!m.shaped_at.try_emplace(stream, s.name).second) return std::nullopt;
+  return list({m.object("talker_ats", &s, stream)});
+}
+
 /// Classes that share bandwidth are all preemptable or all express.
 Made preemptable_classes(Maker& m, const Scope& s) {
   const std::vector<int> shared = taken(*s.around("egress"), "ets");
@@ -124,6 +148,11 @@ std::span<const Rule> port_rules() {
          if (made.members.empty()) return std::nullopt;
          return list({std::move(made)});
        }},
+      {.key = "host.ats", .feature = Feature::ats, .percent = 100, .make = talker_schedulers},
+      {.key = "station.ats", .feature = Feature::ats, .percent = 40, .make = station_schedulers},
+      {.key = "talker_ats.stream", .make = [](Maker&, const Scope& s) -> Made { return text(s.name); }},
+      {.key = "talker_ats.rate", .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() ? "1Mbps 3Mbps" : "4Mbps 12Mbps 33333333bps"); }},
+      {.key = "talker_ats.burst", .words = "1560B 2000B 5000B"},
       {.key = "generator.egress", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made {
          if (!wants_egress(m)) return std::nullopt;
          Node made = m.object("egress", &s, {}, 0);
@@ -144,7 +173,7 @@ std::span<const Rule> port_rules() {
          return made;
        }},
       {.key = "egress.ats", .feature = Feature::ats, .percent = 80, .make = [](Maker& m, const Scope& s) -> Made {
-         if (s.around("host") != nullptr) return std::nullopt;
+         if (const Scope* const host = s.around("host")) return talker_classes(m, s, host->name);
          const std::vector<int> some = m.classes(2, taken(s, "shapers"));
          if (some.empty()) return std::nullopt;
          return numbers(some);

@@ -84,7 +84,10 @@ std::span<const Rule> traffic_rules() {
   static const Rule rules[] = {
       {.key = "scenario.streams", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return m.streams > 0 ? Made(m.objects("stream", m.streams, s)) : std::nullopt; }},
       {.key = "stream.name", .make = [](Maker&, const Scope& s) -> Made { return text("s" + std::to_string(s.number)); }},
-      {.key = "stream.from", .make = [](Maker& m, const Scope&) -> Made { return text(m.draw.any(m.world.hosts)); }},
+      {.key = "stream.from", .make = [](Maker& m, const Scope& s) -> Made {
+         const auto shaped = m.shaped_at.find(s.text("name"));
+         return text(shaped != m.shaped_at.end() ? shaped->second : m.draw.any(m.world.hosts));
+       }},
       {.key = "stream.to", .make = to},
       {.key = "stream.payload", .percent = 90, .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() ? "18B 60B 100B 400B" : "18B 60B 100B 200B 500B 900B 1200B 1400B"); }},
       {.key = "stream.encapsulation", .percent = 25},
@@ -112,11 +115,13 @@ std::span<const Rule> traffic_rules() {
       {.key = "bursts.frames", .words = "1 2 3 4 5 6"},
       {.key = "bursts.every", .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() || m.is_long() ? "10ms" : "1ms 2ms"); }},
       {.key = "bursts.spacing", .percent = 60, .words = "0ns 6720ns 50us"},
-      {.key = "redundancy.count", .percent = 60, .words = "2"},
-      {.key = "redundancy.paths", .percent = 40, .make = paths},
+      {.key = "redundancy.count", .percent = 60, .make = [](Maker&, const Scope& s) -> Made { return s.has("ladder") ? Made() : number(2); }},
+      {.key = "redundancy.paths", .percent = 70, .make = paths},
       {.key = "redundancy.vlans", .percent = 20, .make = [](Maker&, const Scope& s) -> Made { return s.around("stream")->has("pcp") ? Made(list({number(101), number(102)})) : std::nullopt; }},
-      {.key = "redundancy.split", .percent = 25, .make = [](Maker& m, const Scope& s) -> Made { return end_of_paths(m, s, true); }},
-      {.key = "redundancy.merge", .percent = 25, .make = [](Maker& m, const Scope& s) -> Made { return end_of_paths(m, s, false); }},
+      {.key = "redundancy.ladder", .percent = 20, .make = [](Maker&, const Scope& s) -> Made { return receivers(*s.around("stream")).size() == 1 && !s.has("vlans") ? Made(Node::of_bool(true)) : std::nullopt; }},
+      {.key = "redundancy.number", .percent = 25, .make = [](Maker&, const Scope& s) -> Made { return receivers(*s.around("stream")).size() == 1 ? Made(text(s.around("stream")->text("from"))) : std::nullopt; }},
+      {.key = "redundancy.split", .percent = 25, .make = [](Maker& m, const Scope& s) -> Made { return s.has("ladder") || s.has("number") ? Made() : end_of_paths(m, s, true); }},
+      {.key = "redundancy.merge", .percent = 25, .make = [](Maker& m, const Scope& s) -> Made { return s.has("ladder") ? Made() : end_of_paths(m, s, false); }},
       {.key = "redundancy.history", .percent = 50, .words = "2 8 31 64"},
       {.key = "redundancy.reset_timeout", .percent = 40, .words = "200us 1ms 1s"},
       {.key = "redundancy.take_untagged", .percent = 15},

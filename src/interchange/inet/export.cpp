@@ -133,6 +133,7 @@ class InetWriter {
     lose("stream " + stream.name, "where its numbers begin: INET numbers at the talker, so that the first cable has 6 octets more, and keeps the tag behind the merge");
     for (const scenario::ResolvedRedundancy& redundancy : r_.redundancies) {
       if (r_.plan.streams[redundancy.stream.value].name != stream.name) continue;
+      if (redundancy.is_ladder()) return lose("stream " + stream.name, "the links of its ladder: trees do not meet again");
       const scenario::ResolvedStream& resolved = r_.streams[redundancy.stream.value];
       std::string trees;
       for (const scenario::Path& path : resolved.paths) {

@@ -83,6 +83,8 @@ class ScriptWriter {
 
   /// Which priority is in the tag is said once for each VLAN.
   void write_vlans_of_host() {
+    if (std::ranges::any_of(r_.plan.talker_ats, [&](const models::TalkerAtsPlan& each) { return r_.plan.streams[each.stream.value].talker.value == device_.node; }))
+      exported_.lose(device_.name, "ATS schedulers of what the host itself sends: there is no such qdisc");
     std::set<std::uint16_t> vlans;
     for (const models::StreamPlan& stream : r_.plan.streams)
       if (stream.talker.value == device_.node && stream.priority) vlans.insert(stream.vlan);

@@ -40,6 +40,7 @@ class NodeWriter {
     const bool splits = std::ranges::any_of(r_.plan.host_splits, [&](const models::HostSplitPlan& each) { return r_.plan.streams[each.stream.value].talker.value == device_.node; });
     const bool recovers = std::ranges::any_of(r_.plan.host_recoveries, [&](const models::HostRecoveryPlan& each) { return each.host.value == device_.node; });
     if (splits || recovers) exported_.lose(device_.name, "redundancy (802.1CB) in the host");
+    if (std::ranges::any_of(r_.plan.talker_ats, [&](const models::TalkerAtsPlan& each) { return r_.plan.streams[each.stream.value].talker.value == device_.node; })) exported_.lose(device_.name, "ATS schedulers of what the host itself sends");
     return root;
   }
 

@@ -179,6 +179,8 @@ struct Redundancy {
   std::optional<std::uint32_t> count;
   std::optional<std::vector<std::vector<std::string>>> paths;
   std::vector<std::uint16_t> vlans;
+  bool ladder = false;
+  std::optional<std::string> number;
   std::optional<std::string> split;
   std::optional<std::string> merge;
   Recovery algorithm = Recovery::vector;

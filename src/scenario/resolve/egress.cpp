@@ -245,12 +245,18 @@ void check_slopes(const Resolved& r, json::Diagnostics& diagnostics) {
 
 void check_cut_through(const Resolved& r, json::Diagnostics& diagnostics) {
   for (const ResolvedRedundancy& redundancy : r.redundancies) {
-    if (redundancy.merges_in_host) continue;   // hosts get whole frames
-    const TopologyNode& merge = r.topology.nodes[redundancy.merge];
-    for (const Egress& egress : egress_entries_of(merge))
-      if (!egress.cut_through.empty())
-        diagnostics.error(egress.where.at("cut_through"), "cut-through where a redundant stream is merged",
-                          {json::quote(merge.name) + ", where a damaged frame would take the place of its good copy", "a switch that merges nothing"});
+    std::vector<std::uint32_t> merges;
+    for (const ResolvedRedundancy::Relay& relay : redundancy.relays)
+      if (relay.in.size() > 1) merges.push_back(relay.node);
+    if (!redundancy.is_ladder()) merges.push_back(redundancy.merge);
+    for (const std::uint32_t node : merges) {
+      if (node == redundancy.merge && redundancy.merges_in_host) continue;   // hosts get whole frames
+      const TopologyNode& merge = r.topology.nodes[node];
+      for (const Egress& egress : egress_entries_of(merge))
+        if (!egress.cut_through.empty())
+          diagnostics.error(egress.where.at("cut_through"), "cut-through where a redundant stream is merged",
+                            {json::quote(merge.name) + ", where a damaged frame would take the place of its good copy", "a switch that merges nothing"});
+    }
   }
 }
 

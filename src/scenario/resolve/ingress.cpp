@@ -24,6 +24,21 @@ struct Crossing {
 /// Whether the bridge of that node does it.
 bool splits_at(const ResolvedRedundancy& redundancy, std::uint32_t node) { return redundancy.split == node && !redundancy.splits_in_host; }
 bool merges_at(const ResolvedRedundancy& redundancy, std::uint32_t node) { return redundancy.merge == node && !redundancy.merges_in_host; }
+bool numbers_at(const ResolvedRedundancy& redundancy, std::uint32_t node) { return redundancy.number == node && redundancy.number != redundancy.split && !redundancy.numbers_in_host; }
+/// The relay of a ladder there, if it is the bridge of that node.
+const ResolvedRedundancy::Relay* relay_at(const ResolvedRedundancy& redundancy, std::uint32_t node) {
+  const bool is_in_host = (redundancy.split == node && redundancy.splits_in_host) || (redundancy.merge == node && redundancy.merges_in_host);
+  return is_in_host ? nullptr : redundancy.relay_at(node);
+}
+bool has_function_at(const ResolvedRedundancy& redundancy, std::uint32_t node) {
+  return splits_at(redundancy, node) || merges_at(redundancy, node) || numbers_at(redundancy, node) || relay_at(redundancy, node) != nullptr;
+}
+/// Of a host that is a relay at one end of a ladder.
+std::vector<models::StreamMember> members_of(const ResolvedRedundancy& redundancy, const std::vector<std::uint32_t>& numbers) {
+  std::vector<models::StreamMember> members;
+  for (const std::uint32_t number : numbers) members.push_back(redundancy.members[number]);
+  return members;
+}
 
 /// The ingress of one switch or station.
 class NodeIngress {
@@ -37,7 +52,7 @@ class NodeIngress {
 
   models::IngressConfig build() {
     for (const ResolvedRedundancy* const redundancy : crossing_.redundancies)
-      if (splits_at(*redundancy, node_) || merges_at(*redundancy, node_)) add_redundancy(*redundancy);
+      if (has_function_at(*redundancy, node_)) add_redundancy(*redundancy);
     if (description_) add_description();
     return std::move(config_);
   }
@@ -47,6 +62,13 @@ class NodeIngress {
 
   void add_redundancy(const ResolvedRedundancy& redundancy) {
     const models::StreamHandle handle = handle_of(redundancy.stream.value);
+    if (numbers_at(redundancy, node_)) config_.splits.push_back({handle, numbering_config(r_, redundancy)});
+    if (redundancy.is_ladder()) {
+      const ResolvedRedundancy::Relay* const relay = relay_at(redundancy, node_);
+      if (relay != nullptr && relay->in.size() > 1) config_.recoveries.push_back({handle, ladder_recovery(r_, redundancy, *relay, diagnostics_)});
+      if (relay != nullptr && relay->out.size() > 1) config_.splits.push_back({handle, {members_of(redundancy, relay->out)}});
+      return;
+    }
     if (splits_at(redundancy, node_)) config_.splits.push_back({handle, {redundancy.members}});
     if (merges_at(redundancy, node_)) config_.recoveries.push_back({handle, recovery_config(r_, redundancy, diagnostics_)});
   }
@@ -63,7 +85,13 @@ class NodeIngress {
       for (std::size_t i = 0; i < redundancy->members.size(); ++i) {
         const models::StreamMember& member = redundancy->members[i];
         models::StreamIdentityEntry entry{at->second, models::AddressIdentification{member.destination, models::Tagged::all, member.vlan}};
-        if (merges_at(*redundancy, node_)) entry.member = static_cast<std::uint16_t>(i);
+        if (redundancy->is_ladder()) {
+          const ResolvedRedundancy::Relay* const relay = relay_at(*redundancy, node_);
+          const auto place = relay == nullptr ? std::vector<std::uint32_t>::const_iterator() : std::ranges::find(relay->in, i);
+          if (relay != nullptr && relay->in.size() > 1 && place != relay->in.end()) entry.member = static_cast<std::uint16_t>(place - relay->in.begin());
+        } else if (merges_at(*redundancy, node_)) {
+          entry.member = static_cast<std::uint16_t>(i);
+        }
         config_.stream_identity_table.push_back(entry);
       }
     }
@@ -234,15 +262,17 @@ std::vector<Crossing> crossings_of(const Resolved& r) {
 void resolve_ingress(Resolved& r, json::Diagnostics& diagnostics) {
   const std::vector<Crossing> crossings = crossings_of(r);
   for (const ResolvedRedundancy& redundancy : r.redundancies) {
-    if (redundancy.splits_in_host) r.plan.host_splits.push_back({redundancy.stream, {redundancy.members}});
+    if (redundancy.numbers_in_host) r.plan.host_splits.push_back({redundancy.stream, numbering_config(r, redundancy)});
+    if (redundancy.splits_in_host)
+      r.plan.host_splits.push_back({redundancy.stream, {redundancy.is_ladder() ? members_of(redundancy, redundancy.relay_at(redundancy.split)->out) : redundancy.members}});
     if (redundancy.merges_in_host)
       for (const models::NodeIndex listener : r.plan.streams[redundancy.stream.value].listeners)
-        r.plan.host_recoveries.push_back({listener, redundancy.stream, recovery_config(r, redundancy, diagnostics)});
+        r.plan.host_recoveries.push_back({listener, redundancy.stream, redundancy.is_ladder() ? ladder_recovery(r, redundancy, *redundancy.relay_at(redundancy.merge), diagnostics) : recovery_config(r, redundancy, diagnostics)});
   }
   for (std::uint32_t n = 0; n < r.topology.nodes.size(); ++n) {
     if (!r.topology.nodes[n].forwards()) continue;
     const bool has_functions = std::any_of(crossings[n].redundancies.begin(), crossings[n].redundancies.end(),
-                                           [&](const ResolvedRedundancy* redundancy) { return splits_at(*redundancy, n) || merges_at(*redundancy, n); });
+                                           [&](const ResolvedRedundancy* redundancy) { return has_function_at(*redundancy, n); });
     if (!has_functions && !relay_of(r.topology.nodes[n].description)->ingress) continue;
     models::IngressConfig config = NodeIngress(r, n, crossings[n], diagnostics).build();
     r.plan.nodes[n].ingress = static_cast<std::uint32_t>(r.plan.ingress_configs.size());

@@ -113,7 +113,7 @@ class Ways {
     for (const StreamAtPort& at : streams_at_ports(r_)) at_[at.stream.value].push_back(at);
     for (const models::LinkPlan& link : r_.plan.links)
       for (const models::LinkPlan::End* end : {&link.a, &link.b}) ends_[{end->node.value, end->port}] = {&link, end};
-    for (const ResolvedRedundancy& each : r_.redundancies) members_[each.stream.value] = each.members.size();
+    for (const ResolvedRedundancy& each : r_.redundancies) members_[each.stream.value] = each.is_ladder() ? r_.streams[each.stream.value].paths.size() : each.members.size();
   }
 
   void run() {

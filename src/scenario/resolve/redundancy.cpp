@@ -21,18 +21,67 @@ class MemberLayer {
 
   std::optional<MemberPaths> lay() {
     MemberPaths members;
+    if (!check_ladder()) return std::nullopt;
     members.paths = redundancy_.paths ? given() : found();
     if (members.paths.size() < 2) return std::nullopt;   // reported, or refused by the table
+    if (redundancy_.ladder && !add_ways(members.paths)) return std::nullopt;
     members.split = common(members.paths, [](const Path& path, std::size_t i) { return path[i]; }) - 1;
     members.after_merge = common(members.paths, [](const Path& path, std::size_t i) { return path[path.size() - 1 - i]; }) - 1;
-    warn_of_shared_links(members);
+    if (!redundancy_.ladder) warn_of_shared_links(members);
     const bool split_is_fine = move_split(members);
     const bool merge_is_fine = move_merge(members);
-    if (!split_is_fine || !merge_is_fine) return std::nullopt;
+    if (!split_is_fine || !merge_is_fine || !set_number(members)) return std::nullopt;
     return members;
   }
 
  private:
+  static constexpr std::size_t most_ways = 64;
+
+  bool check_ladder() {
+    if (!redundancy_.ladder) return true;
+    const std::size_t errors_before = diagnostics_.errors();
+    const auto refuse = [&](std::string_view key, const std::string& expected) { diagnostics_.error(redundancy_.where.at(key), "a ladder otherwise than by its paths", {"\"" + std::string(key) + "\" beside \"ladder\"", expected}); };
+    if (!redundancy_.paths && !diagnostics_.is_refused(redundancy_.where.at("paths")))
+      diagnostics_.error(redundancy_.where.at("ladder"), "a ladder without paths", {"no \"paths\"", "\"paths\" that meet and part again"});
+    if (!redundancy_.vlans.empty()) refuse("vlans", "the VLAN of the stream");
+    if (redundancy_.split) refuse("split", "the node where the paths part, which copies");
+    if (redundancy_.merge) refuse("merge", "the node where the last of them meet");
+    return diagnostics_.errors() == errors_before;
+  }
+
+  /// All ways through the links of the given paths that come to no node twice; the given ones first.
+  bool add_ways(std::vector<Path>& paths) {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> next;
+    for (const Path& path : paths)
+      for (std::size_t i = 0; i + 1 < path.size(); ++i)
+        if (auto& nodes = next[path[i]]; std::ranges::find(nodes, path[i + 1]) == nodes.end()) nodes.push_back(path[i + 1]);
+    std::vector<Path> open{{from_}};
+    while (!open.empty()) {
+      const Path way = std::move(open.back());
+      open.pop_back();
+      if (way.back() == to_) {
+        if (std::ranges::find(paths, way) == paths.end()) paths.push_back(way);
+        if (paths.size() <= most_ways) continue;
+        diagnostics_.error(place("paths"), "too many ways through a ladder", {"more than " + std::to_string(most_ways), "at most " + std::to_string(most_ways)});
+        return false;
+      }
+      for (const std::uint32_t node : next[way.back()]) {
+        if (std::ranges::find(way, node) != way.end()) continue;
+        open.push_back(way);
+        open.back().push_back(node);
+      }
+    }
+    return true;
+  }
+
+  bool set_number(MemberPaths& members) {
+    members.number = members.split;
+    if (!redundancy_.number) return true;
+    const auto at = position(*redundancy_.number, "number", members.split, "before they are copied", [&](std::size_t i) { return members.paths.front()[i]; });
+    members.number = at.value_or(members.split);
+    return at.has_value();
+  }
+
   std::string name(std::uint32_t node) const { return json::quote(r_.topology.nodes[node].name); }
   json::Place place(std::string_view key) const { return redundancy_.where.at(key); }
 
@@ -156,6 +205,8 @@ class TreeLayer {
     };
     if (redundancy_.paths) refuse("paths", "\"count\", for which two trees are laid");
     if (redundancy_.count.value_or(2) != 2) refuse("count", "2");
+    if (redundancy_.ladder) refuse("ladder", "two trees");
+    if (redundancy_.number) refuse("number", "the sender, which numbers");
     if (redundancy_.split) refuse("split", "the sender, which splits");
     if (redundancy_.merge) refuse("merge", "the receivers, each of which merges");
     if (diagnostics_.errors() != errors_before) return std::nullopt;
@@ -227,6 +278,73 @@ std::optional<MemberPaths> lay_members(const Resolved& resolved, const Redundanc
 std::optional<MemberPaths> lay_member_trees(const Resolved& resolved, const Redundancy& redundancy, std::uint32_t from,
                                             const std::vector<std::pair<std::uint32_t, json::Place>>& to, json::Diagnostics& diagnostics) {
   return TreeLayer(resolved, redundancy, from, diagnostics).lay(to);
+}
+
+std::vector<OnHop> on_hops(const Resolved& r, const ResolvedRedundancy& redundancy, std::size_t number_of_path) {
+  const Path& path = r.streams[redundancy.stream.value].paths[number_of_path];
+  std::vector<OnHop> hops;
+  bool is_member = false;
+  bool r_tagged = false;
+  for (std::size_t at = 0; at + 1 < path.size(); ++at) {
+    if (is_member && path[at] == redundancy.merge) {
+      is_member = false;
+      r_tagged = redundancy.description->keep_tag;
+    }
+    if (path[at] == redundancy.number) r_tagged = true;
+    if (path[at] == redundancy.split) is_member = r_tagged = true;
+    OnHop hop{{}, r_tagged};
+    if (is_member) hop.member = redundancy.is_ladder() ? redundancy.member_of_link.at({path[at], path[at + 1]}) : number_of_path % redundancy.members.size();
+    hops.push_back(hop);
+  }
+  return hops;
+}
+
+void lay_ladder(const MemberPaths& ways, ResolvedRedundancy& redundancy, const std::function<models::StreamMember(std::uint32_t, std::uint32_t)>& member) {
+  std::map<std::uint32_t, std::set<std::uint32_t>> before, behind;
+  for (const Path& path : ways.paths)
+    for (std::size_t i = ways.split; i < ways.merge(path); ++i) {
+      behind[path[i]].insert(path[i + 1]);
+      before[path[i + 1]].insert(path[i]);
+    }
+  const auto is_relay = [&](std::uint32_t node) { return before[node].size() != 1 || behind[node].size() != 1; };
+  for (const Path& path : ways.paths)
+    for (std::size_t i = ways.split; i < ways.merge(path); ++i) {
+      const auto [at, is_new] = redundancy.member_of_link.try_emplace({path[i], path[i + 1]}, static_cast<std::uint32_t>(redundancy.members.size()));
+      if (!is_new) continue;
+      if (is_relay(path[i])) redundancy.members.push_back(member(path[i], path[i + 1]));
+      else at->second = redundancy.member_of_link.at({path[i - 1], path[i]});
+    }
+  std::map<std::uint32_t, ResolvedRedundancy::Relay> relays;
+  const auto note = [](std::vector<std::uint32_t>& members, std::uint32_t one) {
+    if (std::ranges::find(members, one) == members.end()) members.push_back(one);
+  };
+  for (const auto& [link, number] : redundancy.member_of_link) {
+    if (is_relay(link.first)) note(relays[link.first].out, number);
+    if (is_relay(link.second)) note(relays[link.second].in, number);
+  }
+  for (auto& [node, relay] : relays) {
+    relay.node = node;
+    std::ranges::sort(relay.in);
+    std::ranges::sort(relay.out);
+    redundancy.relays.push_back(std::move(relay));
+  }
+}
+
+models::StreamRecoveryConfig ladder_recovery(const Resolved& r, const ResolvedRedundancy& redundancy, const ResolvedRedundancy::Relay& relay, json::Diagnostics& diagnostics) {
+  models::StreamRecoveryConfig config = recovery_config(r, redundancy, diagnostics);
+  config.members.clear();
+  for (const std::uint32_t member : relay.in) config.members.push_back(redundancy.members[member]);
+  if (config.latent_error_detection) config.latent_error_detection->paths = static_cast<std::uint32_t>(relay.in.size());
+  if (!relay.out.empty()) config.keep_r_tag = true;
+  if (relay.out.size() != 1) return config;
+  config.destination = redundancy.members[relay.out.front()].destination;
+  config.vlan = redundancy.members[relay.out.front()].vlan;
+  return config;
+}
+
+models::StreamSplitConfig numbering_config(const Resolved& r, const ResolvedRedundancy& redundancy) {
+  const models::StreamPlan& stream = r.plan.streams[redundancy.stream.value];
+  return {{models::StreamMember{stream.destination, stream.vlan, redundancy.numbering_port}}};
 }
 
 models::StreamRecoveryConfig recovery_config(const Resolved& r, const ResolvedRedundancy& redundancy, json::Diagnostics& diagnostics) {

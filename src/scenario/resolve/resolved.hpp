@@ -1,7 +1,9 @@
 // What a scenario comes down to once names are found, paths are laid and everything has been checked.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -186,9 +188,26 @@ struct ResolvedRedundancy {
   std::uint32_t split = 0;                     ///< node
   std::uint32_t merge = 0;                     ///< node; of several listeners, each of which merges for itself, none
   static constexpr std::uint32_t nobody = 0xFFFF'FFFF;
-  std::vector<models::StreamMember> members;   ///< by path
+  std::uint32_t number = 0;                    ///< node; the split, or one before it
+  std::vector<models::StreamMember> members;   ///< by path; of a ladder by the stretch from one relay to the next
   bool splits_in_host = false;                 ///< at the talker, not by what a bridge does to frames that come in
   bool merges_in_host = false;                 ///< at the listener
+  bool numbers_in_host = false;
+  std::uint16_t numbering_port = 0;            ///< of a host that numbers: by which the stream leaves it
+
+  /// Of a ladder: a node where ways meet or part, with the members that come and go. The split and the merge are two of them.
+  struct Relay {
+    std::uint32_t node = 0;
+    std::vector<std::uint32_t> in;
+    std::vector<std::uint32_t> out;            ///< none at the merge
+  };
+  std::vector<Relay> relays;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> member_of_link;   ///< of a ladder: which goes from a node to the next
+  bool is_ladder() const { return !relays.empty(); }
+  const Relay* relay_at(std::uint32_t node) const {
+    const auto at = std::ranges::find(relays, node, &Relay::node);
+    return at == relays.end() ? nullptr : &*at;
+  }
 };
 
 /// What takt chose where a file says "offset": "auto".

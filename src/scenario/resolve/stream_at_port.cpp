@@ -7,6 +7,7 @@
 #include "models/ethernet/sizes.hpp"
 
 #include "scenario/resolve/port_configs.hpp"
+#include "scenario/resolve/redundancy.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -23,42 +24,39 @@ class Walker {
     for (const ResolvedStream& stream : r_.streams) {
       const auto redundant = redundancies_.find(stream.index.value);
       seen_.clear();
-      for (std::size_t i = 0; i < stream.paths.size(); ++i) walk(stream, stream.paths[i], redundant == redundancies_.end() ? nullptr : redundant->second, redundant == redundancies_.end() ? i : i % redundant->second->members.size());
+      for (std::size_t i = 0; i < stream.paths.size(); ++i) walk(stream, i, redundant == redundancies_.end() ? nullptr : redundant->second);
     }
     return std::move(found_);
   }
 
  private:
-  void walk(const ResolvedStream& stream, const Path& path, const ResolvedRedundancy* redundancy, std::size_t number) {
+  void walk(const ResolvedStream& stream, std::size_t number, const ResolvedRedundancy* redundancy) {
     const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
+    const Path& path = stream.paths[number];
     const Octets msdu = plan.headers + stream.largest_payload;
-    const bool keeps = redundancy != nullptr && redundancy->description->keep_tag;
-    bool is_member = false;
-    bool r_tagged = false;
+    const std::vector<OnHop> hops = redundancy != nullptr ? on_hops(r_, *redundancy, number) : std::vector<OnHop>(path.size() - 1);
+    OnHop before;
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
       const std::uint16_t port = *r_.topology.port_towards(path[i], path[i + 1]);
       StreamAtPort made{stream.index, {}, path[i], port, path[i + 1]};
       models::Frame frame;
       frame.stream = stream.index;
       frame.source = models::AddressIndex{plan.talker.value};
-      frame.destination = is_member ? redundancy->members[number].destination : plan.destination;
-      frame.vlan = is_member ? redundancy->members[number].vlan : plan.vlan;
+      frame.destination = before.member ? redundancy->members[*before.member].destination : plan.destination;
+      frame.vlan = before.member ? redundancy->members[*before.member].vlan : plan.vlan;
       frame.priority = plan.priority.value_or(0);
       frame.tagged = plan.priority.has_value();
       if (i > 0) made.filter = ingress_.filter(path[i], frame);   // what a station sends itself does not come in
-      if (redundancy != nullptr && is_member && path[i] == redundancy->merge) {
-        is_member = false;
-        r_tagged = keeps;
-      }
-      made.policed_frame = models::frame_length(msdu, frame.tagged, r_tagged);
-      made.policed_msdu = msdu + (r_tagged ? models::r_tag : Octets{0});
-      if (redundancy != nullptr && path[i] == redundancy->split) is_member = r_tagged = true;
-      if (is_member) made.member = number;
-      if (!seen_.insert({made.member ? number + 1 : 0, path[i], port}).second) continue;
+      const bool is_policed_tagged = before.member && path[i] == redundancy->merge ? redundancy->description->keep_tag : before.r_tagged;
+      made.policed_frame = models::frame_length(msdu, frame.tagged, is_policed_tagged);
+      made.policed_msdu = msdu + (is_policed_tagged ? models::r_tag : Octets{0});
+      before = hops[i];
+      made.member = before.member;
+      if (!seen_.insert({made.member ? *made.member + 1 : 0, path[i], port}).second) continue;
       const models::PortConfig& config = port_config_of(r_.plan, *ends_.at({path[i], port}));
       const bool tagged = frame.tagged && !strips_tags(r_.topology, config, path[i], i == 0);
-      made.frame = models::frame_length(msdu, tagged, r_tagged);
-      made.msdu = msdu + (r_tagged ? models::r_tag : Octets{0});
+      made.frame = models::frame_length(msdu, tagged, before.r_tagged);
+      made.msdu = msdu + (before.r_tagged ? models::r_tag : Octets{0});
       made.classes = ingress_.classes(path[i], config, made.filter, i == 0 ? plan.priority_at_talker() : frame.priority);
       found_.push_back(made);
     }

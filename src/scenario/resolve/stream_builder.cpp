@@ -159,7 +159,7 @@ std::optional<MemberPaths> StreamBuilder::member_paths(const NewStream& wanted) 
   if (wanted.path != nullptr) return std::nullopt;
   std::optional<MemberPaths> members = wanted.to.size() == 1 ? lay_members(r_, redundancy, *wanted.from, wanted.to.front().first, diagnostics_)
                                                              : lay_member_trees(r_, redundancy, *wanted.from, wanted.to, diagnostics_);
-  if (const std::size_t count = members ? members->paths.size() / wanted.to.size() : 0; members && !redundancy.vlans.empty() && redundancy.vlans.size() != count)
+  if (const std::size_t count = members ? members->paths.size() / wanted.to.size() : 0; members && !redundancy.ladder && !redundancy.vlans.empty() && redundancy.vlans.size() != count)
     diagnostics_.error(redundancy.where.at("vlans"), "not a VLAN for each path", {std::to_string(redundancy.vlans.size()), std::to_string(count)});
   return members;
 }
@@ -174,6 +174,10 @@ void StreamBuilder::add_members(const NewStream& wanted, const MemberPaths& memb
   made.merge = wanted.to.size() == 1 ? members.paths.front()[members.merge(members.paths.front())] : ResolvedRedundancy::nobody;
   made.splits_in_host = members.split == 0;
   made.merges_in_host = members.after_merge == 0;
+  made.number = members.paths.front()[members.number];
+  made.numbers_in_host = members.number == 0 && !made.splits_in_host;
+  made.numbering_port = *r_.topology.port_towards(members.paths.front()[0], members.paths.front()[1]);
+  if (wanted.redundancy->ladder) return add_ladder(wanted, members, std::move(made));
   const models::AddressIndex compound = r_.plan.streams[index.value].destination;
   for (std::size_t i = 0; i < members.paths.size() / wanted.to.size(); ++i) {
     models::StreamMember member;
@@ -192,6 +196,18 @@ void StreamBuilder::add_members(const NewStream& wanted, const MemberPaths& memb
       add_entry(path[at], port, is_member ? member.vlan : wanted.vlan, is_member ? member.destination : compound);
     });
   }
+  r_.redundancies.push_back(std::move(made));
+}
+
+void StreamBuilder::add_ladder(const NewStream& wanted, const MemberPaths& ways, ResolvedRedundancy made) {
+  lay_ladder(ways, made, [&](std::uint32_t from, std::uint32_t to) { return models::StreamMember{new_group(), wanted.vlan, *r_.topology.port_towards(from, to)}; });
+  const models::AddressIndex compound = r_.plan.streams[made.stream.value].destination;
+  for (const Path& path : ways.paths)
+    for_each_entry(r_.topology, path, [&](std::size_t at, std::uint16_t port) {
+      const bool is_member = at >= ways.split && (at < ways.merge(path) || made.merges_in_host);
+      const std::size_t link = std::min(at, path.size() - 2);   // in a station the host gets what came last
+      add_entry(path[at], port, wanted.vlan, is_member ? made.members[made.member_of_link.at({path[link], path[link + 1]})].destination : compound);
+    });
   r_.redundancies.push_back(std::move(made));
 }
 

@@ -53,6 +53,7 @@ class StreamBuilder {
   std::optional<Path> explicit_path(const NewStream& wanted);
   std::optional<MemberPaths> member_paths(const NewStream& wanted);
   models::AddressIndex new_group();
+  void add_ladder(const NewStream& wanted, const MemberPaths& ways, ResolvedRedundancy made);
   void add_members(const NewStream& wanted, const MemberPaths& members, models::StreamIndex index);
   void add_entry(std::uint32_t node, std::uint16_t port, models::VlanId vlan, models::AddressIndex address);
   void note_identified_streams();

@@ -67,8 +67,8 @@ class Assessor {
         std::erase(stuck, place);
         if (gate->open) stuck.push_back(place);
       }
-      if (const auto* const bypass = std::get_if<scenario::ResolvedBypass>(&action.what))
-        ledger_.violate(Assumption::no_disturbance, "the bypass of " + name_of(bypass->node) + " joins its neighbours at " + to_text(action.at.since_start()) + ", and no bound follows frames over it");
+      if (const auto* const bypass = std::get_if<scenario::ResolvedBypass>(&action.what); bypass != nullptr && !r_.plan.gptp.empty())
+        ledger_.violate(Assumption::no_disturbance, "the bypass of " + name_of(bypass->node) + " joins its neighbours at " + to_text(action.at.since_start()) + ", and no bound of clock errors follows gPTP over it");
       if (const auto* const fault = std::get_if<scenario::ResolvedClockFault>(&action.what)) {
         over = std::max(over, action.at.since_start());
         jumps_at_start_ = jumps_at_start_ || action.at == sim::TrueTime();
@@ -81,7 +81,7 @@ class Assessor {
       ledger_.violate(Assumption::no_disturbance, "the gate of class " + std::to_string(traffic_class) + " at " + name_of(models::NodeIndex{node}) + ":" + std::to_string(port) + " is stuck to the end");
     }
     if (!graph_.uncertain_paths.empty())
-      ledger_.violate(Assumption::no_disturbance, "while the network is rerouted, frames of " + graph_.uncertain_paths.front() + " may go in circles, or on too many ways to look at");
+      ledger_.violate(Assumption::no_disturbance, "while ways change, frames of " + graph_.uncertain_paths.front() + " may go in circles, or on too many ways to look at");
     ledger_.discharge(Assumption::no_disturbance, "the scenario");
   }
 

@@ -112,11 +112,12 @@ class StreamBounds {
       for (const std::uint32_t last : flow.last[l]) {
         const HopResult& hop = network_.hops[last];
         const Ps propagation = graph_.ports[graph_.hops[last].port].propagation;
-        const Ps latency = sum(hop.worst_left, propagation, to_host, taken_in);
+        const auto beyond = flow.beyond.find(last);   // over a bypass
+        const Ps latency = sum(hop.worst_left, propagation, beyond == flow.beyond.end() ? 0 : beyond->second, to_host, taken_in);
         const Ps least = sum(hop.best_left, propagation, listener.least_forwarding_delay().ps(), receive.least().ps(), stack.least);
         bound.least = std::min(bound.least, Duration::from_ps(least));
         const SeparatedFlowBound separated = separated_.bound(last);
-        const Ps second = sum(separated.latency, to_host, taken_in);
+        const Ps second = beyond == flow.beyond.end() ? sum(separated.latency, to_host, taken_in) : unbounded_ps;
         if (bound.separated_flow_reason.empty()) bound.separated_flow_reason = separated.reason;
         bound.separated_flow = later_of(bound.separated_flow, duration_of(second));
         bound.by_listener[l] = later_of(bound.by_listener[l], duration_of(std::min(latency, second)));
@@ -269,6 +270,9 @@ void withdraw(Bounds& bounds) {
     stream.loss_reason = why;
     stream.reason = why;
   }
+  if (bounds.ledger.refutation(bounds.every).empty()) return;
+  for (QueueBound& queue : bounds.queues) queue.bits = queue.frames = std::nullopt;
+  bounds.passages.clear();
 }
 
 class RequirementBounds {

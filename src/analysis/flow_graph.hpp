@@ -64,6 +64,7 @@ struct Hop {
   models::TrafficClass highest_class = 0;
   bool uses_cqf = false;                ///< the stream gate of cyclic queuing and forwarding gives it its class here
   bool is_copied_here = false;          ///< the node makes several frames of one: its link does not limit them
+  Ps beyond = 0;                        ///< further cables behind that of the hop before, which relays of stations that are down join to it
   bool headers_come_first = false;      ///< the node may see the frame before its last bit
   std::optional<AtsHold> ats;
   std::optional<ArrivalPattern> metered;   ///< what a flow meter lets pass
@@ -92,6 +93,7 @@ struct Flow {
   std::vector<std::uint32_t> hops;      ///< parents before children
   /// The last hop to each listener, as in the plan; several where the listener takes out copies itself.
   std::vector<std::vector<std::uint32_t>> last;
+  std::map<std::uint32_t, Ps> beyond;   ///< of a last hop: such cables between it and the listener, at most
   /// Why the ingress of a listener that is a station may drop frames that are for its host; empty: it does not.
   std::string loss_at_host = {};
 };

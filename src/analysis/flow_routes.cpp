@@ -23,6 +23,7 @@ using scenario::Path;
 class RouteMaker {
  public:
   RouteMaker(const scenario::Resolved& resolved, FlowGraph& graph) : r_(resolved), graph_(graph) {
+    has_bypass_ = has_bypass(resolved);
     for (std::uint32_t p = 0; p < graph.ports.size(); ++p) port_at_[{graph.ports[p].node.value, graph.ports[p].number}] = p;
     for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies) redundancy_[redundancy.stream.value] = &redundancy;
   }
@@ -35,18 +36,17 @@ class RouteMaker {
     hop_at_.clear();
     const std::size_t listeners = plan.listeners.size();
     graph_.flows[flow].last.assign(listeners, {});
-    const auto rerouted = rerouted_paths(r_, stream);
-    if (!rerouted) graph_.uncertain_paths.push_back(plan.name);
-    if (rerouted && !rerouted->empty()) {
-      prefixes_.clear();
-      for (const PossiblePath& each : *rerouted) {
-        note_last(flow, each.listener, walk(flow, each.path, nullptr, {}, true));
-        receive(flow, each.path, plan.destination);
-      }
-      share_schedulers(flow);
+    prefixes_.clear();
+    if (redundancy != nullptr && has_bypass_) {
+      make_members(flow, *redundancy);
       return;
     }
-    prefixes_.clear();
+    const auto possible = possible_paths(r_, stream, plan.vlan, plan.destination);
+    if (!possible) graph_.uncertain_paths.push_back(plan.name);
+    if (possible && !possible->empty()) {
+      add_possible(flow, *possible, nullptr, {}, plan.destination);
+      return;
+    }
     for (std::size_t i = 0; i < stream.paths.size(); ++i) {
       const Path& path = stream.paths[i];
       if (redundancy == nullptr) {
@@ -77,6 +77,40 @@ class RouteMaker {
 
  private:
   static constexpr std::uint32_t nobody = 0xFFFF'FFFF;
+  static constexpr std::uint32_t bypassed = 0x8000'0000;     // with the number of a node
+  static constexpr std::size_t first_prefix = 0x1'0000;      // more than a stream has members
+
+  void add_possible(std::uint32_t flow, const std::vector<PossiblePath>& possible, const scenario::ResolvedRedundancy* redundancy, const scenario::OnHop& on, models::AddressIndex address) {
+    for (const PossiblePath& each : possible) {
+      note_last(flow, each.listener, walk(flow, each.path, redundancy, std::vector<scenario::OnHop>(each.path.size() - 1, on), true, &each.is_bypassed));
+      receive(flow, each.path, address);
+    }
+    share_schedulers(flow);
+  }
+
+  /// Members of a redundant stream, on all ways that relays may open to them. Of those that bridges split or merge not all ways are known.
+  void make_members(std::uint32_t flow, const scenario::ResolvedRedundancy& redundancy) {
+    const scenario::ResolvedStream& stream = r_.streams[graph_.flows[flow].stream.value];
+    const bool is_known = redundancy.splits_in_host && redundancy.merges_in_host && !redundancy.is_ladder();
+    if (!is_known) graph_.uncertain_paths.push_back(r_.plan.streams[stream.index.value].name);
+    for (std::size_t member = 0; member < redundancy.members.size() && is_known; ++member) {
+      const models::StreamMember& its = redundancy.members[member];
+      const auto possible = possible_paths(r_, stream, its.vlan, its.destination);
+      if (!possible) {
+        graph_.uncertain_paths.push_back(r_.plan.streams[stream.index.value].name);
+      } else if (!possible->empty()) {
+        add_possible(flow, *possible, &redundancy, {member, true}, its.destination);
+        continue;
+      }
+      for (std::size_t i = member; i < stream.paths.size(); i += redundancy.members.size()) {
+        note_last(flow, i / redundancy.members.size(), walk(flow, stream.paths[i], &redundancy, scenario::on_hops(r_, redundancy, i), false));
+        receive(flow, stream.paths[i], its.destination);
+      }
+    }
+    if (is_known) return;
+    for (std::size_t i = 0; i < stream.paths.size(); ++i)   // so that it has hops at all
+      note_last(flow, 0, walk(flow, stream.paths[i], &redundancy, scenario::on_hops(r_, redundancy, i), false));
+  }
 
   /// What goes over the links of a ladder and comes to no listener: copies that end where one has passed before, at a relay that they have come by. No relay sends back by the
   /// port by which a frame came.
@@ -134,19 +168,27 @@ class RouteMaker {
 
   /// A number for the nodes from the talker to this one: hops behind different ones are told apart, and each counts every frame. Of a frame that may have taken any of them,
   /// and of the copies of a multicast that meet again while entries change, no more than that can come.
-  std::size_t number_of_prefix(const scenario::Path& path, std::size_t at) {
-    return prefixes_.try_emplace(scenario::Path(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(at) + 1), prefixes_.size() + 1).first->second;
+  std::size_t number_of_prefix(const Path& path, std::size_t at, const std::vector<bool>* is_bypassed) {
+    Path prefix(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(at) + 1);
+    for (std::size_t i = 0; i < prefix.size() && is_bypassed != nullptr; ++i)
+      if ((*is_bypassed)[i]) prefix[i] |= bypassed;
+    return prefixes_.try_emplace(std::move(prefix), first_prefix + prefixes_.size()).first->second;
   }
 
   /// Adds the hops of one path that are not there yet; the last one. `on` says what of a redundant stream goes over each of them.
-  std::uint32_t walk(std::uint32_t flow, const Path& path, const scenario::ResolvedRedundancy* redundancy, const std::vector<scenario::OnHop>& on, bool is_rerouted) {
+  std::uint32_t walk(std::uint32_t flow, const Path& path, const scenario::ResolvedRedundancy* redundancy, const std::vector<scenario::OnHop>& on, bool is_rerouted, const std::vector<bool>* is_bypassed = nullptr) {
     const scenario::ResolvedStream& stream = r_.streams[graph_.flows[flow].stream.value];
     const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
     const sim::Octets largest = graph_.flows[flow].payload.value_or(stream.largest_payload);
     const sim::Octets smallest = graph_.flows[flow].payload ? std::min(*graph_.flows[flow].payload, least_dds_message) : smallest_payload(stream);
     std::uint32_t parent = nobody;
     bool tagged = plan.priority.has_value();
+    Ps beyond = 0;
     for (std::size_t at = 0; at + 1 < path.size(); ++at) {
+      if (is_bypassed != nullptr && (*is_bypassed)[at]) {
+        beyond = sum(beyond, graph_.ports[port_at_.at({path[at], *r_.topology.port_towards(path[at], path[at + 1])})].propagation);
+        continue;
+      }
       const std::uint16_t port_number = *r_.topology.port_towards(path[at], path[at + 1]);
       const scenario::OnHop here = redundancy != nullptr ? on[at] : scenario::OnHop{};
       const scenario::OnHop before = redundancy != nullptr && at > 0 ? on[at - 1] : scenario::OnHop{};
@@ -157,12 +199,13 @@ class RouteMaker {
       if (scenario::strips_tags(r_.topology, config, path[at], at == 0)) tagged = false;
       // In a ladder, too, what has come another way is another flow until all of it is one again.
       const bool is_by_prefix = is_rerouted || (here.member && redundancy->is_ladder());
-      const std::size_t member = is_by_prefix ? number_of_prefix(path, at) : here.member ? *here.member + 1 : 0;
+      const std::size_t member = is_by_prefix ? number_of_prefix(path, at, is_bypassed) : here.member ? *here.member + 1 : 0;
       const auto [known, is_new] = hop_at_.try_emplace({member, path[at], port_number}, static_cast<std::uint32_t>(graph_.hops.size()));
       const std::uint32_t hop = known->second;
       if (is_new) {
         Hop made;
         made.flow = flow;
+        made.beyond = beyond;
         made.port = port;
         made.frame = models::frame_length(plan.headers + largest, tagged, here.r_tagged);
         made.msdu = plan.headers + largest + (here.r_tagged ? models::r_tag : sim::Octets{0});
@@ -185,6 +228,11 @@ class RouteMaker {
         }
       }
       parent = hop;
+      beyond = 0;
+    }
+    if (beyond > 0) {
+      Ps& longest = graph_.flows[flow].beyond[parent];
+      longest = std::max(longest, beyond);
     }
     return parent;
   }
@@ -314,7 +362,8 @@ class RouteMaker {
   std::map<std::pair<std::uint32_t, std::uint16_t>, std::uint32_t> port_at_;
   std::map<std::uint32_t, const scenario::ResolvedRedundancy*> redundancy_;
   std::map<std::tuple<std::size_t, std::uint32_t, std::uint16_t>, std::uint32_t> hop_at_;   // by member or prefix, node, port
-  std::map<scenario::Path, std::size_t> prefixes_;   // of a rerouted flow
+  std::map<Path, std::size_t> prefixes_;   // of a flow that may go several ways
+  bool has_bypass_ = false;
 };
 
 }  // namespace

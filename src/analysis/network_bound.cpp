@@ -107,7 +107,7 @@ class FixedPoint {
       const GraphPort& port = graph_.ports[hop.port];
       Ps comes = last;
       for (const std::uint32_t parent : hop.parents)
-        comes = sum(result_.hops[parent].leaves->first, graph_.ports[graph_.hops[parent].port].propagation, r_.plan.nodes[port.node.value].greatest_forwarding_delay().ps());
+        comes = sum(result_.hops[parent].leaves->first, graph_.ports[graph_.hops[parent].port].propagation, hop.beyond, r_.plan.nodes[port.node.value].greatest_forwarding_delay().ps());
       result_.hops[h].leaves = ArrivalPhase{sum(comes, port.octet_time * (models::wire_length(hop.frame) - models::inter_packet_gap).count), flow.produced->period, 0};
     }
   }
@@ -213,8 +213,8 @@ class FixedPoint {
         const HopResult& before = result_.hops[parent];
         const GraphPort& port = graph_.ports[graph_.hops[parent].port];
         const models::NodePlan& node = r_.plan.nodes[graph_.ports[hop.port].node.value];
-        const Ps on_the_way = sum(port.propagation, node.greatest_forwarding_delay().ps());
-        const Ps at_least = sum(port.propagation, node.least_forwarding_delay().ps());
+        const Ps on_the_way = sum(port.propagation, hop.beyond, node.greatest_forwarding_delay().ps());
+        const Ps at_least = sum(port.propagation, hop.beyond, node.least_forwarding_delay().ps());
         const bool may_be_cut = hop.headers_come_first && !header_after_[hop.port];
         best = std::min(best, may_be_cut ? sum(before.best, before_the_header(parent), at_least) : sum(before.best_left, at_least));
         worst = std::max(worst, is_held(hop) ? sum(before.worst, delay_with_hold(hop, parent), on_the_way) : sum(before.worst_left, on_the_way));
@@ -292,7 +292,7 @@ class FixedPoint {
     if (hop.parents.size() == 1 && !is_held(hop) && !hop.headers_come_first && result_.hops[hop.parents.front()].leaves) {
       const ArrivalPhase& leaves = *result_.hops[hop.parents.front()].leaves;
       const models::NodePlan& node = r_.plan.nodes[graph_.ports[hop.port].node.value];
-      const Ps propagation = graph_.ports[graph_.hops[hop.parents.front()].port].propagation;
+      const Ps propagation = sum(graph_.ports[graph_.hops[hop.parents.front()].port].propagation, hop.beyond);
       const Ps at_least = sum(propagation, node.least_forwarding_delay().ps());
       const Ps on_the_way = sum(propagation, node.greatest_forwarding_delay().ps());
       const Ps scheduled_first = leaves.first + scaled_down(at_least, one_ppt - rate_ppt, one_ppt);

@@ -18,10 +18,11 @@ using Ports = std::map<std::uint32_t, std::set<std::uint16_t>>;
 
 class PathFinder {
  public:
-  PathFinder(const scenario::Resolved& r, const models::StreamPlan& plan, const Ports& ports) : r_(r), plan_(plan), ports_(ports) {}
+  PathFinder(const scenario::Resolved& r, const models::StreamPlan& plan, const Ports& ports, const std::set<std::uint32_t>& relays) : r_(r), plan_(plan), ports_(ports), relays_(relays) {}
 
   std::optional<std::vector<PossiblePath>> find() {
     scenario::Path path{plan_.talker.value};
+    is_bypassed_ = {false};
     if (r_.topology.chooses_ports[plan_.talker.value]) {
       if (!pass(path, plan_.talker.value)) return std::nullopt;
     } else {
@@ -33,12 +34,25 @@ class PathFinder {
 
  private:
   bool follow(scenario::Path& path, std::uint32_t node) {
-    if (std::find(path.begin(), path.end(), node) != path.end()) return false;
+    if (std::find(path.begin(), path.end(), node) != path.end()) return !r_.plan.nodes[node].forwards();   // back at its talker a frame ends
+    const std::uint32_t before = path.back();
     path.push_back(node);
+    is_bypassed_.push_back(false);
     const models::NodePlan& plan = r_.plan.nodes[node];
-    const bool is_fine = (!is_taken_in(node) || arrive(path, node)) && (!plan.forwards() || pass(path, node));
+    bool is_fine = (!is_taken_in(node) || arrive(path, node)) && (!plan.forwards() || pass(path, node));
+    is_bypassed_.back() = true;
+    is_fine = is_fine && (!relays_.contains(node) || pass_relay(path, before, node));
     path.pop_back();
+    is_bypassed_.pop_back();
     return is_fine;
+  }
+  /// What comes by port 0 goes on by the cable at port 1, and the other way round.
+  bool pass_relay(scenario::Path& path, std::uint32_t before, std::uint32_t node) {
+    const std::optional<std::uint16_t> came_by = r_.topology.port_towards(node, before);
+    if (!came_by || *came_by > 1) return true;
+    for (const scenario::Neighbour& neighbour : r_.topology.neighbours[node])
+      if (neighbour.port == 1 - *came_by && !follow(path, neighbour.node)) return false;
+    return true;
   }
   bool is_taken_in(std::uint32_t node) const {
     if (!r_.plan.nodes[node].forwards()) return true;
@@ -47,7 +61,7 @@ class PathFinder {
   }
   bool arrive(const scenario::Path& path, std::uint32_t node) {
     const auto listener = std::find(plan_.listeners.begin(), plan_.listeners.end(), models::NodeIndex{node});
-    if (listener != plan_.listeners.end()) found_.push_back({path, static_cast<std::size_t>(listener - plan_.listeners.begin())});
+    if (listener != plan_.listeners.end()) found_.push_back({path, is_bypassed_, static_cast<std::size_t>(listener - plan_.listeners.begin())});
     return found_.size() <= most_paths;
   }
   bool pass(scenario::Path& path, std::uint32_t node) {
@@ -63,6 +77,8 @@ class PathFinder {
   const scenario::Resolved& r_;
   const models::StreamPlan& plan_;
   const Ports& ports_;
+  const std::set<std::uint32_t>& relays_;   // stations
+  std::vector<bool> is_bypassed_;           // by node of the path
   std::vector<PossiblePath> found_;
 };
 
@@ -112,23 +128,33 @@ std::vector<Outage> Outages::of_link(std::uint32_t link) const {
   return found;
 }
 
-std::optional<std::vector<PossiblePath>> rerouted_paths(const scenario::Resolved& resolved, const scenario::ResolvedStream& stream) {
+bool has_bypass(const scenario::Resolved& resolved) {
+  return std::ranges::any_of(resolved.script, [&](const scenario::ResolvedAction& action) { return std::holds_alternative<scenario::ResolvedBypass>(action.what) && happens(resolved, action); });
+}
+
+std::optional<std::vector<PossiblePath>> possible_paths(const scenario::Resolved& resolved, const scenario::ResolvedStream& stream, models::VlanId vlan, models::AddressIndex address) {
   const models::StreamPlan& plan = resolved.plan.streams[stream.index.value];
   Ports ports;
+  std::set<std::uint32_t> relays;
   bool is_rerouted = false;
   for (const scenario::ResolvedAction& action : resolved.script) {
+    if (!happens(resolved, action)) continue;
+    if (const auto* const bypass = std::get_if<scenario::ResolvedBypass>(&action.what)) relays.insert(bypass->node.value);
     const auto* const routes = std::get_if<scenario::ResolvedRoutes>(&action.what);
-    if (routes == nullptr || !happens(resolved, action)) continue;
+    if (routes == nullptr) continue;
     for (const scenario::ResolvedRoutes::Entry& entry : routes->entries)
-      if (entry.vlan == plan.vlan && entry.address == plan.destination) {
+      if (entry.vlan == vlan && entry.address == address) {
         ports[entry.node.value].insert(entry.ports.begin(), entry.ports.end());
         is_rerouted = true;
       }
   }
-  if (!is_rerouted) return std::vector<PossiblePath>();
+  if (!is_rerouted && relays.empty()) return std::vector<PossiblePath>();
   for (const models::FilteringPlan& entry : resolved.plan.filtering)
-    if (entry.vlan == plan.vlan && entry.address == plan.destination) ports[entry.node.value].insert(entry.port);
-  return PathFinder(resolved, plan, ports).find();
+    if (entry.vlan == vlan && entry.address == address) ports[entry.node.value].insert(entry.port);
+  std::optional<std::vector<PossiblePath>> found = PathFinder(resolved, plan, ports, relays).find();
+  const auto goes_over_relays = [](const PossiblePath& each) { return std::ranges::find(each.is_bypassed, true) != each.is_bypassed.end(); };
+  if (found && !is_rerouted && std::ranges::none_of(*found, goes_over_relays)) found->clear();
+  return found;
 }
 
 }  // namespace takt::analysis

@@ -38,12 +38,16 @@ class Outages {
 /// A way that frames may take, and to which of the stream's listeners.
 struct PossiblePath {
   scenario::Path path;
+  std::vector<bool> is_bypassed;   ///< by node: the relay of a station that is down joins the cables before and behind it
   std::size_t listener = 0;
 };
 
-/// All ways that the frames of a stream may take over the run, if rerouting changes filtering entries of it: those of each configuration, and those that begin in one
-/// and end in a later one, since frames are under way when entries change. Empty if nothing changes for the stream; nothing at all if a frame may go in circles, or the
-/// ways are too many to look at.
-std::optional<std::vector<PossiblePath>> rerouted_paths(const scenario::Resolved& resolved, const scenario::ResolvedStream& stream);
+/// All ways that frames of a stream to that address may take over the run, if rerouting changes filtering entries of it or relays join cables on its way: those of each configuration,
+/// and those that begin in one and end in a later one, since frames are under way when entries change. Empty if nothing changes for the stream; nothing at all if a frame may
+/// go in circles, or the ways are too many to look at.
+std::optional<std::vector<PossiblePath>> possible_paths(const scenario::Resolved& resolved, const scenario::ResolvedStream& stream, models::VlanId vlan, models::AddressIndex address);
+
+/// Whether a relay may join the cables of some station within the simulated time.
+bool has_bypass(const scenario::Resolved& resolved);
 
 }  // namespace takt::analysis

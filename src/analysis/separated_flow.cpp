@@ -38,6 +38,7 @@ std::string SeparatedFlows::objection(const Hop& hop) const {
   if (model.cqf) return "cyclic queuing and forwarding";
   if (hop.lowest_class != hop.highest_class) return "a stream in several classes";
   if (hop.parents.size() > 1 || hop.is_copied_here) return "copies for redundancy";
+  if (hop.beyond > 0) return "a way over a bypass";
   if (hop.headers_come_first) return "cut-through";
   if (graph_.ports[hop.port].may_double) return "a link that doubles frames";
   for (const std::uint32_t h : graph_.ports[hop.port].hops) {

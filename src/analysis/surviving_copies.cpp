@@ -40,12 +40,16 @@ class Copies {
   Copies(const scenario::Resolved& resolved, const FlowGraph& graph, const Outages& outages, const LossAtHop& loss_at) : r_(resolved), graph_(graph), outages_(outages), loss_at_(loss_at) {}
 
   /// By whichever ways it comes; `longest`: that a copy is under way.
-  std::string why_lost(const std::vector<std::uint32_t>& last_hops, sim::Duration longest) const {
+  std::string why_lost(const Flow& flow, const std::vector<std::uint32_t>& last_hops, sim::Duration longest) const {
     std::vector<Way> ways;
     for (const std::uint32_t last : last_hops) {
+      if (flow.beyond.contains(last)) continue;
       Way way{last};
       if (!find_ways(graph_, way, ways)) return "its copies take too many ways";
     }
+    // A way over a relay is there only while a station is down.
+    std::erase_if(ways, [&](const Way& way) { return std::ranges::any_of(way, [&](std::uint32_t h) { return graph_.hops[h].beyond > 0; }); });
+    if (ways.empty()) return "it comes over the relays of stations that are down alone";
     std::vector<Trouble> troubles;
     for (const Way& way : ways) troubles.push_back(trouble_of(way));
     // All ways are cut together at some instant only if they are where one of the times begins.
@@ -106,7 +110,7 @@ std::string why_copies_may_be_lost(const scenario::Resolved& resolved, const Flo
   const Copies copies(resolved, graph, outages, loss_at);
   for (std::size_t l = 0; l < flow.last.size(); ++l) {
     if (!bound.by_listener[l]) return bound.reason.empty() ? "its latency has no bound" : bound.reason;
-    if (std::string why = copies.why_lost(flow.last[l], *bound.by_listener[l]); !why.empty()) return why;
+    if (std::string why = copies.why_lost(flow, flow.last[l], *bound.by_listener[l]); !why.empty()) return why;
     if (!outages.any()) continue;
     if (redundancy.description->individual) return "individual recovery takes what comes after an outage for out of order";
     if (!fits_history(flow, *redundancy.description, *bound.by_listener[l] - bound.least))

@@ -1,0 +1,106 @@
+// Drives the simulator at the bounds of ladders: a ladder of two to four rungs, other traffic that crosses it, links that are cut. No bound may be exceeded, and where every frame is
+// promised to arrive, every frame must.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "analysis/bounds.hpp"
+#include "scenario/resolve/resolve.hpp"
+#include "scenario/run/run.hpp"
+#include "sim/random.hpp"
+
+namespace takt::analysis {
+namespace {
+
+class LadderMaker {
+ public:
+  explicit LadderMaker(std::uint64_t seed) : chance_(seed, "ladder", "test"), rungs_(2 + chance_.below(3)) {}
+
+  std::string text() {
+    std::string nodes = host("t") + ", " + host("l") + ", " + host("x") + ", " + host("y") + ", " + relay("s") + ", " + relay("m");
+    link("t", "s");
+    link("m", "l");
+    for (const char* side : {"a", "b"}) {
+      for (std::size_t i = 0; i < rungs_; ++i) nodes += ", " + relay(side + std::to_string(i));
+      link("s", std::string(side) + "0");
+      for (std::size_t i = 1; i < rungs_; ++i) link(side + std::to_string(i - 1), side + std::to_string(i));
+      link(side + std::to_string(rungs_ - 1), "m");
+    }
+    for (std::size_t i = 0; i < rungs_; ++i) link("a" + std::to_string(i), "b" + std::to_string(i));
+    link("x", "a0");
+    link("y", chance_.below(2) == 0 ? "b" + std::to_string(rungs_ - 1) : "m");
+    const std::string talker = chance_.below(2) == 0 ? "t" : "s";
+    return R"({"name": "t", "duration": "20ms", "network": {"nodes": {)" + nodes + "}, \"links\": [" + links_ + R"(]}, "streams": [
+{"name": "s", "from": "t", "to": "l", "payload": "100B", "every": "500us", "pcp": 5, "redundancy": {"ladder": true, "number": ")" + talker + R"(", "history": 16, "paths": [)" + paths() + R"(]}},
+{"name": "up", "from": "x", "to": "y", "payload": "900B", "burst": {"frames": 4, "every": "1ms"}, "pcp": )" + std::to_string(4 + chance_.below(3)) + R"(},
+{"name": "down", "from": "y", "to": "x", "payload": "300B", "every": "200us", "pcp": 5}], "faults": [)" + cuts() + "]}";
+  }
+
+ private:
+  static std::string host(const std::string& name) { return "\"" + name + R"(": {"kind": "host"})"; }
+  std::string relay(const std::string& name) { return "\"" + name + R"(": {"kind": "switch", "forwarding_delay": ")" + std::to_string(chance_.below(4)) + "us\"}"; }
+  void link(const std::string& a, const std::string& b) {
+    links_ += (links_.empty() ? "" : ", ") + (R"({"ends": [")" + a + R"(", ")" + b + R"("], "rate": "100Mbps", "length": ")" + std::to_string(1 + chance_.below(100)) + "m\"}");
+    if (a != "t" && b != "l" && a != "x" && a != "y") ends_.emplace_back(a, b);
+  }
+  /// Both lines, and one way that changes over at every rung, begun on either side: all links in all directions.
+  std::string paths() const {
+    std::string all;
+    for (const bool lower : {false, true})
+      for (const bool zigzag : {false, true}) {
+        std::string path = R"("t", "s")";
+        bool is_low = lower;
+        for (std::size_t i = 0; i < rungs_; ++i) {
+          path += ", \"" + std::string(is_low ? "b" : "a") + std::to_string(i) + "\"";
+          if (zigzag) is_low = !is_low;
+          if (zigzag) path += ", \"" + std::string(is_low ? "b" : "a") + std::to_string(i) + "\"";
+        }
+        all += (all.empty() ? "[" : ", [") + path + R"(, "m", "l"])";
+      }
+    return all;
+  }
+  std::string cuts() {
+    std::string all;
+    const std::size_t count = chance_.below(4);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& [a, b] = ends_[chance_.below(ends_.size())];
+      all += (all.empty() ? "" : ", ") + (R"({"kind": "link-down", "link": [")" + a + R"(", ")" + b + R"("], "at": ")" + std::to_string(chance_.below(12)) + R"(ms", "for": "5ms"})");
+    }
+    return all;
+  }
+
+  sim::RandomStream chance_;
+  std::size_t rungs_;
+  std::string links_;
+  std::vector<std::pair<std::string, std::string>> ends_;
+};
+
+TEST(LadderFalsification, NothingIsExceededAndNothingPromisedIsLost) {
+  std::size_t promised = 0, lossy = 0;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    const std::string text = LadderMaker(seed).text();
+    json::Diagnostics diagnostics;
+    const auto resolved = scenario::load_text(text, "t.json", {}, diagnostics);
+    ASSERT_NE(resolved, nullptr) << diagnostics.to_text() << text;
+    const Bounds bounds = bound(*resolved);
+    scenario::Run run(*resolved);
+    run.advance();
+    const auto& streams = run.network().traffic().streams();
+    for (std::size_t s = 0; s < streams.size(); ++s) {
+      if (bounds.streams[s].latency && streams[s].delivered > 0) {
+        EXPECT_LE(streams[s].latency.maximum(), *bounds.streams[s].latency) << seed << " " << bounds.streams[s].name;
+        EXPECT_GE(streams[s].latency.minimum(), bounds.streams[s].least) << seed << " " << bounds.streams[s].name;
+      }
+      if (bounds.streams[s].reaches_all) {
+        const std::uint64_t under_way = s == 1 ? 4 : 1;   // at the end
+        EXPECT_GE(streams[s].delivered + under_way, streams[s].sent) << seed << " " << bounds.streams[s].name;
+      }
+    }
+    ++(bounds.streams[0].reaches_all ? promised : lossy);
+  }
+  EXPECT_GT(promised, 50u);
+  EXPECT_GT(lossy, 5u);
+}
+
+}  // namespace
+}  // namespace takt::analysis

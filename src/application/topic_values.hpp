@@ -17,6 +17,8 @@ class Publication {
   uadp::Octets next();
   /// What another topic with the same types last said, as fields; nothing if one of them has no value.
   std::optional<uadp::Octets> copy(uadp::Octets fields);
+  /// The fields of the last value of its pattern.
+  uadp::Octets fields() const { return fields_; }
 
  private:
   const TopicShape* topic_;

@@ -29,6 +29,8 @@ std::string row_of(const results::ApplicationResult& application, const results:
   for (const auto& [count, what] : {std::pair(t.refused, "refused"), std::pair(t.timed_out, "timed out"), std::pair(t.overwritten, "overwritten"), std::pair(t.values ? t.values->beyond : 0, "too late"), std::pair(t.lost, "lost"),
                                     std::pair(t.calls.discarded, "tests discarded")})
     if (count > 0) row += fmt::format(", {} {}", count, what);
+  if (t.measures_round_trips)
+    row += t.round_trip ? fmt::format(", {} round trips of {} / {} / {}", t.round_trip->count, readable(t.round_trip->min), readable(t.round_trip->mean), readable(t.round_trip->max)) : ", no round trip";
   return row + "\n";
 }
 

@@ -79,6 +79,7 @@ struct Thread {
   std::optional<Payload> payload;
   std::optional<std::uint32_t> buffer;
   std::optional<Signal> signal;
+  std::optional<std::string> round_trip = {};   ///< topic
   std::optional<Qos> qos;
   bool operator==(const Thread&) const = default;
 };

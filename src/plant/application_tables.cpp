@@ -113,6 +113,7 @@ const json::Object& describe(json::Type<Thread>) {
       optional<&Thread::payload>("payload", "What it publishes; a counter if absent."),
       optional<&Thread::buffer>("buffer", "Samples that a call takes at most, the newest; older ones are overwritten. 1 if absent.", {.min = 1, .max = largest_buffer}),
       optional<&Thread::signal>("signal", "Drives a digital output."),
+      optional<&Thread::round_trip>("round_trip", "A topic that the application publishes as a counter and whose values come back on this one, by `copy_of` elsewhere: how long that takes is measured.", {.min_length = 1}),
       optional<&Thread::qos>("qos", "Of DDS: other quality of service of this writer or reader than the topic's."),
   };
   static constexpr std::string_view roles[] = {"publish", "subscribe"};

@@ -51,6 +51,8 @@ struct ThreadResult {
   std::uint64_t overwritten = 0;
   std::uint64_t lost = 0;
   std::optional<CriterionResult> values;   ///< criterion 2
+  bool measures_round_trips = false;
+  std::optional<DurationSummary> round_trip; ///< of the values that have come back
 };
 
 /// A participant of DDS.

@@ -53,6 +53,7 @@ Made threads(Maker& m, const Scope& s) {
   m.draw.shuffle(others);
   if (others.size() > 1) others.resize(m.draw.between(publishes(m, s) ? 0 : 1, 2));
   m.kept["subscribed"] = Node::array();
+  m.kept.erase("repeats");   // what the application publishes is a counter, until it says otherwise
   for (const std::size_t t : others) m.kept["subscribed"].items.push_back(text(name_of(m, t)));
   Node made = Node::array();
   if (publishes(m, s)) made.items.push_back(m.object("thread", &s, name_of(m, s.number), 0));
@@ -64,17 +65,26 @@ bool is_publisher(const Maker& m, const Scope& thread) { return thread.number ==
 Made published(Maker& m, const Scope& s) { return is_publisher(m, s) ? Made(text(s.name)) : std::nullopt; }
 Made subscribed(Maker& m, const Scope& s) { return is_publisher(m, s) ? std::nullopt : Made(text(s.name)); }
 
+std::string fields_of(const Maker& m, const std::string& name) {
+  for (std::size_t i = 0; i < m.topics; ++i)
+    if (name_of(m, i) == name) return json::compact(*topic(m, i).find("fields"));
+  return {};
+}
+
 /// A topic with the same fields that the application subscribes to.
 Made copied(Maker& m, const Scope& s) {
   const std::string own = s.around("thread")->text("publish");
-  const auto fields_of = [&](const std::string& name) {
-    for (std::size_t i = 0; i < m.topics; ++i)
-      if (name_of(m, i) == name) return json::compact(*topic(m, i).find("fields"));
-    return std::string();
-  };
   for (const Node& each : m.kept["subscribed"].items)
-    if (fields_of(each.text) == fields_of(own)) return each;
+    if (fields_of(m, each.text) == fields_of(m, own)) {
+      m.kept["repeats"] = each;
+      return each;
+    }
   return std::nullopt;
+}
+Made pattern(Maker& m, const Scope&) {
+  Node made = m.word("counter alternate");
+  if (made.text == "alternate") m.kept["repeats"] = made;
+  return made;
 }
 
 bool uses_dds(const Maker& m, const Scope& s) {
@@ -95,6 +105,14 @@ Made interval(Maker& m, const Scope&) { return m.word("500us 1ms 2ms 1500us"); }
 Made phase(Maker& m, const Scope&) { return m.word("0us 100us 250us 499us"); }
 
 Made topic_of(const Maker& m, std::size_t number) { return number < m.topics ? Made(text(name_of(m, number))) : std::nullopt; }
+
+/// What the application publishes with the same fields, if it is a counter.
+Made outgoing(Maker& m, const Scope& s) {
+  const Scope* const application = s.around("application");
+  if (!s.has("subscribe") || !publishes(m, *application) || m.kept.contains("repeats")) return std::nullopt;
+  const std::string topic = name_of(m, application->number);
+  return fields_of(m, topic) == fields_of(m, s.text("subscribe")) ? Made(text(topic)) : std::nullopt;
+}
 
 }  // namespace
 
@@ -174,8 +192,9 @@ std::span<const Rule> application_rules() {
       {.key = "thread.payload", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return s.has("publish") ? Made(m.short_or_object("payload", &s)) : std::nullopt; }},
       {.key = "thread.buffer", .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return s.has("subscribe") ? Made(m.word("1 4")) : std::nullopt; }},
       {.key = "thread.signal", .feature = Feature::signals, .percent = 80, .make = [](Maker& m, const Scope& s) -> Made { return s.has("subscribe") ? Made(m.short_or_object("signal", &s, s.around("application")->text("name") + "-" + s.text("name"))) : std::nullopt; }},
+      {.key = "thread.round_trip", .percent = 30, .make = outgoing},
       {.key = "thread.qos", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return uses_dds(m, s) ? Made(m.object("qos", &s)) : std::nullopt; }},
-      {.key = "payload.pattern", .percent = 60},
+      {.key = "payload.pattern", .percent = 60, .make = pattern},
       {.key = "payload.copy_of", .percent = 60, .make = copied},
       {.key = "payload.instance", .percent = 30, .make = [](Maker& m, const Scope& s) -> Made { return has_keys(m, s) ? Made(number(m.draw.below(3))) : std::nullopt; }},
       {.key = "payload.instances", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return has_keys(m, s) ? Made(number(m.draw.between(1, 3))) : std::nullopt; }},

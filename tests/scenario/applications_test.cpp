@@ -23,6 +23,39 @@ results::RunResult result_of(const std::string& text) {
   return evaluation::evaluate(run, false);
 }
 
+/// An application that publishes x and takes what comes back as y, and one that copies; `there` are the fields of what it subscribes with.
+std::string there_and_back(const std::string& back, const std::string& payload = R"("counter")") {
+  return R"({"name": "t", "duration": "1s", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"], "delay": "100ns"}]},
+ "topics": [{"name": "x", "protocol": "opc-ua", "fields": {"level": "UInt32"}}, {"name": "y", "protocol": "opc-ua", "fields": {"level": "UInt32"}}],
+ "applications": [{"name": "p", "on": "a", "threads": [{"name": "out", "publish": "x", "every": "1ms", "payload": )" + payload + R"(},
+                                                       {"name": "back", "subscribe": "y", "every": "1ms", )" + back + R"(}]},
+                  {"name": "s", "on": "b", "threads": [{"name": "in", "subscribe": "x", "every": "1ms", "offset": "300us"},
+                                                       {"name": "again", "publish": "y", "every": "1ms", "offset": "500us", "payload": {"copy_of": "x"}}]}]})";
+}
+
+// Out at 0, taken at 300 us, sent again at 500 us, back at 800 us; the value of 999 ms comes back at the end of the run.
+TEST(Applications, ARoundTripIsFromTheCallThatPublishesToTheCallThatTakesItBack) {
+  const results::RunResult result = result_of(there_and_back(R"("offset": "800us", "round_trip": "x")"));
+  const results::ThreadResult& back = result.applications[0].threads[1];
+  ASSERT_TRUE(back.round_trip);
+  EXPECT_EQ(back.round_trip->count, 1000u);
+  EXPECT_EQ(back.round_trip->min.ps(), 800'000'000);
+  EXPECT_EQ(back.round_trip->max.ps(), 800'000'000);
+}
+
+// At 400 us nothing of this cycle is there yet: what went out a cycle before comes back.
+TEST(Applications, ARoundTripThatMissesItsCycle) {
+  const results::RunResult result = result_of(there_and_back(R"("offset": "400us", "round_trip": "x")"));
+  EXPECT_EQ(result.applications[0].threads[1].round_trip->min.ps(), 1'400'000'000);
+  EXPECT_EQ(result.applications[0].threads[1].round_trip->max.ps(), 1'400'000'000);
+}
+
+TEST(Applications, RoundTripsThatCannotBe) {
+  const auto complains = [](const std::string& text, const std::string& what) { return load(text).diagnostics.to_text().find(what) != std::string::npos; };
+  EXPECT_TRUE(complains(there_and_back(R"("round_trip": "z")"), "/applications/0/threads/1/round_trip: a round trip of what is not sent"));
+  EXPECT_TRUE(complains(there_and_back(R"("round_trip": "x")", R"("alternate")"), "/applications/0/threads/1/round_trip: a round trip of values that repeat"));
+}
+
 TEST(Applications, EveryActivationThatEndsInTimeIsACall) {
   const results::RunResult result = result_of(pair(opc_ua, R"("every": "1ms", "response": "100us")", R"("every": "1ms", "offset": "500us")"));
   const results::ThreadResult& publish = result.applications[0].threads[0];

@@ -123,6 +123,7 @@ class Checker {
       if (thread.qos) check_qos(*thread.qos);
       add_response(application.name, thread.name, thread.response);
       if (thread.signal) check_signal(thread);
+      if (thread.round_trip) diagnostics_.error(thread.where.at("round_trip"), "not on a real node", {"round trips", "takt run, which measures them"});
       if (topic && thread.payload && thread.payload->copy_of) check_copy(application, *thread.payload, *topic);
     }
   }

@@ -181,6 +181,7 @@ class ApplicationResolver {
       };
       refuse(one.publishes && thread.buffer, "buffer", "subscribe");
       refuse(one.publishes && thread.signal, "signal", "subscribe");
+      refuse(one.publishes && thread.round_trip, "round_trip", "subscribe");
       refuse(!one.publishes && thread.payload, "payload", "publish");
       if (thread.qos && one.topic < r_.topics.size() && !diagnostics_.is_refused(r_.topics[one.topic].description->where.at("protocol")) && r_.topics[one.topic].description->protocol == Protocol::opc_ua) refuse_of_dds(thread.where.at("qos"), "qos");
       if (one.topic < r_.topics.size()) one.qos = plant::merged(r_.topics[one.topic].description->qos, thread.qos);
@@ -195,7 +196,36 @@ class ApplicationResolver {
     }
     for (std::size_t t = 0; t < application.threads.size(); ++t)
       if (application.threads[t].payload && application.threads[t].payload->copy_of) find_source(*application.threads[t].payload, application, made, t);
+    for (std::size_t t = 0; t < application.threads.size(); ++t)
+      if (application.threads[t].round_trip && application.threads[t].subscribe) find_outgoing(application.threads[t], application, made, t);
     r_.applications.push_back(std::move(made));
+  }
+
+  /// The thread of the application whose values come back to this one.
+  void find_outgoing(const Thread& asked, const Application& application, ResolvedApplication& made, std::size_t thread) {
+    const json::Place place = asked.where.at("round_trip");
+    std::vector<std::string_view> published;
+    std::optional<std::uint32_t> from;
+    for (std::uint32_t t = 0; t < application.threads.size(); ++t) {
+      if (!application.threads[t].publish) continue;
+      published.push_back(*application.threads[t].publish);
+      if (published.back() == *asked.round_trip && !from) from = t;
+    }
+    if (!from) {
+      const bool is_unclear = std::any_of(application.threads.begin(), application.threads.end(), [&](const Thread& each) { return !each.where.is_known() || diagnostics_.is_refused(each.where.at("publish")); });
+      diagnostics_.error_unless(is_unclear && diagnostics_.has_errors(), place, "a round trip of what is not sent",
+                                {json::quote(*asked.round_trip), "a topic that a thread of " + json::quote(application.name) + " publishes", json::suggest(*asked.round_trip, published)});
+      return;
+    }
+    const std::optional<Payload>& payload = application.threads[*from].payload;
+    if (payload && (payload->copy_of || payload->pattern == Pattern::alternate))
+      diagnostics_.error(place, "a round trip of values that repeat", {json::quote(*asked.round_trip) + ", which is no counter", "a topic that a thread publishes with the pattern \"counter\""});
+    const std::uint32_t out = made.threads[*from].topic, back = made.threads[thread].topic;
+    if (out == unknown_topic || back == unknown_topic) return;
+    if (!application::have_same_types(r_.topics[out].shape, r_.topics[back].shape))
+      diagnostics_.error_unless(topics_are_refused(), place, "a round trip of other fields", {"fields of other types or numbers", "the same types in the same order as in " + json::quote(r_.topics[back].description->name)});
+    made.threads[thread].round_trip = from;
+    made.threads[*from].is_measured = true;
   }
 
   void add_signal(const Signal& signal, ResolvedThread& thread, const ResolvedApplication& application) {

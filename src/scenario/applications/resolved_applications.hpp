@@ -38,6 +38,8 @@ struct ResolvedThread {
   std::optional<std::uint32_t> copies;          ///< instead: the subscribing thread of the application whose last sample it publishes
   std::uint32_t buffer = 1;
   std::optional<std::uint32_t> signal;          ///< that it drives
+  std::optional<std::uint32_t> round_trip = {}; ///< the publishing thread of the application whose values come back here
+  bool is_measured = false;                     ///< it is such a one
   std::uint16_t writer_group = 0;               ///< of a publication over OPC UA: from 1 on among those of its topic
   std::optional<models::StreamIndex> stream;    ///< of such a publication that anybody hears
   std::optional<std::uint32_t> participant;     ///< of DDS, in resolved.dds

@@ -68,6 +68,7 @@ void TopicApplication::start(models::HostServices& host) {
     if (live.reader) live.reader->start(host);
     live.newest.clear();
     if (live.publication) live.publication->restart();
+    live.seen.for_each([](Live::Seen& seen, sim::LocalTime) { seen.round_trips.restart(); });
     live.activations.begin(now);
     live.tell_windows([&](WindowCounter& windows) { windows.begin(now); });
   }
@@ -198,7 +199,13 @@ void TopicApplication::call(models::HostServices& host, std::uint32_t thread, si
 }
 
 void TopicApplication::publish(models::HostServices& host, Live& live, sim::LocalTime now, sim::LocalTime due) {
-  if (const auto value = next_of(live, now)) count(live, due, live.writer->write(host, *value));
+  const auto value = next_of(live, now);
+  if (!value) return;
+  const WriteOutcome outcome = live.writer->write(host, *value);
+  count(live, due, outcome);
+  if (!live.settings->is_measured || outcome == WriteOutcome::refused) return;
+  for (Live& each : threads_)
+    if (each.settings->round_trip && &threads_[*each.settings->round_trip] == &live) each.seen.add(due, [&](Live::Seen& seen) { seen.round_trips.published(live.publication->fields(), now); });
 }
 
 std::optional<uadp::Octets> TopicApplication::next_of(Live& live, sim::LocalTime now) {
@@ -234,6 +241,7 @@ void TopicApplication::take(models::HostServices& host, std::uint32_t thread, si
       const auto fields = live.subscription->take(*value);
       if (!fields) continue;
       live.newest.assign(fields->begin(), fields->end());
+      if (live.settings->round_trip) live.seen.add(due, [&](Live::Seen& seen) { seen.round_trips.taken(*fields, now); });
     }
     ++count;
   }
@@ -253,6 +261,7 @@ ThreadFigures TopicApplication::figures(std::size_t thread, sim::LocalTime now, 
   const Live& live = threads_[thread];
   const Live::Seen& seen = live.seen.from(from);
   ThreadFigures figures = seen.figures;
+  if (live.settings->round_trip) figures.round_trip = seen.round_trips.figures();
   figures.activations = live.activations.decided(now, from);
   figures.done = live.activations.done(from);
   if (live.reader) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "application/round_trips.hpp"
 #include "application/topic_values.hpp"
 #include "models/host/application.hpp"
 #include "scenario/applications/activations.hpp"
@@ -28,6 +29,7 @@ struct ThreadFigures {
   std::uint64_t overwritten = 0;          ///< of them, those that newer ones displaced
   std::uint64_t lost = 0;                 ///< on the way
   std::optional<plant::CriterionFigures> values;  ///< criterion 2, of a subscription
+  std::optional<DurationFigures> round_trip;  ///< of a subscription to which values come back, on the clock of the host
 };
 
 class DdsNode;
@@ -99,6 +101,7 @@ class TopicApplication final : public models::Application {
       ThreadFigures figures;
       std::optional<std::uint64_t> lost_before = {};
       std::uint64_t displaced_before = 0;
+      application::RoundTrips round_trips = {};
     };
     Accounts<Seen, sim::LocalTime> seen;
   };

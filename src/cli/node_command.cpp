@@ -12,6 +12,7 @@
 #include "node/applications/host.hpp"
 #include "node/applications/statistics_file.hpp"
 #include "node/built_in_values.hpp"
+#include "node/description.hpp"
 #include "node/log.hpp"
 #include "node/real_node.hpp"
 #include "node/server/opcua_server.hpp"
@@ -68,6 +69,20 @@ ExitStatus hash_password() {
   return ExitStatus::pass;
 }
 
+/// What another publisher or subscriber must know of the node's messages.
+ExitStatus describe_node(const std::string& file) {
+  if (node::is_applications_file(file)) {
+    std::fputs("takt: --describe is for nodes of Programs; of topics docs/applications.md says which ids they have\n", stderr);
+    return ExitStatus::bad_input;
+  }
+  json::Diagnostics diagnostics;
+  const auto loaded = node::load_config(file, diagnostics);
+  tell(diagnostics);
+  if (!loaded) return ExitStatus::bad_input;
+  std::fputs(node::to_json(node::description_of(*loaded)).c_str(), stdout);
+  return ExitStatus::pass;
+}
+
 ExitStatus run_node(const std::string& file, bool is_check) {
   if (node::is_applications_file(file)) return run_applications(file, is_check);
   json::Diagnostics diagnostics;
@@ -119,9 +134,11 @@ void add_node_command(Command app, ExitStatus& status) {
   const auto file = std::make_shared<std::string>();
   const auto is_check = std::make_shared<bool>(false);
   const auto is_hash = std::make_shared<bool>(false);
+  const auto is_describe = std::make_shared<bool>(false);
   command.add_option("CONFIG", *file, "The file of the node (JSON, comments allowed)");
   command.add_flag("--hash-password", *is_hash, "Print the hash of the password on standard input, for a file of users of the server");
   command.add_flag("--check", *is_check, "Say whether the file is sound, and no more");
+  command.add_flag("--describe", *is_describe, "Print the messages that the node sends and hears - ids, GroupVersion, fields and where they stand - as JSON, to configure others by, and no more");
   command.footer(
       "Examples:\n"
       "  takt node left.json                     runs until its duration is over, or until SIGINT or SIGTERM\n"
@@ -131,9 +148,9 @@ void add_node_command(Command app, ExitStatus& status) {
       "Standard output is one JSON object a line: transitions, calls, intents, received values if asked for, and statistics at the end,\n"
       "which standard error has as text. takt ctl speaks to a node while it runs.\n"
       "Exit status: 0 ended or stopped, 2 bad input, 3 the machine does not let it (port, interface, permission).");
-  command.callback([file, is_check, is_hash, &status] {
+  command.callback([file, is_check, is_hash, is_describe, &status] {
     if (file->empty() && !*is_hash) std::fputs("takt: CONFIG is required: the file of the node\n", stderr);
-    status = *is_hash ? hash_password() : file->empty() ? ExitStatus::bad_input : run_node(*file, *is_check);
+    status = *is_hash ? hash_password() : file->empty() ? ExitStatus::bad_input : *is_describe ? describe_node(*file) : run_node(*file, *is_check);
   });
 }
 

@@ -16,6 +16,7 @@
 #include "node/applications/config.hpp"
 #include "node/applications/host.hpp"
 #include "node/config.hpp"
+#include "node/description.hpp"
 #include "node/node_status.hpp"
 #include "results/run_result.hpp"
 #include "scenario/description/description.hpp"
@@ -57,6 +58,7 @@ constexpr std::array file_kinds{
     written_as<interchange::schedules::ScheduleReport>("schedule", "takt schedule --format json"),
     written_as<study::Comparison>("compare", "takt compare --format json"),
     written_as<node::NodeStatus>("status", "takt ctl NODE status --format json"),
+    written_as<node::NodeDescription>("describe", "takt node --describe"),
     written_as<node::ApplicationsReport>("statistics", "takt node: statistics of applications"),
     written_as<emulate::Report>("emulate", "takt emulate --format json"),
 };
@@ -86,7 +88,7 @@ void add_schema_command(Command app, ExitStatus& status) {
   const auto options = std::make_shared<Options>();
   std::vector<std::string> names;
   for (const FileKind& kind : file_kinds) names.emplace_back(kind.name);
-  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result, bound, verify, explain, explore, schedule, compare, status, statistics (of a node of applications) or emulate (takt check --format json writes a scenario)").one_of(names);
+  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result, bound, verify, explain, explore, schedule, compare, status, describe (of a node of Programs), statistics (of a node of applications) or emulate (takt check --format json writes a scenario)").one_of(names);
   command.add_flag("--reference", options->as_reference, "Markdown for people instead: every key with unit, range, default and meaning");
   command.footer("Examples:\n  takt schema > scenarios/takt.schema.json\n  takt schema study > scenarios/studies/takt-study.schema.json\n  takt schema scenario --reference | less");
   command.callback([options, &status] {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gateway/md5.hpp"
 #include "sim/check.hpp"
 
 namespace takt::gateway {
@@ -26,26 +27,40 @@ KeyLayout::KeyLayout(const IdlStruct& type, std::span<const std::string> keys) {
     }
     at += size * count;
   }
-  TAKT_CHECK(octets_ <= most_octets, "a key fits its hash");
 }
 
 KeyHash KeyLayout::of_data(uadp::Octets payload) const { return hash_of(payload, &Member::in_data); }
 KeyHash KeyLayout::of_key(uadp::Octets payload) const { return hash_of(payload, &Member::in_key); }
 
-KeyHash KeyLayout::hash_of(uadp::Octets payload, std::size_t Member::*place) const {
-  KeyHash hash{};
-  if (payload.size() < header || payload[0] != std::byte{0} || payload[1] > std::byte{1}) return hash;
+std::vector<std::uint8_t> KeyLayout::key_in(uadp::Octets payload, std::size_t Member::*place) const {
+  std::vector<std::uint8_t> key(octets_);
+  if (!copy_key(payload, place, key)) key.clear();
+  return key;
+}
+
+/// `key` has its octets, and zeros where nothing is put. False: the payload is none of the struct.
+bool KeyLayout::copy_key(uadp::Octets payload, std::size_t Member::*place, std::span<std::uint8_t> key) const {
+  if (payload.size() < header || payload[0] != std::byte{0} || payload[1] > std::byte{1}) return false;
   const bool is_little = payload[1] == std::byte{1};
   const uadp::Octets body = payload.subspan(header);
   for (const Member& member : members_) {
-    if (member.*place + member.size * member.count > body.size()) return {};
+    if (member.*place + member.size * member.count > body.size()) return false;
     for (std::size_t i = 0; i < member.size * member.count; ++i) {
       const std::size_t in_value = i % member.size;
       const std::size_t from = is_little ? i - in_value + (member.size - 1 - in_value) : i;
-      hash[member.in_key + i] = std::to_integer<std::uint8_t>(body[member.*place + from]);
+      key[member.in_key + i] = std::to_integer<std::uint8_t>(body[member.*place + from]);
     }
   }
-  return hash;
+  return true;
+}
+
+KeyHash KeyLayout::hash_of(uadp::Octets payload, std::size_t Member::*place) const {
+  if (is_in_hash()) {
+    KeyHash hash{};
+    return copy_key(payload, place, hash) ? hash : KeyHash{};
+  }
+  std::vector<std::uint8_t> key(octets_);
+  return copy_key(payload, place, key) ? md5(key) : KeyHash{};
 }
 
 }  // namespace takt::gateway

@@ -12,22 +12,24 @@
 
 namespace takt::gateway {
 
-/// The key members in big-endian CDR, in the order of their declaration, filled up with zeros.
+/// The key members in big-endian CDR, in the order of their declaration, filled up with zeros; of more than 16 octets the MD5 of these.
 using KeyHash = std::array<std::uint8_t, 16>;
 
 class KeyLayout {
  public:
-  /// Longer keys would be hashed by MD5, which is not done here.
-  static constexpr std::size_t most_octets = std::tuple_size_v<KeyHash>;
-
   /// No key.
   KeyLayout() = default;
-  /// Preconditions: the struct has numbers and arrays of numbers only, and members of these names, with at most `most_octets`.
+  /// Preconditions: the struct has numbers and arrays of numbers only, and members of these names.
   KeyLayout(const IdlStruct& type, std::span<const std::string> keys);
 
   bool has_key() const { return !members_.empty(); }
-  /// Of the hash that are octets of the key.
+  /// Of the key in CDR.
   std::size_t octets() const { return octets_; }
+  /// Whether the hash is the key.
+  bool is_in_hash() const { return octets_ <= std::tuple_size_v<KeyHash>; }
+  /// The key of a serialized payload, of a whole sample or of the key alone, in big-endian CDR without an encapsulation header. Empty if it is none of the struct.
+  std::vector<std::uint8_t> key_in_data(uadp::Octets payload) const { return key_in(payload, &Member::in_data); }
+  std::vector<std::uint8_t> key_in_key(uadp::Octets payload) const { return key_in(payload, &Member::in_key); }
   /// Of a serialized payload with its encapsulation header, CDR of either byte order. All zeros if it is none of the struct.
   KeyHash of_data(uadp::Octets payload) const;
   /// Of a payload that holds the key only.
@@ -40,6 +42,8 @@ class KeyLayout {
     std::size_t size = 0;      // of a value
     std::size_t count = 1;
   };
+  std::vector<std::uint8_t> key_in(uadp::Octets payload, std::size_t Member::*place) const;
+  bool copy_key(uadp::Octets payload, std::size_t Member::*place, std::span<std::uint8_t> key) const;
   KeyHash hash_of(uadp::Octets payload, std::size_t Member::*place) const;
 
   std::vector<Member> members_;

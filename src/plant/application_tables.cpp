@@ -80,7 +80,7 @@ const json::Object& describe(json::Type<Topic>) {
       optional<&Topic::publisher_id>("publisher_id", "Of OPC UA: PublisherId of whoever publishes it; the next one that is free if absent.", {.min = 1}),
       optional<&Topic::pcp>("pcp", "Priority in a VLAN tag; untagged, priority 0, if absent.", {.max = 7}),
       optional<&Topic::vlan>("vlan", "VLAN identifier in the tag; 0 is a priority tag.", {.max = 4094}),
-      optional<&Topic::keys>("keys", "Of DDS: the fields that tell instances apart; together at most 16 octets.", {.max_items = 16, .unique = true}),
+      optional<&Topic::keys>("keys", "Of DDS: the fields that tell instances apart.", {.max_items = 16, .unique = true}),
       optional<&Topic::type>("type", "Of DDS: the name of the IDL struct, with its modules (\"Plant::Sample\"); the name of the topic if absent.", {.min_length = 1, .max_length = 255}),
       optional<&Topic::domain>("domain", "Of DDS: the DomainId; 0 if absent.", {.max = 232}),
       optional<&Topic::qos>("qos", "Of DDS: quality of service of all writers and readers of the topic."),

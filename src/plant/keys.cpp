@@ -10,20 +10,7 @@
 namespace takt::plant {
 namespace {
 
-constexpr std::size_t most_octets = 16;  // of a key hash (DDSI-RTPS 2.5, 9.6.4.8) that is the key itself
-
 bool is_key(const std::vector<std::string>& keys, const std::string& name) { return std::find(keys.begin(), keys.end(), name) != keys.end(); }
-
-/// In CDR, in the order of the fields.
-std::size_t octets_of(const std::vector<std::string>& keys, const json::NameMap<DataField>& fields) {
-  std::size_t octets = 0;
-  for (const auto& [name, field] : fields) {
-    if (!is_key(keys, name)) continue;
-    const std::size_t size = uadp::fixed_octets(built_in_type_of(field.type));
-    octets = (octets + size - 1) / size * size + size * field.count;
-  }
-  return octets;
-}
 
 }  // namespace
 
@@ -39,8 +26,6 @@ void check_keys(const json::Source& topic, const std::vector<std::string>& keys,
   if (!all_known || keys.empty()) return;
   if (std::all_of(names.begin(), names.end(), [&](std::string_view name) { return is_key(keys, std::string(name)); }))
     diagnostics.error(topic.at("keys"), "keys and nothing else", {"all fields are keys", "a field that is none, for the value"});
-  else if (const std::size_t octets = octets_of(keys, fields); octets > most_octets)
-    diagnostics.error(topic.at("keys"), "a key that is too long", {std::to_string(octets) + " octets", "at most " + std::to_string(most_octets) + ": longer ones would be hashed by MD5"});
 }
 
 void check_instances(const Payload& payload, bool has_keys, json::Diagnostics& diagnostics) {

@@ -9,7 +9,7 @@
 
 namespace takt::plant {
 
-/// `topic` is where the topic with these keys is written. Each key is a field, and one field at least is none; all together have at most 16 octets.
+/// `topic` is where the topic with these keys is written. Each key is a field, and one field at least is none.
 void check_keys(const json::Source& topic, const std::vector<std::string>& keys, const json::NameMap<DataField>& fields, json::Diagnostics& diagnostics);
 /// Instances belong to a topic that has keys.
 void check_instances(const Payload& payload, bool has_keys, json::Diagnostics& diagnostics);

@@ -57,13 +57,19 @@ ddsi_serdata* completed(RawData* data) {
   return data;
 }
 
-/// Of an instance.
-ddsi_serdata* data_of_key(const ddsi_sertype* type, const std::uint8_t* hash) {
+/// Of an instance, its key in big-endian CDR.
+ddsi_serdata* data_of_key(const ddsi_sertype* type, std::span<const std::uint8_t> key) {
   RawData* const data = make_data(type, SDK_KEY);
   if (!key_of(type).has_key()) return completed(data);
-  data->payload.resize(header_octets);  // CDR_BE, as the hash is
-  for (std::size_t i = 0; i < key_of(type).octets(); ++i) data->payload.push_back(std::byte{hash[i]});
+  data->payload.resize(header_octets);  // CDR_BE
+  for (const std::uint8_t octet : key) data->payload.push_back(std::byte{octet});
   return completed(data);
+}
+
+/// Nothing if the hash is not the key: no instance follows from it.
+ddsi_serdata* data_of_hash(const ddsi_sertype* type, const std::uint8_t* hash) {
+  if (!key_of(type).is_in_hash()) return nullptr;
+  return data_of_key(type, std::span(hash, key_of(type).octets()));
 }
 
 const std::byte* bytes(const void* at) { return static_cast<const std::byte*>(at); }
@@ -93,7 +99,7 @@ ddsi_serdata* data_from_parts(const ddsi_sertype* type, ddsi_serdata_kind kind, 
 /// A sample of the application is an Octets when it writes, a vector when it takes.
 ddsi_serdata* data_from_sample(const ddsi_sertype* type, ddsi_serdata_kind kind, const void* sample) {
   const Octets payload = *static_cast<const Octets*>(sample);
-  if (kind != SDK_DATA) return data_of_key(type, key_of(type).of_data(payload).data());
+  if (kind != SDK_DATA) return data_of_key(type, key_of(type).key_in_data(payload));
   RawData* const data = make_data(type, kind);
   data->payload.assign(payload.begin(), payload.end());
   return completed(data);
@@ -119,14 +125,15 @@ constexpr ddsi_serdata_ops make_data_operations() {
   ops.get_size = [](const ddsi_serdata* data) { return static_cast<std::uint32_t>(raw(data).size); };
   ops.from_ser = data_from_fragments;
   ops.from_ser_iov = data_from_parts;
-  ops.from_keyhash = [](const ddsi_sertype* type, const ddsi_keyhash* hash) -> ddsi_serdata* { return data_of_key(type, hash->value); };
+  ops.from_keyhash = [](const ddsi_sertype* type, const ddsi_keyhash* hash) -> ddsi_serdata* { return data_of_hash(type, hash->value); };
   ops.from_sample = data_from_sample;
   ops.to_ser = data_to_octets;
   ops.to_ser_ref = data_lend;
   ops.to_ser_unref = [](ddsi_serdata* data, const ddsrt_iovec_t*) { ddsi_serdata_unref(data); };
   ops.to_sample = data_to_sample;
   ops.to_untyped = [](const ddsi_serdata* data) -> ddsi_serdata* {
-    ddsi_serdata* const untyped = data_of_key(data->type, raw(data).key.data());
+    const gateway::KeyLayout& key = key_of(data->type);
+    ddsi_serdata* const untyped = data_of_key(data->type, data->kind == SDK_DATA ? key.key_in_data(raw(data).payload) : key.key_in_key(raw(data).payload));
     untyped->type = nullptr;
     return untyped;
   };

@@ -104,7 +104,11 @@ class Checker {
       if (entry.interval.ps() < ns || entry.interval.ps() % ns != 0) return say("\"{}\" has an entry of {} ps", port, entry.interval.ps());
       sum += entry.interval.ps();
     }
-    if (list.entries.empty() || list.entries.size() > 1024) return say("\"{}\" has {} entries", port, list.entries.size());
+    const scenario::ListLimits& limits = problem_.ports[p].limits;
+    for (const GateList::Entry& entry : list.entries)
+      if (entry.interval < limits.least_interval || entry.interval % limits.granularity != Duration()) return say("\"{}\" has an entry of {} ps, which its device cannot", port, entry.interval.ps());
+    if (list.cycle % limits.granularity != Duration()) return say("the cycle of \"{}\" is {} ps, which its device cannot", port, list.cycle.ps());
+    if (list.entries.empty() || list.entries.size() > std::min<std::size_t>(1024, limits.entries)) return say("\"{}\" has {} entries", port, list.entries.size());
     if (sum != list.cycle.ps()) return say("the entries of \"{}\" do not fill its cycle of {} ps", port, list.cycle.ps());
     for (const auto& [s, h] : here)
       if (stream(s).period.ps() <= 0 || list.cycle.ps() % stream(s).period.ps() != 0) return say("the cycle of \"{}\" is no multiple of the period of \"{}\"", port, stream(s).name);
@@ -194,16 +198,30 @@ class Checker {
         return true;
       });
     }
-    // The other way: what each entry says has its reason.
+    // The other way: what each entry says has its reason. Where a device has limits, time of the other classes may be missing; and a class may be open for nobody while they are closed, if
+    // none of its frames could use that to leave at another time.
+    const bool has_limits = problem_.ports[p].limits != scenario::ListLimits{};
+    const bool may_be_wider = has_limits && !has_waiting(passages);
     int128 begin = 0;
     for (const GateList::Entry& entry : list.entries) {
       const int128 end = begin + entry.interval.ps();
       for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
-        if ((scheduled >> q & 1) != 0 && (entry.open >> q & 1) != 0 && !is_covered(p, passages, begin, end, q)) say("class {} of \"{}\" is open from {} ps on for nobody", q, port, static_cast<std::int64_t>(begin));
-      if ((entry.open & others) != others && !is_covered(p, passages, begin, end, std::nullopt))
+        if ((scheduled >> q & 1) != 0 && (entry.open >> q & 1) != 0 && !(may_be_wider && (entry.open & others) == 0) && !is_covered(p, passages, begin, end, q)) say("class {} of \"{}\" is open from {} ps on for nobody", q, port, static_cast<std::int64_t>(begin));
+      if ((entry.open & others) != others && !has_limits && !is_covered(p, passages, begin, end, std::nullopt))
         say("other classes of \"{}\" are closed from {} ps on for nobody", port, static_cast<std::int64_t>(begin));
       begin = end;
     }
+  }
+
+  /// Whether a frame may stand in a queue before its window opens, or beside one of its train and another class, which would go first.
+  bool has_waiting(const std::vector<Passage>& passages) const {
+    for (const Passage& each : passages) {
+      const ScheduledStream& one = stream(each.stream);
+      if (!hop(each.stream, each.hop).previous && (one.early > Duration() || one.release.ps() % ns != 0)) return true;
+      for (const Passage& other : passages)
+        if (stream(other.stream).train == one.train && hop(other.stream, other.hop).traffic_class != hop(each.stream, each.hop).traffic_class) return true;
+    }
+    return false;
   }
 
   /// Calls for each entry that some instant of [from, until) falls into, whatever the cycle; until it says no.

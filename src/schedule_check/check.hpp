@@ -16,6 +16,8 @@ namespace takt::schedule_check {
 ///   the gates of classes without windows are closed, from a guard before on;
 /// - frames of different trains, or of one train that come by different ways, never meet, whatever the clocks say within the margin;
 /// - a scheduled class is open in its windows only (to the ns), and the other classes are open in all that is left;
+/// - where the device of a port has limits they are kept; then time of the other classes may be missing, and while they are closed a scheduled class may be open outside its windows
+///   if none of its frames waits there for a window;
 /// - cycles are common multiples of the periods, and the lists are such as ports take: 1 to 1024 entries of at least 1 ns that fill the cycle.
 std::vector<std::string> check(const scenario::GateProblem& problem, const scenario::GateSolution& schedule, std::size_t most = 20);
 

@@ -6,6 +6,7 @@
 
 #include "analysis/bounds.hpp"
 #include "evaluation/evaluate.hpp"
+#include "scenario/resolve/gate_limits.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "schedule/refute.hpp"
@@ -21,10 +22,12 @@ using scenario::Scenario;
 using sim::Duration;
 using Verdict = schedule::Decision::Verdict;
 
-/// The resolver's answer; null if it finds no offsets, or anything else is wrong.
-std::unique_ptr<Resolved> resolve_quietly(const Scenario& scenario) {
+/// The resolver's answer; null if it finds no offsets, or anything else is wrong. What devices cannot do is noted in `why`.
+std::unique_ptr<Resolved> resolve_quietly(const Scenario& scenario, std::string& why) {
   json::Diagnostics unheard;
   auto resolved = scenario::resolve(scenario, unheard);
+  for (const json::Diagnostic& each : unheard.kept())
+    if (each.message == scenario::beyond_the_device) why = each.details.found;
   return unheard.has_errors() || !resolved || !resolved->gates ? nullptr : std::move(resolved);
 }
 
@@ -74,6 +77,18 @@ void judge(ScenarioSchedule& answer) {
   }
 }
 
+/// No device has more entries than that.
+Scenario with_entries(Scenario scenario, std::uint32_t entries) {
+  if (entries >= scenario::most_gate_entries) return scenario;
+  const auto limit = [entries](std::optional<scenario::GateLimits>& limits) {
+    if (!limits) limits.emplace();
+    limits->entries = std::min(limits->entries.value_or(entries), entries);
+  };
+  for (auto& [name, node] : scenario.network.nodes) limit(scenario::ports_of(node).gate_limits);
+  for (scenario::Generator& generator : scenario.network.generate) limit(generator.gate_limits);
+  return scenario;
+}
+
 /// True if it is answered: scheduled, or lists too long for the devices.
 bool take(ScenarioSchedule& answer, std::unique_ptr<Resolved> resolved, const ScenarioOptions& options, const char* how) {
   if (!resolved) return false;
@@ -91,13 +106,14 @@ bool take(ScenarioSchedule& answer, std::unique_ptr<Resolved> resolved, const Sc
 
 }  // namespace
 
-std::optional<ScenarioSchedule> schedule_scenario(const Scenario& wanted, const ScenarioOptions& options, json::Diagnostics& diagnostics) {
+std::optional<ScenarioSchedule> schedule_scenario(const Scenario& asked, const ScenarioOptions& options, json::Diagnostics& diagnostics) {
+  const Scenario wanted = with_entries(asked, options.entries);
   if (!wanted.gates || wanted.gates->plan != scenario::GatePlanning::automatic) {
     diagnostics.error(wanted.where.at("gates"), "nothing to schedule", {"no automatic gates", "\"gates\": {\"plan\": \"auto\", \"classes\": [...]}, and \"offset\": \"auto\" where a stream may begin when it suits"});
     return std::nullopt;
   }
   ScenarioSchedule answer;
-  if (take(answer, resolve_quietly(wanted), options, "given paths")) return answer;
+  if (take(answer, resolve_quietly(wanted, answer.how), options, "given paths")) return answer;
   // Is anything else wrong than that there is no schedule? Without gates it would be, too.
   Scenario bare = wanted;
   bare.gates.reset();
@@ -135,19 +151,20 @@ std::optional<ScenarioSchedule> schedule_scenario(const Scenario& wanted, const 
   answer.instance = problem;
   if (decision.certificate)
     if (const std::string why = schedule_check::why_not_proved(problem, *decision.certificate); !why.empty()) answer.wrong.push_back("certificate: " + why);
+  if (decision.verdict == Verdict::infeasible) answer.how.clear();
   if (decision.verdict != Verdict::scheduled) return answer;
   answer.verdict = Verdict::undecided;
   Scenario routed = wanted;
   for (std::size_t s = 0; s < problem.streams.size(); ++s)
     if (instance->streams[s] && !problem.streams[s].route) routed.streams[*instance->streams[s]].path = path_of(problem, *decision.found.solution.streams[s]);
-  if (take(answer, resolve_quietly(routed), options, "searched paths")) return answer;
+  if (take(answer, resolve_quietly(routed, answer.how), options, "searched paths")) return answer;
   // Starts that the search found: whole ns, if delays are.
   for (std::size_t s = 0; s < problem.streams.size(); ++s) {
     if (!instance->streams[s]) continue;
     auto& written = routed.streams[*instance->streams[s]];
     if (written.offset && written.offset->is_auto) written.offset = json::OrAuto<Duration>(Duration::from_ps(decision.found.solution.streams[s]->starts.front().front() / 1'000 * 1'000));
   }
-  if (take(answer, resolve_quietly(routed), options, "searched paths and offsets")) return answer;
+  if (take(answer, resolve_quietly(routed, answer.how), options, "searched paths and offsets")) return answer;
   if (answer.how.empty()) answer.how = "ways were found for which no offsets in whole ns are";
   return answer;
 }

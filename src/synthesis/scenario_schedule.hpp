@@ -13,7 +13,7 @@ namespace takt::synthesis {
 
 struct ScenarioOptions {
   bool may_route = true;                 ///< streams without a path and with "offset": "auto" may get one
-  std::uint32_t entries = 1024;          ///< a gate list may have
+  std::uint32_t entries = 1024;          ///< a gate list may have, besides what "gate_limits" of nodes say
   schedule::SearchOptions search;
 };
 

@@ -16,6 +16,13 @@ std::string program(const std::string& more) {
   return with("", R"("gates": "auto", "programs": [{"name": "p", "master": "h1", "slaves": ["h3"], "cycle": "500us")" + more + "}]");
 }
 
+/// Switches with these limits; "gates" and the streams follow.
+std::string limited(const std::string& of_switches, const std::string& rest) {
+  return R"({"name": "t", "duration": "1ms", "network": {"generate": [{"topology": "line", "switches": 2, "hosts_per_switch": 2, )" + of_switches + "}]},\n" + rest + "}";
+}
+const std::string two_of_six = R"("streams": [{"name": "a", "from": "h1", "to": "h3", "payload": "100B", "every": "500us", "offset": "0us", "pcp": 6},
+{"name": "b", "from": "h2", "to": "h3", "payload": "100B", "every": "500us", "offset": "495us", "pcp": 6}], "gates": {"plan": "auto", "classes": [6]})";
+
 const BadCase cases[] = {
     {"NoPlan", with("", R"("gates": "manual")"), R"(2:10: error at /gates: unknown name for a plan of gates: found "manual", expected "none", "auto" or "listed")"},
     {"NoClasses", with(good, R"("gates": "auto")"),
@@ -65,6 +72,22 @@ const BadCase cases[] = {
 2:31: error at /programs/0: a stream that no gates can be laid for: found "p/state/h3" with "publish": "on-change", at no known time, expected what "gates": "auto" can plan, or another class)"},
     {"GptpInTheClass", scheduled(R"({"name": "a", "from": "h1", "to": "h3", "payload": "100B", "every": "500us", "offset": "0us", "pcp": 7})", "\n{\"plan\": \"auto\", \"classes\": [7]}", ", \"clocks\": {\"gptp\": {}}"),
      R"(3:1: error at /gates: gPTP in a scheduled class: found the class of priority 7 is scheduled, expected other classes, since messages of gPTP have priority 7)"},
+    {"MoreEntriesThanTheDeviceHas", limited(R"("gate_limits": {"entries": 2})", two_of_six),
+     R"(1:133: error at /network/generate/0/gate_limits: gates beyond what the device can do: found "sw1 to sw2" needs 3 entries, the device has 2; with 3 it holds; "sw2 to h3" needs 3 entries, the device has 2; with 3 it holds, expected limits that leave room for the scheduled frames, or fewer or shorter of these)"},
+    {"ACycleOfOtherSteps", limited(R"("gate_limits": {"granularity": "3us"})", two_of_six),
+     R"(1:133: error at /network/generate/0/gate_limits: gates beyond what the device can do: found the cycle of "sw1 to sw2", 500us, is no multiple of the granularity of 3us; with periods that are it holds; the cycle of "sw2 to h3", 500us, is no multiple of the granularity of 3us; with periods that are it holds, expected limits that leave room for the scheduled frames, or fewer or shorter of these)"},
+    {"IntervalsOfHalfACycle", limited(R"("gate_limits": {"least_interval": "300us"})", two_of_six),
+     R"(1:133: error at /network/generate/0/gate_limits: gates beyond what the device can do: found "sw1 to sw2" would never open for other classes, with intervals of at least 300us that are multiples of 1ns; "sw2 to h3" would never open for other classes, with intervals of at least 300us that are multiples of 1ns, expected limits that leave room for the scheduled frames, or fewer or shorter of these)"},
+    {"OwnListsBeyondTheDevice", limited(R"("gate_limits": {"entries": 2, "least_interval": "1us", "granularity": "1us"}, "egress": [{"gates": {"entries": [{"open": [6], "for": "500ns"}, {"open": [0], "for": "1us"}, {"open": [], "for": "98500ns"}]}}])", R"("streams": [])"),
+     R"(1:217: error at /network/generate/0/egress/0/gates: gates beyond what the device can do: found 3 entries at "sw1", expected at most 2
+1:217: error at /network/generate/0/egress/0/gates: gates beyond what the device can do: found an entry of 500ns at "sw1", expected at least 1us
+1:217: error at /network/generate/0/egress/0/gates: gates beyond what the device can do: found a list or a cycle of other steps at "sw1", expected multiples of 1us)"},
+    {"ListedAndScriptedBeyondTheDevice", limited(R"("gate_limits": {"entries": 2})", R"("streams": [], "gates": {"plan": "listed", "lists": [{"node": "sw2", "gates": {"entries": [{"open": [6], "for": "1us"}, {"open": [0], "for": "1us"}, {"open": [], "for": "9us"}]}}]},
+"script": [{"at": "0.5ms", "set_gates": {"node": "sw1", "gates": {"entries": [{"open": [6], "for": "1us"}, {"open": [0], "for": "1us"}, {"open": [], "for": "9us"}]}}}])"),
+     R"(2:79: error at /gates/lists/0/gates: gates beyond what the device can do: found 3 entries at "sw2", expected at most 2
+3:66: error at /script/0/set_gates/gates: gates beyond what the device can do: found 3 entries at "sw1", expected at most 2)"},
+    {"MoreClassesThanQueues", limited(R"("gate_limits": {"queues": 1})", R"("streams": [{"name": "a", "from": "h1", "to": "h3", "payload": "100B", "every": "500us", "pcp": 6}, {"name": "b", "from": "h2", "to": "h3", "payload": "100B", "every": "500us", "pcp": 5}])"),
+     R"(1:144: error at /network/generate/0/gate_limits/queues: more traffic classes than queues: found "sw1 to sw2" sends frames of the classes 5, 6, the device has 1 queues, expected priorities in fewer classes; with 2 queues it holds)"},
     {"UnknownNode", with(good, R"("gates": {"plan": "listed", "lists": [{"node": "sw3", "gates": {"entries": [{"open": [], "for": "1us"}]}}, {"node": "sw1", "to": "h3", "gates": {"entries": [{"open": [], "for": "1us"}]}}]})"),
      R"(2:48: error at /gates/lists/0/node: unknown node: found "sw3", expected the name of a node (did you mean "sw1"?)
 2:130: error at /gates/lists/1/to: not a neighbour: found "h3", expected a node that a link joins to "sw1")"},

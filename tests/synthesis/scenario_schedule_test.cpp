@@ -84,11 +84,60 @@ TEST(ScenarioSchedule, RequirementsLimitTheWay) {
   EXPECT_TRUE(answer->certificate && answer->certificate->in_time);
 }
 
+std::string with_limits(std::string text, const std::string& limits) {
+  const std::string at = "\"forwarding_delay\": \"1us\"";
+  text.insert(text.find(at) + at.size(), ", \"gate_limits\": " + limits);
+  return text;
+}
+
+// sw1 to sw2 carries both frames. Without limits: closed for the guard, a, closed, b, and the other classes twice; with the guard in the window a list of 4 does.
+TEST(ScenarioSchedule, ListsAreAsShortAsDevicesAsk) {
+  const auto free = scheduled(two_streams(50), false);
+  const auto answer = scheduled(with_limits(two_streams(50), R"({"entries": 4})"), false);
+  ASSERT_TRUE(free && answer);
+  ASSERT_EQ(answer->verdict, Verdict::scheduled);
+  EXPECT_GT(free->most_entries, 4u);
+  EXPECT_LE(answer->most_entries, 4u);
+  for (const JudgedStream& each : answer->streams) {
+    EXPECT_EQ(each.delivered, 40u);
+    EXPECT_EQ(each.simulated, each.planned);
+  }
+  // What comes out keeps its limits, and is taken with them.
+  json::Diagnostics diagnostics;
+  EXPECT_TRUE(scenario::load_text(json::encode(answer->resolved->scenario), "again.json", {}, diagnostics)) << diagnostics.to_text();
+}
+
+// Frames of 11.7 us, so that windows and all between them become longer than 13 us and multiples of 1 us.
+TEST(ScenarioSchedule, IntervalsAreAsDevicesAsk) {
+  const auto answer = scheduled(with_limits(two_streams(100), R"({"least_interval": "13us", "granularity": "1us"})"), false);
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->verdict, Verdict::scheduled) << answer->how;
+  std::size_t seen = 0;
+  for (std::size_t p = 0; p < answer->resolved->gates->problem.ports.size(); ++p) {
+    if (answer->resolved->gates->problem.ports[p].limits == scenario::ListLimits{}) continue;   // of a host
+    for (const auto& entry : answer->resolved->gates->schedule.lists[p].entries) {
+      ++seen;
+      EXPECT_GE(entry.interval.ps(), 13'000'000);
+      EXPECT_EQ(entry.interval.ps() % 1'000'000, 0);
+    }
+  }
+  EXPECT_GT(seen, 4u);
+}
+
 TEST(ScenarioSchedule, ListsThatAreTooLongAreSaid) {
-  const auto answer = scheduled(two_streams(50), false, 4);
+  const auto answer = scheduled(two_streams(50), false, 2);
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->verdict, Verdict::undecided);
-  EXPECT_NE(answer->how.find("and 4 are allowed"), std::string::npos) << answer->how;
+  EXPECT_NE(answer->how.find("entries, "), std::string::npos) << answer->how;
+  EXPECT_NE(answer->how.find("2"), std::string::npos) << answer->how;
+}
+
+// Cycles of 50 us are no multiples of 3 us; a scenario without any schedule would be refused, too.
+TEST(ScenarioSchedule, CyclesAreAsDevicesAsk) {
+  const auto answer = scheduled(with_limits(two_streams(50), R"({"granularity": "3us"})"), false);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->verdict, Verdict::undecided);
+  EXPECT_NE(answer->how.find("no multiple of the granularity of 3us"), std::string::npos) << answer->how;
 }
 
 TEST(ScenarioSchedule, WithoutAutomaticGatesThereIsNothingToDo) {

@@ -169,11 +169,22 @@ struct Egress {
   bool operator==(const Egress&) const = default;
 };
 
+/// What a device can do with the gate control lists of its ports.
+struct GateLimits {
+  json::Source where;
+  std::optional<std::uint32_t> entries;      ///< of a list, at most
+  std::optional<Duration> least_interval;    ///< no entry is shorter
+  std::optional<Duration> granularity;       ///< entries and cycles are multiples of it
+  std::optional<std::uint8_t> queues;        ///< different traffic classes at a port, at most
+  bool operator==(const GateLimits&) const = default;
+};
+
 /// What the ports of a node do.
 struct NodePorts {
   TrafficClasses traffic_classes = TrafficClasses::standard;
   Queues queues;
   std::vector<Egress> egress;
+  std::optional<GateLimits> gate_limits = {};
   bool operator==(const NodePorts&) const = default;
 };
 
@@ -263,6 +274,7 @@ struct Generator {
   std::optional<std::uint64_t> stations = {};
   std::string station_prefix = "st";
   std::optional<Latency> forwarding_jitter = {};
+  std::optional<GateLimits> gate_limits = {};
   bool operator==(const Generator&) const = default;
 };
 
@@ -452,6 +464,7 @@ const json::Object& describe(json::Type<Queues::PerClass>);
 const json::Enumeration& describe(json::Type<MacOperation>);
 const json::Object& describe(json::Type<GateEntry>);
 const json::Object& describe(json::Type<Gates>);
+const json::Object& describe(json::Type<GateLimits>);
 const json::Enumeration& describe(json::Type<SlopeOf>);
 const json::Object& describe(json::Type<Shaper>);
 const json::Object& describe(json::Type<Share>);

@@ -119,6 +119,17 @@ const json::Object& describe(json::Type<Gates>) {
   return table;
 }
 
+const json::Object& describe(json::Type<GateLimits>) {
+  static constexpr json::Field fields[] = {
+      optional<&GateLimits::entries>("entries", "Most entries of a list.", {.min = 2, .max = models::CyclicIntervals::entry_limit}),
+      optional<&GateLimits::least_interval>("least_interval", "No entry is shorter; 1 ns if absent.", {.min = 1_ns, .max = 1_s}),
+      optional<&GateLimits::granularity>("granularity", "Cycles and entries are multiples of it; 1 ns if absent.", {.min = 1_ns, .max = 1_s}),
+      optional<&GateLimits::queues>("queues", "Most traffic classes that frames of one port are in; 8 if absent.", {.min = 1, .max = 8}),
+  };
+  static constexpr json::Object table = json::object<GateLimits>("gate_limits", "What a device can do with gates. Automatic gates keep to it, other lists are refused if they do not.", fields);
+  return table;
+}
+
 const json::Enumeration& describe(json::Type<SlopeOf>) {
   static constexpr json::EnumName names[] = {
       name(SlopeOf::cycle, "cycle", "over the whole gate cycle: credit grows faster while the gate is open"),
@@ -205,6 +216,8 @@ constexpr json::Field cpu_field = optional<&EndStation::cpu, Owner>("cpu", "Its 
 template <class Owner>
 constexpr json::Field traffic_classes_field = optional<&NodePorts::traffic_classes, Owner>("traffic_classes", "Which priority is sent in which queue.");
 template <class Owner>
+constexpr json::Field gate_limits_field = optional<&NodePorts::gate_limits, Owner>("gate_limits", "What its gates can do.");
+template <class Owner>
 constexpr json::Field forwarding_delay_field =
     optional<&Relay::forwarding_delay, Owner>("forwarding_delay", "From the last bit in (cut through: the header) to the egress queue.", {.max = 1_s});
 template <class Owner>
@@ -224,6 +237,7 @@ const json::Object& describe(json::Type<HostNode>) {
       traffic_classes_field<HostNode>,
       optional<&NodePorts::queues, HostNode>("queues", "The queues of each network interface."),
       optional<&NodePorts::egress, HostNode>("egress", "Gates and shapers of the network interfaces.", {.max_items = 16}),
+      gate_limits_field<HostNode>,
       processing_field<HostNode>,
       offers_field<HostNode>,
       cpu_field<HostNode>,
@@ -241,6 +255,7 @@ const json::Object& describe(json::Type<SwitchNode>) {
       traffic_classes_field<SwitchNode>,
       optional<&NodePorts::queues, SwitchNode>("queues", "The queues of each port."),
       optional<&NodePorts::egress, SwitchNode>("egress", "Gates and shapers of ports; an entry for a neighbour takes the place of one for all.", {.max_items = 4096}),
+      gate_limits_field<SwitchNode>,
       ingress_field<SwitchNode>,
   };
   static constexpr json::Object table = json::object<SwitchNode>("switch", "A bridge: stores and forwards, or cuts through.", fields);
@@ -256,6 +271,7 @@ const json::Object& describe(json::Type<StationNode>) {
       traffic_classes_field<StationNode>,
       optional<&NodePorts::queues, StationNode>("queues", "The queues of each port."),
       optional<&NodePorts::egress, StationNode>("egress", "Gates and shapers of ports; an entry for a neighbour takes the place of one for all.", {.max_items = 16}),
+      gate_limits_field<StationNode>,
       ingress_field<StationNode>,
       optional<&StationNode::bypass>("bypass", "A relay joins the cables at ports 0 and 1 while the station is down."),
       optional<&StationNode::bypass_switching>("bypass_switching", "How long the relay takes, after the crash and when the station is back; all is dark meanwhile.", {.min = 1_us, .max = 10_s}),
@@ -330,6 +346,7 @@ const json::Object& describe(json::Type<Generator>) {
       optional<&Generator::queues>("queues", "Of all ports."),
       optional<&Generator::traffic_classes>("traffic_classes", "Of all ports."),
       optional<&Generator::egress>("egress", "Gates and shapers of all ports of the switches or stations.", {.max_items = 1}),
+      optional<&Generator::gate_limits>("gate_limits", "What the gates of the switches or stations can do."),
       optional<&Generator::ingress>("ingress", "Policing, ATS and CQF of the switches or stations."),
   };
   static constexpr json::Object table = json::object<Generator>("generator", "A whole topology.", fields);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/resolve/gate_limits.hpp"
 #include "scenario/resolve/gates.hpp"
 #include "scenario/resolve/port_configs.hpp"
 #include "scenario/resolve/stream_at_port.hpp"
@@ -135,7 +136,7 @@ class Extraction {
     if (!is_new) return found->second;
     const Duration gap = octet * models::inter_packet_gap.count;
     const Duration guard = gates_.guard == GateGuard::longest_frame ? octet * models::wire_length(longest_frame).count : gap;
-    problem_.ports.push_back({models::NodeIndex{from}, at.end->port, r_.topology.nodes[from].name + " to " + r_.topology.nodes[to].name, gap, guard});
+    problem_.ports.push_back({models::NodeIndex{from}, at.end->port, r_.topology.nodes[from].name + " to " + r_.topology.nodes[to].name, gap, guard, list_limits_of(r_.topology.nodes[from])});
     scheduled_classes_.push_back(0);
     return found->second;
   }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "scenario/gates/crossings.hpp"
+#include "scenario/gates/list_limits.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -140,10 +141,26 @@ class Layout {
       if (!list.entries.empty() && list.entries.back().open == states) list.entries.back().interval += interval;
       else list.entries.push_back({states, interval});
     }
+    if (problem_.ports[p].limits != ListLimits{}) {
+      FittedList fitted = fit_list(list, scheduled, has_waiting(p), problem_.ports[p].limits);
+      if (fitted.obstacle == ListObstacle::none) list = std::move(fitted.list);
+      else layout_.conflicts.push_back({GateConflict::Kind::limits, crossings_.at(p).front().stream, crossings_.at(p).back().stream, p, {}, {}, {}, {}, list.cycle, fitted.needed, fitted.obstacle});
+      return;
+    }
     if (list.entries.size() <= most_gate_entries) return;
     const Crossing& shortest = *std::min_element(crossings_.at(p).begin(), crossings_.at(p).end(), [&](Crossing a, Crossing b) { return stream(a).period < stream(b).period; });
     const Crossing& longest = *std::max_element(crossings_.at(p).begin(), crossings_.at(p).end(), [&](Crossing a, Crossing b) { return stream(a).period < stream(b).period; });
     layout_.conflicts.push_back({GateConflict::Kind::cycle_too_long, shortest.stream, longest.stream, p, {}, {}, {}, {}, list.cycle, list.entries.size()});
+  }
+
+  /// Whether some frame waits there for its gate, or one of another class may stand beside it.
+  bool has_waiting(std::uint32_t p) const {
+    for (const Crossing& a : crossings_.at(p)) {
+      if (!hop(a).previous && (stream(a).early > Duration() || stream(a).release != floor_ns(stream(a).release))) return true;
+      for (const Crossing& b : crossings_.at(p))
+        if (stream(a).train == stream(b).train && hop(a).traffic_class != hop(b).traffic_class) return true;
+    }
+    return false;
   }
 
   const GateProblem& problem_;

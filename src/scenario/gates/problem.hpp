@@ -15,6 +15,17 @@
 
 namespace takt::scenario {
 
+/// Greatest number of entries of a gate control list.
+inline constexpr std::size_t most_gate_entries = 1024;
+
+/// What a port takes as a gate control list.
+struct ListLimits {
+  std::size_t entries = most_gate_entries;                                  ///< at most
+  sim::Duration least_interval = sim::Duration::from_ps(1'000);             ///< no entry is shorter
+  sim::Duration granularity = sim::Duration::from_ps(1'000);                ///< cycle and entries are multiples of it
+  bool operator==(const ListLimits&) const = default;
+};
+
 /// A port that scheduled frames cross.
 struct GatedPort {
   models::NodeIndex node;
@@ -22,6 +33,7 @@ struct GatedPort {
   std::string name;                         ///< "sw1 to sw2", for people
   sim::Duration gap;                        ///< the inter-packet gap at the link's rate
   sim::Duration guard;                      ///< for how long before a window the other classes are closed; at least the gap
+  ListLimits limits{};                      ///< of its device
   bool operator==(const GatedPort&) const = default;
 };
 
@@ -54,8 +66,6 @@ struct GateProblem {
   bool operator==(const GateProblem&) const = default;
 };
 
-/// Greatest number of entries of a gate control list.
-inline constexpr std::size_t most_gate_entries = 1024;
 /// Greatest cycle of a gate control list.
 inline constexpr sim::Duration longest_gate_cycle = sim::Duration::from_ps(3'600'000'000'000'000);
 
@@ -84,9 +94,18 @@ struct GateSolution {
   bool operator==(const GateSolution&) const = default;
 };
 
+/// Why a device cannot take a list, however it is changed.
+enum class ListObstacle : std::uint8_t {
+  none,
+  cycle,     ///< it is no multiple of the granularity
+  entries,   ///< even the shortest list is too long
+  no_time,   ///< the other classes would never be open
+  waiting,   ///< frames wait for their windows there, which must stay as they are
+};
+
 /// Why there is no schedule.
 struct GateConflict {
-  enum class Kind : std::uint8_t { overlap, cycle_too_long, order };
+  enum class Kind : std::uint8_t { overlap, cycle_too_long, order, limits };
   Kind kind = Kind::overlap;
   std::uint32_t first = 0;                  ///< streams; the same one if it meets itself
   std::uint32_t second = 0;
@@ -96,7 +115,8 @@ struct GateConflict {
   sim::Duration second_from;
   sim::Duration second_until;
   sim::Duration cycle;                      ///< the common cycle, as far as it was worked out
-  std::uint64_t entries = 0;                ///< of a cycle that is too long: at least so many
+  std::uint64_t entries = 0;                ///< of a cycle that is too long: at least so many; of limits: with so many it holds, if their number is what is wrong
+  ListObstacle obstacle = ListObstacle::none;  ///< of limits
 };
 
 /// A problem and its solution, as a scenario keeps them.

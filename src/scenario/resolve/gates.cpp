@@ -5,6 +5,7 @@
 
 #include "scenario/gates/layout.hpp"
 #include "scenario/resolve/egress.hpp"
+#include "scenario/resolve/gate_limits.hpp"
 #include "scenario/resolve/offsets.hpp"
 #include "scenario/resolve/port_configs.hpp"
 
@@ -77,8 +78,8 @@ class GateResolver {
   void report(const StreamsToGate& gated, const std::vector<GateConflict>& conflicts) {
     std::vector<Grouped> groups;
     for (const GateConflict& conflict : conflicts) {
-      const json::Place place = r_.streams[gated.streams[std::max(conflict.first, conflict.second)].value].where.at(conflict.kind == GateConflict::Kind::cycle_too_long ? "every" : "offset");
-      const bool meets_itself = conflict.first == conflict.second;
+      const json::Place place = conflict.kind == GateConflict::Kind::limits ? limits_place(gated.problem.ports[conflict.port]) : r_.streams[gated.streams[std::max(conflict.first, conflict.second)].value].where.at(conflict.kind == GateConflict::Kind::cycle_too_long ? "every" : "offset");
+      const bool meets_itself = conflict.kind != GateConflict::Kind::limits && conflict.first == conflict.second;
       const auto same = [&](const Grouped& each) { return each.kind == conflict.kind && each.meets_itself == meets_itself && each.place.pointer == place.pointer; };
       auto group = std::ranges::find_if(groups, same);
       if (group == groups.end()) group = groups.insert(groups.end(), {conflict.kind, meets_itself, place, {}, 0});
@@ -92,6 +93,8 @@ class GateResolver {
       tell(group, std::move(found));
     }
   }
+
+  json::Place limits_place(const GatedPort& port) const { return ports_of(r_.topology.nodes[port.node.value].description).gate_limits->where.place(); }
 
   struct Grouped {
     GateConflict::Kind kind = GateConflict::Kind::overlap;
@@ -107,6 +110,9 @@ class GateResolver {
         diagnostics_.error(group.place, "gates with too long a cycle",
                            {std::move(found), "periods with a common multiple that takes at most " + std::to_string(most_gate_entries) + " entries and " + json::to_text(longest_gate_cycle)});
         return;
+      case GateConflict::Kind::limits:
+        diagnostics_.error(group.place, beyond_the_device, {std::move(found), "limits that leave room for the scheduled frames, or fewer or shorter of these"});
+        return;
       case GateConflict::Kind::order:
         diagnostics_.error(group.place, "frames that may come in any order",
                            {std::move(found), "\"offset\": \"auto\", phases that are further apart, or another class, so that the first does not wait in the other's window"});
@@ -120,6 +126,7 @@ class GateResolver {
   static std::string words_of(const GateProblem& problem, const GateConflict& conflict) {
     const std::string first = json::quote(problem.streams[conflict.first].name);
     const std::string second = json::quote(problem.streams[conflict.second].name);
+    if (conflict.kind == GateConflict::Kind::limits) return words_of_limits(problem.ports[conflict.port], conflict);
     const std::string at = "at " + json::quote(problem.ports[conflict.port].name) + " ";
     const auto from_to = [](Duration from, Duration until) { return json::to_text(from) + " to " + json::to_text(until); };
     if (conflict.kind == GateConflict::Kind::cycle_too_long)
@@ -132,6 +139,23 @@ class GateResolver {
     }
     return at + first + " from " + from_to(conflict.first_from, conflict.first_until) + " and " + second + " from " + from_to(conflict.second_from, conflict.second_until) + " of each " +
            json::to_text(conflict.cycle);
+  }
+
+  /// What the port needs, and what would do.
+  static std::string words_of_limits(const GatedPort& port, const GateConflict& conflict) {
+    const std::string name = json::quote(port.name);
+    switch (conflict.obstacle) {
+      case ListObstacle::entries:
+        return name + " needs " + std::to_string(conflict.entries) + " entries, the device has " + std::to_string(port.limits.entries) + "; with " + std::to_string(conflict.entries) + " it holds";
+      case ListObstacle::cycle:
+        return "the cycle of " + name + ", " + json::to_text(conflict.cycle) + ", is no multiple of the granularity of " + json::to_text(port.limits.granularity) + "; with periods that are it holds";
+      case ListObstacle::waiting:
+        return name + " has windows that frames wait for, which cannot be changed for intervals of " + json::to_text(port.limits.least_interval) + " and a granularity of " + json::to_text(port.limits.granularity);
+      case ListObstacle::no_time:
+      case ListObstacle::none:
+        break;
+    }
+    return name + " would never open for other classes, with intervals of at least " + json::to_text(port.limits.least_interval) + " that are multiples of " + json::to_text(port.limits.granularity);
   }
 
   void apply(const SetGates& set, std::size_t index) {

@@ -18,6 +18,7 @@
 #include "scenario/resolve/demand.hpp"
 #include "scenario/resolve/egress.hpp"
 #include "scenario/resolve/faults.hpp"
+#include "scenario/resolve/gate_limits.hpp"
 #include "scenario/resolve/gates.hpp"
 #include "scenario/resolve/ingress.hpp"
 #include "scenario/resolve/known_names.hpp"
@@ -72,6 +73,7 @@ class Resolver {
     add_launch_classes(r_, diagnostics_);
     for (const ScriptEntry& entry : r_.scenario.script)
       if (is_read(entry)) add_action(entry);
+    check_gate_limits(r_, diagnostics_);
     take(plan_faults(r_, diagnostics_));
     check_windows(r_, diagnostics_);
     std::stable_sort(r_.script.begin(), r_.script.end(), [](const ResolvedAction& a, const ResolvedAction& b) { return a.at < b.at; });

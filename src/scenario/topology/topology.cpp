@@ -111,7 +111,7 @@ class Builder {
   }
 
   static Node node_of(models::NodeKind kind, const Generator& generator) {
-    const NodePorts ports{generator.traffic_classes, generator.queues, generator.egress};
+    const NodePorts ports{generator.traffic_classes, generator.queues, generator.egress, generator.gate_limits};
     const EndStation end_station{generator.os};
     const Relay relay{.forwarding_delay = generator.forwarding_delay, .forwarding_jitter = generator.forwarding_jitter, .ingress = generator.ingress};
     switch (kind) {

@@ -19,6 +19,7 @@
 #include "scenario/description/clocks.hpp"
 #include "scenario/description/faults.hpp"
 #include "scenario/description/figures.hpp"
+#include "scenario/description/gate_limits.hpp"
 #include "scenario/description/ingress.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -167,16 +168,6 @@ struct Egress {
   std::vector<std::uint8_t> cut_through;
   bool untagged = false;
   bool operator==(const Egress&) const = default;
-};
-
-/// What a device can do with the gate control lists of its ports.
-struct GateLimits {
-  json::Source where;
-  std::optional<std::uint32_t> entries;      ///< of a list, at most
-  std::optional<Duration> least_interval;    ///< no entry is shorter
-  std::optional<Duration> granularity;       ///< entries and cycles are multiples of it
-  std::optional<std::uint8_t> queues;        ///< different traffic classes at a port, at most
-  bool operator==(const GateLimits&) const = default;
 };
 
 /// What the ports of a node do.
@@ -464,7 +455,6 @@ const json::Object& describe(json::Type<Queues::PerClass>);
 const json::Enumeration& describe(json::Type<MacOperation>);
 const json::Object& describe(json::Type<GateEntry>);
 const json::Object& describe(json::Type<Gates>);
-const json::Object& describe(json::Type<GateLimits>);
 const json::Enumeration& describe(json::Type<SlopeOf>);
 const json::Object& describe(json::Type<Shaper>);
 const json::Object& describe(json::Type<Share>);

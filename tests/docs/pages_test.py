@@ -75,6 +75,24 @@ class Pages(unittest.TestCase):
                     self.assertIn(done.returncode, (0, 1), done.stderr)   # 1: what is required comes later than that
         self.assertGreater(len(ran), 5)
 
+    def test_streams_to_gate_lists_in_three_commands(self):
+        """The tutorial as it stands: its scenario, its commands one after the other, and what it says that the first one says."""
+        page = (SOURCE / "docs" / "schedules.md").read_text(encoding="utf-8")
+        section = page.split("## From streams to gate lists in three commands\n")[1].split("\n## ")[0]
+        scenario, listing, said = re.findall(r"^```[a-z]*\n(.*?)^```", section, re.M | re.S)[:3]
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "cell.json").write_text(scenario, encoding="utf-8")
+            outputs = []
+            for line in listing.splitlines():
+                words = shlex.split(re.split(r"\s{2,}", line)[0])
+                with self.subTest(command=" ".join(words)):
+                    done = subprocess.run([TAKT, *words[1:]], capture_output=True, text=True, check=False, timeout=300, cwd=folder)
+                    self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                    outputs.append(done.stdout)
+            self.assertGreaterEqual(len(outputs), 3)
+            self.assertTrue(outputs[0].startswith(said), outputs[0])
+            self.assertTrue(any((pathlib.Path(folder) / "lists").iterdir()))
+
     def test_one_spelling(self):
         for page in pages():
             for line in page.read_text(encoding="utf-8").splitlines():

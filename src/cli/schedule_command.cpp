@@ -125,6 +125,7 @@ ExitStatus schedule_scenario(const ScheduleOptions& options, sim::Duration limit
   synthesis::ScenarioOptions how;
   how.may_route = options.routes == "search";
   how.entries = std::min<std::uint32_t>(options.entries, scenario::most_gate_entries);
+  how.wants_slack = options.objective == "slack";
   how.search = search_options(options, Clock::now(), limit);
   const auto answer = synthesis::schedule_scenario(wanted, how, diagnostics);
   if (!answer) return report_mistakes(diagnostics, options);
@@ -195,7 +196,7 @@ void add_schedule_command(Command app, ExitStatus& status) {
   const auto options = std::make_shared<ScheduleOptions>();
   command.add_option("SCENARIO|INSTANCE", options->files, "A scenario with automatic gates, or instances: TAS_Benchmark, TSNBenchScenarios, tsnkit, TSNsched, ECRTS'25 or neutral, told by their content; network and streams one after the other where they are two files").required();
   command.add_option("--routes", options->routes, "given: streams without a route are refused; shortest: one way each; search: other ways, too (search)").one_of({"given", "shortest", "search"}).type_name("ROUTES");
-  command.add_option("--objective", options->objective, "feasible: the first schedule; latency, entries: the best of twelve attempts; slack: the greatest clock error (feasible)")
+  command.add_option("--objective", options->objective, "feasible: the first schedule; latency, entries: of an instance the best of twelve attempts; slack: the greatest clock error (feasible)")
       .one_of({"feasible", "latency", "entries", "slack"})
       .type_name("WHAT");
   command.add_option("--limit", options->limit, "How long to search each instance (10s)").type_name("D");

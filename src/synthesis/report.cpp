@@ -16,6 +16,8 @@ std::vector<std::string> left_over(const ScenarioSchedule& answer) {
   for (const schedule::LeftOver& each : answer.left_over) names.push_back(answer.instance->streams[each.stream].name);
   return names;
 }
+std::optional<sim::Duration> slack(const ScenarioSchedule& answer) { return answer.slack ? std::optional(answer.slack->margin) : std::nullopt; }
+std::optional<std::string> slack_end(const ScenarioSchedule& answer) { return answer.slack ? std::optional(answer.slack->with_more) : std::nullopt; }
 std::string in_us(sim::Duration time) { return fmt::format("{:.6g} us", static_cast<double>(time.ps()) / 1e6); }
 
 }  // namespace
@@ -37,6 +39,8 @@ const json::Record& describe(json::Type<ScenarioSchedule>) {
       json::output<&verdict>("verdict", "scheduled, infeasible or undecided."),
       json::output<&ScenarioSchedule::how>("how", "With given paths or searched ones; of an undecided scenario what stood in the way."),
       json::output_if_any<&ScenarioSchedule::most_entries>("gate_entries", "Entries of the longest gate control list.", "scheduled"),
+      json::output_if_any<&slack>("slack_ps", "The greatest clock error that the schedule survives, with --objective slack.", "with --objective slack"),
+      json::output_if_any<&slack_end>("slack_ends_because", "What is wrong with 1 ns more.", "with --objective slack"),
       json::output_if_any<&left_over>("left_over", "Streams that the best partial schedule leaves out.", "undecided"),
       json::output_if_any<&ScenarioSchedule::streams>("streams", "The streams with windows.", "scheduled"),
   };
@@ -59,6 +63,7 @@ std::string text_of(const std::string& name, const ScenarioSchedule& answer) {
   }
   text += fmt::format(", {} streams, at most {} gate entries\n", answer.streams.size(), answer.most_entries);
   text += fmt::format("  judged: the checker finds nothing; {} frames simulated, none lost; {} of {} streams bounded\n", frames, bounded, answer.streams.size());
+  if (answer.slack) text += fmt::format("  clocks may differ by {}; with 1 ns more {}\n", in_us(answer.slack->margin), answer.slack->with_more);
   text += fmt::format("  {:32} {:>14} {:>14} {:>14}\n", "stream", "planned", "simulated", "bound");
   for (const JudgedStream& each : answer.streams) text += fmt::format("  {:32} {:>14} {:>14} {:>14}\n", each.name, in_us(each.planned), in_us(each.simulated), each.bound ? in_us(*each.bound) : "-");
   return text;

@@ -90,8 +90,10 @@ Scenario with_entries(Scenario scenario, std::uint32_t entries) {
 }
 
 /// True if it is answered: scheduled, or lists too long for the devices.
-bool take(ScenarioSchedule& answer, std::unique_ptr<Resolved> resolved, const ScenarioOptions& options, const char* how) {
+bool take(ScenarioSchedule& answer, const Scenario& asked, const ScenarioOptions& options, const char* how) {
+  auto resolved = resolve_quietly(asked, answer.how);
   if (!resolved) return false;
+  if (options.wants_slack) resolved = with_most_slack(std::move(resolved), asked, options.search.stop, answer.slack.emplace());
   answer.most_entries = longest_list(*resolved);
   if (answer.most_entries > options.entries) {
     answer.how = fmt::format("a gate list of {} entries, and {} are allowed", answer.most_entries, options.entries);
@@ -101,6 +103,8 @@ bool take(ScenarioSchedule& answer, std::unique_ptr<Resolved> resolved, const Sc
   answer.verdict = Verdict::scheduled;
   answer.resolved = std::move(resolved);
   judge(answer);
+  if (answer.slack && answer.resolved->gates->problem.margin != answer.slack->margin) answer.wrong.push_back("slack: windows are not as wide as the clock error that they are said to survive");
+  if (answer.slack && answer.slack->with_more.empty()) answer.wrong.push_back("slack: clocks may differ by more than is said");
   return true;
 }
 
@@ -113,7 +117,7 @@ std::optional<ScenarioSchedule> schedule_scenario(const Scenario& asked, const S
     return std::nullopt;
   }
   ScenarioSchedule answer;
-  if (take(answer, resolve_quietly(wanted, answer.how), options, "given paths")) return answer;
+  if (take(answer, wanted, options, "given paths")) return answer;
   // Is anything else wrong than that there is no schedule? Without gates it would be, too.
   Scenario bare = wanted;
   bare.gates.reset();
@@ -157,14 +161,14 @@ std::optional<ScenarioSchedule> schedule_scenario(const Scenario& asked, const S
   Scenario routed = wanted;
   for (std::size_t s = 0; s < problem.streams.size(); ++s)
     if (instance->streams[s] && !problem.streams[s].route) routed.streams[*instance->streams[s]].path = path_of(problem, *decision.found.solution.streams[s]);
-  if (take(answer, resolve_quietly(routed, answer.how), options, "searched paths")) return answer;
+  if (take(answer, routed, options, "searched paths")) return answer;
   // Starts that the search found: whole ns, if delays are.
   for (std::size_t s = 0; s < problem.streams.size(); ++s) {
     if (!instance->streams[s]) continue;
     auto& written = routed.streams[*instance->streams[s]];
     if (written.offset && written.offset->is_auto) written.offset = json::OrAuto<Duration>(Duration::from_ps(decision.found.solution.streams[s]->starts.front().front() / 1'000 * 1'000));
   }
-  if (take(answer, resolve_quietly(routed, answer.how), options, "searched paths and offsets")) return answer;
+  if (take(answer, routed, options, "searched paths and offsets")) return answer;
   if (answer.how.empty()) answer.how = "ways were found for which no offsets in whole ns are";
   return answer;
 }

@@ -140,6 +140,44 @@ TEST(ScenarioSchedule, CyclesAreAsDevicesAsk) {
   EXPECT_NE(answer->how.find("no multiple of the granularity of 3us"), std::string::npos) << answer->how;
 }
 
+std::optional<ScenarioSchedule> with_slack(const std::string& text) {
+  json::Diagnostics diagnostics;
+  scenario::Scenario wanted;
+  const auto document = json::parse(text, "test.json", diagnostics);
+  EXPECT_TRUE(document && json::decode(*document, wanted, diagnostics)) << diagnostics.to_text();
+  ScenarioOptions options;
+  options.may_route = false;
+  options.wants_slack = true;
+  options.search.attempts = 20;
+  auto answer = schedule_scenario(wanted, options, diagnostics);
+  EXPECT_TRUE(!answer || answer->wrong.empty()) << answer->wrong.front();
+  return answer;
+}
+
+/// Ends of windows and lists with that margin.
+bool is_schedule_with(const ScenarioSchedule& answer, sim::Duration margin) { return why_not_with(margin, *answer.resolved->gates, answer.resolved->scenario).empty(); }
+
+// Each talker alone has 100 us for windows of 11.664 us; on sw1 to sw2 both share them. The other classes keep 12.336 us for a frame, and half of what is left is the clocks'.
+TEST(ScenarioSchedule, SlackIsTheGreatestClockErrorThatFits) {
+  const auto answer = with_slack(two_streams(100));
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->verdict, Verdict::scheduled);
+  ASSERT_TRUE(answer->slack);
+  EXPECT_GT(answer->slack->margin, sim::Duration::from_ps(5'000'000));
+  EXPECT_EQ(answer->resolved->gates->problem.margin, answer->slack->margin);
+  EXPECT_TRUE(is_schedule_with(*answer, answer->slack->margin));
+  EXPECT_FALSE(is_schedule_with(*answer, answer->slack->margin + sim::Duration::from_ps(1'000)));
+  EXPECT_FALSE(answer->slack->with_more.empty());
+}
+
+TEST(ScenarioSchedule, SlackKeepsToRequiredLatencies) {
+  // 11.568 us a link on three links and 1 us in each of two switches take some 36.8 us; up to 38 us a margin has little.
+  const auto answer = with_slack(two_streams(100, R"(, "require": [{"stream": "a", "latency": "38us"}, {"stream": "b", "latency": "38us"}])"));
+  ASSERT_TRUE(answer && answer->slack);
+  EXPECT_LT(answer->slack->margin, sim::Duration::from_ps(2'000'000));
+  EXPECT_NE(answer->slack->with_more.find("takes longer than 38us"), std::string::npos) << answer->slack->with_more;
+}
+
 TEST(ScenarioSchedule, WithoutAutomaticGatesThereIsNothingToDo) {
   std::string text = two_streams(50), told;
   text.replace(text.find("\"plan\": \"auto\", \"classes\": [6]"), 30, "\"plan\": \"none\"               ");

@@ -81,7 +81,7 @@ class Assessor {
       ledger_.violate(Assumption::no_disturbance, "the gate of class " + std::to_string(traffic_class) + " at " + name_of(models::NodeIndex{node}) + ":" + std::to_string(port) + " is stuck to the end");
     }
     if (!graph_.uncertain_paths.empty())
-      ledger_.violate(Assumption::no_disturbance, "while ways change, frames of " + graph_.uncertain_paths.front() + " may go in circles, or on too many ways to look at");
+      ledger_.violate(Assumption::no_disturbance, "frames of " + graph_.uncertain_paths.front() + " may go in circles, or on too many ways to look at");
     ledger_.discharge(Assumption::no_disturbance, "the scenario");
   }
 

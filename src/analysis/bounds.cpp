@@ -269,6 +269,7 @@ void withdraw(Bounds& bounds) {
     stream.loses_nothing = stream.reaches_all = false;
     stream.loss_reason = why;
     stream.reason = why;
+    stream.hops.clear();
   }
   if (bounds.ledger.refutation(bounds.every).empty()) return;
   for (QueueBound& queue : bounds.queues) queue.bits = queue.frames = std::nullopt;
@@ -354,6 +355,31 @@ class RequirementBounds {
 
 namespace {
 
+/// Whether a relay of a ladder may take a copy that comes back for something new, and send it round again: it forgets what has passed when its reset timer expires, and match
+/// recovery as soon as another frame has come (as NetworkBound's passes_once has it).
+bool may_circle(const scenario::Resolved& resolved, const FlowGraph& graph, const NetworkResult& network, const scenario::ResolvedRedundancy& redundancy) {
+  for (const Flow& flow : graph.flows) {
+    if (flow.stream != redundancy.stream || !flow.comes_back) continue;
+    Ps longest = 0;
+    for (const std::uint32_t h : flow.hops) {
+      const GraphPort& port = graph.ports[graph.hops[h].port];
+      longest = std::max(longest, sum(network.hops[h].worst_left, port.propagation, resolved.plan.nodes[port.peer.value].greatest_forwarding_delay().ps()));
+    }
+    if (!is_bounded(longest) || longest >= redundancy.description->reset_timeout.ps()) return true;
+    if (redundancy.description->algorithm == scenario::Recovery::match && !(flow.source.is_limited() && flow.source.count(longest) <= 1)) return true;
+  }
+  return false;
+}
+
+/// Then no bound of anything holds.
+void note_circling_ladders(const scenario::Resolved& resolved, const NetworkResult& network, FlowGraph& graph, std::vector<StreamBound>& streams) {
+  for (const scenario::ResolvedRedundancy& redundancy : resolved.redundancies)
+    if (redundancy.is_ladder() && may_circle(resolved, graph, network, redundancy)) graph.uncertain_paths.push_back(resolved.plan.streams[redundancy.stream.value].name);
+  if (graph.uncertain_paths.empty()) return;
+  graph.assumptions.add(Assumption::no_disturbance);
+  for (StreamBound& stream : streams) stream.assumptions.add(Assumption::no_disturbance);
+}
+
 /// Hosts and network, round and round until nothing changes.
 struct Solved {
   std::shared_ptr<HostTimes> hosts;
@@ -372,6 +398,7 @@ Solved solve(const scenario::Resolved& resolved, const BoundOptions& options) {
     network = bound_network(resolved, graph);
   }
   std::vector<StreamBound> streams = StreamBounds(resolved, graph, network, *hosts).make();
+  note_circling_ladders(resolved, network, graph, streams);
   return {std::move(hosts), std::move(graph), std::move(network), std::move(streams)};
 }
 

@@ -1,6 +1,7 @@
 // The frames of a scenario as a graph of hops: which flows come to which egress port, from where, with what frames.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -93,6 +94,7 @@ struct Flow {
   std::vector<std::uint32_t> hops;      ///< parents before children
   /// The last hop to each listener, as in the plan; several where the listener takes out copies itself.
   std::vector<std::vector<std::uint32_t>> last;
+  bool comes_back = false;              ///< copies of a ladder come back to relays, which must know them
   std::map<std::uint32_t, Ps> beyond;   ///< of a last hop: such cables between it and the listener, at most
   /// Why the ingress of a listener that is a station may drop frames that are for its host; empty: it does not.
   std::string loss_at_host = {};

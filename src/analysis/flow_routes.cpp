@@ -82,7 +82,9 @@ class RouteMaker {
 
   void add_possible(std::uint32_t flow, const std::vector<PossiblePath>& possible, const scenario::ResolvedRedundancy* redundancy, const scenario::OnHop& on, models::AddressIndex address) {
     for (const PossiblePath& each : possible) {
-      note_last(flow, each.listener, walk(flow, each.path, redundancy, std::vector<scenario::OnHop>(each.path.size() - 1, on), true, &each.is_bypassed));
+      const std::uint32_t last = walk(flow, each.path, redundancy, std::vector<scenario::OnHop>(each.path.size() - 1, on), true, &each.is_bypassed);
+      if (each.listener == PossiblePath::nobody) continue;
+      note_last(flow, each.listener, last);
       receive(flow, each.path, address);
     }
     share_schedulers(flow);
@@ -133,6 +135,7 @@ class RouteMaker {
         std::vector<scenario::OnHop> on(hops.begin(), hops.begin() + static_cast<std::ptrdiff_t>(common));
         for (std::size_t i = common; i + 1 < longer.size(); ++i) on.push_back({redundancy.member_of_link.at({longer[i], longer[i + 1]}), true});
         walk(flow, longer, &redundancy, on, false);
+        graph_.flows[flow].comes_back = true;
       }
     }
   }

@@ -5,6 +5,7 @@
 #include "analysis/dds_sources.hpp"
 #include "analysis/program_assessment.hpp"
 #include "analysis/thread_arrivals.hpp"
+#include <array>
 #include <cmath>
 #include <set>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "models/ethernet/sizes.hpp"
 #include "scenario/applications/resolved_dds.hpp"
 #include "scenario/description/promises.hpp"
+#include "scenario/resolve/port_configs.hpp"
 
 namespace takt::analysis {
 namespace {
@@ -267,13 +269,23 @@ class TalkerHolds {
     flow.worst_source = sum(flow.worst_source, late);
     if (!is_bounded(late)) flow.hold_reason = is_alone ? "more may come to its ATS scheduler at the talker than its rate" : "several sources take the tokens of its ATS scheduler at the talker";
     flow.source = flow.source.delayed(late);
-    if (has_one_length(shaped.stream)) flow.source.add(by_clock(pattern_of_token_bucket(bits, burst, rate), clock));
+    if (has_one_length(shaped.stream) && all_ports_mind(shaped.stream)) flow.source.add(by_clock(pattern_of_token_bucket(bits, burst, rate), clock));
   }
 
   std::int64_t bits_of(const models::TalkerAtsPlan& shaped, sim::Octets payload) const {
     const models::StreamPlan& plan = r_.plan.streams[shaped.stream.value];
     const sim::Octets frame = models::frame_length(plan.headers + payload, plan.priority.has_value(), false);
     return std::int64_t{8} * (shaped.media_overhead ? models::wire_length(frame) : frame).count;
+  }
+  /// Rerouting may lead a stream by a port that does not hold it.
+  bool all_ports_mind(models::StreamIndex stream) const {
+    const models::StreamPlan& plan = r_.plan.streams[stream.value];
+    return std::ranges::all_of(r_.plan.links, [&](const models::LinkPlan& link) {
+      return std::ranges::all_of(std::array{&link.a, &link.b}, [&](const models::LinkPlan::End* end) {
+        const models::PortConfig& config = scenario::port_config_of(r_.plan, *end);
+        return end->node != plan.talker || config.shaping.is_timed(config.traffic_class_of_priority[plan.priority_at_talker()]);
+      });
+    });
   }
   /// Of short frames a bucket lets more pass.
   bool has_one_length(models::StreamIndex stream) const {

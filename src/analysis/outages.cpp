@@ -34,17 +34,29 @@ class PathFinder {
 
  private:
   bool follow(scenario::Path& path, std::uint32_t node) {
-    if (std::find(path.begin(), path.end(), node) != path.end()) return !r_.plan.nodes[node].forwards();   // back at its talker a frame ends
+    const bool is_back = std::find(path.begin(), path.end(), node) != path.end();
+    if (is_back && r_.plan.nodes[node].forwards()) return false;
+    const std::size_t found_before = found_.size();
     const std::uint32_t before = path.back();
     path.push_back(node);
     is_bypassed_.push_back(false);
-    const models::NodePlan& plan = r_.plan.nodes[node];
-    bool is_fine = (!is_taken_in(node) || arrive(path, node)) && (!plan.forwards() || pass(path, node));
-    is_bypassed_.back() = true;
-    is_fine = is_fine && (!relays_.contains(node) || pass_relay(path, before, node));
+    bool is_fine = is_back || go_on(path, before, node);   // back at its talker, a host, a frame ends
+    is_bypassed_.back() = false;
+    // What leads to no listener takes the ports up to there, too.
+    if (is_fine && found_.size() == found_before) is_fine = add({path, is_bypassed_});
     path.pop_back();
     is_bypassed_.pop_back();
     return is_fine;
+  }
+  bool go_on(scenario::Path& path, std::uint32_t before, std::uint32_t node) {
+    const models::NodePlan& plan = r_.plan.nodes[node];
+    if ((is_taken_in(node) && !arrive(path, node)) || (plan.forwards() && !pass(path, node))) return false;
+    is_bypassed_.back() = true;
+    return !relays_.contains(node) || pass_relay(path, before, node);
+  }
+  bool add(PossiblePath possible) {
+    found_.push_back(std::move(possible));
+    return found_.size() <= most_paths;
   }
   /// What comes by port 0 goes on by the cable at port 1, and the other way round.
   bool pass_relay(scenario::Path& path, std::uint32_t before, std::uint32_t node) {
@@ -61,8 +73,7 @@ class PathFinder {
   }
   bool arrive(const scenario::Path& path, std::uint32_t node) {
     const auto listener = std::find(plan_.listeners.begin(), plan_.listeners.end(), models::NodeIndex{node});
-    if (listener != plan_.listeners.end()) found_.push_back({path, is_bypassed_, static_cast<std::size_t>(listener - plan_.listeners.begin())});
-    return found_.size() <= most_paths;
+    return listener == plan_.listeners.end() || add({path, is_bypassed_, static_cast<std::size_t>(listener - plan_.listeners.begin())});
   }
   bool pass(scenario::Path& path, std::uint32_t node) {
     const auto entry = ports_.find(node);

@@ -35,11 +35,12 @@ class Outages {
   std::vector<bool> nodes_;
 };
 
-/// A way that frames may take, and to which of the stream's listeners.
+/// A way that frames may take, and to which of the stream's listeners; or to where they are lost.
 struct PossiblePath {
+  static constexpr std::size_t nobody = static_cast<std::size_t>(-1);
   scenario::Path path;
   std::vector<bool> is_bypassed;   ///< by node: the relay of a station that is down joins the cables before and behind it
-  std::size_t listener = 0;
+  std::size_t listener = nobody;
 };
 
 /// All ways that frames of a stream to that address may take over the run, if rerouting changes filtering entries of it or relays join cables on its way: those of each configuration,

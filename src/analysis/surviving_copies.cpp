@@ -37,7 +37,8 @@ struct Trouble {
 
 class Copies {
  public:
-  Copies(const scenario::Resolved& resolved, const FlowGraph& graph, const Outages& outages, const LossAtHop& loss_at) : r_(resolved), graph_(graph), outages_(outages), loss_at_(loss_at) {}
+  Copies(const scenario::Resolved& resolved, const FlowGraph& graph, const scenario::ResolvedRedundancy& redundancy, const Outages& outages, const LossAtHop& loss_at)
+      : r_(resolved), graph_(graph), outages_(outages), loss_at_(loss_at), deaf_(deafness_of(redundancy)) {}
 
   /// By whichever ways it comes; `longest`: that a copy is under way.
   std::string why_lost(const Flow& flow, const std::vector<std::uint32_t>& last_hops, sim::Duration longest) const {
@@ -71,6 +72,14 @@ class Copies {
     return outage.down.since_start() > longest ? outage.down - longest : sim::TrueTime();
   }
 
+  /// A relay of a ladder to which nothing has come for a while takes the numbers that come then for wrong, if they are further ahead than its history, until its reset timer expires (IEEE
+  /// 802.1CB 7.4.3.4): for so long what leads to it is no way. Where nodes have clocks of their own it is not said how long that is.
+  sim::Duration deafness_of(const scenario::ResolvedRedundancy& redundancy) const {
+    const auto has_clock = [&](const scenario::ResolvedRedundancy::Relay& relay) { return r_.plan.nodes[relay.node].clock.has_value(); };
+    if (!redundancy.is_ladder()) return {};
+    return std::ranges::any_of(redundancy.relays, has_clock) ? sim::Duration::max() : redundancy.description->reset_timeout;
+  }
+
   Trouble trouble_of(const Way& way) const {
     Trouble trouble;
     for (const std::uint32_t h : way) {
@@ -78,7 +87,7 @@ class Copies {
       if (trouble.always.empty()) trouble.always = loss_at_(hop);
       const GraphPort& port = graph_.ports[hop.port];
       for (const Outage& outage : outages_.of_link(port.link)) {
-        trouble.times.push_back(outage);
+        trouble.times.push_back({outage.down, outage.up.plus_saturated(deaf_)});
         if (trouble.example.empty()) trouble.example = "the link of " + r_.plan.nodes[port.node.value].name + ":" + std::to_string(port.number) + " goes down";
       }
     }
@@ -95,6 +104,7 @@ class Copies {
   const FlowGraph& graph_;
   const Outages& outages_;
   const LossAtHop& loss_at_;
+  sim::Duration deaf_;
 };
 
 /// Whether the copies of one way are taken for what comes next where those of another end, and the other way round.
@@ -107,7 +117,7 @@ bool fits_history(const Flow& flow, const scenario::Redundancy& description, sim
 
 std::string why_copies_may_be_lost(const scenario::Resolved& resolved, const FlowGraph& graph, const Flow& flow, const scenario::ResolvedRedundancy& redundancy,
                                    const StreamBound& bound, const Outages& outages, const LossAtHop& loss_at) {
-  const Copies copies(resolved, graph, outages, loss_at);
+  const Copies copies(resolved, graph, redundancy, outages, loss_at);
   for (std::size_t l = 0; l < flow.last.size(); ++l) {
     if (!bound.by_listener[l]) return bound.reason.empty() ? "its latency has no bound" : bound.reason;
     if (std::string why = copies.why_lost(flow, flow.last[l], *bound.by_listener[l]); !why.empty()) return why;

@@ -122,6 +122,10 @@ ExitStatus schedule_scenario(const ScheduleOptions& options, sim::Duration limit
   scenario::Scenario wanted;
   const auto document = json::parse_file(options.files.front(), diagnostics);
   if (!document || !json::decode(*document, wanted, diagnostics)) return report_mistakes(diagnostics, options);
+  if (options.objective == "latency" || options.objective == "entries") {
+    std::fprintf(stderr, "takt: --objective %s: found a scenario, expected an instance; of a scenario feasible or slack\n", options.objective.c_str());
+    return ExitStatus::bad_input;
+  }
   synthesis::ScenarioOptions how;
   how.may_route = options.routes == "search";
   how.entries = std::min<std::uint32_t>(options.entries, scenario::most_gate_entries);

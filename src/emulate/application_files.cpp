@@ -70,6 +70,8 @@ class Files {
     for (plant::Thread& thread : application.threads) {
       for (std::optional<std::string>* const topic : {&thread.publish, &thread.subscribe})
         if (*topic) *topic = name_of(**topic);
+      if (thread.round_trip) left_out_.insert("round trips");
+      thread.round_trip.reset();
       if (thread.payload && thread.payload->copy_of) thread.payload->copy_of = name_of(*thread.payload->copy_of);
     }
     applications_.items.push_back(json::encode_value(application));

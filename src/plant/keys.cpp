@@ -1,11 +1,8 @@
 #include "plant/keys.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "json/suggest.hpp"
-#include "uadp/builtin_type.hpp"
-#include "plant/protocol.hpp"
 
 namespace takt::plant {
 namespace {

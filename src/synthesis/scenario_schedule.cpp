@@ -93,7 +93,9 @@ Scenario with_entries(Scenario scenario, std::uint32_t entries) {
 bool take(ScenarioSchedule& answer, const Scenario& asked, const ScenarioOptions& options, const char* how) {
   auto resolved = resolve_quietly(asked, answer.how);
   if (!resolved) return false;
-  if (options.wants_slack) resolved = with_most_slack(std::move(resolved), asked, options.search.stop, answer.slack.emplace());
+  std::string unsaid;   // wider margins than devices take are none
+  const auto resolve = [&unsaid](const Scenario& scenario) { return resolve_quietly(scenario, unsaid); };
+  if (options.wants_slack) resolved = with_most_slack(std::move(resolved), asked, resolve, options.search.stop, answer.slack.emplace());
   answer.most_entries = longest_list(*resolved);
   if (answer.most_entries > options.entries) {
     answer.how = fmt::format("a gate list of {} entries, and {} are allowed", answer.most_entries, options.entries);

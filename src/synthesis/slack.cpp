@@ -8,7 +8,6 @@
 #include "json/quantity.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "scenario/gates/layout.hpp"
-#include "scenario/resolve/resolve.hpp"
 #include "schedule_check/check.hpp"
 
 namespace takt::synthesis {
@@ -89,12 +88,7 @@ Slack slack_of(const scenario::GatePlan& plan, const Scenario& scenario) {
   return slack;
 }
 
-std::unique_ptr<Resolved> with_most_slack(std::unique_ptr<Resolved> resolved, const Scenario& asked, const std::function<bool()>& stop, Slack& slack) {
-  const auto resolve = [](const Scenario& scenario) -> std::unique_ptr<Resolved> {
-    json::Diagnostics unheard;
-    auto made = scenario::resolve(scenario, unheard);
-    return unheard.has_errors() || !made || !made->gates ? nullptr : std::move(made);
-  };
+std::unique_ptr<Resolved> with_most_slack(std::unique_ptr<Resolved> resolved, const Scenario& asked, const Resolver& resolve, const std::function<bool()>& stop, Slack& slack) {
   slack = slack_of(*resolved->gates, resolved->scenario);
   // Other offsets may do better.
   greatest_margin(slack.margin, [&](Duration margin) {

@@ -21,7 +21,10 @@ std::string why_not_with(sim::Duration margin, const scenario::GatePlan& plan, c
 
 Slack slack_of(const scenario::GatePlan& plan, const scenario::Scenario& scenario);
 
+/// The schedule of a scenario; null if there is none.
+using Resolver = std::function<std::unique_ptr<scenario::Resolved>(const scenario::Scenario&)>;
+
 /// `resolved` is the schedule of `asked`, which may leave offsets open. Looks for offsets that let clocks differ more, until `stop` or to the ns, and gives the windows the margin that was found.
-std::unique_ptr<scenario::Resolved> with_most_slack(std::unique_ptr<scenario::Resolved> resolved, const scenario::Scenario& asked, const std::function<bool()>& stop, Slack& slack);
+std::unique_ptr<scenario::Resolved> with_most_slack(std::unique_ptr<scenario::Resolved> resolved, const scenario::Scenario& asked, const Resolver& resolve, const std::function<bool()>& stop, Slack& slack);
 
 }  // namespace takt::synthesis

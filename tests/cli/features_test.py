@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the reports of run and check say of TSN features: exact counters of small scenarios that are derived beside them.
+"""What the reports of run and check say of TSN features: exact counters of small scenarios that are derived beside them; what a node says of its messages.
 
 usage: features_test.py TAKT SOURCE_FOLDER [unittest options]
 """
@@ -225,6 +225,28 @@ class Check(FeaturesTest):
         page = self.page("robot-arm")
         for heading in ("Ports beyond", "Ingress", "Redundant", "Faults"):
             self.assertNotIn(heading, page)
+
+    def test_a_node_describes_its_messages(self):
+        """All ids differ, fields stand one behind the other to the end of the message, and nothing is opened or run."""
+        status, said, errors = takt("node", "--describe", SCENARIOS.parent / "docs" / "nodes" / "opcua-server.json")
+        self.assertEqual((status, errors), (0, ""))
+        described = json.loads(said)
+        messages = [message for program in described["programs"] for message in program["messages"]]
+        self.assertTrue(any(message["own"] for message in messages) and not all(message["own"] for message in messages))
+        self.assertEqual(len({(message["publisher_id"], message["writer_group_id"]) for message in messages}), len(messages))
+        octets = {"Boolean": 1, "Byte": 1, "SByte": 1, "UInt16": 2, "Int16": 2, "UInt32": 4, "Int32": 4, "Float": 4, "UInt64": 8, "Int64": 8, "Double": 8}
+        for message in messages:
+            at = 20
+            for field in message["fields"]:
+                self.assertEqual(field["offset"], at)
+                at += field["count"] * octets[field["type"]]
+            self.assertEqual(message["octets"], at)
+
+    def test_objectives_of_instances_are_refused_for_scenarios(self):
+        for objective in ("latency", "entries"):
+            status, _, errors = takt("schedule", SCENARIOS / "tsn" / "automatic-gates.json", "--objective", objective)
+            self.assertEqual(status, 2)
+            self.assertIn("expected an instance", errors)
 
 
 if __name__ == "__main__":

@@ -84,6 +84,15 @@ TEST(Plan, WhatIsLeftOutIsSaid) {
   EXPECT_TRUE(speaks_of(planned.plan.notes, "frame errors"));
 }
 
+TEST(Plan, RoundTripsAreLeftOut) {
+  json::Diagnostics diagnostics;
+  const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/scenarios/applications/round-trip.json", {}, diagnostics);
+  ASSERT_TRUE(resolved) << diagnostics.to_text();
+  const Plan made = plan_of(*resolved);
+  EXPECT_TRUE(made.refusals.empty());
+  EXPECT_TRUE(speaks_of(made.notes, "round trips"));
+}
+
 TEST(Plan, CrashesAndCutsAreActions) {
   const Planned planned(scenario("", R"({"ends": ["a", "x"]})", program + R"(, "faults": [{"kind": "crash", "node": "a", "at": "100ms", "for": "50ms"}, {"kind": "link-down", "link": ["m", "x"], "at": "300ms", "for": "1ms"}])"));
   ASSERT_EQ(planned.plan.actions.size(), 4u);

@@ -1,9 +1,10 @@
-// A mapping of the gateway and a value for it: neither crash nor hang; what is mapped survives the way there and back.
+// A mapping of the gateway and a value for it: neither crash nor hang; what is mapped survives the way there and back; and of its key the hash is found.
 //
 // The first octets describe the mapping: direction and number of fields, then five octets for each field; what is left is the value.
 #include <vector>
 
 #include "gateway/field_values.hpp"
+#include "gateway/key_layout.hpp"
 #include "gateway/type_mapping.hpp"
 #include "gateway/type_pairs.hpp"
 #include "sim/check.hpp"
@@ -82,6 +83,22 @@ std::optional<TypeMapping> mapping_of(const Agreement& agreed, Direction directi
   return mapping;
 }
 
+/// Every second member is the key, where members have places that do not change: the key of a sample, sent alone, has the hash of the sample.
+void check_key(const Agreement& agreed, const std::vector<std::byte>& payload) {
+  std::vector<std::string> keys;
+  for (std::size_t m = 0; m < agreed.type.members.size(); ++m) {
+    const gateway::IdlMember& member = agreed.type.members[m];
+    if (gateway::info(member.kind).octets == 0 || member.collection == IdlCollection::sequence) return;
+    if (m % 2 == 0) keys.push_back(member.name);
+  }
+  const gateway::KeyLayout layout(agreed.type, keys);
+  static_cast<void>(layout.of_key(payload));
+  const std::vector<std::uint8_t> key = layout.key_in_data(payload);
+  std::vector<std::byte> alone(4);   // big-endian CDR
+  for (const std::uint8_t octet : key) alone.push_back(std::byte{octet});
+  if (key.size() == layout.octets()) TAKT_CHECK(layout.of_data(payload) == layout.of_key(alone), "a key alone is the same instance");
+}
+
 /// Of what was mapped: mapped back and again it is what it was.
 void check_return(const Agreement& agreed, TypeMapping& there, const std::vector<std::byte>& mapped) {
   auto back = mapping_of(agreed, agreed.direction == Direction::to_dds ? Direction::to_opc_ua : Direction::to_dds);
@@ -100,6 +117,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   auto mapping = mapping_of(agreed, agreed.direction);
   if (!mapping) return 0;
   const std::vector<std::byte> value(input.rest().begin(), input.rest().end());  // of its exact size, so that reads behind it are seen
+  check_key(agreed, value);
   std::vector<std::byte> mapped;
   if (mapping->convert(value, mapped) != MappingError::none) return 0;
   check_return(agreed, *mapping, mapped);

@@ -47,7 +47,7 @@ bool is_redundant(Maker& m, const Scope& s) {
   return m.world.switches.size() > 2 && m.world.neighbours.at(s.text("from"))[0] != m.world.neighbours.at(listeners[0])[0] && !s.has("path");
 }
 
-/// Two paths that share no switch but the first and the last one.
+/// Two paths that share no switch but the first and the last one; of a ladder any two.
 Made paths(Maker& m, const Scope& s) {
   const Scope* const stream = s.around("stream");
   const std::vector<std::string> listeners = receivers(*stream);
@@ -55,7 +55,9 @@ Made paths(Maker& m, const Scope& s) {
   const std::string from = stream->text("from"), last = listeners.at(0);
   const std::vector<std::string> first = m.world.path(m.draw, from, last);
   if (first.size() < 4) return std::nullopt;
-  const std::vector<std::string> second = m.world.path(m.draw, first[1], first[first.size() - 2], {first.begin() + 2, first.end() - 2});
+  // Those of a ladder may meet.
+  const std::set<std::string> avoided = s.has("ladder") ? std::set<std::string>() : std::set<std::string>(first.begin() + 2, first.end() - 2);
+  const std::vector<std::string> second = m.world.path(m.draw, first[1], first[first.size() - 2], avoided);
   if (second.size() < 2) return std::nullopt;
   std::vector<std::string> whole = {from};
   whole.insert(whole.end(), second.begin(), second.end());

@@ -75,6 +75,7 @@ class TimingWalk {
       else if (!stream.every) timing.no_window = "no period: \"every\" is missing";
       else if (!promises_phase(stream)) timing.no_window = "no \"offset\" that promises when it is sent, or \"auto\"";
       else if (stream.launch) timing.no_window = "\"launch\", which is a plan of its own";
+      else if (std::ranges::find(r_.plan.talker_ats, index, &models::TalkerAtsPlan::stream) != r_.plan.talker_ats.end()) timing.no_window = "an ATS scheduler at its talker, which may hold it";
       set(index, std::move(timing));
     }
   }

@@ -43,6 +43,7 @@ struct ExploreOptions {
   std::optional<unsigned> candidates;
   bool starts_again = false;
   bool quiet = false;
+  bool explains = false;
   std::string out;
   std::string format = "text";
 };
@@ -285,7 +286,7 @@ ExitStatus run(const ExploreOptions& options) {
       pages.items.push_back(json::ShapeOf<explore::Exploration>::write({options.scenario.empty() ? "" : subject.name, subject.query, result, spent}));
     } else {
       if (subjects.size() > 1) std::printf("Program %s\n", subject.name.c_str());
-      print(explore::text_report(subject.query, result, spent));
+      print(explore::text_report(subject.query, result, spent, options.explains ? explore::Detail::knowledge : explore::Detail::why));
     }
     if (!options.out.empty() && !write_findings(subject, result, options.out)) return ExitStatus::internal_error;
     if (!result.all_hold()) status = result.interrupted && !result.any_violated() && status == ExitStatus::pass ? ExitStatus::interrupted : ExitStatus::requirement_failed;
@@ -338,6 +339,7 @@ void add_explore_command(Command app, ExitStatus& status) {
   command.add_flag("--starts-again", options->starts_again, "With roles: the master starts the group again when a node that was lost in a run has been replaced");
   command.add_flag("--no-finish", options->no_finish, "No Program ends by itself");
   command.add_flag("--no-symmetry", options->no_symmetry, "Tell equal slaves apart");
+  command.add_flag("--explain", options->explains, "Below each step of a chart, what each participant knows of the others from then on (--format json always says it)");
   command.add_option("--out", options->out, "Write a scenario for each violation into this folder").type_name("DIR");
   command.add_option("--format", options->format, "text or json").one_of({"text", "json"});
   command.add_flag("--quiet", options->quiet, "No progress line");
@@ -345,6 +347,7 @@ void add_explore_command(Command app, ExitStatus& status) {
       "Examples:\n"
       "  takt explore --slaves 2 --variant robust --faults loss,crash\n"
       "  takt explore --slaves 1 --variant paper --out findings\n"
+      "  takt explore --slaves 1 --variant paper --no-finish --explain\n"
       "  takt explore scenarios/robot-arm.json --faults restart,timeout --format json\n"
       "  takt explore --slaves 2 --faults loss,reorder --network channels=2\n"
       "  takt explore --slaves 1 --nested --faults crash --calls 2\n"

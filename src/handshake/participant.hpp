@@ -86,6 +86,16 @@ class Participant {
   /// The last word heard of a peer said so; false if it was never heard.
   bool peer_heard_in(std::size_t peer, PublishedState state) const { return peers_[peer].heard && peers_[peer].state == state; }
 
+  /// What counts here of a peer: what its last accepted word said. One that was never heard counts as Halted; `paper` does not remember whether it was.
+  struct Known {
+    std::uint32_t incarnation = 0;
+    std::uint32_t run = 0;
+    PublishedState state = PublishedState::Halted;
+    bool heard = false;
+    constexpr bool operator==(const Known&) const = default;
+  };
+  Known known_of(std::size_t peer) const { return {peers_[peer].incarnation, peers_[peer].run, peers_[peer].state, peers_[peer].heard}; }
+
   /// A word of the peer's incarnation with this sequence number would be ignored, because a later number was heard.
   bool has_heard_beyond(std::size_t peer, std::uint16_t sequence) const;
 

@@ -2,9 +2,12 @@
 // adversary's and come from a budget.
 #pragma once
 
+#include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace takt::explore {
 
@@ -27,6 +30,11 @@ enum class ActionKind : std::uint8_t {
   timeout,      ///< participant, peer: the time-out of a living peer expires
   forge,        ///< participant: a stranger speaks in its name; which of the words that it may say (forgery.hpp)
 };
+
+inline constexpr std::array<std::string_view, 16> action_names{"send", "receive", "deliver_late", "initialised", "silence", "call", "finish", "join",
+                                                               "leave", "lose", "duplicate", "reorder", "crash", "restart", "timeout", "forge"};
+static_assert(action_names.size() == static_cast<std::size_t>(ActionKind::forge) + 1);
+constexpr std::string_view name_of(ActionKind kind) { return action_names[static_cast<std::size_t>(kind)]; }
 
 struct Action {
   ActionKind kind = ActionKind::send;

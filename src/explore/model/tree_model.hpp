@@ -37,6 +37,8 @@ class TreeModel : public ActionList, public ToldApart {
   const handshake::Word& word(const State& state, std::size_t participant) const { return nodes_.word(word_of(state, participant)); }
   /// What stands in a register; the state must have something there.
   const handshake::Word& word_in(const State& state, std::size_t channel) const { return nodes_.word(static_cast<WordId>(state.content(channel))); }
+  const Letter& letter_in(const State& state, std::size_t channel) const { return nodes_.letter(static_cast<WordId>(state.content(channel))); }
+  const Participant& participant(const State& state, std::size_t participant) const { return nodes_.participant(state.member(tree_.node_of(participant)), tree_.side_of(participant)); }
   handshake::PublishedState state_of(const State& state, std::size_t participant) const;
   bool is_down(const State& state, std::size_t participant) const { return nodes_[state.member(tree_.node_of(participant))].down; }
   std::size_t value_count() const { return nodes_.size(); }

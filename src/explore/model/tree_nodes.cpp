@@ -14,7 +14,7 @@ namespace {
 
 
 template <class Value>
-const auto& participant(const Value& value, Side side) {
+const auto& of_side(const Value& value, Side side) {
   if constexpr (requires { value.outer(); }) {
     return side == Side::outer ? value.outer() : value.inner();
   } else {
@@ -59,6 +59,10 @@ auto TreeNodes::made(std::size_t node, std::uint32_t incarnation) const -> Node 
   return {Participant(config(shape_.group_of(participant), shape_.index_of(participant), incarnation)), false};
 }
 
+const Participant& TreeNodes::participant(NodeId node, Side side) const {
+  return std::visit([side](const auto& value) -> const Participant& { return of_side(value, side); }, nodes_[node].value);
+}
+
 NodeId TreeNodes::fresh(std::size_t node, std::uint32_t incarnation) { return intern(made(node, incarnation)); }
 
 /// A plain slave of each group may have the same value; whose it is says its place in the state.
@@ -74,9 +78,9 @@ TreeStepped TreeNodes::step_anew(NodeId id, const TreeStimulus& stimulus) {
   TreeEffects effects;
   std::visit(
       [&](auto& value) {
-        for (const Side side : {Side::outer, Side::inner}) before[at(side)] = participant(value, side).word();
+        for (const Side side : {Side::outer, Side::inner}) before[at(side)] = of_side(value, side).word();
         const PublishedState first = before[at(stimulus.side)].state;
-        const auto& stepping = participant(value, stimulus.side);
+        const auto& stepping = of_side(value, stimulus.side);
         const Input input = input_of(stimulus.kind, stimulus.what, words_[stimulus.word], false, stepping.intent().run);
         const NestedOutputs outputs = take(value, stimulus.side, input);
         for (const NestedOutputs::One& one : outputs.all()) {
@@ -90,9 +94,9 @@ TreeStepped TreeNodes::step_anew(NodeId id, const TreeStimulus& stimulus) {
           }
           if (effect.effect != Effect{}) effects.each[effects.count++] = effect;
         }
-        PropertySet more = judged(input, outputs.steps[0].outputs, first, participant(value, stimulus.side));
+        PropertySet more = judged(input, outputs.steps[0].outputs, first, of_side(value, stimulus.side));
         const Side other = stimulus.side == Side::outer ? Side::inner : Side::outer;
-        if (stimulus.kind == Input::Kind::peer_silent && participant(value, other).state() != PublishedState::Halted) more.insert(Property::F1);
+        if (stimulus.kind == Input::Kind::peer_silent && of_side(value, other).state() != PublishedState::Halted) more.insert(Property::F1);
         if (more.bits != 0) {
           if (effects.count == 0) effects.each[effects.count++].side = stimulus.side;
           effects.each[0].effect.properties.bits |= more.bits;
@@ -112,12 +116,12 @@ NodeId TreeNodes::intern(const Node& node) {
   traits.down = node.down;
   std::visit(
       [&](const auto& value) {
-        traits.incarnation = participant(value, Side::outer).config().incarnation;
+        traits.incarnation = of_side(value, Side::outer).config().incarnation;
         for (const Side side : {Side::outer, Side::inner}) {
-          traits.word[at(side)] = intern_word({participant(value, side).word(), false});
-          traits.state[at(side)] = participant(value, side).state();
-          for (std::size_t peer = 0; peer < participant(value, side).peer_count(); ++peer)
-            if (participant(value, side).has_heard_beyond(peer, usual_sequence)) traits.deaf[at(side)] = static_cast<std::uint8_t>(traits.deaf[at(side)] | 1U << peer);
+          traits.word[at(side)] = intern_word({of_side(value, side).word(), false});
+          traits.state[at(side)] = of_side(value, side).state();
+          for (std::size_t peer = 0; peer < of_side(value, side).peer_count(); ++peer)
+            if (of_side(value, side).has_heard_beyond(peer, usual_sequence)) traits.deaf[at(side)] = static_cast<std::uint8_t>(traits.deaf[at(side)] | 1U << peer);
           traits.calls[at(side)] = node.down ? std::uint8_t{0} : calls_of(node, side);
         }
       },
@@ -142,7 +146,7 @@ const std::vector<WordId>& TreeNodes::forged(NodeId node, Side side) {
   if (forged_.size() <= node) forged_.resize(nodes_.size());
   std::vector<WordId>& words = forged_[node][at(side)];
   if (!words.empty()) return words;
-  const auto said = std::visit([&](const auto& value) { return std::pair(participant(value, side).word(), participant(value, side).config().slaves); }, nodes_[node].value);
+  const auto said = std::visit([&](const auto& value) { return std::pair(of_side(value, side).word(), of_side(value, side).config().slaves); }, nodes_[node].value);
   for (const Letter& letter : forgeries(said.first, said.second)) words.push_back(intern_word(letter));
   return words;
 }

@@ -73,6 +73,9 @@ class TreeNodes {
   }
   const TreeEffects& effects(std::uint32_t id) const { return effects_[id]; }
   const handshake::Word& word(WordId word) const { return words_[word].word; }
+  const Letter& letter(WordId word) const { return words_[word]; }
+  /// One of the participants of a node.
+  const Participant& participant(NodeId node, handshake::Side side) const;
   /// What a stranger may say as that side of a node.
   const std::vector<WordId>& forged(NodeId node, handshake::Side side);
   std::size_t word_count() const { return words_.size(); }

@@ -30,11 +30,13 @@ class Drawing {
     std::string text = trimmed(columns(chart_.names));
     const std::vector<std::string>* before = &chart_.states;
     text += trimmed(columns(*before) + "at the beginning: " + chart_.beginning);
+    for (const std::string& note : chart_.notes) text += trimmed(lifelines(*before) + note);
     for (std::size_t i = 0; i < chart_.steps.size(); ++i) {
       const ChartStep& step = chart_.steps[i];
       if (chart_.cycle != 0 && i + chart_.cycle == chart_.steps.size()) text += trimmed(lifelines(*before) + "from here on again and again:");
       text += trimmed(line(step, i + 1) + step.sentence);
       if (step.states != *before) text += trimmed(columns(step.states));
+      for (const std::string& note : step.notes) text += trimmed(lifelines(step.states) + note);
       for (const std::string& finding : step.findings) text += trimmed(lifelines(step.states) + finding);
       before = &step.states;
     }
@@ -116,10 +118,12 @@ std::string sentence(const ReplayStep& done, const Wiring& wiring) {
                    done.is_overtaking, false});
 }
 
-std::string chart(const Query& query, const Replay& replayed) {
+Chart chart_of_group(const Query& query, const Replay& replayed) {
   const Wiring wiring(query);
   Chart chart;
   for (std::size_t i = 0; i <= query.slaves; ++i) chart.names.push_back(participant_name(i));
+  chart.origins.assign(chart.names.size(), chart.names);
+  chart.moment = replayed.moment;
   chart.beginning = replayed.beginning;
   chart.states.assign(chart.names.size(), std::string(handshake::name_of(handshake::PublishedState::Halted)));
   if (!replayed.opening_steps.empty()) chart.states = states_of(replayed.opening_steps.back());
@@ -128,6 +132,9 @@ std::string chart(const Query& query, const Replay& replayed) {
     ChartStep& step = chart.steps.emplace_back();
     step.sentence = sentence(done, wiring);
     step.states = states_of(done);
+    step.action = done.action;
+    step.actor = done.actor;
+    step.moment = done.moment;
     const bool heard = done.action.kind == ActionKind::receive || done.action.kind == ActionKind::deliver_late;
     if (heard) step.arrow = {wiring.sender(done.channel), wiring.receiver(done.channel)};
     else step.marked = {done.actor};
@@ -137,12 +144,15 @@ std::string chart(const Query& query, const Replay& replayed) {
                               std::string(handshake::text_of(violation.finding)));
     if (!done.broken.empty()) step.findings.push_back("breaks " + done.broken);
   }
-  return drawn(chart);
+  return chart;
 }
 
-std::string chart(const Query& query, const Beginning& beginning, const Trace& trace) {
-  if (query.has_roles()) return drawn(chart_of_roles(query, beginning, trace));
-  return query.is_tree() ? drawn(chart_of_tree(query, beginning, trace)) : chart(query, replay(query, beginning, trace));
+Chart chart_of(const Query& query, const Beginning& beginning, const Trace& trace) {
+  if (query.has_roles()) return chart_of_roles(query, beginning, trace);
+  return query.is_tree() ? chart_of_tree(query, beginning, trace) : chart_of_group(query, replay(query, beginning, trace));
 }
+
+std::string chart(const Query& query, const Replay& replayed) { return drawn(chart_of_group(query, replayed)); }
+std::string chart(const Query& query, const Beginning& beginning, const Trace& trace) { return drawn(chart_of(query, beginning, trace)); }
 
 }  // namespace takt::explore

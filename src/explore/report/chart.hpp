@@ -24,6 +24,10 @@ struct ChartStep {
   char mark = '*';
   std::vector<std::string> states;    ///< after it
   std::vector<std::string> findings;  ///< "violates ...", "breaks ..."
+  std::vector<std::string> notes;     ///< more lines below it
+  Action action;
+  std::size_t actor = 0;              ///< column: who steps, or whose message it is
+  Moment moment;                      ///< after it
 };
 
 struct Chart {
@@ -31,6 +35,9 @@ struct Chart {
   std::size_t width = 13;           ///< of a column
   std::string beginning;
   std::vector<std::string> states;  ///< there
+  std::vector<std::string> notes;   ///< of the beginning
+  Moment moment;                    ///< there
+  std::vector<std::vector<std::string>> origins;   ///< by column: the names that origins of intents have in its group
   std::vector<ChartStep> steps;
   std::size_t cycle = 0;            ///< of Trace
 };
@@ -62,11 +69,13 @@ std::string participant_name(std::size_t participant);
 /// What happens, in a sentence.
 std::string sentence(const ReplayStep& done, const Wiring& wiring);
 /// Of a single group.
+Chart chart_of_group(const Query& query, const Replay& replayed);
 std::string chart(const Query& query, const Replay& replayed);
 /// These go through the run once more with its model (model_chart.hpp).
 Chart chart_of_tree(const Query& query, const Beginning& beginning, const Trace& trace);
 Chart chart_of_roles(const Query& query, const Beginning& beginning, const Trace& trace);
 /// Of whatever the query is of.
+Chart chart_of(const Query& query, const Beginning& beginning, const Trace& trace);
 std::string chart(const Query& query, const Beginning& beginning, const Trace& trace);
 
 }  // namespace takt::explore

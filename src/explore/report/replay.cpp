@@ -20,6 +20,8 @@ struct Sent {
   std::uint32_t sent_in = 0;
   bool present = false;
   bool strays = false;  ///< `channels`: it is heard out of its turn
+  std::size_t said_in = 0;
+  bool forged = false;
 };
 
 constexpr std::uint16_t far_ahead = 1000;
@@ -30,10 +32,18 @@ class Player {
       : query_(query), wiring_(query), observer_(query.variant, query.slaves + 1U), sequence_(query.slaves + 1U, 0),
         down_(query.slaves + 1U, false), register_(wiring_.size()), in_flight_(wiring_.size()) {
     for (std::size_t i = 0; i <= query.slaves; ++i) members_.push_back(Participant(config(i, 1)));
+    for (std::size_t c = 0; c < wiring_.size(); ++c) {
+      Heard& heard = heard_.emplace_back();
+      heard.who = wiring_.receiver(c);
+      heard.of = wiring_.sender(c);
+    }
   }
 
-  ReplayStep play(Action action) {
+  /// Steps of the opening have number 0.
+  ReplayStep play(Action action, std::size_t number) {
+    number_ = number;
     ReplayStep done;
+    done.moment = moment();
     done.action = action;
     const std::size_t before = observer_.violations().size();
     try {
@@ -41,10 +51,23 @@ class Player {
     } catch (const sim::InvariantBroken& broken) {
       done.broken = broken.what();
     }
+    if (done.broken.empty()) done.moment = moment();
     for (std::size_t i = 0; i < members_.size(); ++i) done.states.push_back(members_[i].state());
     done.down = down_;
     done.violations.assign(observer_.violations().begin() + static_cast<std::ptrdiff_t>(before), observer_.violations().end());
     return done;
+  }
+
+  Moment moment() const {
+    Moment made;
+    for (std::size_t i = 0; i < members_.size(); ++i) made.says.push_back(down_[i] ? std::nullopt : std::optional(members_[i].word()));
+    for (std::size_t c = 0; c < wiring_.size(); ++c) {
+      const Heard& heard = heard_[c];
+      if (down_[heard.who]) continue;
+      TAKT_CHECK(is_remembered(members_[heard.who], wiring_.peer(c), heard), "what was heard is what its hearer remembers");
+      made.heard.push_back(heard);
+    }
+    return made;
   }
 
  private:
@@ -101,6 +124,8 @@ class Player {
         down_[action.who] = false;
         members_[action.who] = Participant(config(action.who, members_[action.who].config().incarnation + 1));
         sequence_[action.who] = 0;
+        for (Heard& heard : heard_)
+          if (heard.who == action.who) heard = {heard.who, heard.of, false, {}, 0, 0, false};
         observer_.on_restart(action.who);
         break;
       }
@@ -132,7 +157,7 @@ class Player {
   }
   void publish(std::size_t channel, ReplayStep& done) {
     const std::size_t sender = wiring_.sender(channel);
-    register_[channel] = {members_[sender].word(), ++sequence_[sender], observer_.sending_run(sender), true, false};
+    register_[channel] = {members_[sender].word(), ++sequence_[sender], observer_.sending_run(sender), true, false, number_, false};
     if (on_channels()) in_flight_[channel].push_back(register_[channel]);
     tell_channel(channel, register_[channel].word, done);
   }
@@ -143,7 +168,7 @@ class Player {
     const auto sequence = static_cast<std::uint16_t>(sequence_[action.who] + (letter.ahead ? far_ahead : 0));
     for (std::size_t c = 0; c < wiring_.size(); ++c) {
       if (wiring_.sender(c) != action.who) continue;
-      const Sent sent{letter.word, sequence, 0, true, false};
+      const Sent sent{letter.word, sequence, 0, true, false, number_, true};
       if (on_channels() && in_flight_[c].size() < query_.capacity) in_flight_[c].push_back(sent);
       register_[c] = sent;
     }
@@ -174,6 +199,7 @@ class Player {
     if (down_[to]) return;
     const std::size_t peer = wiring_.peer(channel);
     const Outputs outputs = step(to, Input::received(peer, message.word, message.sequence));
+    if (!outputs.ignored) heard_[channel] = {to, from, true, message.word, message.said_in, number_, message.forged};
     if (message.sent_in != 0 && !outputs.ignored && members_[to].process_data_counts(peer))
       observer_.on_process_data(from, to, message.sent_in);
   }
@@ -188,6 +214,8 @@ class Player {
   std::vector<std::vector<Sent>> in_flight_;
   Sent late_;
   std::size_t late_channel_ = 0;
+  std::vector<Heard> heard_;     ///< by channel
+  std::size_t number_ = 0;       ///< of the step
 };
 
 constexpr handshake::Invariant invariant_of(Property property) {
@@ -201,9 +229,10 @@ Replay replay(const Query& query, const Beginning& beginning, const Trace& trace
   replayed.beginning = beginning.name;
   replayed.cycle = trace.cycle;
   Player player(query);
-  for (const Action action : beginning.actions) replayed.opening_steps.push_back(player.play(action));
+  for (const Action action : beginning.actions) replayed.opening_steps.push_back(player.play(action, 0));
+  replayed.moment = player.moment();
   for (const Action action : trace.actions) {
-    replayed.steps.push_back(player.play(action));
+    replayed.steps.push_back(player.play(action, replayed.steps.size() + 1));
     if (!replayed.steps.back().broken.empty()) break;
   }
   return replayed;

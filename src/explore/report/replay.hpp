@@ -8,6 +8,7 @@
 
 #include "explore/model/action.hpp"
 #include "explore/model/model.hpp"
+#include "explore/report/moment.hpp"
 #include "explore/search/search.hpp"
 #include "handshake/observer.hpp"
 
@@ -24,12 +25,14 @@ struct ReplayStep {
   bool has_word = false;
   bool is_overtaking = false;     ///< the word overtakes another one at once
   std::vector<handshake::Violation> violations;  ///< found in this step
+  Moment moment;                  ///< after it; where a CHECK was broken, before it
   std::string broken;             ///< the CHECK that it breaks; then nothing follows
 };
 
 struct Replay {
   std::string beginning;
   std::vector<ReplayStep> opening_steps;  ///< calls and messages that lead to the beginning
+  Moment moment;                  ///< at the beginning
   std::vector<ReplayStep> steps;
   std::size_t cycle = 0;          ///< of Trace
 };

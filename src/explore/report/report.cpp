@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "explore/report/chart.hpp"
+#include "explore/report/knowledge.hpp"
 
 namespace takt::explore {
 namespace {
@@ -25,12 +25,12 @@ std::string verdict_line(const SearchResult& result, std::size_t p) {
   return line + std::string(property_texts[p]) + "\n";
 }
 
-std::string counter_example(const Query& query, const SearchResult& result, Property property, const Trace& trace) {
-  const Beginning& beginning = result.beginnings[trace.beginning];
-  std::string text = "\n" + std::string(name_of(property)) + " is violated: " + std::string(property_texts[index_of(property)]) + "\n\n" +
-                     chart(query, beginning, trace);
-  if (property == Property::L1 || property == Property::F1) text += trace.cycle == 0 ? "      and nothing changes any more\n" : "      and so for ever\n";
-  return text;
+std::string counter_example(const Query& query, const SearchResult& result, Property property, const Trace& trace, Detail detail) {
+  const Chart chart = chart_of(query, result.beginnings[trace.beginning], trace);
+  const Explanation explained = explanation(chart, property);
+  std::string text = "\n" + explained.property + " is violated: " + explained.text + "\n\n" + drawn(detail == Detail::knowledge ? with_knowledge(chart, explained) : chart);
+  if (explained.ends != "violation") text += trace.cycle == 0 ? "      and nothing changes any more\n" : "      and so for ever\n";
+  return text + why_text(explained);
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ std::string query_line(const Query& query) {
          (faults.empty() ? "no fault" : std::to_string(query.fault_budget) + (query.fault_budget == 1 ? " fault of: " : " faults of: ") + faults);
 }
 
-std::string text_report(const Query& query, const SearchResult& result, double cpu_s) {
+std::string text_report(const Query& query, const SearchResult& result, double cpu_s, Detail detail) {
   std::string text = query_line(query) + "\n";
   text += std::to_string(result.states) + " states, " + std::to_string(result.transitions) + " steps, depth " + std::to_string(result.depth) + ", " +
           fixed(cpu_s, 2) + " s CPU, " + fixed(static_cast<double>(result.octets) / static_cast<double>(result.states), 1) + " octets a state, " +
@@ -69,9 +69,9 @@ std::string text_report(const Query& query, const SearchResult& result, double c
   for (std::size_t p = 0; p < property_count; ++p)
     if (result.verdicts[p] != PropertyVerdict::not_asked) text += verdict_line(result, p);
   for (std::size_t p = 0; p < property_count; ++p)
-    if (result.verdicts[p] == PropertyVerdict::violated && result.traces[p]) text += counter_example(query, result, static_cast<Property>(p), *result.traces[p]);
+    if (result.verdicts[p] == PropertyVerdict::violated && result.traces[p]) text += counter_example(query, result, static_cast<Property>(p), *result.traces[p], detail);
   const bool is_new = result.livelock && result.traces[index_of(Property::L1)] && result.traces[index_of(Property::L1)]->cycle == 0;
-  if (is_new) text += counter_example(query, result, Property::L1, *result.livelock);
+  if (is_new) text += counter_example(query, result, Property::L1, *result.livelock, detail);
   return text;
 }
 

@@ -1,6 +1,7 @@
 // What an exploration says: a page for people, and JSON.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,8 +18,10 @@ std::string_view variant_of(const Query& query);
 std::vector<std::string_view> faults_of(const Query& query);
 /// The query in one line: who, which calls, which faults.
 std::string query_line(const Query& query);
+/// How much is said of a violation: its chart and why it happens, or also what is known after each step.
+enum class Detail : std::uint8_t { why, knowledge };
 /// Sizes, verdicts and, for each violated property, its chart. `cpu_s` was measured by whoever asked.
-std::string text_report(const Query& query, const SearchResult& result, double cpu_s);
+std::string text_report(const Query& query, const SearchResult& result, double cpu_s, Detail detail = Detail::why);
 
 /// What `takt explore --format json` holds of a group.
 struct Exploration {

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <utility>
 
+#include "explore/report/knowledge.hpp"
 #include "explore/report/report.hpp"
 #include "json/record.hpp"
 
@@ -37,6 +38,8 @@ std::vector<std::pair<std::string, std::string_view>> properties(const Explorati
   return asked;
 }
 
+std::vector<Explanation> violations(const Exploration& made) { return explanations(made.query, made.result); }
+
 }  // namespace
 
 const json::Record& describe(json::Type<Exploration>) {
@@ -65,6 +68,7 @@ const json::Record& describe(json::Type<Exploration>) {
       json::output<&octets>("octets", "Of the stored states and their table.", {.unit = "octets"}),
       json::output<&octets_per_state>("octets_per_state", "Of them for each state.", {.unit = "octets"}),
       json::output<&properties>("properties", "`holds`, `violated`, `reached` ... of each property that is asked.", {.keys = "property"}),
+      json::output<&violations>("violations", "For each violated property a shortest run, explained; L1 also by one that never comes to rest."),
   };
   static constexpr json::Record record{"exploration", "What was found about a group. With several Programs in a scenario, a list of these.", outputs};
   return record;

@@ -9,8 +9,9 @@ std::string role_name(std::size_t role) { return "role " + std::to_string(role +
 
 struct RolesWords {
   static constexpr std::size_t width = 20;
-  explicit RolesWords(const Query& query) : model(query) {}
+  explicit RolesWords(const Query& query) : model(query), channels(model.channels()) {}
   RolesModel model;
+  std::size_t channels;
 
   std::vector<std::string> names() const {
     std::vector<std::string> names;
@@ -34,6 +35,49 @@ struct RolesWords {
     for (std::size_t seat = model.stations(); seat < model.seats(); ++seat)
       states.push_back(model.is_down(state, model.station_of(seat)) ? down_state : std::string(handshake::name_of(model.participant_at(state, seat)->state())));
     return states;
+  }
+  std::vector<std::vector<std::string>> origins() const {
+    std::vector<std::string> inner{name_at(0)};
+    for (std::size_t role = 0; role < model.roles(); ++role) inner.push_back(role_name(role));
+    std::vector<std::string> outer;
+    for (std::size_t seat = model.stations(); seat < model.seats(); ++seat) outer.push_back(name_at(seat));
+    std::vector<std::vector<std::string>> origins;
+    for (std::size_t seat = 0; seat < model.seats(); ++seat) origins.push_back(model.is_outer(seat) ? outer : inner);
+    return origins;
+  }
+  /// Words of participants; what is known of announcements and bindings is not told.
+  std::vector<std::pair<std::size_t, std::size_t>> pairs() const {
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (std::size_t c = 0; c < channels; ++c)
+      if (is_of_words(c)) pairs.emplace_back(model.receiver_of(c), model.sender_of(c));
+    return pairs;
+  }
+  bool is_of_words(std::size_t channel) const {
+    return model.is_outer_channel(channel) || RolesModel::kind_of(channel) == RolesModel::Channel::word_up || RolesModel::kind_of(channel) == RolesModel::Channel::word_down;
+  }
+  const Participant* participant(const State& state, std::size_t column) const {
+    return model.is_down(state, model.station_of(column)) ? nullptr : model.participant_at(state, column);
+  }
+  std::optional<std::size_t> peer(const State& state, std::size_t who, std::size_t of) const {
+    if (participant(state, who) == nullptr) return std::nullopt;
+    if (model.is_outer(who)) return who == model.outer_seat(0) ? of - model.outer_seat(1) : 0;
+    if (who != 0) return 0;
+    for (std::size_t role = 0; role < model.roles(); ++role)
+      if (const handshake::Binding& binding = model.binder(state).binding(role); binding.bound() && binding.candidate + 1U == of) return role;
+    return std::nullopt;
+  }
+  std::size_t speaker(std::size_t channel) const { return model.sender_of(channel); }
+  /// The master takes words of the life to which it has bound the role, for those of whoever has it.
+  Hearing heard(const State& state, std::size_t channel) const {
+    Hearing hearing{model.receiver_of(channel), model.sender_of(channel), std::nullopt};
+    if (!is_of_words(channel)) return hearing;
+    const Notice& notice = model.notice_in(state, channel);
+    hearing.letter = Letter{notice.word, false};
+    if (model.is_outer_channel(channel) || hearing.who != 0) return hearing;
+    const handshake::Binding& binding = model.binder(state).binding(notice.role);
+    if (!binding.bound() || handshake::incarnation_of(binding.candidate, binding.life) != notice.word.incarnation) hearing.letter.reset();
+    else hearing.of = binding.candidate + 1U;
+    return hearing;
   }
   static std::string text(const Notice& notice, std::size_t candidate) {
     if (notice.kind == Notice::Kind::announcement)

@@ -6,9 +6,10 @@ namespace {
 
 struct TreeWords {
   static constexpr std::size_t width = 15;
-  explicit TreeWords(const Query& query) : model(query), tree(model.tree()) {}
+  explicit TreeWords(const Query& query) : model(query), tree(model.tree()), channels(tree.channels()) {}
   TreeModel model;
   const TreeShape& tree;
+  std::size_t channels;
 
   std::vector<std::string> names() const {
     std::vector<std::string> names;
@@ -21,6 +22,24 @@ struct TreeWords {
       states.push_back(model.is_down(state, p) ? down_state : std::string(handshake::name_of(model.state_of(state, p))));
     return states;
   }
+  std::vector<std::vector<std::string>> origins() const {
+    std::vector<std::vector<std::string>> origins(tree.participants());
+    for (std::size_t p = 0; p < tree.participants(); ++p)
+      for (std::size_t i = 0; i < tree.size(tree.group_of(p)); ++i) origins[p].push_back(tree.name(tree.number_of(tree.group_of(p), i)));
+    return origins;
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> pairs() const {
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (std::size_t c = 0; c < channels; ++c) pairs.emplace_back(tree.channel(c).receiver, tree.channel(c).sender);
+    return pairs;
+  }
+  const Participant* participant(const State& state, std::size_t column) const { return model.is_down(state, column) ? nullptr : &model.participant(state, column); }
+  std::optional<std::size_t> peer(const State& state, std::size_t who, std::size_t of) const {
+    if (model.is_down(state, who)) return std::nullopt;
+    return tree.channel(tree.channel_between(of, who)).peer;
+  }
+  std::size_t speaker(std::size_t channel) const { return tree.channel(channel).sender; }
+  Hearing heard(const State& state, std::size_t channel) const { return {tree.channel(channel).receiver, speaker(channel), model.letter_in(state, channel)}; }
   std::string text(const handshake::Word& word, std::size_t sender) const {
     return text_of(word, tree.name(tree.number_of(tree.group_of(sender), word.intent.origin)));
   }

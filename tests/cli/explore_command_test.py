@@ -89,6 +89,25 @@ class Answers(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertEqual(json.loads(out)["properties"]["S1"], "violated")
 
+    def test_a_violation_is_explained(self):
+        group = ("--slaves", 1, "--variant", "paper", "--no-finish")
+        violations = json.loads(explore(*group, "--format", "json")[1])["violations"]
+        self.assertEqual([(each["property"], each["ends"]) for each in violations], [("S1", "violation"), ("S2", "violation"), ("S3", "violation"), ("L1", "standstill"), ("L1", "cycle")])
+        for each in violations:
+            self.assertEqual([step["step"] for step in each["steps"]], list(range(1, len(each["steps"]) + 1)))
+            self.assertNotEqual(each["why"], [])
+            for step in each["steps"]:
+                self.assertEqual(list(step["states"]), each["participants"])
+                for belief in step["knowledge"]:
+                    self.assertEqual((belief["word"] == belief["now"], belief["now"]), (belief["is_true"], step["states"][belief["of"]]))
+        last = violations[0]["steps"][-1]
+        self.assertEqual([(each["who"], each["heard"]) for each in last["knowledge"] if each["is_cause"]], [("master", "Suspended")])
+        brief, full = explore(*group)[1], explore(*group, "--explain")[1]
+        why = "      - master: all that it knows of slave 1: Suspended, heard before the first step, and so slave 1 still is.\n"
+        note = "slave 1 takes master for Suspended, heard before the first step; it is Ready since step 1\n"
+        self.assertEqual((why in brief, why in full, note in brief, note in full), (True, True, False, True))
+        self.assertEqual(json.loads(explore("--slaves", 1, "--calls", 1, "--format", "json")[1])["violations"], [])
+
     def test_several_programs_are_one_array(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "two.json"

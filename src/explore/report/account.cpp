@@ -40,7 +40,9 @@ std::string Account::word_text(const handshake::Word& word, std::size_t of) cons
 
 std::string Account::says(std::size_t at, std::size_t column) const {
   const std::optional<handshake::Word>& word = moment(at).says[column];
-  return word ? word_text(*word, column) : state(at, column);
+  if (word) return word_text(*word, column);
+  const std::string& cell = state(at, column);
+  return cell == down_state ? cell : "without a role (" + cell + ")";
 }
 
 bool Account::says_the_same(std::size_t at, std::size_t other, std::size_t column) const {
@@ -127,9 +129,10 @@ std::string Account::truth(std::size_t at, const Heard& heard, Steps& earlier) c
   const std::size_t now = since(at, heard.of);
   const std::string between = missed(at, heard);
   const std::string unheard = between.empty() ? "" : "; in between, unheard, it was " + between;
-  if (heard.ever && is_true(at, heard)) return now <= heard.said_in ? "and so it still is" : "and so it is again" + unheard;
+  const std::string& name = chart_->names[heard.of];
+  if (heard.ever && is_true(at, heard)) return "and so " + name + (now <= heard.said_in ? " still is" : " is again" + unheard);
   earlier.insert(now);
-  return "but it is " + says(at, heard.of) + " " + since_text(now) + unheard;
+  return (heard.ever ? "but " + name : name) + " is " + says(at, heard.of) + (heard.ever ? " by then, " : " ") + since_text(now) + unheard;
 }
 
 std::string Account::trigger(std::size_t step, Steps& earlier) const {
@@ -145,7 +148,7 @@ std::string Account::change(std::size_t step, Steps& earlier) const {
   for (const std::size_t column : changing(step)) {
     const std::string& before = state(step - 1, column);
     const std::string& after = state(step, column);
-    if (before != after) changes.push_back(chart_->names[column] + " becomes " + after + " (was " + before + " " + since_text(since(step - 1, column)) + ")");
+    if (before != after) changes.push_back(chart_->names[column] + (after == down_state ? " is " : " becomes ") + after + " (was " + before + " " + since_text(since(step - 1, column)) + ")");
     else if (says_the_same(step, step - 1, column)) changes.push_back(chart_->names[column] + " stays " + says(step, column));
     else changes.push_back(chart_->names[column] + " says from now on " + says(step, column));
     earlier.insert(since(step - 1, column));
@@ -154,15 +157,16 @@ std::string Account::change(std::size_t step, Steps& earlier) const {
 }
 
 std::string Account::known(std::size_t at, const Heard& heard, Steps& earlier) const {
-  if (!heard.ever) return "of " + chart_->names[heard.of] + " it has heard nothing, " + truth(at, heard, earlier);
-  return "of " + chart_->names[heard.of] + " it knows " + word_text(heard.word, heard.of) + ", " + said_text(heard.said_in, heard.heard_in, heard.forged) + ", " + truth(at, heard, earlier);
+  const std::string of = "all that it knows of " + chart_->names[heard.of] + ": ";
+  if (!heard.ever) return of + "nothing, never heard; " + truth(at, heard, earlier);
+  return of + word_text(heard.word, heard.of) + ", " + said_text(heard.said_in, heard.heard_in, heard.forged) + ", " + truth(at, heard, earlier);
 }
 
 void Account::tell_knowledge(std::size_t step, std::vector<std::string>& told, Steps& earlier) const {
   const std::vector<std::size_t> whos = changing(step);
   for (const std::size_t who : whos)
     for (const Heard& each : moment(step).heard)
-      if (each.who == who && !(each.ever && each.heard_in == step)) told.push_back(chart_->names[who] + " decides by what it has heard: " + known(step, each, earlier) + ".");
+      if (each.who == who && !(each.ever && each.heard_in == step)) told.push_back(chart_->names[who] + ": " + known(step, each, earlier) + ".");
   for (std::size_t of = 0; of < chart_->names.size(); ++of) {
     if (std::any_of(whos.begin(), whos.end(), [&](std::size_t who) { return who == of || heard(step, who, of) != nullptr; })) continue;
     told.push_back(chart_->names[whos.front()] + " does not hear " + chart_->names[of] + ", which is " + says(step, of) + " " + since_text(since(step, of)) + ".");
@@ -173,7 +177,8 @@ void Account::tell_knowledge(std::size_t step, std::vector<std::string>& told, S
 void Account::tell_asked(std::vector<std::string>& told) const {
   std::vector<std::string> calls;
   for (std::size_t i = 0; i < chart_->steps.size(); ++i)
-    if (const ActionKind kind = chart_->steps[i].action.kind; kind == ActionKind::call || kind == ActionKind::finish) calls.push_back(chart_->steps[i].sentence + " (step " + std::to_string(i + 1) + ")");
+    if (const ActionKind kind = chart_->steps[i].action.kind; kind == ActionKind::call || kind == ActionKind::finish)
+      calls.push_back(chart_->steps[i].sentence + " (step " + std::to_string(i + 1) + ")");
   told.push_back(calls.empty() ? "Nothing is asked for after the beginning." : "Asked for: " + listed(calls) + ".");
 }
 
@@ -187,7 +192,7 @@ void Account::tell_standstill(std::vector<std::string>& told, Steps& earlier) co
     told.push_back(text + ".");
     earlier.insert(began);
   }
-  told.emplace_back("Whatever is still to be heard says what is known already, so nobody moves.");
+  told.emplace_back("Whatever is still published and heard changes nothing of that, so it stays so for ever.");
 }
 
 void Account::tell_cycle(std::vector<std::string>& told, Steps& earlier) const {

@@ -15,7 +15,7 @@ namespace takt::explore {
 /// How a run ends: in a step that violates, in a state in which nothing changes any more, or in steps that repeat for ever.
 enum class Ending : std::uint8_t { violation, standstill, cycle };
 
-/// "master takes slave 1 for Running (said in step 2, heard in step 3), but since step 4 it is Suspended".
+/// "master takes slave 1 for Running, said in step 2, heard in step 3; it is Suspended since step 4".
 std::string text_of(const Belief& belief);
 
 /// Moments are numbered: 0 is the beginning, n is after step n.

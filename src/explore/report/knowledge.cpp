@@ -1,5 +1,7 @@
 #include "explore/report/knowledge.hpp"
 
+#include <algorithm>
+
 #include "explore/report/account.hpp"
 
 namespace takt::explore {
@@ -62,7 +64,9 @@ Chart with_knowledge(Chart chart, const Explanation& explanation) {
     for (const Belief& each : knowledge)
       if (all || each.is_new || each.is_cause) notes.push_back("  " + text_of(each));
   };
-  say(explanation.knowledge, true, chart.notes);
+  const bool all_true = std::all_of(explanation.knowledge.begin(), explanation.knowledge.end(), [](const Belief& each) { return each.is_true == true; });
+  if (all_true && !explanation.knowledge.empty()) chart.notes.emplace_back("  each takes those whom it hears for what they are");
+  else say(explanation.knowledge, true, chart.notes);
   for (std::size_t i = 0; i < chart.steps.size(); ++i) say(explanation.steps[i].knowledge, false, chart.steps[i].notes);
   return chart;
 }

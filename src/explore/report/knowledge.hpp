@@ -26,10 +26,10 @@ struct Belief {
   std::optional<std::size_t> age;         ///< steps since it was said
   bool by_stranger = false;               ///< nobody of the group has said it
   std::optional<bool> is_true;            ///< the other one would say the same now
-  std::string now;                        ///< what that one would say; "down", "nothing"
+  std::string now;                        ///< what that one would say; "down", "without a role (joins)"
   std::size_t now_since = 0;              ///< step in which it began to
   bool is_new = false;                    ///< another word than before the step, or no more as true as before
-  bool is_cause = false;                  ///< of the participant whose step violates, as it was when it took it
+  bool is_cause = false;                  ///< of the participant whose step violates: what it knew in it
 };
 
 struct ExplainedStep {

@@ -14,10 +14,10 @@ const json::Record& describe(json::Type<Belief>) {
       json::output<&Belief::age>("age", "Steps since it was said."),
       json::output<&Belief::by_stranger>("by_stranger", "A stranger has said it, in the name of the other one."),
       json::output<&Belief::is_true>("is_true", "The other one would say the same now."),
-      json::output<&Belief::now>("now", "What it would say now, or `down`; of a candidate without a role `joins` or `away`."),
+      json::output<&Belief::now>("now", "What it would say now, or `down`; of a candidate `without a role (joins)` or `(away)`."),
       json::output<&Belief::now_since>("now_since", "The step since which it would say so; 0: since the beginning."),
       json::output<&Belief::is_new>("is_new", "Another word than before the step, or no more as true as before."),
-      json::output<&Belief::is_cause>("is_cause", "Of the one whose step violates: what it decided by."),
+      json::output<&Belief::is_cause>("is_cause", "Of the one whose step violates, in that step: what it knew."),
   };
   static constexpr json::Record record{"belief", "What one participant knows of another one.", outputs};
   return record;
@@ -27,7 +27,8 @@ const json::Record& describe(json::Type<ExplainedStep>) {
   static constexpr json::Output outputs[] = {
       json::output<&ExplainedStep::number>("step", "From 1."),
       json::output<&ExplainedStep::sentence>("sentence", "What happens."),
-      json::output<&ExplainedStep::kind>("kind", "`send`, `receive`, `deliver_late`, `initialised`, `silence`; of the adversary `call`, `finish`, `join`, `leave`, `lose`, `duplicate`, `reorder`, `crash`, `restart`, `timeout`, `forge`."),
+      json::output<&ExplainedStep::kind>("kind", "`send`, `receive`, `deliver_late`, `initialised`, `silence`; "
+                                                 "of the adversary `call`, `finish`, `join`, `leave`, `lose`, `duplicate`, `reorder`, `crash`, `restart`, `timeout`, `forge`."),
       json::output<&ExplainedStep::who>("who", "Who takes the step, or whose message it is."),
       json::output<&ExplainedStep::arrow>("arrow", "Of what is heard: from whom, and who hears it. Else empty."),
       json::output<&ExplainedStep::states>("states", "Of all, after it.", {.keys = "participant"}),

@@ -79,11 +79,11 @@ struct RolesWords {
     else hearing.of = binding.candidate + 1U;
     return hearing;
   }
-  static std::string text(const Notice& notice, std::size_t candidate) {
+  std::string text(const Notice& notice, std::size_t candidate) const {
     if (notice.kind == Notice::Kind::announcement)
       return "life " + std::to_string(notice.announcement.life) + (notice.announcement.leaving ? ", leaving" : "");
     if (notice.kind == Notice::Kind::word)
-      return text_of(notice.word, notice.word.intent.origin == 0 ? "master" : role_name(notice.word.intent.origin - 1U));
+      return text_of(notice.word, notice.word.intent.origin == 0 ? name_at(0) : role_name(notice.word.intent.origin - 1U));
     std::string text = "bound";
     for (std::size_t role = 0; role < notice.bindings.size(); ++role)
       if (notice.bindings[role].bound())

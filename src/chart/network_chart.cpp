@@ -11,23 +11,13 @@
 namespace takt::chart {
 namespace {
 
-struct LoadColour {
-  double below;
-  std::string_view colour;
-  std::string_view text;
-};
-/// Few steps that can be told apart, also without red and green.
-constexpr std::array<LoadColour, 5> load_colours = {{
+constexpr std::array<LoadColour, 5> steps = {{
     {0.01, "#9fb0ba", "below 1 %"},
     {0.25, "#56b4e9", "to 25 %"},
     {0.50, "#0072b2", "to 50 %"},
     {0.75, "#e69f00", "to 75 %"},
     {2.00, "#d55e00", "above 75 %"},
 }};
-
-std::string_view colour_of(double load) {
-  return std::find_if(load_colours.begin(), load_colours.end() - 1, [&](const LoadColour& each) { return load < each.below; })->colour;
-}
 
 constexpr double picture_width = 900;
 constexpr double most_height = 720;
@@ -52,47 +42,42 @@ std::vector<bool> shown_nodes(const NetworkChart& chart) {
 
 class Drawing {
  public:
-  explicit Drawing(const NetworkChart& chart) : chart_(chart), shown_(shown_nodes(chart)), number_(chart.nodes.size()) { place(); }
+  explicit Drawing(const NetworkChart& chart) : chart_(chart), at_(places(chart)) { place(); }
 
   std::string take() {
     Svg svg(picture_width, height_);
     for (const NetworkLink& link : chart_.links)
-      if (shown_[link.a] && shown_[link.b]) draw_link(svg, link);
+      if (at_[link.a] && at_[link.b]) draw_link(svg, link);
     for (std::size_t n = 0; n < chart_.nodes.size(); ++n)
-      if (shown_[n]) draw_node(svg, n);
+      if (at_[n]) draw_node(svg, n);
     draw_legend(svg);
     return svg.element(chart_.title);
   }
 
  private:
   void place() {
-    Graph graph;
-    for (std::size_t n = 0; n < chart_.nodes.size(); ++n)
-      if (shown_[n]) {
-        number_[n] = graph.is_hub.size();
-        graph.is_hub.push_back(chart_.nodes[n].kind != NetworkNode::Kind::host);
-      }
-    for (const NetworkLink& link : chart_.links)
-      if (shown_[link.a] && shown_[link.b] && link.a != link.b) graph.edges.emplace_back(number_[link.a], number_[link.b]);
-    points_ = layout(graph);
-    if (points_.empty()) return;
-    Point least = points_.front();
-    Point greatest = least;
-    for (const Point& point : points_) {
-      least = {std::min(least.x, point.x), std::min(least.y, point.y)};
-      greatest = {std::max(greatest.x, point.x), std::max(greatest.y, point.y)};
+    std::optional<Point> least;
+    std::optional<Point> greatest;
+    for (const auto& point : at_) {
+      if (!point) continue;
+      ++shown_;
+      if (!least) least = greatest = point;
+      least = {std::min(least->x, point->x), std::min(least->y, point->y)};
+      greatest = {std::max(greatest->x, point->x), std::max(greatest->y, point->y)};
     }
-    const Point extent{std::max(greatest.x - least.x, 1e-3), std::max(greatest.y - least.y, 1e-3)};
+    if (!least) return;
+    const Point extent{std::max(greatest->x - least->x, 1e-3), std::max(greatest->y - least->y, 1e-3)};
     scale_ = std::min({110.0, (picture_width - 2 * picture_margin) / extent.x, (most_height - 2 * picture_margin) / extent.y});
-    for (Point& point : points_) point = {picture_width / 2 + (point.x - (least.x + greatest.x) / 2) * scale_, picture_margin + (point.y - least.y) * scale_};
+    for (auto& point : at_)
+      if (point) point = {picture_width / 2 + (point->x - (least->x + greatest->x) / 2) * scale_, picture_margin + (point->y - least->y) * scale_};
     height_ = extent.y * scale_ + 2 * picture_margin + legend_height;
   }
 
-  Point at(std::size_t node) const { return points_[number_[node]]; }
+  Point at(std::size_t node) const { return *at_[node]; }
 
   void draw_link(Svg& svg, const NetworkLink& link) const {
     const std::string line = fmt::format("M{} {} L{} {}", coordinate(at(link.a).x), coordinate(at(link.a).y), coordinate(at(link.b).x), coordinate(at(link.b).y));
-    svg.titled_path(line, colour_of(link.load), scale_ > 25 ? 3 : 1.5, link.title);
+    svg.titled_path(line, colour_of_load(link.load), scale_ > 25 ? 3 : 1.5, link.title);
     if (!link.has_failed) return;
     const Point middle{(at(link.a).x + at(link.b).x) / 2, (at(link.a).y + at(link.b).y) / 2};
     svg.line({middle.x - 6, middle.y - 6}, {middle.x + 6, middle.y + 6}, Class{"failed"});
@@ -107,7 +92,7 @@ class Drawing {
     if (node.kind == NetworkNode::Kind::host) svg.mark_circle(centre, size * 0.8, colour, node.title);
     else svg.mark_rectangle({centre.x - size, centre.y - size}, 2 * size, 2 * size, colour, node.title);
     if (node.kind == NetworkNode::Kind::station) svg.mark_circle(centre, size * 0.55, palette(2), node.title);
-    if (points_.size() <= most_names) svg.text({centre.x, centre.y - size - 3}, node.name, Anchor::middle, Class{"note"});
+    if (shown_ <= most_names) svg.text({centre.x, centre.y - size - 3}, node.name, Anchor::middle, Class{"note"});
   }
 
   void draw_legend(Svg& svg) const {
@@ -115,7 +100,7 @@ class Drawing {
     const double y = height_ - 16;
     svg.text({x, y}, "load of links:", Anchor::start, Class{"label"});
     x += 78;
-    for (const LoadColour& each : load_colours) {
+    for (const LoadColour& each : steps) {
       svg.swatch({x, y - 6}, 18, 4, each.colour);
       svg.text({x + 23, y}, each.text, Anchor::start, Class{"label"});
       x += 92;
@@ -126,14 +111,37 @@ class Drawing {
   }
 
   const NetworkChart& chart_;
-  std::vector<bool> shown_;
-  std::vector<std::size_t> number_;   // of the shown ones
-  std::vector<Point> points_;
+  std::vector<std::optional<Point>> at_;   // by node; nothing: it is left out
+  std::size_t shown_ = 0;
   double scale_ = 1;
   double height_ = 2 * picture_margin;
 };
 
 }  // namespace
+
+std::vector<std::optional<Point>> places(const NetworkChart& chart) {
+  const std::vector<bool> shown = shown_nodes(chart);
+  std::vector<std::size_t> number(chart.nodes.size());   // of those that are shown
+  Graph graph;
+  for (std::size_t n = 0; n < chart.nodes.size(); ++n)
+    if (shown[n]) {
+      number[n] = graph.is_hub.size();
+      graph.is_hub.push_back(chart.nodes[n].kind != NetworkNode::Kind::host);
+    }
+  for (const NetworkLink& link : chart.links)
+    if (shown[link.a] && shown[link.b] && link.a != link.b) graph.edges.emplace_back(number[link.a], number[link.b]);
+  const std::vector<Point> points = layout(graph);
+  std::vector<std::optional<Point>> found(chart.nodes.size());
+  for (std::size_t n = 0; n < found.size(); ++n)
+    if (shown[n]) found[n] = points[number[n]];
+  return found;
+}
+
+std::span<const LoadColour> load_colours() { return steps; }
+
+std::string_view colour_of_load(double share) {
+  return std::find_if(steps.begin(), steps.end() - 1, [&](const LoadColour& each) { return share < each.below; })->colour;
+}
 
 std::string draw(const NetworkChart& chart) { return Drawing(chart).take(); }
 

@@ -2,8 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "chart/svg.hpp"
 
 namespace takt::chart {
 
@@ -31,5 +36,17 @@ struct NetworkChart {
 
 /// Of a network with more than 300 hosts those that hang on one switch are left out; names stand there while they are few.
 std::string draw(const NetworkChart& chart);
+
+/// Where each node stands, neighbouring switches about 1 apart; nothing for those that are left out.
+std::vector<std::optional<Point>> places(const NetworkChart& chart);
+
+struct LoadColour {
+  double below = 0;           ///< shares less than this, and not of the step before
+  std::string_view colour;
+  std::string_view text;
+};
+/// Few steps that can be told apart, also without red and green.
+std::span<const LoadColour> load_colours();
+std::string_view colour_of_load(double share);
 
 }  // namespace takt::chart

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "json/quantity.hpp"
+#include "output/program_states.hpp"
 
 namespace takt::cli {
 
@@ -198,21 +199,6 @@ std::string Recording::close() {
   return problem;
 }
 
-namespace {
-
-/// The states of a participant in the order of time; who dies is dead, whatever was recorded at that instant.
-std::vector<std::pair<sim::TrueTime, std::string_view>> states_of(const scenario::ProgramMonitor& monitor, std::size_t participant) {
-  std::vector<std::pair<sim::TrueTime, std::string_view>> states;
-  for (const scenario::StateRecord& record : monitor.history())
-    if (record.participant == participant) states.emplace_back(record.time, handshake::name_of(record.change.to));
-  for (const scenario::LifeRecord& life : monitor.lives())
-    if (life.participant == participant) states.emplace_back(life.time, life.is_back ? handshake::name_of(handshake::PublishedState::Halted) : "dead");
-  std::stable_sort(states.begin(), states.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  return states;
-}
-
-}  // namespace
-
 /// What happens to the nodes and links of a program, each beginning and each end as a state of its own.
 void Recording::write_faults(const std::string& program, const std::vector<scenario::ProgramFault>& faults) {
   const auto track = timeline_->add_state_track("program " + program, "faults");
@@ -247,8 +233,7 @@ void Recording::write_states() {
     const scenario::ResolvedProgram& program = run_->resolved().programs[p];
     for (std::size_t i = 0; i < program.participant_names.size(); ++i) {
       const auto track = timeline_->add_state_track("program " + program.name, program.participant_names[i]);
-      timeline_->change_state(track, sim::TrueTime(), handshake::name_of(handshake::PublishedState::Halted));
-      for (const auto& [time, state] : states_of(run_->monitor(p), i)) timeline_->change_state(track, time, state);
+      for (const auto& [time, state] : output::states_of(run_->monitor(p), i)) timeline_->change_state(track, time, state);
     }
     write_reactions("program " + program.name, run_->monitor(p));
     if (!run_->monitor(p).faults().empty()) write_faults(program.name, run_->monitor(p).faults());

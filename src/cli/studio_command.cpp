@@ -37,7 +37,8 @@ ExitStatus run(const StudioOptions& options) {
     return ExitStatus::bad_input;
   }
   studio::Engine engine(options.file);
-  studio::Server server(engine, document, assets, json::schema<scenario::Scenario>("takt scenario"));
+  studio::Interface interface(engine, document, json::schema<scenario::Scenario>("takt scenario"), "/proc/self/exe");
+  studio::Server server(interface, assets);
   if (!server.bind(static_cast<std::uint16_t>(options.port))) {
     std::fprintf(stderr, "takt studio: port %u of 127.0.0.1 is not to be had\n", static_cast<unsigned>(options.port));
     return ExitStatus::bad_input;
@@ -49,6 +50,7 @@ ExitStatus run(const StudioOptions& options) {
   std::jthread watch([&](const std::stop_token& ends) {
     try {
       while (!ends.stop_requested() && !interrupt.requested()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      interface.stop();
       server.stop();
     } catch (const std::exception&) {
       std::terminate();

@@ -4,14 +4,13 @@
 #include <exception>
 #include <utility>
 
-#include "chart/network_chart.hpp"
 #include "evaluation/evaluate.hpp"
 #include "report/network_figure.hpp"
 #include "results/result_json.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
+#include "studio/plant.hpp"
 #include "verify/report.hpp"
-#include "verify/verification.hpp"
 
 namespace takt::studio {
 
@@ -29,12 +28,14 @@ Engine::Engine(std::string file_name, Effort effort)
         }
       }) {}
 
+void Engine::end() {
+  const std::lock_guard lock(mutex_);
+  ends_ = true;
+  changed_.notify_all();
+}
+
 Engine::~Engine() {
-  {
-    const std::lock_guard lock(mutex_);
-    ends_ = true;
-    changed_.notify_all();
-  }
+  end();
   worker_.join();
 }
 
@@ -86,6 +87,28 @@ void Engine::work() {
   }
 }
 
+/// Those that took longer than the run as it is, or that fail.
+void Engine::keep_worst(std::uint64_t revision, const verify::Verification& verification) {
+  std::vector<std::shared_ptr<const scenario::Resolved>> worst;
+  std::vector<results::RequirementResult> requirements;
+  for (const verify::Line& line : verification.lines) {
+    json::Diagnostics unused;
+    requirements.push_back(line.requirement);
+    if (line.adversarial) requirements.back().measured = line.adversarial;
+    worst.push_back(line.adversarial ? scenario::resolve(line.longest, unused) : nullptr);
+  }
+  const std::lock_guard lock(mutex_);
+  if (revision != subject_.revision) return;
+  subject_.worst = std::move(worst);
+  subject_.requirements = std::move(requirements);
+}
+
+std::optional<Subject> Engine::subject(std::uint64_t revision) {
+  const std::lock_guard lock(mutex_);
+  if (ends_ || revision != revision_ || subject_.revision != revision || !subject_.resolved) return std::nullopt;
+  return subject_;
+}
+
 bool Engine::is_current(std::uint64_t revision) {
   const std::lock_guard lock(mutex_);
   return !ends_ && revision == revision_;
@@ -94,7 +117,7 @@ bool Engine::is_current(std::uint64_t revision) {
 void Engine::work_at(std::uint64_t revision, const std::string& text) {
   if (!publish(revision, [](Findings& f) { f.stage = Stage::checking; })) return;
   json::Diagnostics diagnostics;
-  const auto resolved = scenario::load_text(text, file_name_, {}, diagnostics);
+  const std::shared_ptr<const scenario::Resolved> resolved = scenario::load_text(text, file_name_, {}, diagnostics);
   // Figures of an older text do not stand beside a newer one.
   const bool goes_on = publish(revision, [&](Findings& f) {
     f.stage = resolved ? Stage::running : Stage::refused;
@@ -102,7 +125,8 @@ void Engine::work_at(std::uint64_t revision, const std::string& text) {
     f.result.clear();
     f.proofs.clear();
     f.trouble.clear();
-    if (resolved) f.network = draw(report::network_figure(*resolved, nullptr));
+    subject_ = {revision, resolved};
+    if (resolved) f.network = plant_json(report::network_figure(*resolved, nullptr));
   });
   if (!goes_on || !resolved) return;
 
@@ -115,7 +139,7 @@ void Engine::work_at(std::uint64_t revision, const std::string& text) {
   if (!publish(revision, [&](Findings& f) {
         f.stage = Stage::proving;
         f.result = results::run_json(result);
-        f.network = draw(report::network_figure(*resolved, &result));
+        f.network = plant_json(report::network_figure(*resolved, &result));
       }))
     return;
 
@@ -125,6 +149,7 @@ void Engine::work_at(std::uint64_t revision, const std::string& text) {
     options.search.interrupted = [&] { return !is_current(revision); };
     options.proof.interrupted = options.search.interrupted;
     const verify::Verification verification = verify::verify(*resolved, options);
+    keep_worst(revision, verification);
     return verify::json_report(resolved->scenario.name, verification, std::vector<std::string>(verification.lines.size()));
   };
   std::string proofs = verify_with(0);

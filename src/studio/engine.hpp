@@ -4,9 +4,16 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
+#include <vector>
+
+#include "results/run_result.hpp"
+#include "scenario/resolve/resolved.hpp"
+#include "verify/verification.hpp"
 
 namespace takt::studio {
 
@@ -28,10 +35,18 @@ struct Findings {
   std::uint64_t revision = 0;   ///< of the text, as set_text said
   Stage stage = Stage::empty;
   std::string diagnostics;      ///< JSON, as of `takt check --format json`
-  std::string network;          ///< an <svg> element
+  std::string network;          ///< JSON, see plant.hpp
   std::string result;           ///< JSON, as of `takt run --format json`
   std::string proofs;           ///< JSON, as of `takt verify --format json`, before or after the search
   std::string trouble;          ///< what went wrong beside mistakes of the text
+};
+
+/// What questions are asked of: a sound text, and the worst runs that have been found of it so far.
+struct Subject {
+  std::uint64_t revision = 0;
+  std::shared_ptr<const scenario::Resolved> resolved;
+  std::vector<std::shared_ptr<const scenario::Resolved>> worst = {};   ///< by requirement, as the proofs list them; null: none was found
+  std::vector<results::RequirementResult> requirements = {};           ///< likewise; `measured` is of the worst run
 };
 
 /// What the work at a text may cost.
@@ -52,11 +67,17 @@ class Engine {
   void set_text(std::uint64_t revision, std::string text);
   /// What is known now, or, if that is of `version` still, when something else is known, but after `most` at the latest.
   Findings wait_for_other(std::uint64_t version, std::chrono::milliseconds most);
+  /// The text of that revision, if it is the present one and sound.
+  std::optional<Subject> subject(std::uint64_t revision);
+  /// All work ends, and nobody waits any more.
+  void end();
+  /// It is still the present one.
+  bool is_current(std::uint64_t revision);
 
  private:
   void work();
   void work_at(std::uint64_t revision, const std::string& text);
-  bool is_current(std::uint64_t revision);
+  void keep_worst(std::uint64_t revision, const verify::Verification& verification);
   template <class Change>
   bool publish(std::uint64_t revision, const Change& change);
 
@@ -69,6 +90,7 @@ class Engine {
   bool has_work_ = false;
   bool ends_ = false;
   Findings findings_;
+  Subject subject_;
   std::thread worker_;   // last: it uses all of the above
 };
 

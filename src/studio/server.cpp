@@ -4,18 +4,14 @@
 #include <sys/random.h>
 
 #include <array>
-#include <charconv>
 
-#include "json/node.hpp"
 #include "security/secret.hpp"
 #include "sim/check.hpp"
 
 namespace takt::studio {
 namespace {
 
-constexpr std::size_t largest_text = 8'000'000;   // octets
-constexpr std::chrono::milliseconds longest_wait{15'000};
-constexpr const char* json_type = "application/json; charset=utf-8";
+constexpr std::size_t largest_text = 8'000'000;   // octets of a request
 
 /// 128 random bits as hexadecimal digits.
 std::string new_token() {
@@ -30,23 +26,11 @@ std::string new_token() {
   return token;
 }
 
-std::string text_json(std::string_view text) { return json::compact(json::Node::of_string(text)); }
-
-std::uint64_t number_in(const std::string& text) {
-  std::uint64_t number = 0;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
-}
-
-/// JSON that is text already, or null.
-std::string embedded(const std::string& text) { return text.empty() ? "null" : text; }
-
 }  // namespace
 
 class Server::Routes {
  public:
-  Routes(Engine& engine, Document& document, const Assets& assets, std::string schema)
-      : engine_(engine), document_(document), assets_(assets), schema_(std::move(schema)), token_(new_token()) {
+  Routes(Interface& interface, const Assets& assets) : assets_(assets), token_(new_token()), interface_(interface) {
     // A port that somebody listens at is taken; by default httplib would share it.
     server_.set_socket_options([](socket_t socket) {
       const int yes = 1;
@@ -106,43 +90,25 @@ class Server::Routes {
   }
 
   void add_interface() {
-    server_.Get("/api/schema", [this](const httplib::Request&, httplib::Response& response) { response.set_content(schema_, json_type); });
-    server_.Get("/api/file", [this](const httplib::Request&, httplib::Response& response) {
-      std::string problem;
-      const auto saved = document_.saved(problem);
-      const auto draft = document_.draft();
-      response.set_content("{\"path\": " + text_json(document_.path()) + ", \"saved\": " + (saved ? text_json(*saved) : "null") + ", \"draft\": " + (draft ? text_json(*draft) : "null") +
-                               ", \"problem\": " + text_json(problem) + "}",
-                           json_type);
-    });
-    server_.Put("/api/text", [this](const httplib::Request& request, httplib::Response& response) {
-      const std::string problem = document_.keep_draft(request.body);
-      engine_.set_text(number_in(request.get_param_value("revision")), request.body);
-      tell(response, problem);
-    });
-    server_.Put("/api/file", [this](const httplib::Request& request, httplib::Response& response) { tell(response, document_.save(request.body)); });
-    server_.Get("/api/findings", [this](const httplib::Request& request, httplib::Response& response) {
-      const Findings f = engine_.wait_for_other(number_in(request.get_param_value("after")), longest_wait);
-      response.set_content("{\"version\": " + std::to_string(f.version) + ", \"revision\": " + std::to_string(f.revision) + ", \"stage\": " + text_json(name_of(f.stage)) + ", \"diagnostics\": " +
-                               embedded(f.diagnostics) + ", \"network\": " + text_json(f.network) + ", \"result\": " + embedded(f.result) + ", \"proofs\": " + embedded(f.proofs) +
-                               ", \"trouble\": " + text_json(f.trouble) + "}",
-                           json_type);
-    });
+    using Add = httplib::Server& (httplib::Server::*)(const std::string&, httplib::Server::Handler);
+    for (const Interface::Route& route : Interface::routes()) {
+      const auto handle = [this, route](const httplib::Request& request, httplib::Response& response) {
+        Answer answer = interface_.answer(route, {[&](const char* name) { return request.get_param_value(name); }, request.body});
+        response.status = answer.status;
+        response.set_content(std::move(answer.body), answer.type);
+      };
+      const std::string_view method = route.method;
+      const Add add = method == "PUT" ? static_cast<Add>(&httplib::Server::Put) : method == "DELETE" ? static_cast<Add>(&httplib::Server::Delete) : static_cast<Add>(&httplib::Server::Get);
+      (server_.*add)(route.path, handle);
+    }
   }
 
-  static void tell(httplib::Response& response, const std::string& problem) {
-    if (!problem.empty()) response.status = 500;
-    response.set_content("{\"problem\": " + text_json(problem) + "}", json_type);
-  }
-
-  Engine& engine_;
-  Document& document_;
   const Assets assets_;
-  const std::string schema_;
   const std::string token_;
+  Interface& interface_;
 };
 
-Server::Server(Engine& engine, Document& document, const Assets& assets, std::string schema) : routes_(std::make_unique<Routes>(engine, document, assets, std::move(schema))) {}
+Server::Server(Interface& interface, const Assets& assets) : routes_(std::make_unique<Routes>(interface, assets)) {}
 Server::~Server() = default;
 
 bool Server::bind(std::uint16_t port) {

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 
-#include "studio/document.hpp"
-#include "studio/engine.hpp"
+#include "studio/interface.hpp"
 
 namespace takt::studio {
 
@@ -22,8 +20,8 @@ Assets built_in_assets();
 
 class Server {
  public:
-  /// `schema` is the JSON Schema of scenarios. All outlive the server.
-  Server(Engine& engine, Document& document, const Assets& assets, std::string schema);
+  /// The interface outlives the server.
+  Server(Interface& interface, const Assets& assets);
   ~Server();
 
   /// Takes a port of 127.0.0.1, `port` or any free one for 0. False if it is not to be had.

@@ -78,7 +78,7 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/interchange/", all_of({below, chart, interchange})});
     list.push_back({"src/emulate/", all_of({below, node, emulate})});
     list.push_back({"src/python/", all_of({below, questions, study, evaluation, explain, output, chart, report})});
-    list.push_back({"src/studio/", all_of({below, questions, evaluation, explain, output, chart, report, studio})});
+    list.push_back({"src/studio/", all_of({below, questions, study, evaluation, explain, output, chart, report, studio})});
     list.push_back({"src/cli/", all_of({below, questions, study, evaluation, explain, output, node, emulate, report, studio, papers, interchange, cli})});
     list.push_back({"src/main.cpp", all_of({below, questions, study, evaluation, explain, output, node, emulate, report, studio, papers, interchange, cli})});
     return list;

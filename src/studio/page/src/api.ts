@@ -66,12 +66,149 @@ export interface Verification {
 
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
 
+export interface PlantNode {
+  name: string;
+  kind: "host" | "switch" | "station";
+  title: string;
+  failed: boolean;
+  x: number;
+  y: number;
+}
+
+export interface Plant {
+  hidden: number;
+  nodes: PlantNode[];
+  links: { a: number; b: number; colour: string; title: string; failed: boolean }[];
+  legend: { colour: string; text: string }[];
+}
+
+/// Where nodes were dragged to, in the units of PlantNode.
+export interface Layout {
+  nodes?: Record<string, [number, number]>;
+}
+
+export interface TimelineSummary {
+  from_ps: number;
+  to_ps: number;
+  whole: boolean;
+  frames: number;
+  streams: string[];
+  rows: { node: string; port: number; to: string; gates: boolean }[];
+  tracks: { program: string; name: string; states: [number, string][] }[];
+}
+
+export interface Part {
+  cause: string;
+  words: string;
+  at_ps: number;
+  takes_ps: number;
+  stream?: string | null;
+  sequence?: number | null;
+  gate_entry?: number | null;
+  missing_bits?: number | null;
+}
+
+export interface Hop {
+  node: string;
+  port?: number | null;
+  to?: string | null;
+  traffic_class?: number | null;
+  came_ps: number;
+  started_ps?: number | null;
+  cuts: number;
+  parts: Part[];
+}
+
+export interface ExplainedFrame {
+  stream: string;
+  sequence: number;
+  talker: string;
+  end: string;
+  node: string;
+  reason?: string | null;
+  produced_ps: number;
+  ended_ps: number;
+  takes_ps: number;
+  hops: Hop[];
+}
+
+export interface Explanation {
+  question: string;
+  reaction?: { program: string; kind: string; cause: string; began_ps: number; takes_ps: number; steps: { what: string; who: string; at_ps: number; takes_ps: number; message?: ExplainedFrame | null }[] } | null;
+  frames: ExplainedFrame[];
+}
+
+/// What one participant knows of another one; steps count from 1, 0 is before the first.
+export interface Belief {
+  who: string;
+  of: string;
+  heard: string | null;
+  word: string | null;
+  said_in: number | null;
+  heard_in: number | null;
+  is_true: boolean | null;
+  now: string;
+  now_since: number;
+  is_new: boolean;
+  is_cause: boolean;
+}
+
+export interface FoundRun {
+  property: string;
+  text: string;
+  ends: string;
+  beginning: string;
+  participants: string[];
+  states: Record<string, string>;
+  knowledge: Belief[];
+  steps: { step: number; sentence: string; arrow: string[]; states: Record<string, string>; knowledge: Belief[]; findings: string[] }[];
+  cycle: number;
+  why: string[];
+}
+
+export interface Exploration {
+  program?: string;
+  variant: string;
+  slaves: number;
+  states: number;
+  exhausted: boolean;
+  properties: Record<string, string>;
+  violations?: FoundRun[];
+}
+
+export interface Compared {
+  a: string;
+  b: string;
+  pairs: number;
+  same_digest: number;
+  measures: Record<string, { unit: string; a: Summary; b: Summary; difference: Summary }>;
+  troubles: string[];
+  divergence: { seed: number; at_ps: number; only_a: string[]; only_b: string[] } | null;
+}
+
+export interface Summary {
+  count: number;
+  mean?: number;
+  half_width_95?: number | null;
+}
+
+/// A command that runs beside the engine, with what it has printed when it is over.
+export interface Errand<T> {
+  running: boolean;
+  status: number;
+  problem: string;
+  output: T | null;
+  points?: number;
+  of?: number;
+  report?: string;
+}
+
 export interface Findings {
   version: number;
   revision: number;
   stage: string;
   diagnostics: { errors: number; warnings: number; diagnostics: Diagnostic[] } | null;
-  network: string;
+  network: Plant | null;
   result: Result | null;
   proofs: Verification | null;
   trouble: string;
@@ -96,10 +233,31 @@ async function json<T>(method: string, path: string, body?: string): Promise<T> 
   return (await (await ask(method, path, body)).json()) as T;
 }
 
+/// A run that is looked at: of that text, as it is (-1) or the worst that was found for a requirement, from that instant on.
+export interface Look {
+  revision: number;
+  requirement: number;
+  from: number;
+}
+const lookAt = (look: Look) => `revision=${look.revision}&run=${look.requirement < 0 ? "" : look.requirement}&from=${look.from}`;
+
 export const engine = {
   schema: () => json<{ [key: string]: Json }>("GET", "/api/schema"),
   file: () => json<FileState>("GET", "/api/file"),
   save: (text: string) => json<{ problem: string }>("PUT", "/api/file", text),
   tell: (revision: number, text: string) => json<{ problem: string }>("PUT", `/api/text?revision=${revision}`, text),
+  layout: () => json<Layout>("GET", "/api/layout"),
+  keepLayout: (layout: string) => json<{ problem: string }>("PUT", "/api/layout", layout),
+  timeline: (look: Look) => json<TimelineSummary>("GET", `/api/timeline?${lookAt(look)}`),
+  piece: async (look: Look, level: number, index: number, first: number, count: number) =>
+    (await ask("GET", `/api/piece?${lookAt(look)}&level=${level}&index=${index}&first=${first}&count=${count}`)).arrayBuffer(),
+  explain: (look: Look, stream: string, sequence: number) => json<Explanation>("GET", `/api/explain?${lookAt(look)}&stream=${encodeURIComponent(stream)}&sequence=${sequence}`),
+  explainWorst: (look: Look) => json<Explanation>("GET", `/api/explain?${lookAt(look)}`),
+  studies: () => json<string[]>("GET", "/api/studies"),
+  explore: (text: string, options: string) => json<{ problem: string }>("PUT", `/api/explore?${options}`, text),
+  compare: (a: string, b: string) => json<{ problem: string }>("PUT", `/api/compare?length=${new TextEncoder().encode(a).length}`, a + b),
+  study: (file: string) => json<{ problem: string }>("PUT", `/api/study?file=${encodeURIComponent(file)}`, ""),
+  errand: <T>(name: string) => json<Errand<T>>("GET", `/api/errand?name=${name}`),
+  endErrand: (name: string) => json<{ problem: string }>("DELETE", `/api/errand?name=${name}`),
   findings: (after: number) => json<Findings>("GET", `/api/findings?after=${after}`),
 };

@@ -10,6 +10,7 @@ import { oneDark } from "@codemirror/theme-one-dark";
 import { EditorView, drawSelection, highlightActiveLine, hoverTooltip, keymap, lineNumbers } from "@codemirror/view";
 import type { SyntaxNode } from "@lezer/common";
 import type { Diagnostic } from "./api";
+import type { Edit } from "./edits";
 import { descriptionOf, keysAt, schemasAt, wordsAt, type Schema } from "./schema";
 
 type Path = (string | number)[];
@@ -138,7 +139,15 @@ export class Editor {
   }
 
   goTo(each: Diagnostic): void {
-    const anchor = this.place(each.line, each.column);
+    this.goToOffset(this.place(each.line, each.column));
+  }
+
+  /// Edits that do not overlap, in the order of the text; one step back undoes all.
+  change(edits: Edit[]): void {
+    this.view.dispatch({ changes: edits, userEvent: "input" });
+  }
+
+  goToOffset(anchor: number): void {
     this.view.dispatch({ selection: { anchor }, scrollIntoView: true });
     this.view.focus();
   }

@@ -1,5 +1,6 @@
 // What is known of the scenario, beside the editor.
 import type { Diagnostic, Findings, Proof, RunRequirement } from "./api";
+import { button, element, fill, table, time, type Cell } from "./dom";
 import { textOf } from "./editor";
 
 const stages: Record<string, string> = {
@@ -12,49 +13,8 @@ const stages: Record<string, string> = {
   done: "done",
 };
 
-export function time(ps: number | null | undefined): string {
-  if (ps === null || ps === undefined) return "-";
-  for (const [unit, size] of [["s", 1e12], ["ms", 1e9], ["us", 1e6], ["ns", 1e3]] as const) if (Math.abs(ps) >= size) return `${Number((ps / size).toFixed(3))} ${unit}`;
-  return `${ps} ps`;
-}
-
-function element(name: string, text = "", look = ""): HTMLElement {
-  const made = document.createElement(name);
-  made.textContent = text;
-  made.className = look;
-  return made;
-}
-
-interface Cell {
-  text?: string;
-  note?: string;
-  look?: string;
-  child?: HTMLElement;
-}
-
-function table(heads: string[], rows: Cell[][]): HTMLElement {
-  const made = element("table");
-  const head = element("tr");
-  for (const each of heads) head.append(element("th", each));
-  made.append(head);
-  for (const row of rows) {
-    const line = element("tr");
-    for (const cell of row) {
-      const data = element("td", cell.text ?? "", cell.look ?? "");
-      if (cell.child) data.append(cell.child);
-      if (cell.note) data.append(element("div", cell.note, "note"));
-      line.append(data);
-    }
-    made.append(line);
-  }
-  const scroll = element("div", "", "scroll");
-  scroll.append(made);
-  return scroll;
-}
-
-function fill(id: string, ...children: HTMLElement[]): void {
-  document.getElementById(id)?.replaceChildren(...children);
-}
+/// Shows the worst run of requirement `number`.
+type Look = (number: number) => void;
 
 /// Simulated, worst found and bound as parts of the limit, which stands at 80 %.
 function bar(parts: { simulated?: number | null; worst?: number | null; bound?: number | null }, limit: number | null | undefined): HTMLElement {
@@ -73,13 +33,14 @@ function bar(parts: { simulated?: number | null; worst?: number | null; bound?: 
   return made;
 }
 
-function provedRow(each: Proof): Cell[] {
+function provedRow(each: Proof, number: number, look: Look): Cell[] {
+  const worst = each.adversarial_ps === null ? { text: "-", look: "n" } : { child: button(time(each.adversarial_ps), () => look(number), "look at that run, at that instant"), look: "n" };
   return [
     { text: each.verdict, look: each.verdict },
     { text: each.text, note: each.reason ?? each.remark ?? "" },
     { child: bar({ simulated: each.simulated_ps, worst: each.adversarial_ps, bound: each.bound_ps }, each.limit_ps) },
     { text: time(each.simulated_ps), look: "n" },
-    { text: time(each.adversarial_ps), look: "n" },
+    worst,
     { text: time(each.bound_ps), look: "n" },
     { text: time(each.limit_ps), look: "n" },
   ];
@@ -122,7 +83,7 @@ function mistakes(list: Diagnostic[], goTo: (each: Diagnostic) => void): HTMLEle
   });
 }
 
-export function show(found: Findings, goTo: (each: Diagnostic) => void): void {
+export function show(found: Findings, goTo: (each: Diagnostic) => void, look: Look): void {
   const stage = document.getElementById("stage");
   if (stage) stage.textContent = stages[found.stage] ?? found.stage;
   verdict(found);
@@ -130,11 +91,9 @@ export function show(found: Findings, goTo: (each: Diagnostic) => void): void {
   const isRefused = found.stage === "refused";
   document.getElementById("network")?.classList.toggle("is-old", isRefused);   // it is that of the last sound text
   const heads = ["", "requirement", "of the limit", "simulated", "worst found", "at most", "limit"];
-  const rows = found.proofs ? found.proofs.requirements.map(provedRow) : (found.result?.requirements ?? []).map(runRow);
+  const rows = found.proofs ? found.proofs.requirements.map((each, number) => provedRow(each, number, look)) : (found.result?.requirements ?? []).map(runRow);
   if (rows.length > 0) fill("requirements", element("h2", "Requirements"), table(heads, rows));
   else fill("requirements");
-  const network = document.getElementById("network");
-  if (network && found.network !== "") network.innerHTML = found.network;   // made by the engine, which escapes all names
   const reactions = Object.entries(found.result?.programs ?? {}).flatMap(([name, program]) =>
     program.reactions.map((each) => [{ text: name }, { text: each.kind }, { text: each.initiator }, { text: each.cause }, { text: time(each.began_ps), look: "n" }, { text: time(each.duration_ps), look: "n" }]),
   );

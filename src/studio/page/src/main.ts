@@ -1,19 +1,24 @@
 // The page of takt studio: a scenario on the left, what is known of it on the right.
-import { engine } from "./api";
+import { engine, type Findings } from "./api";
+import { CompareView } from "./compare";
+import { byId } from "./dom";
 import { Editor } from "./editor";
+import { ExplorerView } from "./explorer";
 import { show } from "./findings";
+import { NetworkView } from "./network";
+import { RunView } from "./run_view";
+import { StudiesView } from "./studies";
+import { Tabs } from "./tabs";
 
 const pause = (ms: number) => new Promise((done) => setTimeout(done, ms));
-const text = (id: string, words: string) => {
-  const element = document.getElementById(id);
-  if (element) element.textContent = words;
-};
+const text = (id: string, words: string) => (byId(id).textContent = words);
 
 async function begin(): Promise<void> {
   const [schema, file] = await Promise.all([engine.schema(), engine.file()]);
   let revision = Date.now();   // a page that was loaded anew is ahead of the one before
   let shown = "";              // what the file holds
   let typed = 0;
+  let found: Findings | null = null;
 
   const note = () => text("notice", editor.text() === shown ? "" : "not saved");
   const tell = async () => {
@@ -29,7 +34,7 @@ async function begin(): Promise<void> {
     const content = editor.text();
     try {
       const answer = await engine.save(content);
-      if (answer.problem !== "") return text("notice", answer.problem);
+      if (answer.problem !== "") return void text("notice", answer.problem);
       shown = content;
       note();
     } catch (problem) {
@@ -37,7 +42,7 @@ async function begin(): Promise<void> {
     }
   };
   const editor = new Editor(
-    document.getElementById("editor") as HTMLElement,
+    byId("editor"),
     schema,
     () => {
       note();
@@ -46,9 +51,38 @@ async function begin(): Promise<void> {
     },
     () => void save(),
   );
-  document.getElementById("save")?.addEventListener("click", () => void save());
+  byId("save").addEventListener("click", () => void save());
   window.addEventListener("beforeunload", (event) => {
     if (editor.text() !== shown) event.preventDefault();
+  });
+
+  const network = new NetworkView(editor);
+  const run = new RunView();
+  const explorer = new ExplorerView(() => editor.text());
+  new CompareView(
+    () => shown,
+    () => ({ text: editor.text(), proofs: found?.revision === revision ? found.proofs : null }),
+  );
+  const studies = new StudiesView();
+  const tabs: Tabs = new Tabs((view) => {
+    run.setSeen(view === "timeline");
+    if (view === "studies") void studies.open().catch(() => undefined);
+    if (view === "explorer") explorer.open();
+  });
+  const look = (requirement: number) => {
+    run.look(requirement);
+    tabs.open("timeline");
+  };
+  const hide = () => {
+    const isWide = document.querySelector("main")?.classList.toggle("is-wide") ?? false;
+    byId("wide").setAttribute("aria-pressed", String(isWide));
+    text("wide", isWide ? "Show the text" : "Hide the text");
+  };
+  byId("wide").addEventListener("click", hide);
+  window.addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.key !== "e") return;
+    event.preventDefault();
+    hide();
   });
 
   text("path", file.path);
@@ -61,11 +95,14 @@ async function begin(): Promise<void> {
 
   for (let version = 0; ; ) {
     try {
-      const found = await engine.findings(version);
-      version = found.version;
-      if (found.revision === 0 && found.trouble === "") continue;
-      show(found, (each) => editor.goTo(each));
-      if (found.revision === revision) editor.mark(found.diagnostics?.diagnostics ?? []);
+      const news = await engine.findings(version);
+      version = news.version;
+      if (news.revision === 0 && news.trouble === "") continue;
+      found = news;
+      show(news, (each) => editor.goTo(each), look);
+      if (news.network) network.show(news.network);
+      run.know(news);
+      if (news.revision === revision) editor.mark(news.diagnostics?.diagnostics ?? []);
     } catch {
       text("stage", "the engine does not answer");
       await pause(1000);

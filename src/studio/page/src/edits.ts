@@ -1,0 +1,127 @@
+// Edits of the text by hand: a member or an item more or less, with the indentation and the comments that stand there.
+import { jsonLanguage } from "@codemirror/lang-json";
+import type { SyntaxNode } from "@lezer/common";
+
+export interface Edit {
+  from: number;
+  to: number;
+  insert: string;
+}
+
+export type Path = (string | number)[];
+
+/// The text with blanks for comments, which the parser does not know; every place stays where it is.
+export function withoutComments(text: string): string {
+  return text.replace(/"(?:[^"\\\n]|\\.)*"|\/\/[^\n]*|\/\*[\s\S]*?\*\//g, (found) => (found.startsWith('"') ? found : found.replace(/[^\n]/g, " ")));
+}
+
+const values = new Set(["Object", "Array", "String", "Number", "True", "False", "Null"]);
+
+function nameOf(text: string, property: SyntaxNode): string {
+  const name = property.getChild("PropertyName");
+  try {
+    return name ? (JSON.parse(text.slice(name.from, name.to)) as string) : "";
+  } catch {
+    return "";
+  }
+}
+
+function valueOf(property: SyntaxNode): SyntaxNode | null {
+  for (let each = property.lastChild; each; each = each.prevSibling) if (values.has(each.name)) return each;
+  return null;
+}
+
+function children(node: SyntaxNode): SyntaxNode[] {
+  const found: SyntaxNode[] = [];
+  for (let each = node.firstChild; each; each = each.nextSibling) if (each.name === "Property" || values.has(each.name)) found.push(each);
+  return found;
+}
+
+function root(text: string): SyntaxNode | null {
+  const top = jsonLanguage.parser.parse(withoutComments(text)).topNode;
+  return children(top)[0] ?? null;
+}
+
+/// The property or item that the path leads to; of the empty path the whole.
+export function place(text: string, path: Path): SyntaxNode | null {
+  let at = root(text);
+  let found = at;
+  for (const step of path) {
+    if (!at) return null;
+    const inside = children(at);
+    found = (typeof step === "number" ? inside[step] : inside.find((each) => nameOf(text, each) === step)) ?? null;
+    at = found?.name === "Property" ? valueOf(found) : found;
+  }
+  return found;
+}
+
+function containerAt(text: string, path: Path): SyntaxNode | null {
+  const found = place(text, path);
+  const value = found?.name === "Property" ? valueOf(found) : found;
+  return value && (value.name === "Object" || value.name === "Array") ? value : null;
+}
+
+const indentOf = (text: string, at: number): string => /^[ \t]*/.exec(text.slice(text.lastIndexOf("\n", at - 1) + 1, at))?.[0] ?? "";
+
+/// One more thing at the end of an object or a list: `made` is its text, of an object with the name.
+function append(text: string, container: SyntaxNode, made: string): Edit[] {
+  const inside = children(container);
+  const last = inside[inside.length - 1];
+  const insert = (at: number, words: string): Edit => ({ from: at, to: at, insert: words });
+  if (!last) {
+    const outer = indentOf(text, container.from);
+    return [insert(container.from + 1, `\n${outer}  ${made}\n${outer}`)];
+  }
+  const rest = withoutComments(text).slice(last.to, container.to - 1);
+  const comma = /^\s*,/.exec(rest);
+  const at = last.to + (comma ? comma[0].length : 0);
+  const isOnOneLine = !text.slice(container.from, last.from).includes("\n");
+  if (isOnOneLine) return [insert(at, `${comma ? "" : ","} ${made}`)];
+  // A comment behind the last one stays with it.
+  const line = /^[ \t]*\n/.exec(withoutComments(text).slice(at, container.to));
+  const end = line ? at + line[0].length - 1 : at;
+  return [...(comma ? [] : [insert(at, ",")]), insert(end, `\n${indentOf(text, last.from)}${made}`)];
+}
+
+/// Adds a member (with a name) or an item (without) to what the path leads to, which is made if it is not there. Nothing if that is no object or list.
+export function added(text: string, path: Path, name: string | null, value: string): Edit[] | null {
+  const container = containerAt(text, path);
+  const made = name === null ? value : `${JSON.stringify(name)}: ${value}`;
+  if (container) return (container.name === "Object") === (name !== null) ? append(text, container, made) : null;
+  if (path.length === 0 || place(text, path)) return null;
+  const key = path[path.length - 1];
+  if (typeof key !== "string") return null;
+  const inner = "  ".repeat(path.length);
+  return added(text, path.slice(0, -1), key, name === null ? `[\n${inner}  ${made}\n${inner}]` : `{\n${inner}  ${made}\n${inner}}`);
+}
+
+/// Takes a property or item away, with its comma, and the line if it stood there alone.
+export function removed(text: string, node: SyntaxNode): Edit {
+  let from = node.from;
+  let to = node.to;
+  const plain = withoutComments(text);
+  const behind = /^\s*,/.exec(plain.slice(to));
+  if (behind) to += behind[0].length;
+  else {
+    const before = /,\s*$/.exec(plain.slice(0, from));
+    if (before) from -= before[0].length;
+  }
+  const line = text.lastIndexOf("\n", from - 1) + 1;
+  if (text.slice(line, from).trim() === "" && /^[ \t]*(\n|$)/.test(text.slice(to))) {
+    from = line;
+    to = Math.min(text.length, text.indexOf("\n", to) < 0 ? text.length : text.indexOf("\n", to) + 1);
+  }
+  return { from, to, insert: "" };
+}
+
+/// Links that end at the node, last first, so that one edit does not move the next.
+export function linksOf(text: string, node: string): SyntaxNode[] {
+  const list = containerAt(text, ["network", "links"]);
+  if (!list) return [];
+  return children(list)
+    .filter((each) => {
+      const ends = children(each).find((property) => nameOf(text, property) === "ends");
+      return ends !== undefined && new RegExp(`"${node.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}(:\\d+)?"`).test(text.slice(ends.from, ends.to));
+    })
+    .reverse();
+}

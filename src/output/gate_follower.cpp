@@ -27,7 +27,8 @@ void GateFollower::follow(std::uint32_t position) {
   const models::LocalClock& clock = live(position).clock();
   Gates& followed = gates_[position];
   const sim::LocalTime change = followed.schedule.next_change(clock.local_at(followed.next));
-  followed.next = change == sim::LocalTime::never() ? sim::TrueTime::never() : clock.true_at(change);
+  // A clock that was changed meanwhile may place it before what was shown already: the way is forwards in any case.
+  followed.next = change == sim::LocalTime::never() ? sim::TrueTime::never() : clock.true_after(change, followed.next);
   if (followed.next != sim::TrueTime::never()) changes_.push({followed.next, position});
 }
 

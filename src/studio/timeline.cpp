@@ -105,8 +105,10 @@ std::unique_ptr<Timeline> Timeline::record(const scenario::Resolved& resolved, s
   TimelineSink sink(run, limits, *timeline);
   run.simulation().set_trace(&sink);
   constexpr std::uint64_t events_a_slice = 50'000;
-  while (!run.advance(events_a_slice) && !sink.is_full())
+  for (bool is_over = false; !is_over && !sink.is_full();) {
     if (interrupted()) return nullptr;
+    is_over = run.advance(events_a_slice);
+  }
   run.simulation().set_trace(nullptr);
   sink.finish(run.simulation().now());
   return timeline;

@@ -45,6 +45,7 @@ void TimelineSink::follow_gates(sim::TrueTime now) {
 
 void TimelineSink::record(const sim::TraceRecord& record) {
   if (is_full_) return;
+  last_ = record.time;
   follow_gates(record.time);
   const auto kind = static_cast<models::Occurrence>(record.kind);
   const bool begins = kind == models::Occurrence::started || kind == models::Occurrence::resumed;
@@ -77,7 +78,7 @@ void TimelineSink::record(const sim::TraceRecord& record) {
 
 void TimelineSink::finish(sim::TrueTime now) {
   if (!is_full_) follow_gates(now);
-  timeline_->to_ = now;
+  timeline_->to_ = is_full_ ? last_ : now;
   timeline_->is_whole_ = !is_full_ && now >= run_->end();
   for (std::size_t p = 0; p < run_->resolved().programs.size(); ++p) add_program(p);
 }

@@ -33,6 +33,7 @@ class TimelineSink final : public sim::TraceSink {
   models::PortDirectory directory_;
   output::GateFollower gates_;
   std::uint64_t changes_ = 0;
+  sim::TrueTime last_;
   bool is_full_ = false;
 };
 

@@ -44,7 +44,7 @@ TEST(Engine, FindsWhatTheCommandsFind) {
   run.advance();
   EXPECT_EQ(found.result, results::run_json(evaluation::evaluate(run, false)));
   EXPECT_NE(found.proofs.find("\"verdict\": \"pass\""), std::string::npos);
-  EXPECT_NE(found.network.find("\"name\":\"a\",\"kind\":\"host\""), std::string::npos) << found.network;
+  EXPECT_NE(found.network.find("\"name\": \"a\", \"kind\": \"host\""), std::string::npos) << found.network;
   EXPECT_NE(found.diagnostics.find("\"errors\": 0"), std::string::npos);
   EXPECT_TRUE(found.trouble.empty());
 }

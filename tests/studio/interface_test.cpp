@@ -83,7 +83,7 @@ TEST_F(Interfaces, KeepLayoutsBesideTheScenario) {
   EXPECT_EQ(ask("GET", "/api/layout").body, "{}");
   EXPECT_EQ(ask("PUT", "/api/layout", {}, R"({"nodes": {"a": [1, 2.5]}})").status, 200);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "plant.json.layout"));
-  EXPECT_EQ(ask("GET", "/api/layout").body, R"({"nodes":{"a":[1,2.5]}})");
+  EXPECT_EQ(ask("GET", "/api/layout").body, R"({"nodes": {"a": [1, 2.5]}})");
   EXPECT_EQ(ask("PUT", "/api/layout", {}, "{").status, 400);
   EXPECT_EQ(ask("PUT", "/api/layout", {}, std::string(2'000'000, ' ')).status, 400);
   EXPECT_EQ(ask("PUT", "/api/layout", {}, "").status, 200);

@@ -163,10 +163,11 @@ class Asking {
       return refuse();
     }
     if (!subject_ && result->requirement) {
-      asked.require = {resolved_.scenario.require[*result->requirement]};
+      const scenario::RequiredFigure& required = resolved->requirements[*result->requirement];
+      result->requirement = required.part;   // of those that are left
+      asked.require = {resolved_.scenario.require[required.entry]};
       resolved = scenario::resolve(asked, diagnostics_);
       if (!resolved) return refuse();
-      result->requirement = 0;
     }
     return explain_result(*resolved, std::move(*result));
   }
@@ -219,7 +220,7 @@ class Asking {
     if (!result.measured) {
       explanation_.question += "; there was none";
     } else if (result.taken_as == RequirementKind::reaction) {
-      explanation_.reaction = explain::explain_reaction(looked_at, *scenario::reaction_of(looked_at.requirements[0].figure), sim::TrueTime() + result.from, *result.measured, [&] { return interrupt_.requested(); });
+      explanation_.reaction = explain::explain_reaction(looked_at, *scenario::reaction_of(looked_at.requirements[*result.requirement].figure), sim::TrueTime() + result.from, *result.measured, [&] { return interrupt_.requested(); });
     } else {
       const auto of = stream_of(result.subject);
       explanation_.frames = explain::explain_frame(looked_at, {.stream = of, .from = sim::TrueTime() + result.from}, [&] { return interrupt_.requested(); });
@@ -229,7 +230,7 @@ class Asking {
   }
 
   void add_bound(const analysis::Bounds& bounds, const RequirementResult& result, const scenario::Scenario& run) {
-    const analysis::RequirementBound& bound = bounds.requirements[0];
+    const analysis::RequirementBound& bound = bounds.requirements[*result.requirement];
     if (!bound.duration) {
       explanation_.question += "; no bound: " + bound.reason;
       return;

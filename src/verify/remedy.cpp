@@ -32,7 +32,9 @@ class Workshop {
  public:
   Workshop(const scenario::Resolved& resolved, const results::RequirementResult& requirement, const std::function<bool()>& interrupted)
       : asked_(resolved.scenario), required_(requirement), limit_(*requirement.limit), interrupted_(interrupted) {
-    asked_.require = {resolved.scenario.require[*requirement.requirement]};   // the others may not make sense any more
+    const scenario::RequiredFigure& required = resolved.requirements[*requirement.requirement];
+    asked_.require = {resolved.scenario.require[required.entry]};   // the others may not make sense any more
+    part_ = required.part;
   }
 
   std::optional<Remedy> look(const Knob& knob) {
@@ -65,7 +67,7 @@ class Workshop {
   /// If it is within the limit, and stands.
   std::optional<Duration> bound_of(const scenario::Resolved& resolved) const {
     const analysis::Bounds bounds = analysis::bound(resolved);
-    const analysis::RequirementBound& bound = bounds.requirements.front();
+    const analysis::RequirementBound& bound = bounds.requirements[part_];
     if (!bound.duration || *bound.duration > limit_ || !bounds.ledger.objection(bound.assumptions, required_.from).empty()) return std::nullopt;
     if (required_.taken_as != RequirementKind::reaction && loses(resolved, bounds)) return std::nullopt;
     return bound.duration;
@@ -78,6 +80,7 @@ class Workshop {
   }
 
   Scenario asked_;
+  std::size_t part_ = 0;   // of that entry
   const results::RequirementResult& required_;
   Duration limit_;
   const std::function<bool()>& interrupted_;

@@ -39,6 +39,24 @@ TEST(Remedies, GreatestPayloadAndLeastRate) {
   EXPECT_NE(page.find("most of the worst run: 8.464 us at a:0 to b (transmission)"), std::string::npos) << page;
 }
 
+// An entry may ask for several figures, so that figures and entries are not numbered alike.
+TEST(Remedies, OfTheEntryThatAsksForTheFigure) {
+  std::string several = alone;
+  several.replace(several.find(R"([{"stream": "s")"), std::string::npos,
+                  R"([{"stream": "s", "latency": "9us", "dropped": 0}, {"stream": "s", "jitter": "1us", "latency": "5us", "dropped": 0}]})");
+  const auto scenario = resolved(several.c_str());
+  Options options = small();
+  options.helps = true;
+  const Verification found = verify(*scenario, options);
+  std::vector<std::string> of_refuted;
+  for (const Line& line : found.lines) {
+    if (line.verdict != Conclusion::refuted) continue;
+    EXPECT_EQ(line.requirement.text, "stream s latency at most 5us");
+    for (const Remedy& remedy : line.remedies) of_refuted.push_back(remedy.what + " " + remedy.value);
+  }
+  EXPECT_EQ(of_refuted, (std::vector<std::string>{"payload of s at most 560B", "rate of all links at least 2.5Gbps"}));
+}
+
 TEST(Remedies, NoneOfWhatIsProvedOrNotAskedFor) {
   EXPECT_TRUE(verify(*resolved(alone), small()).lines[0].remedies.empty());
   std::string proved = alone;

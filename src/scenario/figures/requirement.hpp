@@ -29,6 +29,8 @@ struct RequiredFigure {
   std::string name = {};                     ///< of the figure as the file says it: "reaction.start.max", "/streams/*/latency_ps/max (mean)"
   std::string text = {};                     ///< "stream camera latency at most 7ms"
   bool has_unit = false;                     ///< the file says in which unit a time is reported
+  std::size_t entry = 0;                     ///< of scenario.require: which asks for it
+  std::size_t part = 0;                      ///< of that entry, which may ask for several
 };
 
 /// The reactions whose durations a figure is taken of.

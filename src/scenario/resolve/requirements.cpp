@@ -52,6 +52,8 @@ class Requirements {
   /// A limit on the figure at these steps of result.json.
   RequiredFigure& add(RequirementKind kind, const std::string& subject, std::vector<std::string> steps, std::string text) {
     RequiredFigure& made = made_.emplace_back();
+    made.entry = static_cast<std::size_t>(asked_ - r_.scenario.require.data());
+    made.part = made_.size() > 1 && made_[made_.size() - 2].entry == made.entry ? made_[made_.size() - 2].part + 1 : 0;
     made.kind = made.taken_as = kind;
     made.subject = subject;
     made.figure.steps = std::move(steps);

@@ -17,6 +17,7 @@ const differs = (difference: Summary): boolean => difference.mean !== undefined 
 export class CompareView {
   private kept: string | null = null;
   private asked = 0;
+  private last: { text: string; a: Errand<Verification>; compared: Errand<Compared> } | null = null;
 
   /// `saved` is what the file holds, `present` what stands in the editor, with its proofs as far as there are any.
   constructor(
@@ -29,6 +30,11 @@ export class CompareView {
       button("Compare with the text as it is now", () => void this.compare()),
     );
     this.keep(null, "A is the file as it was saved last");
+  }
+
+  /// Proofs of the present text may come later than what it is compared with.
+  know(): void {
+    if (this.last && this.last.text === this.present().text) this.show(this.last.a, this.last.compared);
   }
 
   private keep(text: string | null, words: string): void {
@@ -45,6 +51,7 @@ export class CompareView {
     const a = this.kept ?? this.saved();
     const b = this.present().text;
     byId("compare-found").replaceChildren();
+    this.last = null;
     if (a === b) return this.say("A and the text are the same: change the text, or keep another A");
     this.say("comparing: ten pairs of runs with the same seeds, and proofs of A ...");
     try {
@@ -52,6 +59,7 @@ export class CompareView {
       for (;;) {
         const [proofs, compared] = await Promise.all([engine.errand<Verification>("verify"), engine.errand<Compared>("compare")]);
         if (mine !== this.asked) return;
+        this.last = { text: b, a: proofs, compared };
         this.show(proofs, compared);
         if (!proofs.running && !compared.running) return this.say("");
         await pause(300);

@@ -96,7 +96,7 @@ export function added(text: string, path: Path, name: string | null, value: stri
 }
 
 /// Takes a property or item away, with its comma, and the line if it stood there alone.
-export function removed(text: string, node: SyntaxNode): Edit {
+function removed(text: string, node: SyntaxNode): Edit {
   let from = node.from;
   let to = node.to;
   const plain = withoutComments(text);
@@ -114,14 +114,33 @@ export function removed(text: string, node: SyntaxNode): Edit {
   return { from, to, insert: "" };
 }
 
-/// Links that end at the node, last first, so that one edit does not move the next.
-export function linksOf(text: string, node: string): SyntaxNode[] {
+/// A link that ends at the node.
+function linkOf(text: string, node: string): SyntaxNode | null {
   const list = containerAt(text, ["network", "links"]);
-  if (!list) return [];
-  return children(list)
-    .filter((each) => {
-      const ends = children(each).find((property) => nameOf(text, property) === "ends");
-      return ends !== undefined && new RegExp(`"${node.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}(:\\d+)?"`).test(text.slice(ends.from, ends.to));
-    })
-    .reverse();
+  const pattern = new RegExp(`"${node.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}(:\\d+)?"`);
+  const endsThere = (link: SyntaxNode) => {
+    const ends = children(link).find((property) => nameOf(text, property) === "ends");
+    return ends !== undefined && pattern.test(text.slice(ends.from, ends.to));
+  };
+  return (list ? children(list) : []).find(endsThere) ?? null;
+}
+
+/// Takes a node away, with the links that end there. Nothing if it does not stand in the text.
+export function withoutNode(text: string, name: string): { edit: Edit; links: number } | null {
+  let now = text;
+  const take = (node: SyntaxNode) => {
+    const edit = removed(now, node);
+    now = now.slice(0, edit.from) + now.slice(edit.to);
+  };
+  let links = 0;
+  for (let link = linkOf(now, name); link; link = linkOf(now, name), ++links) take(link);
+  const node = place(now, ["network", "nodes", name]);
+  if (!node) return null;
+  take(node);
+  // As one edit: what is before and behind stays as it is.
+  let from = 0;
+  while (from < now.length && now[from] === text[from]) ++from;
+  let behind = 0;
+  while (behind < now.length - from && now[now.length - 1 - behind] === text[text.length - 1 - behind]) ++behind;
+  return { edit: { from, to: text.length - behind, insert: now.slice(from, now.length - behind) }, links };
 }

@@ -59,7 +59,7 @@ async function begin(): Promise<void> {
   const network = new NetworkView(editor);
   const run = new RunView();
   const explorer = new ExplorerView(() => editor.text());
-  new CompareView(
+  const compare = new CompareView(
     () => shown,
     () => ({ text: editor.text(), proofs: found?.revision === revision ? found.proofs : null }),
   );
@@ -89,6 +89,7 @@ async function begin(): Promise<void> {
   if (file.problem !== "") text("notice", file.problem);
   shown = file.saved ?? "";
   editor.set(file.draft ?? shown);
+  clearTimeout(typed);   // it is told below
   note();
   if (file.draft !== null && file.draft !== shown) text("notice", "what was typed last, not saved");
   await tell();
@@ -102,6 +103,7 @@ async function begin(): Promise<void> {
       show(news, (each) => editor.goTo(each), look);
       if (news.network) network.show(news.network);
       run.know(news);
+      compare.know();
       if (news.revision === revision) editor.mark(news.diagnostics?.diagnostics ?? []);
     } catch {
       text("stage", "the engine does not answer");

@@ -1,7 +1,7 @@
 // The network: drawn, dragged about (that is kept in a file beside the scenario), and edited by hand.
 import { engine, type Layout, type Plant, type PlantNode } from "./api";
 import { button, byId, element, field, input, select } from "./dom";
-import { added, linksOf, place, removed, type Edit } from "./edits";
+import { added, place, withoutNode, type Edit } from "./edits";
 import type { Editor } from "./editor";
 
 const unit = 120;   // pixels between neighbouring switches
@@ -190,14 +190,10 @@ export class NetworkView {
   }
 
   private remove(name: string): void {
-    let text = this.editor.text();
-    const found = place(text, ["network", "nodes", name]);
+    const found = withoutNode(this.editor.text(), name);
     if (!found) return this.tell(`${name} does not stand in the text: something else makes it`);
-    const links = linksOf(text, name);
-    const edits = links.map((each) => removed(text, each));
-    edits.push(removed(text, found));
-    this.editor.change(edits.sort((a, b) => a.from - b.from));
-    this.tell(`${name} is gone${links.length > 0 ? `, with ${links.length} ${links.length === 1 ? "link" : "links"}` : ""}; Ctrl+Z in the text brings it back`);
+    this.editor.change([found.edit]);
+    this.tell(`${name} is gone${found.links > 0 ? `, with ${found.links} ${found.links === 1 ? "link" : "links"}` : ""}; Ctrl+Z in the text brings it back`);
   }
 
   private addForms(): void {

@@ -67,6 +67,7 @@ export class Timeline {
   private lit: Lit[] = [];
   private chosen: Sent | null = null;
   private asked = 0;
+  private isToStep: 1 | -1 | 0 = 0;   // as soon as there are pieces
   private readonly canvas = byId("timeline-canvas") as HTMLCanvasElement;
   private readonly context = this.canvas.getContext("2d", { alpha: false }) as CanvasRenderingContext2D;
   private ink = { text: "", faint: "", line: "", paper: "", open: "" };
@@ -90,7 +91,7 @@ export class Timeline {
     this.look = look;
     this.summary = summary;
     this.colours = summary.streams.map((_, n) => `rgb(${rgb(n).join(" ")})`);
-    this.pieces = new Pieces(look, Math.max(this.span(), 1), rgb, () => this.redraw());
+    this.pieces = new Pieces(look, Math.max(this.span(), 1), rgb, () => this.came());
     this.lit = [];
     this.chosen = null;
     byId("timeline-why").replaceChildren();
@@ -189,6 +190,12 @@ export class Timeline {
 
   private x(at: number): number {
     return gutter + (at - this.t0) / this.scale;
+  }
+
+  /// A piece has come.
+  private came(): void {
+    this.redraw();
+    if (this.isToStep !== 0) this.step(this.isToStep);
   }
 
   private draw(): void {
@@ -538,9 +545,12 @@ export class Timeline {
   /// The next frame of the row, or the one before; of the first port in sight if none is chosen.
   private step(direction: 1 | -1): void {
     const port = this.chosen?.port ?? this.rows.find((row) => row.port >= 0 && row.y >= this.top && this.piecesOf(row.port).some((each) => each.row.count > 0))?.port;
-    if (port === undefined) return;
-    const parts = this.piecesOf(port);
-    if (parts.some((each) => each.row.picture)) return this.zoom(0.25, gutter + this.width() / 2);   // frames are not told apart yet
+    const parts = port === undefined ? [] : this.piecesOf(port);
+    // Where frames are not told apart yet, or nothing has come, it is tried again when something has.
+    const isTooMuch = parts.some((each) => each.row.picture);
+    this.isToStep = isTooMuch || parts.length === 0 ? direction : 0;
+    if (isTooMuch) this.zoom(0.25, gutter + this.width() / 2);
+    if (this.isToStep !== 0 || port === undefined) return;
     const all = parts.flatMap((part) => Array.from(part.row.starts ?? [], (_, n) => this.sentAt(part, port, n)));
     const now = this.chosen?.start ?? this.t0 - 1;
     const next = direction > 0 ? all.find((each) => each.start > now) : all.reverse().find((each) => each.start < now);

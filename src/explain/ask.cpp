@@ -21,6 +21,9 @@ class FrameSeeker final : public WaySink {
   FrameSeeker(const models::Network& network, const FrameQuestion& question) : network_(&network), question_(question) {}
 
   bool wants(models::StreamIndex stream) const override { return !question_.stream || *question_.stream == stream; }
+  bool wants_frame(const models::Frame& frame) override {
+    return frame.produced >= question_.from && (question_.which != FrameQuestion::Which::number || frame.sequence == question_.number);
+  }
   bool wants_delivery(const models::Frame& frame, models::NodeIndex, TrueTime now) override {
     if (frame.produced < question_.from || question_.which == FrameQuestion::Which::lost) return false;
     if (question_.which == FrameQuestion::Which::number) return frame.sequence == question_.number;
@@ -73,6 +76,9 @@ class MessageSeeker final : public WaySink {
   }
   bool wants(models::StreamIndex stream) const override {
     return std::ranges::any_of(wanted_, [&](const Arrival& each) { return each.stream == stream; });
+  }
+  bool wants_frame(const models::Frame& frame) override {
+    return std::ranges::any_of(wanted_, [&](const Arrival& each) { return each.stream == frame.stream && each.produced == frame.produced; });
   }
   bool wants_delivery(const models::Frame& frame, models::NodeIndex listener, TrueTime now) override {
     return std::ranges::any_of(wanted_, [&](const Arrival& each) { return each.stream == frame.stream && each.listener == listener && each.produced == frame.produced && each.at == now; });

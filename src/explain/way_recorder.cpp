@@ -84,7 +84,7 @@ void WayRecorder::record(const sim::TraceRecord& record) {
 void WayRecorder::produced(const sim::TraceRecord& record) {
   const auto handle = static_cast<std::uint32_t>(record.what);
   const models::Frame& frame = network_->traffic().frame({handle});
-  if (!wanted_[frame.stream.value]) return;
+  if (!wanted_[frame.stream.value] || !sink_->wants_frame(frame)) return;
   if (free_journeys_.empty()) {
     free_journeys_.push_back(static_cast<std::uint32_t>(journeys_.size()));
     journeys_.emplace_back();

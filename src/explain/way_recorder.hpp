@@ -18,6 +18,11 @@ class WaySink {
   virtual ~WaySink() = default;
   /// Whether frames of the stream are followed at all; asked once.
   virtual bool wants(models::StreamIndex stream) const = 0;
+  /// Whether this frame of such a stream is; asked when it is produced.
+  virtual bool wants_frame(const models::Frame& frame) {
+    static_cast<void>(frame);
+    return true;
+  }
   /// Whether the way of that delivery, at the present instant, is worth the trouble.
   virtual bool wants_delivery(const models::Frame& frame, models::NodeIndex listener, TrueTime now) {
     static_cast<void>(frame), static_cast<void>(listener), static_cast<void>(now);

@@ -38,9 +38,10 @@ std::optional<std::string> plain_json(std::string_view text) {
 
 std::uint64_t Request::number(const char* name) const {
   const std::string text = parameter(name);
+  if (text.empty()) return 0;
   std::uint64_t number = 0;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? number : no_number;
 }
 
 Interface::Interface(Engine& engine, Document& document, std::string schema, std::string program) : engine_(engine), document_(document), schema_(std::move(schema)), program_(std::move(program)) {}

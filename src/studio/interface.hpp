@@ -21,7 +21,8 @@ namespace takt::studio {
 struct Request {
   std::function<std::string(const char* name)> parameter;   ///< of the address; empty: not given
   std::string_view body = {};
-  std::uint64_t number(const char* name) const;             ///< 0 if it is none
+  static constexpr std::uint64_t no_number = ~std::uint64_t{0};
+  std::uint64_t number(const char* name) const;             ///< 0 if it is not given, no_number if it is none or too great: nothing has that number
 };
 
 struct Answer {

@@ -72,7 +72,7 @@ TEST_F(Interfaces, TellTimelinesOfTheTextThatStandsThere) {
   for (const auto& [key, value] : std::map<std::string, std::string>{{"revision", "2"}, {"revision", ""}, {"run", "7"}, {"run", "-3"}, {"run", "99999999999999999999999"}, {"from", "18446744073709551615"}}) {
     std::map<std::string, std::string> parameters = {{"revision", "1"}, {key, value}};
     parameters[key] = value;
-    EXPECT_GE(ask("GET", "/api/timeline", parameters).status, key == "run" && value == "-3" ? 200 : 400) << key << ' ' << value;
+    EXPECT_GE(ask("GET", "/api/timeline", parameters).status, 400) << key << ' ' << value;
   }
   know(2, "{");
   EXPECT_EQ(ask("GET", "/api/timeline", {{"revision", "1"}}).status, 409);

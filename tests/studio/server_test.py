@@ -104,6 +104,39 @@ class ServerTest(unittest.TestCase):
             pass
         self.assertGreater(found["diagnostics"]["errors"], 0)
 
+    def test_absurd_questions_are_refused_or_answered_with_nothing(self):
+        ask = self.studio.ask
+        text = (self.folder / "plant.json").read_bytes()
+        ask("PUT", "/api/text?revision=3", body=text)
+        while (found := json.loads(ask("GET", "/api/findings?after=0")[1]))["stage"] != "done" or found["revision"] != 3:
+            pass
+        huge = "9" * 40
+        for question in ("timeline?revision=3&run=" + huge, "timeline?revision=3&from=" + huge, "timeline?revision=" + huge, "timeline?revision=-3", "explain?revision=3&stream=nobody", "explain?revision=3",
+                         "explain?revision=3&run=" + huge, "errand?name=../../etc", "errand", "piece?revision=4&level=1&index=1&first=0&count=1"):
+            status = ask("GET", "/api/" + question)[0]
+            self.assertIn(status, (400, 404, 409), question)
+        for question in (f"piece?revision=3&level={huge}&index={huge}&first={huge}&count={huge}", "piece?revision=3&level=-1&index=-1&first=-1&count=-1", "piece?revision=3"):
+            self.assertEqual(ask("GET", "/api/" + question)[0], 200, question)
+        for name in ("plant.json", "../plant.json", "/etc/passwd", "--out", "", "%00"):
+            self.assertEqual(ask("PUT", "/api/study?file=" + name, body=b"")[0], 400, name)
+        self.assertEqual(ask("PUT", "/api/layout", body=b"{")[0], 400)
+        # Options of a command are words of its own or refused by it; the command line is no shell's.
+        self.assertEqual(ask("PUT", "/api/explore?faults=$(touch%20owned)&calls=--out=owned", body=text)[0], 200)
+        while (errand := json.loads(ask("GET", "/api/errand?name=explore")[1]))["running"]:
+            pass
+        self.assertNotEqual(errand["status"], 0)
+        self.assertIsNone(errand["output"])
+        self.assertEqual(ask("DELETE", "/api/errand?name=explore")[0], 200)
+        self.assertEqual(sorted(each.name for each in self.folder.iterdir()), ["plant.json"])
+
+    def test_commands_end_with_the_studio(self):
+        self.assertEqual(self.studio.ask("PUT", "/api/explore?faults=loss,crash,restart,timeout,duplicate,reorder&calls=8", body=(SOURCE / "scenarios" / "programs" / "all-to-all.json").read_bytes())[0], 200)
+        children = subprocess.run(["pgrep", "-P", str(self.studio.process.pid)], capture_output=True, text=True).stdout.split()
+        self.assertEqual(self.studio.stop(), 0)
+        for child in children:
+            self.assertFalse(pathlib.Path(f"/proc/{child}/exe").exists(), "it goes on without anybody")
+        self.assertEqual(sorted(each.name for each in self.folder.iterdir()), ["plant.json"])
+
     def test_a_killed_engine_loses_no_text(self):
         text = (self.folder / "plant.json").read_text().replace("pair", "twins")
         self.assertEqual(json.loads(self.studio.ask("PUT", "/api/text?revision=5", body=text.encode())[1]), {"problem": ""})

@@ -19,7 +19,9 @@
 #include "chart/sequence_chart.hpp"
 #include "chart/svg.hpp"
 #include "evaluation/evaluate.hpp"
+#include "explain/ask.hpp"
 #include "json/quantity.hpp"
+#include "json/record.hpp"
 #include "output/frame_columns.hpp"
 #include "output/text_report.hpp"
 #include "report/replay.hpp"
@@ -27,6 +29,7 @@
 #include "results/result_json.hpp"
 #include "results/version.hpp"
 #include "scenario/resolve/resolve.hpp"
+#include "study/compare.hpp"
 #include "study/content.hpp"
 #include "study/point.hpp"
 #include "study/report.hpp"
@@ -235,6 +238,59 @@ std::string verification_of(const Scenario& scenario, unsigned seeds, unsigned j
   return report;
 }
 
+/// A frame of a stream by its number, the first that was lost, or the slowest; of any stream without a name.
+std::string explanation_of(const Scenario& scenario, const std::optional<std::string>& stream, std::optional<std::uint64_t> frame, bool lost, const Progress& progress) {
+  using Which = explain::FrameQuestion::Which;
+  if (frame && (lost || !stream)) throw Mistake(lost ? "frame and lost: one of them" : "a frame of no stream: explain(stream, frame=...)");
+  explain::FrameQuestion question;
+  question.which = frame ? Which::number : lost ? Which::lost : Which::slowest;
+  question.number = frame.value_or(0);
+  const auto& streams = scenario.resolved->plan.streams;
+  if (stream) {
+    const auto found = std::find_if(streams.begin(), streams.end(), [&](const auto& each) { return each.name == *stream; });
+    if (found == streams.end()) throw Mistake("no stream is called " + json::quote(*stream));
+    question.stream = models::StreamIndex{static_cast<std::uint32_t>(found - streams.begin())};
+  }
+  Watch watch(progress);
+  explain::Explanation made;
+  made.scenario = scenario.resolved->scenario.name;
+  made.question = (stream ? "stream " + *stream : "all streams") + (frame ? ": frame " + std::to_string(*frame) : lost ? ": the first frame that was lost" : ": the slowest frame");
+  {
+    const py::gil_scoped_release unlocked;
+    made.frames = explain::explain_frame(*scenario.resolved, question, [&] { return !watch.keep_going(0); });
+  }
+  watch.raise();
+  return json::write(made);
+}
+
+std::string comparison_of(const Scenario& a, const Scenario& b, std::uint32_t pairs, std::uint64_t seed, unsigned jobs, const Progress& progress) {
+  if (pairs == 0) throw Mistake("pairs: at least one");
+  const auto plan_of = [&](const Scenario& scenario) {
+    json::Diagnostics diagnostics;
+    auto document = json::parse(json::encode(scenario.resolved->scenario), scenario.resolved->scenario.name, diagnostics);
+    if (!document) throw mistake_of(diagnostics);
+    return study::plain_plan(std::move(*document), pairs, seed);
+  };
+  const study::Plan plan_a = plan_of(a);
+  const study::Plan plan_b = plan_of(b);
+  Watch watch(progress);
+  study::Comparison made;
+  {
+    const py::gil_scoped_release unlocked;
+    study::RunOptions how;
+    how.jobs = jobs;
+    double share = 0;
+    how.progress = [&](const char*, std::uint64_t done, std::uint64_t of) { share = of == 0 ? 1 : static_cast<double>(done) / static_cast<double>(of); };
+    how.interrupted = [&] { return !watch.keep_going(share); };
+    made = study::compare(plan_a, plan_b, how);
+  }
+  watch.raise();
+  if (!made.problem.empty()) throw Mistake(made.problem);
+  made.a = a.resolved->scenario.name;
+  made.b = b.resolved->scenario.name;
+  return json::write(made);
+}
+
 using PlanPointer = std::shared_ptr<study::Plan>;
 
 PlanPointer load_plan(const std::string& path) {
@@ -377,6 +433,8 @@ PYBIND11_MODULE(_takt, m) {
   m.def("run", &run);
   m.def("bound", &bounds_of);
   m.def("verify", &verification_of);
+  m.def("explain", &explanation_of);
+  m.def("compare", &comparison_of);
 
   py::class_<study::Plan, PlanPointer>(m, "Plan")
       .def_property_readonly("name", [](const study::Plan& p) { return p.study.name; })

@@ -66,6 +66,22 @@ class SameAnswers(unittest.TestCase):
         told = json.loads(command("verify", SCENARIOS / "robot-arm.json", "--budget", "2", "--seeds", "1", "--format", "json"))
         self.assertEqual([line.verdict for line in proof.requirements], [line["verdict"] for line in told["requirements"]])
 
+    def test_explanations_and_comparisons_are_those_of_the_commands(self):
+        gates = takt.load(SCENARIOS / "tsn" / "gates-on-a-line.json", duration="200ms")
+        told = json.loads(command("explain", SCENARIOS / "tsn" / "gates-on-a-line.json", "--duration", "200ms", "--stream", "camera", "--frame", "7", "--format", "json"))
+        self.assertEqual(gates.explain("camera", frame=7).to_dict(), told)
+        slowest = gates.explain("camera").frames[0]
+        self.assertEqual(slowest.takes_ps, gates.run().streams["camera"].latency_ps.max)
+        self.assertEqual(sum(part.takes_ps for hop in slowest.hops for part in hop.parts), slowest.takes_ps)
+        self.assertEqual(len(gates.explain(lost=True).frames), 0)
+        for wrong in (lambda: gates.explain("nobody"), lambda: gates.explain(frame=3), lambda: gates.explain("camera", frame=3, lost=True), lambda: gates.compare(gates, pairs=0)):
+            self.assertRaises(takt.Mistake, wrong)
+        slower = gates.override({"streams.1.payload": "1000B"})
+        found = gates.compare(slower, pairs=2)
+        self.assertEqual((found.pairs, found.same_digest), (2, 0))
+        self.assertLess(found.measures["latency.mean"].difference.mean, 0)
+        self.assertEqual(gates.compare(gates, pairs=2).same_digest, 2)
+
     def test_a_study_has_the_results_of_the_command(self):
         study = SCENARIOS / "studies" / "slaves-hops-cycle.json"
         with tempfile.TemporaryDirectory() as folder:

@@ -113,6 +113,14 @@ class Scenario:
         """Proves or refutes each requirement; names as in docs/reference/verify.md. `budget` is in millions of events."""
         return Record(_json.loads(_takt.verify(self._core, seeds, jobs, budget, progress)))
 
+    def explain(self, stream=None, *, frame=None, lost=False, progress=None):
+        """Why a frame took so long: the slowest of the stream (of any without one), number `frame`, or the first that was lost; names as in docs/reference/explain.md."""
+        return Record(_json.loads(_takt.explain(self._core, stream, frame, lost, progress)))
+
+    def compare(self, other, *, pairs=10, seed=1, jobs=1, progress=None):
+        """This one (a) and another (b) with the same seeds, and where they part; names as in docs/reference/compare.md."""
+        return Record(_json.loads(_takt.compare(self._core, other._core, pairs, seed, jobs, progress)))
+
     def __repr__(self):
         return f"<takt.Scenario {self.name}>"
 

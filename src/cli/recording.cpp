@@ -10,7 +10,7 @@ namespace takt::cli {
 
 Recording::Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, json::Diagnostics& diagnostics)
     : options_(options), folder_(folder), run_(&run) {
-  for (const std::string& text : options.pcap) select_ports(text, diagnostics);
+  for (const std::string& text : options.pcap) select_capture(text, diagnostics);
   select(diagnostics);
   if (options.clocks && run.clocks() == nullptr)
     diagnostics.error({"--clocks", 0, 0, ""}, "no clocks to record", {"a scenario without gPTP", "\"gptp\" in \"clocks\""});
@@ -87,13 +87,16 @@ void Recording::select(json::Diagnostics& diagnostics) {
   if (selection.to < selection.from) diagnostics.error({"--to", 0, 0, ""}, "an end before the beginning", {json::quote(*options_.to), "a time after that of --from"});
   const auto& streams = run_->network().traffic().streams();
   if (!options_.streams.empty()) selection.streams.resize(streams.size());
-  for (const std::string& name : options_.streams) {
-    const auto found = std::ranges::find(streams, name, &models::Stream::name);
-    if (found == streams.end())
-      diagnostics.error({"--stream " + name, 0, 0, ""}, "no such stream", {json::quote(name), "the name of a stream, as result.json lists them"});
-    else
-      selection.streams[static_cast<std::size_t>(found - streams.begin())] = true;
-  }
+  for (const std::string& name : options_.streams)
+    if (const auto found = find_stream("--stream " + name, name, diagnostics)) selection.streams[found->value] = true;
+}
+
+std::optional<models::StreamIndex> Recording::find_stream(const std::string& option, const std::string& name, json::Diagnostics& diagnostics) const {
+  const auto& streams = run_->network().traffic().streams();
+  const auto found = std::ranges::find(streams, name, &models::Stream::name);
+  if (found != streams.end()) return models::StreamIndex{static_cast<std::uint32_t>(found - streams.begin())};
+  diagnostics.error({option, 0, 0, ""}, "no such stream", {json::quote(name), "the name of a stream, as result.json lists them"});
+  return std::nullopt;
 }
 
 /// Each recorder hears what is selected.
@@ -106,27 +109,40 @@ void Recording::add_sink(sim::TraceSink& sink) {
   sinks_.add(*selected_.back());
 }
 
-void Recording::select_ports(const std::string& text, json::Diagnostics& diagnostics) {
-  if (text == "all") {
-    captures_.push_back({"all.pcap", {}});
-    return;
-  }
+namespace {
+
+/// What becomes of "sw1:2" where it is part of the name of a file.
+std::string file_name_of(std::string text) {
+  std::ranges::replace_if(text, [](char c) { return c == ':' || c == '/'; }, '-');
+  return text + ".pcapng";
+}
+
+}  // namespace
+
+void Recording::select_capture(const std::string& text, json::Diagnostics& diagnostics) {
   const scenario::Topology& topology = run_->resolved().topology;
   const std::size_t colon = text.find(':');
   const std::string name = text.substr(0, colon);
   const auto node = topology.find(name);
-  Capture capture{text + ".pcap", {}};
-  std::replace(capture.file.begin(), capture.file.end(), ':', '-');
+  Capture capture{text, file_name_of(text), {}, {}};
   if (node) {
     for (const scenario::Neighbour& neighbour : topology.neighbours[*node])
       if (colon == std::string::npos || text.substr(colon + 1) == std::to_string(neighbour.port))
         capture.ports.push_back({models::NodeIndex{*node}, neighbour.port});
   }
-  if (capture.ports.empty())
+  if (capture.ports.empty() && name == "stream" && colon != std::string::npos) {
+    capture.stream = find_stream("--pcap " + text, text.substr(colon + 1), diagnostics);
+    if (!capture.stream) return;
+  } else if (capture.ports.empty() && text != "all") {
     diagnostics.error({"--pcap " + text, 0, 0, ""}, "no such port",
-                      {json::quote(text), "all, a node (all its ports) or node:port", node ? "" : suggest_node(topology, name, diagnostics)});
-  else
+                      {json::quote(text), "all, a node (all its ports), node:port or stream:NAME", node ? "" : suggest_node(topology, name, diagnostics)});
+    return;
+  }
+  const auto same = std::ranges::find(captures_, capture.file, &Capture::file);
+  if (same == captures_.end())
     captures_.push_back(std::move(capture));
+  else if (same->text != text)
+    diagnostics.error({"--pcap " + text, 0, 0, ""}, "a second capture of that name", {capture.file + ", as of --pcap " + same->text, "one of them at a time"});
 }
 
 std::string Recording::open() {
@@ -137,8 +153,10 @@ std::string Recording::open() {
   const std::filesystem::path folder(folder_);
   if (!captures_.empty()) {
     pcap_ = std::make_unique<output::PcapRecorder>(run_->network());
-    for (const Capture& capture : captures_)
-      if (std::string problem = pcap_->add((folder / capture.file).string(), capture.ports); !problem.empty()) return problem;
+    for (const Capture& capture : captures_) {
+      const std::string path = (folder / capture.file).string();
+      if (std::string problem = capture.stream ? pcap_->add(path, *capture.stream) : pcap_->add(path, capture.ports); !problem.empty()) return problem;
+    }
     add_sink(*pcap_);
   }
   if (options_.timeline) {

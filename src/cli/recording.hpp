@@ -19,7 +19,7 @@
 namespace takt::cli {
 
 struct RecordingOptions {
-  std::vector<std::string> pcap;   ///< "all", "node" (all its ports) or "node:port"
+  std::vector<std::string> pcap;   ///< "all", "node" (all its ports), "node:port" or "stream:name"
   bool timeline = false;
   bool waves = false;
   bool clocks = false;
@@ -33,7 +33,7 @@ struct RecordingOptions {
 /// Hangs on a run from before its first event to its end. Recording changes no digest.
 class Recording {
  public:
-  /// Reports unknown ports to `diagnostics`; then nothing is recorded and nothing was written.
+  /// Reports unknown ports and streams to `diagnostics`; then nothing is recorded and nothing was written.
   Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, json::Diagnostics& diagnostics);
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
@@ -46,8 +46,10 @@ class Recording {
 
  private:
   struct Capture {
+    std::string text;                   ///< as it was asked for
     std::string file;
     std::vector<models::PortId> ports;  ///< none: all
+    std::optional<models::StreamIndex> stream;   ///< its frames, wherever they pass, instead
   };
   /// Who is told of ways: the time line and the table of hops.
   struct Ways final : explain::WaySink {
@@ -62,7 +64,8 @@ class Recording {
 
   void select(json::Diagnostics& diagnostics);
   void add_sink(sim::TraceSink& sink);
-  void select_ports(const std::string& text, json::Diagnostics& diagnostics);
+  void select_capture(const std::string& text, json::Diagnostics& diagnostics);
+  std::optional<models::StreamIndex> find_stream(const std::string& option, const std::string& name, json::Diagnostics& diagnostics) const;
   void write_states();
   void write_reactions(const std::string& group, const scenario::ProgramMonitor& monitor);
   void write_faults(const std::string& program, const std::vector<scenario::ProgramFault>& faults);

@@ -127,7 +127,7 @@ void add_run_command(Command app, ExitStatus& status) {
   add_scenario_options(command, options->scenario);
   command.add_option("--out", options->out, "Write result.json, tables and the resolved scenario into this folder").type_name("DIR");
   command.add_option("--report", options->report, "Write a page with pictures into this file: verdicts, network, gates, latencies, reactions").type_name("FILE.html");
-  command.add_option("--pcap", options->recording.pcap, "Capture what these ports send, into DIR: all, NODE or NODE:PORT (repeatable)")
+  command.add_option("--pcap", options->recording.pcap, "Capture what these ports send, for Wireshark, as DIR/PORT.pcapng: all, NODE, NODE:PORT, or stream:NAME for the frames of a stream at each port (repeatable)")
       .type_name("PORT")
       .one_value_each();
   command.add_flag("--timeline", options->recording.timeline, "Write frames, their ways and waits, gates and states as DIR/timeline.json, for ui.perfetto.dev");

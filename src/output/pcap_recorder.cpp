@@ -1,53 +1,69 @@
 #include "output/pcap_recorder.hpp"
 
-#include <pcap/pcap.h>
-#include <unistd.h>
+#include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
+#include <numeric>
 #include <utility>
+
+#include "output/pcapng.hpp"
+#include "results/version.hpp"
 
 namespace takt::output {
 namespace {
 
-constexpr int snapshot_length = 65535;
-constexpr std::int64_t ps_in_a_second = 1'000'000'000'000;
 constexpr std::int64_t ps_in_a_nanosecond = 1'000;
-
-std::string failure(const std::string& path) { return path + ": " + std::strerror(errno); }
+constexpr std::int64_t bits_times_ps = 8 * 1'000'000'000'000;   // of an octet in a second
 
 }  // namespace
 
-PcapRecorder::PcapRecorder(const models::Network& network) : network_(&network), directory_(network) {
-  format_ = pcap_open_dead_with_tstamp_precision(DLT_EN10MB, snapshot_length, PCAP_TSTAMP_PRECISION_NANO);
-  TAKT_CHECK(format_ != nullptr, "libpcap knows Ethernet");
-  files_of_port_.resize(directory_.ports().size());
-}
-
-PcapRecorder::~PcapRecorder() {
-  for (const File& file : files_) {
-    if (file.dumper == nullptr) continue;
-    pcap_dump_close(file.dumper);
-    ::unlink(file.temporary.c_str());
-  }
-  pcap_close(format_);
-}
+PcapRecorder::PcapRecorder(const models::Network& network) : network_(&network), directory_(network) { files_of_port_.resize(directory_.ports().size()); }
 
 std::string PcapRecorder::add(const std::string& path, const std::vector<models::PortId>& ports) {
-  File file{path, path + ".part", nullptr};
-  file.dumper = pcap_dump_open(format_, file.temporary.c_str());
-  if (file.dumper == nullptr) return pcap_geterr(format_);
-  const auto number = static_cast<std::uint32_t>(files_.size());
-  files_.push_back(std::move(file));
-  if (ports.empty())
-    for (std::vector<std::uint32_t>& files : files_of_port_) files.push_back(number);
+  std::vector<std::uint32_t> positions(ports.empty() ? directory_.ports().size() : 0);
+  std::iota(positions.begin(), positions.end(), 0U);
   for (const models::PortId& id : ports) {
-    const std::uint32_t position = directory_.find(id);
-    TAKT_CHECK(position != models::PortDirectory::none, "a captured port is one of the network");
-    files_of_port_[position].push_back(number);
+    positions.push_back(directory_.find(id));
+    TAKT_CHECK(positions.back() != models::PortDirectory::none, "a captured port is one of the network");
   }
+  File made{std::make_unique<StreamingFile>(path)};
+  const std::string problem = made.file->problem();
+  if (!problem.empty()) return problem;
+  begin(made);
+  for (const std::uint32_t position : positions) {
+    add_interface(made, position);
+    files_of_port_[position].push_back(static_cast<std::uint32_t>(files_.size()));
+  }
+  files_.push_back(std::move(made));
   return {};
+}
+
+std::string PcapRecorder::add(const std::string& path, models::StreamIndex stream) {
+  File made{std::make_unique<StreamingFile>(path), stream};
+  const std::string problem = made.file->problem();
+  if (!problem.empty()) return problem;
+  begin(made);
+  for (std::vector<std::uint32_t>& files : files_of_port_) files.push_back(static_cast<std::uint32_t>(files_.size()));
+  files_.push_back(std::move(made));
+  return {};
+}
+
+void PcapRecorder::begin(File& file) {
+  file.interface_of_port.assign(directory_.ports().size(), none);
+  block_.clear();
+  pcapng::add_section_header(block_, fmt::format("takt {}", results::version));
+  file.file->write(block_);
+}
+
+/// "sw1:2 to robot".
+void PcapRecorder::add_interface(File& file, std::uint32_t position) {
+  const models::PortDirectory::Port& port = directory_.ports()[position];
+  const auto& nodes = network_->plan().nodes;
+  const std::string_view peer = port.peer.is_none() ? std::string_view("nothing") : nodes[port.peer.value].name;
+  const std::int64_t octet_time = port.octet_time.ps();
+  block_.clear();
+  pcapng::add_interface(block_, {fmt::format("{}:{} to {}", nodes[port.id.node.value].name, port.id.port, peer), octet_time > 0 ? static_cast<std::uint64_t>(bits_times_ps / octet_time) : 0});
+  file.file->write(block_);
+  file.interface_of_port[position] = file.interfaces++;
 }
 
 void PcapRecorder::record(const sim::TraceRecord& record) {
@@ -55,15 +71,16 @@ void PcapRecorder::record(const sim::TraceRecord& record) {
   const std::uint32_t port = directory_.find(record.where);
   if (port == models::PortDirectory::none || files_of_port_[port].empty()) return;
   const models::FrameIndex frame{static_cast<std::uint32_t>(record.what)};
-  const std::span<const std::byte> octets = encode_frame(*network_, frame, buffer_);
-  pcap_pkthdr header{};
-  header.ts.tv_sec = record.time.ps() / ps_in_a_second;
-  header.ts.tv_usec = record.time.ps() % ps_in_a_second / ps_in_a_nanosecond;  // nanoseconds, as the file's magic number says
-  header.caplen = static_cast<bpf_u_int32>(octets.size());
-  header.len = header.caplen;
+  const models::StreamIndex stream = network_->traffic().frame(frame).stream;
+  std::span<const std::byte> octets;
   for (const std::uint32_t number : files_of_port_[port]) {
-    if (files_[number].dumper == nullptr) continue;
-    pcap_dump(reinterpret_cast<u_char*>(files_[number].dumper), &header, reinterpret_cast<const u_char*>(octets.data()));
+    File& file = files_[number];
+    if (file.file == nullptr || (file.stream && *file.stream != stream)) continue;
+    if (file.interface_of_port[port] == none) add_interface(file, port);
+    if (octets.empty()) octets = encode_frame(*network_, frame, buffer_);
+    block_.clear();
+    pcapng::add_outbound_packet(block_, file.interface_of_port[port], record.time.ps() / ps_in_a_nanosecond, octets);
+    file.file->write(block_);
     ++frames_;
   }
 }
@@ -71,20 +88,10 @@ void PcapRecorder::record(const sim::TraceRecord& record) {
 std::string PcapRecorder::close() {
   std::string problem;
   for (File& file : files_) {
-    if (file.dumper == nullptr) continue;
-    const std::string of_file = finish(file);
+    if (file.file == nullptr) continue;
+    const std::string of_file = std::exchange(file.file, nullptr)->close();
     if (problem.empty()) problem = of_file;
   }
-  return problem;
-}
-
-std::string PcapRecorder::finish(File& file) {
-  std::FILE* const stream = pcap_dump_file(file.dumper);
-  const bool written = pcap_dump_flush(file.dumper) == 0 && std::ferror(stream) == 0 && ::fsync(::fileno(stream)) == 0;
-  std::string problem = written ? std::string() : failure(file.temporary);
-  pcap_dump_close(std::exchange(file.dumper, nullptr));
-  if (problem.empty() && ::rename(file.temporary.c_str(), file.path.c_str()) != 0) problem = failure(file.path);
-  if (!problem.empty()) ::unlink(file.temporary.c_str());
   return problem;
 }
 

@@ -155,7 +155,7 @@ std::string Recording::open() {
     pcap_ = std::make_unique<output::PcapRecorder>(run_->network());
     for (const Capture& capture : captures_) {
       const std::string path = (folder / capture.file).string();
-      if (std::string problem = capture.stream ? pcap_->add(path, *capture.stream) : pcap_->add(path, capture.ports); !problem.empty()) return problem;
+      if (std::string problem = capture.stream ? pcap_->add_stream(path, *capture.stream) : pcap_->add(path, capture.ports); !problem.empty()) return problem;
     }
     add_sink(*pcap_);
   }

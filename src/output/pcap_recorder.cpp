@@ -37,7 +37,7 @@ std::string PcapRecorder::add(const std::string& path, const std::vector<models:
   return {};
 }
 
-std::string PcapRecorder::add(const std::string& path, models::StreamIndex stream) {
+std::string PcapRecorder::add_stream(const std::string& path, models::StreamIndex stream) {
   File made{std::make_unique<StreamingFile>(path), stream};
   const std::string problem = made.file->problem();
   if (!problem.empty()) return problem;

@@ -27,7 +27,7 @@ class PcapRecorder final : public sim::TraceSink {
   /// what went wrong.
   [[nodiscard]] std::string add(const std::string& path, const std::vector<models::PortId>& ports);
   /// One more file: of the frames of one stream, at all ports that they leave by. These become interfaces as the stream comes to them.
-  [[nodiscard]] std::string add(const std::string& path, models::StreamIndex stream);
+  [[nodiscard]] std::string add_stream(const std::string& path, models::StreamIndex stream);
 
   void record(const sim::TraceRecord& record) override;
 

@@ -111,7 +111,7 @@ class Clocks(RecordingsTest):
         seen = collections.Counter()
         for name in ("two-nodes", "ring", "hot-standby"):
             _, out = self.record(SCENARIOS / "clocks" / f"{name}.json", "--duration", "3s", "--pcap", "all")
-            rows = tshark(out / "all.pcap", "_ws.malformed", "_ws.expert", "ptp.v2.messagetype")
+            rows = tshark(out / "all.pcapng", "_ws.malformed", "_ws.expert", "ptp.v2.messagetype")
             self.assertFalse([row for row in rows if row[0] or row[1]])
             seen.update(row[2] for row in rows)
         # Sync, Pdelay_Req, Pdelay_Resp, Follow_Up, Pdelay_Resp_Follow_Up, Announce
@@ -127,13 +127,49 @@ class All(RecordingsTest):
                 plain = run(scenario, *short)
                 recorded, out = self.record(scenario, "--pcap", "all", "--timeline", "--waves", *short)
                 self.assertEqual(recorded, plain)  # digest, number of events and all figures
-                rows = tshark(out / "all.pcap", "_ws.malformed", "_ws.expert", "ip.checksum.status", "udp.checksum.status")
+                rows = tshark(out / "all.pcapng", "_ws.malformed", "_ws.expert", "ip.checksum.status", "udp.checksum.status")
                 self.assertEqual(len(rows), sum(port["frames"] for port in plain["ports"]))
                 kinds = collections.Counter(map(tuple, rows))
                 self.assertLessEqual(set(kinds), {("", "", "1", "1"), ("", "", "", "")}, kinds)
                 json.loads((out / "timeline.json").read_text(encoding="utf-8"))
                 self.assertTrue(waves_of(out / "waves.vcd"))
                 shutil.rmtree(out)
+
+
+class Captures(RecordingsTest):
+    def test_a_stream_at_all_ports_that_it_passes(self):
+        # camera -> sw1 -> generator at 1 Gb/s: 1046 octets, 1 us in the bridge, 50 m of cable; nothing else is there.
+        _, out = self.record(SCENARIOS / "robot-arm.json", "--duration", "100ms", "--pcap", "stream:camera", "--pcap", "all", "--pcap", "all")
+        rows = tshark(out / "stream-camera.pcapng", "frame.interface_name", "frame.len")
+        self.assertEqual({row[0] for row in rows}, {"camera:0 to sw1", "sw1:0 to generator"})
+        self.assertEqual({row[1] for row in rows}, {"1046"})
+        every = tshark(out / "all.pcapng", "frame.interface_name", "frame.len", "frame.time_epoch")
+        self.assertEqual(rows, [row[:2] for row in every if row[1] == "1046"])
+        times = [float(row[2]) for row in every]
+        self.assertEqual(times, sorted(times))
+        self.assertGreater(times[-1], 0.099)
+
+    def test_what_is_no_capture(self):
+        def said(*ports):
+            done = subprocess.run([TAKT, "run", str(SCENARIOS / "robot-arm.json"), "--out", str(self.folder / "no"), *[a for port in ports for a in ("--pcap", port)]], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 2)
+            self.assertFalse((self.folder / "no").exists())
+            return done.stderr
+        self.assertIn('no such stream: found "camra"', said("stream:camra"))
+        self.assertIn('did you mean "robot"?', said("robto"))
+        self.assertIn("no such port", said("robot:7"))
+
+    def test_import_finds_the_talkers(self):
+        """What a run sends comes back as streams: those of the scenario, although every port captured them."""
+        _, out = self.record(SCENARIOS / "robot-arm.json", "--duration", "300ms", "--pcap", "all")
+        done = subprocess.run([TAKT, "import", "pcap", str(out / "all.pcapng")], capture_output=True, text=True, check=True)
+        streams = {(stream["from"], stream["to"]): stream for stream in json.loads(done.stdout)["streams"]}
+        camera = streams["host-000002", "host-000000"]
+        self.assertEqual([camera[key] for key in ("payload", "every", "offset")], ["1000B", "20us", "0s"])
+        self.assertNotIn("jitter", camera)
+        for there in (("host-000000", "host-000001"), ("host-000001", "host-000000")):   # states of the Program, once a cycle
+            self.assertEqual([streams[there][key] for key in ("payload", "every", "encapsulation", "pcp")], ["42B", "200us", "ethernet", 6])
+        self.assertIn("further interfaces", done.stderr)
 
 
 class Dissector(RecordingsTest):
@@ -145,7 +181,7 @@ class Dissector(RecordingsTest):
         for name in ("robot-arm", "three-slaves-star", "redundant-ring", "applications/opc-ua", "applications/gateway", "applications/dds", "tsn/frer-ring", "tsn/cqf", "clocks/two-nodes"):
             with self.subTest(name=name):
                 _, out = self.record(SCENARIOS / f"{name}.json", "--duration", "1100ms", "--pcap", "all")
-                command = ["tshark", "-n", "-r", str(out / "all.pcap"), "-c", "20000", *script, "-T", "fields", "-e", "frame.protocols", "-e", "_ws.malformed", "-e", "takt_uadp.cut_short"]
+                command = ["tshark", "-n", "-r", str(out / "all.pcapng"), "-c", "20000", *script, "-T", "fields", "-e", "frame.protocols", "-e", "_ws.malformed", "-e", "takt_uadp.cut_short"]
                 done = subprocess.run(command, capture_output=True, text=True, timeout=1000, check=True)
                 rows = [line.split("\t") for line in done.stdout.splitlines()]
                 self.assertTrue(rows)
@@ -157,7 +193,7 @@ class Dissector(RecordingsTest):
 
     def test_fields_of_a_state(self):
         _, out = self.record(SCENARIOS / "robot-arm.json", "--duration", "1100ms", "--pcap", "generator")
-        command = ["tshark", "-n", "-r", str(out / "generator.pcap"), "-X", f"lua_script:{SCENARIOS.parent / 'tools' / 'wireshark' / 'takt.lua'}", "-Y", "takt_uadp.program.state", "-T", "fields",
+        command = ["tshark", "-n", "-r", str(out / "generator.pcapng"), "-X", f"lua_script:{SCENARIOS.parent / 'tools' / 'wireshark' / 'takt.lua'}", "-Y", "takt_uadp.program.state", "-T", "fields",
                    "-e", "takt_uadp.program.state", "-e", "takt_uadp.writer_group_id", "-e", "takt_uadp.publisher_id"]
         done = subprocess.run(command, capture_output=True, text=True, timeout=1000, check=True)
         states = [line.split("\t") for line in done.stdout.splitlines()]
@@ -182,14 +218,14 @@ class RTags(RecordingsTest):
             with self.subTest(name=name):
                 scenario = SCENARIOS / f"{name}.json"
                 _, out = self.record(scenario, "--duration", "19ms", *[a for port in ports for a in ("--pcap", port)])
-                captured = [self.sequences(out / f"{port.replace(':', '-')}.pcap")[1] for port in ports]
+                captured = [self.sequences(out / f"{port.replace(':', '-')}.pcapng")[1] for port in ports]
                 self.assertGreater(len(captured[0]), 15)
                 self.assertEqual(captured[0], list(range(len(captured[0]))))
                 self.assertEqual(captured[0], captured[1])
 
     def test_not_outside(self):
         _, out = self.record(SCENARIOS / "validation/frer.json", "--duration", "19ms", "--pcap", "source", "--pcap", "s3:2")
-        for file in ("source.pcap", "s3-2.pcap"):
+        for file in ("source.pcapng", "s3-2.pcapng"):
             rows, numbers = self.sequences(out / file)
             self.assertGreater(len(rows), 15)
             self.assertEqual(numbers, [])

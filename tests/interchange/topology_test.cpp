@@ -221,6 +221,61 @@ TEST(Captures, GiveTalkersWithPeriodJitterAndSize) {
   EXPECT_FALSE(read("pcap", {{"plant.pcap", "plant", capture().substr(0, 60)}}).imported.scenario);
 }
 
+/// A frame of a pcapng file in the order of bytes that is not this machine's, seen by interface 0 or 1.
+class BigEndianPcapng {
+ public:
+  BigEndianPcapng() {
+    block(0x0A0D'0D0A, numbers({{0x1A2B'3C4D, 4}, {1, 2}, {0, 2}, {0xFFFF'FFFF, 4}, {0xFFFF'FFFF, 4}}));
+    block(1, numbers({{1, 2}, {0, 2}, {0, 4}, {9, 2}, {1, 2}, {0x8A00'0000, 4}, {0, 4}}));   // Ethernet, 2^-10 s
+    block(1, numbers({{1, 2}, {0, 2}, {0, 4}}));                                             // Ethernet, microseconds
+    block(0x0BAD'0000, "what nobody knows   ");
+  }
+  void frame(std::uint32_t interface, std::uint32_t time) {
+    std::string octets = numbers({{0x02005E, 3}, {9, 3}, {0x02005E, 3}, {1, 3}, {0x88B5, 2}}) + std::string(50, '\0');
+    block(6, numbers({{interface, 4}, {0, 4}, {time, 4}, {64, 4}, {64, 4}}) + octets);
+  }
+  std::string text;
+
+ private:
+  static std::string numbers(std::initializer_list<std::pair<std::uint32_t, int>> all) {
+    std::string octets;
+    for (const auto& [value, size] : all)
+      for (int shift = 8 * size - 8; shift >= 0; shift -= 8) octets += static_cast<char>(value >> shift & 0xFF);
+    return octets;
+  }
+  void block(std::uint32_t type, const std::string& body) {
+    const auto length = static_cast<std::uint32_t>(12 + body.size());
+    text += numbers({{type, 4}, {length, 4}}) + body + numbers({{length, 4}});
+  }
+};
+
+// Every 2^-10 s = 976562.5 ns at interface 0; interface 1 sees each 100 us later, and is not where the talker is.
+TEST(Captures, OfSeveralInterfacesCountWhereAStreamIsSeenFirst) {
+  BigEndianPcapng capture;
+  for (std::uint32_t k = 1; k <= 5; ++k) {
+    capture.frame(1, k * 1'000'000 / 1024 + 100);
+    capture.frame(0, k);
+  }
+  const Reading reading = read("pcap", {{"plant.pcapng", "plant", capture.text}});
+  ASSERT_TRUE(reading.imported.scenario) << reading.remarks();
+  const auto& streams = reading.imported.scenario->streams;
+  ASSERT_EQ(streams.size(), 1u) << reading.remarks();
+  EXPECT_EQ(streams[0].every, sim::Duration::from_ps(976'563'000));   // the mean of four gaps, (4882812 - 976562) / 4 ns, rounded
+  EXPECT_EQ(streams[0].payload.count, 50u);
+  EXPECT_NE(reading.remarks().find("5 frames that further interfaces saw"), std::string::npos) << reading.remarks();
+}
+
+TEST(Captures, ThatAreBrokenSayWhere) {
+  BigEndianPcapng capture;
+  for (std::uint32_t k = 1; k <= 3; ++k) capture.frame(0, k);
+  const auto said = [](const std::string& text) { return read("pcap", {{"plant.pcapng", "plant", text}}).remarks(); };
+  EXPECT_NE(said(capture.text.substr(0, capture.text.size() - 10)).find("within what follows frame 2"), std::string::npos);
+  capture.frame(2, 4);
+  EXPECT_NE(said(capture.text).find("a frame of interface 2, which the file does not describe, after frame 3"), std::string::npos);
+  EXPECT_NE(said("GIF89a, say").find("neither the beginning of pcap nor of pcapng"), std::string::npos);
+  for (std::size_t size = 0; size < capture.text.size(); ++size) EXPECT_FALSE(said(capture.text.substr(0, size)).empty());
+}
+
 TEST(Requests, SayWhatStreamsAsk) {
   json::Diagnostics diagnostics;
   const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/scenarios/validation/gate-scheduling.json", {}, diagnostics);

@@ -54,21 +54,22 @@ def simulated(program, calls, duration="2s", see=lambda out: states_of_timeline(
         return see(out)
 
 
-def frames_of_pcap(path):
+def frames_of_capture(path):
+    """The frames of a pcapng file, little-endian: Enhanced Packet Blocks."""
     octets = path.read_bytes()
-    order = "<" if octets[:4] in (b"\x4d\x3c\xb2\xa1", b"\xd4\xc3\xb2\xa1") else ">"
-    at = 24
+    at = 0
     while at < len(octets):
-        size = struct.unpack_from(order + "I", octets, at + 8)[0]
-        yield octets[at + 16:at + 16 + size]
-        at += 16 + size
+        kind, length = struct.unpack_from("<II", octets, at)
+        if kind == 6:
+            yield octets[at + 28:at + 28 + struct.unpack_from("<I", octets, at + 20)[0]]
+        at += length
 
 
 def kinds_of_frames(path):
     """Tagged UADP frames from the tag on, without padding; 0 for what each message or start of a node has anew: sequence numbers, runs, incarnations."""
     lengths = {1: 42, 2: 24 + 16, 3: 24 + 8}  # by WriterGroupId: state, "targets", "actual"
     kinds = set()
-    for frame in frames_of_pcap(path):
+    for frame in frames_of_capture(path):
         if frame[12:14] != b"\x81\x00" or frame[16:18] != b"\xb6\x2c":
             continue
         message = bytearray(frame[18:])
@@ -427,8 +428,8 @@ class Namespaces(NodeTest):
 
     def captured(self, transport, fields):
         """Runs the group; what tshark dissects of the frames of its bridge, one line a frame, and complains of."""
-        pcap = self.folder / "frames.pcap"
-        captured = capture.Capture(f"{self.tag}v0", pcap, format_option="-P")
+        pcap = self.folder / "frames.pcapng"
+        captured = capture.Capture(f"{self.tag}v0", pcap)
         self.addCleanup(captured.kill)
         self.assertEqual(captured.problem, "")
         events = Group(self, self.folder, lambda node: transport, self.prefix).go_through(CALLS)
@@ -464,8 +465,8 @@ class Namespaces(NodeTest):
         frames = self.captured(transport, ["eth.dst", "vlan.etype", "vlan.id", "vlan.priority"])
         self.assertEqual({tuple(frame) for frame in frames}, {("01:00:5e:7f:00:01", "0xb62c", "5", "6")})
         # Octet for octet what the simulator sends: no other messages, and all those of states in which a node has to stay until others have heard of it.
-        there = simulated(PROGRAM | {"vlan": 5, "pcp": 6}, CALLS, see=lambda out: kinds_of_frames(out / "all.pcap"))
-        here = kinds_of_frames(self.folder / "frames.pcap")
+        there = simulated(PROGRAM | {"vlan": 5, "pcp": 6}, CALLS, see=lambda out: kinds_of_frames(out / "all.pcapng"))
+        here = kinds_of_frames(self.folder / "frames.pcapng")
         self.assertEqual(here - there, set())
         self.assertEqual({kind for kind in there - here if not is_passing(kind)}, set())
         self.assertGreater(len(there), 20)

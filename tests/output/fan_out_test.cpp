@@ -38,7 +38,7 @@ TEST(FanOut, AllRecordersChangeNothing) {
   NetworkRun run(plant.plan);
   plant.install_axes(*run.network);
   PcapRecorder pcap(*run.network);
-  ASSERT_EQ(pcap.add(folder / "all.pcap", {}), "");
+  ASSERT_EQ(pcap.add(folder / "all.pcapng", {}), "");
   TimelineRecorder timeline(*run.network, folder / "timeline.json");
   VcdRecorder waves(*run.network, folder / "waves.vcd");
   FanOut fan_out;

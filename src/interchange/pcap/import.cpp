@@ -1,16 +1,14 @@
 #include "interchange/pcap/import.hpp"
 
 #include <fmt/format.h>
-#include <pcap/pcap.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
-#include <memory>
 #include <set>
 #include <tuple>
 
 #include "interchange/device_import.hpp"
+#include "interchange/pcap/capture_file.hpp"
 #include "json/quantity.hpp"
 
 namespace takt::interchange {
@@ -19,7 +17,7 @@ namespace {
 using sim::Duration;
 
 constexpr std::size_t most_frames = std::size_t{1} << 22;
-constexpr std::size_t most_flows = 4096;
+constexpr std::size_t most_flows = 16384;   // of all interfaces
 
 /// Frames that belong together: from one address to another, with one tag, to one UDP port or with one EtherType.
 struct FlowKey {
@@ -48,29 +46,17 @@ class Capture {
   Capture(const InputFile& file, Imported& imported, json::Diagnostics& diagnostics) : file_(file), imported_(imported), diagnostics_(diagnostics) {}
 
   std::map<FlowKey, Flow> read() {
-    char why[PCAP_ERRBUF_SIZE] = "";
-    if (file_.text.empty()) return refuse("an empty file");
-    // fmemopen wants writable memory; nothing is written.
-    FILE* const stream = fmemopen(const_cast<char*>(file_.text.data()), file_.text.size(), "rb");
-    if (stream == nullptr) return refuse("no memory");
-    const std::unique_ptr<pcap_t, void (*)(pcap_t*)> capture(pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, why), &pcap_close);
-    if (!capture) {
-      std::fclose(stream);
-      return refuse(why);
-    }
-    if (pcap_datalink(capture.get()) != DLT_EN10MB) return refuse("no Ethernet");
-    pcap_pkthdr* header = nullptr;
-    const u_char* octets = nullptr;
-    int status = 0;
     std::size_t count = 0;
-    while ((status = pcap_next_ex(capture.get(), &header, &octets)) == 1) {
-      if (++count > most_frames) return refuse(fmt::format("more than {} frames", most_frames));
-      take({octets, header->caplen}, header->len, static_cast<std::int64_t>(header->ts.tv_sec) * 1'000'000'000 + header->ts.tv_usec);
-    }
-    if (status == PCAP_ERROR) return refuse(fmt::format("{} after frame {}", pcap_geterr(capture.get()), count));
+    const std::string problem = read_captured_frames(file_.text, [&](const CapturedFrame& frame) {
+      if (++count > most_frames) return false;
+      take(frame);
+      return true;
+    });
+    if (count > most_frames) return refuse(fmt::format("more than {} frames", most_frames));
+    if (!problem.empty()) return refuse(problem);
     if (flows_.empty()) return refuse("no frames of streams");
     if (others_ > 0) imported_.remark(RemarkKind::ignored, {file_.name, 0, 0, ""}, fmt::format("{} frames of gPTP, LLDP, ARP and the like", others_));
-    return std::move(flows_);
+    return where_seen_first();
   }
 
  private:
@@ -79,13 +65,28 @@ class Capture {
     return {};
   }
 
-  static std::uint64_t number(std::span<const u_char> octets, std::size_t at, std::size_t count) {
+  /// Of a stream that several interfaces have seen on its way, what the first of them saw: the times there are those nearest to the talker's.
+  std::map<FlowKey, Flow> where_seen_first() {
+    std::map<FlowKey, Flow> first;
+    std::size_t again = 0;
+    for (auto& [seen, flow] : flows_) {
+      const auto [found, is_new] = first.try_emplace(seen.first);
+      again += is_new ? 0 : std::min(flow.times_ns.size(), found->second.times_ns.size());
+      if (is_new || std::ranges::min(flow.times_ns) < std::ranges::min(found->second.times_ns)) found->second = std::move(flow);
+    }
+    if (again > 0) imported_.remark(RemarkKind::ignored, {file_.name, 0, 0, ""}, fmt::format("{} frames that further interfaces saw on their way", again));
+    return first;
+  }
+
+  static std::uint64_t number(sim::OctetSpan octets, std::size_t at, std::size_t count) {
     std::uint64_t value = 0;
-    for (std::size_t i = 0; i < count; ++i) value = value << 8 | octets[at + i];
+    for (std::size_t i = 0; i < count; ++i) value = value << 8 | std::to_integer<std::uint64_t>(octets[at + i]);
     return value;
   }
 
-  void take(std::span<const u_char> octets, std::uint32_t length, std::int64_t time) {
+  void take(const CapturedFrame& frame) {
+    const sim::OctetSpan octets = frame.octets;
+    const auto octet = [&](std::size_t at) { return std::to_integer<unsigned>(octets[at]); };
     if (octets.size() < 14) { ++others_; return; }
     FlowKey key;
     key.destination = number(octets, 0, 6);
@@ -101,22 +102,23 @@ class Capture {
       key.ether_type = static_cast<std::uint16_t>(number(octets, at, 2));
     }
     at += 2;
-    std::int64_t payload = static_cast<std::int64_t>(length) - static_cast<std::int64_t>(at);
+    std::int64_t payload = std::int64_t{frame.length} - static_cast<std::int64_t>(at);
     const bool is_management = key.ether_type == 0x88F7 || key.ether_type == 0x88CC || key.ether_type == 0x0806 || key.ether_type == 0x86DD || key.ether_type < 0x0600;
     if (is_management || payload < 1) { ++others_; return; }
     if (key.ether_type == 0x0800) {
       // IPv4 with UDP, whole; the rest of IP is no stream of a plant.
-      if (octets.size() < at + 28 || octets[at] >> 4 != 4 || octets[at + 9] != 17) { ++others_; return; }
-      const std::size_t header = static_cast<std::size_t>(octets[at] & 15) * 4;
+      if (octets.size() < at + 28 || octet(at) >> 4 != 4 || octet(at + 9) != 17) { ++others_; return; }
+      const std::size_t header = std::size_t{octet(at) & 15} * 4;
       if (header < 20 || octets.size() < at + header + 8) { ++others_; return; }
       key.udp_port = static_cast<std::uint16_t>(number(octets, at + header + 2, 2));
       payload = static_cast<std::int64_t>(number(octets, at + header + 4, 2)) - 8;
     }
     if (payload < 1 || payload > 1500) { ++others_; return; }
-    const auto flow = flows_.find(key);
+    const std::pair<FlowKey, std::uint32_t> seen(key, frame.interface);
+    const auto flow = flows_.find(seen);
     if (flow == flows_.end() && flows_.size() >= most_flows) { ++others_; return; }
-    Flow& made = flow == flows_.end() ? flows_[key] : flow->second;
-    made.times_ns.push_back(time);
+    Flow& made = flow == flows_.end() ? flows_[seen] : flow->second;
+    made.times_ns.push_back(frame.time_ns);
     made.largest = std::max(made.largest, static_cast<std::uint32_t>(payload));
     made.smallest = std::min(made.smallest, static_cast<std::uint32_t>(payload));
   }
@@ -124,7 +126,7 @@ class Capture {
   const InputFile& file_;
   Imported& imported_;
   json::Diagnostics& diagnostics_;
-  std::map<FlowKey, Flow> flows_;
+  std::map<std::pair<FlowKey, std::uint32_t>, Flow> flows_;   // by the interface, too
   std::size_t others_ = 0;
 };
 
@@ -246,7 +248,7 @@ Imported import_pcap(const ImportRequest& request, json::Diagnostics& diagnostic
     if (is_names_file(file)) names.read(file, diagnostics);
     else captures.emplace_back(&file, Capture(file, imported, diagnostics).read());
   }
-  if (captures.empty() && !diagnostics.has_errors()) diagnostics.error({request.files.empty() ? "" : request.files.front().name, 0, 0, ""}, "no capture", {"only a table of names", "a pcap file"});
+  if (captures.empty() && !diagnostics.has_errors()) diagnostics.error({request.files.empty() ? "" : request.files.front().name, 0, 0, ""}, "no capture", {"only a table of names", "a pcap or pcapng file"});
   if (diagnostics.has_errors()) return imported;
   std::int64_t begin = std::numeric_limits<std::int64_t>::max(), end = std::numeric_limits<std::int64_t>::min();
   for (const auto& [file, flows] : captures)

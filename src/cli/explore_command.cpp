@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -231,29 +230,23 @@ bool replays(const std::string& text, const explore::Replay& replayed, explore::
 }
 
 /// Writes the scenario of one counter-example and says whether it does the same. False if the file cannot be written.
-bool write_finding(const Subject& subject, const explore::SearchResult& result, explore::Property property, const explore::Trace& trace, const std::string& folder) {
+bool write_finding(const Subject& subject, const explore::SearchResult& result, explore::Property property, const explore::Trace& trace, output::WrittenFiles& folder) {
   const explore::Replay replayed = explore::replay(subject.query, result.beginnings[trace.beginning], trace);
   const std::string name = subject.name + (trace.cycle != 0 ? "-livelock-" : "-") + std::string(explore::name_of(property));
   const explore::ScenarioText text = explore::scenario_of(subject.query, replayed, property, name);
-  const std::string path = folder + "/" + name + ".json";
-  std::ofstream file(path + ".tmp", std::ios::binary);
-  file << text.json;
-  file.close();
-  std::error_code error;
-  std::filesystem::rename(path + ".tmp", path, error);
-  if (!file || error) {
-    std::fprintf(stderr, "takt: cannot write %s\n", path.c_str());
+  const std::string path = folder.path_of(name + ".json");
+  if (const std::string problem = output::write_file(path, text.json); !problem.empty()) {
+    std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
     return false;
   }
+  folder.add(name + ".json");
   std::fprintf(stderr, "%s: %s\n", path.c_str(), replays(text.json, replayed, property) ? "takt run does the same" : "takt run does not do the same");
   for (const std::string& each : text.missing) std::fprintf(stderr, "  no scenario can say: %s\n", each.c_str());
   return true;
 }
 
 /// One scenario for each violated property.
-bool write_findings(const Subject& subject, const explore::SearchResult& result, const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
+bool write_findings(const Subject& subject, const explore::SearchResult& result, output::WrittenFiles& folder) {
   for (std::size_t p = 0; p < explore::property_count; ++p) {
     const auto property = static_cast<explore::Property>(p);
     if (result[property] == explore::PropertyVerdict::violated && result.traces[p] && !write_finding(subject, result, property, *result.traces[p], folder)) return false;
@@ -268,6 +261,8 @@ ExitStatus run(const ExploreOptions& options) {
     std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
     return ExitStatus::internal_error;
   }
+  std::optional<output::WrittenFiles> folder;
+  if (!options.out.empty()) folder.emplace(options.out, "explore", options.scenario);
   const InterruptGuard interrupt;
   ExitStatus status = ExitStatus::pass;
   json::Node pages = json::Node::array();
@@ -288,9 +283,16 @@ ExitStatus run(const ExploreOptions& options) {
       if (subjects.size() > 1) std::printf("Program %s\n", subject.name.c_str());
       print(explore::text_report(subject.query, result, spent, options.explains ? explore::Detail::knowledge : explore::Detail::why));
     }
-    if (!options.out.empty() && !write_findings(subject, result, options.out)) return ExitStatus::internal_error;
+    if (folder && !write_findings(subject, result, *folder)) return ExitStatus::internal_error;
     if (!result.all_hold()) status = result.interrupted && !result.any_violated() && status == ExitStatus::pass ? ExitStatus::interrupted : ExitStatus::requirement_failed;
     if (result.interrupted) break;
+  }
+  if (folder) {
+    if (const std::string problem = folder->end(std::filesystem::path(options.scenario).stem().string()); !problem.empty()) {
+      std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
+      return ExitStatus::internal_error;
+    }
+    if (!options.quiet && options.format != "json") tell_files(folder->summary(), "");
   }
   // One document: an object for one Program, an array of such objects for a scenario with several.
   if (!pages.items.empty()) std::fputs(json::pretty(subjects.size() > 1 ? pages : pages.items.front()).c_str(), stdout);

@@ -195,6 +195,19 @@ std::string Recording::open() {
   return {};
 }
 
+std::vector<std::string> Recording::files() const {
+  std::vector<std::string> names;
+  const auto add = [&](bool is_there, std::initializer_list<const char*> files) {
+    if (is_there) names.insert(names.end(), files.begin(), files.end());
+  };
+  for (const Capture& capture : captures_) names.push_back(capture.file);
+  add(options_.timeline, {"timeline.json"});
+  add(options_.waves, {"waves.vcd", "waves.gtkw"});
+  add(options_.clocks, {"clocks.csv"});
+  add(options_.frames, {"frames.csv", "hops.csv"});
+  return names;
+}
+
 std::string Recording::close() {
   run_->simulation().set_trace(nullptr);
   if (way_recorder_) way_recorder_->finish(run_->simulation().now());

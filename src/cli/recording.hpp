@@ -43,6 +43,8 @@ class Recording {
   [[nodiscard]] std::string open();
   /// Writes the states of Programs into the time line and closes the files. An empty text, or what went wrong.
   [[nodiscard]] std::string close();
+  /// The names of the files, within the folder.
+  std::vector<std::string> files() const;
 
  private:
   struct Capture {

@@ -103,19 +103,26 @@ ExitStatus run(const RunOptions& options) {
   }
   // Nobody waits an hour to hear that the disk is not there.
   if (const std::string problem = unwritable(options); !problem.empty()) return cannot_write(problem);
+  std::optional<output::WrittenFiles> folder;
+  if (!options.out.empty()) {
+    folder.emplace(options.out, "run", options.scenario.file);
+    if (const std::string problem = folder->begin(); !problem.empty()) return cannot_write(problem);
+  }
   if (const std::string problem = recording ? recording->open() : ""; !problem.empty()) return cannot_write(problem);
   const bool show_progress = !options.quiet && !options.scenario.is_json();
   const bool complete = whole ? simulate(*whole, show_progress) : simulate(*divided, show_progress);
   const results::RunResult result = evaluation::evaluate(whole ? *whole : divided->gathered(), !complete);
   if (const std::string problem = recording ? recording->close() : ""; !problem.empty()) return cannot_write(problem);
-  if (!options.out.empty()) {
-    if (const std::string problem = output::write_result_folder(options.out, result, json::encode(resolved->scenario)); !problem.empty())
-      return cannot_write(problem);
+  const bool report_is_inside = folder && !options.report.empty() && folder->add_if_inside(options.report);
+  if (folder) {
+    for (std::string& name : recording ? recording->files() : std::vector<std::string>()) folder->add(std::move(name));
+    if (const std::string problem = output::write_result_folder(*folder, result, json::encode(resolved->scenario)); !problem.empty()) return cannot_write(problem);
   }
   if (!options.report.empty())
     if (const std::string problem = write_page(options.report, *resolved, result); !problem.empty()) return cannot_write(problem);
   const std::string page = options.scenario.is_json() ? results::run_json(result) : options.quiet ? output::run_line(result) : output::run_report(result, {page_width(), options.all});
   print(page);
+  if (!options.quiet && !options.scenario.is_json()) tell_files(folder ? folder->summary() : "", report_is_inside ? "" : options.report);
   return status_of(result);
 }
 

@@ -90,6 +90,12 @@ std::string with_colour(std::string_view page) { return by_line(page, with_verdi
 
 void print(const std::string& page) { std::fputs((wants_colour(STDOUT_FILENO) ? with_colour(page) : page).c_str(), stdout); }
 
+void tell_files(const std::string& summary, const std::string& report) {
+  std::fflush(stdout);
+  std::fputs(summary.c_str(), stderr);
+  if (!report.empty()) std::fprintf(stderr, "Written: %s, for a browser\n", report.c_str());
+}
+
 void tell(const json::Diagnostics& diagnostics) {
   const std::string text = diagnostics.to_text();
   std::fputs((wants_colour(STDERR_FILENO) ? by_line(text, [](std::string_view line, bool) { return with_severity(line); }) : text).c_str(), stderr);

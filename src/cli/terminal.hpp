@@ -18,6 +18,9 @@ std::string with_colour(std::string_view page);
 /// Prints a page for people on standard output, in colour if a terminal looks and NO_COLOR (https://no-color.org) is not set.
 void print(const std::string& page);
 
+/// Says on standard error, behind the page, what was written: what WrittenFiles says of a folder, and a page with pictures; each may be empty.
+void tell_files(const std::string& summary, const std::string& report);
+
 /// Prints diagnostics on standard error, with the same rules.
 void tell(const json::Diagnostics& diagnostics);
 

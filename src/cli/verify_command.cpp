@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
@@ -26,6 +27,9 @@ struct VerifyOptions {
   bool quiet = false;
 };
 
+constexpr const char* run_of_contradiction = "contradiction-run.json";
+constexpr const char* bound_of_contradiction = "contradiction-bound.json";
+
 /// "3-reaction-start.json": the number of the requirement, and what it is about.
 std::string file_name(std::size_t number, const results::RequirementResult& requirement) {
   std::string name = std::to_string(number + 1);
@@ -35,16 +39,17 @@ std::string file_name(std::size_t number, const results::RequirementResult& requ
 }
 
 /// Writes the run that replays the worst of each requirement that has one; the names, or a problem.
-std::string write_worst(const std::string& folder, const verify::Verification& verification, std::vector<std::string>& files) {
+std::string write_worst(output::WrittenFiles& folder, const verify::Verification& verification, std::vector<std::string>& files) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return folder + ": " + error.message();
+  std::filesystem::create_directories(folder.folder(), error);
+  if (error) return folder.folder() + ": " + error.message();
   for (std::size_t i = 0; i < verification.lines.size(); ++i) {
     const verify::Line& line = verification.lines[i];
     if (line.worst.name.empty()) continue;
-    const std::string path = (std::filesystem::path(folder) / file_name(i, line.requirement)).string();
-    if (const std::string problem = output::write_file(path, json::encode(line.worst)); !problem.empty()) return problem;
-    files[i] = path;
+    const std::string name = file_name(i, line.requirement);
+    files[i] = folder.path_of(name);
+    if (const std::string problem = output::write_file(files[i], json::encode(line.worst)); !problem.empty()) return problem;
+    folder.add(name);
   }
   return {};
 }
@@ -55,7 +60,7 @@ std::string write_witnesses(const std::string& folder, const scenario::Resolved&
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error) return path.string() + ": " + error.message();
-  files = {(path / "contradiction-run.json").string(), (path / "contradiction-bound.json").string()};
+  files = {(path / run_of_contradiction).string(), (path / bound_of_contradiction).string()};
   if (std::string problem = output::write_file(files.run, json::encode(contradiction.run)); !problem.empty()) return problem;
   return output::write_file(files.bound, json::encode(resolved.scenario));
 }
@@ -92,8 +97,10 @@ ExitStatus run(VerifyOptions& options) {
   what.proof.interrupted = what.search.interrupted;
   const verify::Verification verification = verify::verify(*resolved, what);
   std::vector<std::string> files(verification.lines.size());
+  std::optional<output::WrittenFiles> folder;
   if (!options.out.empty()) {
-    if (const std::string problem = write_worst(options.out, verification, files); !problem.empty()) {
+    folder.emplace(options.out, "verify", options.scenario.file);
+    if (const std::string problem = write_worst(*folder, verification, files); !problem.empty()) {
       std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
       return ExitStatus::internal_error;
     }
@@ -107,11 +114,18 @@ ExitStatus run(VerifyOptions& options) {
   if (verification.contradiction)
     if (const std::string problem = write_witnesses(options.out, *resolved, *verification.contradiction, witnesses); !problem.empty())
       std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
+  const bool report_is_inside = folder && !options.report.empty() && folder->add_if_inside(options.report);
+  if (folder) {
+    if (verification.contradiction)
+      for (const char* const name : {run_of_contradiction, bound_of_contradiction}) folder->add(name);
+    if (const std::string problem = folder->end(resolved->scenario.name); !problem.empty()) std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
+  }
   const std::string& name = resolved->scenario.name;
   const std::string page = options.scenario.is_json() ? verify::json_report(name, verification, files, witnesses)
                            : options.quiet            ? name + ": " + verify::name_of(verification.verdict()) + "\n"
                                                       : verify::text_report(name, verification, files, witnesses);
   print(page);
+  if (!options.quiet && !options.scenario.is_json()) tell_files(folder ? folder->summary() : "", report_is_inside ? "" : options.report);
   return status_of(verification);
 }
 

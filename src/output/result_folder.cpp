@@ -103,20 +103,22 @@ std::string write_file(const std::string& path, const std::string& content) {
   return problem;
 }
 
-std::string write_result_folder(const std::string& folder, const results::RunResult& result, const std::string& resolved_scenario) {
+std::string write_result_folder(WrittenFiles& folder, const results::RunResult& result, const std::string& resolved_scenario) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return folder + ": " + error.message();
-  const std::filesystem::path base(folder);
+  std::filesystem::create_directories(folder.folder(), error);
+  if (error) return folder.folder() + ": " + error.message();
   const json::Node node = results::run_node(result);
   const std::pair<const char*, std::string> files[] = {
       {"scenario.json", resolved_scenario},      {"streams.csv", streams_csv(node)}, {"reactions.csv", reactions_csv(node)},
       {"ports.csv", ports_csv(node)},            {"queues.csv", queues_csv(node)},   {"histograms.csv", histograms_csv(result)},
-      {"result.json", json::pretty(node)},  // last: where it is, everything is
   };
-  for (const auto& [name, content] : files)
-    if (std::string problem = write_file((base / name).string(), content); !problem.empty()) return problem;
-  return {};
+  for (const auto& [name, content] : files) {
+    if (std::string problem = write_file(folder.path_of(name), content); !problem.empty()) return problem;
+    folder.add(name);
+  }
+  folder.add("result.json");
+  if (std::string problem = folder.end(result.scenario, result.digest); !problem.empty()) return problem;
+  return write_file(folder.path_of("result.json"), json::pretty(node));   // last: where it is, everything is
 }
 
 }  // namespace takt::output

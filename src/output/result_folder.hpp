@@ -3,13 +3,14 @@
 
 #include <string>
 
+#include "output/written_files.hpp"
 #include "results/run_result.hpp"
 
 namespace takt::output {
 
-/// Writes result.json, scenario.json (the resolved copy), streams.csv, reactions.csv, ports.csv, queues.csv and histograms.csv into the
+/// Writes scenario.json (the resolved copy), streams.csv, reactions.csv, ports.csv, queues.csv, histograms.csv and, when older files are gone, result.json into the
 /// folder, which is made if it is not there. Returns an empty text, or what went wrong and where.
-std::string write_result_folder(const std::string& folder, const results::RunResult& result, const std::string& resolved_scenario);
+std::string write_result_folder(WrittenFiles& folder, const results::RunResult& result, const std::string& resolved_scenario);
 
 /// Makes a folder, if it is not there, and tries whether files can be written there: before a long run, not after it. Returns an empty text, or what went wrong.
 std::string prepare_folder(const std::string& folder);

@@ -136,6 +136,43 @@ class All(RecordingsTest):
                 shutil.rmtree(out)
 
 
+class Folder(RecordingsTest):
+    def takt(self, *arguments):
+        done = subprocess.run([TAKT, *map(str, arguments)], capture_output=True, text=True, timeout=1000, check=False)
+        self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+        return done
+
+    def test_says_what_it_wrote_and_what_to_open(self):
+        scenario, out = SCENARIOS / "direct-link.json", self.folder / "out"
+        done = self.takt("run", scenario, "--out", out, "--timeline", "--waves", "--pcap", "all")
+        self.assertEqual(done.stderr.splitlines(), [
+            f"Written to {out}: all.pcapng, timeline.json, waves.vcd, waves.gtkw, scenario.json, result.json, 5 tables (.csv)",
+            "To open: all.pcapng in Wireshark, with takt.lua of tools/wireshark; timeline.json in ui.perfetto.dev; waves.gtkw in GTKWave"])
+        entry, = json.loads((out / "files.json").read_text())["written"]
+        self.assertEqual({*entry["files"], "files.json"}, {path.name for path in out.iterdir()})
+        result = json.loads((out / "result.json").read_text())
+        self.assertEqual([entry[key] for key in ("command", "takt", "scenario", "digest")], ["run", result["takt"], "direct-link", result["digest"]])
+        # Quietly, and as JSON, nothing more is said; what the older run wrote goes all the same.
+        self.assertEqual(self.takt("run", scenario, "--out", out, "--frames", "--quiet").stderr, "")
+        self.assertFalse({"timeline.json", "waves.vcd", "waves.gtkw", "all.pcapng"} & {path.name for path in out.iterdir()})
+        self.assertTrue((out / "hops.csv").exists())
+        done = self.takt("run", out / "scenario.json", "--out", out, "--report", out / "page.html")
+        self.assertIn("To open: page.html in a browser\nRemoved, of an older run: 2 tables (.csv)\n", done.stderr)
+        self.assertFalse((out / "hops.csv").exists())
+        self.assertIn("page.html, for a browser", self.takt("run", scenario, "--report", self.folder / "page.html").stderr)
+
+    def test_of_a_verification(self):
+        out = self.folder / "worst"
+        done = self.takt("verify", SCENARIOS / "direct-link.json", "--out", out, "--budget", "0.05")
+        self.assertIn(f"Written to {out}: ", done.stderr)
+        older = {path.name for path in out.iterdir()}
+        (out / "note.txt").write_text("mine")
+        self.takt("verify", SCENARIOS / "validation" / "gates.json", "--out", out, "--budget", "0.05")
+        now = {path.name for path in out.iterdir()}
+        self.assertIn("note.txt", now)
+        self.assertEqual(older & now, {"files.json"})
+
+
 class Captures(RecordingsTest):
     def test_a_stream_at_all_ports_that_it_passes(self):
         # camera -> sw1 -> generator at 1 Gb/s: 1046 octets, 1 us in the bridge, 50 m of cable; nothing else is there.

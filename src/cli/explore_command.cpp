@@ -13,6 +13,7 @@
 #include "cli/status_line.hpp"
 #include "cli/terminal.hpp"
 #include "output/result_folder.hpp"
+#include "explore/model/recording.hpp"
 #include "explore/report/replay.hpp"
 #include "explore/report/report.hpp"
 #include "explore/report/schedule.hpp"
@@ -41,6 +42,8 @@ struct ExploreOptions {
   std::optional<unsigned> inner_slaves;
   std::optional<unsigned> candidates;
   bool starts_again = false;
+  bool is_signed = false;
+  std::optional<unsigned> key_changes;
   bool quiet = false;
   bool explains = false;
   std::string out;
@@ -120,6 +123,24 @@ std::string not_with_roles(const explore::Query& query, const ExploreOptions& op
   return wrong;
 }
 
+/// The same with a stranger who replays.
+std::string not_with_recordings(const explore::Query& query, const ExploreOptions& options) {
+  std::string wrong;
+  const auto refuse = [&wrong](bool is_wrong, const std::string& what) {
+    if (is_wrong) wrong += (wrong.empty() ? "" : "; ") + what;
+  };
+  refuse(options.is_signed && !query.has_recordings(), "--signed says what becomes of messages that are replayed: give --faults replay, too");
+  refuse(options.key_changes.has_value() && !options.is_signed, "--key-changes are those of --signed");
+  if (!query.has_recordings()) return wrong;
+  refuse(query.variant != handshake::Variant::robust, "replay is explored with robust; paper cannot tell an old word from a new one");
+  refuse(query.network != explore::Network::registers, "replay is explored on registers");
+  refuse(query.is_tree() || query.has_roles(), "replay is explored in one group with fixed slaves");
+  refuse(query.faults.contains(explore::Fault::duplicate) || query.faults.contains(explore::Fault::reorder), "a replay is a duplicate that comes at any time: leave duplicate and reorder out");
+  refuse(query.faults.contains(explore::Fault::forge), options.is_signed ? "nobody without the key forges signed words: leave forge out" : "forge and replay are two questions: ask them one by one");
+  refuse(!options.out.empty(), "findings with replays are drawn as charts, not written as scenarios (--out)");
+  return wrong;
+}
+
 /// What is to be explored: the group of the options, or each Program of the scenario. Empty after a mistake.
 std::vector<Subject> subjects_of(const ExploreOptions& options) {
   std::vector<Subject> subjects;
@@ -151,12 +172,15 @@ std::vector<Subject> subjects_of(const ExploreOptions& options) {
     if (options.starts_again) query.starts_again = true;
     const unsigned nodes = query.has_roles() ? query.slaves + query.inner_slaves + query.candidates - 1U : query.nested() ? query.slaves + query.inner_slaves : query.slaves;
     query.commands = options.calls.value_or(usual_calls(nodes));
+    query.is_signed = options.is_signed;
+    query.key_changes = options.is_signed ? static_cast<std::uint8_t>(options.key_changes.value_or(1)) : std::uint8_t{0};
     if (query.variant == handshake::Variant::paper && query.faults.contains(explore::Fault::forge)) {
       std::fprintf(stderr, "takt: %s: forge is explored with robust; a word of paper is a state and nothing more, and whoever forges it is believed\n", name.c_str());
       return false;
     }
     std::string wrong = not_in_trees(query, options);
     if (wrong.empty()) wrong = not_with_roles(query, options);
+    if (wrong.empty()) wrong = not_with_recordings(query, options);
     if (!wrong.empty()) {
       std::fprintf(stderr, "takt: %s: %s\n", name.c_str(), wrong.c_str());
       return false;
@@ -339,6 +363,10 @@ void add_explore_command(Command app, ExitStatus& status) {
       .between(1U, static_cast<unsigned>(explore::most_explored_candidates))
       .type_name("N");
   command.add_flag("--starts-again", options->starts_again, "With roles: the master starts the group again when a node that was lost in a run has been replaced");
+  command.add_flag("--signed", options->is_signed, "With --faults replay: messages are signed, so none is taken twice, nor behind a newer one");
+  command.add_option("--key-changes", options->key_changes, "With --signed: how often the key of each participant may change in a run (default 1)")
+      .between(0U, static_cast<unsigned>(explore::most_key_changes))
+      .type_name("N");
   command.add_flag("--no-finish", options->no_finish, "No Program ends by itself");
   command.add_flag("--no-symmetry", options->no_symmetry, "Tell equal slaves apart");
   command.add_flag("--explain", options->explains, "Below each step of a chart, what each participant knows of the others from then on (--format json always says it)");
@@ -354,6 +382,7 @@ void add_explore_command(Command app, ExitStatus& status) {
       "  takt explore --slaves 2 --faults loss,reorder --network channels=2\n"
       "  takt explore --slaves 1 --nested --faults crash --calls 2\n"
       "  takt explore --slaves 1 --calls 1 --faults forge\n"
+      "  takt explore --slaves 1 --calls 2 --faults replay --signed\n"
       "  takt explore --slaves 1 --candidates 2 --faults crash\n"
       "Ctrl-C ends the search and prints what was found until then.\n"
       "Exit status: 0 all hold, 1 violated, not reached or not decided, 2 bad input, 130 interrupted before a violation was found.");

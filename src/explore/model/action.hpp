@@ -22,6 +22,7 @@ enum class ActionKind : std::uint8_t {
   finish,       ///< participant: the Program ends by itself
   join,         ///< candidate: it begins to announce itself
   leave,        ///< candidate: it asks to be let go, or announces itself no more
+  change_key,   ///< participant: from now on it signs with the next key; costs nothing
   lose,         ///< channel: the register's word is lost; `channels`: and which of its messages
   duplicate,    ///< channel: a copy of the register's word stays behind
   reorder,      ///< channel: the register's word is overtaken by the next one
@@ -29,11 +30,12 @@ enum class ActionKind : std::uint8_t {
   restart,      ///< participant: it comes up without memory
   timeout,      ///< participant, peer: the time-out of a living peer expires
   forge,        ///< participant: a stranger speaks in its name; which of the words that it may say (forgery.hpp)
+  replay,       ///< channel: a stranger hands over what was said before; how many were said after it (recording.hpp)
 };
 
-inline constexpr std::array<std::string_view, 16> action_names{"send", "receive", "deliver_late", "initialised", "silence", "call", "finish", "join",
-                                                               "leave", "lose", "duplicate", "reorder", "crash", "restart", "timeout", "forge"};
-static_assert(action_names.size() == static_cast<std::size_t>(ActionKind::forge) + 1);
+inline constexpr std::array<std::string_view, 18> action_names{"send", "receive", "deliver_late", "initialised", "silence", "call", "finish", "join",
+                                                               "leave", "change_key", "lose", "duplicate", "reorder", "crash", "restart", "timeout", "forge", "replay"};
+static_assert(action_names.size() == static_cast<std::size_t>(ActionKind::replay) + 1);
 constexpr std::string_view name_of(ActionKind kind) { return action_names[static_cast<std::size_t>(kind)]; }
 
 struct Action {

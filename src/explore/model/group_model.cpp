@@ -15,17 +15,33 @@ using handshake::PublishedState;
 using handshake::Variant;
 using program::Method;
 
+namespace {
+
+/// A recording is not renamed.
+Query without_symmetry_of_recordings(Query query) {
+  query.symmetry = query.symmetry && !query.has_recordings();
+  return query;
+}
+
+}  // namespace
+
 GroupModel::GroupModel(const Query& query)
-    : query_(query), wiring_(query), shape_(query, wiring_.size()), renamings_(query.slaves, query.symmetry), members_(query_, renamings_),
+    : query_(without_symmetry_of_recordings(query)), wiring_(query), shape_(query, wiring_.size()), renamings_(query.slaves, query_.symmetry), members_(query_, renamings_),
       contents_(members_, renamings_), group_(query.slaves + 1U) {
   const bool is_star = query.subscription == handshake::Subscription::star;
   TAKT_CHECK(query.slaves >= 1 && query.slaves <= (is_star ? most_slaves : most_slaves_all_to_all), "a group to explore is small");
   TAKT_CHECK(query.commands <= most_commands && query.fault_budget <= most_faults, "budgets are small");
   TAKT_CHECK(query.variant == Variant::robust || !query.faults.contains(Fault::forge), "the words of paper say too little to forge much");
+  TAKT_CHECK(query.has_recordings() || (!query.is_signed && query.key_changes == 0), "signatures and keys are about what a stranger replays");
+  TAKT_CHECK(!query.has_recordings() || (query.variant == Variant::robust && query.network == Network::registers && !query.faults.contains(Fault::duplicate) &&
+                                         !query.faults.contains(Fault::reorder) && !query.faults.contains(Fault::forge)),
+             "replays are explored with robust, on registers, and stand for duplicates and late words");
+  TAKT_CHECK(query.key_changes <= (query.is_signed ? most_key_changes : 0), "only signed messages have keys, which change seldom");
   TAKT_CHECK(query.capacity >= 1 && query.capacity <= most_capacity, "channels are short");
   for (std::size_t c = 0; c < wiring_.size(); ++c)
     for (std::size_t r = 0; r < renamings_.size(); ++r)
       renamed_channel_.push_back(static_cast<std::uint8_t>(wiring_.channel(renamings_[r].to[wiring_.sender(c)], renamings_[r].to[wiring_.receiver(c)])));
+  recordings_.intern(Recording{});
   list_actions();
   make_beginnings();
 }
@@ -61,11 +77,13 @@ void GroupModel::list_actions() {
   if (query_.faults.contains(Fault::crash)) each_participant(ActionKind::crash);
   begin_free();
   if (query_.faults.contains(Fault::restart)) each_participant(ActionKind::restart);
+  if (query_.key_changes != 0) each_participant(ActionKind::change_key);
   end_free();
   if (query_.faults.contains(Fault::timeout)) each_peer(ActionKind::timeout);
   if (query_.faults.contains(Fault::forge))
     for (std::size_t i = 0; i < participants; ++i)
       for (std::size_t word = 0; word < most_forgeries; ++word) add(ActionKind::forge, i, word);
+  if (query_.has_recordings()) each_channel(ActionKind::replay, most_recorded);
 }
 
 void GroupModel::make_beginnings() {
@@ -121,14 +139,16 @@ bool GroupModel::change(const State& state, Action action, Next& next) {
   }
 }
 
-/// A participant that is down may always come up again; everything else costs a fault.
+/// A participant that is down may always come up again, and keys change; everything else costs a fault.
 bool GroupModel::fault(const State& state, Action action, Next& next) {
-  const bool is_free = action.kind == ActionKind::restart && is_down(state, action.who);
+  const bool is_free = action.kind == ActionKind::change_key || (action.kind == ActionKind::restart && is_down(state, action.who));
   if (!is_free && state.faults_left() == 0) return false;
   bool possible = false;
   switch (action.kind) {
     case ActionKind::crash: possible = crash(state, action.who, next); break;
     case ActionKind::restart: possible = restart(state, action.who, next); break;
+    case ActionKind::change_key: possible = change_key(state, action.who, next); break;
+    case ActionKind::replay: possible = replay(state, action.who, action.what, next); break;
     case ActionKind::forge: possible = forge(state, action.who, action.what, next); break;
     case ActionKind::timeout: possible = expire(state, action.who, action.what, false, next); break;
     default: possible = query_.network == Network::registers ? act_on_registers(state, action, next) : act_on_channels(state, action, next); break;

@@ -13,6 +13,7 @@
 #include "explore/model/members.hpp"
 #include "explore/model/model.hpp"
 #include "explore/model/query.hpp"
+#include "explore/model/recording.hpp"
 #include "explore/model/renaming.hpp"
 #include "explore/model/state.hpp"
 #include "explore/model/wiring.hpp"
@@ -55,6 +56,7 @@ class GroupModel : public ActionList {
   std::size_t value_count() const { return members_.size(); }
   std::size_t word_count() const { return members_.word_count() - 1; }
   std::size_t observer_count() const { return observers_.size(); }
+  const Recording& recording(const State& state, std::size_t participant) const { return recordings_[state.recording(participant)]; }
 
  private:
   void list_actions();
@@ -71,6 +73,16 @@ class GroupModel : public ActionList {
   bool restart(const State& state, std::size_t participant, Next& next);
   bool expire(const State& state, std::size_t participant, std::size_t peer, bool peer_is_down, Next& next);
 
+  // replays.cpp
+  std::uint32_t hearers_of(std::size_t sender) const;
+  void set_recording(std::size_t sender, Recording recording, Next& next);
+  bool publish_and_record(const State& state, std::size_t channel, Next& next);
+  bool sample_recorded(const State& state, std::size_t channel, Next& next);
+  bool take_recorded(const State& state, std::size_t channel, std::size_t place, WordId word, Next& next);
+  bool replay(const State& state, std::size_t channel, std::size_t back, Next& next);
+  bool change_key(const State& state, std::size_t participant, Next& next);
+  void empty_standing(std::size_t channel, Next& next);
+
   // network_registers.cpp and network_channels.cpp
   bool act_on_registers(const State& state, Action action, Next& next);
   bool act_on_channels(const State& state, Action action, Next& next);
@@ -78,12 +90,12 @@ class GroupModel : public ActionList {
   bool publish_to_register(const State& state, std::size_t channel, Next& next) const;
   bool sample(const State& state, std::size_t channel, Next& next);
   bool sample_late(const State& state, Next& next);
-  bool empty_register(const State& state, std::size_t channel, Next& next) const;
+  bool empty_register(const State& state, std::size_t channel, Next& next);
   bool keep_copy(const State& state, std::size_t channel, bool overtaken, Next& next) const;
   bool publish_to_channel(const State& state, std::size_t channel, Next& next);
   bool hear(const State& state, std::size_t channel, std::size_t position, Next& next);
   bool change_content(const State& state, Action action, Next& next);
-  bool forget_channel(std::size_t channel, Next& next) const;
+  bool forget_channel(std::size_t channel, Next& next);
   void outdate(std::size_t participant, Next& next);
   bool says_what_its_sender_says(const State& state, std::size_t channel) const;
 
@@ -109,6 +121,7 @@ class GroupModel : public ActionList {
   Contents contents_;
   handshake::GroupTree group_;
   Interner<SmallObserver, HashOfObserver> observers_;
+  Interner<Recording, HashOfRecording> recordings_;   ///< with the fault `replay`; 0: nothing was said
   std::vector<std::uint32_t> renamed_observer_;  ///< by observer and renaming
   std::vector<bool> goes_round_;               ///< by member
   Memo watched_;                               ///< (observer, participant, effect) -> (observer, violated)

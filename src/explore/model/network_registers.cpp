@@ -8,8 +8,8 @@ using handshake::PublishedState;
 
 bool GroupModel::act_on_registers(const State& state, Action action, Next& next) {
   switch (action.kind) {
-    case ActionKind::send: return publish_to_register(state, action.who, next);
-    case ActionKind::receive: return sample(state, action.who, next);
+    case ActionKind::send: return query_.has_recordings() ? publish_and_record(state, action.who, next) : publish_to_register(state, action.who, next);
+    case ActionKind::receive: return query_.has_recordings() ? sample_recorded(state, action.who, next) : sample(state, action.who, next);
     case ActionKind::deliver_late: return sample_late(state, next);
     case ActionKind::lose: return empty_register(state, action.who, next);
     case ActionKind::duplicate: return keep_copy(state, action.who, false, next);
@@ -75,11 +75,12 @@ bool GroupModel::sample_late(const State& state, Next& next) {
   return true;
 }
 
-bool GroupModel::empty_register(const State& state, std::size_t channel, Next& next) const {
+bool GroupModel::empty_register(const State& state, std::size_t channel, Next& next) {
   if (state.reg(channel) == no_word) return false;
   next = {state, {}};
   next.state.set_reg(channel, no_word);
   next.state.set_outdated(channel, false);
+  if (query_.has_recordings()) empty_standing(channel, next);
   return true;
 }
 
@@ -94,7 +95,7 @@ bool GroupModel::keep_copy(const State& state, std::size_t channel, bool overtak
 }
 
 /// Nothing of it is under way any more. The delayed copy may still come.
-bool GroupModel::forget_channel(std::size_t channel, Next& next) const {
+bool GroupModel::forget_channel(std::size_t channel, Next& next) {
   if (query_.network == Network::channels) {
     if (next.state.content(channel) == Contents::empty) return false;
     next.state.set_content(channel, Contents::empty);
@@ -103,6 +104,7 @@ bool GroupModel::forget_channel(std::size_t channel, Next& next) const {
   if (next.state.reg(channel) == no_word) return false;
   next.state.set_reg(channel, no_word);
   next.state.set_outdated(channel, false);
+  if (query_.has_recordings()) empty_standing(channel, next);
   return true;
 }
 

@@ -11,10 +11,10 @@
 namespace takt::explore {
 
 /// The classes of faults. Each fault costs one of the budget of a run.
-enum class Fault : std::uint8_t { loss, duplicate, reorder, crash, restart, timeout, forge };
+enum class Fault : std::uint8_t { loss, duplicate, reorder, crash, restart, timeout, forge, replay };
 
-inline constexpr std::size_t fault_count = 7;
-inline constexpr std::array<std::string_view, fault_count> fault_names{"loss", "duplicate", "reorder", "crash", "restart", "timeout", "forge"};
+inline constexpr std::size_t fault_count = 8;
+inline constexpr std::array<std::string_view, fault_count> fault_names{"loss", "duplicate", "reorder", "crash", "restart", "timeout", "forge", "replay"};
 constexpr std::string_view name_of(Fault fault) { return fault_names[static_cast<std::size_t>(fault)]; }
 
 struct FaultSet {
@@ -67,7 +67,11 @@ struct Query {
   std::array<std::uint8_t, most_explored_candidates> offers{0xFF, 0xFF, 0xFF};  ///< by candidate: the roles that it can have, bit i for role i
   std::uint8_t joined = 0xFF;        ///< candidates that announce themselves when they are switched on, bit i for candidate i
   bool starts_again = false;         ///< the master starts the group again when a node that was lost in a run has been replaced
+  bool is_signed = false;            ///< with the fault `replay`: who hears a message takes it only if it is newer than all that it took of its sender, and its key is known
+  std::uint8_t key_changes = 0;      ///< signed: of a run, at any time at each participant, 0 to most_key_changes
   bool operator==(const Query&) const = default;
+  /// What was said is kept with each state, for a stranger who replays: `robust`, registers, one group, no delayed copies, slaves told apart.
+  bool has_recordings() const { return faults.contains(Fault::replay); }
   /// Explored by the model of groups with roles (roles_model.hpp): `robust`, star, registers, no delayed copies.
   bool has_roles() const { return candidates != 0; }
   bool nested() const { return inner_slaves != 0; }

@@ -7,6 +7,7 @@
 //   observer          the observer, as a number
 //   rest              calls left, faults left, for each register whether its data is from before the receiver's round, and what
 //                     follows from a forged word
+//   recordings        with the fault `replay`: of each participant, as a number (Recording)
 #pragma once
 
 #include <array>
@@ -29,6 +30,7 @@ struct Shape {
   std::uint8_t late_at = 3;
   std::uint8_t observer_at = 4;
   std::uint8_t rest_at = 5;
+  std::uint8_t recordings_at = 6;
   std::uint8_t words = 6;     ///< in all, an even number
   bool wide = false;          ///< a word of 32 bits for each channel, and no delayed copy
 
@@ -39,7 +41,8 @@ struct Shape {
     late_at = static_cast<std::uint8_t>(participants + (wide ? channels : (channels + 1) / 2));
     observer_at = static_cast<std::uint8_t>(wide ? late_at : late_at + 1);
     rest_at = static_cast<std::uint8_t>(observer_at + 1);
-    words = static_cast<std::uint8_t>((rest_at + 2U) / 2U * 2U);
+    recordings_at = static_cast<std::uint8_t>(rest_at + 1);
+    words = static_cast<std::uint8_t>((recordings_at + (query.has_recordings() ? participants : 0U) + 1U) / 2U * 2U);
   }
   constexpr bool operator==(const Shape&) const = default;
   constexpr auto operator<=>(const Shape&) const = default;
@@ -82,6 +85,9 @@ class State {
 
   std::uint32_t observer() const { return words_[shape_.observer_at]; }
   void set_observer(std::uint32_t observer) { words_[shape_.observer_at] = observer; }
+
+  std::uint32_t recording(std::size_t i) const { return words_[shape_.recordings_at + i]; }
+  void set_recording(std::size_t i, std::uint32_t recording) { words_[shape_.recordings_at + i] = recording; }
 
   std::uint32_t commands_left() const { return rest() & 0xFU; }
   void set_commands_left(std::uint32_t count) { rest() = (rest() & ~0xFU) | count; }

@@ -8,12 +8,12 @@
 
 namespace takt::explore {
 
-/// The first eight must always hold; the others must be reached sometimes, or a proof says nothing.
-enum class Property : std::uint8_t { S1, S2, S3, S4, S5, F1, L1, B1, all_running, T1, T2, T3, T4, T5, T6, T7, T8, T9, silence };
+/// The first nine must always hold; the others must be reached sometimes, or a proof says nothing.
+enum class Property : std::uint8_t { S1, S2, S3, S4, S5, F1, L1, B1, R1, all_running, T1, T2, T3, T4, T5, T6, T7, T8, T9, silence };
 
-inline constexpr std::size_t property_count = 19;
+inline constexpr std::size_t property_count = 20;
 inline constexpr std::array<std::string_view, property_count> property_names{
-    "S1", "S2", "S3", "S4", "S5", "F1", "L1", "B1", "all_running",
+    "S1", "S2", "S3", "S4", "S5", "F1", "L1", "B1", "R1", "all_running",
     "HaltedToReady", "ReadyToRunning", "RunningToHalted", "RunningToReady", "RunningToSuspended",
     "SuspendedToRunning", "SuspendedToHalted", "SuspendedToReady", "ReadyToHalted", "silence"};
 inline constexpr std::array<std::string_view, property_count> property_texts{
@@ -25,6 +25,7 @@ inline constexpr std::array<std::string_view, property_count> property_texts{
     "a silent peer halts everyone",
     "without new calls and faults all reach the state that was asked for",
     "a role is one node's, which offers its skill, and changes hands in Halted only",
+    "a word that is older than one that has come of its sender moves nobody",
     "everybody is Running at once",
     "transition 1 fires", "transition 2 fires", "transition 3 fires", "transition 4 fires", "transition 5 fires",
     "transition 6 fires", "transition 7 fires", "transition 8 fires", "transition 9 fires", "a time-out expires at one who is not Halted"};
@@ -35,7 +36,9 @@ constexpr std::string_view name_of(Property property) { return property_names[in
 constexpr bool is_of_silence(Property property) { return property == Property::F1 || property == Property::silence; }
 /// Asked only of groups with roles.
 constexpr bool is_of_roles(Property property) { return property == Property::B1; }
-constexpr bool must_always_hold(Property property) { return property <= Property::B1; }
+/// Asked only where a stranger replays what was said.
+constexpr bool is_of_replays(Property property) { return property == Property::R1; }
+constexpr bool must_always_hold(Property property) { return property <= Property::R1; }
 constexpr Property transition_property(std::size_t number) { return static_cast<Property>(index_of(Property::T1) + number - 1); }
 
 /// A set of properties: violated, or reached.

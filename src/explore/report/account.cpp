@@ -8,7 +8,8 @@ namespace {
 std::string step_text(std::size_t step) { return step == 0 ? "before the first step" : "in step " + std::to_string(step); }
 std::string since_text(std::size_t step) { return step == 0 ? "since the beginning" : "since step " + std::to_string(step); }
 
-std::string said_text(std::size_t said_in, std::size_t heard_in, bool forged) {
+std::string said_text(std::size_t said_in, std::size_t heard_in, bool forged, bool replayed) {
+  if (replayed) return "said " + step_text(said_in) + ", replayed by a stranger " + step_text(heard_in);
   if (heard_in == 0) return "heard before the first step";
   return std::string("said ") + (forged ? "by a stranger " : "") + step_text(said_in) + ", heard " + step_text(heard_in);
 }
@@ -24,7 +25,7 @@ std::string listed(const std::vector<std::string>& items) {
 std::string text_of(const Belief& belief) {
   const std::string truth = belief.now + " " + since_text(belief.now_since);
   if (!belief.word) return belief.who + " has heard nothing of " + belief.of + ", which is " + truth;
-  return belief.who + " takes " + belief.of + " for " + *belief.word + ", " + said_text(*belief.said_in, *belief.heard_in, belief.by_stranger) + (*belief.is_true ? "; so it is" : "; it is " + truth);
+  return belief.who + " takes " + belief.of + " for " + *belief.word + ", " + said_text(*belief.said_in, *belief.heard_in, belief.by_stranger, belief.is_replayed) + (*belief.is_true ? "; so it is" : "; it is " + truth);
 }
 
 const Heard* Account::heard(std::size_t at, std::size_t who, std::size_t of) const {
@@ -84,6 +85,7 @@ Belief Account::belief(std::size_t at, const Heard& heard) const {
     made.heard_in = heard.heard_in;
     made.age = at - heard.said_in;
     made.by_stranger = heard.forged;
+    made.is_replayed = heard.replayed;
     made.is_true = is_true(at, heard);
   }
   made.now = says(at, heard.of);
@@ -98,7 +100,7 @@ std::vector<Belief> Account::beliefs(std::size_t at, std::optional<std::size_t> 
     made.is_cause = cause == each.who;
     if (at == 0) continue;
     const Heard* const before = heard(at - 1, each.who, each.of);
-    made.is_new = before == nullptr || before->ever != each.ever || (each.ever && (before->word != each.word || before->forged != each.forged || is_true(at - 1, *before) != is_true(at, each)));
+    made.is_new = before == nullptr || before->ever != each.ever || (each.ever && (before->word != each.word || before->forged != each.forged || before->replayed != each.replayed || is_true(at - 1, *before) != is_true(at, each)));
   }
   return all;
 }
@@ -159,7 +161,7 @@ std::string Account::change(std::size_t step, Steps& earlier) const {
 std::string Account::known(std::size_t at, const Heard& heard, Steps& earlier) const {
   const std::string of = "all that it knows of " + chart_->names[heard.of] + ": ";
   if (!heard.ever) return of + "nothing, never heard; " + truth(at, heard, earlier);
-  return of + word_text(heard.word, heard.of) + ", " + said_text(heard.said_in, heard.heard_in, heard.forged) + ", " + truth(at, heard, earlier);
+  return of + word_text(heard.word, heard.of) + ", " + said_text(heard.said_in, heard.heard_in, heard.forged, heard.replayed) + ", " + truth(at, heard, earlier);
 }
 
 void Account::tell_knowledge(std::size_t step, std::vector<std::string>& told, Steps& earlier) const {

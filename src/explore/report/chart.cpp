@@ -101,12 +101,14 @@ std::string sentence(const Happening& it) {
     case ActionKind::finish: return "the Program of " + it.who + " ends by itself";
     case ActionKind::join: return it.who + " joins";
     case ActionKind::leave: return it.who + " asks to be let go";
+    case ActionKind::change_key: return "the key of " + it.who + " changes";
     case ActionKind::lose: return "fault: lost between " + it.from + " and " + it.to + ": " + it.word;
     case ActionKind::duplicate: return "fault: duplicated between " + it.from + " and " + it.to;
     case ActionKind::reorder: return "fault: " + std::string(it.is_overtaking ? "overtaken" : "delayed") + " between " + it.from + " and " + it.to + (it.is_overtaking ? " by " : ": ") + it.word;
     case ActionKind::crash: return "fault: " + it.who + " crashes";
     case ActionKind::restart: return it.comes_up ? it.who + " comes up" : "fault: " + it.who + " restarts without memory";
     case ActionKind::forge: return "fault: a stranger speaks as " + it.who + ": " + it.word + (it.is_overtaking ? ", far ahead" : "");
+    case ActionKind::replay: return "fault: a stranger replays to " + it.to + " a word of " + it.from + ": " + it.word;
     case ActionKind::timeout: return "fault: " + it.who + " hears nothing of " + it.peer + " in time";
   }
   return {};
@@ -135,7 +137,7 @@ Chart chart_of_group(const Query& query, const Replay& replayed) {
     step.action = done.action;
     step.actor = done.actor;
     step.moment = done.moment;
-    const bool heard = done.action.kind == ActionKind::receive || done.action.kind == ActionKind::deliver_late;
+    const bool heard = done.action.kind == ActionKind::receive || done.action.kind == ActionKind::deliver_late || done.action.kind == ActionKind::replay;
     if (heard) step.arrow = {wiring.sender(done.channel), wiring.receiver(done.channel)};
     else step.marked = {done.actor};
     step.mark = mark_of(done.action.kind);

@@ -25,6 +25,7 @@ struct Belief {
   std::optional<std::size_t> heard_in;
   std::optional<std::size_t> age;         ///< steps since it was said
   bool by_stranger = false;               ///< nobody of the group has said it
+  bool is_replayed = false;               ///< the other one has said it, but a stranger has handed it over
   std::optional<bool> is_true;            ///< the other one would say the same now
   std::string now;                        ///< what that one would say; "down", "without a role (joins)"
   std::size_t now_since = 0;              ///< step in which it began to

@@ -13,6 +13,7 @@ const json::Record& describe(json::Type<Belief>) {
       json::output<&Belief::heard_in>("heard_in", "The step in which it was heard last; 0: before the first one."),
       json::output<&Belief::age>("age", "Steps since it was said."),
       json::output<&Belief::by_stranger>("by_stranger", "A stranger has said it, in the name of the other one."),
+      json::output<&Belief::is_replayed>("is_replayed", "The other one has said it in that step, but it was heard of a stranger, who replayed it."),
       json::output<&Belief::is_true>("is_true", "The other one would say the same now."),
       json::output<&Belief::now>("now", "What it would say now, or `down`; of a candidate `without a role (joins)` or `(away)`."),
       json::output<&Belief::now_since>("now_since", "The step since which it would say so; 0: since the beginning."),
@@ -28,7 +29,7 @@ const json::Record& describe(json::Type<ExplainedStep>) {
       json::output<&ExplainedStep::number>("step", "From 1."),
       json::output<&ExplainedStep::sentence>("sentence", "What happens."),
       json::output<&ExplainedStep::kind>("kind", "`send`, `receive`, `deliver_late`, `initialised`, `silence`; "
-                                                 "of the adversary `call`, `finish`, `join`, `leave`, `lose`, `duplicate`, `reorder`, `crash`, `restart`, `timeout`, `forge`."),
+                                                 "of the adversary `call`, `finish`, `join`, `leave`, `change_key`, `lose`, `duplicate`, `reorder`, `crash`, `restart`, `timeout`, `forge`, `replay`."),
       json::output<&ExplainedStep::who>("who", "Who takes the step, or whose message it is."),
       json::output<&ExplainedStep::arrow>("arrow", "Of what is heard: from whom, and who hears it. Else empty."),
       json::output<&ExplainedStep::states>("states", "Of all, after it.", {.keys = "participant"}),

@@ -80,13 +80,13 @@ class Ledger {
     Participant copy = *words_->participant(before, who);
     if (copy.step(handshake::Input::received(*peer, letter->word, letter->ahead ? sequence_ahead : usual_sequence)).ignored) return;
     for (Heard& heard : heard_)
-      if (heard.who == who && heard.of == of) heard = {who, of, true, letter->word, said_[channel], number, forged_[channel]};
+      if (heard.who == who && heard.of == of) heard = {who, of, true, letter->word, said_[channel], number, forged_[channel], false};
   }
   /// Who is new, down or has another peer instead remembers nothing.
   void forget(const State& after) {
     for (Heard& heard : heard_) {
       const std::optional<std::size_t> peer = words_->peer(after, heard.who, heard.of);
-      if (!peer || !words_->participant(after, heard.who)->known_of(*peer).heard) heard = {heard.who, heard.of, false, {}, 0, 0, false};
+      if (!peer || !words_->participant(after, heard.who)->known_of(*peer).heard) heard = {heard.who, heard.of, false, {}, 0, 0, false, false};
       else TAKT_CHECK(is_remembered(*words_->participant(after, heard.who), *peer, heard), "what was heard is what its hearer remembers");
     }
   }

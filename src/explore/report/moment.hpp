@@ -19,6 +19,7 @@ struct Heard {
   std::size_t said_in = 0;     ///< step in which it was put into the register or channel
   std::size_t heard_in = 0;
   bool forged = false;         ///< a stranger has said it
+  bool replayed = false;       ///< a stranger has handed it over; the other one had said it
   bool operator==(const Heard&) const = default;
 };
 

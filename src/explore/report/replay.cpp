@@ -4,6 +4,7 @@
 
 #include "explore/model/members.hpp"
 #include "explore/model/wiring.hpp"
+#include "explore/report/recorder.hpp"
 #include "sim/check.hpp"
 
 namespace takt::explore {
@@ -22,6 +23,8 @@ struct Sent {
   bool strays = false;  ///< `channels`: it is heard out of its turn
   std::size_t said_in = 0;
   bool forged = false;
+  bool replayed = false;
+  std::size_t recorded = 0;   ///< its place in the recorder
 };
 
 constexpr std::uint16_t far_ahead = 1000;
@@ -30,7 +33,7 @@ class Player {
  public:
   explicit Player(const Query& query)
       : query_(query), wiring_(query), observer_(query.variant, query.slaves + 1U), sequence_(query.slaves + 1U, 0),
-        down_(query.slaves + 1U, false), register_(wiring_.size()), in_flight_(wiring_.size()) {
+        down_(query.slaves + 1U, false), register_(wiring_.size()), in_flight_(wiring_.size()), recorder_(query, wiring_) {
     for (std::size_t i = 0; i <= query.slaves; ++i) members_.push_back(Participant(config(i, 1)));
     for (std::size_t c = 0; c < wiring_.size(); ++c) {
       Heard& heard = heard_.emplace_back();
@@ -117,6 +120,8 @@ class Player {
         done.is_overtaking = true;
         break;
       case ActionKind::forge: forge(action, done); break;
+      case ActionKind::replay: replay(action, done); break;
+      case ActionKind::change_key: recorder_.change_key(action.who); break;
       case ActionKind::crash: down_[action.who] = true; break;
       case ActionKind::join:
       case ActionKind::leave: break;  // of candidates
@@ -124,8 +129,9 @@ class Player {
         down_[action.who] = false;
         members_[action.who] = Participant(config(action.who, members_[action.who].config().incarnation + 1));
         sequence_[action.who] = 0;
+        recorder_.restart(action.who);
         for (Heard& heard : heard_)
-          if (heard.who == action.who) heard = {heard.who, heard.of, false, {}, 0, 0, false};
+          if (heard.who == action.who) heard = {heard.who, heard.of, false, {}, 0, 0, false, false};
         observer_.on_restart(action.who);
         break;
       }
@@ -157,7 +163,8 @@ class Player {
   }
   void publish(std::size_t channel, ReplayStep& done) {
     const std::size_t sender = wiring_.sender(channel);
-    register_[channel] = {members_[sender].word(), ++sequence_[sender], observer_.sending_run(sender), true, false, number_, false};
+    register_[channel] = {members_[sender].word(), ++sequence_[sender], observer_.sending_run(sender), true, false, number_, false, false, 0};
+    if (query_.has_recordings()) register_[channel].recorded = recorder_.say(channel, {register_[channel].word, sequence_[sender], register_[channel].sent_in, number_});
     if (on_channels()) in_flight_[channel].push_back(register_[channel]);
     tell_channel(channel, register_[channel].word, done);
   }
@@ -168,13 +175,18 @@ class Player {
     const auto sequence = static_cast<std::uint16_t>(sequence_[action.who] + (letter.ahead ? far_ahead : 0));
     for (std::size_t c = 0; c < wiring_.size(); ++c) {
       if (wiring_.sender(c) != action.who) continue;
-      const Sent sent{letter.word, sequence, 0, true, false, number_, true};
+      const Sent sent{letter.word, sequence, 0, true, false, number_, true, false, 0};
       if (on_channels() && in_flight_[c].size() < query_.capacity) in_flight_[c].push_back(sent);
       register_[c] = sent;
     }
     done.word = letter.word;
     done.has_word = true;
     done.is_overtaking = letter.ahead;
+  }
+  /// What stands in the register stays there.
+  void replay(Action action, ReplayStep& done) {
+    const Recorder::Said& said = recorder_.said(action.who, action.what);
+    hear(action.who, {said.word, recorder_.sequence(action.who, action.what), said.sent_in, true, false, said.said_in, false, true, recorder_.place(action.who, action.what)}, done);
   }
   void hold(std::size_t channel, ReplayStep& done) {
     if (on_channels()) {
@@ -190,7 +202,7 @@ class Player {
     late_channel_ = channel;
     tell_channel(channel, late_.word, done);
   }
-  void hear(std::size_t channel, const Sent message, ReplayStep& done) {
+  void hear(std::size_t channel, Sent message, ReplayStep& done) {
     TAKT_CHECK(message.present, "only what was published is heard");
     const std::size_t from = wiring_.sender(channel);
     const std::size_t to = wiring_.receiver(channel);
@@ -198,8 +210,12 @@ class Player {
     done.actor = to;
     if (down_[to]) return;
     const std::size_t peer = wiring_.peer(channel);
+    if (query_.has_recordings()) {
+      if (!message.replayed) message.sequence = recorder_.said_at(channel, message.recorded).sequence;   // it goes on to say so
+      TAKT_CHECK(recorder_.take(channel, message.recorded), "a receiver takes what the search says that it takes");
+    }
     const Outputs outputs = step(to, Input::received(peer, message.word, message.sequence));
-    if (!outputs.ignored) heard_[channel] = {to, from, true, message.word, message.said_in, number_, message.forged};
+    if (!outputs.ignored) heard_[channel] = {to, from, true, message.word, message.said_in, number_, message.forged, message.replayed};
     if (message.sent_in != 0 && !outputs.ignored && members_[to].process_data_counts(peer))
       observer_.on_process_data(from, to, message.sent_in);
   }
@@ -216,6 +232,7 @@ class Player {
   std::size_t late_channel_ = 0;
   std::vector<Heard> heard_;     ///< by channel
   std::size_t number_ = 0;       ///< of the step
+  Recorder recorder_;            ///< with the fault `replay`
 };
 
 constexpr handshake::Invariant invariant_of(Property property) {

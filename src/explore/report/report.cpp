@@ -51,9 +51,10 @@ std::string query_line(const Query& query) {
   const std::string inner = !query.nested() ? "" : ", the last of them master of " + std::to_string(query.inner_slaves) + (query.has_roles() ? " inner role" : " inner slave") + (query.inner_slaves == 1 ? "" : "s");
   const std::string joining = !query.joining ? "" : query.nested() ? ", the last inner slave joins" : ", the last slave joins";
   const std::string beginnings = query.beginnings == Beginnings::all ? "" : ", switched on";
+  const std::string keys = !query.is_signed ? "" : query.key_changes == 0 ? ", signed" : query.key_changes == 1 ? ", signed, keys change once" : ", signed, keys change " + std::to_string(query.key_changes) + " times";
   const std::string of = query.has_roles() && !query.nested() ? " role" : " slave";
   const std::string candidates = !query.has_roles() ? "" : " for " + std::to_string(query.candidates) + (query.candidates == 1 ? " candidate" : " candidates") + (query.starts_again ? ", started again after a replacement" : "");
-  return std::string(variant_of(query)) + ", 1 master and " + std::to_string(query.slaves) + of + (query.slaves == 1 ? "" : "s") + inner + candidates + joining + subscription + network + beginnings +
+  return std::string(variant_of(query)) + ", 1 master and " + std::to_string(query.slaves) + of + (query.slaves == 1 ? "" : "s") + inner + candidates + joining + subscription + network + keys + beginnings +
          "; in a run at most " +
          std::to_string(query.commands) + (query.has_roles() ? " calls, joins and leaves and " : " calls and ") +
          (faults.empty() ? "no fault" : std::to_string(query.fault_budget) + (query.fault_budget == 1 ? " fault of: " : " faults of: ") + faults);

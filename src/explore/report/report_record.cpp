@@ -17,6 +17,8 @@ std::uint64_t inner_slaves(const Exploration& made) { return made.query.inner_sl
 bool is_joining(const Exploration& made) { return made.query.joining; }
 std::uint64_t candidates(const Exploration& made) { return made.query.candidates; }
 std::string network(const Exploration& made) { return made.query.network == Network::registers ? "registers" : "channels=" + std::to_string(made.query.capacity); }
+bool is_signed(const Exploration& made) { return made.query.is_signed; }
+std::uint64_t key_changes(const Exploration& made) { return made.query.key_changes; }
 std::string_view beginnings(const Exploration& made) { return made.query.beginnings == Beginnings::all ? "all" : "switched-on"; }
 std::vector<std::string_view> faults(const Exploration& made) { return faults_of(made.query); }
 std::uint64_t fault_budget(const Exploration& made) { return made.query.fault_budget; }
@@ -53,6 +55,8 @@ const json::Record& describe(json::Type<Exploration>) {
       json::output<&is_joining>("joining", "The last slave comes up late."),
       json::output<&candidates>("candidates", "Nodes for the roles; 0: participants are fixed."),
       json::output<&network>("network", "`registers` (the last word) or `channels=N` (up to N words under way)."),
+      json::output<&is_signed>("signed", "Messages are signed: none is taken twice, nor behind a newer one."),
+      json::output<&key_changes>("key_changes", "How often the key of each participant may change."),
       json::output<&beginnings>("beginnings", "`all` states at rest, or `switched-on` only."),
       json::output<&faults>("faults", "Which may happen."),
       json::output<&fault_budget>("fault_budget", "How many in a run, at most."),

@@ -194,7 +194,8 @@ class Search {
     for (std::size_t p = 0; p < property_count; ++p) {
       const auto property = static_cast<Property>(p);
       PropertyVerdict& verdict = result_.verdicts[p];
-      if ((is_of_silence(property) && !model_.query().asks_for_silence()) || (is_of_roles(property) && !model_.query().has_roles())) {
+      if ((is_of_silence(property) && !model_.query().asks_for_silence()) || (is_of_roles(property) && !model_.query().has_roles()) ||
+          (is_of_replays(property) && !model_.query().has_recordings())) {
         verdict = PropertyVerdict::not_asked;
         continue;
       }

@@ -60,6 +60,20 @@ class Answers(unittest.TestCase):
             status, _, err = explore("--slaves", 1, "--candidates", 2, *wrong)
             self.assertEqual((status, why in err), (2, True), err)
 
+    def test_replays_are_explored_signed_and_not(self):
+        status, out, err = explore("--slaves", 1, "--calls", 1, "--faults", "replay", "--signed", "--format", "json")
+        answer = json.loads(out)
+        self.assertEqual((status, err, answer["states"], answer["signed"], answer["key_changes"]), (0, "", 5809, True, 1))
+        self.assertEqual({answer["properties"][p] for p in ("S1", "S5", "L1", "R1")}, {"holds"})
+        status, out, _ = explore("--slaves", 1, "--calls", 0, "--faults", "replay,restart", "--fault-budget", 2)
+        self.assertEqual(status, 1)
+        self.assertIn("R1 is violated: a word that is older than one that has come of its sender moves nobody", out)
+        for wrong, why in ((("--signed",), "give --faults replay, too"), (("--faults", "replay", "--variant", "paper"), "robust"), (("--faults", "replay", "--network", "channels"), "on registers"),
+                           (("--faults", "replay,forge", "--signed"), "without the key"), (("--faults", "replay", "--key-changes", 1), "those of --signed"), (("--faults", "replay", "--joining"), "one group"),
+                           (("--faults", "replay,duplicate"), "leave duplicate and reorder out")):
+            status, _, err = explore("--slaves", 1, *wrong)
+            self.assertEqual((status, why in err), (2, True), err)
+
     def test_roles_within_another_group(self):
         status, out, err = explore("--slaves", 1, "--nested", "--candidates", 1, "--calls", 1, "--format", "json")
         answer = json.loads(out)

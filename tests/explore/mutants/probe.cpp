@@ -20,6 +20,7 @@ struct Case {
   bool forges = false;   ///< the only fault is a forged word
   std::uint8_t candidates = 0;
   std::uint8_t first_offers = 0xFF;  ///< the roles that the first of them can have
+  bool replays = false;  ///< the faults are replays of signed words, and restarts
 };
 
 /// From short to long; together a few seconds for a handshake that is right.
@@ -35,7 +36,8 @@ const std::vector<Case>& cases() {
                                      {1, 1, 1, Network::registers, handshake::Subscription::star, 0, true},
                                      {1, 1, 0, Network::registers, handshake::Subscription::star, 0, false, 2},
                                      {2, 1, 0, Network::registers, handshake::Subscription::star, 0, false, 2, 2},
-                                     {1, 1, 1, Network::registers, handshake::Subscription::star, 0, false, 1}};
+                                     {1, 1, 1, Network::registers, handshake::Subscription::star, 0, false, 1},
+                                     {1, 1, 2, Network::registers, handshake::Subscription::star, 0, false, 0, 0xFF, true}};
   return all;
 }
 
@@ -51,10 +53,17 @@ Query question_of(const Case& each) {
   query.offers[0] = each.first_offers;
   query.states = 20'000'000;
   if (each.faults == 0) return query;
+  if (each.replays) {
+    query.is_signed = true;
+    query.key_changes = 1;
+    query.faults.insert(Fault::replay);
+    query.faults.insert(Fault::restart);
+    return query;
+  }
   if (each.forges) query.faults.insert(Fault::forge);
   for (std::size_t f = 0; f < fault_count; ++f) {
     const auto fault = static_cast<Fault>(f);
-    if (each.forges || fault == Fault::forge) continue;
+    if (each.forges || fault == Fault::forge || fault == Fault::replay) continue;
     if ((!query.is_tree() && !query.has_roles()) || (fault != Fault::duplicate && fault != Fault::reorder)) query.faults.insert(fault);
   }
   return query;

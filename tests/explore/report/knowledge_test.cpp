@@ -134,6 +134,7 @@ void expect_sound(const Chart& chart, const std::vector<Moment>& moments, std::s
     if (*belief.said_in == 0) continue;
     const ChartStep& said = chart.steps[*belief.said_in - 1];
     EXPECT_EQ(said.action.kind == ActionKind::forge, belief.by_stranger);
+    EXPECT_EQ(*belief.heard_in > 0 && chart.steps[*belief.heard_in - 1].action.kind == ActionKind::replay, belief.is_replayed);
     if (belief.by_stranger) continue;
     EXPECT_TRUE(said.action.kind == ActionKind::send || said.action.kind == ActionKind::reorder) << said.sentence;
     EXPECT_NE(said.sentence.find(belief.of), std::string::npos) << said.sentence;
@@ -204,6 +205,14 @@ TEST(Knowledge, IsWhatTheModelOfAGroupSays) {
   Query robust;
   expect_sound<GroupModel>(with(robust, 1, {{Fault::loss, Fault::crash, Fault::restart, Fault::timeout}}), count);
   expect_sound<GroupModel>(with(robust, 0, {{Fault::forge}}), count);
+  Query replays = with(robust, 1, {{Fault::replay, Fault::restart, Fault::crash}});
+  expect_sound<GroupModel>(replays, count);
+  replays.fault_budget = 2;
+  replays.commands = 0;
+  expect_sound<GroupModel>(replays, count);
+  replays.is_signed = true;
+  replays.key_changes = 1;
+  expect_sound<GroupModel>(replays, count);
   EXPECT_GT(count.runs, 100U);
   EXPECT_GT(count.right, 100U);
   EXPECT_GT(count.wrong, 100U);

@@ -100,9 +100,10 @@ struct Bench {
 };
 
 /// Over None, with a channel and, if it likes, a session. Requests and responses are bodies.
-class PlainClient {
+template <class BenchOf>
+class PlainClientOf {
  public:
-  explicit PlainClient(Bench& bench, std::int64_t now_ms = 0) : bench_(bench), id_(bench.server.connected("192.0.2.1:1000", at(now_ms))) {}
+  explicit PlainClientOf(BenchOf& bench, std::int64_t now_ms = 0) : bench_(bench), id_(bench.server.connected("192.0.2.1:1000", at(now_ms))) {}
 
   ConnectionId id() const { return id_; }
   std::vector<std::byte> octets() {
@@ -191,7 +192,7 @@ class PlainClient {
   Response ask(Body body, std::int64_t now_ms = 0) {
     send_request(std::move(body), now_ms);
     const auto all = take();
-    return all.empty() ? Response() : all.back().as<Response>();
+    return all.empty() ? Response() : all.back().template as<Response>();
   }
   template <Structure Body>
   StatusCode result_of(Body body, std::int64_t now_ms = 0) {
@@ -230,11 +231,12 @@ class PlainClient {
   NodeId token;
 
  private:
-  Bench& bench_;
+  BenchOf& bench_;
   ConnectionId id_;
   std::uint32_t channel_ = 0;
   std::uint32_t sequence_ = 0;
   std::uint32_t request_ = 0;
 };
+using PlainClient = PlainClientOf<Bench>;
 
 }  // namespace takt::opcua::test

@@ -13,8 +13,6 @@ const NodeId programs_folder(own_namespace, "Programs");
 const NodeId transition_event(own_namespace, "ProgramTransitionEvent");
 const NodeId audit_event(own_namespace, "AuditProgramTransitionEvent");
 
-constexpr std::uint32_t duration = 290;
-
 std::uint32_t state_id(PublishedState state) { return program::info(handshake::base_state(state)).node_id; }
 std::string_view state_name(PublishedState state) { return program::name_of(handshake::base_state(state)); }
 std::uint32_t state_number(PublishedState state) { return program::number_of(handshake::base_state(state)); }
@@ -151,8 +149,8 @@ void ProgramNodes::add_group(const ProgramDescription& description) {
   variable("Master", ids::string, Variant(Text(description.master)));
   variable("Participants", ids::string, Variant::array(participants), 1);
   variable("Handshake", ids::string, Variant(Text(description.handshake)));
-  variable("Cycle", duration, Variant(description.cycle_ms));
-  variable("LastReaction", duration, Variant(0.0));
+  variable("Cycle", ids::duration, Variant(description.cycle_ms));
+  variable("LastReaction", ids::duration, Variant(0.0));
   variable("LastAlarm", ids::string, Variant(Text()));
   space_.add_below(child("Group"), ids::organizes, make_node(child("Group.Heard"), NodeClass::Object, own_namespace, "Heard"), ids::folder_type);
   for (const std::string& peer : peers_) {

@@ -54,13 +54,14 @@ std::span<const StandardText> standard_texts();
 /// NodeIds in namespace 0 that takt's code speaks of.
 namespace ids {
 inline constexpr std::uint32_t boolean = 1, uint16 = 5, int32 = 6, uint32 = 7, double_ = 11, string = 12, date_time = 13, byte_string = 15, node_id = 17, status_code = 19,
-                               localized_text = 21, base_data_type = 24, utc_time = 294, argument = 296, program_diagnostic_2 = 24033;
+                               localized_text = 21, base_data_type = 24, integer_id = 288, duration = 290, utc_time = 294, argument = 296, program_diagnostic_2 = 24033;
 inline constexpr std::uint32_t references = 31, hierarchical_references = 33, organizes = 35, has_type_definition = 40, has_subtype = 45, has_property = 46, has_component = 47,
                                has_notifier = 48;
 inline constexpr std::uint32_t base_object_type = 58, folder_type = 61, base_data_variable_type = 63, property_type = 68;
 inline constexpr std::uint32_t objects_folder = 85, server = 2253, base_event_type = 2041, program_state_machine_type = 2391, program_diagnostic_2_type = 15383,
                                finite_state_variable_type = 2760, finite_transition_variable_type = 2767, program_transition_event_type = 2378,
                                audit_program_transition_event_type = 11856, audit_event_type = 2052, event_queue_overflow_event_type = 3035;
+inline constexpr std::uint32_t publish_subscribe = 14443, get_security_keys = 15215, get_security_keys_of_type = 15907;
 inline constexpr std::uint32_t structure_definition_encoding = 122, enum_definition_encoding = 123;
 }  // namespace ids
 

@@ -6,8 +6,9 @@
 
 namespace takt::opcua {
 
-SecureChannel::SecureChannel(std::uint32_t id, const ChannelSecurity& security, std::optional<security::Certificate> other, std::uint32_t first_sequence_number)
-    : id_(id), security_(security), other_(std::move(other)), received_(first_sequence_number) {}
+SecureChannel::SecureChannel(std::uint32_t id, const ChannelSecurity& security, std::optional<security::Certificate> other, std::uint32_t first_sequence_number, Side side,
+                             std::uint32_t sent)
+    : side_(side), id_(id), security_(security), other_(std::move(other)), received_(first_sequence_number), sent_(sent) {}
 
 ChannelSecurityToken SecureChannel::issue(sim::LocalTime now, DateTime utc, std::uint32_t requested_ms, const TokenLifetimes& lifetimes, Octets client_nonce,
                                           Octets server_nonce) {
@@ -19,6 +20,16 @@ ChannelSecurityToken SecureChannel::issue(sim::LocalTime now, DateTime utc, std:
   if (is_secured(security_.policy)) token.keys = derive_keys(info(security_.policy), client_nonce, server_nonce);
   (used_ ? next_ : used_) = std::move(token);
   return {id_, last_token_, utc, static_cast<std::uint32_t>(lifetime.ps() / 1'000'000'000)};
+}
+
+void SecureChannel::take(const ChannelSecurityToken& issued, sim::LocalTime now, Octets client_nonce, Octets server_nonce) {
+  TAKT_CHECK(side_ == Side::client, "a server issues tokens");
+  const auto lifetime = sim::Duration::from_ps(std::int64_t{issued.revised_lifetime} * 1'000'000'000);
+  Token token;
+  token.id = issued.token_id;
+  token.ends = now + lifetime + lifetime / 4;
+  if (is_secured(security_.policy)) token.keys = derive_keys(info(security_.policy), client_nonce, server_nonce);
+  used_ = std::move(token);
 }
 
 StatusCode SecureChannel::take_sequence_number(std::uint32_t number) {
@@ -38,7 +49,7 @@ StatusCode SecureChannel::open(std::span<std::byte> chunk, sim::LocalTime now, O
   Token& token = is_next ? *next_ : *used_;
   if (now >= token.ends) return StatusCode::BadSecureChannelTokenUnknown;
   std::optional<Octets> clear = Octets(chunk).subspan(symmetric_header_octets);
-  if (token.keys) clear = opcua::open(chunk, token.keys->client, security_.mode);
+  if (token.keys) clear = opcua::open(chunk, of_other(*token.keys), security_.mode);
   if (!clear) return StatusCode::BadSecurityChecksFailed;
   uadp::Reader sequence(*clear);
   opened.sequence.sequence_number = sequence.get<std::uint32_t>();
@@ -53,7 +64,7 @@ StatusCode SecureChannel::open(std::span<std::byte> chunk, sim::LocalTime now, O
   return StatusCode::Good;
 }
 
-bool SecureChannel::seal_message(std::uint32_t request_id, Octets body, const SendLimits& limits, std::vector<std::byte>& out) {
+bool SecureChannel::seal_message(std::uint32_t request_id, Octets body, const SendLimits& limits, std::vector<std::byte>& out, MessageType type) {
   TAKT_CHECK(used_.has_value(), "a channel has a token before it sends");
   const std::size_t most = most_body_octets(limits.chunk_octets, security_.mode);
   const std::size_t chunks = std::max<std::size_t>(1, (body.size() + most - 1) / most);
@@ -61,7 +72,7 @@ bool SecureChannel::seal_message(std::uint32_t request_id, Octets body, const Se
   for (std::size_t i = 0; i < chunks; ++i) {
     const Octets part = body.subspan(i * most, std::min(most, body.size() - i * most));
     Encoder encoder;
-    encode_message_header(encoder, MessageType::Message, i + 1 == chunks ? ChunkKind::Final : ChunkKind::Intermediate);
+    encode_message_header(encoder, type, i + 1 == chunks ? ChunkKind::Final : ChunkKind::Intermediate);
     encoder.put(id_);
     encoder.put(used_->id);
     const SequenceHeader header = next_sequence(request_id);
@@ -70,7 +81,7 @@ bool SecureChannel::seal_message(std::uint32_t request_id, Octets body, const Se
     encoder.put_octets(part);
     encoder.patch(4, static_cast<std::uint32_t>(encoder.position()));
     std::vector<std::byte> chunk = encoder.take();
-    if (used_->keys) seal(chunk, used_->keys->server, security_.mode);
+    if (used_->keys) seal(chunk, own(*used_->keys), security_.mode);
     out.insert(out.end(), chunk.begin(), chunk.end());
   }
   return true;

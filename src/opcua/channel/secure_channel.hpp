@@ -1,4 +1,4 @@
-// One secure channel as the server has it (OPC 10000-4, 5.5; OPC 10000-6, 6.7): tokens, keys, sequence numbers. Sans-IO: chunks and times in, chunks out.
+// One secure channel as one of its sides has it (OPC 10000-4, 5.5; OPC 10000-6, 6.7): tokens, keys, sequence numbers. Sans-IO: chunks and times in, chunks out.
 #pragma once
 
 #include "opcua/channel/chunk.hpp"
@@ -27,18 +27,25 @@ struct TokenLifetimes {
   sim::Duration most = sim::Duration::from_ps(3'600'000'000'000'000);
 };
 
+/// Which end of a channel this is.
+enum class Side : std::uint8_t { server, client };
+
 class SecureChannel {
  public:
-  /// The first OPN has been opened and is sound: with these numbers in it. `other` is the client's certificate, if the policy has one.
-  SecureChannel(std::uint32_t id, const ChannelSecurity& security, std::optional<security::Certificate> other, std::uint32_t first_sequence_number);
+  /// The other side's first OPN has been opened and is sound: with these numbers in it. `other` is its certificate, if the policy has one; `sent` the last number of our own.
+  SecureChannel(std::uint32_t id, const ChannelSecurity& security, std::optional<security::Certificate> other, std::uint32_t first_sequence_number, Side side = Side::server,
+                std::uint32_t sent = 0);
 
   std::uint32_t id() const { return id_; }
   const ChannelSecurity& security() const { return security_; }
   /// Null without a policy.
   const security::Certificate* client_certificate() const { return other_ ? &*other_ : nullptr; }
 
-  /// Issues a token, the first one or a renewed one. Its keys are of the two nonces, which are empty without a policy.
+  /// The server issues a token, the first one or a renewed one. Its keys are of the two nonces, which are empty without a policy.
   ChannelSecurityToken issue(sim::LocalTime now, DateTime utc, std::uint32_t requested_ms, const TokenLifetimes& lifetimes, Octets client_nonce, Octets server_nonce);
+
+  /// The client takes the token that the server has issued.
+  void take(const ChannelSecurityToken& token, sim::LocalTime now, Octets client_nonce, Octets server_nonce);
 
   /// A MSG or CLO, decrypted in place. Good, or what an ERR says of it: then the connection ends. The old token is refused when the new one has been used.
   StatusCode open(std::span<std::byte> chunk, sim::LocalTime now, OpenedChunk& opened);
@@ -46,7 +53,7 @@ class SecureChannel {
   StatusCode take_sequence_number(std::uint32_t number);
 
   /// Puts a message into chunks behind `out`. False if it is longer than the limits allow: nothing is written then.
-  bool seal_message(std::uint32_t request_id, Octets body, const SendLimits& limits, std::vector<std::byte>& out);
+  bool seal_message(std::uint32_t request_id, Octets body, const SendLimits& limits, std::vector<std::byte>& out, MessageType type = MessageType::Message);
   /// The sequence header of an OPN response.
   SequenceHeader next_sequence(std::uint32_t request_id) { return {++sent_, request_id}; }
 
@@ -60,14 +67,18 @@ class SecureChannel {
     std::optional<TokenKeys> keys;
   };
 
+  ChunkKeys& own(TokenKeys& keys) const { return side_ == Side::server ? keys.server : keys.client; }
+  ChunkKeys& of_other(TokenKeys& keys) const { return side_ == Side::server ? keys.client : keys.server; }
+
+  Side side_;
   std::uint32_t id_;
   ChannelSecurity security_;
   std::optional<security::Certificate> other_;
   std::optional<Token> used_;
-  std::optional<Token> next_;  ///< issued, and not used by the client yet
+  std::optional<Token> next_;  ///< issued by the server, and not used by the client yet
   std::uint32_t last_token_ = 0;
   std::uint32_t received_;
-  std::uint32_t sent_ = 0;
+  std::uint32_t sent_;
 };
 
 }  // namespace takt::opcua

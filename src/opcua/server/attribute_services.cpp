@@ -8,7 +8,7 @@ namespace takt::opcua {
 
 /// Observers see; a plant is moved by those who are more, and over channels that nobody else can write on, unless the settings say otherwise.
 bool Services::may_call(const Session& session, program::Method method) const {
-  if (session.role == Role::observer) return false;
+  if (session.role != Role::operator_ && session.role != Role::engineer) return false;
   const bool is_enough = session.security.is_encrypted() || settings_.calls_without_encryption;
   return is_enough || (method == program::Method::Halt && settings_.halt_without_encryption);
 }
@@ -16,7 +16,7 @@ bool Services::may_call(const Session& session, program::Method method) const {
 DataValue Services::value_for(const Session* session, const Node& node, AttributeId attribute, Now now) const {
   DataValue value = attribute_of(node, attribute, {now.utc});
   if (attribute != AttributeId::UserExecutable || !is_good(value.result())) return value;
-  bool may = false;
+  bool may = session != nullptr && may_have_keys(*session) && (node.id == NodeId(ids::get_security_keys) || node.id == NodeId(ids::get_security_keys_of_type));
   for (const auto& program : programs_)
     if (const auto method = program->method(node.id); method && session != nullptr) may = may_call(*session, *method);
   value.value = Variant(node.executable && may);
@@ -111,6 +111,10 @@ void Services::call(const Request& request, const CallRequest& body) {
   call.until = request.now.local + settings_.limits.call_within;
   call.response.results.resize(body.methods_to_call.size());
   for (std::size_t i = 0; i < body.methods_to_call.size(); ++i) {
+    if (keys_ != nullptr && body.methods_to_call[i].object_id == NodeId(ids::publish_subscribe)) {
+      call.response.results[i] = get_security_keys(request, body.methods_to_call[i]);
+      continue;
+    }
     const StatusCode status = begin_method(request, body.methods_to_call[i], number, i);
     call.response.results[i].status_code = is_good(status) ? StatusCode::BadTimeout : status;  // until the Program has answered
     call.missing += is_good(status) ? 1U : 0U;

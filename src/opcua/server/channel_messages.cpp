@@ -144,29 +144,11 @@ void Server::answer_open(Connection& connection, const SequenceHeader& sequence,
 
 void Server::send_open(Connection& connection, std::uint32_t request_id, const OpenSecureChannelResponse& response) {
   SecureChannel& channel = *connection.channel;
-  const PolicyInfo& policy = info(channel.security().policy);
-  const bool has_policy = is_secured(policy.policy);
-  AsymmetricHeader header;
-  header.policy_uri = Text(policy.uri);
-  if (has_policy) {
-    header.sender_certificate = Bytes({identity_.certificate.der().begin(), identity_.certificate.der().end()});
-    const auto& thumbprint = channel.client_certificate()->thumbprint();
-    header.receiver_thumbprint = Bytes({thumbprint.begin(), thumbprint.end()});
-  }
-  Encoder encoder;
-  encode_message_header(encoder, MessageType::OpenChannel);
-  encoder.put(channel.id());
-  encode(encoder, header);
-  const std::size_t clear_from = encoder.position();
-  const SequenceHeader sequence = channel.next_sequence(request_id);
-  encoder.put(sequence.sequence_number);
-  encoder.put(sequence.request_id);
-  encode_message(encoder, response);
-  encoder.patch(4, static_cast<std::uint32_t>(encoder.position()));
-  std::vector<std::byte> chunk = encoder.take();
-  if (has_policy && !seal_asymmetric(chunk, clear_from, policy, identity_.key, channel.client_certificate()->key()))
-    return refuse(connection, StatusCode::BadSecurityChecksFailed, "a certificate whose key cannot be used");
-  connection.put(chunk);
+  Encoder body;
+  encode_message(body, response);
+  const auto chunk = sealed_open(channel.id(), info(channel.security().policy), channel.next_sequence(request_id), body.octets(), identity_, channel.client_certificate());
+  if (!chunk) return refuse(connection, StatusCode::BadSecurityChecksFailed, "a certificate whose key cannot be used");
+  connection.put(*chunk);
 }
 
 void Server::take_message(Connection& connection, Octets message, Now now) {

@@ -3,7 +3,9 @@
 
 #include <string_view>
 
+#include "opcua/channel/open_message.hpp"
 #include "opcua/server/session.hpp"
+#include "opcua/services/security_keys.hpp"
 #include "program/method.hpp"
 #include "security/certificate.hpp"
 
@@ -15,6 +17,14 @@ class ProgramHost {
   virtual ~ProgramHost() = default;
   /// False: it cannot be handed over now.
   virtual bool call(std::uint64_t serial, std::size_t program, program::Method method) = 0;
+};
+
+/// Has the keys of SecurityGroups. Asked only for who may have keys, over channels that encrypt.
+class KeyService {
+ public:
+  virtual ~KeyService() = default;
+  /// Bad_NotFound: no such group; Bad_UserAccessDenied: not for this user.
+  virtual Answer<SecurityKeys> keys(const SecurityKeysRequest& request, std::string_view user) = 0;
 };
 
 /// What people should know.
@@ -32,12 +42,6 @@ class Responder {
  public:
   virtual ~Responder() = default;
   virtual void respond(ConnectionId connection, std::uint32_t request_id, Octets body) = 0;
-};
-
-/// Who the server is.
-struct Identity {
-  security::PrivateKey key;
-  security::Certificate certificate;
 };
 
 }  // namespace takt::opcua

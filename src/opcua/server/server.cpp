@@ -4,13 +4,14 @@
 
 namespace takt::opcua {
 
-Server::Server(ServerSettings settings, Identity identity, security::RandomOctets& random, ProgramHost& host, ServerLog& log, const std::vector<ProgramDescription>& programs, Now now)
+Server::Server(ServerSettings settings, Identity identity, security::RandomOctets& random, ProgramHost& host, ServerLog& log, const std::vector<ProgramDescription>& programs, Now now,
+               KeyService* keys)
     : settings_(std::move(settings)),
       identity_(std::move(identity)),
       random_(random),
       log_(log),
       now_(now),
-      services_(settings_, identity_, random, host, log, *this, programs, now) {
+      services_(settings_, identity_, random, host, log, *this, programs, keys, now) {
   std::array<std::byte, 4> first{};
   random_.fill(first);
   last_channel_ = uadp::load_little_endian<std::uint32_t>(first.data()) & 0x7FFF'FFFFU;  // not those of before a restart

@@ -11,8 +11,9 @@ namespace takt::opcua {
 
 class Server final : private Responder {
  public:
-  /// What is given by reference outlives it.
-  Server(ServerSettings settings, Identity identity, security::RandomOctets& random, ProgramHost& host, ServerLog& log, const std::vector<ProgramDescription>& programs, Now now);
+  /// What is given by reference outlives it. `keys` is null unless it is a key service, too.
+  Server(ServerSettings settings, Identity identity, security::RandomOctets& random, ProgramHost& host, ServerLog& log, const std::vector<ProgramDescription>& programs, Now now,
+         KeyService* keys = nullptr);
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 

@@ -2,17 +2,20 @@
 
 #include <algorithm>
 
+#include "opcua/address_space/key_service_nodes.hpp"
+
 namespace takt::opcua {
 
 Services::Services(const ServerSettings& settings, const Identity& identity, security::RandomOctets& random, ProgramHost& host, ServerLog& log, Responder& responder,
-                   const std::vector<ProgramDescription>& programs, Now now)
-    : settings_(settings), identity_(identity), random_(random), host_(host), log_(log), responder_(responder), now_(now) {
+                   const std::vector<ProgramDescription>& programs, KeyService* keys, Now now)
+    : settings_(settings), identity_(identity), random_(random), host_(host), keys_(keys), log_(log), responder_(responder), now_(now) {
   process_ = random_octets(8);
   std::vector<std::byte> first = random_octets(8);
   last_session_ = uadp::load_little_endian<std::uint32_t>(first.data()) & 0x7FFF'FFFFU;
   last_subscription_ = uadp::load_little_endian<std::uint32_t>(first.data() + 4) & 0x7FFF'FFFFU;
   add_server_nodes(now);
   add_program_types(space_);
+  if (keys_ != nullptr) add_key_service(space_);
   for (const ProgramDescription& each : programs) programs_.push_back(std::make_unique<ProgramNodes>(space_, each, now.utc));
   space_.listen([this](const Node& node, AttributeId attribute) { changed(node, attribute); });
 }

@@ -11,9 +11,9 @@ namespace takt::opcua {
 
 class Services {
  public:
-  /// All but the descriptions outlive it.
+  /// All but the descriptions outlive it. `keys` is null unless it is a key service, too.
   Services(const ServerSettings& settings, const Identity& identity, security::RandomOctets& random, ProgramHost& host, ServerLog& log, Responder& responder,
-           const std::vector<ProgramDescription>& programs, Now now);
+           const std::vector<ProgramDescription>& programs, KeyService* keys, Now now);
 
   // Discovery and sessions (session_services.cpp).
   Answer<FindServersResponse> find_servers(const Request& request, const FindServersRequest& body);
@@ -130,6 +130,10 @@ class Services {
   StatusCode begin_method(const Request& request, const CallMethodRequest& method, std::uint64_t call, std::size_t index);
   ProgramNodes* program_with(const NodeId& id, std::size_t& index);
 
+  // key_services.cpp
+  bool may_have_keys(const Session& session) const;
+  CallMethodResult get_security_keys(const Request& request, const CallMethodRequest& wanted);
+
   // item_services.cpp
   MonitoredItemCreateResult create_item(const Request& request, Subscription& subscription, const MonitoredItemCreateRequest& wanted, TimestampsToReturn times);
   StatusCode set_parameters(MonitoredItem& item, const Node& node, const MonitoringParameters& wanted, double least_sampling, std::uint32_t& queue, double& sampling,
@@ -151,6 +155,7 @@ class Services {
   const Identity& identity_;
   security::RandomOctets& random_;
   ProgramHost& host_;
+  KeyService* keys_;
   ServerLog& log_;
   Responder& responder_;
   AddressSpace space_;

@@ -1,6 +1,7 @@
 // Discovery and sessions (OPC 10000-4, 5.4 and 5.6).
 #include <algorithm>
 
+#include "opcua/channel/password.hpp"
 #include "opcua/server/services.hpp"
 
 namespace takt::opcua {
@@ -9,7 +10,6 @@ namespace {
 constexpr std::string_view transport_profile = "http://opcfoundation.org/UA-Profile/Transport/uatcp-uasc-uabinary";
 constexpr std::string_view anonymous_policy = "anonymous";
 constexpr std::size_t most_sources = 256;
-constexpr std::size_t most_password_octets = 64;
 constexpr std::size_t session_nonce_octets = 32;
 
 /// With what policy the password is encrypted: the channel's, and where it has none, one all the same.
@@ -18,24 +18,6 @@ std::string user_policy(SecurityPolicy policy) { return "username_" + std::strin
 
 /// "127.0.0.1:5000" without the port.
 std::string host_of(const std::string& source) { return source.substr(0, source.rfind(':')); }
-
-std::vector<std::byte> joined(Octets a, Octets b) {
-  std::vector<std::byte> both(a.begin(), a.end());
-  both.insert(both.end(), b.begin(), b.end());
-  return both;
-}
-
-/// Password and nonce as they were encrypted: length of both, password, nonce, zeros at most (OPC 10000-4, 7.40.2.2).
-std::optional<std::string> password_in(Octets clear, Octets nonce) {
-  uadp::Reader reader(clear);
-  const std::size_t length = reader.get<std::uint32_t>();
-  if (reader.failed() || length < nonce.size() || length > reader.left() || length - nonce.size() > most_password_octets) return std::nullopt;
-  const Octets password = reader.take(length - nonce.size());
-  const Octets told = reader.take(nonce.size());
-  const Octets rest = reader.rest();
-  if (!security::equal_in_constant_time(told, nonce) || std::any_of(rest.begin(), rest.end(), [](std::byte each) { return each != std::byte{0}; })) return std::nullopt;
-  return std::string(reinterpret_cast<const char*>(password.data()), password.size());
-}
 
 }  // namespace
 

@@ -18,8 +18,8 @@ inline std::int64_t seconds_since_1970(DateTime time) { return time.ticks / 10'0
 
 constexpr sim::Duration milliseconds(std::int64_t count) { return sim::Duration::from_ps(count * 1'000'000'000); }
 
-/// Each may what the one before may: see; call methods; configure whom to trust.
-enum class Role : std::uint8_t { observer, operator_, engineer };
+/// All see. Operators call methods of Programs, and so do engineers, who also configure whom to trust; nodes with key access get keys and call nothing else.
+enum class Role : std::uint8_t { observer, operator_, engineer, key_access };
 
 struct User {
   std::string name;

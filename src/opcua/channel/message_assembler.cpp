@@ -1,4 +1,4 @@
-#include "opcua/server/connection.hpp"
+#include "opcua/channel/message_assembler.hpp"
 
 namespace takt::opcua {
 

@@ -17,8 +17,10 @@ std::uint64_t KeySchedule::changes_until(std::int64_t now_ns) const {
 
 std::uint32_t KeySchedule::token_after(std::uint64_t changes) const { return static_cast<std::uint32_t>((first_token - 1 + changes) % tokens + 1); }
 
+std::uint64_t KeySchedule::place_of(std::uint32_t token) const { return token >= first_token ? token - first_token : tokens - first_token + token; }
+
 std::optional<Secret> ListedKeys::key(std::uint32_t token) const {
-  const std::uint64_t place = token >= first_token_ ? token - first_token_ : tokens - first_token_ + token;
+  const std::uint64_t place = KeySchedule{first_token_, 0, 0}.place_of(token);
   return token == 0 || place >= keys_.size() ? std::nullopt : std::optional(keys_[place]);
 }
 
@@ -59,7 +61,11 @@ auto KeyRing::current(std::int64_t now_ns) -> std::optional<Current> {
   changes_ = std::max(changes_, schedule_.changes_until(now_ns));
   for (std::uint64_t back = 0; back <= std::min(lifetimes_beyond_the_last_key, changes_); ++back) {
     const std::uint32_t token = schedule_.token_after(changes_ - back);
-    if (GroupKey* const key = made(token)) return Current{token, key};
+    GroupKey* const key = made(token);
+    if (key == nullptr) continue;
+    if (used_ != 0 && is_later_token(used_, token)) return std::nullopt;  // it may have signed all that it may
+    used_ = token;
+    return Current{token, key};
   }
   return std::nullopt;
 }
@@ -78,7 +84,7 @@ GroupKey* KeyRing::find(std::uint32_t token, std::int64_t now_ns) {
 void KeyRing::replace(const KeySchedule& schedule, std::unique_ptr<KeySource> source) {
   schedule_ = schedule;
   source_ = std::move(source);
-  changes_ = 0;
+  changes_ = used_ != 0 && is_later_token(used_, schedule.first_token) ? schedule.place_of(used_) : 0;
   slots_ = {};
   next_slot_ = 0;
 }

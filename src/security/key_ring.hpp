@@ -28,6 +28,8 @@ struct KeySchedule {
   /// How many changes there have been; 0 before the first key, too.
   std::uint64_t changes_until(std::int64_t now_ns) const;
   std::uint32_t token_after(std::uint64_t changes) const;
+  /// How many changes lead to this token from the first one; great for those that lie before it.
+  std::uint64_t place_of(std::uint32_t token) const;
 };
 
 /// Gives the octets of keys.
@@ -78,7 +80,7 @@ class KeyRing {
   /// A key to take messages with: the current one, the one before or the one behind it; null for all others.
   GroupKey* find(std::uint32_t token, std::int64_t now_ns);
 
-  /// Keys have come from a key service. Those of before that have a place in it stay what they are.
+  /// Keys have come from a key service, with its schedule. A token that was used is not gone back behind: what lies before it is none to send with.
   void replace(const KeySchedule& schedule, std::unique_ptr<KeySource> source);
 
   const KeySchedule& schedule() const { return schedule_; }
@@ -91,6 +93,7 @@ class KeyRing {
   KeySchedule schedule_;
   std::unique_ptr<KeySource> source_;
   std::uint64_t changes_ = 0;  ///< the most that were seen
+  std::uint32_t used_ = 0;     ///< token that was sent with last; 0: none
   struct Slot {
     std::uint32_t token = 0;
     std::unique_ptr<GroupKey> key;

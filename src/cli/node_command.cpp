@@ -15,6 +15,7 @@
 #include "node/description.hpp"
 #include "node/log.hpp"
 #include "node/real_node.hpp"
+#include "node/server/key_puller.hpp"
 #include "node/server/opcua_server.hpp"
 #include "results/version.hpp"
 
@@ -110,7 +111,10 @@ ExitStatus run_node(const std::string& file, bool is_check) {
     std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
     return ExitStatus::internal_error;
   }
-  const auto live = node::RealNode::make(*loaded, log, applications, problem, warnings, server ? &hand_over : nullptr);
+  node::KeyMailbox mailbox;
+  const auto puller = loaded->key_access ? node::KeyPuller::make(*loaded, folder, mailbox, problem) : nullptr;
+  const bool lacks_puller = loaded->key_access && !puller;
+  const auto live = lacks_puller ? nullptr : node::RealNode::make(*loaded, log, applications, problem, warnings, server ? &hand_over : nullptr, puller ? &mailbox : nullptr);
   if (!live) {
     std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
     return ExitStatus::internal_error;
@@ -121,7 +125,9 @@ ExitStatus run_node(const std::string& file, bool is_check) {
     std::fprintf(stderr, "%s", server->text().c_str());
     server->start();
   }
+  if (puller) puller->start();
   live->run([](const void* guard) { return static_cast<const InterruptGuard*>(guard)->requested(); }, &interrupt);
+  if (puller) puller->stop();
   if (server) server->stop();
   std::fputs(node::status_text(live->status()).c_str(), stderr);
   return ExitStatus::pass;

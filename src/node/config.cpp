@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "json/suggest.hpp"
+#include "node/private_file.hpp"
 #include "node/program_check.hpp"
 #include "plant/program_check.hpp"
 
@@ -118,6 +119,7 @@ class Checker {
     };
     check_order(limits.least_session, limits.most_session, "most_session");
     check_order(limits.least_token, limits.most_token, "most_token");
+    if (server.key_service) loaded_.served = load_groups(server, diagnostics_);
   }
 
   /// The node's Program of this name.
@@ -142,9 +144,11 @@ class Checker {
     if (!config_.security) return;
     const MessageSecurity& security = *config_.security;
     const json::Place place = security.where.at("keys");
-    const std::size_t slash = place.file.rfind('/');
-    loaded_.keys = load_keys((security.keys.starts_with('/') || slash == std::string::npos ? "" : place.file.substr(0, slash + 1)) + security.keys, place, diagnostics_);
+    if (security.keys) loaded_.keys = load_keys(beside(place, *security.keys), place, diagnostics_);
+    if (security.key_service) loaded_.key_access = load_key_access(security, diagnostics_);
     if (loaded_.keys && loaded_.keys->policy != security.policy) diagnostics_.error(place, "keys of another policy", {"other lengths", "those of \"policy\" beside it"});
+    if (loaded_.keys && security.group && *security.group != loaded_.keys->group)
+      diagnostics_.error(security.where.at("group"), "keys of another group", {json::quote(loaded_.keys->group) + " in the file", json::quote(*security.group)});
     for (const LoadedProgram& each : loaded_.programs) {
       if (!each.endpoint.format) continue;
       const std::size_t longest = each.endpoint.format->longest() + security::added_octets(security.mode);

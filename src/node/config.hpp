@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "json/fields.hpp"
+#include "node/key_access.hpp"
 #include "node/key_file.hpp"
 #include "node/message_security.hpp"
 #include "node/server_config.hpp"
@@ -133,7 +134,9 @@ struct LoadedConfig {
   Config config;
   std::vector<LoadedProgram> programs;  ///< in the order of the file; at least one
   std::vector<LoadedCall> script;       ///< by time
-  std::optional<LoadedKeys> keys = {};  ///< if its messages are secured
+  std::optional<LoadedKeys> keys = {};  ///< if its messages are secured with keys of a file, or
+  std::optional<LoadedKeyAccess> key_access = {};  ///< with those of a key service
+  std::vector<LoadedGroup> served = {}; ///< keys that its server gives
 };
 
 /// Which of a node's Programs a command that names none is for: the only one that is not nested in another of them.

@@ -1,23 +1,16 @@
 #include "node/key_file.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <utility>
 
-#include "node/socket.hpp"
 #include "node/message_security.hpp"
+#include "node/private_file.hpp"
 
 namespace takt::node {
 namespace {
 
-constexpr std::size_t longest_file = std::size_t{1} << 20;
 constexpr std::size_t least_secret = 32;
 
 int digit_of(char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1; }
-
-void wipe(std::string& text) { security::wipe(std::as_writable_bytes(std::span(text))); }
 
 /// The octets; the digits are cleared. Nothing if some are none.
 std::optional<security::Secret> from_hex(std::string& digits) {
@@ -31,29 +24,6 @@ std::optional<security::Secret> from_hex(std::string& digits) {
   }
   wipe(digits);
   return is_sound ? std::optional(std::move(octets)) : std::nullopt;
-}
-
-/// What is in the way of trusting the file; "" if nothing is.
-std::string distrust(int file) {
-  struct stat status = {};
-  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return "no regular file";
-  if (status.st_uid != ::geteuid() && status.st_uid != 0) return "a file of another user";
-  if ((status.st_mode & 077) != 0) return "a file that others than its owner may read or write";
-  return static_cast<std::size_t>(status.st_size) > longest_file ? "a file of more than 1 MiB" : "";
-}
-
-std::optional<std::string> read(const std::string& path, const json::Place& named_at, json::Diagnostics& diagnostics) {
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  const std::string problem = file.is_open() ? distrust(file.number()) : what_failed("a file that cannot be read");
-  if (!problem.empty()) {
-    diagnostics.error(named_at, "keys in " + json::quote(path), {problem, "a file of this user or of root with mode 0600 or 0400"});
-    return std::nullopt;
-  }
-  std::string text(longest_file, '\0');
-  std::size_t size = 0;
-  for (ssize_t taken = 1; taken > 0 && size < text.size(); size += taken > 0 ? static_cast<std::size_t>(taken) : 0) taken = ::read(file.number(), text.data() + size, text.size() - size);
-  text.resize(size);
-  return text;
 }
 
 }  // namespace
@@ -75,11 +45,11 @@ const json::Object& describe(json::Type<KeyFile>) {
   return table;
 }
 
-security::KeyRing LoadedKeys::ring(sim::Duration lifetime) const { return {policy, {first_token, first_ns, lifetime.ps() / 1000}, source->clone()}; }
+security::KeyRing LoadedKeys::ring(sim::Duration lifetime) const { return {policy, schedule(lifetime), source->clone()}; }
 
 std::optional<LoadedKeys> load_keys(const std::string& path, const json::Place& named_at, json::Diagnostics& diagnostics) {
   const std::size_t errors_before = diagnostics.errors();
-  auto text = read(path, named_at, diagnostics);
+  auto text = read_private(path, "keys", named_at, diagnostics);
   if (!text) return std::nullopt;
   KeyFile file;
   const auto document = json::parse(*text, path, diagnostics);

@@ -31,6 +31,7 @@ struct LoadedKeys {
   std::int64_t first_ns = 0;
   std::shared_ptr<const security::KeySource> source;
 
+  security::KeySchedule schedule(sim::Duration lifetime) const { return {first_token, first_ns, lifetime.ps() / 1000}; }
   security::KeyRing ring(sim::Duration lifetime) const;
 };
 

@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <array>
+#include <limits>
 
 #include "json/record.hpp"
 
@@ -22,6 +23,11 @@ std::uint16_t sender_of(const LoadedProgram& program) {
   return static_cast<std::uint16_t>(shape.first_publisher_id + (is_candidate ? shape.participants.size() + program.roles->offer->number : program.endpoint.handshake.index));
 }
 
+/// Until some have come: nothing is sent, and nothing taken.
+security::KeyRing no_keys(security::MessagePolicy policy) {
+  return {policy, {1, std::numeric_limits<std::int64_t>::max(), 0}, std::make_unique<security::ListedKeys>(1, std::vector<security::Secret>())};
+}
+
 }  // namespace
 
 const json::Record& describe(json::Type<SecurityStatus>) {
@@ -35,17 +41,24 @@ const json::Record& describe(json::Type<SecurityStatus>) {
   return record;
 }
 
-std::unique_ptr<NodeSecurity> NodeSecurity::make(const LoadedConfig& loaded, std::string& problem) {
+std::unique_ptr<NodeSecurity> NodeSecurity::make(const LoadedConfig& loaded, KeyMailbox* mailbox, std::string& problem) {
   const MessageSecurity& security = *loaded.config.security;
   auto memory = SecurityMemory::open(security.memory.value_or(default_memory_path(loaded.config.node)), problem);
   if (!memory) return nullptr;
   const security::ChannelSettings settings{security.mode, security::Nonces::lives, sender_of(loaded.programs.front()), memory->life()};
+  if (loaded.key_access) return std::unique_ptr<NodeSecurity>(new NodeSecurity(loaded.key_access->group, no_keys(security.policy), settings, std::move(memory), CLOCK_BOOTTIME, mailbox));
   const int clock = loaded.config.clock == ClockName::tai ? CLOCK_TAI : CLOCK_REALTIME;  // keys outlive the machine's start
-  return std::unique_ptr<NodeSecurity>(new NodeSecurity(*loaded.keys, security.key_lifetime, settings, std::move(memory), clock));
+  return std::unique_ptr<NodeSecurity>(new NodeSecurity(loaded.keys->group, loaded.keys->ring(security.key_lifetime), settings, std::move(memory), clock, nullptr));
 }
 
-NodeSecurity::NodeSecurity(const LoadedKeys& keys, sim::Duration lifetime, const security::ChannelSettings& settings, std::unique_ptr<SecurityMemory> memory, int clock)
-    : group_(keys.group), memory_(std::move(memory)), clock_(clock), channel_(settings, keys.ring(lifetime), memory_->windows()) {}
+NodeSecurity::NodeSecurity(std::string group, security::KeyRing keys, const security::ChannelSettings& settings, std::unique_ptr<SecurityMemory> memory, int clock, KeyMailbox* mailbox)
+    : group_(std::move(group)), memory_(std::move(memory)), clock_(clock), mailbox_(mailbox), channel_(settings, std::move(keys), memory_->windows()) {}
+
+/// Once in half a lifetime there are some.
+void NodeSecurity::take_keys() {
+  if (mailbox_ == nullptr) return;
+  if (auto delivery = mailbox_->take()) channel_.keys().replace(delivery->schedule, std::move(delivery->source));
+}
 
 std::int64_t NodeSecurity::now_ns() const {
   timespec time = {};
@@ -54,6 +67,7 @@ std::int64_t NodeSecurity::now_ns() const {
 }
 
 auto NodeSecurity::open(uadp::Octets message) -> Opened {
+  take_keys();
   const security::Opened opened = channel_.open(message, now_ns());
   return {verdicts[static_cast<std::size_t>(opened.verdict)], opened.clear};
 }

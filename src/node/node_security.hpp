@@ -8,6 +8,7 @@
 
 #include "node/config.hpp"
 #include "node/key_file.hpp"
+#include "node/key_mailbox.hpp"
 #include "node/security_memory.hpp"
 #include "security/secure_channel.hpp"
 #include "wire/verdict.hpp"
@@ -26,10 +27,14 @@ const json::Record& describe(json::Type<SecurityStatus>);
 class NodeSecurity {
  public:
   /// Null, and `problem` says why, if there is no memory to be had.
-  static std::unique_ptr<NodeSecurity> make(const LoadedConfig& loaded, std::string& problem);
+  /// Keys of a key service come by `mailbox`, which outlives it.
+  static std::unique_ptr<NodeSecurity> make(const LoadedConfig& loaded, KeyMailbox* mailbox, std::string& problem);
 
   /// Empty if it cannot be sent now; counted.
-  uadp::Octets seal(uadp::Octets clear) { return channel_.seal(clear, now_ns()); }
+  uadp::Octets seal(uadp::Octets clear) {
+    take_keys();
+    return channel_.seal(clear, now_ns());
+  }
   struct Opened {
     wire::Verdict verdict = wire::Verdict::taken;
     uadp::Octets clear;
@@ -38,12 +43,14 @@ class NodeSecurity {
   SecurityStatus status() const;
 
  private:
-  NodeSecurity(const LoadedKeys& keys, sim::Duration lifetime, const security::ChannelSettings& settings, std::unique_ptr<SecurityMemory> memory, int clock);
+  NodeSecurity(std::string group, security::KeyRing keys, const security::ChannelSettings& settings, std::unique_ptr<SecurityMemory> memory, int clock, KeyMailbox* mailbox);
+  void take_keys();
   std::int64_t now_ns() const;
 
   std::string group_;
   std::unique_ptr<SecurityMemory> memory_;
   int clock_;
+  KeyMailbox* mailbox_;                  ///< null: keys are of a file
   security::SecureChannel channel_;
 };
 

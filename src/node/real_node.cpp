@@ -30,7 +30,7 @@ std::uint32_t incarnation_now() {
 }  // namespace
 
 std::unique_ptr<RealNode> RealNode::make(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, std::string& problem,
-                                         std::string& warnings, HandOver* hand_over) {
+                                         std::string& warnings, HandOver* hand_over, KeyMailbox* keys) {
   const Config& config = loaded.config;
   std::unique_ptr<Socket> socket = std::visit([&problem](const auto& transport) { return open_socket(transport, problem); }, config.transport);
   if (!socket) return nullptr;
@@ -47,8 +47,12 @@ std::unique_ptr<RealNode> RealNode::make(const LoadedConfig& loaded, Log& log, c
     if (!node->control_ && config.control) return nullptr;
     if (!node->control_) warnings += "without takt ctl: " + std::exchange(problem, {}) + "\n";
   }
+  if (loaded.key_access && keys == nullptr) {
+    problem = "keys of a key service: whoever hosts this node does not pull them";
+    return nullptr;
+  }
   if (config.security) {
-    node->security_ = NodeSecurity::make(loaded, problem);
+    node->security_ = NodeSecurity::make(loaded, keys, problem);
     if (!node->security_) return nullptr;
   }
   node->host(loaded, log, applications, config.launch_lead && refused_launch.empty() ? *config.launch_lead : Duration());

@@ -24,9 +24,9 @@ class RealNode {
  public:
   /// Null, and `problem` says why, if the machine does not give what the file asks for. What it can do without is a line of
   /// `warnings`. `applications` by Program of the file that this node is in; where there is none, or null, process data are zeros. They,
-  /// `log` and `hand_over`, which is null without a server, outlive the node.
+  /// `log`, `hand_over`, which is null without a server, and `keys`, by which those of a key service come, outlive the node.
   static std::unique_ptr<RealNode> make(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, std::string& problem, std::string& warnings,
-                                        HandOver* hand_over = nullptr);
+                                        HandOver* hand_over = nullptr, KeyMailbox* keys = nullptr);
 
   /// Runs until the file's duration is over or `stop_requested` says so, which is asked after every wake-up.
   void run(bool (*stop_requested)(const void* context), const void* context);

@@ -13,7 +13,7 @@ namespace takt::node {
 
 enum class ServerPolicy : std::uint8_t { none, basic256_sha256, aes128_sha256_rsa_oaep, aes256_sha256_rsa_pss };
 enum class ServerMode : std::uint8_t { sign, sign_and_encrypt };
-enum class UserRole : std::uint8_t { observer, operator_, engineer };
+enum class UserRole : std::uint8_t { observer, operator_, engineer, key_access };
 
 /// Those that are absent are the server's own.
 struct ServerLimits {
@@ -44,6 +44,21 @@ struct ServerLimits {
   bool operator==(const ServerLimits&) const = default;
 };
 
+/// A SecurityGroup that a server gives the keys of.
+struct ServedGroup {
+  json::Source where;
+  std::string keys;                        ///< a file of keys
+  sim::Duration key_lifetime = sim::Duration::from_ps(3'600'000'000'000'000);
+  std::vector<std::string> users;          ///< who may have them; all with key-access if empty
+  bool operator==(const ServedGroup&) const = default;
+};
+struct KeyServiceConfig {
+  json::Source where;
+  std::vector<ServedGroup> groups;
+  std::uint32_t future_keys = 8;
+  bool operator==(const KeyServiceConfig&) const = default;
+};
+
 struct ServerConfig {
   json::Source where;
   std::string endpoint;
@@ -56,6 +71,7 @@ struct ServerConfig {
   bool calls_without_encryption = false;
   bool halt_without_encryption = false;
   std::optional<ServerLimits> limits;
+  std::optional<KeyServiceConfig> key_service;
   bool operator==(const ServerConfig&) const = default;
 };
 
@@ -70,6 +86,8 @@ const json::Enumeration& describe(json::Type<ServerPolicy>);
 const json::Enumeration& describe(json::Type<ServerMode>);
 const json::Enumeration& describe(json::Type<UserRole>);
 const json::Object& describe(json::Type<ServerLimits>);
+const json::Object& describe(json::Type<ServedGroup>);
+const json::Object& describe(json::Type<KeyServiceConfig>);
 const json::Object& describe(json::Type<ServerConfig>);
 
 }  // namespace takt::node

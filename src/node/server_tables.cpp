@@ -48,7 +48,8 @@ const json::Enumeration& describe(json::Type<ServerMode>) {
 
 const json::Enumeration& describe(json::Type<UserRole>) {
   static constexpr json::EnumName names[] = {name(UserRole::observer, "observer", "reads and subscribes"), name(UserRole::operator_, "operator", "calls methods as well"),
-                                             name(UserRole::engineer, "engineer", "an operator who also looks after the trust list")};
+                                             name(UserRole::engineer, "engineer", "an operator who also looks after the trust list"),
+                                             name(UserRole::key_access, "key-access", "a node that gets keys of SecurityGroups; it reads, and calls nothing else")};
   static constexpr json::Enumeration table = json::enumeration<UserRole>("a role", names);
   return table;
 }
@@ -83,6 +84,25 @@ const json::Object& describe(json::Type<ServerLimits>) {
   return table;
 }
 
+const json::Object& describe(json::Type<ServedGroup>) {
+  static constexpr json::Field fields[] = {
+      required<&ServedGroup::keys>("keys", "The file with its keys, from the folder of this file. It is refused if others than its owner may read it.", {.min_length = 1, .max_length = 4096}),
+      optional<&ServedGroup::key_lifetime>("key_lifetime", "How long each key is used; 1 h if absent.", {.min = 1_s, .max = 86'400_s}),
+      optional<&ServedGroup::users>("users", "Users with key-access who may have them; all of these if absent.", {.min_items = 1, .max_items = 1000}),
+  };
+  static constexpr json::Object table = json::object<ServedGroup>("served_group", "A SecurityGroup that a key service gives the keys of.", fields, {.shorthand = "keys"});
+  return table;
+}
+
+const json::Object& describe(json::Type<KeyServiceConfig>) {
+  static constexpr json::Field fields[] = {
+      required<&KeyServiceConfig::groups>("groups", "Its SecurityGroups: each a file of keys, or an object.", {.min_items = 1, .max_items = 256}),
+      optional<&KeyServiceConfig::future_keys>("future_keys", "How many keys behind the current one are given at most; 8 if absent.", {.min = 1, .max = 63}),
+  };
+  static constexpr json::Object table = json::object<KeyServiceConfig>("key_service", "A Security Key Service (OPC 10000-14, 8.3): GetSecurityKeys for users with key-access over encrypted channels.", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<ServerConfig>) {
   static constexpr json::Field fields[] = {
       required<&ServerConfig::endpoint>("endpoint", "\"opc.tcp://127.0.0.1:4840\": the IPv4 address and the port that it listens at; 0.0.0.0 for all addresses.", {.min_length = 1, .max_length = 256}),
@@ -95,6 +115,7 @@ const json::Object& describe(json::Type<ServerConfig>) {
       optional<&ServerConfig::calls_without_encryption>("calls_without_encryption", "Operators may call methods over None and Sign, too."),
       optional<&ServerConfig::halt_without_encryption>("halt_without_encryption", "Operators may call Halt over None and Sign, too."),
       optional<&ServerConfig::limits>("limits", "How much it takes."),
+      optional<&ServerConfig::key_service>("key_service", "It is a key service, too: other nodes pull the keys of their messages from it."),
   };
   static constexpr json::Object table = json::object<ServerConfig>("server", "The OPC UA server (opc.tcp) of a node: its Programs for OPC UA clients.", fields);
   return table;

@@ -1,24 +1,20 @@
 #include "node/server/opcua_server.hpp"
 
 #include <poll.h>
-#include <sched.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 
 #include "node/program_reporter.hpp"
 #include "node/server/describe_programs.hpp"
+#include "node/server/ordinary_thread.hpp"
 
 namespace takt::node {
 namespace {
 
 constexpr std::size_t most_octets_at_once = 65'536;
 constexpr std::size_t most_told = 256;
-constexpr int niceness = 5;  // behind the cycle, where that has no real-time priority
 constexpr Duration drain = opcua::milliseconds(1000);
 constexpr Duration trust_check = opcua::milliseconds(1000);
 
@@ -88,13 +84,13 @@ std::unique_ptr<OpcUaServer> OpcUaServer::make(const LoadedConfig& loaded, std::
   }
   auto listener = TcpListener::open(address, problem);
   if (!listener) return nullptr;
-  std::unique_ptr<OpcUaServer> made(new OpcUaServer(config, Pki(config.pki.value_or((folder.empty() ? "" : folder + "/") + node + "-pki")), std::move(listener), hand_over));
+  std::unique_ptr<OpcUaServer> made(new OpcUaServer(config, Pki(pki_folder(loaded.config, {}, folder)), std::move(listener), hand_over));
   if (!made->stop_.is_open()) {
     problem = what_failed("a server");
     return nullptr;
   }
   opcua::ServerSettings settings;
-  settings.application_uri = config.application_uri.value_or("urn:takt:" + node);
+  settings.application_uri = application_uri_of(loaded.config);
   settings.application_name = "takt node " + node;
   settings.software_version = std::move(version);
   settings.endpoint_url = config.endpoint;
@@ -105,17 +101,13 @@ std::unique_ptr<OpcUaServer> OpcUaServer::make(const LoadedConfig& loaded, std::
   settings.halt_without_encryption = config.halt_without_encryption;
   settings.limits = limits_of(config.limits.value_or(ServerLimits()));
 
-  security::OwnCertificate own;
-  own.application_uri = settings.application_uri;
-  own.common_name = settings.application_name;
-  own.dns_names = {"localhost"};
-  if (address.address != "0.0.0.0") own.addresses = {address.address};
-  own.valid_from = opcua::seconds_since_1970(utc_now()) - 60;  // clocks of others are not quite ours
-  auto identity = made->pki_.identity(own, made->random_, problem);
+  auto identity = own_identity(loaded.config, {}, folder, made->random_, problem);
   if (!identity) return nullptr;
+  if (!loaded.served.empty())
+    made->keys_ = std::make_unique<ServedKeys>(loaded.served, config.key_service->future_keys, [clock = loaded.config.clock] { return key_time_ns(clock); });
   opcua::ProgramHost& host = *made;
   opcua::ServerLog& log = *made;
-  made->server_ = std::make_unique<opcua::Server>(std::move(settings), std::move(*identity), made->random_, host, log, describe_programs(loaded), made->now());
+  made->server_ = std::make_unique<opcua::Server>(std::move(settings), std::move(*identity), made->random_, host, log, describe_programs(loaded), made->now(), made->keys_.get());
   made->pki_.has_changed(made->trust_stamp_);
   made->server_->trust(made->pki_.trust_list());
   return made;
@@ -167,10 +159,7 @@ void OpcUaServer::rejected(const security::Certificate& certificate) { pki_.keep
 opcua::Now OpcUaServer::now() const { return {sim::LocalTime::from_ps((monotonic_ns() - started_ns_) * 1000), utc_now()}; }
 
 void OpcUaServer::run() {
-  // Whatever the cycle asked of the scheduler is not for this thread.
-  sched_param ordinary = {};
-  ::sched_setscheduler(0, SCHED_OTHER, &ordinary);
-  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), niceness);
+  become_ordinary();
   std::vector<pollfd> waiting;
   std::vector<opcua::ConnectionId> whose;
   while (!is_over_) {

@@ -11,6 +11,7 @@
 #include "node/config.hpp"
 #include "node/hand_over.hpp"
 #include "node/server/pki.hpp"
+#include "node/server/served_keys.hpp"
 #include "node/server/tcp_listener.hpp"
 #include "node/server/users.hpp"
 #include "opcua/server/server.hpp"
@@ -57,6 +58,7 @@ class OpcUaServer final : private opcua::ProgramHost, private opcua::ServerLog {
   std::unique_ptr<TcpListener> listener_;
   HandOver& hand_over_;
   security::SystemRandom random_;
+  std::unique_ptr<ServedKeys> keys_;   ///< null: it is no key service
   std::unique_ptr<opcua::Server> server_;
   std::map<opcua::ConnectionId, Open> open_;
   std::set<std::string> told_;      ///< refusals, by source and reason; bounded

@@ -12,6 +12,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "node/program_reporter.hpp"
+
 namespace takt::node {
 namespace {
 
@@ -164,6 +166,27 @@ void Pki::keep_rejected(const security::Certificate& certificate) const {
   if (fs::exists(path, error)) return;
   const auto kept = std::distance(fs::directory_iterator(folder, error), fs::directory_iterator());
   if (!error && static_cast<std::size_t>(kept) < most_rejected) write_file(path, certificate.der(), 0644);
+}
+
+std::string application_uri_of(const Config& config) {
+  return config.server && config.server->application_uri ? *config.server->application_uri : "urn:takt:" + config.node;
+}
+
+std::string pki_folder(const Config& config, const std::optional<std::string>& named, const std::string& folder) {
+  if (named) return *named;
+  if (config.server && config.server->pki) return *config.server->pki;
+  return (folder.empty() ? "" : folder + "/") + config.node + "-pki";
+}
+
+std::optional<opcua::Identity> own_identity(const Config& config, const std::optional<std::string>& named, const std::string& folder, security::RandomOctets& random, std::string& problem) {
+  security::OwnCertificate own;
+  own.application_uri = application_uri_of(config);
+  own.common_name = "takt node " + config.node;
+  own.dns_names = {"localhost"};
+  const auto address = config.server ? parse_endpoint(config.server->endpoint) : std::nullopt;
+  if (address && address->address != "0.0.0.0") own.addresses = {address->address};
+  own.valid_from = opcua::seconds_since_1970(utc_now()) - 60;  // clocks of others are not quite ours
+  return Pki(pki_folder(config, named, folder)).identity(own, random, problem);
 }
 
 }  // namespace takt::node

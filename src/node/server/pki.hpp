@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "node/config.hpp"
 #include "opcua/channel/trust_list.hpp"
 #include "opcua/server/outside.hpp"
 #include "security/random.hpp"
@@ -30,5 +31,12 @@ class Pki {
  private:
   std::string folder_;
 };
+
+/// Who a node is to others, as a server and as a client: the URI in its certificate.
+std::string application_uri_of(const Config& config);
+/// `named`, that of the node's server, or NODE-pki in the folder of its file.
+std::string pki_folder(const Config& config, const std::optional<std::string>& named, const std::string& folder);
+/// Key and certificate of the node in that folder.
+std::optional<opcua::Identity> own_identity(const Config& config, const std::optional<std::string>& named, const std::string& folder, security::RandomOctets& random, std::string& problem);
 
 }  // namespace takt::node

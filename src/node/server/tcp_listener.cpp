@@ -24,6 +24,32 @@ std::optional<std::size_t> TcpConnection::send(std::span<const std::byte> octets
 
 void TcpConnection::end_sending() const { ::shutdown(fd_.number(), SHUT_WR); }
 
+std::optional<TcpConnection> TcpConnection::connect(const EndpointAddress& to, std::string& problem) {
+  sockaddr_in address = {};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(to.port);
+  if (::inet_pton(AF_INET, to.address.c_str(), &address.sin_addr) != 1) {
+    problem = to.address + ": no IPv4 address";
+    return std::nullopt;
+  }
+  FileDescriptor fd(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (fd.is_open() && (::connect(fd.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 || errno == EINPROGRESS)) {
+    const int on = 1;
+    ::setsockopt(fd.number(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    return TcpConnection(std::move(fd), to.address + ":" + std::to_string(to.port));
+  }
+  problem = what_failed("no connection");
+  return std::nullopt;
+}
+
+std::string TcpConnection::problem() const {
+  int error = 0;
+  socklen_t size = sizeof error;
+  ::getsockopt(fd_.number(), SOL_SOCKET, SO_ERROR, &error, &size);
+  errno = error != 0 ? error : ECONNRESET;
+  return what_failed("no connection");
+}
+
 std::unique_ptr<TcpListener> TcpListener::open(const EndpointAddress& endpoint, std::string& problem) {
   sockaddr_in address = {};
   address.sin_family = AF_INET;

@@ -13,6 +13,8 @@ namespace takt::node {
 class TcpConnection {
  public:
   TcpConnection(FileDescriptor fd, std::string source) : fd_(std::move(fd)), source_(std::move(source)) {}
+  /// To a server; it may be there only when something can be sent. Nothing, and `problem` says why, if that cannot be.
+  static std::optional<TcpConnection> connect(const EndpointAddress& to, std::string& problem);
 
   int file_descriptor() const { return fd_.number(); }
   /// "127.0.0.1:53412".
@@ -22,6 +24,8 @@ class TcpConnection {
   Came receive(std::span<std::byte> buffer, std::size_t& octets) const;
   /// How many were taken; nothing if the connection is gone.
   std::optional<std::size_t> send(std::span<const std::byte> octets) const;
+  /// What is wrong with it, as far as the operating system says.
+  std::string problem() const;
   /// No more will be sent; what was, arrives.
   void end_sending() const;
 

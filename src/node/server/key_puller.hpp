@@ -1,0 +1,59 @@
+// Pulls the keys of a node's messages from a key service, in a thread of its own beside the cycle: a client of src/opcua behind a socket. To the cycle it speaks by a mailbox only.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "node/applications/thread_group.hpp"
+#include "node/config.hpp"
+#include "node/hand_over.hpp"
+#include "node/key_mailbox.hpp"
+#include "node/server/pki.hpp"
+#include "node/server/tcp_listener.hpp"
+#include "opcua/client/call_client.hpp"
+#include "security/pulled_keys.hpp"
+
+namespace takt::node {
+
+class KeyPuller {
+ public:
+  /// Null, and `problem` says why, if the machine does not give what it needs. `mailbox` outlives it. `folder` is where the node's file is.
+  static std::unique_ptr<KeyPuller> make(const LoadedConfig& loaded, const std::string& folder, KeyMailbox& mailbox, std::string& problem);
+  ~KeyPuller();
+
+  /// Throws std::system_error if the machine gives no thread.
+  void start();
+  /// Ends, in the middle of a pull too; throws what the thread has thrown.
+  void stop();
+
+ private:
+  KeyPuller(const LoadedConfig& loaded, opcua::Identity identity, KeyMailbox& mailbox);
+
+  void run();
+  /// "", or what went wrong.
+  std::string pull();
+  std::string connected_call(TcpConnection& connection, opcua::CallClient& client);
+  std::string take(const opcua::CallMethodResult& result);
+  void tell(const std::string& problem);
+  void tell_if_none_are_left();
+  /// Until then, or until it is to end.
+  void wait_until(std::int64_t boot_ns);
+
+  LoadedKeyAccess access_;
+  std::string endpoint_;
+  opcua::Identity identity_;
+  KeyMailbox& mailbox_;
+  security::SystemRandom random_;
+  opcua::CallClientSettings settings_;
+  security::PulledKeys keys_;
+  std::string told_;                ///< the last problem
+  bool has_told_keys_ = false;
+  bool has_told_none_ = false;
+  std::atomic<bool> is_over_{false};
+  Wake stop_;
+  std::vector<std::byte> buffer_;
+  ThreadGroup threads_{is_over_};
+};
+
+}  // namespace takt::node

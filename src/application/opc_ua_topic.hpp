@@ -2,6 +2,7 @@
 // each thread that publishes to it.
 #pragma once
 
+#include <deque>
 #include <span>
 
 #include "application/topic_shape.hpp"
@@ -10,16 +11,26 @@
 
 namespace takt::application {
 
-/// Who publishes.
+/// Who publishes: the topic's number, its PublisherId where it has no other one, and the publication's among those of the topic, from 1 on.
 struct OpcUaAddress {
   std::uint16_t publisher_id = 0;
   std::uint16_t writer_group_id = 0;
 };
 
-/// Calls the stack once for each value; neither moves while it lives.
+/// What messages say of who publishes: the PublisherId, nothing if it is off. A String is the shape's.
+std::optional<uadp::PublisherId> publisher_of(const TopicShape& topic, const OpcUaAddress& address);
+/// With WriterGroupId and content mask.
+pubsub::WriterGroupSettings group_settings(const TopicShape& topic, const OpcUaAddress& address, uadp::DateTime epoch = {});
+pubsub::DataSetWriterSettings writer_settings(const TopicShape& topic);
+
+/// Octets of the longest NetworkMessage of the topic; 0 if a sample may be too long for one.
+std::size_t longest_message(const TopicShape& topic, const OpcUaAddress& address);
+
+/// Calls the stack once for each value, and with delta frames not if nothing has changed; neither moves while it lives.
 class OpcUaPublication {
  public:
-  OpcUaPublication(const TopicShape& topic, const OpcUaAddress& address, pubsub::PublishedData& stack, sim::LocalTime now);
+  /// `epoch`: the UTC time at local time 0, for time stamps.
+  OpcUaPublication(const TopicShape& topic, const OpcUaAddress& address, pubsub::PublishedData& stack, sim::LocalTime now, uadp::DateTime epoch = {});
   OpcUaPublication(const OpcUaPublication&) = delete;
   OpcUaPublication& operator=(const OpcUaPublication&) = delete;
 
@@ -43,9 +54,10 @@ class OpcUaSubscription {
   OpcUaSubscription(const OpcUaSubscription&) = delete;
   OpcUaSubscription& operator=(const OpcUaSubscription&) = delete;
 
-  /// The fields that the message brings, valid until the next call; nothing if it is not for this subscription.
+  /// All fields after the message, valid until the next call; nothing if it is not for this subscription. Of each publication samples are what was
+  /// published: behind a loss delta frames are not taken until the next key frame.
   std::optional<uadp::Octets> receive(uadp::Octets message, sim::LocalTime now);
-  /// Messages that were sent, as their numbers show, and did not come.
+  /// Messages that were sent, as their numbers show, and did not come or were not taken.
   std::uint64_t lost() const;
 
  private:
@@ -57,11 +69,11 @@ class OpcUaSubscription {
   };
   NoInput input_;
   NoOutput output_;
-  gateway::FieldValues values_;
+  std::deque<gateway::FieldValues> values_;   // one for each WriterGroup: delta frames say what has changed since its own
   pubsub::Subscriber subscriber_;
-  std::vector<std::string> readers_;   // one for each WriterGroup
+  std::vector<std::string> readers_;          // the same
   pubsub::Communication communication_;
-  bool has_come_ = false;
+  const gateway::FieldValues* come_ = nullptr;   // of the present message
 };
 
 }  // namespace takt::application

@@ -24,12 +24,15 @@ struct TopicShape {
   gateway::IdlStruct type;
   gateway::KeyLayout key;       ///< of DDS; in a payload
   std::vector<Place> keys;
-  Place value;                  ///< of the first field that is no key: what a pattern says
+  Place value;                  ///< of the first field that is a number and no key: what a pattern says
+  plant::UadpLayout layout = {};  ///< of OPC UA
 
   /// Octets of all values alone.
   std::size_t octets() const;
-  /// All zeros.
+  /// All zeros and empty; the places above are in it.
   std::vector<std::byte> zeros() const;
+  /// The longest values: zeros, texts with all octets that they may have.
+  std::vector<std::byte> longest() const;
   /// Whether the first value is zero.
   bool is_zero(uadp::Octets value_of_topic) const;
 };

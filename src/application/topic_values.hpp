@@ -21,10 +21,13 @@ class Publication {
   uadp::Octets fields() const { return fields_; }
 
  private:
+  void put_values(const json::NameMap<std::string>& values);
+
   const TopicShape* topic_;
   plant::Payload payload_;
   std::optional<gateway::TypeMapping> mapping_;
   std::vector<std::byte> fields_;
+  std::size_t value_at_;    ///< where the pattern is in `fields_`
   std::vector<std::byte> carried_;
   std::uint64_t count_ = 0;
 };

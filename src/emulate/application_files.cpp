@@ -8,6 +8,7 @@
 #include "json/fields.hpp"
 #include "json/reader.hpp"
 #include "node/applications/config.hpp"
+#include "plant/topic_check.hpp"
 
 namespace takt::emulate {
 namespace {
@@ -54,7 +55,7 @@ class Files {
     plant::Topic topic = *resolved.description;
     topic.name = name_of(topic.name);
     if (topic.protocol == plant::Protocol::opc_ua) {
-      topic.publisher_id = resolved.publisher_id;
+      if (plant::has_uint16_publisher(topic)) topic.publisher_id = resolved.publisher_id;
       has_opc_ua_ = true;
     }
     if (topic.pcp || topic.vlan != 0) left_out_.insert("priorities and VLANs of topics");

@@ -21,6 +21,18 @@ void store(const uadp::Variant& value, std::vector<std::byte>& target) {
   target.resize(writer.position());  // strings of RawData are packed
 }
 
+/// Whether no string is longer than the field's; any is where it has no greatest length.
+bool strings_fit(const uadp::RawField& field, const uadp::Variant& value) {
+  if (field.max_string_length == 0) return true;
+  uadp::Reader reader(value.octets);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const std::size_t begin = reader.position();
+    if (uadp::get_length_and_octets(reader).size() > field.max_string_length || reader.failed()) return false;
+    if (value.stride != 0) reader.take(value.stride - (reader.position() - begin));  // RawData pads
+  }
+  return true;
+}
+
 std::vector<std::byte> zero_of(const uadp::RawField& field) {
   const std::size_t fixed = uadp::fixed_octets(field.type);
   const std::size_t of_one = fixed != 0 ? fixed : 4;  // a string of length 0
@@ -54,7 +66,7 @@ Octets FieldValues::octets() const {
 bool FieldValues::can_take(std::size_t index, const uadp::Variant& value) const {
   const uadp::RawField& field = fields_[index].type;
   if (value.type != field.type || value.is_array != field.is_array) return false;
-  return !field.is_array || field.array_length == 0 || value.size() <= field.array_length;
+  return (!field.is_array || field.array_length == 0 || value.size() <= field.array_length) && strings_fit(field, value);
 }
 
 bool FieldValues::take(std::size_t index, const uadp::Variant& value) {

@@ -10,6 +10,7 @@
 #include "plant/dds.hpp"
 #include "plant/latency.hpp"
 #include "plant/program.hpp"
+#include "plant/uadp.hpp"
 #include "sim/time.hpp"
 
 namespace takt::plant {
@@ -20,13 +21,14 @@ enum class Protocol : std::uint8_t { opc_ua, dds };
 enum class Pattern : std::uint8_t { counter, alternate };
 enum class Overflow : std::uint8_t { overwrite_oldest, drop_newest, keep_latest };
 
-/// What a thread publishes: the first field says it, all others are zero; or what another topic last said.
+/// What a thread publishes: the first field that is a number says it, all others are zero or empty but for `values`; or what another topic last said.
 struct Payload {
   json::Source where;
   std::optional<Pattern> pattern;
   std::optional<std::string> copy_of;
   std::optional<std::uint32_t> instance;   ///< of a topic with keys, as the next
   std::optional<std::uint32_t> instances;
+  json::NameMap<std::string> values = {};  ///< of fields that are no numbers, as text
   bool operator==(const Payload&) const = default;
 };
 
@@ -45,10 +47,11 @@ struct Topic {
   json::Source where;
   std::string name;
   Protocol protocol = Protocol::opc_ua;
-  json::NameMap<DataField> fields;
+  json::NameMap<TopicField> fields;
   std::optional<std::uint16_t> publisher_id = {};  ///< of OPC UA; by its position if absent
   std::optional<std::uint8_t> pcp;
   std::uint16_t vlan = 0;
+  std::optional<UadpLayout> uadp = {};        ///< of OPC UA; as UadpLayout() if absent
   std::vector<std::string> keys = {};         ///< of DDS, as all below: fields that tell instances apart
   std::optional<std::string> type;
   std::optional<std::uint16_t> domain;

@@ -24,8 +24,8 @@ const json::Enumeration& describe(json::Type<Protocol>) {
 
 const json::Enumeration& describe(json::Type<Pattern>) {
   static constexpr json::EnumName names[] = {
-      name(Pattern::counter, "counter", "the first field, keys apart, counts the publications, from 1 on"),
-      name(Pattern::alternate, "alternate", "the first field, keys apart, is 1 and 0 by turns"),
+      name(Pattern::counter, "counter", "the first field that is a number, keys apart, counts the publications, from 1 on"),
+      name(Pattern::alternate, "alternate", "the first field that is a number, keys apart, is 1 and 0 by turns"),
   };
   static constexpr json::Enumeration table = json::enumeration<Pattern>("a pattern", names);
   return table;
@@ -33,10 +33,11 @@ const json::Enumeration& describe(json::Type<Pattern>) {
 
 const json::Object& describe(json::Type<Payload>) {
   static constexpr json::Field fields[] = {
-      optional<&Payload::pattern>("pattern", "What the first field of each sample is that is no key; all other values are zero."),
+      optional<&Payload::pattern>("pattern", "What the first field of each sample is that is a number and no key; all other values are zero, or as `values` says."),
       optional<&Payload::copy_of>("copy_of", "A topic that the application subscribes to: its newest sample is published; nothing before the first one."),
       optional<&Payload::instance>("instance", "Of a topic with keys: what its key fields hold; 0 if absent."),
       optional<&Payload::instances>("instances", "Of a topic with keys: so many instances, from that one on, by turns; 1 if absent.", {.min = 1, .max = 1'000'000}),
+      optional<&Payload::values>("values", "With a pattern: what single fields hold that are no numbers. String: the text; Guid: \"72962b91-fa75-4ae6-8d28-b404dc7daf63\"; DateTime: \"2024-01-17T02:26:40Z\"; ByteString: hexadecimal digits.", {.min_items = 1, .max_items = 256}),
   };
   static constexpr std::string_view contents[] = {"pattern", "copy_of"};
   static constexpr json::Group groups[] = {json::exactly_one_of(contents)};
@@ -80,6 +81,7 @@ const json::Object& describe(json::Type<Topic>) {
       optional<&Topic::publisher_id>("publisher_id", "Of OPC UA: PublisherId of whoever publishes it; the next one that is free if absent.", {.min = 1}),
       optional<&Topic::pcp>("pcp", "Priority in a VLAN tag; untagged, priority 0, if absent.", {.max = 7}),
       optional<&Topic::vlan>("vlan", "VLAN identifier in the tag; 0 is a priority tag.", {.max = 4094}),
+      optional<&Topic::uadp>("uadp", "Of OPC UA: ids, content masks and encoding of its messages."),
       optional<&Topic::keys>("keys", "Of DDS: the fields that tell instances apart.", {.max_items = 16, .unique = true}),
       optional<&Topic::type>("type", "Of DDS: the name of the IDL struct, with its modules (\"Plant::Sample\"); the name of the topic if absent.", {.min_length = 1, .max_length = 255}),
       optional<&Topic::domain>("domain", "Of DDS: the DomainId; 0 if absent.", {.max = 232}),

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "json/suggest.hpp"
+#include "plant/topic_check.hpp"
 
 namespace takt::plant {
 namespace {
@@ -11,7 +12,7 @@ bool is_key(const std::vector<std::string>& keys, const std::string& name) { ret
 
 }  // namespace
 
-void check_keys(const json::Source& topic, const std::vector<std::string>& keys, const json::NameMap<DataField>& fields, json::Diagnostics& diagnostics) {
+void check_keys(const json::Source& topic, const std::vector<std::string>& keys, const json::NameMap<TopicField>& fields, json::Diagnostics& diagnostics) {
   std::vector<std::string_view> names;
   for (const auto& [name, field] : fields) names.push_back(name);
   bool all_known = true;
@@ -31,8 +32,9 @@ void check_instances(const Payload& payload, bool has_keys, json::Diagnostics& d
     if (payload.where.has(key)) diagnostics.error(payload.where.at(key), "an instance of a topic without keys", {json::quote(key), "a topic of DDS with \"keys\""});
 }
 
-std::size_t value_field(const json::NameMap<DataField>& fields, const std::vector<std::string>& keys) {
-  const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& each) { return !is_key(keys, each.first); });
+std::size_t value_field(const json::NameMap<TopicField>& fields, const std::vector<std::string>& keys) {
+  auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& each) { return !is_key(keys, each.first) && is_number(each.second.type); });
+  if (found == fields.end()) found = std::find_if(fields.begin(), fields.end(), [&](const auto& each) { return !is_key(keys, each.first); });
   return found == fields.end() ? 0 : static_cast<std::size_t>(found - fields.begin());
 }
 

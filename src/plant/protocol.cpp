@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "plant/program_check.hpp"
+#include "sim/check.hpp"
 #include "wire/program_node.hpp"
 
 namespace takt::plant {
@@ -16,10 +17,24 @@ constexpr std::array<BuiltInType, 11> built_in_types = {
     BuiltInType::Boolean, BuiltInType::SByte, BuiltInType::Byte,   BuiltInType::Int16, BuiltInType::UInt16, BuiltInType::Int32,
     BuiltInType::UInt32,  BuiltInType::Int64, BuiltInType::UInt64, BuiltInType::Float, BuiltInType::Double};
 static_assert(built_in_types.size() == static_cast<std::size_t>(DataType::float64) + 1);
+constexpr std::array<BuiltInType, 4> types_beyond_numbers = {BuiltInType::String, BuiltInType::DateTime, BuiltInType::Guid, BuiltInType::ByteString};
+static_assert(built_in_types.size() + types_beyond_numbers.size() == static_cast<std::size_t>(TopicType::byte_string) + 1);
 
 }  // namespace
 
 BuiltInType built_in_type_of(DataType type) { return built_in_types[static_cast<std::size_t>(type)]; }
+
+BuiltInType built_in_type_of(TopicType type) {
+  const auto number = static_cast<std::size_t>(type);
+  return number < built_in_types.size() ? built_in_types[number] : types_beyond_numbers[number - built_in_types.size()];
+}
+
+TopicType topic_type_of(BuiltInType type) {
+  std::size_t number = 0;
+  while (number <= static_cast<std::size_t>(TopicType::byte_string) && built_in_type_of(static_cast<TopicType>(number)) != type) ++number;
+  TAKT_CHECK(number <= static_cast<std::size_t>(TopicType::byte_string), "a type that fields of topics have");
+  return static_cast<TopicType>(number);
+}
 
 std::uint32_t field_octets_of(const ProcessData& data) {
   std::uint32_t octets = 0;

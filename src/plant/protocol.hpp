@@ -9,6 +9,7 @@
 #include "handshake/participant.hpp"
 #include "plant/role.hpp"
 #include "plant/program.hpp"
+#include "plant/uadp.hpp"
 #include "wire/program_endpoint.hpp"
 #include "wire/program_shape.hpp"
 #include "wire/role_format.hpp"
@@ -16,6 +17,9 @@
 namespace takt::plant {
 
 uadp::BuiltInType built_in_type_of(DataType type);
+uadp::BuiltInType built_in_type_of(TopicType type);
+/// The other way, of a type that fields of topics may have.
+TopicType topic_type_of(uadp::BuiltInType type);
 
 /// Octets of all values of a data set.
 std::uint32_t field_octets_of(const ProcessData& data);

@@ -32,4 +32,14 @@ inline constexpr std::uint32_t periodic_fixed = Status | SequenceNumber;        
 inline constexpr std::uint32_t dynamic = Timestamp | Status | MinorVersion | SequenceNumber;  ///< A.2.2
 }  // namespace data_set_message_content
 
+/// DataSetFieldContentMask (OPC 10000-14, 6.2.4.2): none of them is the Variant encoding, RawData alone is RawData, all others are DataValues.
+namespace data_set_field_content {
+inline constexpr std::uint32_t StatusCode = 1U << 0;
+inline constexpr std::uint32_t SourceTimestamp = 1U << 1;
+inline constexpr std::uint32_t ServerTimestamp = 1U << 2;
+inline constexpr std::uint32_t SourcePicoSeconds = 1U << 3;
+inline constexpr std::uint32_t ServerPicoSeconds = 1U << 4;
+inline constexpr std::uint32_t RawData = 1U << 5;
+}  // namespace data_set_field_content
+
 }  // namespace takt::pubsub

@@ -78,7 +78,7 @@ void DataSetReader::take_message(const uadp::DataSetMessage& message, sim::Local
     return;
   }
   // A message that will not be taken must not move the window either.
-  if (header.type == DataSetMessageType::DeltaFrame && !has_key_) {
+  if (header.type == DataSetMessageType::DeltaFrame && (!has_key_ || is_behind_gap(header))) {
     ++counts_.without_key;
     return;
   }
@@ -113,6 +113,13 @@ bool DataSetReader::is_new(const uadp::DataSetMessageHeader& header) {
   if (!header.sequence_number) return true;
   if (header.type != DataSetMessageType::KeepAlive) return window_.take(*header.sequence_number) == uadp::Sequence::newer;
   return !window_.last() || uadp::compare_sequence(*header.sequence_number, *window_.last()) == uadp::Sequence::newer;
+}
+
+/// As nothing behind the gap moves the window but a key frame, all delta frames until then are behind it, too.
+bool DataSetReader::is_behind_gap(const uadp::DataSetMessageHeader& header) const {
+  if (!settings_.needs_key_after_gap || !header.sequence_number || !window_.last()) return false;
+  const auto next = static_cast<std::uint16_t>(*window_.last() + 1);
+  return uadp::compare_sequence(*header.sequence_number, *window_.last()) == uadp::Sequence::newer && *header.sequence_number != next;
 }
 
 /// The header alone, without FieldCount (OPC 10000-14, 7.2.4.5.5), or no field: the publisher lives, and there is no value. It uses a number up.

@@ -18,6 +18,9 @@ struct DataSetReaderSettings {
   std::optional<std::uint32_t> major_version = {};  ///< a message with another one is not understood
   /// Of messages without a PayloadHeader: octets of the DataSetMessage in its NetworkMessage; 0: as long as it is.
   std::size_t configured_size = 0;
+  /// After a gap in the sequence numbers delta frames are not taken until the next key frame: what is lost may have changed fields that they
+  /// do not have. Otherwise fields keep what they last had.
+  bool needs_key_after_gap = false;
 };
 
 /// What a reader did with DataSetMessages.
@@ -26,7 +29,7 @@ struct ReaderCounts {
   std::uint64_t keep_alives = 0;    ///< and heartbeats, which are key or delta frames without fields
   std::uint64_t not_newer = 0;      ///< the same again, overtaken, or with a number far away
   std::uint64_t not_valid = 0;      ///< the publisher says so
-  std::uint64_t without_key = 0;    ///< delta frames before the first key frame
+  std::uint64_t without_key = 0;    ///< delta frames before the first key frame, and behind a gap where it counts
   std::uint64_t other_version = 0;
   std::uint64_t mismatched = 0;     ///< malformed, or of other types or numbers of fields than the DataSet
   std::uint64_t with_bad = 0;       ///< of those taken: with fields that are Bad and so have no value
@@ -64,6 +67,7 @@ class DataSetReader {
   std::optional<std::size_t> length_of(const uadp::DataSetMessage& message) const;
   void take_message(const uadp::DataSetMessage& message, sim::LocalTime now);
   bool is_new(const uadp::DataSetMessageHeader& header);
+  bool is_behind_gap(const uadp::DataSetMessageHeader& header) const;
   bool take_fields(const uadp::DataSetMessage& message);
   bool take_raw(const uadp::DataSetMessage& message);
   bool is_heartbeat(const uadp::DataSetMessage& message) const;

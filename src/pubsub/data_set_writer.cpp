@@ -43,9 +43,9 @@ Composed DataSetWriter::compose(sim::LocalTime now, uadp::DateTime timestamp, si
   } else {
     encoder.begin(header_of(key_frame ? DataSetMessageType::KeyFrame : DataSetMessageType::DeltaFrame, timestamp));
     if (key_frame)
-      put_key_frame(encoder, writer);
+      put_key_frame(encoder, timestamp, writer);
     else
-      put_delta_frame(encoder, writer);
+      put_delta_frame(encoder, timestamp, writer);
     encoder.end(settings_.configured_size);
   }
   if (writer.overflowed()) return Composed::too_long;
@@ -76,11 +76,11 @@ bool DataSetWriter::has_changed(std::size_t field) const {
 
 /// A delta frame that is longer than the key frame is never sent. It has the octet DataSetFlags2, perhaps in addition.
 bool DataSetWriter::delta_pays() const {
-  const std::size_t mask = settings_.field_encoding == FieldEncoding::DataValue ? 1 : 0;
+  const std::size_t beside = octets_beside_value();
   std::size_t key = 0;
   std::size_t delta = 1;
   for (std::size_t i = 0; i < data_set_.field_count(); ++i) {
-    const std::size_t octets = sampled_.field(i).size() + mask;
+    const std::size_t octets = sampled_.field(i).size() + beside;
     key += octets;
     if (has_changed(i)) delta += sizeof(std::uint16_t) + octets;
   }
@@ -101,7 +101,7 @@ uadp::DataSetMessageHeader DataSetWriter::header_of(DataSetMessageType type, uad
   return header;
 }
 
-void DataSetWriter::put_key_frame(uadp::DataSetMessageEncoder& encoder, uadp::Writer& writer) const {
+void DataSetWriter::put_key_frame(uadp::DataSetMessageEncoder& encoder, uadp::DateTime timestamp, uadp::Writer& writer) const {
   for (std::size_t i = 0; i < data_set_.field_count(); ++i) {
     if (settings_.field_encoding == FieldEncoding::RawData) {
       uadp::Reader reader(sampled_.field(i));
@@ -109,20 +109,42 @@ void DataSetWriter::put_key_frame(uadp::DataSetMessageEncoder& encoder, uadp::Wr
       TAKT_CHECK(fits || writer.overflowed(), "a field fits the layout that was made of its type");
       continue;
     }
-    if (settings_.field_encoding == FieldEncoding::DataValue) writer.put(std::uint8_t{0x01});
-    encoder.body(sampled_.field(i));
-    encoder.count_fields(1);
+    put_field(encoder, i, timestamp, writer);
   }
 }
 
-void DataSetWriter::put_delta_frame(uadp::DataSetMessageEncoder& encoder, uadp::Writer& writer) const {
+void DataSetWriter::put_delta_frame(uadp::DataSetMessageEncoder& encoder, uadp::DateTime timestamp, uadp::Writer& writer) const {
   for (std::size_t i = 0; i < data_set_.field_count(); ++i) {
     if (!has_changed(i)) continue;
     writer.put(static_cast<std::uint16_t>(i));
-    if (settings_.field_encoding == FieldEncoding::DataValue) writer.put(std::uint8_t{0x01});
-    encoder.body(sampled_.field(i));
-    encoder.count_fields(1);
+    put_field(encoder, i, timestamp, writer);
   }
+}
+
+/// A Variant, or a DataValue around it: mask, value, times (OPC 10000-6, 5.2.2.17).
+void DataSetWriter::put_field(uadp::DataSetMessageEncoder& encoder, std::size_t field, uadp::DateTime timestamp, uadp::Writer& writer) const {
+  namespace content = data_set_field_content;
+  const bool is_data_value = settings_.field_encoding == FieldEncoding::DataValue;
+  const auto has = [&](std::uint32_t part) { return is_data_value && (settings_.data_set_field_content_mask & part) != 0; };
+  unsigned mask = 0x01;
+  if (has(content::SourceTimestamp)) mask |= 0x04U;
+  if (has(content::ServerTimestamp)) mask |= 0x08U;
+  if (has(content::SourcePicoSeconds)) mask |= 0x10U;
+  if (has(content::ServerPicoSeconds)) mask |= 0x20U;
+  if (is_data_value) writer.put(static_cast<std::uint8_t>(mask));
+  encoder.body(sampled_.field(field));
+  if (has(content::SourceTimestamp)) uadp::put_value(writer, timestamp);
+  if (has(content::SourcePicoSeconds)) writer.put(std::uint16_t{0});
+  if (has(content::ServerTimestamp)) uadp::put_value(writer, timestamp);
+  if (has(content::ServerPicoSeconds)) writer.put(std::uint16_t{0});
+  encoder.count_fields(1);
+}
+
+std::size_t DataSetWriter::octets_beside_value() const {
+  namespace content = data_set_field_content;
+  if (settings_.field_encoding != FieldEncoding::DataValue) return 0;
+  const auto octets = [this](std::uint32_t part, std::size_t of_it) { return (settings_.data_set_field_content_mask & part) != 0 ? of_it : 0; };
+  return 1 + octets(content::SourceTimestamp, 8) + octets(content::ServerTimestamp, 8) + octets(content::SourcePicoSeconds, 2) + octets(content::ServerPicoSeconds, 2);
 }
 
 }  // namespace takt::pubsub

@@ -16,6 +16,8 @@ struct DataSetWriterSettings {
   std::uint16_t data_set_writer_id = 0;  ///< 0: the next free one of the Publisher, from 1 on
   std::uint32_t data_set_message_content_mask = data_set_message_content::SequenceNumber;
   uadp::FieldEncoding field_encoding = uadp::FieldEncoding::Variant;
+  /// Of DataValues: what each has beside its value. Its fields are Good, and a StatusCode that is Good is left out (OPC 10000-6, 5.2.2.17).
+  std::uint32_t data_set_field_content_mask = 0;
   /// At least every so many PublishingIntervals a key frame, delta frames between; at least 1. 1 where delta frames cannot
   /// be: RawData, a single field, no PayloadHeader.
   std::uint32_t key_frame_count = 1;
@@ -60,8 +62,10 @@ class DataSetWriter {
   bool sample();
   bool delta_pays() const;
   uadp::DataSetMessageHeader header_of(uadp::DataSetMessageType type, uadp::DateTime timestamp) const;
-  void put_key_frame(uadp::DataSetMessageEncoder& encoder, uadp::Writer& writer) const;
-  void put_delta_frame(uadp::DataSetMessageEncoder& encoder, uadp::Writer& writer) const;
+  void put_key_frame(uadp::DataSetMessageEncoder& encoder, uadp::DateTime timestamp, uadp::Writer& writer) const;
+  void put_delta_frame(uadp::DataSetMessageEncoder& encoder, uadp::DateTime timestamp, uadp::Writer& writer) const;
+  void put_field(uadp::DataSetMessageEncoder& encoder, std::size_t field, uadp::DateTime timestamp, uadp::Writer& writer) const;
+  std::size_t octets_beside_value() const;
   bool has_changed(std::size_t field) const;
 
   std::string name_;

@@ -10,20 +10,22 @@ bool concerns(const ReaderGroup& group, const uadp::NetworkMessage& message) {
   if (!message.header.group) return true;
   const uadp::GroupHeader& header = *message.header.group;
   const bool same_group = group.writer_group_id == 0 || !header.writer_group_id || *header.writer_group_id == group.writer_group_id;
-  return same_group && (!group.network_message_number || !header.network_message_number ||
+  const bool same_version = group.group_version == 0 || !header.group_version || *header.group_version == group.group_version;
+  return same_group && same_version && (!group.network_message_number || !header.network_message_number ||
                         *group.network_message_number == *header.network_message_number);
 }
 
 }  // namespace
 
-Subscriber::Subscriber(uadp::PublisherId publisher_id) : text_(publisher_id.text), publisher_id_(publisher_id) {
-  publisher_id_.text = text_;
+Subscriber::Subscriber(const std::optional<uadp::PublisherId>& publisher_id) : text_(publisher_id ? publisher_id->text : std::string_view()), publisher_id_(publisher_id) {
+  if (publisher_id_) publisher_id_->text = text_;
 }
 
-std::size_t Subscriber::add_reader_group(std::uint16_t writer_group_id, std::optional<std::uint16_t> network_message_number) {
+std::size_t Subscriber::add_reader_group(std::uint16_t writer_group_id, std::optional<std::uint16_t> network_message_number, std::uint32_t group_version) {
   groups_.push_back(std::make_unique<ReaderGroup>());
   groups_.back()->writer_group_id = writer_group_id;
   groups_.back()->network_message_number = network_message_number;
+  groups_.back()->group_version = group_version;
   groups_.back()->component.set_parent(component_.state());
   return groups_.size() - 1;
 }
@@ -60,7 +62,7 @@ void Subscriber::update(PubSubState parent) {
 }
 
 bool Subscriber::received(const uadp::NetworkMessage& message, sim::LocalTime now) {
-  if (message.header.publisher_id && *message.header.publisher_id != publisher_id_) return false;
+  if (message.header.publisher_id ? message.header.publisher_id != publisher_id_ : needs_publisher_id_) return false;
   bool any = false;
   for (const auto& group : groups_) {
     if (!concerns(*group, message)) continue;

@@ -13,21 +13,24 @@ namespace takt::pubsub {
 struct ReaderGroup {
   std::uint16_t writer_group_id = 0;                        ///< 0: any
   std::optional<std::uint16_t> network_message_number = {};  ///< nothing: any
+  std::uint32_t group_version = 0;                          ///< 0: any; messages that say none are heard
   std::vector<std::unique_ptr<DataSetReader>> readers;
   PubSubComponent component;
 };
 
 class Subscriber {
  public:
-  /// Hears the Publisher with this id.
-  explicit Subscriber(uadp::PublisherId publisher_id);
+  /// Hears the Publisher with this id, and messages without a PublisherId; of nothing these alone.
+  explicit Subscriber(const std::optional<uadp::PublisherId>& publisher_id);
   Subscriber(const Subscriber&) = delete;
   Subscriber& operator=(const Subscriber&) = delete;
 
-  uadp::PublisherId publisher_id() const { return publisher_id_; }
+  const std::optional<uadp::PublisherId>& publisher_id() const { return publisher_id_; }
+  /// From now on messages without a PublisherId are not heard, unless no others are.
+  void require_publisher_id() { needs_publisher_id_ = publisher_id_.has_value(); }
 
   /// Makes a further group and gives its index. The default group (any WriterGroupId) is made when it is first needed.
-  std::size_t add_reader_group(std::uint16_t writer_group_id, std::optional<std::uint16_t> network_message_number = {});
+  std::size_t add_reader_group(std::uint16_t writer_group_id, std::optional<std::uint16_t> network_message_number = {}, std::uint32_t group_version = 0);
 
   /// Subscribes to a DataSet in the default group or in one made before. DataSets that are added in the order in which the
   /// Publisher adds them have its DataSetWriterIds by themselves. False if there is no such group or a name is taken.
@@ -49,7 +52,8 @@ class Subscriber {
   void take(ReaderGroup& group, const uadp::NetworkMessage& message, sim::LocalTime now);
 
   std::string text_;  ///< of a PublisherId that is a String
-  uadp::PublisherId publisher_id_;
+  std::optional<uadp::PublisherId> publisher_id_;
+  bool needs_publisher_id_ = false;
   std::optional<std::size_t> default_group_;
   std::uint16_t last_writer_id_ = 0;
   PubSubComponent component_;

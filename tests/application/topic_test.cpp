@@ -14,7 +14,7 @@ plant::Topic topic_of(plant::Protocol protocol) {
   plant::Topic topic;
   topic.name = "x";
   topic.protocol = protocol;
-  topic.fields = {{"part", {plant::DataType::uint16, 1}}, {"level", {plant::DataType::uint32, 1}}, {"axes", {plant::DataType::float64, 2}}};
+  topic.fields = {{"part", {plant::TopicType::uint16, 1}}, {"level", {plant::TopicType::uint32, 1}}, {"axes", {plant::TopicType::float64, 2}}};
   return topic;
 }
 

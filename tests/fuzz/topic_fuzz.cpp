@@ -15,7 +15,7 @@ TopicShape shape() {
   plant::Topic topic;
   topic.name = "x";
   topic.protocol = plant::Protocol::opc_ua;
-  topic.fields = {{"part", {plant::DataType::uint16, 1}}, {"level", {plant::DataType::uint32, 1}}, {"axes", {plant::DataType::float64, 2}}};
+  topic.fields = {{"part", {plant::TopicType::uint16, 1}}, {"level", {plant::TopicType::uint32, 1}}, {"axes", {plant::TopicType::float64, 2}}};
   return shape_of(topic, {"part"});
 }
 

@@ -7,7 +7,9 @@
 #include "json/suggest.hpp"
 #include "node/dds/participant.hpp"
 #include "sim/check.hpp"
+#include "application/opc_ua_topic.hpp"
 #include "plant/keys.hpp"
+#include "plant/topic_check.hpp"
 
 namespace takt::node {
 namespace {
@@ -46,6 +48,9 @@ class Checker {
       for (const Thread& thread : application.threads)
         if (thread.publish) loaded_.writer_groups[{application.name, thread.name}] = ++counts[*thread.publish];
     for (const plant::Gateway& gateway : config_.gateways) loaded_.writer_groups[{gateway.name, sending_thread}] = ++counts[gateway.to];
+    std::vector<std::size_t> publications;
+    for (const Topic& topic : config_.topics) publications.push_back(counts[topic.name]);
+    plant::check_publishers(config_.topics, publications, diagnostics_);
     for (std::size_t i = 0; i < config_.topics.size(); ++i) loaded_.topics[i].writer_groups = std::max<std::uint16_t>(1, counts[config_.topics[i].name]);
   }
 
@@ -59,7 +64,7 @@ class Checker {
       loaded.publisher_id = topic.publisher_id.value_or(static_cast<std::uint16_t>(i + 1));
       loaded.domain = topic.domain.value_or(0);
       const bool is_dds = topic.protocol == Protocol::dds;
-      if (!is_dds && !ids.insert(loaded.publisher_id).second)
+      if (plant::has_uint16_publisher(topic) && !ids.insert(loaded.publisher_id).second)
         diagnostics_.error(topic.where.at("publisher_id"), "a PublisherId twice", {std::to_string(loaded.publisher_id), "one of its own for each topic"});
       if (is_dds && topic.publisher_id) diagnostics_.error(topic.where.at("publisher_id"), "not of DDS", {"a PublisherId", "a topic of OPC UA"});
       for (const auto& [is_there, key] : {std::pair{!topic.keys.empty(), "keys"}, std::pair{topic.type.has_value(), "type"}, std::pair{topic.domain.has_value(), "domain"}, std::pair{topic.qos.has_value(), "qos"},
@@ -71,9 +76,12 @@ class Checker {
       if (is_dds && topic.publication == plant::Publication::asynchronous)
         diagnostics_.error(topic.where.at("publication"), "not on a real node", {"asynchronous publication, which is not asked of Cyclone DDS", "\"synchronous\""});
       const std::size_t errors_before = diagnostics_.errors();
+      plant::check_fields_and_layout(topic, diagnostics_);
       if (is_dds) plant::check_keys(topic.where, topic.keys, topic.fields, diagnostics_);
-      const bool has_sound_keys = is_dds && diagnostics_.errors() == errors_before;
-      loaded.shape = application::shape_of(topic, has_sound_keys ? topic.keys : std::vector<std::string>());
+      const bool is_sound = diagnostics_.errors() == errors_before;
+      loaded.shape = application::shape_of(topic, is_dds && is_sound ? topic.keys : std::vector<std::string>());
+      if (!is_dds && is_sound && application::longest_message(loaded.shape, {1, 1}) == 0)
+        diagnostics_.error(topic.where.at("fields"), "a sample too long for a NetworkMessage", {std::to_string(loaded.shape.longest().size()) + " octets of values with their types", "fields that fit 1472 octets with their headers"});
     }
   }
 
@@ -117,6 +125,7 @@ class Checker {
       const char* const role = thread.publish ? "publish" : "subscribe";
       const auto topic = use(thread.publish ? *thread.publish : thread.subscribe.value_or(""), thread.where.at(role), thread.publish.has_value());
       if (topic && thread.payload && thread.publish) plant::check_instances(*thread.payload, !config_.topics[*topic].keys.empty() && !thread.payload->copy_of, diagnostics_);
+      if (topic && thread.publish) plant::check_payload(thread.payload.value_or(Payload()), config_.topics[*topic], thread.where.at("publish"), diagnostics_);
       if (thread.payload && !thread.publish) diagnostics_.error(thread.where.at("payload"), "nothing is published", {"a payload", "a thread that publishes"});
       if (thread.buffer && !thread.subscribe) diagnostics_.error(thread.where.at("buffer"), "nothing is taken", {"a buffer", "a thread that subscribes"});
       if (thread.qos && topic && config_.topics[*topic].protocol != Protocol::dds) diagnostics_.error(thread.where.at("qos"), "not of OPC UA", {"quality of service", "a topic of DDS"});

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <deque>
 #include <mutex>
 
@@ -6,8 +7,18 @@
 
 namespace takt::node {
 
+namespace {
+
+uadp::DateTime utc_at_begin() {
+  constexpr std::int64_t ticks_from_1601_to_1970 = 116'444'736'000'000'000;
+  const auto since_1970 = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch());
+  return {ticks_from_1601_to_1970 + since_1970.count() / 100};
+}
+
+}  // namespace
+
 struct OpcUaTopics::Shared {
-  Shared(std::unique_ptr<Socket> given, std::int64_t (*clock)()) : socket(std::move(given)), now_ns(clock), epoch_ns(clock()) {}
+  Shared(std::unique_ptr<Socket> given, std::int64_t (*clock)()) : socket(std::move(given)), now_ns(clock), epoch_ns(clock()), epoch(utc_at_begin()) {}
 
   sim::LocalTime now() const { return sim::LocalTime::from_ps((now_ns() - epoch_ns) * 1000); }
   /// Gives what the socket holds to all readers; what comes while it does so waits for the next time. With the lock held.
@@ -18,6 +29,7 @@ struct OpcUaTopics::Shared {
   std::unique_ptr<Socket> socket;
   std::int64_t (*now_ns)();
   std::int64_t epoch_ns;
+  uadp::DateTime epoch;   ///< UTC then, for time stamps
   std::vector<std::unique_ptr<Writer>> writers;
   std::vector<std::unique_ptr<Reader>> readers;
 };
@@ -25,7 +37,7 @@ struct OpcUaTopics::Shared {
 class OpcUaTopics::Writer final : public TopicWriter {
  public:
   Writer(Shared& shared, const LoadedTopic& topic, std::uint16_t writer_group)
-      : shared_(shared), publication_(topic.shape, {topic.publisher_id, writer_group}, *shared.socket, shared.now()) {}
+      : shared_(shared), publication_(topic.shape, {topic.publisher_id, writer_group}, *shared.socket, shared.now(), shared.epoch) {}
 
   SendOutcome write(uadp::Octets value) override {
     const std::lock_guard lock(shared_.mutex);

@@ -9,6 +9,9 @@ using application::TopicShape;
 
 namespace {
 
+/// Local time 0 as time stamps tell it: 1970-01-01, where clocks that gPTP synchronises begin.
+constexpr uadp::DateTime begin_of_time{116'444'736'000'000'000};
+
 /// Messages that wait in a socket: as many as a socket buffer of 208 KiB, the usual size on Linux, holds of small ones.
 class Inbox {
  public:
@@ -42,9 +45,7 @@ OpcUaAddress address_of(const ResolvedTopic& topic, const ResolvedThread& public
 
 OpcUaWriter::OpcUaWriter(const TopicShape& topic, const OpcUaAddress& address, std::optional<models::StreamIndex> stream) : topic_(&topic), address_(address), stream_(stream) {}
 
-void OpcUaWriter::start(models::HostServices& host) { start(host.now()); }
-
-void OpcUaWriter::start(sim::LocalTime now) { publication_.reset(new application::OpcUaPublication(*topic_, address_, *this, now)); }
+void OpcUaWriter::start(models::HostServices& host) { publication_.reset(new application::OpcUaPublication(*topic_, address_, *this, host.now(), begin_of_time)); }
 
 void OpcUaWriter::crash() { publication_.reset(); }
 
@@ -57,15 +58,7 @@ WriteOutcome OpcUaWriter::write(models::HostServices& host, uadp::Octets value) 
 }
 
 void OpcUaWriter::publish(uadp::Octets network_message, const pubsub::Destination&) {
-  octets_ = network_message.size();
   if (host_ != nullptr && stream_) host_->send(*stream_, network_message);
-}
-
-std::size_t OpcUaWriter::message_octets(const TopicShape& topic, const OpcUaAddress& address) {
-  OpcUaWriter writer(topic, address, std::nullopt);
-  writer.start(sim::LocalTime());
-  writer.publication_->publish(topic.zeros(), sim::LocalTime());
-  return writer.octets_;
 }
 
 struct OpcUaReader::Subscribing {

@@ -20,22 +20,17 @@ class OpcUaWriter final : public TopicWriter, private pubsub::PublishedData {
   /// The topic outlives it. Without a stream nobody hears it, and nothing is sent.
   OpcUaWriter(const application::TopicShape& topic, const application::OpcUaAddress& address, std::optional<models::StreamIndex> stream);
 
-  /// Octets of a NetworkMessage; 0 if a sample is too long for one.
-  static std::size_t message_octets(const application::TopicShape& topic, const application::OpcUaAddress& address);
-
   void start(models::HostServices& host) override;
   WriteOutcome write(models::HostServices& host, uadp::Octets value) override;
   void crash() override;
 
  private:
-  void start(sim::LocalTime now);
   void publish(uadp::Octets network_message, const pubsub::Destination& destination) override;
 
   const application::TopicShape* topic_;
   application::OpcUaAddress address_;
   std::optional<models::StreamIndex> stream_;
   models::HostServices* host_ = nullptr;        // of the present call
-  std::size_t octets_ = 0;                      // of the last message
   std::unique_ptr<application::OpcUaPublication> publication_;  // what a crash loses
 };
 

@@ -17,6 +17,7 @@
 #include "plant/keys.hpp"
 #include "plant/limits.hpp"
 #include "plant/qos_of_thread.hpp"
+#include "plant/topic_check.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -54,6 +55,8 @@ class ApplicationResolver {
     for (ResolvedApplication& application : r_.applications) check_threads(application);
     check_hosts();
     if (diagnostics_.errors() != errors_before || is_refused() || !is_complete()) return;  // numbers below stand for what was found
+    check_publishers();
+    if (diagnostics_.errors() != errors_before) return;
     for (std::uint32_t t = 0; t < r_.topics.size(); ++t) connect(t);
     resolve_dds(r_, builder_, diagnostics_);
     for (ResolvedApplication& application : r_.applications) set_windows(application);
@@ -91,6 +94,10 @@ class ApplicationResolver {
     } else if (topic.flow_control && topic.publication != Publication::asynchronous) {
       diagnostics_.error(topic.where.at("flow_control"), "flow control of synchronous publication", {"\"flow_control\"", "\"publication\": \"asynchronous\""});
     }
+    const bool is_read = !diagnostics_.is_refused(topic.where.at("fields")) && !diagnostics_.is_refused(topic.where.at("protocol")) && !diagnostics_.is_refused(topic.where.at("uadp"));
+    const std::size_t errors_so_far = diagnostics_.errors();
+    if (is_read) plant::check_fields_and_layout(topic, diagnostics_);
+    const bool are_fields_refused = !is_read || diagnostics_.errors() != errors_so_far;
     ResolvedTopic made;
     made.description = &topic;
     // Topics of DDS count, so that a topic has the number that it has in the file of a node.
@@ -100,11 +107,11 @@ class ApplicationResolver {
       diagnostics_.error(topic.where.place(), "too many topics and participants of programs", {std::to_string(publishers_), "at most " + std::to_string(most_publishers)});
     const std::size_t errors_before = diagnostics_.errors();
     if (!diagnostics_.is_refused(topic.where.at("fields"))) plant::check_keys(topic.where, topic.keys, topic.fields, diagnostics_);
-    const bool has_sound_keys = !topic.keys.empty() && topic.protocol == Protocol::dds && diagnostics_.errors() == errors_before;
+    const bool has_sound_keys = !topic.keys.empty() && !are_fields_refused && topic.protocol == Protocol::dds && diagnostics_.errors() == errors_before;
     made.shape = application::shape_of(topic, has_sound_keys ? topic.keys : std::vector<std::string>());
     r_.topics.push_back(std::move(made));
-    if (topic.protocol == Protocol::opc_ua && !topic.fields.empty() && OpcUaWriter::message_octets(r_.topics.back().shape, {1, 1}) == 0)
-      diagnostics_.error(topic.where.at("fields"), "a sample too long for a NetworkMessage", {std::to_string(r_.topics.back().shape.octets()) + " octets of values", "fields that fit 1472 octets with their headers"});
+    if (topic.protocol == Protocol::opc_ua && !topic.fields.empty() && !are_fields_refused && application::longest_message(r_.topics.back().shape, {1, 1}) == 0)
+      diagnostics_.error(topic.where.at("fields"), "a sample too long for a NetworkMessage", {std::to_string(r_.topics.back().shape.longest().size()) + " octets of values with their types", "fields that fit 1472 octets with their headers"});
   }
 
   void refuse_of_dds(const json::Place& place, std::string_view key) {
@@ -191,6 +198,7 @@ class ApplicationResolver {
         if (one.topic < r_.topics.size() && !diagnostics_.is_refused(r_.topics[one.topic].description->where.at("keys")))
           plant::check_instances(*thread.payload, !r_.topics[one.topic].description->keys.empty() && !thread.payload->copy_of, diagnostics_);
       }
+      if (one.publishes && one.topic < r_.topics.size()) check_payload(thread, *r_.topics[one.topic].description);
       if (thread.signal) add_signal(*thread.signal, one, made);
       made.threads.push_back(std::move(one));
     }
@@ -199,6 +207,20 @@ class ApplicationResolver {
     for (std::size_t t = 0; t < application.threads.size(); ++t)
       if (application.threads[t].round_trip && application.threads[t].subscribe) find_outgoing(application.threads[t], application, made, t);
     r_.applications.push_back(std::move(made));
+  }
+
+  void check_payload(const Thread& thread, const Topic& topic) {
+    if (diagnostics_.is_refused(thread.where.at("payload")) || diagnostics_.is_refused(topic.where.at("fields"))) return diagnostics_.consequence();
+    plant::check_payload(thread.payload.value_or(Payload()), topic, thread.where.at("publish"), diagnostics_);
+  }
+
+  /// Who publishes to a topic is known when all applications and gateways are.
+  void check_publishers() {
+    std::vector<std::size_t> publications(r_.topics.size());
+    for (const ResolvedApplication& application : r_.applications)
+      for (const ResolvedThread& thread : application.threads)
+        if (thread.publishes) ++publications[thread.topic];
+    plant::check_publishers(r_.scenario.topics, publications, diagnostics_);
   }
 
   /// The thread of the application whose values come back to this one.
@@ -396,7 +418,7 @@ class ApplicationResolver {
       wanted.headers = models::ipv4_and_udp_headers;
       wanted.is_group = true;
       wanted.udp_port = opc_ua_udp_port;
-      wanted.payload = Octets{static_cast<std::uint32_t>(OpcUaWriter::message_octets(r_.topics[topic].shape, address_of(r_.topics[topic], thread)))};
+      wanted.payload = Octets{static_cast<std::uint32_t>(application::longest_message(r_.topics[topic].shape, address_of(r_.topics[topic], thread)))};
       const auto index = builder_.add(wanted);
       if (!index) continue;
       thread.stream = *index;

@@ -10,6 +10,7 @@
 #include "plant/limits.hpp"
 #include "plant/program_check.hpp"
 #include "plant/protocol.hpp"
+#include "plant/topic_check.hpp"
 #include "scenario/applications/resolve_applications.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "scenario/idle/idle.hpp"
@@ -323,7 +324,7 @@ class Resolver {
     for (const ResolvedProgram& each : r_.programs)
       all.push_back({each.first_publisher_id, each.first_publisher_id + each.participant_names.size() + each.candidates().size(), &each.name, &each.description->where});
     for (const ResolvedTopic& each : r_.topics)
-      if (each.description->protocol == Protocol::opc_ua) all.push_back({each.publisher_id, each.publisher_id + std::size_t{1}, &each.description->name, &each.description->where});
+      if (plant::has_uint16_publisher(*each.description)) all.push_back({each.publisher_id, each.publisher_id + std::size_t{1}, &each.description->name, &each.description->where});
     std::ranges::stable_sort(all, {}, &Publishers::first);
     for (std::size_t i = 1; i < all.size(); ++i)
       if (all[i].first < all[i - 1].behind)

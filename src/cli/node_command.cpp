@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/terminal.hpp"
+#include "node/applications/describe_topics.hpp"
 #include "node/applications/host.hpp"
 #include "node/applications/statistics_file.hpp"
 #include "node/built_in_values.hpp"
@@ -73,8 +74,12 @@ ExitStatus hash_password() {
 /// What another publisher or subscriber must know of the node's messages.
 ExitStatus describe_node(const std::string& file) {
   if (node::is_applications_file(file)) {
-    std::fputs("takt: --describe is for nodes of Programs; of topics docs/applications.md says which ids they have\n", stderr);
-    return ExitStatus::bad_input;
+    json::Diagnostics diagnostics;
+    const auto loaded = node::load_applications(file, diagnostics);
+    tell(diagnostics);
+    if (!loaded) return ExitStatus::bad_input;
+    std::fputs(node::to_json(node::description_of(*loaded)).c_str(), stdout);
+    return ExitStatus::pass;
   }
   json::Diagnostics diagnostics;
   const auto loaded = node::load_config(file, diagnostics);

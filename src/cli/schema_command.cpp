@@ -88,7 +88,7 @@ void add_schema_command(Command app, ExitStatus& status) {
   const auto options = std::make_shared<Options>();
   std::vector<std::string> names;
   for (const FileKind& kind : file_kinds) names.emplace_back(kind.name);
-  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result, bound, verify, explain, explore, schedule, compare, status, describe (of a node of Programs), statistics (of a node of applications) or emulate (takt check --format json writes a scenario)").one_of(names);
+  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result, bound, verify, explain, explore, schedule, compare, status, describe (of a node), statistics (of a node of applications) or emulate (takt check --format json writes a scenario)").one_of(names);
   command.add_flag("--reference", options->as_reference, "Markdown for people instead: every key with unit, range, default and meaning");
   command.footer("Examples:\n  takt schema > scenarios/takt.schema.json\n  takt schema study > scenarios/studies/takt-study.schema.json\n  takt schema scenario --reference | less");
   command.callback([options, &status] {

@@ -92,7 +92,7 @@ const json::Record& describe(json::Type<DescribedProgram>) {
 }
 
 namespace {
-Header header(const NodeDescription&) { return {}; }
+std::optional<Header> header(const NodeDescription& description) { return description.programs.empty() ? std::nullopt : std::optional(Header()); }
 template <auto Member>
 std::optional<std::int64_t> number(const NodeDescription& description) {
   return description.*Member ? std::optional<std::int64_t>(*(description.*Member)) : std::nullopt;
@@ -104,36 +104,42 @@ std::int64_t pcp_of(const NodeDescription& description) { return description.pcp
 const json::Record& describe(json::Type<NodeDescription>) {
   static constexpr json::Output outputs[] = {
       json::output<&NodeDescription::node>("node", "Its name."),
-      json::output<&NodeDescription::transport>("transport", "`udp` or `ethernet`."),
+      json::output<&NodeDescription::transport>("transport", "`udp` or `ethernet`; `none`: topics of DDS alone."),
       json::output<&NodeDescription::destinations>("destinations", "Addresses to which it sends."),
       json::output<&number<&NodeDescription::udp_port>>("udp_port", "At which it listens; null over Ethernet."),
       json::output<&number<&NodeDescription::ether_type>>("ether_type", "Of its frames; null over UDP."),
       json::output<&number<&NodeDescription::vlan>>("vlan", "Of its frames; null: without a tag, or over UDP."),
       json::output<&pcp_of>("pcp", "Priority of what it sends."),
       json::output<&NodeDescription::security>("security", "`none`, `sign` or `sign-and-encrypt`; SecurityGroups and keys are in the file of keys."),
-      json::output<&header>("header", "How its messages are laid out."),
+      json::output<&header>("header", "How messages of Programs are laid out; null: it is in none."),
       json::output<&NodeDescription::programs>("programs", "Each that it is in."),
+      json::output<&NodeDescription::topics>("topics", "Topics of OPC UA that its applications and gateways publish and subscribe to."),
   };
   static constexpr json::Record record{"node_description", "What a node sends and hears.", outputs};
   return record;
 }
 
-NodeDescription description_of(const LoadedConfig& loaded) {
+NodeDescription description_of(const std::string& node, const Transport& transport) {
   NodeDescription made;
-  made.node = loaded.config.node;
-  if (const auto* const udp = std::get_if<UdpTransport>(&loaded.config.transport)) {
+  made.node = node;
+  if (const auto* const udp = std::get_if<UdpTransport>(&transport)) {
     made.transport = "udp";
     made.destinations = udp->destinations;
     made.udp_port = udp->port;
     made.pcp = udp->pcp;
   } else {
-    const auto& ethernet = std::get<EthernetTransport>(loaded.config.transport);
+    const auto& ethernet = std::get<EthernetTransport>(transport);
     made.transport = "ethernet";
     made.destinations = {ethernet.destination};
     made.ether_type = wire::uadp_ether_type;
     made.vlan = ethernet.vlan;
     made.pcp = ethernet.pcp;
   }
+  return made;
+}
+
+NodeDescription description_of(const LoadedConfig& loaded) {
+  NodeDescription made = description_of(loaded.config.node, loaded.config.transport);
   made.security = !loaded.config.security ? "none" : loaded.config.security->mode == security::MessageMode::sign ? "sign" : "sign-and-encrypt";
   for (const LoadedProgram& program : loaded.programs) {
     const wire::ProgramFormat& format = *program.endpoint.format;

@@ -46,12 +46,17 @@ class Checker {
     std::map<std::string, std::uint16_t> counts;
     for (const plant::Application& application : config_.applications)
       for (const Thread& thread : application.threads)
-        if (thread.publish) loaded_.writer_groups[{application.name, thread.name}] = ++counts[*thread.publish];
-    for (const plant::Gateway& gateway : config_.gateways) loaded_.writer_groups[{gateway.name, sending_thread}] = ++counts[gateway.to];
+        if (thread.publish) number_publication({application.name, thread.name, *thread.publish, application.on, ++counts[*thread.publish], thread.every});
+    for (const plant::Gateway& gateway : config_.gateways) number_publication({gateway.name, sending_thread, gateway.to, gateway.on, ++counts[gateway.to], gateway.send_every});
     std::vector<std::size_t> publications;
     for (const Topic& topic : config_.topics) publications.push_back(counts[topic.name]);
     plant::check_publishers(config_.topics, publications, diagnostics_);
     for (std::size_t i = 0; i < config_.topics.size(); ++i) loaded_.topics[i].writer_groups = std::max<std::uint16_t>(1, counts[config_.topics[i].name]);
+  }
+
+  void number_publication(const LoadedPublication& publication) {
+    loaded_.writer_groups[{publication.application, publication.thread}] = publication.number;
+    loaded_.publications.push_back(publication);
   }
 
   void check_topics() {

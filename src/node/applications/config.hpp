@@ -62,10 +62,21 @@ struct LoadedTopic {
   std::uint16_t domain = 0;
 };
 
+/// A thread or gateway that publishes to a topic, on whatever node.
+struct LoadedPublication {
+  std::string application;
+  std::string thread;
+  std::string topic;
+  std::string on;
+  std::uint16_t number = 1;                   ///< among those of the topic, from 1 on
+  Duration every;
+};
+
 /// A file that has been checked. What is on other nodes is no longer in `config`.
 struct LoadedApplications {
   ApplicationsConfig config;
   std::vector<LoadedTopic> topics;  ///< as in the file
+  std::vector<LoadedPublication> publications;
   /// By application and thread: which of the publications of its topic it is, for topics of OPC UA.
   std::map<std::pair<std::string, std::string>, std::uint16_t> writer_groups;
   /// By application or gateway, and thread: the law of its response, where the file has one.

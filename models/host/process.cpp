@@ -8,6 +8,7 @@ namespace takt::models {
 namespace {
 // Kinds 0 .. n-1 are the alarms; this one hands a frame to the network interface.
 constexpr sim::EventKind transmit_now = 0xFFFF;
+constexpr sim::EventKind opened_now = 0xFFFE;
 
 /// What a job of a processor is: in its number above the low 32 bits.
 enum class JobKind : std::uint16_t { alarm, message, frame };
@@ -29,7 +30,7 @@ Process::Process(sim::Simulation& simulation, Traffic& traffic, HostOutput& outp
       wakes_at_once_(wake_up_.is_none()),
       application_(std::move(application)) {
   const AlarmId count = application_->alarm_count();
-  TAKT_CHECK(count < transmit_now, "too many alarms");
+  TAKT_CHECK(count < opened_now, "too many alarms");
   for (AlarmId alarm = 0; alarm < count; ++alarm) alarms_.emplace_back(sim::Timer(source_.id(), sim::Phase::timer, alarm));
 }
 
@@ -44,6 +45,7 @@ void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
     }
     return;
   }
+  if (event.kind() == opened_now) return opened(static_cast<std::uint32_t>(event.argument), event.argument >> 32 != crashes_);
   TAKT_CHECK(event.kind() < alarms_.size(), "an alarm that was never set");
   Alarm& alarm = alarms_[event.kind()];
   if (!alarm.timer.is_due(simulation, source_, event)) return;
@@ -105,7 +107,13 @@ void Process::job_ended(sim::Simulation& simulation, std::uint64_t job, Ending e
   }
 }
 
-void Process::keep_message(StreamIndex stream, std::span<const std::byte> payload) {
+void Process::secure(sim::Duration seal, sim::Duration open) {
+  seal_ = seal;
+  open_ = open;
+  if (seal > sim::Duration()) transmits_at_once_ = false;
+}
+
+std::uint32_t Process::stored(StreamIndex stream, std::span<const std::byte> payload) {
   if (free_messages_.empty()) {
     free_messages_.push_back(static_cast<std::uint32_t>(messages_.size()));
     messages_.emplace_back();
@@ -114,6 +122,24 @@ void Process::keep_message(StreamIndex stream, std::span<const std::byte> payloa
   free_messages_.pop_back();
   messages_[slot].stream = stream;
   messages_[slot].octets.assign(payload.begin(), payload.end());
+  return slot;
+}
+
+void Process::open_message(StreamIndex stream, std::span<const std::byte> payload) {
+  const std::uint32_t slot = stored(stream, payload);
+  simulation_->schedule(source_, simulation_->now().plus_saturated(open_), sim::Phase::arrival, id(), opened_now, std::uint64_t{crashes_} << 32 | slot);
+}
+
+void Process::opened(std::uint32_t slot, bool is_lost) {
+  const std::uint32_t stream = messages_[slot].stream.value;
+  if (threads_.turns && !is_lost)
+    cpu_->submit(*threads_.turns, *this, source_.id().index, static_cast<std::uint32_t>(alarms_.size()) + stream, job_number(JobKind::message, 0, slot), simulation_->now());
+  else
+    take_message(slot, is_lost ? Ending::crashed : Ending::done);
+}
+
+void Process::keep_message(StreamIndex stream, std::span<const std::byte> payload) {
+  const std::uint32_t slot = stored(stream, payload);
   cpu_->submit(*threads_.turns, *this, source_.id().index, static_cast<std::uint32_t>(alarms_.size()) + stream.value, job_number(JobKind::message, 0, slot), simulation_->now());
 }
 
@@ -200,7 +226,7 @@ void Process::send(StreamIndex stream, std::span<const std::byte> payload) {
     hand_over(frame, false);
     return;
   }
-  simulation_->schedule(source_, transmit_.pass(simulation_->now()), sim::Phase::arrival, id(), transmit_now, frame.value);
+  simulation_->schedule(source_, transmit_.pass(simulation_->now().plus_saturated(seal_)), sim::Phase::arrival, id(), transmit_now, frame.value);
 }
 
 }  // namespace takt::models

@@ -28,13 +28,17 @@ class Process final : public sim::Component, public HostServices, public CpuUser
     std::optional<std::uint32_t> transmit = {};
   };
   void run_on(Cpu& cpu, CpuThreads threads);
+  /// Its messages are secured, which takes time: of each that is sent before anything else, of each that has come before the application or its thread hears of it.
+  void secure(sim::Duration seal, sim::Duration open);
 
   /// Starts the application at the present instant.
   void start() { application_->start(*this); }
   Application& application() { return *application_; }
 
   void receive(StreamIndex stream, std::span<const std::byte> payload) {
-    if (threads_.turns) [[unlikely]]
+    if (open_ > sim::Duration()) [[unlikely]]
+      open_message(stream, payload);
+    else if (threads_.turns) [[unlikely]]
       keep_message(stream, payload);
     else
       application_->receive(*this, stream, payload);
@@ -48,6 +52,7 @@ class Process final : public sim::Component, public HostServices, public CpuUser
   void clock_changed();
   /// The host crashes: alarms are forgotten. Its processor has crashed before.
   void crash() {
+    ++crashes_;
     for (Alarm& alarm : alarms_) {
       alarm.timer.cancel();
       alarm.has_latency = false;
@@ -81,6 +86,9 @@ class Process final : public sim::Component, public HostServices, public CpuUser
  private:
   std::size_t due_alarms() const;
   void expire(AlarmId alarm);
+  std::uint32_t stored(StreamIndex stream, std::span<const std::byte> payload);
+  void open_message(StreamIndex stream, std::span<const std::byte> payload);
+  void opened(std::uint32_t slot, bool is_lost);
   void keep_message(StreamIndex stream, std::span<const std::byte> payload);
   void take_message(std::uint32_t slot, Ending ending);
   std::uint64_t job_of(AlarmId alarm);
@@ -94,6 +102,9 @@ class Process final : public sim::Component, public HostServices, public CpuUser
   sim::EventSource source_;
   LatencyLine transmit_;
   LatencyLine wake_up_;
+  sim::Duration seal_;
+  sim::Duration open_;
+  std::uint32_t crashes_ = 0;             // what was being opened is lost
   bool transmits_at_once_;
   bool wakes_at_once_;
   struct Alarm {
@@ -121,7 +132,7 @@ class Process final : public sim::Component, public HostServices, public CpuUser
   Cpu* cpu_ = nullptr;
   CpuThreads threads_;
   std::uint32_t jobs_ = 0;                // of alarms
-  std::vector<Message> messages_;         // that wait for the processor, by slot
+  std::vector<Message> messages_;         // that are opened or wait for the processor, by slot
   std::vector<std::uint32_t> free_messages_;
 };
 

@@ -138,9 +138,16 @@ Ps lateness(const HostTimes& hosts, const scenario::ResolvedMember& member) {
   return sum(spread_of(hosts.wake_up(member.node, member.cpu_thread)), hosts.of(member.node, member.cpu_thread).spread());
 }
 
+/// Before the operating system has it.
+void seal_at(const scenario::ResolvedMember& member, Flow& flow) {
+  flow.worst_source = sum(flow.worst_source, member.seal.ps());
+  flow.best_source += member.seal.ps();
+}
+
 void add_published(const scenario::Resolved& r, const scenario::ResolvedMember& member, models::StreamIndex stream, Ps every, std::int64_t frames, const BoundOptions& options, const HostTimes& hosts,
                    FlowGraph& graph) {
   add_late(r, member.node, stream, every, frames, lateness(hosts, member), options, hosts, graph);
+  seal_at(member, graph.flows.back());
 }
 
 /// Topics over OPC UA, of applications and gateways: a call of a thread publishes one message at most, which is one frame.
@@ -160,6 +167,7 @@ void add_roles(const scenario::Resolved& r, const scenario::ResolvedProgram& pro
   const auto add = [&](const scenario::ResolvedMember& member, models::StreamIndex stream) {
     if (!changes) return add_published(r, member, stream, cycle, messages_in_a_cycle, options, hosts, graph);
     add_late(r, member.node, stream, cycle, 1, sum(lateness(hosts, member), cycle * *changes), options, hosts, graph);
+    seal_at(member, graph.flows.back());
   };
   graph.assumptions.add(Assumption::program_publishes);
   for (const scenario::ResolvedMember& each : program.members) {

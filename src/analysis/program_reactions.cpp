@@ -54,7 +54,7 @@ class GroupMaker {
       made_.time_out = std::max(made_.time_out, sum(stretched(p, program_.receive_timeout.ps()), wake_up(p)));
     }
     for (const scenario::ResolvedMember& each : program_.members)
-      for (const auto& latency : bounds_.streams[each.state.value].by_listener) made_.last_word = latency ? std::max(made_.last_word, sum(latency->ps(), slowest_turn())) : unbounded_ps;
+      for (const auto& latency : bounds_.streams[each.state.value].by_listener) made_.last_word = latency ? std::max(made_.last_word, sum(latency->ps(), slowest_hearing())) : unbounded_ps;
     made_.notices_faults = program_.description->variant == scenario::Variant::robust;
     if (program_.description->publish == scenario::Publish::on_change) made_.assumptions.add(Assumption::program_publishes);
     made_.of_faults = made_.assumptions;
@@ -74,9 +74,11 @@ class GroupMaker {
   Ps wake_up(std::size_t p) const { return sum(bounds_.hosts->wake_up(program_.members[p].node, program_.members[p].cpu_thread).greatest().ps(), turn(p)); }
   /// From a message's arrival to the end of the turn that hears of it.
   Ps turn(std::size_t p) const { return bounds_.hosts->of(program_.members[p].node, program_.members[p].cpu_thread).worst; }
-  Ps slowest_turn() const {
+  /// The same of a message that must be opened.
+  Ps hearing(std::size_t p) const { return sum(turn(p), program_.members[p].open.ps()); }
+  Ps slowest_hearing() const {
     Ps slowest = 0;
-    for (std::size_t p = 0; p < program_.members.size(); ++p) slowest = std::max(slowest, turn(p));
+    for (std::size_t p = 0; p < program_.members.size(); ++p) slowest = std::max(slowest, hearing(p));
     return slowest;
   }
   Ps stretched(std::size_t p, Ps local) const {
@@ -94,7 +96,7 @@ class GroupMaker {
     for (std::size_t l = 0; l < plan.listeners.size(); ++l) {
       const auto to = static_cast<std::size_t>(std::ranges::find(program_.members, plan.listeners[l], &scenario::ResolvedMember::node) - program_.members.begin());
       if (to == program_.members.size()) continue;
-      const Ps latency = sum(stream.by_listener[l] ? stream.by_listener[l]->ps() : unbounded_ps, turn(to));
+      const Ps latency = sum(stream.by_listener[l] ? stream.by_listener[l]->ps() : unbounded_ps, hearing(to));
       made_.group.notify(to, from) = MaxPlus(sum(publish_wait(from), latency));
       // A node that is back publishes at the next instant of its cycle, whether or not it publishes on change as well.
       made_.first_word = std::max(made_.first_word, sum(stretched(from, program_.description->cycle.ps()), wake_up(from), latency));

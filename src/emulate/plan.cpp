@@ -69,7 +69,9 @@ class Planner {
     same.candidates.clear();
     same.redundancy.reset();
     same.paths.clear();
+    same.security.reset();
     if (program.description->redundancy) left_out_.insert("copies of messages");
+    if (program.description->security) left_out_.insert("security of messages");
     if (!program.description->paths.empty()) left_out_.insert("paths");
     for (const scenario::ResolvedMember& each : program.candidates()) same.candidates.push_back(name_of(each));
     same.absent.clear();  // as each node says of itself: it may have been told to join before it starts again

@@ -5,14 +5,9 @@
 #include <string>
 
 #include "json/fields.hpp"
+#include "plant/message_security.hpp"
 #include "security/secure_channel.hpp"
 #include "sim/time.hpp"
-
-// Words of files for values of protocol code: a description is looked for in the namespace of what it describes.
-namespace takt::security {
-const json::Enumeration& describe(json::Type<MessageMode>);
-const json::Enumeration& describe(json::Type<MessagePolicy>);
-}  // namespace takt::security
 
 namespace takt::node {
 

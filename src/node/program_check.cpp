@@ -17,6 +17,7 @@ void check_hosting(const Program& program, json::Diagnostics& diagnostics) {
   if (program.cycle < shortest_cycle) diagnostics.error(program.where.at("cycle"), "too short for a real node", {json::to_text(program.cycle), "at least " + json::to_text(shortest_cycle)});
   if (program.offset && program.offset->is_auto) diagnostics.error(program.where.at("offset"), "not on a real node", {"\"auto\", which a simulator chooses for its network", "the offset and \"phases\" that `takt check` shows, or others"});
   if (program.redundancy) diagnostics.error(program.where.at("redundancy"), "not on a real node", {"copies of each message", "one message, which a network may copy"});
+  if (program.security) diagnostics.error(program.where.at("security"), "security of one program", {"\"security\" of a program", "\"security\" of the node, which has the keys"});
   if (!program.paths.empty()) diagnostics.error(program.where.at("paths"), "not on a real node", {"ways of messages", "a network that is configured for them"});
   if (!program.replies.empty()) diagnostics.error(program.where.at("replies"), "not on a real node", {"process data that answers other process data", "data that is published every cycle"});
   if (!program.roles.empty() && program.candidates.empty())

@@ -9,6 +9,7 @@
 
 #include "handshake/participant.hpp"
 #include "json/fields.hpp"
+#include "plant/message_security.hpp"
 #include "plant/role.hpp"
 #include "program/method.hpp"
 #include "sim/time.hpp"
@@ -85,8 +86,14 @@ struct Program {
   std::vector<Reply> replies = {};
   std::optional<std::uint32_t> redundancy = {};    ///< copies of each message (IEEE 802.1CB)
   std::vector<std::vector<std::string>> paths = {};  ///< of messages between two members, in either direction
+  std::optional<ProgramSecurity> security = {};    ///< in a scenario; the octets are those of real nodes
   bool operator==(const Program&) const = default;
 };
+
+/// What security adds to each message.
+inline std::uint32_t octets_of_security(const Program& program) {
+  return program.security ? static_cast<std::uint32_t>(security::added_octets(program.security->mode)) : 0;
+}
 
 /// When in its cycle a participant publishes.
 sim::Duration phase_of(const Program& program, std::string_view participant);

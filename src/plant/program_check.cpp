@@ -184,7 +184,7 @@ void check_members(const Program& program, std::uint32_t most_octets, const MayB
     }
     participant_of(program, data.from, data.where.at("from"), may_be_node, diagnostics);
     if (!data.name.empty() && !names.insert(data.name).second) diagnostics.error(data.where.at("name"), "duplicate name", {json::quote(data.name), "a name of its own for each data set " + taken});
-    const std::uint32_t octets = wire::process_data_octets(field_octets_of(data));
+    const std::uint32_t octets = wire::process_data_octets(field_octets_of(data)) + octets_of_security(program);
     if (octets > most_octets) diagnostics.error(data.where.at("fields"), "more than one frame", {std::to_string(octets) + " octets with all headers", "at most " + std::to_string(most_octets)});
   }
 }

@@ -141,6 +141,7 @@ const json::Object& describe(json::Type<Program>) {
                                      {.min = 2, .max = 2}),
       optional<&Program::paths>("paths", "Ways of messages, each from the node of one member to that of another: all nodes in order, taken in both directions. The other messages find their own.",
                                 {.min_items = 1, .max_items = 4096, .items = {.min_items = 2, .max_items = 4096}}),
+      optional<&Program::security>("security", "Its messages are signed, or signed and encrypted; neither if absent. Of a real node: `security` of the node."),
       optional<&Program::replies>("replies", "Process data that answers other process data at once.", {.max_items = 256}),
   };
   static constexpr std::string_view members[] = {"slaves", "roles"};

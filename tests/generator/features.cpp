@@ -58,6 +58,7 @@ std::span<const FeatureEntry> features() {
       {gateways, "gateways", "scenario.gateways", {opc_ua, dds}},
       {persistence, "persistence", "scenario.persistence", {dds}},
       {signals, "signals", "thread.signal", {opc_ua}},
+      {security, "security", "program.security", {programs}},
   };
   return all;
 }

@@ -21,6 +21,7 @@ enum class Feature : std::uint8_t {
   oscillators, gptp, hot_standby,
   programs, paper_variant, roles, nesting, replies,
   opc_ua, dds, gateways, persistence, signals,
+  security,
   count
 };
 

@@ -159,9 +159,10 @@ const IdleCase cases[] = {
     {"ProgramThatNobodyStarts", plain(R"(, "programs": [{"name": "p", "master": "a", "slaves": ["b"], "cycle": "1ms"}])"),
      "/programs/0/name: a program that nobody starts: \"p\" | \"call\": \"Start\" in \"script\"\n"},
     {"SkillsAndWorkInVain",
-     R"({"name": "t", "duration": "10ms", "network": {"nodes": {"a": {"kind": "host", "offers": ["weld"]}, "b": {"kind": "host", "processing": {"per_message": "1us"}}, "sw": {"kind": "switch"}},
+     R"({"name": "t", "duration": "10ms", "network": {"nodes": {"a": {"kind": "host", "offers": ["weld"]}, "b": {"kind": "host", "processing": {"per_message": "1us"}, "cryptography": {"seal": "1us"}}, "sw": {"kind": "switch"}},
 "links": [{"ends": ["a", "sw"]}, {"ends": ["b", "sw"]}]}})",
      "/network/nodes/a/offers/0: a skill that no role needs: \"weld\" | the \"skill\" of a role of a program\n"
+     "/network/nodes/b/cryptography: times of cryptography without secured messages: \"b\" is in no program with \"security\" | \"security\" of a program\n"
      "/network/nodes/b/processing: a time of processing without replies: \"b\" is in no program with \"replies\" | \"replies\"\n"},
     {"ThreadsInVain", R"({"name": "t", "duration": "10ms", "network": {"nodes": {"b": {"kind": "host"}, "a": {"kind": "host", "cpu": {"slice": "1ms", "threads": [
 {"name": "stack", "execution": "1us", "wake_up": "1us", "stack": ["receive", "transmit"]}, {"name": "load", "execution": "1us", "every": "20ms", "offset": "11ms"}]}}}, "links": [{"ends": ["a", "b"]}]}, "streams": [)" + control + "]}",

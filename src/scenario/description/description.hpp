@@ -73,6 +73,14 @@ struct Processing {
   bool operator==(const Processing&) const = default;
 };
 
+/// How long a host takes for each message of Programs whose messages are secured.
+struct Cryptography {
+  json::Source where;
+  Duration seal;
+  Duration open;
+  bool operator==(const Cryptography&) const = default;
+};
+
 enum class TrafficClasses : std::uint8_t { standard, identity };
 
 /// Which frame is lost when a queue is full.
@@ -184,6 +192,7 @@ struct EndStation {
   OperatingSystem os;
   std::optional<Processing> processing = {};
   std::vector<std::string> offers = {};
+  std::optional<Cryptography> cryptography = {};
   std::optional<Cpu> cpu = {};
   std::vector<TalkerAts> ats = {};
   bool operator==(const EndStation&) const = default;
@@ -446,6 +455,7 @@ struct Scenario {
 };
 
 const json::Object& describe(json::Type<Processing>);
+const json::Object& describe(json::Type<Cryptography>);
 const json::Enumeration& describe(json::Type<OsProfile>);
 const json::Object& describe(json::Type<OperatingSystem>);
 const json::Enumeration& describe(json::Type<TrafficClasses>);

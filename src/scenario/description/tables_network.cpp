@@ -35,6 +35,15 @@ const json::Object& describe(json::Type<Processing>) {
   return table;
 }
 
+const json::Object& describe(json::Type<Cryptography>) {
+  static constexpr json::Field fields[] = {
+      optional<&Cryptography::seal>("seal", "Before a message is sent.", {.max = 1_s}),
+      optional<&Cryptography::open>("open", "Before a message that has come is heard.", {.max = 1_s}),
+  };
+  static constexpr json::Object table = json::object<Cryptography>("cryptography", "How long securing takes for each message of programs with `security`, of messages at a time each for itself.", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<OperatingSystem>) {
   static constexpr json::Field fields[] = {
       optional<&OperatingSystem::profile>("profile", "Where the delays come from that are not given here."),
@@ -207,6 +216,8 @@ constexpr json::Field os_field = optional<&EndStation::os, Owner>("os", "The ope
 template <class Owner>
 constexpr json::Field processing_field = optional<&EndStation::processing, Owner>("processing", "How long Programs work at process data before they reply.");
 template <class Owner>
+constexpr json::Field cryptography_field = optional<&EndStation::cryptography, Owner>("cryptography", "How long it takes to secure messages of programs; no time if absent.");
+template <class Owner>
 constexpr json::Field ats_field = optional<&EndStation::ats, Owner>("ats", "ATS schedulers of streams that the node itself sends.", {.max_items = 4096});
 template <class Owner>
 constexpr json::Field offers_field =
@@ -239,6 +250,7 @@ const json::Object& describe(json::Type<HostNode>) {
       optional<&NodePorts::egress, HostNode>("egress", "Gates and shapers of the network interfaces.", {.max_items = 16}),
       gate_limits_field<HostNode>,
       processing_field<HostNode>,
+      cryptography_field<HostNode>,
       offers_field<HostNode>,
       cpu_field<HostNode>,
       ats_field<HostNode>,
@@ -276,6 +288,7 @@ const json::Object& describe(json::Type<StationNode>) {
       optional<&StationNode::bypass>("bypass", "A relay joins the cables at ports 0 and 1 while the station is down."),
       optional<&StationNode::bypass_switching>("bypass_switching", "How long the relay takes, after the crash and when the station is back; all is dark meanwhile.", {.min = 1_us, .max = 10_s}),
       processing_field<StationNode>,
+      cryptography_field<StationNode>,
       offers_field<StationNode>,
       cpu_field<StationNode>,
       ats_field<StationNode>,

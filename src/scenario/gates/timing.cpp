@@ -111,7 +111,7 @@ class TimingWalk {
 
   FrameTiming published(const ResolvedProgram& program, const ResolvedMember& member, Duration phase) {
     const models::OsLatency& os = os_of(member.node);
-    FrameTiming timing = after(phase, os.wake_up.least() + os.transmit.least(), os.wake_up.greatest() + os.transmit.greatest(), program.description->cycle, trains_++);
+    FrameTiming timing = after(phase, os.wake_up.least() + os.transmit.least() + member.seal, os.wake_up.greatest() + os.transmit.greatest() + member.seal, program.description->cycle, trains_++);
     if (member.cpu_thread) wait_for_thread(timing, r_.plan.nodes[member.node.value].cpu->threads[*member.cpu_thread]);
     return timing;
   }

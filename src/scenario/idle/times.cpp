@@ -79,6 +79,11 @@ void tell_idle_script(const Usage& usage, json::Diagnostics& diagnostics) {
     const auto replies = [&](const ResolvedProgram& program) {
       return !program.replies.empty() && std::ranges::any_of(program.members, [&](const ResolvedMember& each) { return r.topology.nodes[each.node.value].name == node.name; });
     };
+    const auto secures = [&](const ResolvedProgram& program) {
+      return program.description->security && std::ranges::any_of(program.members, [&](const ResolvedMember& each) { return r.topology.nodes[each.node.value].name == node.name; });
+    };
+    if (host->cryptography && std::ranges::none_of(r.programs, secures))
+      warn_once(diagnostics, node.where.at("cryptography"), "times of cryptography without secured messages", {json::quote(node.name) + " is in no program with \"security\"", "\"security\" of a program"});
     if (host->processing && std::none_of(r.programs.begin(), r.programs.end(), replies))
       warn_once(diagnostics, node.where.at("processing"), "a time of processing without replies", {json::quote(node.name) + " is in no program with \"replies\"", "\"replies\""});
   }

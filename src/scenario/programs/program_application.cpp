@@ -8,6 +8,7 @@ ProgramApplication::ProgramApplication(Settings settings, ProgramMonitor& monito
     : state_stream_(settings.state_stream),
       role_stream_(settings.role_stream),
       data_streams_(std::move(settings.data_streams)),
+      sealed_(std::move(settings.sealed)),
       replies_(std::move(settings.replies)),
       monitor_(&monitor),
       roles_(roles),
@@ -42,6 +43,7 @@ void ProgramApplication::crash() {
 void ProgramApplication::restart(models::HostServices& host) {
   crash();
   has_crashed_ = false;
+  if (sealed_) sealed_->restart();
   if (!is_candidate()) monitor_->on_back(*node_.participant(), host_.value);
   start(host);
 }
@@ -68,6 +70,12 @@ void ProgramApplication::wake(models::HostServices& host, models::AlarmId alarm)
   carry_out(host, node_.wake(host.now(), alarm));
 }
 
+/// What is refused is not heard.
+void ProgramApplication::receive(models::HostServices& host, models::StreamIndex, std::span<const std::byte> payload) {
+  const auto octets = sealed_ ? sealed_->open(payload) : std::optional<security::Octets>(payload);
+  if (octets) carry_out(host, node_.receive(host.now(), *octets));
+}
+
 void ProgramApplication::carry_out(models::HostServices& host, wire::NodeOutputs& outputs) {
   while (const auto* const output = outputs.next())
     std::visit([&](const auto& what) { output->side == side_ ? act(host, what) : other_->act(*host_of_other_, what); }, output->what);
@@ -75,13 +83,13 @@ void ProgramApplication::carry_out(models::HostServices& host, wire::NodeOutputs
 
 void ProgramApplication::act(models::HostServices& host, const wire::Publish& message) {
   if (message.is_state()) {
-    host.send(state_stream_, message.octets);
+    send(host, state_stream_, message.octets);
   } else if (message.is_of_roles()) {
-    host.send(*role_stream_, message.octets);
+    send(host, *role_stream_, message.octets);
   } else if (const auto& stream = data_streams_[message.data_set()]) {
     monitor_->on_published(message.data_set(), message.sequence);
     if (node_.endpoint()->settings().handshake.variant == handshake::Variant::paper) message.set_run(monitor_->sending_run(*node_.participant()));
-    host.send(*stream, message.octets);
+    send(host, *stream, message.octets);
   }
 }
 

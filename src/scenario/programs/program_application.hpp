@@ -8,6 +8,7 @@
 #include "models/host/application.hpp"
 #include "scenario/programs/reply_worker.hpp"
 #include "scenario/programs/role_monitor.hpp"
+#include "scenario/programs/sealed_messages.hpp"
 #include "wire/nesting.hpp"
 #include "wire/program_node.hpp"
 
@@ -20,6 +21,7 @@ class ProgramApplication final : public models::Application {
     models::StreamIndex state_stream;
     std::optional<models::StreamIndex> role_stream = {};               ///< with roles: of announcements; of the master: the table of bindings
     std::vector<std::optional<models::StreamIndex>> data_streams = {}; ///< by data set of the Program, of the own ones
+    std::unique_ptr<SealedMessages> sealed = {};                       ///< if its messages are secured
     std::optional<ReplyWorker> replies = {};                           ///< if there are replies
   };
 
@@ -44,7 +46,7 @@ class ProgramApplication final : public models::Application {
   models::AlarmId alarm_count() const override { return static_cast<models::AlarmId>(work_alarm() + (replies_ ? 1 : 0)); }
   void start(models::HostServices& host) override { carry_out(host, node_.start(host.now())); }
   void restart(models::HostServices& host) override;
-  void receive(models::HostServices& host, models::StreamIndex, std::span<const std::byte> payload) override { carry_out(host, node_.receive(host.now(), payload)); }
+  void receive(models::HostServices& host, models::StreamIndex, std::span<const std::byte> payload) override;
   void wake(models::HostServices& host, models::AlarmId alarm) override;
 
  private:
@@ -58,6 +60,7 @@ class ProgramApplication final : public models::Application {
   void act(models::HostServices&, const wire::RoleTaken&) {}  // the master says who is bound
   void act(models::HostServices&, const wire::RoleDropped& dropped) { roles_->on_dropped(dropped.role, dropped.self, false); }
 
+  void send(models::HostServices& host, models::StreamIndex stream, std::span<const std::byte> octets) { host.send(stream, sealed_ ? sealed_->seal(octets) : octets); }
   void begin_work(models::HostServices& host, const std::optional<sim::Duration>& work);
   void end_work(models::HostServices& host);
   std::size_t work_alarm() const { return node_.alarm_count(); }
@@ -66,6 +69,7 @@ class ProgramApplication final : public models::Application {
   models::StreamIndex state_stream_;
   std::optional<models::StreamIndex> role_stream_;
   std::vector<std::optional<models::StreamIndex>> data_streams_;
+  std::unique_ptr<SealedMessages> sealed_;
   std::optional<ReplyWorker> replies_;
   ProgramMonitor* monitor_;
   RoleMonitor* roles_;

@@ -28,6 +28,10 @@ class ProgramStreams {
     const Octets table{wire::table_octets(description_.roles.size(), program_.candidates().size())};
     for (std::size_t m = 0; m < program_.members.size(); ++m) {
       ResolvedMember& member = program_.members[m];
+      if (const EndStation* const host = end_station_of(r_.topology.nodes[member.node.value].description); description_.security && host != nullptr && host->cryptography) {
+        member.seal = host->cryptography->seal;
+        member.open = host->cryptography->open;
+      }
       if (m != 0 && program_.has_roles()) member.roles = add(m, "announce/" + name_of(member), Octets{wire::announcement_octets}, program_.announce_every, description_.where);
       member.state = add(m, "state/" + name_of(member), state, description_.cycle, description_.where);
       if (m == 0 && program_.has_roles()) member.roles = add(m, "bindings", table, program_.announce_every, description_.where);
@@ -94,7 +98,7 @@ class ProgramStreams {
         if (m != from) wanted.to.push_back({program_.members[m].node.value, program_.has_roles() ? description_.where.at("roles") : description_.where.at("slaves", m - 1)});
     wanted.priority = description_.pcp;
     wanted.vlan = description_.vlan;
-    wanted.payload = payload;
+    wanted.payload = payload + Octets{plant::octets_of_security(description_)};
     wanted.of_program = true;
     wanted.ether_type = wire::uadp_ether_type;
     wanted.redundancy = program_.redundancy.get();
@@ -104,7 +108,7 @@ class ProgramStreams {
     if (!index) return {};
     StreamDemand& demand = r_.streams[index->value].demand;
     demand.frames_per_second = 1e12 / static_cast<double>(every.ps());
-    demand.wire_bits_per_second = demand.frames_per_second * 8.0 * models::wire_length(models::frame_length(r_.plan.streams[index->value].headers + payload, true)).count;
+    demand.wire_bits_per_second = demand.frames_per_second * 8.0 * models::wire_length(models::frame_length(r_.plan.streams[index->value].headers + wanted.payload, true)).count;
     return *index;
   }
 

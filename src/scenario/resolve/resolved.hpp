@@ -67,6 +67,8 @@ struct ResolvedMember {
   std::optional<models::StreamIndex> roles = {};        ///< with roles: the bindings that the master tells, what a candidate announces
   std::vector<std::optional<models::StreamIndex>> data = {};   ///< by data set, of those that it sends, or a role that it may have
   std::optional<std::uint32_t> cpu_thread = {};         ///< of the node's processor, on which it runs
+  Duration seal = {};                                   ///< what securing takes of each message that it sends; 0 in programs without security
+  Duration open = {};                                   ///< of each that it hears
 };
 
 struct ResolvedProgram {

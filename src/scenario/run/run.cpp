@@ -165,12 +165,18 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
   }
   for (std::size_t m = 0; m < program.members.size(); ++m) {
     const ResolvedMember& member = program.members[m];
-    ProgramApplication::Settings settings{node_settings(program, m, formats), member.state, member.roles, member.data, {}};
+    ProgramApplication::Settings settings{node_settings(program, m, formats), member.state, member.roles, member.data, {}, {}};
     const std::string path = resolved_->topology.nodes[member.node.value].name + "/" + program.name;
+    if (const auto& security = program.description->security) {
+      const std::size_t streams = program.members.size() * (2 + program.process_data.size());
+      settings.sealed = std::make_unique<SealedMessages>(*security, program.name, static_cast<std::uint16_t>(formats.program->shape().first_publisher_id + m), streams);
+    }
     if (!program.replies.empty()) settings.replies.emplace(program, static_cast<std::uint8_t>(m), resolved_->scenario.seed, path);
     auto application = std::make_unique<ProgramApplication>(std::move(settings), *live->monitor, live->roles.get(), member.node);
     ProgramApplication* const raw = application.get();
-    live->members.push_back({&network_.add_process(member.node, program.name, std::move(application), member.cpu_thread), raw});
+    models::Process& process = network_.add_process(member.node, program.name, std::move(application), member.cpu_thread);
+    process.secure(member.seal, member.open);
+    live->members.push_back({&process, raw});
   }
   connect_streams(program, *live);
   programs_.push_back(std::move(live));

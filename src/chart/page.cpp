@@ -17,13 +17,21 @@ constexpr std::string_view style =
     ".pass{color:#00734f}.fail{color:#c0392b}.undecided{color:#9a6700}.note{color:var(--faint)}pre{white-space:pre-wrap;margin:0;font-size:12px}"
     ".verdict{font-size:17px;font-weight:600;padding:10px 14px;border-left:5px solid currentColor;background:var(--head)}"
     "details>summary{cursor:pointer;font-weight:600;margin:10px 0}"
+    ".stack{display:flex;gap:3px;margin:4px 0}.stack .group{flex:1 1 0;min-width:0}.parts{display:flex;height:22px;outline:1px solid var(--line)}"
+    ".part{min-width:1px;forced-color-adjust:none;print-color-adjust:exact;-webkit-print-color-adjust:exact;background-color:var(--k)}.parts .part{flex:1 1 0;box-shadow:inset -1px 0 var(--paper)}"
+    ".stack .name{font-size:12px;color:var(--faint);overflow:hidden;text-overflow:ellipsis;white-space:nowrap}.way{margin:0}"
+    ".legend{display:flex;flex-wrap:wrap;gap:4px 18px;list-style:none;margin:8px 0;padding:0}.legend .part{display:inline-block;width:16px;height:12px;margin-right:6px}"
+    ".k0{--k:#6f7f8a}.k1{--k:#c3ccd2}.k2{--k:#999933}.k3{--k:#0072b2}.k4{--k:#d55e00}.k5{--k:#e69f00}.k6{--k:#009e73}.k7{--k:#cc79a7}.k8{--k:#7d3f98}"
+    ".k5,.k7,.k8{background-image:repeating-linear-gradient(45deg,transparent 0 4px,var(--paper) 4px 5px)}"
+    "@media (max-width:480px){td,th{padding:3px 5px}}"
     "svg .stretch{fill:#009e73;opacity:.22}svg .failed{stroke:#c0392b;stroke-width:2.5}svg text.pass{fill:#00734f}svg text.fail{fill:#c0392b;font-weight:600}svg text.undecided{fill:#9a6700}\n";
 
 /// What the style sheet of charts has for white paper.
 constexpr std::string_view dark =
     "@media screen and (prefers-color-scheme:dark){:root{--ink:#ddd;--paper:#15191c;--faint:#9aa5ad;--line:#3a4248;--head:#20262a}"
     ".pass{color:#4cc38a}.fail{color:#ff7b6b}.undecided{color:#e3b341}svg text{fill:#ccc}svg .axis{stroke:#8a949b}svg .grid{stroke:#2c3439}svg .limit{stroke:#ff7b6b}"
-    "svg text.pass{fill:#4cc38a}svg text.fail{fill:#ff7b6b}svg text.undecided{fill:#e3b341}svg .box{fill:#20303c;stroke:#58a6d6}svg .paper{fill:#15191c}svg .arrow{stroke:#ccc}svg .arrowhead{fill:#ccc}svg .note{fill:#aab4bb;stroke:#15191c}svg [stroke=\"#000000\"]{stroke:#ddd}svg [fill=\"#000000\"]{fill:#ddd}}"
+    "svg text.pass{fill:#4cc38a}svg text.fail{fill:#ff7b6b}svg text.undecided{fill:#e3b341}svg .box{fill:#20303c;stroke:#58a6d6}svg .paper{fill:#15191c}svg .arrow{stroke:#ccc}svg .arrowhead{fill:#ccc}svg .note{fill:#aab4bb;stroke:#15191c}svg [stroke=\"#000000\"]{stroke:#ddd}svg [fill=\"#000000\"]{fill:#ddd}"
+    ".k0{--k:#93a3ae}.k1{--k:#4a565e}.k2{--k:#c3c36b}.k3{--k:#3b94d0}.k4{--k:#ff8a3d}.k6{--k:#2dbb91}.k8{--k:#b583cf}}"
     "@media print{body{max-width:none;margin:0}h2{break-after:avoid}svg,tr{break-inside:avoid}details{display:block}}\n";
 
 }  // namespace

@@ -30,7 +30,7 @@ std::vector<const results::ReactionResult*> chosen(const std::vector<results::Re
 
 }  // namespace
 
-Replay::Replay(const scenario::Resolved& resolved, const results::RunResult& result) : run_(resolved), cycle_(gate_cycle(resolved, result.simulated)) {
+Replay::Replay(const scenario::Resolved& resolved, const results::RunResult& result) : run_(resolved), cycle_(gate_cycle(resolved, result.simulated)), ways_(run_.network(), result), end_(std::min(run_.end(), sim::TrueTime() + result.simulated)) {
   for (std::size_t p = 0; p < resolved.programs.size(); ++p) {
     logs_.emplace_back();
     const scenario::ResolvedProgram& program = resolved.programs[p];
@@ -51,6 +51,7 @@ Replay::Replay(const scenario::Resolved& resolved, const results::RunResult& res
     watch_ = std::make_unique<GateWatch>(run_, *cycle_);
     sinks_.add(*watch_);
   }
+  if (!ways_.is_complete()) sinks_.add(way_recorder_.emplace(run_.network(), ways_));
 }
 
 bool Replay::run_until(sim::TrueTime time, const std::function<bool()>& is_interrupted) {
@@ -60,9 +61,17 @@ bool Replay::run_until(sim::TrueTime time, const std::function<bool()>& is_inter
   return true;
 }
 
+/// On to the end, if need be: when the slowest frames come is in no result.
+bool Replay::find_ways(const std::function<bool()>& is_interrupted) {
+  constexpr std::uint64_t events_a_slice = 200'000;
+  while (!ways_.is_complete() && !run_.simulation().run(end_, events_a_slice))
+    if (is_interrupted()) return false;
+  return true;
+}
+
 bool Replay::advance(const std::function<bool()>& is_interrupted) {
   if (sinks_.empty()) return true;
-  run_.simulation().set_trace(&sinks_);
+  way_recorder_ ? run_.explain_to(&sinks_) : run_.simulation().set_trace(&sinks_);
   sim::TrueTime last;
   for (const Excerpt& excerpt : excerpts_) last = std::max(last, excerpt.to + run_.resolved().programs[excerpt.program].description->cycle * 2);
   bool goes_on = true;
@@ -71,7 +80,7 @@ bool Replay::advance(const std::function<bool()>& is_interrupted) {
     watch_->look_at_gates();
     last = std::max(last, cycle_->until);
   }
-  if (goes_on) goes_on = run_until(last, is_interrupted);
+  if (goes_on) goes_on = run_until(last, is_interrupted) && find_ways(is_interrupted);
   run_.simulation().set_trace(nullptr);
   return goes_on;
 }

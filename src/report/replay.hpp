@@ -11,6 +11,7 @@
 #include "output/fan_out.hpp"
 #include "report/gates_figure.hpp"
 #include "report/sequence_figure.hpp"
+#include "report/worst_ways.hpp"
 #include "results/run_result.hpp"
 #include "scenario/run/run.hpp"
 
@@ -30,15 +31,21 @@ class Replay {
   std::vector<chart::SequenceChart> sequences() const;
   /// None without gates.
   std::optional<chart::Gantt> gates() const;
+  /// Of each stream the slowest frame.
+  const WorstWays& ways() const { return ways_; }
 
  private:
   bool run_until(sim::TrueTime time, const std::function<bool()>& is_interrupted);
+  bool find_ways(const std::function<bool()>& is_interrupted);
 
   scenario::Run run_;
   std::vector<Excerpt> excerpts_;
   std::vector<std::unique_ptr<MessageLog>> logs_;   // by program; null: nothing is shown of it
   std::unique_ptr<GateWatch> watch_;
   std::optional<Span> cycle_;
+  WorstWays ways_;
+  std::optional<explain::WayRecorder> way_recorder_;
+  sim::TrueTime end_;   // of what was judged
   output::FanOut sinks_;
 };
 

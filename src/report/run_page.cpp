@@ -159,7 +159,7 @@ std::string run_page(const scenario::Resolved& resolved, const RunResult& result
   page += chart::section("The network") + chart::charts({draw(network_figure(resolved, &result))});
   if (const auto gates = replay.gates(); gates && !gates->rows.empty())
     page += chart::section("Gates", "Green: the gate of the class is open. Bars: frames on the wire; rest the mouse on one.") + chart::charts({draw(*gates)});
-  page += reactions(result, replay) + streams(result) + ports(result) + clocks(result) + drops(result);
+  page += reactions(result, replay) + streams(result) + ways_section(replay.ways()) + ports(result) + clocks(result) + drops(result);
   return page + chart::page_end();
 }
 

@@ -1,6 +1,9 @@
 // The page of a run shows what happened, and needs nothing else.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "evaluation/evaluate.hpp"
 #include "report/run_page.hpp"
 #include "scenario/resolve/resolve.hpp"
@@ -81,6 +84,59 @@ TEST(RunPage, ACrashMarksItsNodeAndTheReplayIsTheSameRun) {
   const Made made = page_of("daisy-chain.json");
   EXPECT_NE(made.page.find("red: failed in this run"), std::string::npos);
   for (const chart::SequenceChart& sequence : made.replay->sequences()) EXPECT_EQ(sequence.participants.size(), 13u);
+}
+
+sim::Duration sum_of(const explain::ExplainedFrame& frame) {
+  sim::Duration sum;
+  for (const explain::ExplainedHop& hop : frame.hops)
+    for (const explain::ExplainedPart& part : hop.parts) sum += part.takes;
+  return sum;
+}
+
+// Each stream's slowest frame is the one of the result, and its parts are all of its latency.
+TEST(RunPage, WhereTheTimeOfTheSlowestFramesWent) {
+  const Made made = page_of("tsn/preemption-on-a-line.json");
+  expect_self_contained(made.page);
+  const auto frames = made.replay->ways().frames();
+  ASSERT_EQ(frames.size(), made.result.streams.size());
+  EXPECT_TRUE(made.replay->ways().is_complete());
+  for (const results::StreamResult& stream : made.result.streams) {
+    const auto found = std::ranges::find(frames, stream.name, &explain::ExplainedFrame::stream);
+    ASSERT_NE(found, frames.end()) << stream.name;
+    EXPECT_EQ((*found)->takes, stream.latency->max) << stream.name;
+    EXPECT_EQ(sum_of(**found), stream.latency->max) << stream.name;
+  }
+  EXPECT_TRUE(std::ranges::is_sorted(frames, std::ranges::greater(), &explain::ExplainedFrame::takes));
+  EXPECT_EQ(count(made.page, "<div class=\"stack\" role=\"img\" aria-label=\""), frames.size());
+  EXPECT_EQ(count(made.page, "Its figures, hop by hop"), frames.size());
+  // docs of the scenario: backup is behind its own class, cuts of express frames cost it time.
+  EXPECT_NE(made.page.find("<h3>backup1: 1.908542 ms</h3>"), std::string::npos);
+  EXPECT_NE(made.page.find("preemption: cuts, hold"), std::string::npos);
+  EXPECT_EQ(made.page.find("gate closed"), std::string::npos) << "the legend has what occurs";
+}
+
+// A warm-up hides the slow frames of the beginning from the figures, and from the page.
+TEST(RunPage, TheSlowestFrameIsOneThatCounts) {
+  const Made made = page_of("robot-arm.json", {"/duration=2s", "/warm_up=1500ms", "/require=[]"});
+  for (const explain::ExplainedFrame* const frame : made.replay->ways().frames()) {
+    const auto found = std::ranges::find(made.result.streams, frame->stream, &results::StreamResult::name);
+    ASSERT_NE(found, made.result.streams.end());
+    EXPECT_EQ(frame->takes, found->latency->max);
+  }
+  EXPECT_TRUE(made.replay->ways().is_complete());
+}
+
+TEST(RunPage, SlowestStreamsOnlyAndTheRestInWords) {
+  // All frames at once: each waits for those before it, so stream 0 is the soonest. The Program's four streams are slower than some.
+  std::string streams;
+  for (int i = 0; i < 60; ++i) streams += (i == 0 ? "{" : ",{") + std::string(R"("name": "s)") + std::to_string(i) + R"(", "from": "camera", "to": "generator", "every": "10ms", "payload": "1000B"})";
+  const Made made = page_of("robot-arm.json", {"/duration=30ms", "/require=[]", "/script=[]", "/streams=[" + streams + "]"});
+  const auto delivering = static_cast<std::size_t>(std::ranges::count_if(made.result.streams, [](const auto& stream) { return stream.latency.has_value(); }));
+  ASSERT_GE(delivering, 60u);
+  EXPECT_EQ(made.replay->ways().frames().size(), WorstWays::most_streams);
+  EXPECT_EQ(made.replay->ways().left_out(), delivering - WorstWays::most_streams);
+  EXPECT_EQ(made.page.find("<h3>s0: "), std::string::npos);
+  EXPECT_NE(made.page.find("and " + std::to_string(delivering - WorstWays::most_streams) + " more streams, none of them slower"), std::string::npos);
 }
 
 TEST(RunPage, FailuresAreOnTop) {

@@ -49,7 +49,7 @@ const BadCase groups_cases[] = {
 {"name": "d", "from": "a", "fields": {"x": {"type": "Double", "count": 180}}}]})"),
      R"(3:38: error at /programs/0/process_data/0/fields: more than one frame: found 1510 octets with all headers, expected at most 1500)"},
     {"AnotherSecurity", with_groups(R"({"name": "p", "master": "a", "slaves": ["b"], "cycle": "1ms", "security": {"mode": "encrypt"}})"),
-     R"(2:81: error at /programs/0/security/mode: unknown name for a security mode: found "encrypt", expected "sign" or "sign-and-encrypt")"},
+     R"(2:84: error at /programs/0/security/mode: unknown name for a security mode: found "encrypt", expected "sign" or "sign-and-encrypt")"},
     {"AbsentStranger", with_groups(R"({"name": "p", "master": "a", "roles": [{"name": "r", "skill": "welding"}], "absent": ["c"], "cycle": "1ms"})"),
      R"(2:87: error at /programs/0/absent/0: not a candidate of the program: found "c", expected a host that offers a skill it needs)"},
     {"TwoProgramsForOneNode", with_groups(R"({"name": "p", "master": "a", "roles": [{"name": "r", "skill": "welding"}], "cycle": "1ms"}, {"name": "q", "master": "c", "roles": [{"name": "r", "skill": "welding"}], "cycle": "1ms"})"),

@@ -162,8 +162,8 @@ const IdleCase cases[] = {
      R"({"name": "t", "duration": "10ms", "network": {"nodes": {"a": {"kind": "host", "offers": ["weld"]}, "b": {"kind": "host", "processing": {"per_message": "1us"}, "cryptography": {"seal": "1us"}}, "sw": {"kind": "switch"}},
 "links": [{"ends": ["a", "sw"]}, {"ends": ["b", "sw"]}]}})",
      "/network/nodes/a/offers/0: a skill that no role needs: \"weld\" | the \"skill\" of a role of a program\n"
-     "/network/nodes/b/cryptography: times of cryptography without secured messages: \"b\" is in no program with \"security\" | \"security\" of a program\n"
-     "/network/nodes/b/processing: a time of processing without replies: \"b\" is in no program with \"replies\" | \"replies\"\n"},
+     "/network/nodes/b/processing: a time of processing without replies: \"b\" is in no program with \"replies\" | \"replies\"\n"
+     "/network/nodes/b/cryptography: times of cryptography without secured messages: \"b\" is in no program with \"security\" | \"security\" of a program\n"},
     {"ThreadsInVain", R"({"name": "t", "duration": "10ms", "network": {"nodes": {"b": {"kind": "host"}, "a": {"kind": "host", "cpu": {"slice": "1ms", "threads": [
 {"name": "stack", "execution": "1us", "wake_up": "1us", "stack": ["receive", "transmit"]}, {"name": "load", "execution": "1us", "every": "20ms", "offset": "11ms"}]}}}, "links": [{"ends": ["a", "b"]}]}, "streams": [)" + control + "]}",
      "/network/nodes/a/cpu/slice: a slice that nobody shares: 1ms beside fewer than two threads of policy \"fair\" | two of them\n"

@@ -1,4 +1,4 @@
-// What scenario files say of the processor of a host. See description.hpp.
+// What scenario files say of the processor of a host, and of what cryptography takes on it. See description.hpp.
 #pragma once
 
 #include <cstdint>
@@ -48,6 +48,15 @@ struct Cpu {
   bool operator==(const Cpu&) const = default;
 };
 
+/// How long a host takes for each message of Programs whose messages are secured.
+struct Cryptography {
+  json::Source where;
+  sim::Duration seal;
+  sim::Duration open;
+  bool operator==(const Cryptography&) const = default;
+};
+
+const json::Object& describe(json::Type<Cryptography>);
 const json::Enumeration& describe(json::Type<StackPart>);
 const json::Enumeration& describe(json::Type<SchedulingPolicy>);
 const json::Object& describe(json::Type<CpuThread>);

@@ -73,14 +73,6 @@ struct Processing {
   bool operator==(const Processing&) const = default;
 };
 
-/// How long a host takes for each message of Programs whose messages are secured.
-struct Cryptography {
-  json::Source where;
-  Duration seal;
-  Duration open;
-  bool operator==(const Cryptography&) const = default;
-};
-
 enum class TrafficClasses : std::uint8_t { standard, identity };
 
 /// Which frame is lost when a queue is full.
@@ -455,7 +447,6 @@ struct Scenario {
 };
 
 const json::Object& describe(json::Type<Processing>);
-const json::Object& describe(json::Type<Cryptography>);
 const json::Enumeration& describe(json::Type<OsProfile>);
 const json::Object& describe(json::Type<OperatingSystem>);
 const json::Enumeration& describe(json::Type<TrafficClasses>);

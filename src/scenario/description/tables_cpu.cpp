@@ -29,6 +29,15 @@ const json::Enumeration& describe(json::Type<SchedulingPolicy>) {
   return table;
 }
 
+const json::Object& describe(json::Type<Cryptography>) {
+  static constexpr json::Field fields[] = {
+      optional<&Cryptography::seal>("seal", "Before a message is sent.", {.max = 1_s}),
+      optional<&Cryptography::open>("open", "Before a message that has come is heard.", {.max = 1_s}),
+  };
+  static constexpr json::Object table = json::object<Cryptography>("cryptography", "How long securing takes for each message of programs with `security`. Messages do not wait for each other in it.", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<CpuThread>) {
   static constexpr json::Field fields[] = {
       required<&CpuThread::name>("name", "Unique on the host.", {.min_length = 1, .max_length = 200}),

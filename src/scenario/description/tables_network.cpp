@@ -35,15 +35,6 @@ const json::Object& describe(json::Type<Processing>) {
   return table;
 }
 
-const json::Object& describe(json::Type<Cryptography>) {
-  static constexpr json::Field fields[] = {
-      optional<&Cryptography::seal>("seal", "Before a message is sent.", {.max = 1_s}),
-      optional<&Cryptography::open>("open", "Before a message that has come is heard.", {.max = 1_s}),
-  };
-  static constexpr json::Object table = json::object<Cryptography>("cryptography", "How long securing takes for each message of programs with `security`, of messages at a time each for itself.", fields);
-  return table;
-}
-
 const json::Object& describe(json::Type<OperatingSystem>) {
   static constexpr json::Field fields[] = {
       optional<&OperatingSystem::profile>("profile", "Where the delays come from that are not given here."),

@@ -1,4 +1,6 @@
 // takt node: a participant of Programs on this machine, or applications and gateways.
+#include <poll.h>
+
 #include <csignal>
 #include <cstdio>
 #include <iostream>
@@ -14,6 +16,7 @@
 #include "node/applications/statistics_file.hpp"
 #include "node/built_in_values.hpp"
 #include "node/description.hpp"
+#include "node/key_service_node.hpp"
 #include "node/log.hpp"
 #include "node/real_node.hpp"
 #include "node/server/key_puller.hpp"
@@ -89,7 +92,38 @@ ExitStatus describe_node(const std::string& file) {
   return ExitStatus::pass;
 }
 
+std::string folder_of(const std::string& file) { return file.substr(0, file.find('/') == std::string::npos ? 0 : file.rfind('/')); }
+
+/// A server without Programs.
+ExitStatus run_key_service(const std::string& file, bool is_check) {
+  json::Diagnostics diagnostics;
+  const auto loaded = node::load_key_service(file, diagnostics);
+  auto users = loaded && loaded->config.server->users ? node::load_users(*loaded->config.server->users, diagnostics) : std::nullopt;
+  tell(diagnostics);
+  if (!loaded || !users) return ExitStatus::bad_input;
+  if (is_check) return ExitStatus::pass;
+  std::string problem;
+  node::HandOver hand_over;
+  const auto server = node::OpcUaServer::make(*loaded, std::move(*users), folder_of(file), hand_over, results::version, problem);
+  if (!server) {
+    std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
+    return ExitStatus::internal_error;
+  }
+  const InterruptGuard interrupt;  // before the start is told, which somebody may answer with a signal
+  std::printf("{\"event\": \"start\", \"node\": %s}\n", json::quote(loaded->config.node).c_str());
+  std::fflush(stdout);
+  std::fprintf(stderr, "%s", server->text().c_str());
+  server->start();
+  constexpr std::int64_t look_every_ms = 100;
+  std::int64_t left_ms = loaded->config.duration ? loaded->config.duration->ps() / 1'000'000'000 : 0;
+  while (!interrupt.requested() && (!loaded->config.duration || (left_ms -= look_every_ms) >= 0)) ::poll(nullptr, 0, static_cast<int>(look_every_ms));
+  server->stop();
+  std::printf("{\"event\": \"end\", \"node\": %s}\n", json::quote(loaded->config.node).c_str());
+  return ExitStatus::pass;
+}
+
 ExitStatus run_node(const std::string& file, bool is_check) {
+  if (node::is_key_service_file(file)) return run_key_service(file, is_check);
   if (node::is_applications_file(file)) return run_applications(file, is_check);
   json::Diagnostics diagnostics;
   const auto loaded = node::load_config(file, diagnostics);
@@ -110,7 +144,7 @@ ExitStatus run_node(const std::string& file, bool is_check) {
     applications.push_back(values.back().get());
   }
   node::HandOver hand_over;
-  const std::string folder = file.substr(0, file.find('/') == std::string::npos ? 0 : file.rfind('/'));
+  const std::string folder = folder_of(file);
   const auto server = has_server ? node::OpcUaServer::make(*loaded, std::move(*users), folder, hand_over, results::version, problem) : nullptr;
   if (has_server && !server) {
     std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
@@ -156,6 +190,7 @@ void add_node_command(Command app, ExitStatus& status) {
       "  takt node left.json | jq 'select(.event == \"transition\")'\n"
       "A file with \"programs\" instead of \"program\" runs a participant of several, nested or not, in one process.\n"
       "A file with \"topics\", \"applications\" and \"gateways\" instead of \"program\" runs these: OPC UA PubSub and DDS.\n"
+      "A file with \"server\" and nothing that it would stand in front of runs a key service.\n"
       "Standard output is one JSON object a line: transitions, calls, intents, received values if asked for, and statistics at the end,\n"
       "which standard error has as text. takt ctl speaks to a node while it runs.\n"
       "Exit status: 0 ended or stopped, 2 bad input, 3 the machine does not let it (port, interface, permission).");

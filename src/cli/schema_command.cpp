@@ -17,6 +17,7 @@
 #include "node/applications/host.hpp"
 #include "node/config.hpp"
 #include "node/description.hpp"
+#include "node/key_service_node.hpp"
 #include "node/node_status.hpp"
 #include "results/run_result.hpp"
 #include "scenario/description/description.hpp"
@@ -50,6 +51,7 @@ constexpr std::array file_kinds{
     read_as<study::Study>("study", "takt study"),
     read_as<node::Config>("node", "takt node: Programs"),
     read_as<node::ApplicationsConfig>("applications", "takt node: applications"),
+    read_as<node::KeyServiceNode>("key-service", "takt node: a key service"),
     written_as<results::RunResult>("result", "takt run: result.json"),
     written_as<analysis::BoundReport>("bound", "takt bound --format json"),
     written_as<verify::Report>("verify", "takt verify --format json"),

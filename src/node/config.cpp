@@ -7,6 +7,7 @@
 #include "json/suggest.hpp"
 #include "node/private_file.hpp"
 #include "node/program_check.hpp"
+#include "node/server_check.hpp"
 #include "plant/program_check.hpp"
 
 namespace takt::node {
@@ -32,7 +33,7 @@ class Checker {
     load_keys_of_node();
     for (Source& source : config_.sources) check(source);
     for (const ScriptEntry& entry : config_.script) check(entry);
-    if (config_.server) check(*config_.server);
+    if (config_.server) check_server(loaded_, diagnostics_);
     std::stable_sort(loaded_.script.begin(), loaded_.script.end(), [](const LoadedCall& a, const LoadedCall& b) { return a.at < b.at; });
     for (const LoadedProgram& each : loaded_.programs)
       if (config_.launch_lead && *config_.launch_lead >= each.program.cycle)
@@ -106,20 +107,6 @@ class Checker {
       inner.outer = static_cast<std::size_t>(outer - loaded_.programs.begin());
       inner.endpoint.handshake.nested = outer->endpoint.handshake.nested = true;
     }
-  }
-
-  void check(const ServerConfig& server) {
-    if (!parse_endpoint(server.endpoint))
-      diagnostics_.error(server.where.at("endpoint"), "no endpoint", {json::quote(server.endpoint), "\"opc.tcp://\", an IPv4 address or localhost, \":\" and a port, as in \"opc.tcp://127.0.0.1:4840\""});
-    if (!server.anonymous && !server.users)
-      diagnostics_.error(server.where.place(), "a server that lets nobody in", {"neither \"users\" nor \"anonymous\"", "a file of users, or \"anonymous\": true for reading"});
-    const ServerLimits limits = server.limits.value_or(ServerLimits());
-    const auto check_order = [&](const std::optional<Duration>& least, const std::optional<Duration>& most, const char* key) {
-      if (least && most && *most < *least) diagnostics_.error(limits.where.at(key), "less than the least", {json::to_text(*most), "at least " + json::to_text(*least)});
-    };
-    check_order(limits.least_session, limits.most_session, "most_session");
-    check_order(limits.least_token, limits.most_token, "most_token");
-    if (server.key_service) loaded_.served = load_groups(server, diagnostics_);
   }
 
   /// The node's Program of this name.

@@ -103,6 +103,7 @@ std::unique_ptr<OpcUaServer> OpcUaServer::make(const LoadedConfig& loaded, std::
 
   auto identity = own_identity(loaded.config, {}, folder, made->random_, problem);
   if (!identity) return nullptr;
+  for (const LoadedGroup& each : loaded.served) made->groups_.push_back(each.keys.group);
   if (!loaded.served.empty())
     made->keys_ = std::make_unique<ServedKeys>(loaded.served, config.key_service->future_keys, [clock = loaded.config.clock] { return key_time_ns(clock); });
   opcua::ProgramHost& host = *made;
@@ -139,6 +140,7 @@ std::string OpcUaServer::text() const {
     text += config_.endpoint + " " + std::string(opcua::info(each.policy).name) + mode + ": " + (config_.anonymous ? "everybody may read" : "users may read") +
             (!config_.users ? "" : may_call ? ", operators may call" : config_.halt_without_encryption ? ", operators may call Halt" : "") + "\n";
   }
+  for (const std::string& group : groups_) text += config_.endpoint + " encrypted: keys of " + group + " for users with key-access\n";
   return text;
 }
 

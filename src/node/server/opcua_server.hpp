@@ -59,6 +59,7 @@ class OpcUaServer final : private opcua::ProgramHost, private opcua::ServerLog {
   HandOver& hand_over_;
   security::SystemRandom random_;
   std::unique_ptr<ServedKeys> keys_;   ///< null: it is no key service
+  std::vector<std::string> groups_;    ///< whose keys it gives
   std::unique_ptr<opcua::Server> server_;
   std::map<opcua::ConnectionId, Open> open_;
   std::set<std::string> told_;      ///< refusals, by source and reason; bounded

@@ -43,10 +43,11 @@ std::optional<TcpConnection> TcpConnection::connect(const EndpointAddress& to, s
 }
 
 std::string TcpConnection::problem() const {
+  const int told = errno;  // by the call that failed, which the socket forgets then
   int error = 0;
   socklen_t size = sizeof error;
   ::getsockopt(fd_.number(), SOL_SOCKET, SO_ERROR, &error, &size);
-  errno = error != 0 ? error : ECONNRESET;
+  errno = error != 0 ? error : told != 0 ? told : ECONNRESET;
   return what_failed("no connection");
 }
 

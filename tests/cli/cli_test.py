@@ -334,7 +334,7 @@ class Report(CliTest):
 
 
 class Folder(CliTest):
-    FILES = {"result.json", "scenario.json", "streams.csv", "reactions.csv", "ports.csv", "queues.csv", "histograms.csv"}
+    FILES = {"files.json", "result.json", "scenario.json", "streams.csv", "reactions.csv", "ports.csv", "queues.csv", "histograms.csv"}
 
     def test_files_are_complete(self):
         out_folder = self.folder / "deep" / "out"

@@ -72,7 +72,7 @@ pubsub::DataSetWriterSettings writer_settings(const TopicShape& topic) {
   settings.data_set_writer_id = topic.layout.data_set_writer_id;
   settings.data_set_message_content_mask = mask_of(topic.layout.data_set_message);
   settings.field_encoding = encodings[static_cast<std::size_t>(topic.layout.encoding)];
-  if (topic.layout.encoding == plant::UadpEncoding::data_value) settings.data_set_field_content_mask = mask_of(topic.layout.data_value);
+  if (topic.layout.encoding == plant::UadpEncoding::data_value) settings.data_set_field_content_mask = mask_of(topic.layout.data_value.value_or(std::vector{plant::DataValuePart::status_code}));
   settings.key_frame_count = topic.layout.key_frame_count;
   settings.major_version = topic.layout.major_version;
   settings.minor_version = topic.layout.minor_version;

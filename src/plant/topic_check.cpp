@@ -47,7 +47,7 @@ void check_parts(const UadpLayout& layout, json::Diagnostics& diagnostics) {
 /// Keys that nothing would come of.
 void check_use(const Topic& topic, const UadpLayout& layout, json::Diagnostics& diagnostics) {
   const json::Source& where = layout.where;
-  if (where.has("data_value") && layout.encoding != UadpEncoding::data_value) diagnostics.error(where.at("data_value"), "parts of DataValues without them", {"\"data_value\"", "\"encoding\": \"DataValue\""});
+  if (layout.data_value && layout.encoding != UadpEncoding::data_value) diagnostics.error(where.at("data_value"), "parts of DataValues without them", {"\"data_value\"", "\"encoding\": \"DataValue\""});
   const bool has_publisher = has(layout, NetworkMessagePart::publisher_id);
   if (layout.publisher && !has_publisher) diagnostics.error(where.at("publisher"), "a PublisherId that is not sent", {"\"publisher\"", "\"PublisherId\" in \"network_message\""});
   if (topic.publisher_id && (layout.publisher || !has_publisher))

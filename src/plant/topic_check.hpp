@@ -15,7 +15,7 @@ constexpr bool has_length(TopicType type) { return type == TopicType::string || 
 
 constexpr bool has(const UadpLayout& layout, NetworkMessagePart part) { return std::find(layout.network_message.begin(), layout.network_message.end(), part) != layout.network_message.end(); }
 constexpr bool has(const UadpLayout& layout, DataSetMessagePart part) { return std::find(layout.data_set_message.begin(), layout.data_set_message.end(), part) != layout.data_set_message.end(); }
-constexpr bool has(const UadpLayout& layout, DataValuePart part) { return std::find(layout.data_value.begin(), layout.data_value.end(), part) != layout.data_value.end(); }
+constexpr bool has(const UadpLayout& layout, DataValuePart part) { return layout.data_value && std::find(layout.data_value->begin(), layout.data_value->end(), part) != layout.data_value->end(); }
 
 /// Whether messages carry a UInt16 as PublisherId, a number of `publisher_id` or of the topic's position.
 bool has_uint16_publisher(const Topic& topic);

@@ -45,7 +45,7 @@ struct UadpLayout {
   std::vector<NetworkMessagePart> network_message = {NetworkMessagePart::publisher_id, NetworkMessagePart::group_header, NetworkMessagePart::writer_group_id, NetworkMessagePart::payload_header};
   std::vector<DataSetMessagePart> data_set_message = {DataSetMessagePart::sequence_number};
   UadpEncoding encoding = UadpEncoding::variant;
-  std::vector<DataValuePart> data_value = {DataValuePart::status_code};
+  std::optional<std::vector<DataValuePart>> data_value;   ///< of that encoding; the status if absent
   std::uint32_t key_frame_count = 1;
   std::uint32_t group_version = 0;
   std::uint32_t major_version = 0;

@@ -109,7 +109,7 @@ const json::Object& describe(json::Type<UadpLayout>) {
       optional<&UadpLayout::network_message>("network_message", "UadpNetworkMessageContentMask: what each NetworkMessage has. Without \"PublisherId\" messages with one are not heard.", {.max_items = 9, .unique = true}),
       optional<&UadpLayout::data_set_message>("data_set_message", "UadpDataSetMessageContentMask: what each DataSetMessage has.", {.max_items = 6, .unique = true}),
       optional<&UadpLayout::encoding>("encoding", "How fields are published. Those of all three are heard."),
-      optional<&UadpLayout::data_value>("data_value", "DataSetFieldContentMask of the encoding DataValue: what each field has beside its value.", {.min_items = 1, .max_items = 5, .unique = true}),
+      optional<&UadpLayout::data_value>("data_value", "DataSetFieldContentMask of the encoding DataValue: what each field has beside its value; StatusCode if absent.", {.min_items = 1, .max_items = 5, .unique = true}),
       optional<&UadpLayout::key_frame_count>("key_frame_count", "At least every so many publications all fields are published, between them those that have changed, and nothing if none has.", {.min = 1, .max = 1'000'000}),
       optional<&UadpLayout::group_version>("group_version", "GroupVersion, in seconds since 2000-01-01 UTC; messages with another one are not heard, with 0 all are."),
       optional<&UadpLayout::major_version>("major_version", "MajorVersion of the ConfigurationVersion, in seconds since 2000-01-01 UTC; messages with another one are not heard, with 0 all are."),

@@ -1,4 +1,6 @@
 // Topics, applications, gateways and persistence services.
+#include <algorithm>
+
 #include "tests/generator/maker.hpp"
 
 namespace takt::generator {
@@ -27,7 +29,7 @@ Made fields(Maker& m, const Scope& s) {
   Node made = Node::object();
   for (std::size_t i = 0; i < m.draw.between(1, 3) || i < 2; ++i) {
     const std::string name = "f" + std::to_string(i);
-    made.add(name, m.short_or_object("data_field", &s, name));
+    made.add(name, m.short_or_object("topic_field", &s, name));
   }
   m.kept["fields"] = made;
   return made;
@@ -100,6 +102,57 @@ bool has_keys(const Maker& m, const Scope& s) {
   return false;
 }
 
+/// DDS has numbers only, and fields may be shared by all topics. The first is a number, for patterns.
+Made field_type(Maker& m, const Scope& s) {
+  if (!m.wants(Feature::dds) && s.name != "f0" && m.draw.one_in(3)) return m.word("String DateTime Guid ByteString");
+  return m.word("Boolean SByte Byte Int16 UInt16 Int32 UInt32 Int64 UInt64 Float Double");
+}
+bool has_length(const Scope& s) { return s.text("type") == "String" || s.text("type") == "ByteString"; }
+
+/// Of the first field of the topic that is no number and single.
+Made field_values(Maker& m, const Scope& s) {
+  const Scope* const thread = s.around("thread");
+  if (!s.has("pattern")) return std::nullopt;
+  for (std::size_t i = 0; i < m.topics; ++i) {
+    if (name_of(m, i) != thread->text("publish")) continue;
+    for (const auto& member : topic(m, i).find("fields")->members) {
+      const std::string& name = member.key;
+      const Node& field = member.value;
+      const std::string type = field.find("type") != nullptr ? field.find("type")->text : field.text;
+      if (field.find("count") != nullptr) continue;
+      Node made = Node::object();
+      if (type == "String") made.add(name, text(m.draw.one_in(2) ? "a" : ""));
+      if (type == "ByteString") made.add(name, text("ff"));
+      if (type == "DateTime") made.add(name, text("2024-01-17T21:20:00.5Z"));
+      if (type == "Guid") made.add(name, text("72962b91-fa75-4ae6-8d28-b404dc7daf63"));
+      if (!made.members.empty()) return made;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Words as a list.
+Node words(std::initializer_list<std::string_view> all) {
+  std::vector<Node> items;
+  for (const std::string_view each : all) items.push_back(text(each));
+  return list(std::move(items));
+}
+
+/// All tell publications apart; without PublisherId by ids of the topic's own.
+Made network_message(Maker& m, const Scope& s) {
+  const bool has_publisher = s.has("publisher") || s.around("topic")->has("publisher_id");
+  switch (m.draw.below(has_publisher ? 3 : 4)) {
+    case 0: return words({"PublisherId", "GroupHeader", "WriterGroupId", "GroupVersion", "NetworkMessageNumber", "SequenceNumber"});
+    case 1: return words({"PublisherId", "GroupHeader", "WriterGroupId", "PayloadHeader", "Timestamp", "PicoSeconds"});
+    case 2: return words({"PublisherId", "GroupHeader", "WriterGroupId", "SequenceNumber", "PayloadHeader"});
+    default: return words({"GroupHeader", "WriterGroupId", "PayloadHeader"});
+  }
+}
+bool has_payload_header(const Scope& s) {
+  const Node* const parts = s.made->find("network_message");
+  return parts == nullptr || std::ranges::any_of(parts->items, [](const Node& each) { return each.text == "PayloadHeader"; });
+}
+
 Made any_host(Maker& m, const Scope&) { return text(m.draw.any(m.world.hosts)); }
 Made interval(Maker& m, const Scope&) { return m.word("500us 1ms 2ms 1500us"); }
 Made phase(Maker& m, const Scope&) { return m.word("0us 100us 250us 499us"); }
@@ -127,6 +180,25 @@ std::span<const Rule> application_rules() {
       {.key = "topic.protocol", .make = protocol},
       {.key = "topic.fields", .make = fields},
       {.key = "topic.publisher_id", .percent = 20, .make = [](Maker&, const Scope& s) -> Made { return is_of_dds(s) ? std::nullopt : Made(number(20'000 + s.number)); }},
+      {.key = "topic.uadp", .feature = Feature::opc_ua, .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return is_of_dds(s) ? std::nullopt : Made(m.object("uadp", &s, {}, s.number)); }},
+      {.key = "topic_field.type", .make = field_type},
+      {.key = "topic_field.count", .percent = 30, .words = "1 2 3"},
+      {.key = "topic_field.max_length", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return has_length(s) ? Made(m.word("1 5 40")) : std::nullopt; }},
+      {.key = "uadp.publisher", .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return s.around("topic")->has("publisher_id") ? std::nullopt : Made(m.object("uadp_publisher", &s, {}, s.number)); }},
+      {.key = "uadp_publisher.byte", .make = [](Maker& m, const Scope& s) -> Made { return m.draw.one_in(4) ? Made(number(1 + s.number)) : std::nullopt; }},
+      {.key = "uadp_publisher.uint32", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return s.has("byte") || m.draw.one_in(2) ? std::nullopt : Made(number(70'000 + s.number)); }},
+      {.key = "uadp_publisher.uint64", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return s.has("byte") || s.has("uint32") || m.draw.one_in(2) ? std::nullopt : Made(number(5'000'000'000 + s.number)); }},
+      {.key = "uadp_publisher.string", .percent = 100, .make = [](Maker&, const Scope& s) -> Made { return s.has("byte") || s.has("uint32") || s.has("uint64") ? std::nullopt : Made(text("p" + std::to_string(s.number))); }},
+      {.key = "uadp.writer_group_id", .percent = 100, .make = [](Maker&, const Scope& s) -> Made { return number(1 + 100 * s.number); }},
+      {.key = "uadp.data_set_writer_id", .percent = 30, .words = "1 7 65535"},
+      {.key = "uadp.network_message", .percent = 60, .make = network_message},
+      {.key = "uadp.data_set_message", .percent = 40, .make = [](Maker& m, const Scope&) -> Made { return m.draw.one_in(2) ? words({"Timestamp", "PicoSeconds", "Status", "MajorVersion", "MinorVersion", "SequenceNumber"}) : words({"Status", "SequenceNumber"}); }},
+      {.key = "uadp.encoding", .percent = 60},
+      {.key = "uadp.data_value", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.text("encoding") != "DataValue" ? Made() : m.draw.one_in(2) ? words({"SourceTimestamp", "SourcePicoSeconds", "StatusCode"}) : words({"ServerPicoSeconds", "ServerTimestamp"}); }},
+      {.key = "uadp.key_frame_count", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.text("encoding") != "RawData" && has_payload_header(s) ? Made(m.word("2 5")) : std::nullopt; }},
+      {.key = "uadp.group_version", .percent = 20, .words = "0 760000000"},
+      {.key = "uadp.major_version", .percent = 20, .words = "0 760000001"},
+      {.key = "uadp.minor_version", .percent = 20, .words = "0 760000002"},
       {.key = "topic.pcp", .percent = 60, .words = "0 2 4 5"},
       {.key = "topic.vlan", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return s.has("pcp") ? m.word("0 10") : Made(); }},
       {.key = "topic.keys", .feature = Feature::dds, .percent = 30, .make = [](Maker&, const Scope& s) -> Made { return is_of_dds(s) ? Made(list({text("f0")})) : std::nullopt; }},
@@ -196,8 +268,9 @@ std::span<const Rule> application_rules() {
       {.key = "thread.qos", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return uses_dds(m, s) ? Made(m.object("qos", &s)) : std::nullopt; }},
       {.key = "payload.pattern", .percent = 60, .make = pattern},
       {.key = "payload.copy_of", .percent = 60, .make = copied},
-      {.key = "payload.instance", .percent = 30, .make = [](Maker& m, const Scope& s) -> Made { return has_keys(m, s) ? Made(number(m.draw.below(3))) : std::nullopt; }},
-      {.key = "payload.instances", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return has_keys(m, s) ? Made(number(m.draw.between(1, 3))) : std::nullopt; }},
+      {.key = "payload.instance", .percent = 30, .make = [](Maker& m, const Scope& s) -> Made { return !s.has("copy_of") && has_keys(m, s) ? Made(number(m.draw.below(3))) : std::nullopt; }},
+      {.key = "payload.values", .percent = 70, .make = field_values},
+      {.key = "payload.instances", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return !s.has("copy_of") && has_keys(m, s) ? Made(number(m.draw.between(1, 3))) : std::nullopt; }},
       {.key = "signal.name", .make = [](Maker&, const Scope& s) -> Made { return text("out-" + s.name); }},
       {.key = "signal.pulse", .percent = 40, .words = "500us 1ms"},
       {.key = "gateway.name", .make = [](Maker&, const Scope& s) -> Made { return text("g" + std::to_string(s.number)); }},

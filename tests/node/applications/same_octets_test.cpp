@@ -18,13 +18,14 @@ using Message = std::vector<std::byte>;
 
 constexpr std::size_t rounds = 4;
 
-/// Two applications publish the same topic; a topic of DDS stands before another one; arrays and single values. b listens only.
+/// Two applications publish the same topic; another is laid out otherwise, with delta frames; a topic of DDS stands before another one; arrays and single values. b listens only.
 const std::string words = R"("topics": [
   {"name": "x", "protocol": "opc-ua", "fields": {"level": "UInt32", "axes": {"type": "Double", "count": 3}, "on": "Boolean"}},
   {"name": "none", "protocol": "dds", "fields": {"level": "UInt32"}},
-  {"name": "y", "protocol": "opc-ua", "fields": {"level": "Int16"}}],
+  {"name": "y", "protocol": "opc-ua", "fields": {"text": {"type": "String", "max_length": 9}, "level": "Int16", "id": "Guid"},
+   "uadp": {"publisher": {"uint64": 5000000000}, "encoding": "DataValue", "key_frame_count": 3, "data_set_message": ["SequenceNumber", "MajorVersion"], "major_version": 5}}],
  "applications": [
-  {"name": "p", "on": "a", "threads": [{"name": "one", "publish": "x", "every": "1ms"}, {"name": "two", "publish": "y", "every": "1ms", "offset": "200us", "payload": "alternate"}]},
+  {"name": "p", "on": "a", "threads": [{"name": "one", "publish": "x", "every": "1ms"}, {"name": "two", "publish": "y", "every": "1ms", "offset": "200us", "payload": {"pattern": "alternate", "values": {"text": "pump 3"}}}]},
   {"name": "s", "on": "b", "threads": [{"name": "one", "subscribe": "x", "every": "1ms"}, {"name": "two", "subscribe": "y", "every": "1ms"}]},
   {"name": "q", "on": "a", "threads": [{"name": "one", "publish": "x", "every": "1ms", "offset": "400us"}]}])";
 

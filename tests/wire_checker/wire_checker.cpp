@@ -225,8 +225,8 @@ void WireChecker::finish(Ps end) {
       if (!arrival.has_outcome) ++accounts_[arrival.frame.stream.value].in_flight;
 }
 
-void WireChecker::compare(std::span<const models::Stream> streams) {
-  bool has_latencies = false;
+void WireChecker::compare(std::span<const models::Stream> streams, bool hosts_hold) {
+  bool has_latencies = hosts_hold;
   bool cuts_through = false;
   for (const models::NodePlan& node : plan_.nodes)
     has_latencies |= node.cpu != nullptr || (node.kind == models::NodeKind::station && plan_.os_latencies[node.os_latency].receive.greatest() != sim::Duration());

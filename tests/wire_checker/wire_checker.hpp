@@ -54,8 +54,8 @@ class WireChecker final : public sim::TraceSink {
   void record(const sim::TraceRecord& record) override;
   /// The run is over at `end`; everything up to and at it has been recorded.
   void finish(Ps end);
-  /// Compares the accounts with those that the model kept.
-  void compare(std::span<const models::Stream> streams);
+  /// Compares the accounts with those that the model kept. `hosts_hold`: frames that were produced may be in hosts still, beside what their latencies do.
+  void compare(std::span<const models::Stream> streams, bool hosts_hold = false);
 
   const Violations& violations() const { return violations_; }
   Violations& violations() { return violations_; }

@@ -67,6 +67,33 @@ TEST(Readers, TakeNewerMessagesOnly) {
   EXPECT_EQ(fixture.notified, 3);
 }
 
+// Message 2 is lost, which may have changed the field that 3 does not have.
+TEST(Readers, DeltaFramesBehindAGapNeedAKeyFrameWhereThatIsAsked) {
+  DataSet<Two> data;
+  DataSetReader reader("data", data, {.data_set_writer_id = 1, .needs_key_after_gap = true});
+  reader.set_parent(PubSubState::Operational);
+  const auto take = [&](DataSetMessageType type, std::uint16_t number, std::int32_t value) {
+    std::array<std::byte, 64> buffer{};
+    uadp::Writer writer(buffer);
+    uadp::DataSetMessageEncoder encoder(writer);
+    encoder.begin(ReaderFixture::header(type, number));
+    if (type == DataSetMessageType::KeyFrame) encoder.field(value), encoder.field(0.5);
+    if (type == DataSetMessageType::DeltaFrame) encoder.delta_field(0, value);
+    encoder.end();
+    reader.take(writer.finished(), LocalTime());
+    return std::get<0>(data.get());
+  };
+  EXPECT_EQ(take(DataSetMessageType::KeyFrame, 65534, 1), 1);
+  EXPECT_EQ(take(DataSetMessageType::DeltaFrame, 65535, 2), 2);
+  EXPECT_EQ(take(DataSetMessageType::DeltaFrame, 0, 3), 3);
+  EXPECT_EQ(take(DataSetMessageType::DeltaFrame, 3, 4), 3);
+  EXPECT_EQ(take(DataSetMessageType::DeltaFrame, 4, 5), 3);
+  EXPECT_EQ(reader.counts().without_key, 2u);
+  EXPECT_EQ(take(DataSetMessageType::KeyFrame, 5, 6), 6);
+  EXPECT_EQ(take(DataSetMessageType::DeltaFrame, 6, 7), 7);
+  EXPECT_EQ(reader.missed(), 4u);
+}
+
 TEST(Readers, DeltaFramesNeedAKeyFrame) {
   ReaderFixture fixture;
   fixture.send(ReaderFixture::header(DataSetMessageType::DeltaFrame, 0), 9, std::nullopt, LocalTime());

@@ -1,6 +1,7 @@
 // Applications with threads: criteria, values, signals and gateways against numbers worked out by hand, over both protocols.
 #include <cmath>
 
+#include "application/opc_ua_topic.hpp"
 #include "evaluation/evaluate.hpp"
 #include "support.hpp"
 
@@ -233,6 +234,10 @@ TEST(Applications, MistakesAreNamed) {
        "a server that is not in the domain"},
       {"depth", pair(R"("protocol": "dds", "qos": {"depth": 5, "resource_limits": {"max_samples_per_instance": 2}})", R"("every": "1ms")", R"("every": "1ms")"),
        "quality of service that cannot be"},
+      {"delta", pair(opc_ua + R"(, "uadp": {"key_frame_count": 3})", R"("every": "1ms")", R"("every": "1ms")"), "no delta frames"},
+      {"layout", pair(R"("protocol": "dds", "uadp": {})", R"("every": "1ms")", R"("every": "1ms")"), "not of DDS"},
+      {"values", pair(opc_ua, R"("every": "1ms", "payload": {"pattern": "counter", "values": {"level": "3"}})", R"("every": "1ms")"), "a value of another type"},
+      {"id", pair(opc_ua + R"(, "publisher_id": 3, "uadp": {"publisher": {"byte": 3}})", R"("every": "1ms")", R"("every": "1ms")"), "a PublisherId that is not sent"},
   };
   for (const Bad& bad : cases) {
     json::Diagnostics diagnostics;
@@ -241,11 +246,32 @@ TEST(Applications, MistakesAreNamed) {
   }
 }
 
+/// A topic with these fields on a wire.
+std::string typed(const std::string& fields) {
+  return R"({"name": "t", "duration": "20ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"], "delay": "100ns"}]},
+ "topics": [{"name": "x", "protocol": "opc-ua", "fields": )" + fields + R"(, "uadp": {"encoding": "Variant", "key_frame_count": 1}}],
+ "applications": [{"name": "p", "on": "a", "threads": [{"name": "publish", "publish": "x", "every": "1ms"}]}, {"name": "s", "on": "b", "threads": [{"name": "subscribe", "subscribe": "x", "every": "1ms", "offset": "500us"}]}]})";
+}
+
+// Each sample is taken, whatever else it has; a stream is as long as its longest message: 1472 octets at most, here 4 (flags, PublisherId), 5 (group), 3 (payload) and 3 (flags, FieldCount) of headers, UInt32 5 and String 1 + 4 + 40 octets.
+TEST(Applications, TextsTravel) {
+  const auto resolved = sound(typed(R"({"s": {"type": "String", "max_length": 40}, "level": "UInt32"})"));
+  LiveRun run(*resolved);
+  run.advance();
+  const results::RunResult result = evaluation::evaluate(run, false);
+  EXPECT_EQ(result.applications[1].threads[0].arrived, 20u);
+  EXPECT_EQ(application::longest_message(resolved->topics[0].shape, {1, 1}), 65u);
+}
+
 /// What is refused is said once: nothing else follows from it. (The gateway of the third case is at a publisher of what it takes, too.)
 TEST(Applications, AMistakeIsSaidOnce) {
   const std::string gateway_to = R"(, "gateways": [{"name": "g", "on": "a", "from": "x", "receive_every": "1ms", "send_every": "1ms", "to": )";
   const std::string network = R"({"name": "t", "duration": "1s", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]})";
   const Bad cases[] = {
+      {"no length", typed(R"({"level": "UInt32", "s": "String"})"), "a text without a greatest length"},
+      {"no number", typed(R"({"g": "Guid"})"), "no field for the pattern"},
+      {"no type", typed(R"({"g": "Grid"})"), "unknown"},
+      {"too long", typed(R"({"level": "UInt32", "s": {"type": "String", "max_length": 1400, "count": 2}})"), "a sample too long for a NetworkMessage"},
       {"no interval", pair(opc_ua, R"("offset": "1ms")", R"("every": "1ms")"), R"(the field "every" is missing)"},
       {"zero", pair(opc_ua, R"("every": "0ms")", R"("every": "1ms")"), "out of range"},
       {"gateway", pair(opc_ua, R"("every": "1ms")", R"("every": "1ms")", gateway_to + R"("q"}])"), "unknown topic"},

@@ -120,7 +120,7 @@ void check_payload(const Payload& payload, const Topic& topic, const json::Place
   if (payload.copy_of && !payload.values.empty()) diagnostics.error(payload.where.at("values"), "values of a copy", {"\"values\"", "a \"pattern\""});
   for (const auto& [name, text] : payload.values) {
     const json::Place place = payload.where.at("values");
-    const auto found = std::find_if(topic.fields.begin(), topic.fields.end(), [&](const auto& each) { return each.first == name; });
+    const auto found = std::find_if(topic.fields.begin(), topic.fields.end(), [&, &name = name](const auto& each) { return each.first == name; });
     if (found == topic.fields.end()) {
       std::vector<std::string_view> names;
       for (const auto& [each, field] : topic.fields) names.push_back(each);

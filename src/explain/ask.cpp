@@ -104,6 +104,7 @@ const char* words_of(ChainLink::Kind kind) {
     case ChainLink::Kind::beginning: return "noticing the cause";
     case ChainLink::Kind::publication: return "wait for the next publication";
     case ChainLink::Kind::message: return "message";
+    case ChainLink::Kind::opening: return "opening the message";
     case ChainLink::Kind::initialisation: return "initialisation or own timer";
   }
   return "?";

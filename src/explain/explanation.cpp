@@ -104,7 +104,7 @@ const json::Record& describe(json::Type<ExplainedFrame>) {
 
 const json::Record& describe(json::Type<ExplainedStep>) {
   static constexpr json::Output outputs[] = {
-      json::output<&ExplainedStep::what>("what", "`noticing the cause`, `wait for the next publication` (a cycle and the wake-up), `message`, or `initialisation or own timer`."),
+      json::output<&ExplainedStep::what>("what", "`noticing the cause`, `wait for the next publication` (a cycle and the wake-up), `message`, `opening the message` (of secured ones), or `initialisation or own timer`."),
       json::output<&ExplainedStep::who>("who", "The participant; of a message: from whom to whom."),
       json::output<&ExplainedStep::at>("at_ps", "When it begins."),
       json::output<&ExplainedStep::takes>("takes_ps", "How long it takes."),

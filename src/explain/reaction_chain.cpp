@@ -18,7 +18,8 @@ class Chain {
     TrueTime time = reaction_.completed;
     while (at && time > reaction_.began) {
       if (const std::optional<Word> word = word_that_moved(*at, time)) {
-        links_.push_back({ChainLink::Kind::message, word->from, *at, word->stream, word->published, time});
+        if (word->came < time) links_.push_back({ChainLink::Kind::opening, *at, {}, {}, word->came, time});
+        links_.push_back({ChainLink::Kind::message, word->from, *at, word->stream, word->published, word->came});
         links_.push_back({ChainLink::Kind::publication, word->from, {}, word->stream, word->changed, word->published});
         time = word->changed;
         at = word->from;
@@ -39,6 +40,7 @@ class Chain {
     models::StreamIndex stream;
     TrueTime changed;      // of the word, at its participant
     TrueTime published;
+    TrueTime came;         // to the host of whom it moved; heard when it was opened
   };
 
   models::NodeIndex node_of(const Participant& who) const { return resolved_.programs[who.program].members[who.number].node; }
@@ -62,18 +64,27 @@ class Chain {
     return std::lower_bound(arrivals_.begin(), arrivals_.end(), time, [](const Arrival& each, TrueTime t) { return each.at < t; });
   }
 
-  /// Of the words that came to the node at that instant, in any of its groups, the one that followed from the latest change.
+  /// What it takes the node to open a message of that program; nobody of whom is there hears it at once.
+  Duration opening(std::size_t program, models::NodeIndex node) const {
+    const auto& members = resolved_.programs[program].members;
+    const auto member = std::ranges::find(members, node, &scenario::ResolvedMember::node);
+    return member == members.end() ? Duration() : member->open;
+  }
+
+  /// Of the words that the node heard at that instant, in any of its groups, the one that followed from the latest change.
   std::optional<Word> word_that_moved(const Participant& who, TrueTime time) const {
     std::optional<Word> latest;
-    for (auto arrival = first_at(time); arrival != arrivals_.end() && arrival->at == time; ++arrival) {
-      if (arrival->listener != node_of(who)) continue;
-      for (std::size_t p = 0; p < resolved_.programs.size(); ++p) {
-        const std::vector<scenario::ResolvedMember>& members = resolved_.programs[p].members;
+    for (std::size_t p = 0; p < resolved_.programs.size(); ++p) {
+      if (resolved_.programs[p].has_roles()) continue;
+      const std::vector<scenario::ResolvedMember>& members = resolved_.programs[p].members;
+      const TrueTime came = time + -opening(p, node_of(who));
+      for (auto arrival = first_at(came); arrival != arrivals_.end() && arrival->at == came; ++arrival) {
+        if (arrival->listener != node_of(who)) continue;
         const auto member = std::ranges::find(members, arrival->stream, &scenario::ResolvedMember::state);
-        if (resolved_.programs[p].has_roles() || member == members.end()) continue;
+        if (member == members.end()) continue;
         const Participant from{p, static_cast<std::size_t>(member - members.begin())};
         const std::optional<TrueTime> changed = last_change(from, arrival->produced, true);
-        if (changed && is_news(*arrival, *changed) && (!latest || *changed > latest->changed)) latest = Word{from, arrival->stream, *changed, arrival->produced};
+        if (changed && is_news(*arrival, *changed) && (!latest || *changed > latest->changed)) latest = Word{from, arrival->stream, *changed, arrival->produced, came};
       }
     }
     return latest;

@@ -30,6 +30,7 @@ struct ChainLink {
     beginning,      ///< from the cause until the first who noticed it; a call is noticed at once
     publication,    ///< `who` has changed its word and waits to publish it
     message,        ///< the word is under way from `who` to `to`
+    opening,        ///< `who` opens the secured message in which it came
     initialisation  ///< `who` is in INIT, or waits for a timer of its own
   };
   Kind kind{};

@@ -23,6 +23,7 @@ class Grants {
     switch (link.kind) {
       case ChainLink::Kind::message: return {who + " to " + explain::name_of(resolved_, link.to), "latency of the word", latency(link), run};
       case ChainLink::Kind::publication: return {who, "wait for the next publication", of_participant().publish_wait.value_or(Duration()), run};
+      case ChainLink::Kind::opening: return {who, "opening the message", resolved_.programs[link.who.program].members[link.who.number].open, run};
       case ChainLink::Kind::initialisation: return {who, "INIT", of_participant().initialise.value_or(Duration()), run};
       case ChainLink::Kind::beginning: break;
     }

@@ -91,11 +91,7 @@ class Asking {
     return true;
   }
 
-  std::optional<models::StreamIndex> stream_of(const std::string& name) const {
-    const auto& streams = resolved_.plan.streams;
-    const auto found = std::find_if(streams.begin(), streams.end(), [&](const auto& each) { return each.name == name; });
-    return found == streams.end() ? std::nullopt : std::optional(models::StreamIndex{static_cast<std::uint32_t>(found - streams.begin())});
-  }
+  std::optional<models::StreamIndex> stream_of(const std::string& name) const { return explain::stream_named(resolved_, name); }
   std::string names_of_streams() const {
     std::string names;
     for (const auto& stream : resolved_.plan.streams) {

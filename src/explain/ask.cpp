@@ -112,6 +112,12 @@ const char* words_of(ChainLink::Kind kind) {
 
 }  // namespace
 
+std::optional<models::StreamIndex> stream_named(const scenario::Resolved& resolved, const std::string& name) {
+  const auto& streams = resolved.plan.streams;
+  const auto found = std::ranges::find_if(streams, [&](const auto& each) { return each.name == name; });
+  return found == streams.end() ? std::nullopt : std::optional(models::StreamIndex{static_cast<std::uint32_t>(found - streams.begin())});
+}
+
 std::vector<ExplainedFrame> explain_frame(const scenario::Resolved& resolved, const FrameQuestion& question, const Interrupted& interrupted) {
   scenario::Run run(resolved);
   FrameSeeker seeker(run.network(), question);

@@ -23,6 +23,9 @@ struct FrameQuestion {
   TrueTime from = {};                               ///< of frames that are produced then or later
 };
 
+/// The stream of that name, if there is one.
+std::optional<models::StreamIndex> stream_named(const scenario::Resolved& resolved, const std::string& name);
+
 /// The frame, once for each of its ends that was asked for: of the slowest and of a lost one that end, of a number all of them. Empty if there is none, or if it was interrupted.
 std::vector<ExplainedFrame> explain_frame(const scenario::Resolved& resolved, const FrameQuestion& question, const Interrupted& interrupted = {});
 

@@ -245,12 +245,7 @@ std::string explanation_of(const Scenario& scenario, const std::optional<std::st
   explain::FrameQuestion question;
   question.which = frame ? Which::number : lost ? Which::lost : Which::slowest;
   question.number = frame.value_or(0);
-  const auto& streams = scenario.resolved->plan.streams;
-  if (stream) {
-    const auto found = std::find_if(streams.begin(), streams.end(), [&](const auto& each) { return each.name == *stream; });
-    if (found == streams.end()) throw Mistake("no stream is called " + json::quote(*stream));
-    question.stream = models::StreamIndex{static_cast<std::uint32_t>(found - streams.begin())};
-  }
+  if (stream && !(question.stream = explain::stream_named(*scenario.resolved, *stream))) throw Mistake("no stream is called " + json::quote(*stream));
   Watch watch(progress);
   explain::Explanation made;
   made.scenario = scenario.resolved->scenario.name;

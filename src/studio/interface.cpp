@@ -164,16 +164,11 @@ Answer Interface::explain(const Request& request) {
   Looked looked;
   const auto resolved = looked_at(request, looked);
   if (!resolved) return not_there();
-  const auto& streams = resolved->plan.streams;
-  const auto stream_of = [&](const std::string& name) -> std::optional<models::StreamIndex> {
-    const auto found = std::ranges::find_if(streams, [&](const auto& each) { return each.name == name; });
-    return found == streams.end() ? std::nullopt : std::optional(models::StreamIndex{static_cast<std::uint32_t>(found - streams.begin())});
-  };
   explain::Explanation made;
   made.scenario = resolved->scenario.name;
   const explain::Interrupted stops = interrupted(looked.revision);
   if (const std::string name = request.parameter("stream"); !name.empty()) {
-    const auto stream = stream_of(name);
+    const auto stream = explain::stream_named(*resolved, name);
     if (!stream) return refused(400, "no such stream");
     made.question = "stream " + name + ": frame " + std::to_string(request.number("sequence"));
     made.frames = explain::explain_frame(*resolved, {.stream = stream, .which = explain::FrameQuestion::Which::number, .number = request.number("sequence")}, stops);
@@ -186,7 +181,7 @@ Answer Interface::explain(const Request& request) {
     if (asked.taken_as == results::RequirementKind::reaction && asked.requirement && asked.measured) {
       made.reaction = explain::explain_reaction(*resolved, *scenario::reaction_of(resolved->requirements[*asked.requirement].figure), from, asked.measured, stops);
     } else if (asked.taken_as == results::RequirementKind::latency || asked.taken_as == results::RequirementKind::jitter) {
-      made.frames = explain::explain_frame(*resolved, {.stream = stream_of(asked.subject), .from = from}, stops);
+      made.frames = explain::explain_frame(*resolved, {.stream = explain::stream_named(*resolved, asked.subject), .from = from}, stops);
     }
   }
   if (stops()) return not_there();

@@ -160,7 +160,7 @@ class Builder {
         egress.cut_through = before->cut_through;
         egress.ets = before->ets;
       }
-      std::erase_if(ports.egress, [&](const Egress& each) { return each.to == peer; });
+      std::erase_if(ports.egress, [&peer = peer](const Egress& each) { return each.to == peer; });
       if (!says_nothing(egress)) ports.egress.push_back(std::move(egress));
     }
     // One interface of a host: no need to say which.

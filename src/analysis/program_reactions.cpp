@@ -116,7 +116,7 @@ class GroupMaker {
 
 class ScenarioReactions {
  public:
-  ScenarioReactions(const scenario::Resolved& r, const BoundOptions& options, Bounds& bounds) : r_(r), options_(options), bounds_(bounds) {
+  ScenarioReactions(const scenario::Resolved& r, const BoundOptions& options, Bounds& bounds) : r_(r), bounds_(bounds) {
     for (const scenario::ResolvedProgram& program : r.programs) {
       groups_.push_back(program.has_roles() ? ProgramGroup{} : GroupMaker(r, program, options, bounds).make());
       bounds.participants.push_back(groups_.back().participants);
@@ -268,7 +268,6 @@ class ScenarioReactions {
   }
 
   const scenario::Resolved& r_;
-  const BoundOptions& options_;
   Bounds& bounds_;
   std::vector<ProgramGroup> groups_;   // by program
 };

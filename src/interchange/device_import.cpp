@@ -28,7 +28,7 @@ const Egress* entry_for(const scenario::NodePorts& ports, const std::string& pee
 
 class Builder {
  public:
-  Builder(scenario::Scenario& scenario, Imported& imported, json::Diagnostics& diagnostics) : scenario_(scenario), imported_(imported), diagnostics_(diagnostics) {}
+  Builder(scenario::Scenario& scenario, json::Diagnostics& diagnostics) : scenario_(scenario), diagnostics_(diagnostics) {}
 
   /// A network of its own: a host at each port.
   void add_to_nothing(const ImportedDevice& device) {
@@ -176,7 +176,6 @@ class Builder {
   }
 
   scenario::Scenario& scenario_;
-  Imported& imported_;
   json::Diagnostics& diagnostics_;
   bool seen_gptp_ = false;
 };
@@ -268,7 +267,7 @@ void build_scenario(std::vector<ImportedDevice> devices, const ImportRequest& re
     scenario.name = devices.size() == 1 ? devices.front().name : "imported";
     scenario.duration = sim::Duration::from_ps(100'000'000'000);
   }
-  Builder builder(scenario, imported, diagnostics);
+  Builder builder(scenario, diagnostics);
   std::optional<scenario::Topology> topology;
   if (request.base != nullptr) {
     topology = scenario::build_topology(request.base->network, diagnostics);

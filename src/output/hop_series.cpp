@@ -11,7 +11,7 @@ namespace {
 constexpr auto causes = static_cast<std::size_t>(explain::Cause::count);
 }
 
-HopSeries::HopSeries(const models::Network& network, const Selection& selection, std::string path) : network_(&network), selection_(&selection), file_(std::move(path)) {
+HopSeries::HopSeries(const models::Network& network, const Selection& selection, std::string path) : selection_(&selection), file_(std::move(path)) {
   for (const models::Stream& stream : network.traffic().streams()) streams_.push_back(csv_field(stream.name));
   for (const models::NodePlan& node : network.plan().nodes) nodes_.push_back(csv_field(node.name));
   std::string head = "stream,sequence,node,port,to,class,produced_ps,came_ps,started_ps,octets,cuts";

@@ -27,7 +27,6 @@ class HopSeries final : public explain::WaySink {
  private:
   void row(const explain::Way& way, const std::string& place, const std::string& times, const std::vector<explain::Part>& parts);
 
-  const models::Network* network_;
   const Selection* selection_;
   std::vector<std::string> streams_;   // names, ready for the file
   std::vector<std::string> nodes_;

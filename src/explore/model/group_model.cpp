@@ -117,7 +117,6 @@ bool GroupModel::halted_for_all(const State& state) {
   if (members_[state.member(0)].state != PublishedState::Halted || !at_rest(state)) return false;
   for (std::size_t i = 0; i <= query_.slaves; ++i)
     if (members_[state.member(i)].deaf != 0) return false;
-  Next heard;
   for (std::size_t c = 0; c < wiring_.size(); ++c) {
     const WordId word = members_[state.member(wiring_.sender(c))].word;
     const MemberId receiver = state.member(wiring_.receiver(c));

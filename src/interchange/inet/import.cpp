@@ -370,7 +370,7 @@ class Reader {
   }
   void add_redundant() {
     for (const auto& [port, redundant] : redundant_)
-      if (std::ranges::none_of(scenario_.streams, [&](const scenario::Stream& each) { return each.name == redundant.name; }))
+      if (std::ranges::none_of(scenario_.streams, [&redundant = redundant](const scenario::Stream& each) { return each.name == redundant.name; }))
         error(line("streamRedundancyConfigurator.configuration")->place, "a redundant stream that nobody sends", json::quote(redundant.name) + " to port " + std::to_string(port), "an application with that destPort");
   }
 

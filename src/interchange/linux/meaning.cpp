@@ -17,7 +17,7 @@ constexpr std::int64_t longest_ns = 3'600'000'000'000;   // of cycles and entrie
 
 class Translator {
  public:
-  Translator(const std::string& device, Imported& imported, json::Diagnostics& diagnostics) : device_(device), imported_(imported), diagnostics_(diagnostics) {}
+  Translator(Imported& imported, json::Diagnostics& diagnostics) : imported_(imported), diagnostics_(diagnostics) {}
 
   ImportedPort port_of(const std::string& name, const Interface& interface) {
     ImportedPort port;
@@ -244,7 +244,6 @@ class Translator {
     return name;
   }
 
-  const std::string& device_;
   Imported& imported_;
   json::Diagnostics& diagnostics_;
 };
@@ -257,7 +256,7 @@ ImportedDevice device_of(const std::string& name, const json::Place& place, cons
   device.place = place;
   const bool polices = std::ranges::any_of(machine.interfaces, [](const auto& each) { return !each.second.filters.empty(); });
   device.forwards = machine.has_bridge || polices || machine.interfaces.size() > 1;
-  Translator translator(name, imported, diagnostics);
+  Translator translator(imported, diagnostics);
   for (const auto& [interface, settings] : machine.interfaces) device.ports.push_back(translator.port_of(interface, settings));
   if (polices) device.ingress = translator.ingress_of(machine, names);
   if (machine.has_bridge) imported.remark(RemarkKind::lost, place, "membership of ports in VLANs and filtering entries: takt forwards along the paths of streams");

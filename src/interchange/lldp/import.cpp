@@ -149,7 +149,7 @@ class Reader {
 
 class Joiner {
  public:
-  Joiner(std::vector<Machine>& machines, Imported& imported, json::Diagnostics& diagnostics) : machines_(machines), imported_(imported), diagnostics_(diagnostics) {}
+  Joiner(std::vector<Machine>& machines, Imported& imported) : machines_(machines), imported_(imported) {}
 
   scenario::Scenario run() {
     learn_chassis();
@@ -251,7 +251,6 @@ class Joiner {
 
   std::vector<Machine>& machines_;
   Imported& imported_;
-  json::Diagnostics& diagnostics_;
   std::map<std::string, std::string> node_of_;                        // by chassis id
   std::map<std::string, std::set<std::uint16_t>> ports_;
   std::set<std::pair<std::string, std::string>> joined_, pairs_;
@@ -264,7 +263,7 @@ Imported import_lldp(const ImportRequest& request, json::Diagnostics& diagnostic
   Reader reader(imported, diagnostics);
   for (const InputFile& file : request.files) reader.read(file);
   if (diagnostics.has_errors()) return imported;
-  scenario::Scenario scenario = Joiner(reader.machines, imported, diagnostics).run();
+  scenario::Scenario scenario = Joiner(reader.machines, imported).run();
   if (!diagnostics.has_errors()) imported.scenario = std::move(scenario);
   return imported;
 }

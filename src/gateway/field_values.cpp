@@ -65,7 +65,7 @@ Octets FieldValues::octets() const {
 
 bool FieldValues::can_take(std::size_t index, const uadp::Variant& value) const {
   const uadp::RawField& field = fields_[index].type;
-  if (value.type != field.type || value.is_array != field.is_array) return false;
+  if (value.type != field.type || value.is_array != field.is_array || !value.dimensions.empty()) return false;   // arrays have one dimension, which is not said
   return (!field.is_array || field.array_length == 0 || value.size() <= field.array_length) && strings_fit(field, value);
 }
 

@@ -177,7 +177,7 @@ class DomainTraffic {
   void flush() {
     for (const auto& [key, rates] : rates_) {
       const auto& [stream, payload] = key;
-      const auto add = [&](FrameArrivals arrivals) { made_.sources.push_back({models::StreamIndex{stream}, std::move(arrivals), sim::Octets{payload}}); };
+      const auto add = [&, stream = stream, payload = payload](FrameArrivals arrivals) { made_.sources.push_back({models::StreamIndex{stream}, std::move(arrivals), sim::Octets{payload}}); };
       if (rates.periods > 0) add(FrameArrivals({period_, rates.periods, 0, late_}));
       if (rates.matches > 0) add(FrameArrivals({lease_, rates.matches, 0, late_}));
       if (rates.greetings == 0) continue;

@@ -106,7 +106,7 @@ TEST(OpcUaTopic, FromOneEndToTheOther) {
   ASSERT_EQ(wire.messages.size(), 5u);
   EXPECT_FALSE(first.publish(octets({1, 2, 3}), sim::LocalTime())) << "not its fields";
   std::vector<int> came;
-  for (const std::size_t m : {0, 1, 2, 4})
+  for (const std::size_t m : {0u, 1u, 2u, 4u})
     if (const auto value = subscription.receive(wire.messages[m], sim::LocalTime())) came.push_back(std::to_integer<int>((*value)[1]));
   EXPECT_EQ(came, (std::vector<int>{1, 2, 5})) << "not what the other Publisher says";
   EXPECT_EQ(subscription.lost(), 1u) << "the message between";

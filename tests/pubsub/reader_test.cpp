@@ -210,7 +210,7 @@ TEST(Readers, AMessageOfElevenOctetsIsNoSample) {
   slave.add_subscriber(subscriber);
   slave.enable(LocalTime());
   std::vector<std::byte> octets;
-  for (const unsigned octet : {0xF1, 0x01, 0xBA, 0x08, 0x01, 0x01, 0x00, 0x01, 0x01, 0x00, 0x01}) octets.push_back(static_cast<std::byte>(octet));
+  for (const int octet : {0xF1, 0x01, 0xBA, 0x08, 0x01, 0x01, 0x00, 0x01, 0x01, 0x00, 0x01}) octets.push_back(static_cast<std::byte>(octet));
   slave.received(octets, LocalTime());
   EXPECT_EQ(notified, 0);
   EXPECT_EQ(subscriber.reader("data")->counts(), (ReaderCounts{.keep_alives = 1}));

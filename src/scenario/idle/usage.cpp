@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include "models/bridge/internal_port.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "scenario/resolve/port_configs.hpp"
 #include "scenario/resolve/stream_at_port.hpp"

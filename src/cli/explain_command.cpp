@@ -213,14 +213,10 @@ class Asking {
     const scenario::Resolved& looked_at = worst ? *worst : resolved;
     const bool is_required = !result.limit || *result.limit != no_limit;
     explanation_.question = (is_required ? result.text : options_.stream ? "stream " + *options_.stream : "reaction " + options_.reaction.value_or("")) + (options_.adversarial ? ": the worst run that was found" : ": the run as it is");
-    if (!result.measured) {
+    if (!result.measured)
       explanation_.question += "; there was none";
-    } else if (result.taken_as == RequirementKind::reaction) {
-      explanation_.reaction = explain::explain_reaction(looked_at, *scenario::reaction_of(looked_at.requirements[*result.requirement].figure), sim::TrueTime() + result.from, *result.measured, [&] { return interrupt_.requested(); });
-    } else {
-      const auto of = stream_of(result.subject);
-      explanation_.frames = explain::explain_frame(looked_at, {.stream = of, .from = sim::TrueTime() + result.from}, [&] { return interrupt_.requested(); });
-    }
+    else
+      explain::explain_measured(looked_at, result, explanation_, [&] { return interrupt_.requested(); });
     if (options_.bound) add_bound(*bounds, result, *run);
     return print();
   }

@@ -161,4 +161,13 @@ std::optional<ExplainedReaction> explain_reaction(const scenario::Resolved& reso
   return made;
 }
 
+void explain_measured(const scenario::Resolved& resolved, const results::RequirementResult& requirement, Explanation& explanation, const Interrupted& interrupted) {
+  using results::RequirementKind;
+  const TrueTime from = TrueTime() + requirement.from;
+  if (requirement.taken_as == RequirementKind::reaction && requirement.requirement && requirement.measured)
+    explanation.reaction = explain_reaction(resolved, *scenario::reaction_of(resolved.requirements[*requirement.requirement].figure), from, *requirement.measured, interrupted);
+  else if (requirement.taken_as == RequirementKind::latency || requirement.taken_as == RequirementKind::jitter)
+    explanation.frames = explain_frame(resolved, {.stream = stream_named(resolved, requirement.subject), .from = from}, interrupted);
+}
+
 }  // namespace takt::explain

@@ -8,6 +8,7 @@
 
 #include "explain/explanation.hpp"
 #include "explain/reaction_chain.hpp"
+#include "results/run_result.hpp"
 #include "scenario/resolve/resolved.hpp"
 
 namespace takt::explain {
@@ -32,5 +33,8 @@ std::vector<ExplainedFrame> explain_frame(const scenario::Resolved& resolved, co
 /// The critical path of the reaction: the longest, or the one that took so long. Nothing if there is none, or if it was interrupted. The scenario is run twice: first to find
 /// the chain, then to follow its messages.
 std::optional<ExplainedReaction> explain_reaction(const scenario::Resolved& resolved, const scenario::AskedReaction& asked, TrueTime from, std::optional<Duration> took = {}, const Interrupted& interrupted = {});
+
+/// What a requirement of `resolved` has measured in a run of it, added to the explanation: the slowest frame or the reaction that took so long. Of other requirements nothing.
+void explain_measured(const scenario::Resolved& resolved, const results::RequirementResult& requirement, Explanation& explanation, const Interrupted& interrupted = {});
 
 }  // namespace takt::explain

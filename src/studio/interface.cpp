@@ -177,12 +177,7 @@ Answer Interface::explain(const Request& request) {
     if (!subject || looked.run.empty() || request.number("run") >= subject->requirements.size()) return not_there();
     const results::RequirementResult& asked = subject->requirements[request.number("run")];
     made.question = asked.text + ": the worst run that was found";
-    const auto from = sim::TrueTime() + asked.from;
-    if (asked.taken_as == results::RequirementKind::reaction && asked.requirement && asked.measured) {
-      made.reaction = explain::explain_reaction(*resolved, *scenario::reaction_of(resolved->requirements[*asked.requirement].figure), from, asked.measured, stops);
-    } else if (asked.taken_as == results::RequirementKind::latency || asked.taken_as == results::RequirementKind::jitter) {
-      made.frames = explain::explain_frame(*resolved, {.stream = explain::stream_named(*resolved, asked.subject), .from = from}, stops);
-    }
+    explain::explain_measured(*resolved, asked, made, stops);
   }
   if (stops()) return not_there();
   return {200, json::pretty(json::write_record(describe(json::Type<explain::Explanation>{}), &made))};

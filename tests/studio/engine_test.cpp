@@ -10,16 +10,10 @@
 #include "results/result_json.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "studio/document.hpp"
+#include "tests/studio/support.hpp"
 
 namespace takt::studio {
 namespace {
-
-constexpr const char* small = R"({
-  "name": "small", "duration": "20ms",
-  "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"], "rate": "1Gbps", "length": "10m"}]},
-  "streams": [{"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms"}],
-  "require": [{"stream": "s", "latency": "10us"}]
-})";
 
 /// Waits for a stage of that text; its findings.
 Findings wait_for(Engine& engine, std::uint64_t revision, Stage stage) {

@@ -7,15 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/studio/support.hpp"
+
 namespace takt::studio {
 namespace {
-
-constexpr const char* small = R"({
-  "name": "small", "duration": "20ms",
-  "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"], "rate": "1Gbps", "length": "10m"}]},
-  "streams": [{"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms"}],
-  "require": [{"stream": "s", "latency": "10us"}]
-})";
 
 class Interfaces : public testing::Test {
  protected:

@@ -14,6 +14,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 
 sys.dont_write_bytecode = True
@@ -142,20 +143,26 @@ class Terminal(CliTest):
         leader, follower = pty.openpty()
         fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 50, columns, 0, 0))
         surroundings = {key: value for key, value in os.environ.items() if key != "NO_COLOR"} | {"TERM": "xterm"} | environment
-        process = subprocess.Popen([TAKT, *map(str, arguments)], stdout=follower, stderr=subprocess.PIPE, env=surroundings)
+        # What was written last may still be under way when the last writer closes, and is lost then: this end stays open,
+        # and a mark behind all of it says where it ends.
+        mark = b"\0end\0"
+        process = subprocess.Popen([TAKT, *map(str, arguments)], stdout=follower, stderr=subprocess.DEVNULL, env=surroundings)
+        said = []
+        reader = threading.Thread(target=lambda: said.append(self.read_up_to(leader, mark)))
+        reader.start()
+        status = process.wait()
+        os.write(follower, mark)
+        reader.join()
         os.close(follower)
-        out = b""
-        while True:
-            try:
-                part = os.read(leader, 65536)
-            except OSError:   # the other end is closed
-                break
-            if not part:
-                break
-            out += part
         os.close(leader)
-        process.stderr.close()
-        return out.decode().replace("\r\n", "\n"), process.wait()
+        return said[0].decode().replace("\r\n", "\n"), status
+
+    @staticmethod
+    def read_up_to(descriptor, mark):
+        octets = b""
+        while not octets.endswith(mark):
+            octets += os.read(descriptor, 65536)
+        return octets.removesuffix(mark)
 
     def test_verdicts_are_coloured_and_nothing_else(self):
         path = self.write(SMALL % "1ns")

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "analysis/dds_messages.hpp"
 #include "analysis/thread_arrivals.hpp"
 #include "application/topic_values.hpp"
 #include "dds/participant/participant.hpp"
@@ -17,43 +18,7 @@ namespace {
 using scenario::ResolvedApplication;
 using scenario::ResolvedParticipant;
 using scenario::ResolvedThread;
-using Payload = std::uint32_t;   ///< octets
-
-constexpr Payload greatest_message = 1472;
-// RTPS header, INFO_DST, INFO_TS, the submessage, inline QoS, as src/dds/rtps/stateful_writer.cpp counts them; a HEARTBEAT that goes with a sample.
-constexpr Payload beside_sample = 20 + 16 + 12 + 24 + 32;
-constexpr Payload beside_fragment = 20 + 16 + 12 + 36 + 32;
-constexpr Payload heartbeat = 32;
-constexpr Payload least_sample_message = 20 + 12 + 24;
-// HEARTBEAT with HEARTBEAT_FRAG, GAP, ACKNACK with all its bits: header and INFO_DST are 36, the longest of the rest 60.
-constexpr Payload control_message = 128;
-constexpr std::int64_t numbers_in_a_request = 256 + 16;   ///< of an ACKNACK, and of as many NACK_FRAGs as a reader may send (ReceiveLimits::max_reassemblies)
-
-/// What happens once per match, once per greeting of a reader and once per heartbeat period.
-struct Rates {
-  std::int64_t matches = 0;
-  std::int64_t greetings = 0;
-  std::int64_t periods = 0;
-
-  Rates times(std::int64_t n) const { return {matches * n, greetings * n, periods * n}; }
-  void add(const Rates& more) {
-    matches += more.matches;
-    greetings += more.greetings;
-    periods += more.periods;
-  }
-};
-
-/// What a reliable writer has that a reader may ask for.
-struct Offer {
-  std::int64_t samples = -1;          ///< in its history at most; below 0: without a limit
-  std::int64_t fragments = 1;         ///< of a sample
-  Payload message = greatest_message; ///< of the longest
-
-  /// Samples and GAPs that answer one ACKNACK.
-  std::int64_t samples_in_an_answer() const { return fragments * (samples < 0 ? numbers_in_a_request : std::min(samples, numbers_in_a_request)); }
-  std::int64_t gaps_in_an_answer() const { return samples < 0 ? numbers_in_a_request : std::min(samples + 1, numbers_in_a_request); }
-};
-
+using namespace dds_messages;
 /// Greetings of a reader that hears nothing: so many until they are a heartbeat period apart.
 std::int64_t greetings_of(sim::Duration first, sim::Duration greatest) {
   std::int64_t count = 1;
@@ -164,6 +129,8 @@ class DomainTraffic {
       for (const ResolvedThread& thread : application(from).threads)
         if (thread.participant == from) thread.publishes ? write(from, thread, to) : read(from, thread, to);
     }
+    for (const ResolvedThread& thread : application(from).threads)
+      if (thread.participant == from && thread.publishes && participant(from).config.multicast_group) write_to_group(from, thread);
   }
 
   void add(const ResolvedParticipant::Route* route, Payload payload, const Rates& rates, std::uint32_t from, std::uint32_t to) {
@@ -342,55 +309,90 @@ class DomainTraffic {
       if (thread.participant == member && !thread.publishes && thread.topic == topic) visit(thread);
   }
 
+  /// What a writer sends whenever there is something new, whoever it is for.
+  struct Writing {
+    dds::WriterConfig config;
+    dds::HistorySettings history;
+    Offer offer;
+    ArrivalPattern writes;
+    bool fills = false;           ///< with the sample that fills the history goes a HEARTBEAT, for which a message may have no room
+    bool is_reliable = false;
+    bool is_controlled = false;   ///< a flow controller has a say
+    Ps waking = 0;                ///< from a timer's expiry to what an asynchronous writer does then
+    std::size_t octets = 0;       ///< of a sample
+  };
+  Writing writing_of(std::uint32_t from, const ResolvedThread& thread) const {
+    const scenario::ResolvedTopic& topic = r_.topics[thread.topic];
+    Writing made;
+    made.config = writer_config(topic, thread);
+    made.is_reliable = made.config.qos.reliability.kind == dds::ReliabilityKind::reliable;
+    made.history = history_of(made.config.qos);
+    const auto& flow = topic.description->flow_control;
+    made.is_controlled = made.config.asynchronous && flow && flow->octets != 0;
+    made.octets = application::Publication(topic.shape, {}).next().size();
+    made.offer = offer_of(made.octets, made.is_controlled ? std::min(greatest_message, flow->octets) : greatest_message);
+    made.offer.samples = samples_of(thread, made.history);
+    made.fills = made.is_reliable && made.history.keep_all && has_limits(made.history);
+    // What blocks is written later.
+    made.writes = calls_of(thread, hosts_.of(node(from), thread.cpu_thread), clock(from));
+    const Ps within = options_.dds_within->ps();
+    made.waking = hosts_.wake_up(node(from), application(from).cpu_thread).greatest() == sim::Duration() ? 0 : within;
+    if (made.is_reliable && has_limits(made.history)) made.writes.jitter = sum(made.writes.jitter, longest(made.config.qos.reliability.max_blocking_time.ps(), clock(from)), within);
+    if (made.config.asynchronous) made.writes.jitter = sum(made.writes.jitter, made.waking);
+    return made;
+  }
+  static ArrivalPattern times(ArrivalPattern pattern, std::int64_t n) {
+    pattern.frames *= n;
+    return pattern;
+  }
+  /// New samples on one stream, `copies` of each; `lives` of the writer.
+  void add_samples(const ResolvedParticipant::Route* there, const ResolvedThread& thread, const Writing& writing, std::int64_t copies, std::int64_t lives, std::uint32_t from) {
+    if (!writing.is_controlled) return add(there, writing.offer.message, FrameArrivals(times(writing.writes, copies * (writing.offer.fragments + (writing.fills ? 1 : 0)))));
+    // Periods of the controller have whole messages only, of all writers of the topic together.
+    const plant::FlowControl& flow = *r_.topics[thread.topic].description->flow_control;
+    const Ps every = std::max<Ps>(1, shortest(flow.every.ps(), clock(from)));
+    const Payload least = writing.offer.fragments > 1 ? least_sample_message : least_sample_message + static_cast<Payload>(writing.octets);
+    const std::int64_t sent = std::max<std::int64_t>(1, flow.octets / least) * (writing.fills ? 2 : 1);
+    add(there, writing.offer.message, FrameArrivals({every, sent * lives, 0, sum(every, writing.waking, own_)}));
+    add(there, control_message, FrameArrivals({every, sent * copies, 0, sum(every, writing.waking, own_)}));
+  }
+
+  /// To all who have joined the group: new samples, once; a HEARTBEAT in each period; past samples, if one reader is the first.
+  void write_to_group(std::uint32_t from, const ResolvedThread& thread) {
+    const ResolvedParticipant::Route* const group = route(from, dds::Locator::udp_v4(*participant(from).config.multicast_group, ports(from).multicast_user), thread.transport_priority);
+    if (group == nullptr) return;
+    std::int64_t readers = 0;
+    for (const std::uint32_t to : members_)
+      if (node(to) != node(from)) for_each_reader(to, thread.topic, [&](const ResolvedThread&) { readers += lives(to); });
+    if (readers == 0) return;
+    const Writing writing = writing_of(from, thread);
+    add_samples(group, thread, writing, lives(from), lives(from), from);
+    if (!writing.is_reliable) return;
+    rates_[{group->stream.value, control_message}].add({0, 0, lives(from)});
+    if (writing.config.qos.durability.kind == dds::DurabilityKind::volatile_) return;
+    if (writing.offer.samples < 0) return unknown(group, "whose writer of " + r_.topics[thread.topic].description->name + " keeps any number of samples for readers that come later");
+    rates_[{group->stream.value, std::min(writing.offer.message, greatest_message)}].add(Rates{lives(from) * readers, 0, 0}.times(writing.offer.samples * writing.offer.fragments + (writing.fills ? 1 : 0)));
+  }
+
   void write(std::uint32_t from, const ResolvedThread& thread, std::uint32_t to) {
     const scenario::ResolvedTopic& topic = r_.topics[thread.topic];
-    const dds::WriterConfig config = writer_config(topic, thread);
-    const bool is_reliable = config.qos.reliability.kind == dds::ReliabilityKind::reliable;
+    const Writing writing = writing_of(from, thread);
+    const auto& [config, history, offer, writes, fills, is_reliable, is_controlled, waking, octets] = writing;
     std::int64_t readers = 0;
     std::int64_t reliable = 0;
     std::vector<const ResolvedThread*> refusing;
     for_each_reader(to, thread.topic, [&](const ResolvedThread& reader) {
       ++readers;
-      if (!is_reliable || qos_of_reader(reader).reliability.kind != dds::ReliabilityKind::reliable) return;
+      if (!writing.is_reliable || qos_of_reader(reader).reliability.kind != dds::ReliabilityKind::reliable) return;
       ++reliable;
       if (may_refuse(reader)) refusing.push_back(&reader);
     });
     const ResolvedParticipant::Route* const there = route(from, user(to), thread.transport_priority);
     if (readers == 0 || there == nullptr) return;
 
-    const dds::HistorySettings history = history_of(config.qos);
-    Payload max_message = greatest_message;
-    const auto& flow = topic.description->flow_control;
-    if (config.asynchronous && flow && flow->octets != 0) max_message = std::min(max_message, flow->octets);
-    const auto octets = application::Publication(topic.shape, {}).next().size();
-    Offer offer = offer_of(octets, max_message);
-    offer.samples = samples_of(thread, history);
-
-    // Each write, one message for each reader at most. What blocks is written later.
-    ArrivalPattern writes = calls_of(thread, hosts_.of(node(from), thread.cpu_thread), clock(from));
-    const Ps waking = options_.dds_within->ps();
-    const bool wakes_at_once = hosts_.wake_up(node(from), application(from).cpu_thread).greatest() == sim::Duration();
-    if (is_reliable && has_limits(history)) writes.jitter = sum(writes.jitter, longest(config.qos.reliability.max_blocking_time.ps(), clock(from)), waking);
-    if (config.asynchronous && !wakes_at_once) writes.jitter = sum(writes.jitter, waking);
+    // Each write, one message for each reader at most; none where samples go to a group, but from an asynchronous writer to a reader that is behind the others.
     const std::int64_t copies = readers * lives(from) * lives(to);
-    const auto times = [](ArrivalPattern pattern, std::int64_t n) {
-      pattern.frames *= n;
-      return pattern;
-    };
-    // With the sample that fills the history goes a HEARTBEAT, for which a message may have no room.
-    const bool fills = is_reliable && history.keep_all && has_limits(history);
-    const std::int64_t of_sample = offer.fragments + (fills ? 1 : 0);
-    const bool is_controlled = config.asynchronous && flow && flow->octets != 0;
-    if (!is_controlled) {
-      add(there, offer.message, FrameArrivals(times(writes, copies * of_sample)));
-    } else {
-      // Periods of the controller have whole messages only, of all writers of the topic together.
-      const Ps every = std::max<Ps>(1, shortest(flow->every.ps(), clock(from)));
-      const Payload least = offer.fragments > 1 ? least_sample_message : least_sample_message + static_cast<Payload>(octets);
-      const std::int64_t sent = std::max<std::int64_t>(1, flow->octets / least) * (fills ? 2 : 1);
-      add(there, offer.message, FrameArrivals({every, sent * lives(from), 0, sum(every, wakes_at_once ? 0 : waking, own_)}));
-      add(there, control_message, FrameArrivals({every, sent * copies, 0, sum(every, wakes_at_once ? 0 : waking, own_)}));
-    }
+    if (!participant(from).config.multicast_group || config.asynchronous) add_samples(there, thread, writing, copies, lives(from), from);
     // What an asynchronous writer has not sent yet may be replaced; a GAP says so.
     if (config.asynchronous) add(there, control_message, FrameArrivals(times(writes, copies)));
     if (reliable == 0) return;

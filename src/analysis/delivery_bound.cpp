@@ -47,6 +47,16 @@ class Deliveries {
     if (!made.one_way) made.reason = "the thread that takes in what comes: " + cpu(made.to_application).reason;
   }
 
+  /// By which new samples go.
+  const StreamBound* stream_of_samples(std::uint32_t from, std::uint32_t to, std::int32_t priority) const {
+    const ResolvedParticipant& sender = r_.dds->participants[from];
+    if (!sender.config.multicast_group) return stream_between(from, to, priority);
+    const dds::Locator group = dds::Locator::udp_v4(*sender.config.multicast_group, dds::ports_of(sender.config.domain, sender.config.participant).multicast_user);
+    for (const ResolvedParticipant::Route& route : sender.routes)
+      if (route.to == group && route.transport_priority == priority) return &bounds_.streams[route.stream.value];
+    return nullptr;
+  }
+
   const StreamBound* stream_between(std::uint32_t from, std::uint32_t to, std::int32_t priority) const {
     const ResolvedParticipant& sender = r_.dds->participants[from];
     const ResolvedParticipant& receiver = r_.dds->participants[to];
@@ -60,7 +70,7 @@ class Deliveries {
     const ResolvedThread& writer = r_.applications[made.from_application].threads[made.from_thread];
     const ResolvedThread& reader = r_.applications[made.to_application].threads[made.to_thread];
     const dds::WriterConfig config = writer_config(r_.topics[writer.topic], writer);
-    const StreamBound* const there = stream_between(*writer.participant, *reader.participant, writer.transport_priority);
+    const StreamBound* const there = stream_of_samples(*writer.participant, *reader.participant, writer.transport_priority);
     const auto nothing = [&](std::string why) { made.reason = made.repair_reason = std::move(why); };
     if (there == nullptr) return nothing("participants of one host do not hear each other");
     if (config.asynchronous) return nothing("what an asynchronous writer sends waits for its flow controller");
@@ -69,7 +79,9 @@ class Deliveries {
     if (!made.one_way) made.repair_reason = made.reason;
     const StreamBound* const back = stream_between(*reader.participant, *writer.participant, 0);
     if (made.repair_reason.empty() && (back == nullptr || !back->latency)) made.repair_reason = back == nullptr ? "nothing goes back to the writer" : back->name + ": " + back->reason;
-    if (made.repair_reason.empty()) repair(config, writer, *back, made);
+    const StreamBound* const again = stream_between(*writer.participant, *reader.participant, writer.transport_priority);
+    if (made.repair_reason.empty() && (again == nullptr || !again->latency)) made.repair_reason = again == nullptr ? "nothing goes to the reader alone" : again->name + ": " + again->reason;
+    if (made.repair_reason.empty()) repair(config, writer, *again, *back, made);
   }
 
   std::string why_not_repaired(const dds::WriterConfig& config, const ResolvedThread& reader) const {
@@ -85,15 +97,17 @@ class Deliveries {
   /// From a timer's expiry to what the participant does then.
   Ps wake(std::size_t application) const { return bounds_.hosts->wake_up(node(application), r_.applications[application].cpu_thread).greatest() == Duration() ? cpu(application).worst : bounds_.dds_within->ps(); }
 
-  void repair(const dds::WriterConfig& config, const ResolvedThread& writer, const StreamBound& back, DeliveryBound& made) const {
+  /// `there`: by which samples go again; it is another one than at first if samples go to a group.
+  void repair(const dds::WriterConfig& config, const ResolvedThread& writer, const StreamBound& there, const StreamBound& back, DeliveryBound& made) const {
     const dds::TimingProfile& timing = r_.dds->participants[*writer.participant].config.timing;
     const ClockQuality own = clock_quality(r_, node(made.from_application), options_);
     const ClockQuality other = clock_quality(r_, node(made.to_application), options_);
     const auto on = [](Duration local, const ClockQuality& clock) { return sum(longest(local.ps(), clock), 2 * clock.error); };
-    const Ps way = made.one_way->ps();
+    const Ps way = std::max(made.one_way->ps(), sum(there.latency->ps(), cpu(made.to_application).worst));
     // The timer of HEARTBEATs runs at the latest from the write on, whose sample is not acknowledged.
     const Ps asked = sum(on(std::max(timing.heartbeat_period, timing.heartbeat_period_max), own), wake(made.from_application), way, on(std::max(timing.heartbeat_response_delay, timing.nack_delay_when_final), other), wake(made.to_application));
     const Ps again = sum(asked, back.latency->ps(), cpu(made.from_application).worst, on(timing.nack_response_delay, own), wake(made.from_application));
+    made.assumptions.add(there.assumptions);
     made.assumptions.add(back.assumptions);
     // A sample that its successors have replaced is not sent again: nor one that has expired.
     const dds::HistorySettings history = dds::HistorySettings::from(config.qos.history, config.qos.resource_limits);

@@ -38,6 +38,7 @@ ThreadResult result_of(const scenario::ResolvedThread& thread, const std::string
   result.buffered = figures.buffered;
   result.overwritten = figures.overwritten;
   result.lost = figures.lost;
+  result.filtered = figures.filtered;
   result.measures_round_trips = figures.round_trip.has_value();
   if (figures.round_trip) result.round_trip = summary_of(*figures.round_trip);
   if (figures.values) result.values = criterion_of(*figures.values, thread.value_window);

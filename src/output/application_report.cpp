@@ -26,7 +26,7 @@ std::string row_of(const results::ApplicationResult& application, const results:
   std::string row = fmt::format("  {:<{}}  {:>9}  {:>10}  {:>9}  {:>9}  {:>10}", application.name + "/" + t.name, width, readable(t.every), t.activations, t.missed,
                                 t.calls.tests, percent_text(t.calls.percent));
   row += fmt::format("  {:>10}  {}", t.values ? percent_text(t.values->percent) : "", response);
-  for (const auto& [count, what] : {std::pair(t.refused, "refused"), std::pair(t.timed_out, "timed out"), std::pair(t.overwritten, "overwritten"), std::pair(t.values ? t.values->beyond : 0, "too late"), std::pair(t.lost, "lost"),
+  for (const auto& [count, what] : {std::pair(t.refused, "refused"), std::pair(t.timed_out, "timed out"), std::pair(t.overwritten, "overwritten"), std::pair(t.values ? t.values->beyond : 0, "too late"), std::pair(t.lost, "lost"), std::pair(t.filtered.value_or(0), "filtered"),
                                     std::pair(t.calls.discarded, "tests discarded")})
     if (count > 0) row += fmt::format(", {} {}", count, what);
   if (t.measures_round_trips)

@@ -84,6 +84,7 @@ struct Thread {
   std::optional<Signal> signal;
   std::optional<std::string> round_trip = {};   ///< topic
   std::optional<Qos> qos;
+  std::optional<std::string> filter = {};       ///< of DDS: an expression over the fields of what it subscribes to
   bool operator==(const Thread&) const = default;
 };
 

@@ -117,6 +117,7 @@ const json::Object& describe(json::Type<Thread>) {
       optional<&Thread::signal>("signal", "Drives a digital output."),
       optional<&Thread::round_trip>("round_trip", "A topic that the application publishes as a counter and whose values come back on this one, by `copy_of` elsewhere: how long that takes is measured.", {.min_length = 1}),
       optional<&Thread::qos>("qos", "Of DDS: other quality of service of this writer or reader than the topic's."),
+      optional<&Thread::filter>("filter", "Of DDS, of a subscription: only samples for which this expression over the fields of the topic holds (\"level > 10 AND NOT axis = 2\", \"level[0] BETWEEN -1 AND 1\"; DDS 1.4, Annex B). The others come to the host and are left out there.", {.min_length = 1, .max_length = 1000}),
   };
   static constexpr std::string_view roles[] = {"publish", "subscribe"};
   static constexpr json::Group groups[] = {json::exactly_one_of(roles)};

@@ -50,7 +50,8 @@ struct ThreadResult {
   std::uint64_t buffered = 0;
   std::uint64_t overwritten = 0;
   std::uint64_t lost = 0;
-  std::optional<CriterionResult> values;   ///< criterion 2
+  std::optional<std::uint64_t> filtered = {};  ///< of a subscription with a content filter
+  std::optional<CriterionResult> values;   ///< criterion 2, of a subscription that gets all
   bool measures_round_trips = false;
   std::optional<DurationSummary> round_trip; ///< of the values that have come back
 };

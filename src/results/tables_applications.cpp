@@ -10,6 +10,7 @@ bool publishes(const ThreadResult& thread) { return thread.publishes; }
 bool subscribes(const ThreadResult& thread) { return !thread.publishes; }
 bool measures_round_trips(const ThreadResult& thread) { return thread.measures_round_trips; }
 bool has_values(const ThreadResult& thread) { return !thread.publishes && thread.values; }
+bool has_filter(const ThreadResult& thread) { return thread.filtered.has_value(); }
 
 std::string kind_of(const ApplicationResult& application) { return application.is_gateway ? "gateway" : application.is_service ? "persistence" : "application"; }
 bool has_buffer(const ApplicationResult& application) { return application.buffer.has_value(); }
@@ -84,8 +85,9 @@ const json::Record& describe(json::Type<ThreadResult>) {
       json::only_if<&subscribes>(json::output<&ThreadResult::buffered>("buffered", "Samples that waited in the buffer."), "of a subscribing thread"),
       json::only_if<&subscribes>(json::output<&ThreadResult::overwritten>("overwritten", "Samples that newer ones took the place of."), "of a subscribing thread"),
       json::only_if<&subscribes>(json::output<&ThreadResult::lost>("lost", "Samples that never came."), "of a subscribing thread"),
+      json::only_if<&has_filter>(json::output<&ThreadResult::filtered>("filtered", "Samples that came and that its `filter` kept out."), "with `filter`"),
       json::only_if<&measures_round_trips>(json::output<&ThreadResult::round_trip>("round_trip_ps", "From the call that publishes a value to the call that takes it when it has come back; null if none has."), "with `round_trip`"),
-      json::only_if<&has_values>(json::output<&ThreadResult::values>("values", "Criterion 2: values against those expected."), "of a subscribing thread whose publisher is known"),
+      json::only_if<&has_values>(json::output<&ThreadResult::values>("values", "Criterion 2: values against those expected."), "of a subscribing thread whose publisher is known, without `filter`"),
   };
   static constexpr json::Record record{"thread", "A thread of an application.", outputs};
   return record;

@@ -46,7 +46,8 @@ class DdsNetwork {
       streams_ += fmt::format(R"({}{{"name": "t{}", "from": "h{}", "to": "h{}", "pcp": {}, "payload": "{}B", "every": "5ms"}})", i == 0 ? "" : ", ", i, from, other(from), chance_.below(8), 10 + chance_.below(500));
     }
     if (one_in(2)) clocks_ = R"(, "clocks": {"all": {"offset": {"from": "-100ppm", "to": "100ppm"}}})";
-    domain_ = fmt::format(R"({{"id": 0, "discovery": "{}", "announce_every": "{}ms", "lease_duration": "{}s"}})", one_in(4) ? "static" : "simple", 200 + chance_.below(800), 1 + chance_.below(3));
+    domain_ = fmt::format(R"({{"id": 0, "discovery": "{}", "announce_every": "{}ms", "lease_duration": "{}s"{}}})", one_in(4) ? "static" : "simple", 200 + chance_.below(800), 1 + chance_.below(3),
+                          one_in(3) ? R"(, "multicast": true)" : "");
   }
 
   /// With offsets, losses and crashes that change from run to run: the curves hold whatever they are; of crashes only the number counts.

@@ -71,6 +71,24 @@ TEST(DdsSources, ReliableIsAlsoHeartbeatsAndRepairs) {
   EXPECT_EQ(most(*r, "rtps-0/actor/sensor", 2980 * ms), 1 + 7 * 2 + 2 * 3);
 }
 
+// New samples go to the group, once for each write, and in each period (and at the instant at which one ends) a HEARTBEAT for all. To the reader alone go HEARTBEATs, repairs and GAPs as above, but no new sample.
+TEST(DdsSources, ToAGroupGoesWhatIsNew) {
+  const std::string grouped = R"(, "domains": [{"id": 0, "discovery": "static", "multicast": true}])";
+  const auto best_effort = plant("", grouped);
+  EXPECT_EQ(most(*best_effort, "rtps-0/sensor/samples", 0), 1);
+  EXPECT_EQ(most(*best_effort, "rtps-0/sensor/samples", ms), 2);
+  EXPECT_EQ(most(*best_effort, "rtps-0/sensor/samples", 0, 104 + 8 + 32 + 1), 0);
+  EXPECT_EQ(most(*best_effort, "rtps-0/sensor/actor", 3000 * ms), 0);
+  const auto reliable = plant(R"(, "qos": {"reliability": "reliable"})", grouped);
+  EXPECT_EQ(most(*reliable, "rtps-0/sensor/samples", 0), 1 + 1);
+  EXPECT_EQ(most(*reliable, "rtps-0/sensor/samples", 50 * ms), 51 + 1);
+  EXPECT_EQ(most(*reliable, "rtps-0/sensor/actor", 0, 144), 7 - 1);
+  EXPECT_EQ(most(*reliable, "rtps-0/sensor/actor", 0), 24 - 1);
+  // The ten samples of its history may go to the group for one reader that is the first, once per match.
+  const auto lasting = plant(R"(, "qos": {"reliability": "reliable", "durability": "transient-local", "depth": 10})", grouped);
+  EXPECT_EQ(most(*lasting, "rtps-0/sensor/samples", 0), 1 + 1 + 10);
+}
+
 // Of static discovery one built-in writer and reader are left, those of liveliness, of at most two instances: HEARTBEATs {1, 1, 2}, own ACKNACKs {1, 2, 3}, three GAPs an answer {3, 6, 9}, one at the match and
 // three between what is past: 9 + 9 + 14. With samples {1, 2, 3} times two, two that are past and the answer of SPDP: 2 + 2 + 1, 4, 6.
 TEST(DdsSources, DiscoveryIsCounted) {

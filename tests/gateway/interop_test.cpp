@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "gateway/channel.hpp"
+#include "gateway/content_filter.hpp"
 #include "gateway/field_values.hpp"
 #include "node/dds/participant.hpp"
 #include "node/socket.hpp"
@@ -194,6 +195,30 @@ TEST(Interoperability, AStockSubscriberReceivesWhatTheGatewayPublishes) {
     EXPECT_EQ(nlohmann::json::parse(line), printed(sample_of(n))) << n;
   }
   EXPECT_EQ(stock.wait(), 0);
+}
+
+// A reader of this node keeps of 60 samples those that its filter lets pass; its history of one sample an instance would otherwise hold the last only.
+TEST(Interoperability, AFilterLooksAtWhatAStockPublisherWrites) {
+  const IdlStruct motion{"Plant::Motion", {{"counter", IdlKind::uint32}, {"speed", IdlKind::float64}, {"axes", IdlKind::int16, IdlCollection::array, 3}, {"on", IdlKind::boolean}}};
+  FilterMistake mistake;
+  const auto filter = ContentFilter::parse("axes[1] BETWEEN -12 AND -10 OR speed > 14.5 AND on = TRUE OR counter = 60", motion, mistake);
+  ASSERT_TRUE(filter) << mistake.expected;
+  std::string problem;
+  const auto participant = node::open_dds(domain(), "", problem);
+  ASSERT_NE(participant, nullptr) << problem;
+  node::DdsReader* const reader = participant->add_reader({"Motion", motion.name, reliable(), {}, [&](uadp::Octets payload) { return filter->passes(payload); }}, problem);
+  ASSERT_NE(reader, nullptr) << problem;
+  plant::Qos latest = reliable();
+  latest.history = plant::History::keep_last;
+  node::DdsReader* const last = participant->add_reader({"Motion", motion.name, latest, {}, [&](uadp::Octets payload) { return filter->passes(payload) && payload[4] < std::byte{13}; }}, problem);
+  ASSERT_NE(last, nullptr) << problem;
+  Stock stock({place() + "/stock_publisher", "Motion", std::to_string(domain()), std::to_string(samples), "2"});
+  OneByOne taken(*reader);
+  for (const int counter : {10, 11, 12, 59, 60}) EXPECT_EQ(std::to_integer<int>(taken.next().at(4)), counter);
+  EXPECT_EQ(stock.wait(), 0);
+  const auto kept = last->take();
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_EQ(kept[0].at(4), std::byte{12});
 }
 
 TEST(Interoperability, WhatAStockPublisherWritesComesOutOfTheGatewayAsUadp) {

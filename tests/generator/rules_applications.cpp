@@ -131,6 +131,22 @@ Made field_values(Maker& m, const Scope& s) {
   return std::nullopt;
 }
 
+/// Of the first field, which is a number.
+Made content_filter(Maker& m, const Scope& s) {
+  if (!s.has("subscribe") || !uses_dds(m, s)) return std::nullopt;
+  for (std::size_t i = 0; i < m.topics; ++i) {
+    if (name_of(m, i) != s.text("subscribe")) continue;
+    const std::string f0 = topic(m, i).find("fields")->find("f0")->find("count") != nullptr ? "f0[0]" : "f0";
+    switch (m.draw.below(4)) {
+      case 0: return text(f0 + " > 1");
+      case 1: return text("NOT (" + f0 + " = 0 OR " + f0 + " = 2)");
+      case 2: return text(f0 + " BETWEEN 0 AND 3.5");
+      default: return text(f0 + " <> " + f0);
+    }
+  }
+  return std::nullopt;
+}
+
 /// Words as a list.
 Node words(std::initializer_list<std::string_view> all) {
   std::vector<Node> items;
@@ -244,6 +260,7 @@ std::span<const Rule> application_rules() {
       {.key = "domain.discovery", .percent = 70},
       {.key = "domain.server", .percent = 100, .make = [](Maker&, const Scope& s) -> Made { return s.text("discovery") == "server" ? Made(text("a0")) : std::nullopt; }},
       {.key = "domain.announce_every", .percent = 60, .words = "1ms 2ms 10ms"},
+      {.key = "domain.multicast", .percent = 40},
       {.key = "domain.lease_duration", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.has("announce_every") ? m.word("20ms 1s") : Made(); }},
       {.key = "application.name", .make = [](Maker&, const Scope& s) -> Made { return text("a" + std::to_string(s.number)); }},
       {.key = "application.on", .make = [](Maker& m, const Scope& s) -> Made { return text(m.world.hosts[host_of(m, s.number)]); }},
@@ -264,6 +281,7 @@ std::span<const Rule> application_rules() {
       {.key = "thread.payload", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return s.has("publish") ? Made(m.short_or_object("payload", &s)) : std::nullopt; }},
       {.key = "thread.buffer", .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return s.has("subscribe") ? Made(m.word("1 4")) : std::nullopt; }},
       {.key = "thread.signal", .feature = Feature::signals, .percent = 80, .make = [](Maker& m, const Scope& s) -> Made { return s.has("subscribe") ? Made(m.short_or_object("signal", &s, s.around("application")->text("name") + "-" + s.text("name"))) : std::nullopt; }},
+      {.key = "thread.filter", .feature = Feature::dds, .percent = 25, .make = content_filter},
       {.key = "thread.round_trip", .percent = 30, .make = outgoing},
       {.key = "thread.qos", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return uses_dds(m, s) ? Made(m.object("qos", &s)) : std::nullopt; }},
       {.key = "payload.pattern", .percent = 60, .make = pattern},

@@ -33,6 +33,16 @@ Made application(Maker& m, const Scope&) {
   return name.empty() ? std::nullopt : Made(text(name));
 }
 
+/// Whether a thread of it has a content filter: how many values it lets pass nobody knows.
+bool filters(const Maker& m, const std::string& application) {
+  const Node* const applications = m.root().find("applications");
+  if (applications == nullptr) return false;
+  for (const Node& each : applications->items)
+    for (const Node& thread : each.find("threads")->items)
+      if (each.find("name")->text == application && thread.find("filter") != nullptr) return true;
+  return false;
+}
+
 Made signal(Maker& m, const Scope&) {
   std::vector<std::string> names;
   if (const Node* const applications = m.root().find("applications"))
@@ -95,7 +105,7 @@ std::span<const Rule> requirement_rules() {
       {.key = "requirement.after", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.has("sync") ? Made(text(std::to_string(m.duration_us / 2) + "us")) : std::nullopt; }},
       {.key = "requirement.thread", .percent = 25, .make = [](Maker&, const Scope& s) -> Made { return s.text("application").starts_with("a") ? Made(text("th0")) : std::nullopt; }},
       {.key = "requirement.success", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.has("application") ? m.word("50 90.5 100") : Made(); }},
-      {.key = "requirement.buffered", .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return s.has("application") ? m.word("10 80") : Made(); }},
+      {.key = "requirement.buffered", .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return s.has("application") && !filters(m, s.text("application")) ? m.word("10 80") : Made(); }},
       {.key = "requirement.irregular", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return s.has("signal") ? m.word("10 100") : Made(); }},
       {.key = "requirement.only", .percent = 60, .make = [](Maker&, const Scope& s) -> Made {
          if (!s.text("figure").starts_with("/programs")) return std::nullopt;

@@ -110,6 +110,111 @@ TEST(DdsApplications, WhatDoesNotMatchIsToldAtItsKey) {
   }
 }
 
+/// One publishes, three hosts subscribe, the last of them two topics, and a fifth subscribes to something else; `domain` says how.
+std::string star(const std::string& qos, const std::string& domain, const std::string& more = "") {
+  std::string nodes, links, applications;
+  for (const char host : {'a', 'b', 'c', 'd', 'e'}) {
+    nodes += std::string(R"(, ")") + host + R"(": {"kind": "host"})";
+    links += std::string(links.empty() ? "" : ", ") + R"({"ends": [")" + host + R"(", "s"]})";
+    const std::string other = R"({"name": "other", "subscribe": "y", "every": "10ms", "response": "1us"})";
+    const std::string take = R"({"name": "take", "subscribe": "x", "every": "1ms", "offset": "500us", "buffer": 100, "response": "1us"})";
+    const std::string publish = R"({"name": "publish", "publish": "x", "every": "10ms", "response": "1us"}, {"name": "more", "publish": "y", "every": "20ms", "response": "1us"})";
+    applications += std::string(host == 'a' ? "" : ", ") + R"({"name": "of-)" + host + R"(", "on": ")" + host + R"(", "threads": [)" + (host == 'a' ? publish : host == 'e' ? other : host == 'd' ? take + ", " + other : take) + "]}";
+  }
+  return R"({"name": "t", "duration": "8s", "network": {"nodes": {"s": {"kind": "switch"})" + nodes + R"(}, "links": [)" + links + R"(]}, "domains": [{"id": 0)" + domain + R"(}],
+ "topics": [{"name": "x", "protocol": "dds", "fields": {"level": "UInt32"}, "qos": {)" + qos + R"(}}, {"name": "y", "protocol": "dds", "fields": {"level": "UInt32"}}],
+ "applications": [)" + applications + "]" + more + "}";
+}
+
+const results::StreamResult& stream_of(const results::RunResult& result, const std::string& name) { return *std::ranges::find(result.streams, name, &results::StreamResult::name); }
+bool has_stream(const results::RunResult& result, const std::string& name) { return std::ranges::find(result.streams, name, &results::StreamResult::name) != result.streams.end(); }
+
+// Once to the group instead of once to each: four participants have readers, so each of them hears all, e of x in vain.
+TEST(DdsApplications, SamplesGoOnceToTheGroup) {
+  const results::RunResult unicast = result_of(star(R"("reliability": "reliable")", ""));
+  const results::RunResult multicast = result_of(star(R"("reliability": "reliable")", R"(, "multicast": true)"));
+  EXPECT_FALSE(has_stream(unicast, "rtps-0/of-a/samples"));
+  const results::StreamResult& samples = stream_of(multicast, "rtps-0/of-a/samples");
+  const std::uint64_t written = multicast.applications[0].threads[0].published + multicast.applications[0].threads[1].published;
+  EXPECT_EQ(written, 1200u);
+  // All but those that were written before somebody was found, and HEARTBEATs, 3 s apart, for several at once.
+  EXPECT_GT(samples.sent, written - 30);
+  EXPECT_LE(samples.sent, written + 3);
+  EXPECT_EQ(samples.delivered, 4 * samples.sent);
+  for (const char* const reader : {"b", "c", "d"}) {
+    EXPECT_LT(stream_of(multicast, std::string("rtps-0/of-a/of-") + reader).sent, 20u) << reader;
+    EXPECT_GT(stream_of(unicast, std::string("rtps-0/of-a/of-") + reader).sent, 780u) << reader;
+  }
+  for (std::size_t reader = 1; reader < 5; ++reader) {
+    const results::ThreadResult& one = multicast.applications[reader].threads[0];
+    const results::ThreadResult& other = unicast.applications[reader].threads[0];
+    EXPECT_EQ(one.arrived, other.arrived);
+    EXPECT_EQ(one.lost, 0u);
+  }
+}
+
+// What one of them has not got it asks for, and gets alone.
+TEST(DdsApplications, WhatOneOfAGroupLacksIsSentToItAlone) {
+  const std::string loss = R"(, "faults": [{"kind": "frame-errors", "link": ["s", "b"], "towards": "b", "loss": 1, "at": "4s", "for": "100ms"}])";
+  const results::RunResult result = result_of(star(R"("reliability": "reliable", "history": "keep-all")", R"(, "multicast": true)", loss));
+  EXPECT_EQ(result.applications[1].threads[0].arrived, result.applications[2].threads[0].arrived);
+  EXPECT_EQ(result.applications[1].threads[0].lost, 0u);
+  EXPECT_EQ(result.applications[0].participants[0].resent, 10u);
+  EXPECT_GE(stream_of(result, "rtps-0/of-a/of-b").sent, 10u);
+  EXPECT_LT(stream_of(result, "rtps-0/of-a/of-c").sent, 10u);
+}
+
+// Of a counter from 1 on, published each 10 ms: what is even between 10 and 100 has no expression, what is below 20, or from 780 on but not 790, has one. All came to the host; what is kept out takes no room in a
+// history of one sample, is not lost, and is told apart.
+TEST(DdsApplications, AFilterLetsPassWhatIsAskedFor) {
+  const std::string writer = R"("every": "10ms", "response": "1us")";
+  const auto reader = [](const std::string& filter) { return R"("every": "100ms", "offset": "5ms", "response": "1us", "buffer": 100, "qos": {"depth": 1}, "filter": ")" + filter + "\""; };
+  const results::RunResult result = result_of(pair(R"("vlan": 0)", writer, reader("id <= 300 OR id >= 780 AND NOT id = 790"), "", "8s"));
+  const results::ThreadResult& subscribe = result.applications[1].threads[0];
+  const results::ThreadResult& publish = result.applications[0].threads[0];
+  EXPECT_EQ(publish.published, 800u);
+  EXPECT_EQ(subscribe.lost, 0u);
+  ASSERT_TRUE(subscribe.filtered);
+  // From 301 to 779 there are 479 and 790; the last call is before some of the last ones.
+  EXPECT_EQ(*subscribe.filtered, 480u);
+  EXPECT_FALSE(subscribe.values);
+  // One sample of each ten is kept up to 300, and after 779.
+  EXPECT_NEAR(static_cast<double>(subscribe.arrived), 32, 3);
+  EXPECT_LE(subscribe.arrived + *subscribe.filtered + subscribe.overwritten, publish.published);
+  EXPECT_GE(subscribe.arrived + *subscribe.filtered + subscribe.overwritten + 40, publish.published);   // before the match, and the last ones
+}
+
+TEST(DdsApplications, AFilterThatCannotBeIsToldWhereItIsWrong) {
+  const std::string thread = R"("every": "1ms")";
+  const auto only = [](const json::Diagnostics& told, const std::string& pointer, const std::string& what) {
+    ASSERT_EQ(told.errors(), 1u) << told.to_text();
+    EXPECT_EQ(told.kept()[0].place.pointer, pointer);
+    EXPECT_NE(told.to_text().find(what), std::string::npos) << told.to_text();
+  };
+  only(told(pair(R"("vlan": 0)", thread, thread + R"(, "filter": "lever > 1")")), "/applications/1/threads/0/filter", "one of the fields id, level");
+  only(told(pair(R"("vlan": 0)", thread, thread + R"(, "filter": "level >")")), "/applications/1/threads/0/filter", "at character 8");
+  only(told(pair(R"("vlan": 0)", thread + R"(, "filter": "level > 1")", thread)), "/applications/0/threads/0/filter", "subscribe");
+  std::string of_opc_ua = pair(R"("vlan": 0)", thread, thread + R"(, "filter": "level > 1")");
+  of_opc_ua.replace(of_opc_ua.find("\"dds\""), 5, "\"opc-ua\"");
+  only(told(of_opc_ua), "/applications/1/threads/0/filter", "OPC UA");
+  only(told(pair(R"("vlan": 0)", thread, thread + R"(, "filter": "level > 1")", R"(, "require": [{"application": "s", "buffered": 90}])")), "/require/0/buffered", "filter");
+}
+
+// Topics of two classes: each has its stream to the group, with its priority.
+TEST(DdsApplications, EachClassHasAGroupStreamOfItsOwn) {
+  std::string text = star(R"("reliability": "best-effort")", R"(, "multicast": true)");
+  text.replace(text.find(R"({"name": "y")"), 12, R"({"pcp": 5, "name": "y")");
+  const auto resolved = sound(text);
+  const auto pcp_of = [&](const std::string& name) -> std::optional<int> {
+    for (const models::StreamPlan& stream : resolved->plan.streams)
+      if (stream.name == name) return stream.priority ? std::optional<int>(*stream.priority) : std::optional<int>(-1);
+    return std::nullopt;
+  };
+  EXPECT_EQ(pcp_of("rtps-0/of-a/samples/pcp5-vlan0"), 5);
+  EXPECT_EQ(pcp_of("rtps-0/of-a/samples/untagged"), -1);
+  EXPECT_EQ(pcp_of("rtps-0/of-a/samples"), std::nullopt);
+}
+
 // Ten calls of the writer between two of the reader, which keeps one sample of each instance.
 TEST(DdsApplications, EachInstanceHasAHistoryOfItsOwn) {
   const std::string writer = R"("every": "1ms", "response": "1us")";

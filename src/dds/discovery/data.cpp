@@ -70,6 +70,20 @@ void add_rest_of_endpoint(ParameterWriter& list, const EndpointData& data) {
   add(list, ParameterId::endpoint_guid, data.guid);
 }
 
+constexpr std::string_view sql = "DDSSQL";
+
+void add_content_filter(ParameterWriter& list, const ContentFilterProperty& filter) {
+  list.parameter(ParameterId::content_filter_property, [&](Writer& writer) {
+    const std::size_t begin = writer.position();
+    for (const std::string_view text : {std::string_view(filter.topic_name), std::string_view(filter.related_topic), sql, std::string_view(filter.expression)}) {
+      writer.align(4, begin);
+      put_string(writer, text);
+    }
+    writer.align(4, begin);
+    writer.put(std::uint32_t{0});   // parameters
+  });
+}
+
 /// Reads a payload; `take` says of each parameter whether it is known and sound.
 template <class Take>
 DataVerdict decode_list(Octets payload, Take take) {
@@ -112,6 +126,20 @@ Taken take_representations(const Parameter& parameter, std::vector<DataRepresent
   if (count > reader.left() / 2) return Taken::malformed;
   list.clear();
   for (std::uint32_t i = 0; i < count; ++i) list.push_back(static_cast<DataRepresentation>(reader.get<std::int16_t>()));
+  return taken(reader);
+}
+
+/// What is filtered by other classes, or with parameters, is read and forgotten: it is the reader who filters.
+Taken take_content_filter(const Parameter& parameter, std::optional<ContentFilterProperty>& filter) {
+  Reader reader = parameter.reader();
+  std::array<std::string, 4> texts;
+  for (std::string& text : texts) {
+    reader.align(4);
+    text = get_string(reader);
+  }
+  reader.align(4);
+  const auto parameters = reader.get<std::uint32_t>();
+  if (!reader.failed() && texts[2] == sql && parameters == 0) filter = {texts[0], texts[1], texts[3]};
   return taken(reader);
 }
 
@@ -211,6 +239,7 @@ Octets encode(std::span<std::byte> target, const SubscriptionData& data) {
     add_endpoint(list, data.endpoint);
     put_qos(list, data.qos);
     add_flag(list, ParameterId::expects_inline_qos, data.expects_inline_qos);
+    if (data.content_filter) add_content_filter(list, *data.content_filter);
     add_rest_of_endpoint(list, data.endpoint);
   });
 }
@@ -249,6 +278,7 @@ DataVerdict decode(Octets payload, SubscriptionData& data) {
   data = {};
   const DataVerdict verdict = decode_list(payload, [&](const Parameter& parameter) {
     if (parameter.is(ParameterId::expects_inline_qos)) return take_value(parameter, data.expects_inline_qos, get_flag);
+    if (parameter.is(ParameterId::content_filter_property)) return take_content_filter(parameter, data.content_filter);
     return take_either(parameter, data);
   });
   return verdict != DataVerdict::ok ? verdict : completeness(data.endpoint);

@@ -67,10 +67,19 @@ struct PublicationData {
   bool operator==(const PublicationData&) const = default;
 };
 
+/// ContentFilterProperty_t (9.6.4.1) of the filter class "DDSSQL" without parameters. The reader filters; writers send it all samples.
+struct ContentFilterProperty {
+  std::string topic_name;    ///< of the content-filtered topic
+  std::string related_topic; ///< whose samples are filtered
+  std::string expression;
+  bool operator==(const ContentFilterProperty&) const = default;
+};
+
 struct SubscriptionData {
   EndpointData endpoint;
   DataReaderQos qos;
   bool expects_inline_qos = false;
+  std::optional<ContentFilterProperty> content_filter = {};
   bool operator==(const SubscriptionData&) const = default;
 };
 

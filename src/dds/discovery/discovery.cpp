@@ -124,7 +124,7 @@ void Discovery::announce(const PublicationData& full, sim::LocalTime now, Outbox
 }
 
 void Discovery::announce(const SubscriptionData& full, sim::LocalTime now, Outbox& outbox) {
-  const SubscriptionData data{brief(full.endpoint), full.qos, full.expects_inline_qos};
+  const SubscriptionData data{brief(full.endpoint), full.qos, full.expects_inline_qos, full.content_filter};
   if (server_) {
     server_->domain().subscriptions[data.endpoint.guid] = data;
     server_->update(now, outbox);

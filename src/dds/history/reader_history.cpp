@@ -34,6 +34,11 @@ Admission ReaderHistory::add(const Arrival& arrival, sim::LocalTime now) {
   Instances::iterator at = instances_.find(arrival.key);
   if (arrival.kind != ChangeKind::alive) return end(at, arrival, now);
   if (arrival.expires <= now) return Admission::expired;
+  // It is none of what this reader reads: no instance, deadline or owner follows from it.
+  if (settings_.passes && !settings_.passes(arrival.payload)) {
+    ++filtered_;
+    return Admission::filtered;
+  }
 
   const Place place = place_of(arrival);
   if (at != instances_.end()) {

@@ -1,6 +1,7 @@
 // ReaderHistory: what a reader has received and its application has not taken yet (DDS 1.4, 2.2.2.5; DDSI-RTPS 2.5, 8.2.2).
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -38,6 +39,7 @@ class ReaderHistory {
     HistorySettings history;
     bool exclusive = false;                       ///< OWNERSHIP
     bool by_source = false;                       ///< DESTINATION_ORDER
+    std::function<bool(Octets)> passes;           ///< content filter; nothing: all do
     sim::Duration minimum_separation{};           ///< TIME_BASED_FILTER, per instance, by reception
     sim::Duration deadline = sim::Duration::max();  ///< requested
     ReaderDataLifecycle data_lifecycle;
@@ -63,6 +65,8 @@ class ReaderHistory {
   /// Instances that are due miss their deadline, and lose their owner by it.
   void advance(sim::LocalTime now);
 
+  /// Samples that did not pass the content filter.
+  std::uint64_t filtered() const { return filtered_; }
   const SampleRejectedStatus& sample_rejected() const { return rejected_; }
   const DeadlineMissedStatus& deadline_missed() const { return deadline_missed_; }
   /// The owner of an instance, if OWNERSHIP is EXCLUSIVE and it has one.
@@ -115,6 +119,7 @@ class ReaderHistory {
   std::set<std::pair<sim::LocalTime, InstanceKey>> purges_;
   DeadlineTable deadlines_;
   std::int64_t arrivals_ = 0;
+  std::uint64_t filtered_ = 0;
   SampleRejectedStatus rejected_;
   DeadlineMissedStatus deadline_missed_;
 };

@@ -12,6 +12,7 @@ StatefulReader::Settings settings_of(const ReaderConfig& config, const Participa
   settings.history.history = HistorySettings::from(config.qos.history, config.qos.resource_limits);
   settings.history.exclusive = config.qos.ownership.kind == OwnershipKind::exclusive;
   settings.history.by_source = config.qos.destination_order.kind == DestinationOrderKind::by_source_timestamp;
+  settings.history.passes = config.passes;
   settings.history.minimum_separation = config.qos.time_based_filter.minimum_separation;
   settings.history.deadline = config.qos.deadline.period;
   settings.history.data_lifecycle = config.qos.data_lifecycle;
@@ -35,6 +36,7 @@ LocalReader::LocalReader(ReaderHandle reader_handle, const ReaderConfig& reader_
   data.endpoint.type_name = config.type;
   data.endpoint.persistence_guid = config.persistence_guid;
   data.qos = config.qos;
+  if (!config.content_filter.empty()) data.content_filter = {config.topic + "/filtered", config.topic, config.content_filter};
   if (!kept) return;
   taken_ = kept->all();
   for (const auto& [writer, numbers] : taken_) rtps.restore_delivered(writer, numbers);

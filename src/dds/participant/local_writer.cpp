@@ -20,6 +20,7 @@ StatefulWriter::Settings settings_of(const WriterConfig& config, const Participa
   settings.history.deadline = config.qos.deadline.period;
   settings.timing = participant.timing;
   settings.max_message = participant.max_message;
+  settings.multicast_to_one = participant.multicast_to_one;
   settings.transport_priority = config.qos.transport_priority.value;
   settings.epoch = participant.epoch;
   for (const FlowControllerSettings& flow : participant.flow_controllers)

@@ -133,7 +133,7 @@ Created<WriterHandle> Participant::create_writer(const WriterConfig& config, sim
 
 Created<ReaderHandle> Participant::create_reader(const ReaderConfig& config, sim::LocalTime now) {
   std::vector<std::string> problems = problems_in(config);
-  if (!config.content_filter.empty()) problems.push_back("content_filter: content-filtered topics are not supported");
+  if (config.content_filter.empty() == static_cast<bool>(config.passes)) problems.push_back("content_filter: an expression and what it lets pass belong together");
   if (!problems.empty()) return {std::nullopt, problems};
   const ReaderHandle handle{++entities_};
   const Guid guid{config_.prefix, EntityId::user(handle.number, config.has_key ? EntityKind::reader_with_key : EntityKind::reader_no_key)};

@@ -43,6 +43,7 @@ struct ParticipantConfig {
   GuidPrefix prefix;                   ///< one in the world; a restarted participant takes another one
   std::uint32_t address = 0x7F000001;  ///< IPv4 of its host, 10.0.0.1 being 0x0A000001
   std::optional<std::uint32_t> multicast_group;  ///< where its readers listen for data, besides their own address; nothing: unicast only
+  bool multicast_to_one = false;       ///< writers use the group where a single reader listens to it, too; otherwise that one has its samples by unicast
   std::size_t max_message = 1472;      ///< octets of an RTPS message, 256 to 65507; 1472 is what UDP over IPv4 leaves of an Ethernet frame
   TimingProfile timing = timing::fast_dds;
   Epoch epoch;
@@ -75,7 +76,8 @@ struct ReaderConfig {
   Guid persistence_guid;
   Storage* storage = nullptr;    ///< keeps which samples were taken, so that a restarted reader gets none twice
   bool commits_by_hand = false;  ///< with a storage: a sample is kept as taken by commit(), not by take()
-  std::string content_filter;    ///< not supported: refused if there is one
+  std::string content_filter;    ///< what others are told of `passes`; empty without
+  std::function<bool(Octets)> passes;  ///< a serialized payload: whether the sample is of the content-filtered topic that is read (DDS 1.4, 2.2.2.3.3); nothing: all are
 };
 
 }  // namespace takt::dds

@@ -53,7 +53,7 @@ void StatefulWriter::unmatch(const Guid& reader, sim::LocalTime now) {
   plan_heartbeat(now);
 }
 
-/// One copy for each place; a group address where all listen to it and more than one does.
+/// One copy for each place; a group address where all listen to it, and more than one does or it shall be used even then.
 void StatefulWriter::plan_route() {
   std::set<Locator> unicast;
   std::set<Locator> common;
@@ -67,7 +67,7 @@ void StatefulWriter::plan_route() {
   }
   route_to_all_ = {};
   route_to_all_.transport_priority = settings_.transport_priority;
-  if (!common.empty() && unicast.size() != 1)
+  if (!common.empty() && (settings_.multicast_to_one || unicast.size() != 1))
     route_to_all_.destinations = {*common.begin()};
   else
     route_to_all_.destinations.assign(unicast.begin(), unicast.end());

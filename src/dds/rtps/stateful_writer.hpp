@@ -25,6 +25,7 @@ class StatefulWriter {
     WriterHistory::Settings history;
     TimingProfile timing;
     std::size_t max_message = 1472;  ///< octets of an RTPS message
+    bool multicast_to_one = false;   ///< see ParticipantConfig
     std::int32_t transport_priority = 0;
     Epoch epoch;
   };

@@ -8,6 +8,7 @@
 #include "node/dds/participant.hpp"
 #include "sim/check.hpp"
 #include "application/opc_ua_topic.hpp"
+#include "application/thread_filter.hpp"
 #include "plant/keys.hpp"
 #include "plant/topic_check.hpp"
 
@@ -84,6 +85,7 @@ class Checker {
       plant::check_fields_and_layout(topic, diagnostics_);
       if (is_dds) plant::check_keys(topic.where, topic.keys, topic.fields, diagnostics_);
       const bool is_sound = diagnostics_.errors() == errors_before;
+      loaded.is_sound = is_sound;
       loaded.shape = application::shape_of(topic, is_dds && is_sound ? topic.keys : std::vector<std::string>());
       if (!is_dds && is_sound && application::longest_message(loaded.shape, {1, 1}) == 0)
         diagnostics_.error(topic.where.at("fields"), "a sample too long for a NetworkMessage", {std::to_string(loaded.shape.longest().size()) + " octets of values with their types", "fields that fit 1472 octets with their headers"});
@@ -135,6 +137,9 @@ class Checker {
       if (thread.buffer && !thread.subscribe) diagnostics_.error(thread.where.at("buffer"), "nothing is taken", {"a buffer", "a thread that subscribes"});
       if (thread.qos && topic && config_.topics[*topic].protocol != Protocol::dds) diagnostics_.error(thread.where.at("qos"), "not of OPC UA", {"quality of service", "a topic of DDS"});
       if (thread.qos) check_qos(*thread.qos);
+      if (thread.filter && !thread.subscribe) diagnostics_.error(thread.where.at("filter"), "nothing is taken", {"a filter", "a thread that subscribes"});
+      else if (topic && loaded_.topics[*topic].is_sound)
+        if (auto filter = application::filter_of(thread, loaded_.topics[*topic].shape, diagnostics_)) loaded_.filters.insert_or_assign({application.name, thread.name}, std::move(*filter));
       add_response(application.name, thread.name, thread.response);
       if (thread.signal) check_signal(thread);
       if (thread.round_trip) diagnostics_.error(thread.where.at("round_trip"), "not on a real node", {"round trips", "takt run, which measures them"});

@@ -12,6 +12,7 @@
 #include "application/topic_shape.hpp"
 #include "node/config.hpp"
 #include "plant/application.hpp"
+#include "gateway/content_filter.hpp"
 #include "plant/dds.hpp"
 
 namespace takt::node {
@@ -57,6 +58,7 @@ inline constexpr const char* sending_thread = "send";
 /// A topic that has been checked.
 struct LoadedTopic {
   application::TopicShape shape;
+  bool is_sound = true;                       ///< its fields
   std::uint16_t publisher_id = 1;
   std::uint16_t writer_groups = 1;            ///< of OPC UA: publications of the topic in the file, wherever they are; at least 1
   std::uint16_t domain = 0;
@@ -81,6 +83,8 @@ struct LoadedApplications {
   std::map<std::pair<std::string, std::string>, std::uint16_t> writer_groups;
   /// By application or gateway, and thread: the law of its response, where the file has one.
   std::map<std::pair<std::string, std::string>, sim::Distribution> responses;
+  /// By application and thread: the content filter of its subscription, where it has one.
+  std::map<std::pair<std::string, std::string>, gateway::ContentFilter> filters;
   /// By application or gateway: that of its scheduler.
   std::map<std::string, sim::Distribution> scheduler_responses;
   std::size_t topic(const std::string& name) const;

@@ -53,7 +53,8 @@ struct ApplicationHost::Task {
   ThreadStatistics statistics;  ///< the thread's own until it has ended
   std::mutex mutex;                        ///< of the criteria: the thread adds, the scheduler looks
   std::optional<plant::Criterion> calls;   ///< since the scheduler runs, and so the next
-  std::optional<plant::Criterion> values;  ///< of those that take
+  std::optional<plant::Criterion> values;  ///< of those that take all that comes
+  bool gets_all = true;                    ///< no content filter keeps anything out
   std::optional<std::int64_t> window_end;  ///< of the window for which the next look was drawn
   std::int64_t look_at = 0;
   application::OutputLevel<sim::LocalTime> level;  ///< of the signal; the thread's own
@@ -68,7 +69,7 @@ struct ApplicationHost::Task {
     const std::lock_guard lock(mutex);
     calls.emplace(plant::Criterion::Settings{length, ns_of(offset), expected, now + ns_of(scheduler.after), tests ? tests : scheduler.tests, ns_of(scheduler.tolerance)});
     calls->begin(now);
-    if (statistics.role == "subscribe" || statistics.role == "receive") values = calls;
+    if (gets_all && (statistics.role == "subscribe" || statistics.role == "receive")) values = calls;
   }
 
   /// There was a call for the activation that was due then, and so many values of it are in the buffer.
@@ -171,13 +172,15 @@ TopicWriter* ApplicationHost::writer_of(const std::string& topic, std::uint16_t 
   return writer == nullptr ? nullptr : dds_writers_.emplace_back(std::make_unique<DdsTopicWriter>(*writer)).get();
 }
 
-TopicReader* ApplicationHost::reader_of(const std::string& topic, const std::optional<plant::Qos>& qos, std::string& problem) {
+TopicReader* ApplicationHost::reader_of(const std::string& topic, const std::optional<plant::Qos>& qos, const gateway::ContentFilter* filter, std::string& problem) {
   const std::size_t index = loaded_.topic(topic);
   const LoadedTopic& loaded = loaded_.topics[index];
   if (!loaded.shape.is_dds) return &opc_ua_->add_reader(loaded);
   DdsParticipant* const participant = participant_of(loaded.domain, problem);
-  DdsReader* const reader =
-      participant == nullptr ? nullptr : participant->add_reader({topic, loaded.shape.type.name, plant::merged(loaded_.config.topics[index].qos, qos), loaded.shape.key}, problem);
+  if (participant == nullptr) return nullptr;
+  DdsTopic asked{topic, loaded.shape.type.name, plant::merged(loaded_.config.topics[index].qos, qos), loaded.shape.key};
+  if (filter != nullptr) asked.passes = [filter](uadp::Octets payload) { return filter->passes(payload); };
+  DdsReader* const reader = participant->add_reader(asked, problem);
   return reader == nullptr ? nullptr : dds_readers_.emplace_back(std::make_unique<DdsTopicReader>(*reader)).get();
 }
 
@@ -193,11 +196,14 @@ bool ApplicationHost::add_application(const plant::Application& application, std
       if (writer == nullptr) return false;
       watched.add(make_publishing(shape, *writer, thread.payload.value_or(Payload{}), watched.newest), thread.every, thread.offset, "publish", thread.name, topic).tests = thread.tests;
     } else {
-      TopicReader* const reader = reader_of(topic, thread.qos, problem);
+      const auto filter = loaded_.filters.find({application.name, thread.name});
+      const bool is_filtered = filter != loaded_.filters.end();
+      TopicReader* const reader = reader_of(topic, thread.qos, is_filtered ? &filter->second : nullptr, problem);
       if (reader == nullptr) return false;
       const bool is_copied = std::any_of(application.threads.begin(), application.threads.end(), [&](const Thread& each) { return each.payload && each.payload->copy_of == topic; });
       Task& task = watched.add(make_subscribing(topic, shape, *reader, thread.buffer.value_or(1), is_copied, watched.newest), thread.every, thread.offset, "subscribe", thread.name, topic);
       task.tests = thread.tests;
+      task.gets_all = !is_filtered;
       if (thread.signal) task.statistics.signal = SignalStatistics{thread.signal->name, thread.signal->pulse.value_or(thread.every), {}};
     }
   }
@@ -208,7 +214,7 @@ bool ApplicationHost::add_gateway(const plant::Gateway& given, std::string& prob
   std::vector<std::string> problems;
   auto mapping = application::mapping_between(loaded_.topics[loaded_.topic(given.from)].shape, loaded_.topics[loaded_.topic(given.to)].shape, problems);
   TAKT_CHECK(mapping.has_value(), "mappings have been checked");
-  TopicReader* const reader = reader_of(given.from, std::nullopt, problem);
+  TopicReader* const reader = reader_of(given.from, std::nullopt, nullptr, problem);
   TopicWriter* const writer = reader == nullptr ? nullptr : writer_of(given.to, loaded_.writer_groups.at({given.name, sending_thread}), std::nullopt, problem);
   if (writer == nullptr) return false;
   Watched& watched = *watched_.emplace_back(std::make_unique<Watched>());

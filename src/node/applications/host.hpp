@@ -80,7 +80,8 @@ class ApplicationHost {
   ApplicationHost(const LoadedApplications& loaded);
   bool open(std::string& problem);
   TopicWriter* writer_of(const std::string& topic, std::uint16_t writer_group, const std::optional<plant::Qos>& qos, std::string& problem);
-  TopicReader* reader_of(const std::string& topic, const std::optional<plant::Qos>& qos, std::string& problem);
+  /// `filter`: of a subscription over DDS; or null.
+  TopicReader* reader_of(const std::string& topic, const std::optional<plant::Qos>& qos, const gateway::ContentFilter* filter, std::string& problem);
   DdsParticipant* participant_of(std::uint16_t domain, std::string& problem);
   bool add_application(const plant::Application& application, std::string& problem);
   bool add_gateway(const plant::Gateway& gateway, std::string& problem);

@@ -155,8 +155,12 @@ constexpr ddsi_sertype_ops make_type_operations() {
     delete static_cast<RawType*>(type);
   };
   ops.zero_samples = [](const ddsi_sertype*, void*, std::size_t) {};
-  ops.realloc_samples = [](void** samples, const ddsi_sertype*, void*, std::size_t, std::size_t count) { std::fill_n(samples, count, nullptr); };
-  ops.free_samples = [](const ddsi_sertype*, void**, std::size_t, dds_free_op_t) {};
+  // A content filter has a sample made, looks at it, and gives it back.
+  ops.realloc_samples = [](void** samples, const ddsi_sertype*, void*, std::size_t, std::size_t count) { std::generate_n(samples, count, [] { return new std::vector<std::byte>; }); };
+  ops.free_samples = [](const ddsi_sertype*, void** samples, std::size_t count, dds_free_op_t what) {
+    if ((what & DDS_FREE_ALL_BIT) == 0) return;
+    for (std::size_t i = 0; i < count; ++i) delete static_cast<std::vector<std::byte>*>(samples[i]);
+  };
   ops.equal = [](const ddsi_sertype*, const ddsi_sertype*) { return true; };
   ops.hash = [](const ddsi_sertype*) { return std::uint32_t{0}; };
   return ops;
@@ -282,15 +286,28 @@ class CycloneParticipant final : public DdsParticipant {
       problem = "topic " + asked.name + ": " + dds_strretcode(topic);
       return -1;
     }
+    if (asked.passes) {
+      dds_topic_filter filter = {};
+      filter.mode = DDS_TOPIC_FILTER_SAMPLE_ARG;
+      filter.f.sample_arg = [](const void* sample, void* passes) { return (*static_cast<const Passes*>(passes))(*static_cast<const std::vector<std::byte>*>(sample)); };
+      filter.arg = filters_.emplace_back(std::make_unique<Passes>(asked.passes)).get();
+      if (const dds_return_t code = dds_set_topic_filter_extended(topic, &filter); code != DDS_RETCODE_OK) {
+        problem = "the filter of topic " + asked.name + ": " + dds_strretcode(code);
+        return -1;
+      }
+    }
     const dds_entity_t entity = create(participant_, topic, qos.get(), nullptr);
     if (entity < 0) problem = std::string(what) + " of topic " + asked.name + ": " + dds_strretcode(entity);
     return entity;
   }
 
+  using Passes = std::function<bool(Octets)>;
+
   dds_entity_t domain_;  ///< 0: the implementation makes it by itself
   dds_entity_t participant_;
   std::vector<std::unique_ptr<CycloneWriter>> writers_;
   std::vector<std::unique_ptr<CycloneReader>> readers_;
+  std::vector<std::unique_ptr<Passes>> filters_;   // of their topics; until these are gone
 };
 
 }  // namespace

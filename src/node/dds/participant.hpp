@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -45,6 +46,7 @@ struct DdsTopic {
   std::string type;
   plant::Qos qos;  ///< absent: as a scenario says
   gateway::KeyLayout key = {};
+  std::function<bool(uadp::Octets)> passes = {};  ///< of a reader: samples for which it is false are left out before they count; nothing: none
 };
 
 /// A participant in a domain. Writers and readers are its, and go with it. Calls may come from several threads.

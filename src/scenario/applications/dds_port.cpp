@@ -24,6 +24,10 @@ dds::ReaderConfig reader_config(const ResolvedTopic& topic, const ResolvedThread
   config.type = topic.shape.type.name;
   config.has_key = topic.shape.key.has_key();
   config.qos = reader_qos(thread.qos, thread.buffer);
+  if (thread.filter) {
+    config.content_filter = thread.filter->expression();
+    config.passes = [&filter = *thread.filter](dds::Octets payload) { return filter.passes(payload); };
+  }
   if (config.has_key)
     config.key_of = [&key = topic.shape.key](dds::PayloadKind kind, dds::Octets payload) { return kind == dds::PayloadKind::data ? key.of_data(payload) : key.of_key(payload); };
   return config;
@@ -97,10 +101,15 @@ std::optional<uadp::Octets> DdsReader::next(models::HostServices& host) {
 
 std::uint64_t DdsReader::lost() const { return lost_ + (node_->is_running() ? node_->participant().reader(handle_).rtps.sample_lost().total_count : 0); }
 
-std::uint64_t DdsReader::displaced() const { return gaps_ - std::min(gaps_, lost()); }
+std::uint64_t DdsReader::filtered() const { return filtered_ + (node_->is_running() ? node_->participant().reader(handle_).rtps.history().filtered() : 0); }
+
+std::uint64_t DdsReader::displaced() const { return gaps_ - std::min(gaps_, lost() + filtered()); }
 
 void DdsReader::crash() {
-  if (node_->is_running()) lost_ = lost();
+  if (node_->is_running()) {
+    lost_ = lost();
+    filtered_ = filtered();
+  }
   last_.clear();
 }
 

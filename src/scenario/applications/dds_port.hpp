@@ -42,6 +42,7 @@ class DdsReader final : public TopicReader {
   std::optional<uadp::Octets> next(models::HostServices& host) override;
   std::uint64_t lost() const override;
   std::uint64_t displaced() const override;
+  std::uint64_t filtered() const override;
   void crash() override;
 
  private:
@@ -51,7 +52,8 @@ class DdsReader final : public TopicReader {
   std::optional<dds::Sample> sample_;              // that was taken last
   std::map<dds::Guid, dds::SequenceNumber> last_;  // that was taken
   std::uint64_t gaps_ = 0;                         // numbers that were passed over
-  std::uint64_t lost_ = 0;                         // before the last crash
+  std::uint64_t lost_ = 0;                         // before the last crash, as the next
+  std::uint64_t filtered_ = 0;
 };
 
 }  // namespace takt::scenario

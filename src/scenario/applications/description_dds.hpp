@@ -31,6 +31,7 @@ struct Domain {
   std::optional<std::string> server;             ///< application
   std::optional<Duration> announce_every;
   std::optional<Duration> lease_duration;
+  bool multicast = false;
   bool operator==(const Domain&) const = default;
 };
 

@@ -28,6 +28,7 @@ const json::Object& describe(json::Type<Domain>) {
       optional<&Domain::server>("server", "The application that is the discovery server."),
       optional<&Domain::announce_every>("announce_every", "Interval of the announcements of participants.", {.min = 1_ms, .max = longest_step}),
       optional<&Domain::lease_duration>("lease_duration", "A participant that is silent for so long is gone.", {.min = 1_ms, .max = longest_step}),
+      optional<&Domain::multicast>("multicast", "New samples go once to the group 239.255.0.1, which all participants with readers have joined, instead of once to each reader's participant. Repairs and past samples for one of several readers stay unicast."),
   };
   static constexpr json::Object table = json::object<Domain>("domain", "A domain of DDS.", fields);
   return table;

@@ -14,6 +14,7 @@
 #include "scenario/applications/resolved_dds.hpp"
 #include "scenario/resolve/known_names.hpp"
 #include "scenario/resolve/os_profiles.hpp"
+#include "application/thread_filter.hpp"
 #include "plant/keys.hpp"
 #include "plant/limits.hpp"
 #include "plant/qos_of_thread.hpp"
@@ -189,7 +190,10 @@ class ApplicationResolver {
       refuse(one.publishes && thread.buffer, "buffer", "subscribe");
       refuse(one.publishes && thread.signal, "signal", "subscribe");
       refuse(one.publishes && thread.round_trip, "round_trip", "subscribe");
+      refuse(one.publishes && thread.filter, "filter", "subscribe");
       refuse(!one.publishes && thread.payload, "payload", "publish");
+      if (!one.publishes && one.topic < r_.topics.size() && !diagnostics_.is_refused(r_.topics[one.topic].description->where.at("fields")) && !diagnostics_.is_refused(r_.topics[one.topic].description->where.at("protocol")))
+        one.filter = application::filter_of(thread, r_.topics[one.topic].shape, diagnostics_);
       if (thread.qos && one.topic < r_.topics.size() && !diagnostics_.is_refused(r_.topics[one.topic].description->where.at("protocol")) && r_.topics[one.topic].description->protocol == Protocol::opc_ua) refuse_of_dds(thread.where.at("qos"), "qos");
       if (one.topic < r_.topics.size()) one.qos = plant::merged(r_.topics[one.topic].description->qos, thread.qos);
       one.own_qos = thread.qos ? &*thread.qos : nullptr;

@@ -31,6 +31,7 @@ class DdsResolver {
     for (const auto& [domain, members] : domains_) {
       const std::size_t errors_before = diagnostics_.errors();
       set_classes(domain, members);
+      set_multicast(domain, members);
       probe(members);
       if (diagnostics_.errors() != errors_before) continue;
       set_discovery(domain, members);
@@ -135,6 +136,17 @@ class DdsResolver {
     const std::vector<Class>& all = classes_[domain];
     const auto at = std::find(all.begin(), all.end(), class_of(topic)) - all.begin();
     return all.size() > 1 ? static_cast<std::int32_t>(at) + 1 : 0;
+  }
+  bool is_multicast(std::uint16_t domain) const {
+    const Domain* const description = description_of(domain);
+    return description != nullptr && description->multicast;
+  }
+  void set_multicast(std::uint16_t domain, const Members& members) {
+    if (!is_multicast(domain)) return;
+    for (const std::uint32_t member : members) {
+      participant(member).config.multicast_group = dds::discovery_group;
+      participant(member).config.multicast_to_one = true;
+    }
   }
   static Class class_of(const Topic& topic) { return {topic.pcp, topic.vlan}; }
 
@@ -305,6 +317,7 @@ class DdsResolver {
         const dds::Locator everybody = dds::Locator::udp_v4(dds::discovery_group, ports(from).multicast_metatraffic);
         add(name + "/discovery", from, others, everybody, metatraffic_port(from), base, 0, {});
       }
+      if (is_multicast(domain)) lay_group_streams(name, domain, base, from, members);
       for (const std::uint32_t to : members) {
         if (host_of(to) == host_of(from)) continue;
         const std::string pair = name + "/" + application_of(to).name;
@@ -340,7 +353,16 @@ class DdsResolver {
   }
   static double rate_of(const ResolvedThread& thread) { return thread.publishes ? 1e12 / static_cast<double>(thread.every.ps()) : 0; }
 
-  /// Of samples one way, of acknowledgements the other.
+  /// What a participant writes to that topic.
+  void add_demand(const Use& writer, StreamDemand& demand) {
+    const Topic& topic = *r_.topics[writer.topic].description;
+    const auto payload = static_cast<std::uint32_t>(application::Publication(r_.topics[writer.topic].shape, {}).next().size());
+    const Octets message{std::min<std::uint32_t>(sample_headers + payload, 1472)};
+    demand.frames_per_second += writer.per_second;
+    demand.wire_bits_per_second += writer.per_second * 8.0 * models::wire_length(models::frame_length(models::ipv4_and_udp_headers + message, topic.pcp.has_value())).count;
+  }
+
+  /// Of samples one way, of acknowledgements the other. New samples that go to a group are none of their demand.
   void lay_user_streams(const std::string& pair, std::uint16_t domain, const Class& base, std::uint32_t from, std::uint32_t to) {
     const dds::Locator user = dds::Locator::udp_v4(participant(to).config.address, ports(to).unicast_user);
     std::map<Class, StreamDemand> samples;
@@ -352,24 +374,47 @@ class DdsResolver {
           answers = true;
           continue;
         }
-        const Topic& topic = *r_.topics[one.topic].description;
-        StreamDemand& demand = samples[class_of(topic)];
-        const auto payload = static_cast<std::uint32_t>(application::Publication(r_.topics[one.topic].shape, {}).next().size());
-        demand.frames_per_second += one.per_second;
-        demand.wire_bits_per_second +=
-            one.per_second * 8.0 *
-            models::wire_length(models::frame_length(models::ipv4_and_udp_headers + Octets{std::min<std::uint32_t>(sample_headers + payload, 1472)}, topic.pcp.has_value())).count;
+        StreamDemand& demand = samples[class_of(*r_.topics[one.topic].description)];
+        if (!is_multicast(domain)) add_demand(one, demand);
       }
     }
     if (samples.empty() && !answers) return;
     const auto of_base = samples.find(base);
     add(pair, from, {to}, user, ports(from).unicast_user, base, 0, of_base != samples.end() ? of_base->second : StreamDemand{});
+    add_of_classes(pair, domain, from, {to}, user, samples);
+  }
+
+  /// New samples for all who have joined the group: the participants with readers, whatever they read.
+  void lay_group_streams(const std::string& name, std::uint16_t domain, const Class& base, std::uint32_t from, const Members& members) {
+    Members others;
+    std::set<std::uint32_t> read;
+    for (const std::uint32_t to : members) {
+      if (host_of(to) == host_of(from)) continue;
+      bool reads = false;
+      for (const Use& use : uses_of(to)) {
+        if (use.publishes) continue;
+        reads = true;
+        read.insert(use.topic);
+      }
+      if (reads) others.push_back(to);
+    }
+    std::map<Class, StreamDemand> samples;
+    for (const Use& use : uses_of(from))
+      if (use.publishes && read.contains(use.topic)) add_demand(use, samples[class_of(*r_.topics[use.topic].description)]);
+    if (samples.empty()) return;
+    const dds::Locator group = dds::Locator::udp_v4(dds::discovery_group, ports(from).multicast_user);
+    if (classes_[domain].size() == 1) add(name + "/samples", from, others, group, ports(from).unicast_user, base, 0, samples.begin()->second);
+    add_of_classes(name + "/samples", domain, from, others, group, samples);
+  }
+
+  /// Where topics of a domain differ in priority or VLAN, each of these has a stream of its own.
+  void add_of_classes(const std::string& name, std::uint16_t domain, std::uint32_t from, const Members& to, const dds::Locator& locator, const std::map<Class, StreamDemand>& samples) {
     const std::vector<Class>& classes = classes_[domain];
     for (std::size_t c = 0; classes.size() > 1 && c < classes.size(); ++c) {
       const auto found = samples.find(classes[c]);
       if (found == samples.end()) continue;
       const std::string which = classes[c].first ? "pcp" + std::to_string(*classes[c].first) + "-vlan" + std::to_string(classes[c].second) : std::string("untagged");
-      add(pair + "/" + which, from, {to}, user, ports(from).unicast_user, classes[c], static_cast<std::int32_t>(c) + 1, found->second);
+      add(name + "/" + which, from, to, locator, ports(from).unicast_user, classes[c], static_cast<std::int32_t>(c) + 1, found->second);
     }
   }
 

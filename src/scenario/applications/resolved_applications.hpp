@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "application/topic_shape.hpp"
+#include "gateway/content_filter.hpp"
 #include "models/ethernet/frame.hpp"
 #include "scenario/applications/description_applications.hpp"
 #include "sim/distribution.hpp"
@@ -46,6 +47,7 @@ struct ResolvedThread {
   Qos qos;                                      ///< of DDS: the topic's and its own
   const Qos* own_qos = nullptr;                 ///< what the thread itself says; or null
   std::int32_t transport_priority = 0;          ///< of DDS: which streams carry its samples
+  std::optional<gateway::ContentFilter> filter = {};  ///< of a subscription over DDS; how many values it lets pass nobody knows, so none are expected
   std::vector<ResolvedInput> inputs;            ///< of a subscription
   Duration window;                              ///< of criterion 1
   Duration value_window;                        ///< of criterion 2

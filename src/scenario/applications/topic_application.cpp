@@ -33,7 +33,7 @@ TopicApplication::Live::Live(const ResolvedThread& thread, const Settings& of, c
                        WindowCounter(window_of(thread, application, thread.window, static_cast<std::uint64_t>(thread.window / thread.every), from),
                                      application.scheduler_response, of.seed, of.path),
                        {}});
-    if (!thread.publishes)
+    if (!thread.publishes && !thread.filter)
       windows.back().values.emplace(window_of(thread, application, thread.value_window, thread.values_expected, from), application.scheduler_response, of.seed, of.path);
   }
 }
@@ -232,6 +232,7 @@ void TopicApplication::take(models::HostServices& host, std::uint32_t thread, si
     if (seen.lost_before) return;
     seen.lost_before = live.reader->lost();
     seen.displaced_before = live.reader->displaced();
+    seen.filtered_before = live.reader->filtered();
   });
   std::uint64_t count = 0;
   while (const auto value = live.reader->next(host)) {
@@ -252,7 +253,8 @@ void TopicApplication::take(models::HostServices& host, std::uint32_t thread, si
     seen.figures.buffered += kept;
     seen.figures.overwritten += count - kept;
   });
-  for (Live::Windows& each : live.windows) each.values->add(due, kept);
+  for (Live::Windows& each : live.windows)
+    if (each.values) each.values->add(due, kept);
   monitor_->on_values(number_, thread, count);
   if (live.settings->signal) monitor_->set_signal(*live.settings->signal, !live.topic->is_zero(live.newest), now - due);
 }
@@ -268,6 +270,7 @@ ThreadFigures TopicApplication::figures(std::size_t thread, sim::LocalTime now, 
     // Without a call since then nothing is known of it.
     const bool is_all = from == sim::Duration();
     if (is_all || seen.lost_before) figures.lost = live.reader->lost() - (is_all ? 0 : *seen.lost_before);
+    if (live.settings->filter && (is_all || seen.lost_before)) figures.filtered = live.reader->filtered() - (is_all ? 0 : seen.filtered_before);
     if (is_all || seen.lost_before) figures.overwritten += live.reader->displaced() - (is_all ? 0 : seen.displaced_before);
   }
   const auto windows = std::find_if(live.windows.begin(), live.windows.end(), [&](const Live::Windows& each) { return each.from == from; });

@@ -28,7 +28,8 @@ struct ThreadFigures {
   std::uint64_t buffered = 0;             ///< of them, those that the buffer held
   std::uint64_t overwritten = 0;          ///< of them, those that newer ones displaced
   std::uint64_t lost = 0;                 ///< on the way
-  std::optional<plant::CriterionFigures> values;  ///< criterion 2, of a subscription
+  std::optional<std::uint64_t> filtered = {};     ///< samples that a content filter kept out, where there is one
+  std::optional<plant::CriterionFigures> values;  ///< criterion 2, of a subscription that gets all
   std::optional<DurationFigures> round_trip;  ///< of a subscription to which values come back, on the clock of the host
 };
 
@@ -101,6 +102,7 @@ class TopicApplication final : public models::Application {
       ThreadFigures figures;
       std::optional<std::uint64_t> lost_before = {};
       std::uint64_t displaced_before = 0;
+      std::uint64_t filtered_before = 0;
       application::RoundTrips round_trips = {};
     };
     Accounts<Seen, sim::LocalTime> seen;

@@ -42,6 +42,8 @@ class TopicReader {
   virtual std::uint64_t lost() const = 0;
   /// Samples that came and that newer ones displaced before a call.
   virtual std::uint64_t displaced() const { return 0; }
+  /// Samples that its content filter kept out.
+  virtual std::uint64_t filtered() const { return 0; }
   virtual void crash() = 0;
 };
 

@@ -143,7 +143,8 @@ class Requirements {
         is_judged = true;
       };
       if (asked_->success) least(RequirementKind::success, "done in", "calls", *asked_->success);
-      if (asked_->buffered && !thread.publishes) least(RequirementKind::buffered, "values buffered,", "values", *asked_->buffered);
+      if (asked_->buffered && thread.filter) error("buffered", "how many values pass is not known", {json::quote(thread.name) + " has a \"filter\"", "a thread that gets all"});
+      else if (asked_->buffered && !thread.publishes) least(RequirementKind::buffered, "values buffered,", "values", *asked_->buffered);
       else if (asked_->buffered && asked_->thread) error("buffered", "nothing is buffered", {json::quote(thread.name) + " publishes", "a thread that subscribes"});
     }
     if (asked_->thread && !is_known)

@@ -15,7 +15,7 @@ TEST(Refusal, OfWhatIsLeftOut) {
                                                                          "presentation: access_scope GROUP is not supported"}));
   ReaderConfig reader = reader_config();
   reader.content_filter = "x > 3";
-  EXPECT_EQ(participant.create_reader(reader, start).problems, (Problems{"content_filter: content-filtered topics are not supported"}));
+  EXPECT_EQ(participant.create_reader(reader, start).problems, (Problems{"content_filter: an expression and what it lets pass belong together"}));
 }
 
 TEST(Refusal, OfPoliciesThatContradictThemselves) {

@@ -1,6 +1,6 @@
 // One measured run of one workload, as a line of JSON; tools/bench calls it again and again, in turn with others.
 //
-//   takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION
+//   takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp|line-scenario|line-cbs|line-ats|line-psfp|line-frer SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION
 //            | tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS | point-setup POINTS
 //            | bound SWITCHES STREAMS | plant|bare-plant SIDE at-once|spread SECONDS | parallel-plant SIDE at-once|spread SECONDS THREADS
 #include <cstdio>
@@ -15,7 +15,7 @@ namespace {
 using namespace takt::benchmark;  // NOLINT
 
 int usage() {
-  std::fputs("usage: takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION |\n"
+  std::fputs("usage: takt_bench line|line-gates|line-short-gates|line-preemption|line-gptp|line-scenario|line-cbs|line-ats|line-psfp|line-frer SECONDS | queue-own EVENTS POPULATION | queue-plain EVENTS POPULATION |\n"
              "       tree DEPTH FANOUT HOSTS_PER_LEAF SECONDS | pair|gptp-line SECONDS | point-setup POINTS | bound SWITCHES STREAMS |\n"
              "       plant|bare-plant SIDE at-once|spread SECONDS | parallel-plant SIDE at-once|spread SECONDS THREADS\n", stderr);
   return 2;
@@ -30,14 +30,25 @@ std::optional<LineVariant> line_variant(std::string_view workload) {
   return std::nullopt;
 }
 
+std::optional<LineFeature> line_feature(std::string_view workload) {
+  if (workload == "line-scenario") return LineFeature::none;
+  if (workload == "line-cbs") return LineFeature::credit_based_shaper;
+  if (workload == "line-ats") return LineFeature::asynchronous_shaper;
+  if (workload == "line-psfp") return LineFeature::policing;
+  if (workload == "line-frer") return LineFeature::redundancy;
+  return std::nullopt;
+}
+
 unsigned number(const char* text) { return static_cast<unsigned>(std::strtoul(text, nullptr, 10)); }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string_view workload = argc > 1 ? argv[1] : "";
-  if (const std::optional<LineVariant> line = line_variant(workload); line && argc == 3) {
-    const LineFigures f = run_line(std::atof(argv[2]), *line);
+  const std::optional<LineVariant> line = line_variant(workload);
+  const std::optional<LineFeature> feature = line_feature(workload);
+  if ((line || feature) && argc == 3) {
+    const LineFigures f = line ? run_line(std::atof(argv[2]), *line) : run_line_with(*feature, std::atof(argv[2]));
     std::printf(R"({"cpu_s": %.9f, "frame_hops": %llu, "events": %llu, "population": %zu})" "\n", f.cpu_seconds,
                 static_cast<unsigned long long>(f.frame_hops), static_cast<unsigned long long>(f.events), f.population);
   } else if ((workload == "queue-own" || workload == "queue-plain") && argc == 4) {

@@ -23,6 +23,16 @@ enum class LineVariant {
 /// host - 5 switches - host at 1 Gb/s: 100 octets of UDP payload every 200 us and 1000 octets every 20 us.
 LineFigures run_line(double simulated_seconds, LineVariant variant = LineVariant::plain);
 
+/// What streams or switches of that line have, described as a scenario: both streams are of class 5.
+enum class LineFeature {
+  none,
+  credit_based_shaper,   ///< of 600 Mbit/s at every port
+  asynchronous_shaper,   ///< a scheduler for each stream at every switch
+  policing,              ///< at every switch a stream gate for the small frames and a meter for the large ones
+  redundancy,            ///< two such lines; both streams go over both
+};
+LineFigures run_line_with(LineFeature feature, double simulated_seconds);
+
 /// CPU seconds of a bare loop that pops an event and pushes one, `events` times at that population: takt's own queue, and a
 /// plain 4-ary heap of records of 32 octets.
 double bare_loop_own_queue(std::uint64_t events, std::size_t population);

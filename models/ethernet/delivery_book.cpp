@@ -14,7 +14,7 @@ DeliveryBook::Entry& DeliveryBook::entry_of(StreamIndex stream) {
 
 void DeliveryBook::keep_account(StreamIndex stream, sim::TrueTime from) { entry_of(stream).accounts.emplace_back().from = from; }
 
-void DeliveryBook::keep_arrivals(StreamIndex stream, NodeIndex listener) { entry_of(stream).arrivals.push_back({listener, {}}); }
+void DeliveryBook::keep_arrivals(StreamIndex stream, NodeIndex listener) { entry_of(stream).arrivals.push_back({listener}); }
 
 void DeliveryBook::deliver(const Frame& frame, NodeIndex listener, sim::TrueTime now) {
   if (!concerns(frame.stream)) return;
@@ -26,7 +26,16 @@ void DeliveryBook::deliver(const Frame& frame, NodeIndex listener, sim::TrueTime
     account.latency.add(now - frame.produced);
   }
   for (Arrivals& arrivals : entry.arrivals)
-    if (arrivals.listener == listener) arrivals.ledger.arrive(frame.sequence);
+    if (arrivals.listener == listener) arrive(arrivals, entry, frame);
+}
+
+/// What is folded, and when, depends on what has come to this listener alone, so that it is the same in a divided run.
+void DeliveryBook::arrive(Arrivals& arrivals, const Entry& entry, const Frame& frame) {
+  arrivals.ledger.arrive(frame.sequence);
+  arrivals.firsts.resize(entry.accounts.size(), std::numeric_limits<std::uint64_t>::max());
+  for (std::size_t a = 0; a < entry.accounts.size(); ++a)
+    if (frame.produced >= entry.accounts[a].from) arrivals.firsts[a] = std::min(arrivals.firsts[a], frame.sequence);
+  if (arrivals.ledger.has_many_gaps()) arrivals.ledger.fold(arrivals.firsts);
 }
 
 void DeliveryBook::drop(const Frame& frame, DropReason reason) {
@@ -37,16 +46,10 @@ void DeliveryBook::drop(const Frame& frame, DropReason reason) {
     account.first_sequence = std::min(account.first_sequence, frame.sequence);
     ++account.dropped[static_cast<std::size_t>(reason)];
   }
-  for (Arrivals& arrivals : entry.arrivals) {
-    if (!arrivals.ledger.has_many_gaps()) continue;
-    std::vector<std::uint64_t> boundaries;
-    for (const LaterAccount& account : entry.accounts) boundaries.push_back(account.first_sequence);
-    arrivals.ledger.fold(boundaries);
-  }
 }
 
 void DeliveryBook::adopt(const DeliveryBook& other) {
-  TAKT_CHECK(entries_.size() == other.entries_.size() && !keeps_arrivals() && !other.keeps_arrivals(), "parts of a run keep the same accounts, and no arrivals");
+  TAKT_CHECK(entries_.size() == other.entries_.size(), "parts of a run keep the same accounts");
   for (std::size_t e = 0; e < entries_.size(); ++e) {
     for (std::size_t a = 0; a < entries_[e].accounts.size(); ++a) {
       LaterAccount& account = entries_[e].accounts[a];
@@ -56,11 +59,13 @@ void DeliveryBook::adopt(const DeliveryBook& other) {
       account.latency.add(more.latency);
       for (std::size_t reason = 0; reason < account.dropped.size(); ++reason) account.dropped[reason] += more.dropped[reason];
     }
+    for (std::size_t l = 0; l < entries_[e].arrivals.size(); ++l) {
+      const Arrivals& more = other.entries_[e].arrivals[l];
+      if (more.ledger.is_empty()) continue;
+      TAKT_CHECK(entries_[e].arrivals[l].ledger.is_empty(), "a listener is in one part");
+      entries_[e].arrivals[l] = more;
+    }
   }
-}
-
-bool DeliveryBook::keeps_arrivals() const {
-  return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) { return !entry.arrivals.empty(); });
 }
 
 std::span<const LaterAccount> DeliveryBook::accounts(StreamIndex stream) const {

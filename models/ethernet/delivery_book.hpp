@@ -35,10 +35,8 @@ class DeliveryBook {
   bool concerns(StreamIndex stream) const { return stream.value < entries_.size() && entries_[stream.value].is_kept; }
   bool is_empty() const { return entries_.empty(); }
 
-  /// What another part of a divided run has counted of the same streams counts here, too. Precondition: neither keeps arrivals.
+  /// What another part of a divided run has counted of the same streams counts here, too.
   void adopt(const DeliveryBook& other);
-  /// Whether arrivals are kept of any stream.
-  bool keeps_arrivals() const;
 
   void deliver(const Frame& frame, NodeIndex listener, sim::TrueTime now);
   void drop(const Frame& frame, DropReason reason);
@@ -46,7 +44,8 @@ class DeliveryBook {
   std::span<const LaterAccount> accounts(StreamIndex stream) const;
   struct Arrivals {
     NodeIndex listener;
-    SequenceLedger ledger;
+    SequenceLedger ledger = {};
+    std::vector<std::uint64_t> firsts = {};   ///< by account: the first sequence number of it that has come here
   };
   /// By listener; empty if every frame comes at most once.
   std::span<const Arrivals> arrivals(StreamIndex stream) const;
@@ -58,6 +57,7 @@ class DeliveryBook {
     std::vector<Arrivals> arrivals;
   };
   Entry& entry_of(StreamIndex stream);
+  static void arrive(Arrivals& arrivals, const Entry& entry, const Frame& frame);
 
   std::vector<Entry> entries_;   // by stream
 };

@@ -19,6 +19,8 @@ class SequenceLedger {
     else
       arrive_out_of_turn(sequence);
   }
+  /// None has come of any frame.
+  bool is_empty() const { return next_ == 0; }
   /// Whether one has.
   bool has(std::uint64_t sequence) const;
   /// Of the frames `first` .. `end` - 1, those of which no copy has come.

@@ -10,6 +10,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/study_progress.hpp"
 #include "cli/terminal.hpp"
+#include "cli/threads.hpp"
 #include "results/version.hpp"
 #include "output/result_folder.hpp"
 #include "study/content.hpp"
@@ -23,7 +24,9 @@ namespace {
 
 struct StudyOptions {
   std::string file;
-  unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+  unsigned jobs = 0;         ///< not said: as many as the machine has cores, each for the threads of one point
+  std::uint32_t threads = 1;
+  unsigned processes() const { return jobs > 0 ? jobs : std::max(1u, std::thread::hardware_concurrency() / threads); }
   std::string out = "study.sqlite";
   bool resume = false;
   std::string shard = "1/1";
@@ -143,7 +146,8 @@ ExitStatus run(const StudyOptions& options) {
   const InterruptGuard interrupt;
   StudyProgress progress(!options.quiet);
   study::RunOptions how;
-  how.jobs = options.jobs;
+  how.jobs = options.processes();
+  how.threads = options.threads;
   how.shard = *shard;
   how.interrupted = [&] { return interrupt.requested(); };
   how.progress = [&](const char* what, std::uint64_t done, std::uint64_t of) { progress.update(what, done, of); };
@@ -252,6 +256,7 @@ void add_study_command(Command app, ExitStatus& status) {
   const auto options = std::make_shared<StudyOptions>();
   command.add_option("FILE", options->file, "The study file (JSON, comments allowed)");
   command.add_option("--jobs", options->jobs, "Processes; the results are the same for any number (as many as the machine has cores)").between(1u, 1024u).type_name("N");
+  add_threads_option(command, options->threads);
   command.add_option("--out", options->out, "The store of the results, SQLite (study.sqlite)").type_name("STORE");
   command.add_flag("--resume", options->resume, "Go on with a store: run only what is missing");
   command.add_option("--shard", options->shard, "Only the I-th of N parts of the points, for several machines").type_name("I/N");

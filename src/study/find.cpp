@@ -102,7 +102,7 @@ class Search {
       json::Diagnostics diagnostics;
       const auto scenario = scenario_of(plan_, variant, plan_.study.replications.first_seed + r, diagnostics);
       Outcome outcome;
-      if (scenario) return packed(run_scenario(plan_, *scenario));
+      if (scenario) return packed(run_scenario(plan_, *scenario, options_.threads));
       outcome.status = Status::impossible;
       outcome.error = diagnostics.to_text();
       return packed(outcome);

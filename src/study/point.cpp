@@ -8,6 +8,8 @@
 #include "results/result_json.hpp"
 #include "evaluation/evaluate.hpp"
 #include "scenario/resolve/resolve.hpp"
+#include "scenario/division/division.hpp"
+#include "scenario/run/divided_run.hpp"
 #include "scenario/run/run.hpp"
 #include "scenario/topology/graph_figures.hpp"
 
@@ -32,6 +34,17 @@ Outcome impossible(const json::Diagnostics& diagnostics) {
   outcome.error = diagnostics.to_text();
   while (outcome.error.ends_with('\n')) outcome.error.pop_back();
   return outcome;
+}
+
+results::RunResult result_of(const scenario::Resolved& resolved, unsigned threads) {
+  if (const scenario::Division division = scenario::divide(resolved, threads); division.is_divided()) {
+    scenario::DividedRun run(resolved, division);
+    run.advance(run.end());
+    return evaluation::evaluate(run.gathered(), false);
+  }
+  scenario::Run run(resolved);
+  run.advance();
+  return evaluation::evaluate(run, false);
 }
 
 class Packer {
@@ -81,13 +94,11 @@ std::optional<Status> status_named(std::string_view name) {
   return found == status_names.end() ? std::nullopt : std::optional(static_cast<Status>(found - status_names.begin()));
 }
 
-Outcome run_scenario(const Plan& plan, const scenario::Scenario& scenario) {
+Outcome run_scenario(const Plan& plan, const scenario::Scenario& scenario, unsigned threads) {
   json::Diagnostics diagnostics;
   const auto resolved = scenario::resolve(scenario, diagnostics);
   if (!resolved) return impossible(diagnostics);
-  scenario::Run run(*resolved);
-  run.advance();
-  const results::RunResult result = evaluation::evaluate(run, false);
+  const results::RunResult result = result_of(*resolved, threads);
   json::Node node = results::run_node(result);
   if (asks_for_topology(plan)) node.add("topology", topology_node(*resolved));
   Outcome outcome;
@@ -100,11 +111,11 @@ Outcome run_scenario(const Plan& plan, const scenario::Scenario& scenario) {
   return outcome;
 }
 
-Outcome run_point(const Plan& plan, std::uint64_t point) {
+Outcome run_point(const Plan& plan, std::uint64_t point, unsigned threads) {
   const std::uint64_t began = cpu_us_now();
   json::Diagnostics diagnostics;
   const auto scenario = scenario_of(plan, plan.variants[plan.variant_of(point)], plan.seed_of(point), diagnostics);
-  Outcome outcome = scenario ? run_scenario(plan, *scenario) : impossible(diagnostics);
+  Outcome outcome = scenario ? run_scenario(plan, *scenario, threads) : impossible(diagnostics);
   outcome.cpu_us = cpu_us_now() - began;
   return outcome;
 }

@@ -33,10 +33,10 @@ struct Outcome {
   std::vector<std::optional<double>> values;   ///< by measure, in its unit
 };
 
-/// Builds, runs and measures a point in this process.
-Outcome run_point(const Plan& plan, std::uint64_t point);
+/// Builds, runs and measures a point in this process: on `threads` threads where that is faster; all but the time is the same for any number.
+Outcome run_point(const Plan& plan, std::uint64_t point, unsigned threads = 1);
 /// The same for a scenario that somebody else has made.
-Outcome run_scenario(const Plan& plan, const scenario::Scenario& scenario);
+Outcome run_scenario(const Plan& plan, const scenario::Scenario& scenario, unsigned threads = 1);
 
 /// The mistakes of a variant, one a line; empty if it is a sound scenario.
 std::string mistakes_of(const Plan& plan, std::size_t variant);

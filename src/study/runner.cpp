@@ -94,7 +94,7 @@ RunSummary run_study(const Plan& plan, Store& store, const RunOptions& options, 
   for (std::uint64_t point = 0; point < plan.points(); ++point) wanted += is_wanted(point) ? 1 : 0;
   const SpreadOrder order(plan.points());
   std::uint64_t next = 0;   // in that order
-  Pool pool(options.jobs, limits_of(plan), [&](std::uint64_t point) { return packed(run_point(plan, point)); });
+  Pool pool(options.jobs, limits_of(plan), [&](std::uint64_t point) { return packed(run_point(plan, point, options.threads)); });
   const std::string problem = pool.run(
       [&]() -> std::optional<std::uint64_t> {
         while (next < plan.points() && !is_wanted(order[next])) ++next;

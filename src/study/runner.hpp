@@ -18,6 +18,7 @@ struct Shard {
 
 struct RunOptions {
   unsigned jobs = 1;
+  unsigned threads = 1;      ///< of each point
   Shard shard;
   std::function<void(const char* what, std::uint64_t done, std::uint64_t of)> progress;
   std::function<bool()> interrupted;

@@ -123,15 +123,11 @@ TEST(Division, SaysWhyThereAreFewerParts) {
   EXPECT_NE(divide(*sound(plant(2)), 64).why_fewer, "");
   EXPECT_EQ(divide(*shipped("direct-link"), 2).parts, 1u);
   EXPECT_NE(divide(*shipped("direct-link"), 2).why_fewer, "");
-  for (const std::string& name : shipped_names()) {
-    const auto resolved = shipped(name, "10ms");
-    if (!resolved->scenario.clocks.gptp) continue;
-    const Division division = divide(*resolved, 2);
-    EXPECT_EQ(division.parts, 1u);
-    EXPECT_NE(division.why_fewer.find("gPTP"), std::string::npos) << division.why_fewer;
-    return;
-  }
-  FAIL() << "no scenario with gPTP";
+  std::string text = plant(6, R"(, "clocks": {"all": {"offset": {"from": "-50ppm", "to": "50ppm"}}, "gptp": {"report_every": "1us"}})");
+  text.replace(text.find("3ms"), 3, "60s");
+  const Division looked_at = divide(*sound(text), 2);
+  EXPECT_EQ(looked_at.parts, 1u);
+  EXPECT_NE(looked_at.why_fewer.find("report_every"), std::string::npos) << looked_at.why_fewer;
 }
 
 TEST(DividedRun, HasTheResultOfOneThread) {
@@ -151,6 +147,21 @@ TEST(DividedRun, DoesWhatTheScriptSaysWhereItBelongs) {
   const std::string expected = whole(*resolved);
   EXPECT_NE(expected.find("link_down"), std::string::npos);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) EXPECT_EQ(divided(*resolved, divide_at_random(*resolved, 4, seed)), expected) << seed;
+}
+
+// Grandmaster and slaves in different parts, a grandmaster that crashes, looks at clocks from two instants on.
+TEST(DividedRun, HasTheClocksOfOneThread) {
+  std::string text = plant(4, R"(, "warm_up": "10ms", "clocks": {"all": {"offset": {"from": "-100ppm", "to": "100ppm"}}, "gptp": {"report_every": "700us", "log_sync_interval": -7, "log_pdelay_interval": -7, "log_announce_interval": -7}},
+      "faults": [{"kind": "crash", "node": "sw1", "at": "20ms", "for": "20ms"}])");
+  text.replace(text.find("3ms"), 3, "60ms");
+  const auto resolved = sound(text);
+  const std::string expected = whole(*resolved);
+  EXPECT_NE(expected.find("grandmaster"), std::string::npos);
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    const Division division = divide_at_random(*resolved, 2, seed);
+    EXPECT_TRUE(division.is_divided());
+    EXPECT_EQ(divided(*resolved, division), expected) << seed;
+  }
 }
 
 // Every shipped scenario, in its beginning, with parts as they come.

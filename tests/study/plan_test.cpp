@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scenario/division/division.hpp"
+#include "scenario/resolve/resolve.hpp"
 #include "study/point.hpp"
 #include "support.hpp"
 
@@ -68,6 +70,26 @@ TEST(Plan, ConfigurationDigest) {
   EXPECT_EQ(plan_of(folder, factor + R"(, "description": "x", "effort": {"cpu": "1s"})")->digest, digest);
   EXPECT_NE(plan_of(folder, factor + R"(, "replications": 2)")->digest, digest);
   EXPECT_NE(plan_of(folder, factor + R"(, "limits": [{"measure": "delay", "at_most": "1ms"}])")->digest, digest);
+}
+
+// A mesh that is busy enough to be divided: nothing but the time tells the threads of a point.
+TEST(Plan, APointIsTheSameOnSeveralThreads) {
+  const Folder folder;
+  const auto plan = plan_of(folder, factor);
+  std::string text = R"({"name": "mesh", "duration": "2ms", "network": {"generate": [{"topology": "mesh", "rows": 6, "columns": 6, "hosts_per_switch": 4, "rate": "1Gbps", "forwarding_delay": "5us"}]}, "streams": [)";
+  for (unsigned h = 0; h < 144; ++h)
+    text += (h > 0 ? R"(,{"name": "s)" : R"({"name": "s)") + std::to_string(h) + R"(", "from": "h)" + std::to_string(h + 1) + R"(", "to": "h)" + std::to_string((h * 37 + 11) % 144 + 1) +
+            R"(", "payload": "200B", "every": "60us", "offset": ")" + std::to_string(h * 791 % 60'000) + R"(ns"})";
+  json::Diagnostics diagnostics;
+  const auto resolved = scenario::load_text(text + "]}", "mesh.json", {}, diagnostics);
+  ASSERT_TRUE(resolved) << diagnostics.to_text();
+  ASSERT_TRUE(scenario::divide(*resolved, 2).is_divided()) << scenario::divide(*resolved, 2).why_fewer;
+  const Outcome one = run_scenario(*plan, resolved->scenario, 1);
+  const Outcome two = run_scenario(*plan, resolved->scenario, 2);
+  EXPECT_EQ(one.status, Status::done);
+  EXPECT_EQ(one.digest, two.digest);
+  EXPECT_EQ(one.events, two.events);
+  EXPECT_EQ(one.values, two.values);
 }
 
 TEST(Plan, APointIsTheRunOfItsScenario) {

@@ -1,10 +1,15 @@
 #include "scenario/division/blocks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+
+#include "scenario/run/clock_monitor.hpp"
 
 namespace takt::scenario {
 namespace {
+
+constexpr double most_octets_of_looks = 1e9;
 
 class Sets {
  public:
@@ -67,10 +72,12 @@ Blocks blocks_of(const Resolved& resolved) {
 }
 
 std::string why_whole(const Resolved& resolved) {
-  if (resolved.scenario.clocks.gptp) return "clocks that gPTP synchronises are watched all at once";
-  if (!resolved.redundancies.empty()) return "first copies of redundant streams are told from others over the whole network";
-  for (const models::ImpairmentPlan& impairment : resolved.plan.impairments)
-    if (impairment.impairment.duplication) return "first copies of frames that a link doubles are told from others over the whole network";
+  if (!resolved.scenario.clocks.gptp) return {};
+  // What grandmasters and slaves in different parts have shown is put together at the end.
+  const auto nodes = static_cast<double>(std::ranges::count_if(resolved.plan.gptp, [](const auto& station) { return station.has_value(); }));
+  const double looks = static_cast<double>(resolved.scenario.duration.ps()) / static_cast<double>(resolved.scenario.clocks.gptp->report_every.ps());
+  if (const double octets = nodes * looks * static_cast<double>(ClockMonitor::octets_of_a_look); octets > most_octets_of_looks)
+    return "looks at its clocks would take " + std::to_string(std::llround(octets / 1e6)) + " MB until they are put together: \"report_every\" is short for so long a run";
   return {};
 }
 

@@ -53,13 +53,33 @@ class ClockMonitor final : public sim::Component {
 
   const std::vector<ClockFigures>& figures() const { return figures_; }
 
+  // Of a divided run, in each part of which a grandmaster may be another part's: the looks are kept, and are put together when all is over.
+  /// Events that other parts have handled, too.
+  std::uint64_t looks() const { return count_; }
+  /// `all`: the monitors of all parts, this one among them, which have looked equally often.
+  void put_together(std::span<const ClockMonitor* const> all);
+  /// Octets that a look at a node takes until then.
+  static constexpr std::size_t octets_of_a_look = 24;
+
  private:
-  void look_at(const models::gptp::Station& station, ClockFigures& figures);
+  struct Look {
+    sim::LocalTime local;
+    models::NodeIndex grandmaster;
+    bool is_up = false;
+    bool is_locked = false;
+  };
+  static_assert(sizeof(Look) <= octets_of_a_look);
+  Look look_at(models::NodeIndex node) const;
+  void take(ClockFigures& figures, sim::TrueTime now, const Look& look, sim::LocalTime grandmaster);
 
   sim::Simulation* simulation_;
   const models::Network* network_;
   sim::Duration every_;
   std::vector<ClockFigures> figures_;       // of the nodes with gPTP
+  std::vector<std::uint32_t> own_;          // which of them act here: all but in a part of a divided run
+  bool is_part_ = false;
+  std::vector<Look> looks_;                 // of a part, at these, one after the other
+  std::uint64_t count_ = 0;
   sim::EventSource source_;
   ClockSampleSink* sink_ = nullptr;
 };

@@ -113,7 +113,6 @@ class Run::Script final : public sim::Component {
 
 Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle, models::Share share)
     : resolved_(&resolved), instants_(account_instants(resolved)), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan, share) {
-  TAKT_CHECK(share.is_whole() || !resolved.scenario.clocks.gptp, "a run with gPTP is not divided");
   simulation_.set_tie_shuffle(tie_shuffle);
   for (std::uint32_t i = 0; i < resolved.programs.size(); ++i) add_program(i, resolved.programs[i]);
   nest_programs();
@@ -134,10 +133,15 @@ Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle, models::Share shar
 
 Run::~Run() = default;
 
-void Run::adopt(const Run& other) {
-  simulation_.adopt(other.simulation_, other.script_->repeated());
-  network_.adopt(other.network_);
-  adopted_.push_back(&other);
+void Run::adopt(std::span<const Run* const> others) {
+  std::vector<const ClockMonitor*> monitors{clock_monitor_.get()};
+  for (const Run* const other : others) {
+    simulation_.adopt(other->simulation_, other->script_->repeated() + (other->clock_monitor_ ? other->clock_monitor_->looks() : 0));
+    network_.adopt(other->network_);
+    adopted_.push_back(other);
+    monitors.push_back(other->clock_monitor_.get());
+  }
+  if (clock_monitor_) clock_monitor_->put_together(monitors);
 }
 
 auto Run::LiveProgram::who_is(std::size_t participant) const -> const LiveMember* {

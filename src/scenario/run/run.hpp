@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "models/network.hpp"
@@ -31,8 +32,8 @@ class Run {
   const sim::Simulation& simulation() const { return simulation_; }
   const models::Network& network() const { return network_; }
   models::Network& network() { return network_; }
-  /// At the end of a divided run: what has happened in another part, which stays as it is and outlives this one, has happened here. Precondition: this is part 0.
-  void adopt(const Run& other);
+  /// At the end of a divided run, once: what has happened in the other parts, which stay as they are and outlive this one, has happened here. Precondition: this is part 0.
+  void adopt(std::span<const Run* const> others);
   /// Hands all that happens from now on to the sink: also the ways of frames, so that explanations can be made of it. Null: to nobody.
   void explain_to(sim::TraceSink* sink) {
     simulation_.set_trace(sink);

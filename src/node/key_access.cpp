@@ -41,9 +41,9 @@ std::optional<security::Secret> load_password(const std::string& path, const jso
 
 std::optional<LoadedKeyAccess> load_key_access(const MessageSecurity& security, json::Diagnostics& diagnostics) {
   const KeyServiceAccess& access = *security.key_service;
-  const auto address = parse_endpoint(access.endpoint);
+  const auto address = parse_named_endpoint(access.endpoint);
   if (!address || address->address == "0.0.0.0")
-    diagnostics.error(access.where.at("endpoint"), "no endpoint", {json::quote(access.endpoint), "\"opc.tcp://\", an IPv4 address or localhost, \":\" and a port, as in \"opc.tcp://10.0.0.1:4840\""});
+    diagnostics.error(access.where.at("endpoint"), "no endpoint", {json::quote(access.endpoint), "\"opc.tcp://\", an IPv4 address or the name of a host, \":\" and a port, as in \"opc.tcp://sks.plant:4840\""});
   if (!security.group) diagnostics.error(access.where.place(), "keys of no group", {"a key service without \"group\" beside it", "the SecurityGroup, as in \"group\": \"cell\""});
   if (security.where.has("key_lifetime")) diagnostics.error(security.where.at("key_lifetime"), "a lifetime of keys that a service gives", {"both", "none: the service tells it"});
   auto certificate = load_certificate(beside(access.where.at("certificate"), access.certificate), access.where.at("certificate"), diagnostics);

@@ -14,7 +14,7 @@ namespace takt::node {
 
 struct LoadedKeyAccess {
   std::string group;
-  EndpointAddress address;
+  EndpointAddress address;                   ///< an IPv4 address, or the name of a host
   security::Certificate certificate;
   security::Secret password;
 };

@@ -1,9 +1,11 @@
-// Keys on their way from who pulls them to the cycle: the newest ones count. Neither side waits for the other.
+// Between who pulls keys and the cycle that seals with them: keys and news of the service one way, the wish for others the other way, without locks. Neither side waits for the other.
 #pragma once
 
 #include <atomic>
 #include <memory>
 
+#include "node/hand_over.hpp"
+#include "node/key_service_state.hpp"
 #include "security/key_ring.hpp"
 
 namespace takt::node {
@@ -13,23 +15,54 @@ struct KeyDelivery {
   std::unique_ptr<security::KeySource> source;
 };
 
-class KeyMailbox {
+/// Holds one thing for who comes: the newest.
+template <class T>
+class Newest {
  public:
-  KeyMailbox() = default;
-  KeyMailbox(const KeyMailbox&) = delete;
-  KeyMailbox& operator=(const KeyMailbox&) = delete;
-  ~KeyMailbox() { take(); }
+  Newest() = default;
+  Newest(const Newest&) = delete;
+  Newest& operator=(const Newest&) = delete;
+  ~Newest() { take(); }
 
   /// What was there and has not been taken is dropped.
-  void give(std::unique_ptr<KeyDelivery> delivery) { std::unique_ptr<KeyDelivery>(waiting_.exchange(delivery.release(), std::memory_order_acq_rel)); }
+  void give(std::unique_ptr<T> thing) { std::unique_ptr<T>(waiting_.exchange(thing.release(), std::memory_order_acq_rel)); }
   /// Null: nothing new.
-  std::unique_ptr<KeyDelivery> take() {
+  std::unique_ptr<T> take() {
     if (waiting_.load(std::memory_order_relaxed) == nullptr) return nullptr;
-    return std::unique_ptr<KeyDelivery>(waiting_.exchange(nullptr, std::memory_order_acq_rel));
+    return std::unique_ptr<T>(waiting_.exchange(nullptr, std::memory_order_acq_rel));
   }
 
  private:
-  std::atomic<KeyDelivery*> waiting_{nullptr};
+  std::atomic<T*> waiting_{nullptr};
+};
+
+class KeyMailbox {
+ public:
+  bool is_open() const { return wake_.is_open(); }
+
+  // The side of who pulls.
+  void give(std::unique_ptr<KeyDelivery> delivery) { deliveries_.give(std::move(delivery)); }
+  void tell(std::unique_ptr<KeyServiceState> state) { states_.give(std::move(state)); }
+  int wishes_descriptor() const { return wake_.file_descriptor(); }
+  /// Until then a flood of wishes is one.
+  void clear_wishes() {
+    wake_.clear();
+    is_wished_.store(false, std::memory_order_release);
+  }
+
+  // The cycle's side.
+  std::unique_ptr<KeyDelivery> take() { return deliveries_.take(); }
+  std::unique_ptr<KeyServiceState> state() { return states_.take(); }
+  /// Keys are spoken of that are not there.
+  void wish() {
+    if (!is_wished_.load(std::memory_order_relaxed) && !is_wished_.exchange(true, std::memory_order_acq_rel)) wake_.signal();
+  }
+
+ private:
+  Newest<KeyDelivery> deliveries_;
+  Newest<KeyServiceState> states_;
+  std::atomic<bool> is_wished_{false};
+  Wake wake_;
 };
 
 }  // namespace takt::node

@@ -8,7 +8,7 @@ const json::Object& describe(json::Type<KeyServiceAccess>) {
   using json::optional;
   using json::required;
   static constexpr json::Field fields[] = {
-      required<&KeyServiceAccess::endpoint>("endpoint", "\"opc.tcp://10.0.0.1:4840\": IPv4 address and port of the service.", {.min_length = 1, .max_length = 256}),
+      required<&KeyServiceAccess::endpoint>("endpoint", "\"opc.tcp://10.0.0.1:4840\": IPv4 address, or the name of a host, and port of the service. A name is looked up before each pull.", {.min_length = 1, .max_length = 256}),
       required<&KeyServiceAccess::certificate>("certificate", "A file with the certificate of the service (DER or PEM), from the folder of this file. No other one is trusted.", {.min_length = 1, .max_length = 4096}),
       required<&KeyServiceAccess::user>("user", "As whom this node signs in: at a service of takt a user with key-access.", {.min_length = 1, .max_length = 64}),
       required<&KeyServiceAccess::password_file>("password_file", "A file with the password on its first line. It is refused if others than its owner may read it.", {.min_length = 1, .max_length = 4096}),

@@ -30,12 +30,20 @@ security::KeyRing no_keys(security::MessagePolicy policy) {
 
 }  // namespace
 
+namespace {
+
+bool pulls_keys(const SecurityStatus& status) { return status.key_service.has_value(); }
+const KeyServiceStatus& key_service_of(const SecurityStatus& status) { return *status.key_service; }
+
+}  // namespace
+
 const json::Record& describe(json::Type<SecurityStatus>) {
   static constexpr json::Output outputs[] = {
       json::output<&SecurityStatus::group>("group", "The SecurityGroup."),
       json::output<&SecurityStatus::token>("token", "SecurityTokenId of the key that it sends with; 0: it has sent nothing yet."),
       json::output<&SecurityStatus::life>("life", "Another one at each start; part of every nonce."),
       json::output<&SecurityStatus::unsealed>("unsealed", "Messages that were not sent because there was no key for them."),
+      json::only_if<&pulls_keys>(json::output<&key_service_of>("key_service", "Where its keys come from."), "of a node that pulls its keys"),
   };
   static constexpr json::Record record{"security_status", "The secured messages of a node.", outputs};
   return record;
@@ -69,9 +77,16 @@ std::int64_t NodeSecurity::now_ns() const {
 auto NodeSecurity::open(uadp::Octets message) -> Opened {
   take_keys();
   const security::Opened opened = channel_.open(message, now_ns());
+  if (opened.wants_keys && mailbox_ != nullptr) mailbox_->wish();
   return {verdicts[static_cast<std::size_t>(opened.verdict)], opened.clear};
 }
 
-SecurityStatus NodeSecurity::status() const { return {group_, channel_.token(), channel_.unsealed(), channel_.settings().life}; }
+SecurityStatus NodeSecurity::status() {
+  SecurityStatus status{group_, channel_.token(), channel_.unsealed(), channel_.settings().life};
+  if (mailbox_ == nullptr) return status;
+  if (auto state = mailbox_->state()) key_service_ = std::move(*state);
+  status.key_service = status_of(key_service_, now_ns());
+  return status;
+}
 
 }  // namespace takt::node

@@ -21,6 +21,7 @@ struct SecurityStatus {
   std::uint32_t token = 0;               ///< that it sends with; 0: none yet
   std::uint64_t unsealed = 0;
   std::uint32_t life = 0;
+  std::optional<KeyServiceStatus> key_service = {};   ///< nothing: keys are of a file
 };
 const json::Record& describe(json::Type<SecurityStatus>);
 
@@ -40,7 +41,7 @@ class NodeSecurity {
     uadp::Octets clear;
   };
   Opened open(uadp::Octets message);
-  SecurityStatus status() const;
+  SecurityStatus status();
 
  private:
   NodeSecurity(std::string group, security::KeyRing keys, const security::ChannelSettings& settings, std::unique_ptr<SecurityMemory> memory, int clock, KeyMailbox* mailbox);
@@ -52,6 +53,7 @@ class NodeSecurity {
   int clock_;
   KeyMailbox* mailbox_;                  ///< null: keys are of a file
   security::SecureChannel channel_;
+  KeyServiceState key_service_;          ///< as it was told last
 };
 
 }  // namespace takt::node

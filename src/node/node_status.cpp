@@ -78,6 +78,19 @@ std::string text_of_program(const std::string& name, const json::Node& root) {
   return out;
 }
 
+/// "  keys of opc.tcp://sks:4840: 5 in hand, 6 is current, for 8.3 s; given 0.7 s ago by 10.0.0.1:4840"
+/// "    asked 12 times, 1 of them for a message with another key, 2 without success; the last time: Connection refused".
+std::string lines_of_key_service(const json::Node& service) {
+  const auto seconds = [&](const char* key) { return json::double_of(*service.find(key)) / 1e9; };
+  std::string out = fmt::format("  keys of {}: ", scalar(service.find("service")));
+  const bool has_keys = scalar(service.find("keys")) != "0";
+  out += has_keys ? fmt::format("{} in hand, {} is current, for {:.1f} s", scalar(service.find("keys")), scalar(service.find("token")), seconds("ends_in_ns")) : "none in hand";
+  if (const std::string by = scalar(service.find("answered_by")); by != "-") out += fmt::format("; given {:.1f} s ago by {}", seconds("silent_ns"), by);
+  out += fmt::format("\n    asked {} times, {} of them for a message with another key, {} without success", scalar(service.find("pulls")), scalar(service.find("wished")), scalar(service.find("failures")));
+  if (const std::string problem = scalar(service.find("problem")); problem != "-") out += "; the last time: " + problem;
+  return out + "\n";
+}
+
 /// Who is refused: "  refused of 10.0.0.3:4840, publisher 3: 12 signature, 1 token".
 std::string lines_of_sources(const json::Node& root) {
   std::string out;
@@ -90,8 +103,10 @@ std::string lines_of_sources(const json::Node& root) {
     for (const json::Node& each : refused->items) out += fmt::format("{} {} {}", &each == &refused->items.front() ? "" : ",", scalar(each.find("messages")), scalar(each.find("verdict")));
     out += "\n";
   }
-  if (const json::Node* const security = root.find("security"); security != nullptr)
+  if (const json::Node* const security = root.find("security"); security != nullptr) {
     out += fmt::format("  security: group {}, key {}, life {}, {} messages without a key\n", scalar(security->find("group")), scalar(security->find("token")), scalar(security->find("life")), scalar(security->find("unsealed")));
+    if (const json::Node* const service = security->find("key_service"); service != nullptr) out += lines_of_key_service(*service);
+  }
   if (const std::string left_out = scalar(root.find("log_lines_left_out")); left_out != "-" && left_out != "0") out += fmt::format("  {} lines of the log left out\n", left_out);
   return out;
 }

@@ -81,6 +81,9 @@ struct EndpointAddress {
   std::uint16_t port = 0;
 };
 std::optional<EndpointAddress> parse_endpoint(const std::string& url);
+/// The same with the name of a host in place of the address (labels of letters, digits, hyphens and underscores).
+std::optional<EndpointAddress> parse_named_endpoint(const std::string& url);
+bool is_ipv4_address(const std::string& text);
 
 const json::Enumeration& describe(json::Type<ServerPolicy>);
 const json::Enumeration& describe(json::Type<ServerMode>);

@@ -1,4 +1,7 @@
 // The words of "server" in node files.
+#include <arpa/inet.h>
+
+#include <algorithm>
 #include <charconv>
 
 #include "node/server_config.hpp"
@@ -11,23 +14,57 @@ using json::optional;
 using json::required;
 using namespace sim::literals;  // NOLINT: units in limits
 
-}  // namespace
+constexpr std::uint16_t opc_tcp_port = 4840;
 
-std::optional<EndpointAddress> parse_endpoint(const std::string& url) {
+/// Host, as it is written, and port.
+std::optional<EndpointAddress> split(const std::string& url) {
   constexpr std::string_view scheme = "opc.tcp://";
   if (!url.starts_with(scheme)) return std::nullopt;
   const std::string_view rest = std::string_view(url).substr(scheme.size());
   const std::size_t colon = rest.find(':');
-  EndpointAddress made;
-  made.address = rest.substr(0, colon) == "localhost" ? "127.0.0.1" : std::string(rest.substr(0, colon));
-  if (colon == std::string_view::npos) {
-    made.port = 4840;
-    return made.address.empty() ? std::nullopt : std::optional(made);
-  }
+  EndpointAddress made{std::string(rest.substr(0, colon)), opc_tcp_port};
+  if (colon == std::string_view::npos) return made;
   const char* const end = rest.data() + rest.size();
   const auto parsed = std::from_chars(rest.data() + colon + 1, end, made.port);
-  const bool is_sound = parsed.ec == std::errc() && parsed.ptr == end && made.port != 0 && made.address.find_first_not_of("0123456789.") == std::string::npos && !made.address.empty();
-  return is_sound ? std::optional(made) : std::nullopt;
+  return parsed.ec == std::errc() && parsed.ptr == end && made.port != 0 ? std::optional(made) : std::nullopt;
+}
+
+bool is_label(std::string_view text) {
+  constexpr std::size_t longest = 63;
+  const auto is_letter_or_digit = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); };
+  return !text.empty() && text.size() <= longest && text.front() != '-' && text.back() != '-' && std::all_of(text.begin(), text.end(), [&](char c) { return is_letter_or_digit(c) || c == '-' || c == '_'; });
+}
+
+/// The last label is no number: 10.0.0 and 10.0.0.300 are addresses with a mistake.
+bool is_host_name(std::string_view text) {
+  constexpr std::size_t longest = 253;
+  if (text.size() > longest) return false;
+  for (;;) {
+    const std::size_t dot = text.find('.');
+    const std::string_view label = text.substr(0, dot);
+    if (!is_label(label)) return false;
+    if (dot == std::string_view::npos) return label.find_first_not_of("0123456789") != std::string_view::npos;
+    text.remove_prefix(dot + 1);
+  }
+}
+
+}  // namespace
+
+bool is_ipv4_address(const std::string& text) {
+  in_addr address = {};
+  return ::inet_pton(AF_INET, text.c_str(), &address) == 1;
+}
+
+std::optional<EndpointAddress> parse_endpoint(const std::string& url) {
+  auto made = split(url);
+  if (made && made->address == "localhost") made->address = "127.0.0.1";
+  return made && is_ipv4_address(made->address) ? made : std::nullopt;
+}
+
+std::optional<EndpointAddress> parse_named_endpoint(const std::string& url) {
+  if (auto made = parse_endpoint(url)) return made;
+  auto made = split(url);
+  return made && is_host_name(made->address) ? made : std::nullopt;
 }
 
 const json::Enumeration& describe(json::Type<ServerPolicy>) {

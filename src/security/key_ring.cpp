@@ -81,6 +81,10 @@ GroupKey* KeyRing::find(std::uint32_t token, std::int64_t now_ns) {
   return made(token);
 }
 
+bool KeyRing::is_missing(std::uint32_t token, std::int64_t now_ns) const {
+  return token != 0 && (now_ns < schedule_.first_ns || is_later_token(token, schedule_.token_after(changes_)));
+}
+
 void KeyRing::replace(const KeySchedule& schedule, std::unique_ptr<KeySource> source) {
   schedule_ = schedule;
   source_ = std::move(source);

@@ -79,6 +79,8 @@ class KeyRing {
   std::optional<Current> current(std::int64_t now_ns);
   /// A key to take messages with: the current one, the one before or the one behind it; null for all others.
   GroupKey* find(std::uint32_t token, std::int64_t now_ns);
+  /// Of a token that `find` has no key for: whether it is a later one than the current one, so that others have keys that are missing here. True before the first keys, too.
+  bool is_missing(std::uint32_t token, std::int64_t now_ns) const;
 
   /// Keys have come from a key service, with its schedule. A token that was used is not gone back behind: what lies before it is none to send with.
   void replace(const KeySchedule& schedule, std::unique_ptr<KeySource> source);

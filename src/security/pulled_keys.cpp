@@ -38,6 +38,7 @@ std::string PulledKeys::take(const GivenKeys& given, std::int64_t now_ns) {
     const bool is_another = place_of_first < keys_.size() && !(keys_[place_of_first] == given.keys.front());  // then those of before are void
     if (place < keys_.size() && !is_another) before = keys_[place];
   }
+  has_news_ = brings_news(given);
   keys_ = given.keys;
   schedule_ = next;
   if (before) {
@@ -46,6 +47,13 @@ std::string PulledKeys::take(const GivenKeys& given, std::int64_t now_ns) {
     schedule_.first_ns -= schedule_.lifetime_ns;
   }
   return "";
+}
+
+bool PulledKeys::brings_news(const GivenKeys& given) const {
+  const std::uint64_t first = keys_.empty() ? 0 : schedule_.place_of(given.first_token);
+  for (std::size_t i = 0; i < given.keys.size(); ++i)
+    if (first + i >= keys_.size() || !(keys_[first + i] == given.keys[i])) return true;
+  return false;
 }
 
 std::unique_ptr<KeySource> PulledKeys::source() const { return std::make_unique<ListedKeys>(schedule_.first_token, keys_); }

@@ -31,6 +31,9 @@ class PulledKeys {
   std::string take(const GivenKeys& given, std::int64_t now_ns);
 
   bool is_empty() const { return keys_.empty(); }
+  std::size_t size() const { return keys_.size(); }
+  /// Whether the last answer that was taken had a key that was not there before.
+  bool has_news() const { return has_news_; }
   /// For a KeyRing; one key before the current one is among them, if there was one.
   const KeySchedule& schedule() const { return schedule_; }
   std::unique_ptr<KeySource> source() const;
@@ -40,12 +43,14 @@ class PulledKeys {
   std::int64_t next_pull_ns(std::int64_t now_ns) const;
 
  private:
+  bool brings_news(const GivenKeys& given) const;
   /// Of `now_ns` by what was told before.
   std::uint32_t token_at(std::int64_t now_ns) const { return schedule_.token_after(schedule_.changes_until(now_ns)); }
 
   MessagePolicy policy_;
   std::vector<Secret> keys_;   ///< from schedule_.first_token on
   KeySchedule schedule_;
+  bool has_news_ = false;
 };
 
 }  // namespace takt::security

@@ -94,7 +94,7 @@ Opened SecureChannel::open(Octets octets, std::int64_t now_ns) {
   const uadp::SecurityHeader& header = *message.security;
   if (const SecurityVerdict verdict = judge(header, settings_.mode); verdict != SecurityVerdict::good) return {verdict, {}};
   GroupKey* const key = keys_.find(header.token_id, now_ns);
-  if (key == nullptr) return {SecurityVerdict::token, {}};
+  if (key == nullptr) return {SecurityVerdict::token, {}, keys_.is_missing(header.token_id, now_ns)};
   if (message.payload.size() < signature_octets) return {SecurityVerdict::truncated, {}};
   const Octets before = octets.first(octets.size() - signature_octets);
   if (!key->verify(before, octets.last(signature_octets))) return {SecurityVerdict::signature, {}};

@@ -49,8 +49,9 @@ struct Opened {
   SecurityVerdict verdict = SecurityVerdict::malformed;
   /// The same message as it would be without security; lasts until the next one. Empty unless the verdict is good.
   Octets clear;
-  /// The publisher says that keys are about to be void: they are to be fetched now.
-  bool force_key_reset = false;
+  /// Keys are to be fetched now. Of a good message: its publisher says that those that are there are about to be void. With the verdict token: it has a later one than the current one,
+  /// which anybody can write.
+  bool wants_keys = false;
 };
 
 class SecureChannel {

@@ -64,7 +64,7 @@ TEST(Tree, EveryFileOfTheProductSaysWhatItIs) {
 
 // An exception that leaves a thread ends the process without a message: threads begin where it is caught and handed on.
 TEST(Tree, ThreadsBeginWhereExceptionsAreCaught) {
-  const std::vector<std::string> catching = {"src/node/applications/thread_group.hpp", "src/node/applications/thread_group.cpp", "src/verify/probe.cpp", "src/papers/validation/measure.cpp", "src/schedule/search.cpp", "src/scenario/run/divided_run.cpp", "src/studio/engine.hpp", "src/studio/engine.cpp", "src/studio/command.hpp", "src/studio/command.cpp", "src/cli/studio_command.cpp"};
+  const std::vector<std::string> catching = {"src/node/applications/thread_group.hpp", "src/node/applications/thread_group.cpp", "src/node/server/name_lookup.cpp", "src/verify/probe.cpp", "src/papers/validation/measure.cpp", "src/schedule/search.cpp", "src/scenario/run/divided_run.cpp", "src/studio/engine.hpp", "src/studio/engine.cpp", "src/studio/command.hpp", "src/studio/command.cpp", "src/cli/studio_command.cpp"};
   for (const SourceFile& file : files_below({"sim", "models", "src"})) {
     if (std::find(catching.begin(), catching.end(), file.path) != catching.end()) continue;
     for (std::size_t i = 0; i < file.code.size(); ++i)

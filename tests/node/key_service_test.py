@@ -52,10 +52,10 @@ class KeyServiceTest(real_node_test.NodeTest):
         self.held = []
         self.addCleanup(self.stop_service)
 
-    def start_service(self, lifetime=LIFETIME):
+    def start_service(self, lifetime=LIFETIME, address="127.0.0.1"):
         path = self.folder / "sks.json"
         path.write_text(json.dumps({"node": "sks", "duration": "600s", "server": {
-            "endpoint": f"opc.tcp://127.0.0.1:{PORT}", "users": str(self.folder / "users.json"), "limits": {"channels_per_second": 100},
+            "endpoint": f"opc.tcp://{address}:{PORT}", "users": str(self.folder / "users.json"), "limits": {"channels_per_second": 100},
             "key_service": {"groups": [{"keys": "cell.keys", "key_lifetime": f"{lifetime}s", "users": NODES + ["anna"]}]}}}), encoding="utf-8")
         with open(self.folder / "sks.out", "w", encoding="utf-8") as out, open(self.folder / "sks.err", "a", encoding="utf-8") as err:
             self.service = subprocess.Popen([real_node_test.TAKT, "node", str(path)], stdout=out, stderr=err)
@@ -150,6 +150,73 @@ class Rollover(KeyServiceTest):
         self.run_over(4)
         self.end()
 
+    def test_the_status_says_what_the_service_does(self):
+        """Who gave how many keys, which is current, and what went wrong when it was asked last."""
+        self.start_service()
+        self.start({"plc": self.pulled("plc"), "left": self.pulled("left"), "right": self.from_file("right")})
+        seen = self.group.wait("keys", lambda found: all(found[node]["security"]["key_service"]["keys"] > 0 for node in ("plc", "left")))
+        self.assertNotIn("key_service", seen["right"]["security"])
+        for node in ("plc", "left"):
+            service = seen[node]["security"]["key_service"]
+            self.assertEqual((service["service"], service["answered_by"], service["problem"]), (f"opc.tcp://127.0.0.1:{PORT}", f"127.0.0.1:{PORT}", None))
+            self.assertAlmostEqual(service["token"], time.time() // LIFETIME + 1, delta=PATIENCE / LIFETIME)
+            self.assertTrue(1 <= service["keys"] <= 5, service)
+            self.assertTrue(0 < service["ends_in_ns"] <= service["keys"] * LIFETIME * 1e9, service)
+            self.assertTrue(0 <= service["silent_ns"] < PATIENCE * 1e9, service)
+            self.assertGreater(service["pulls"], service["failures"])
+        self.stop_service()
+        seen = self.group.wait("a failure", lambda found: found["left"]["security"]["key_service"]["problem"])
+        service = seen["left"]["security"]["key_service"]
+        self.assertEqual(service["problem"], "no connection: Connection refused")
+        self.assertGreater(service["failures"], 0)
+        text = subprocess.run([real_node_test.TAKT, "ctl", str(self.group.sockets["left"]), "status"], capture_output=True, text=True, check=True).stdout
+        self.assertIn(f"  keys of opc.tcp://127.0.0.1:{PORT}: ", text)
+        self.assertIn("the last time: no connection: Connection refused", text)
+        seen = self.group.wait("the end of the keys", lambda found: found["left"]["security"]["key_service"]["keys"] == 0)
+        self.assertEqual((seen["left"]["security"]["key_service"]["token"], seen["left"]["security"]["key_service"]["ends_in_ns"]), (0, 0))
+
+    def test_a_node_that_hears_of_later_keys_asks_at_once(self):
+        """The service begins to change keys each 2 s instead of each hour. Whoever has come later has its keys; the others would ask half an hour later by themselves."""
+        self.start_service(3600)
+        self.start({node: self.pulled(node) for node in NODES})
+        self.assertEqual(self.group.call("plc", "start").returncode, 0)
+        self.group.wait_for_state("Running")
+        self.assertLess(max(self.tokens().values()), time.time() / 1800)
+        self.stop_service()
+        self.start_service(LIFETIME)
+        self.group.processes["plc"].kill()
+        self.group.processes.pop("plc").wait()
+        self.group.start("plc", self.group.files["plc"])
+        found = self.group.wait("later keys", lambda found: all(each["security"]["token"] > time.time() / 4 for each in found.values()))
+        for node in ("left", "right"):
+            self.assertGreaterEqual(found[node]["security"]["key_service"]["wished"], 1, node)
+        self.group.wait_for_state("Halted")
+        self.assertEqual(self.group.call("plc", "start").returncode, 0)
+        self.group.wait_for_state("Running")
+        self.run_over(2)
+
+    def test_who_sends_forged_tokens_lets_nobody_ask_all_the_time(self):
+        self.start_service(3600)
+        self.start({node: self.pulled(node) for node in NODES})
+        self.group.wait("keys", lambda found: all(each["security"]["token"] for each in found.values()))
+        forged = bytearray.fromhex("b111ba080f6400010000000100070003ffffff3f08a1a2a3a4010000001e209ad43fe359df81a0bfe6137a21b09a9683d55caaba8fb0f513d6ecf59b70f44850ac25743ca8837b6462d72d3a8d0515e9bf22216b029a54")
+        began = time.monotonic()
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
+            while time.monotonic() < began + 4:
+                for i in range(len(NODES)):
+                    stranger.sendto(forged, ("127.0.0.1", PORTS + i))
+                time.sleep(0.0005)
+        found = {node: self.group.status(node) for node in NODES}
+        lasted = time.monotonic() - began
+        for node, status in found.items():
+            refused = {each["verdict"]: each["messages"] for source in status["sources"] for each in source["refused"]}
+            self.assertGreater(refused.get("token", 0), 100, node)
+            wished = status["security"]["key_service"]["wished"]
+            self.assertTrue(1 <= wished <= lasted, (node, wished, lasted))
+            self.assertEqual(status["state"], "Halted")
+        self.assertEqual(self.group.call("plc", "start").returncode, 0)
+        self.group.wait_for_state("Running")
+
     def test_a_killed_node_comes_back(self):
         self.start_service()
         self.start({node: self.pulled(node) for node in NODES})
@@ -212,6 +279,24 @@ class Refusals(KeyServiceTest):
         self.stop_service()
         self.expect("Connection refused")
 
+    def test_a_service_by_its_name(self):
+        """This machine by its own name, if it has an address by that; and names that have none."""
+        name = socket.gethostname()
+        try:
+            address = socket.getaddrinfo(name, None, socket.AF_INET)[0][4][0]
+        except OSError:
+            address = None
+        self.start_service(address="0.0.0.0")
+        if address is not None:
+            process = self.start_one(endpoint=f"opc.tcp://{name}:{PORT}")
+            self.let_in("left")
+            self.wait_until_said("left", f"keys of cell: pulled from opc.tcp://{name}:{PORT}")
+            done = subprocess.run([real_node_test.TAKT, "ctl", str(self.folder / "left.sock"), "status", "--format", "json"], capture_output=True, text=True, check=True)
+            self.assertEqual(json.loads(done.stdout)["security"]["key_service"]["answered_by"], f"{address}:{PORT}")
+            process.send_signal(signal.SIGTERM)
+            self.assertEqual(process.wait(timeout=PATIENCE), 0)
+        self.expect("opc.tcp://no-such-host.invalid:4840: no address of no-such-host.invalid: ", endpoint="opc.tcp://no-such-host.invalid:4840")
+
     def test_a_service_that_says_nothing_or_anything(self):
         """A server that closes, one that talks without an end, and one that is silent, from which a signal gets the node away."""
         self.start_service()
@@ -262,12 +347,16 @@ class Refusals(KeyServiceTest):
             return done.returncode, done.stderr
         base = {"node": "left", "program": self.PROGRAM, "transport": real_node_test.loopback("left")}
         self.assertEqual(check(base | self.pulled("left"))[0], 0, check(base | self.pulled("left"))[1])
-        for change, expected in (({"certificate": "left.password"}, "no certificate"), ({"endpoint": "opc.tcp://0.0.0.0:1"}, "no endpoint"), ({"password_file": "none"}, "cannot be read")):
+        for change, expected in (({"certificate": "left.password"}, "no certificate"), ({"endpoint": "opc.tcp://0.0.0.0:1"}, "no endpoint"), ({"endpoint": "opc.tcp://10.0.0.300:1"}, "no endpoint"),
+                                 ({"endpoint": "opc.tcp://-a.plant:1"}, "no endpoint"), ({"endpoint": "opc.tcp://a..plant:1"}, "no endpoint"), ({"endpoint": "opc.tcp://sks.plant:0"}, "no endpoint"), ({"endpoint": f"opc.tcp://{64 * 'a'}"}, "no endpoint"),
+                                 ({"endpoint": "opc.tcp://sks.plant/a"}, "no endpoint"), ({"password_file": "none"}, "cannot be read")):
             config = base | self.pulled("left")
             config["security"]["key_service"] |= change
             status, said = check(config)
             self.assertEqual(status, 2, said)
             self.assertIn(expected, said)
+        for name in ("sks.plant", "sks-1.plant:4841", "10.0.0.1", "localhost:48400", "3com.example"):
+            self.assertEqual(check(base | self.pulled("left", endpoint=f"opc.tcp://{name}"))[0], 0, name)
         (self.folder / "left.password").chmod(0o644)
         self.assertIn("others than its owner may read", check(base | self.pulled("left"))[1])
         (self.folder / "left.password").chmod(0o600)

@@ -182,6 +182,33 @@ TEST(PulledKeys, BridgeAnOutage) {
   EXPECT_EQ(node.channel.token(), 13u);
 }
 
+TEST(PulledKeys, KnowWhatTheyHaveNotHadBefore) {
+  Service service;
+  PulledKeys keys(MessagePolicy::aes128_ctr);
+  ASSERT_EQ(keys.take(service.at(5250 * ms), 5250 * ms), "");
+  EXPECT_TRUE(keys.has_news());
+  ASSERT_EQ(keys.take(service.at(5750 * ms), 5750 * ms), "");
+  EXPECT_FALSE(keys.has_news()) << "the same five";
+  ASSERT_EQ(keys.take(service.at(6250 * ms), 6250 * ms), "");
+  EXPECT_TRUE(keys.has_news()) << "one more behind them";
+  Service other;
+  other.keys = DerivedKeys(MessagePolicy::aes128_ctr, "other", secret());
+  ASSERT_EQ(keys.take(other.at(6350 * ms), 6350 * ms), "");
+  EXPECT_TRUE(keys.has_news()) << "others for the same tokens";
+  ASSERT_EQ(keys.take(other.at(6450 * ms), 6450 * ms), "");
+  EXPECT_FALSE(keys.has_news());
+}
+
+// Whoever sends with a later token than the current one has keys from somewhere.
+TEST(KeyRing, KnowsWhichTokensAreMissing) {
+  KeyRing ring(MessagePolicy::aes128_ctr, {3, 0, 100}, std::make_unique<ListedKeys>(3, std::vector<Secret>(5, Secret(52))));
+  EXPECT_EQ(ring.find(7, 250), nullptr) << "it is there, and its time has not come: the clock may be behind that of the service";
+  EXPECT_TRUE(ring.is_missing(7, 250));
+  EXPECT_TRUE(ring.is_missing(900, 250));
+  for (const std::uint32_t token : {0U, 1U, 3U, 5U, 0x8000'0005U, 0xFFFF'FFFFU}) EXPECT_FALSE(ring.is_missing(token, 250)) << token;
+  EXPECT_TRUE(empty_ring().is_missing(1, 250)) << "nothing has come";
+}
+
 TEST(KeyRing, IsReplacedWithoutGoingBack) {
   std::vector<Secret> keys(5, Secret(52));
   KeyRing ring(MessagePolicy::aes128_ctr, {3, 0, 100}, std::make_unique<ListedKeys>(3, keys));

@@ -98,7 +98,7 @@ TEST(SecuredMessages, WhatWasMadeOfThemIsRefused) {
     for (const json& message : each["messages"]) {
       const Opened opened = receiver.channel.open(from_hex(message["hex"].get<std::string>()), 100 * keys - 50);
       EXPECT_EQ(opened.verdict, expected.at(message["expected"].get<std::string>())) << message["hex"];
-      EXPECT_EQ(opened.force_key_reset, message["expected"] == "accept, and fetch keys");
+      EXPECT_EQ(opened.verdict == SecurityVerdict::good && opened.wants_keys, message["expected"] == "accept, and fetch keys");
     }
   }
 }

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <limits>
+#include <system_error>
 
 #include "node/program_reporter.hpp"
 #include "node/server/ordinary_thread.hpp"
@@ -16,8 +16,7 @@ namespace takt::node {
 namespace {
 
 constexpr std::size_t most_octets_of_answer = 65'536;
-constexpr std::int64_t least_back_off_ns = 500'000'000;
-constexpr std::int64_t most_back_off_ns = 30'000'000'000;
+constexpr std::int64_t longest_lookup_ns = 10'000'000'000;
 constexpr std::int64_t last_key_goes_on_for = 2;  // lifetimes, as security::KeyRing has it
 constexpr int most_wait_ms = 1000;
 
@@ -29,12 +28,10 @@ std::int64_t boot_ns() {
 
 opcua::Now now() { return {sim::LocalTime::from_ps(boot_ns() * 1000), utc_now()}; }
 
-/// From half a second on twice as long each time, up to half a minute; nodes that have lost their service together come back one by one.
-std::int64_t back_off_ns(unsigned failures, security::RandomOctets& random) {
-  const std::int64_t most = std::min(least_back_off_ns << std::min(failures, 10U), most_back_off_ns);
-  std::array<std::byte, 1> chance{};
-  random.fill(chance);
-  return most / 2 + most / 2 * std::to_integer<std::int64_t>(chance[0]) / 256;
+std::uint8_t chance_of(security::RandomOctets& random) {
+  std::array<std::byte, 1> octet{};
+  random.fill(octet);
+  return std::to_integer<std::uint8_t>(octet[0]);
 }
 
 }  // namespace
@@ -45,7 +42,7 @@ std::unique_ptr<KeyPuller> KeyPuller::make(const LoadedConfig& loaded, const std
   auto identity = own_identity(loaded.config, access.pki, folder, random, problem);
   if (!identity) return nullptr;
   std::unique_ptr<KeyPuller> made(new KeyPuller(loaded, std::move(*identity), mailbox));
-  if (made->stop_.is_open()) return made;
+  if (made->stop_.is_open() && mailbox.is_open()) return made;
   problem = what_failed("keys of a key service");
   return nullptr;
 }
@@ -58,6 +55,8 @@ KeyPuller::KeyPuller(const LoadedConfig& loaded, opcua::Identity identity, KeyMa
   settings_.application_name = "takt node " + loaded.config.node;
   settings_.user = loaded.config.security->key_service->user;
   settings_.password = access_.password;
+  state_.endpoint = endpoint_;
+  mailbox_.tell(std::make_unique<KeyServiceState>(state_));
 }
 
 KeyPuller::~KeyPuller() {
@@ -77,36 +76,91 @@ void KeyPuller::stop() {
 
 void KeyPuller::run() {
   become_ordinary();
-  unsigned failures = 0;
   while (!is_over_) {
+    const bool is_wished = plan_.is_wished();
+    mailbox_.clear_wishes();
     const std::string problem = pull();
     if (is_over_) return;
+    state_.pulls += 1;
+    state_.wished += is_wished ? 1 : 0;
+    state_.failures += problem.empty() ? 0 : 1;
+    state_.problem = problem.empty() ? std::nullopt : std::optional(problem);
+    mailbox_.tell(std::make_unique<KeyServiceState>(state_));
     tell(problem);
-    failures = problem.empty() ? 0 : failures + 1;
-    wait_until(problem.empty() ? keys_.next_pull_ns(boot_ns()) : boot_ns() + back_off_ns(failures - 1, random_));
+    if (problem.empty()) {
+      mailbox_.clear_wishes();  // of what was heard before the cycle had them
+      plan_.gave(boot_ns(), keys_.next_pull_ns(boot_ns()), keys_.has_news());
+    } else {
+      plan_.failed(boot_ns(), chance_of(random_));
+    }
+    wait();
   }
 }
 
-void KeyPuller::wait_until(std::int64_t until_ns) {
+/// Wishes wake it only when they count, so that a flood of messages with keys that nobody has costs nothing here.
+void KeyPuller::wait() {
   while (!is_over_) {
     tell_if_none_are_left();
-    const std::int64_t left_ms = (until_ns - boot_ns() + 999'999) / 1'000'000;
-    if (left_ms <= 0) return;
-    pollfd waiting = {stop_.file_descriptor(), POLLIN, 0};
-    ::poll(&waiting, 1, static_cast<int>(std::min<std::int64_t>(left_ms, most_wait_ms)));
+    const std::int64_t now_ns = boot_ns();
+    const bool hears_wishes = now_ns >= plan_.wishes_from_ns();
+    const std::int64_t until_ns = hears_wishes ? plan_.next_ns() : std::min(plan_.next_ns(), plan_.wishes_from_ns());
+    if (plan_.next_ns() <= now_ns) return;
+    const std::int64_t left_ms = (until_ns - now_ns + 999'999) / 1'000'000;
+    pollfd waiting[] = {{stop_.file_descriptor(), POLLIN, 0}, {hears_wishes ? mailbox_.wishes_descriptor() : -1, POLLIN, 0}};
+    ::poll(waiting, 2, static_cast<int>(std::clamp<std::int64_t>(left_ms, 0, most_wait_ms)));
+    if (waiting[1].revents != 0) plan_.wished(boot_ns());
   }
 }
 
+/// Where a name has several addresses, the first one that can be reached counts.
 std::string KeyPuller::pull() {
   std::string problem;
-  auto connection = TcpConnection::connect(access_.address, problem);
+  for (const std::string& each : addresses(problem)) {
+    problem = pull_from({each, access_.address.port});
+    if (problem.empty() || is_over_) return problem;
+  }
+  return problem;
+}
+
+std::vector<std::string> KeyPuller::addresses(std::string& problem) {
+  const std::string& name = access_.address.address;
+  if (is_ipv4_address(name)) return {name};
+  try {
+    if (!lookup_) lookup_.emplace(name);  // or one that began before, and is not done
+  } catch (const std::system_error& error) {
+    problem = "no address of " + name + ": " + error.code().message();
+    return {};
+  }
+  const std::int64_t until_ns = boot_ns() + longest_lookup_ns;
+  while (!lookup_->is_done()) {
+    const std::int64_t left_ms = (until_ns - boot_ns()) / 1'000'000;
+    if (is_over_ || left_ms <= 0) {
+      problem = "no address of " + name + ": no answer of the resolver within 10 s";
+      return {};
+    }
+    pollfd waiting[] = {{stop_.file_descriptor(), POLLIN, 0}, {lookup_->file_descriptor(), POLLIN, 0}};
+    ::poll(waiting, 2, static_cast<int>(std::min<std::int64_t>(left_ms, most_wait_ms)));
+  }
+  std::vector<std::string> found = lookup_->addresses();
+  problem = lookup_->problem();
+  lookup_.reset();
+  return found;
+}
+
+std::string KeyPuller::pull_from(const EndpointAddress& address) {
+  std::string problem;
+  auto connection = TcpConnection::connect(address, problem);
   if (!connection) return problem;
   opcua::SecurityKeysRequest request;
   request.group = opcua::Text(access_.group);
   request.count = security::PulledKeys::future_keys;
   opcua::CallClient client(settings_, identity_, access_.certificate, random_, opcua::call_of(request), now());
   problem = connected_call(*connection, client);
-  return problem.empty() ? take(client.result()) : problem;
+  if (problem.empty()) problem = take(client.result());
+  if (!problem.empty()) return problem;
+  state_.answered_by = connection->source();
+  state_.answered_ns = boot_ns();
+  return "";
 }
 
 /// Neither side waits for the other for ever: the client has a deadline.
@@ -140,6 +194,8 @@ std::string KeyPuller::take(const opcua::CallMethodResult& result) {
   if (!answer) return "what it gives is not what GetSecurityKeys gives";
   const security::GivenKeys given{std::move(answer->policy_uri.value), answer->first_token, std::move(answer->keys), answer->time_to_next_ms, answer->lifetime_ms};
   if (const std::string problem = keys_.take(given, boot_ns()); !problem.empty()) return "it gives " + problem;
+  state_.schedule = keys_.schedule();
+  state_.keys = keys_.size();
   mailbox_.give(std::make_unique<KeyDelivery>(KeyDelivery{keys_.schedule(), keys_.source()}));
   return "";
 }

@@ -3,15 +3,19 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "node/applications/thread_group.hpp"
 #include "node/config.hpp"
 #include "node/hand_over.hpp"
 #include "node/key_mailbox.hpp"
+#include "node/server/name_lookup.hpp"
 #include "node/server/pki.hpp"
 #include "node/server/tcp_listener.hpp"
 #include "opcua/client/call_client.hpp"
+#include "security/pull_plan.hpp"
 #include "security/pulled_keys.hpp"
 
 namespace takt::node {
@@ -33,12 +37,15 @@ class KeyPuller {
   void run();
   /// "", or what went wrong.
   std::string pull();
+  std::string pull_from(const EndpointAddress& address);
+  /// Of the service, by its name if it has one; none, and `problem` says why.
+  std::vector<std::string> addresses(std::string& problem);
   std::string connected_call(TcpConnection& connection, opcua::CallClient& client);
   std::string take(const opcua::CallMethodResult& result);
   void tell(const std::string& problem);
   void tell_if_none_are_left();
-  /// Until then, or until it is to end.
-  void wait_until(std::int64_t boot_ns);
+  /// Until the plan has a pull, or until it is to end.
+  void wait();
 
   LoadedKeyAccess access_;
   std::string endpoint_;
@@ -47,6 +54,9 @@ class KeyPuller {
   security::SystemRandom random_;
   opcua::CallClientSettings settings_;
   security::PulledKeys keys_;
+  security::PullPlan plan_;
+  KeyServiceState state_;
+  std::optional<NameLookup> lookup_;
   std::string told_;                ///< the last problem
   bool has_told_keys_ = false;
   bool has_told_none_ = false;

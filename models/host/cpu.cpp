@@ -28,9 +28,9 @@ void Cpu::ask_to_settle() {
   asked_ = true;
 }
 
-void Cpu::submit(std::uint32_t thread, CpuUser& user, std::uint32_t user_id, std::uint32_t rank, std::uint64_t job, sim::TrueTime released, std::optional<sim::Duration> work) {
+void Cpu::submit(std::uint32_t thread, CpuUser& user, std::uint32_t user_id, std::uint32_t rank, std::uint64_t job, sim::TrueTime released, std::optional<sim::Duration> work, sim::Duration besides) {
   TAKT_CHECK(thread < threads_.size() && released <= now(), "a job is for a thread, and not for later");
-  arrived_.push_back({thread, user_id, rank, {&user, job, released, work}});
+  arrived_.push_back({thread, user_id, rank, {&user, job, released, work, besides}});
   ask_to_settle();
 }
 
@@ -107,8 +107,8 @@ void Cpu::end_job(std::uint32_t number) {
 }
 
 void Cpu::begin(Thread& thread) {
-  const std::optional<sim::Duration>& work = thread.jobs.front().work;
-  thread.remaining = std::max(least_work, work ? *work : thread.plan->execution.draw(thread.chance));
+  const Job& job = thread.jobs.front();
+  thread.remaining = std::max(least_work, (job.work ? *job.work : thread.plan->execution.draw(thread.chance)) + job.besides);
   thread.is_begun = false;
 }
 

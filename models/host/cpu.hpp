@@ -40,8 +40,9 @@ class Cpu final : public sim::Component {
   Cpu(sim::Simulation& simulation, const CpuPlan& plan, NodeIndex node, std::string_view path);
 
   /// A job for the thread. `job` is what the user gets back; `user_id` and `rank` put the jobs of an instant in order. Released at `released` (not after
-  /// now), from when its response time counts. It lasts `work`, or what the thread's execution time is drawn to be.
-  void submit(std::uint32_t thread, CpuUser& user, std::uint32_t user_id, std::uint32_t rank, std::uint64_t job, sim::TrueTime released, std::optional<sim::Duration> work = {});
+  /// now), from when its response time counts. It lasts `work`, or what the thread's execution time is drawn to be, and `besides` more.
+  void submit(std::uint32_t thread, CpuUser& user, std::uint32_t user_id, std::uint32_t rank, std::uint64_t job, sim::TrueTime released, std::optional<sim::Duration> work = {},
+              sim::Duration besides = {});
   /// All jobs end.
   void crash();
   void set_observer(CpuObserver* observer) { observer_ = observer; }
@@ -58,6 +59,7 @@ class Cpu final : public sim::Component {
     std::uint64_t number = 0;
     sim::TrueTime released;
     std::optional<sim::Duration> work;
+    sim::Duration besides;
   };
   struct Arrived {
     std::uint32_t thread = 0;

@@ -11,7 +11,8 @@ constexpr sim::EventKind transmit_now = 0xFFFF;
 constexpr sim::EventKind opened_now = 0xFFFE;
 
 /// What a job of a processor is: in its number above the low 32 bits.
-enum class JobKind : std::uint16_t { alarm, message, frame };
+enum class JobKind : std::uint16_t { alarm, message, frame, sealing };
+constexpr std::uint32_t rank_of_sealing = 1U << 31;   // behind alarms and messages of the instant
 std::uint64_t job_number(JobKind kind, std::uint16_t which, std::uint32_t detail) {
   return static_cast<std::uint64_t>(kind) << 48 | static_cast<std::uint64_t>(which) << 32 | detail;
 }
@@ -45,7 +46,7 @@ void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
     }
     return;
   }
-  if (event.kind() == opened_now) return opened(static_cast<std::uint32_t>(event.argument), event.argument >> 32 != crashes_);
+  if (event.kind() == opened_now) return take_message(static_cast<std::uint32_t>(event.argument), event.argument >> 32 != crashes_ ? Ending::crashed : Ending::done);
   TAKT_CHECK(event.kind() < alarms_.size(), "an alarm that was never set");
   Alarm& alarm = alarms_[event.kind()];
   if (!alarm.timer.is_due(simulation, source_, event)) return;
@@ -99,12 +100,17 @@ void Process::job_ended(sim::Simulation& simulation, std::uint64_t job, Ending e
     }
     case JobKind::message: take_message(detail, ending); return;
     case JobKind::frame:
-      if (ending == Ending::done)
-        hand_over(FrameIndex{detail}, false);
-      else
-        traffic_->drop(FrameIndex{detail}, ending == Ending::crashed ? DropReason::node_down : DropReason::host_overload, source_.id(), simulation);
+      ending == Ending::done ? hand_over(FrameIndex{detail}, false) : lose(FrameIndex{detail}, ending);
+      return;
+    case JobKind::sealing:
+      if (ending != Ending::done) return lose(FrameIndex{detail}, ending);
+      simulation.schedule(source_, transmit_.pass(simulation.now()), sim::Phase::arrival, id(), transmit_now, detail);
       return;
   }
+}
+
+void Process::lose(FrameIndex frame, Ending ending) {
+  traffic_->drop(frame, ending == Ending::crashed ? DropReason::node_down : DropReason::host_overload, source_.id(), *simulation_);
 }
 
 void Process::secure(sim::Duration seal, sim::Duration open) {
@@ -130,17 +136,9 @@ void Process::open_message(StreamIndex stream, std::span<const std::byte> payloa
   simulation_->schedule(source_, simulation_->now().plus_saturated(open_), sim::Phase::arrival, id(), opened_now, std::uint64_t{crashes_} << 32 | slot);
 }
 
-void Process::opened(std::uint32_t slot, bool is_lost) {
-  const std::uint32_t stream = messages_[slot].stream.value;
-  if (threads_.turns && !is_lost)
-    cpu_->submit(*threads_.turns, *this, source_.id().index, static_cast<std::uint32_t>(alarms_.size()) + stream, job_number(JobKind::message, 0, slot), simulation_->now());
-  else
-    take_message(slot, is_lost ? Ending::crashed : Ending::done);
-}
-
 void Process::keep_message(StreamIndex stream, std::span<const std::byte> payload) {
   const std::uint32_t slot = stored(stream, payload);
-  cpu_->submit(*threads_.turns, *this, source_.id().index, static_cast<std::uint32_t>(alarms_.size()) + stream.value, job_number(JobKind::message, 0, slot), simulation_->now());
+  cpu_->submit(*threads_.turns, *this, source_.id().index, static_cast<std::uint32_t>(alarms_.size()) + stream.value, job_number(JobKind::message, 0, slot), simulation_->now(), {}, open_);
 }
 
 void Process::take_message(std::uint32_t slot, Ending ending) {
@@ -224,6 +222,10 @@ void Process::send(StreamIndex stream, std::span<const std::byte> payload) {
     trace->record({simulation_->now(), static_cast<std::uint32_t>(Occurrence::produced), id(), frame.value, stream.value});
   if (transmits_at_once_) {
     hand_over(frame, false);
+    return;
+  }
+  if (threads_.turns && seal_ > sim::Duration()) {
+    cpu_->submit(*threads_.turns, *this, source_.id().index, rank_of_sealing | stream.value, job_number(JobKind::sealing, 0, frame.value), simulation_->now(), seal_);
     return;
   }
   simulation_->schedule(source_, transmit_.pass(simulation_->now().plus_saturated(seal_)), sim::Phase::arrival, id(), transmit_now, frame.value);

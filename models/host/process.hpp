@@ -28,7 +28,8 @@ class Process final : public sim::Component, public HostServices, public CpuUser
     std::optional<std::uint32_t> transmit = {};
   };
   void run_on(Cpu& cpu, CpuThreads threads);
-  /// Its messages are secured, which takes time: of each that is sent before anything else, of each that has come before the application or its thread hears of it.
+  /// Its messages are secured, which takes time: of each that is sent before anything else, of each that has come before the application hears of it. On the thread of its turns sealing is
+  /// a job of its own, behind those that wait, and opening a part of the job of the message; without one they pass beside everything else.
   void secure(sim::Duration seal, sim::Duration open);
 
   /// Starts the application at the present instant.
@@ -36,10 +37,10 @@ class Process final : public sim::Component, public HostServices, public CpuUser
   Application& application() { return *application_; }
 
   void receive(StreamIndex stream, std::span<const std::byte> payload) {
-    if (open_ > sim::Duration()) [[unlikely]]
-      open_message(stream, payload);
-    else if (threads_.turns) [[unlikely]]
+    if (threads_.turns) [[unlikely]]
       keep_message(stream, payload);
+    else if (open_ > sim::Duration()) [[unlikely]]
+      open_message(stream, payload);
     else
       application_->receive(*this, stream, payload);
   }
@@ -88,12 +89,12 @@ class Process final : public sim::Component, public HostServices, public CpuUser
   void expire(AlarmId alarm);
   std::uint32_t stored(StreamIndex stream, std::span<const std::byte> payload);
   void open_message(StreamIndex stream, std::span<const std::byte> payload);
-  void opened(std::uint32_t slot, bool is_lost);
   void keep_message(StreamIndex stream, std::span<const std::byte> payload);
   void take_message(std::uint32_t slot, Ending ending);
   std::uint64_t job_of(AlarmId alarm);
   void expire_in_order();
   void hand_over(FrameIndex frame, bool last);
+  void lose(FrameIndex frame, Ending ending);
 
   sim::Simulation* simulation_;
   Traffic* traffic_;

@@ -79,6 +79,7 @@ struct Flow {
   models::StreamIndex stream;           ///< none: gPTP at one port
   FrameArrivals source;                 ///< at the egress queue of the talker
   FrameArrivals at_stack = {};          ///< at the thread of its processor that sends them, if there is one
+  FrameArrivals sealing = {};           ///< at the thread that seals them, if one does
   std::optional<ArrivalPhase> produced = {};   ///< when frames are produced, if that is known
   Ps worst_source = 0;                  ///< from production to the egress queue
   Ps best_source = 0;

@@ -138,16 +138,27 @@ Ps lateness(const HostTimes& hosts, const scenario::ResolvedMember& member) {
   return sum(spread_of(hosts.wake_up(member.node, member.cpu_thread)), hosts.of(member.node, member.cpu_thread).spread());
 }
 
-/// Before the operating system has it.
-void seal_at(const scenario::ResolvedMember& member, Flow& flow) {
-  flow.worst_source = sum(flow.worst_source, member.seal.ps());
-  flow.best_source += member.seal.ps();
+/// Before the operating system has it: beside all threads, or a job of the thread that the member runs on.
+void seal_at(const scenario::ResolvedMember& member, const HostTimes& hosts, Flow& flow) {
+  const Ps seal = member.seal.ps();
+  flow.best_source += seal;
+  if (!member.cpu_thread || seal == 0) {
+    flow.worst_source = sum(flow.worst_source, seal);
+    return;
+  }
+  const ThreadTime& thread = hosts.of(member.node, member.cpu_thread);
+  const Ps spread = is_bounded(thread.worst) ? std::max<Ps>(0, thread.worst - seal) : unbounded_ps;
+  flow.sealing = flow.at_stack;
+  flow.at_stack = flow.at_stack.delayed(spread);
+  flow.source = flow.source.delayed(spread);
+  flow.worst_source = sum(flow.worst_source, thread.worst);
+  if (flow.source_reason.empty()) flow.source_reason = thread.reason;
 }
 
 void add_published(const scenario::Resolved& r, const scenario::ResolvedMember& member, models::StreamIndex stream, Ps every, std::int64_t frames, const BoundOptions& options, const HostTimes& hosts,
                    FlowGraph& graph) {
   add_late(r, member.node, stream, every, frames, lateness(hosts, member), options, hosts, graph);
-  seal_at(member, graph.flows.back());
+  seal_at(member, hosts, graph.flows.back());
 }
 
 /// Topics over OPC UA, of applications and gateways: a call of a thread publishes one message at most, which is one frame.
@@ -167,7 +178,7 @@ void add_roles(const scenario::Resolved& r, const scenario::ResolvedProgram& pro
   const auto add = [&](const scenario::ResolvedMember& member, models::StreamIndex stream) {
     if (!changes) return add_published(r, member, stream, cycle, messages_in_a_cycle, options, hosts, graph);
     add_late(r, member.node, stream, cycle, 1, sum(lateness(hosts, member), cycle * *changes), options, hosts, graph);
-    seal_at(member, graph.flows.back());
+    seal_at(member, hosts, graph.flows.back());
   };
   graph.assumptions.add(Assumption::program_publishes);
   for (const scenario::ResolvedMember& each : program.members) {

@@ -46,8 +46,8 @@ class HostJobs {
   }
 
  private:
-  void add(std::uint32_t thread, FrameArrivals arrivals, std::string what) {
-    jobs_[thread].push_back({std::move(arrivals), std::max<Ps>(1, cpu_.threads[thread].execution.greatest().ps()), std::move(what)});
+  void add(std::uint32_t thread, FrameArrivals arrivals, std::string what, sim::Duration besides = {}) {
+    jobs_[thread].push_back({std::move(arrivals), std::max<Ps>(1, sum(cpu_.threads[thread].execution.greatest().ps(), besides.ps())), std::move(what)});
   }
   void add_periodic(std::uint32_t thread, sim::Duration every, Ps jitter, std::string what) {
     add(thread, FrameArrivals({shortest_period(every, clock_), 1, 0, sum(jitter, 2 * clock_.error)}), std::move(what));
@@ -64,10 +64,10 @@ class HostJobs {
     const auto heard_before = jobs_[thread].size();
     for (const scenario::ResolvedMember& sender : program.members) {
       if (sender.node == node_) continue;
-      add_heard(thread, sender.state, program.name);
-      if (sender.roles) add_heard(thread, *sender.roles, program.name);
+      add_heard(thread, sender.state, program.name, member.open);
+      if (sender.roles) add_heard(thread, *sender.roles, program.name, member.open);
       for (const auto& data : sender.data)
-        if (data) add_heard(thread, *data, program.name);
+        if (data) add_heard(thread, *data, program.name, member.open);
     }
     // An initialisation begins in a turn that hears something, or is called.
     if (program.description->initialisation >= program.description->cycle) {
@@ -76,6 +76,15 @@ class HostJobs {
       for (std::size_t i = heard_before, end = jobs_[thread].size(); i < end; ++i) add(thread, jobs_[thread][i].arrivals.delayed(wake_up), program.name);
       const auto calls = static_cast<std::int64_t>(r_.script.size()) + 1;
       add(thread, FrameArrivals({unbounded_ps, calls, 0, 0}), program.name);
+    }
+    if (member.seal > sim::Duration()) add_sealing(thread, program, member);
+  }
+
+  /// A job for each message that it sends.
+  void add_sealing(std::uint32_t thread, const scenario::ResolvedProgram& program, const scenario::ResolvedMember& member) {
+    for (const Flow& flow : graph_.flows) {
+      const bool is_own = flow.stream == member.state || std::ranges::find(member.data, std::optional(flow.stream)) != member.data.end();
+      if (is_own) jobs_[thread].push_back({flow.sealing, member.seal.ps(), program.name});
     }
   }
 
@@ -98,10 +107,10 @@ class HostJobs {
   }
 
   /// Messages of a stream, when the protocol stack has taken them in.
-  void add_heard(std::uint32_t thread, models::StreamIndex stream, const std::string& what) {
+  void add_heard(std::uint32_t thread, models::StreamIndex stream, const std::string& what, sim::Duration besides = {}) {
     for (const Flow& flow : graph_.flows)
       if (flow.stream == stream)
-        for (const std::uint32_t last : last_hops(flow)) add(thread, at_stack(last).delayed(times_.receive(node_).spread()), what);
+        for (const std::uint32_t last : last_hops(flow)) add(thread, at_stack(last).delayed(times_.receive(node_).spread()), what, besides);
   }
 
   void add_stack(const Flow& flow) {
@@ -167,6 +176,12 @@ HostTimes::HostTimes(const scenario::Resolved& resolved) : r_(&resolved), nodes_
       nodes_[n].push_back({least, std::max(least, thread.execution.greatest().ps())});
     }
   }
+  for (const scenario::ResolvedProgram& program : resolved.programs)
+    for (const scenario::ResolvedMember& member : program.members)
+      if (member.cpu_thread && member.seal > sim::Duration()) {
+        ThreadTime& time = nodes_[member.node.value][*member.cpu_thread];
+        time.least = std::min(time.least, member.seal.ps());
+      }
 }
 
 const sim::Distribution& HostTimes::wake_up(models::NodeIndex node, const std::optional<std::uint32_t>& thread) const {

@@ -74,8 +74,8 @@ class GroupMaker {
   Ps wake_up(std::size_t p) const { return sum(bounds_.hosts->wake_up(program_.members[p].node, program_.members[p].cpu_thread).greatest().ps(), turn(p)); }
   /// From a message's arrival to the end of the turn that hears of it.
   Ps turn(std::size_t p) const { return bounds_.hosts->of(program_.members[p].node, program_.members[p].cpu_thread).worst; }
-  /// The same of a message that must be opened.
-  Ps hearing(std::size_t p) const { return sum(turn(p), program_.members[p].open.ps()); }
+  /// The same of a message that must be opened, which is part of the turn on a thread.
+  Ps hearing(std::size_t p) const { return program_.members[p].cpu_thread ? turn(p) : sum(turn(p), program_.members[p].open.ps()); }
   Ps slowest_hearing() const {
     Ps slowest = 0;
     for (std::size_t p = 0; p < program_.members.size(); ++p) slowest = std::max(slowest, hearing(p));

@@ -24,7 +24,8 @@ class CpuNetwork {
  public:
   explicit CpuNetwork(std::uint64_t number) : chance_(number, "cpu network", "test") {
     has_program_ = one_in(2);
-    for (std::size_t h = 0; h < hosts; ++h) nodes_ += fmt::format(R"("h{}": {{"kind": "host", "os": {{"wake_up": {{"uniform": {{"from": "0s", "to": "{}us"}}}}}}, "cpu": {}}}, )", h, chance_.below(30), processor(h));
+    is_secured_ = has_program_ && one_in(2);
+    for (std::size_t h = 0; h < hosts; ++h) nodes_ += fmt::format(R"("h{}": {{"kind": "host", "os": {{"wake_up": {{"uniform": {{"from": "0s", "to": "{}us"}}}}}}, "cpu": {}{}}}, )", h, chance_.below(30), processor(h), cryptography());
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t from = chance_.below(hosts);
       streams_ += fmt::format(R"({}{{"name": "s{}", "from": "h{}", "to": "h{}", "pcp": {}, "payload": "{}B", "every": "{}us"}})", i == 0 ? "" : ", ", i, from, (from + 1 + chance_.below(hosts - 1)) % hosts, chance_.below(8),
@@ -36,7 +37,7 @@ class CpuNetwork {
   std::string text(std::uint64_t seed) {
     std::string links;
     for (std::size_t h = 0; h < hosts; ++h) links += fmt::format(R"({}{{"ends": ["h{}", "sw"], "rate": "100Mbps"}})", h == 0 ? "" : ", ", h);
-    const std::string program = R"(, "programs": [{"name": "p", "master": "h0", "slaves": ["h1", "h2"], "cycle": "2ms"}], "script": [{"at": "7ms", "program": "p", "call": "Start"}, {"at": "60ms", "program": "p", "call": "Halt"}])";
+    const std::string program = R"(, "programs": [{"name": "p", "master": "h0", "slaves": ["h1", "h2"], "cycle": "2ms")" + std::string(is_secured_ ? R"(, "security": "sign")" : "") + R"(}], "script": [{"at": "7ms", "program": "p", "call": "Start"}, {"at": "60ms", "program": "p", "call": "Halt"}])";
     return fmt::format(R"({{"name": "cpus", "duration": "100ms", "seed": {}, "network": {{"nodes": {{{}"sw": {{"kind": "switch", "forwarding_delay": "1us"}}}}, "links": [{}]}}, "streams": [{}],
       "topics": [{{"name": "level", "protocol": "opc-ua", "fields": {{"level": "Int32"}}}}],
       "applications": [{{"name": "sensor", "on": "h0", "threads": [{{"name": "publish", "publish": "level", "every": "2ms", "offset": "{}us", "response": {{"uniform": {{"from": "0s", "to": "200us"}}}}}}]}},
@@ -71,8 +72,12 @@ class CpuNetwork {
     return fmt::format(R"({{"cores": {}, "switching": "{}us", "slice": "{}us", "threads": [{}]}})", cores, chance_.below(4), 10 + chance_.below(50), threads);
   }
 
+  /// Sealing is a job, which may be shorter than those of the thread; opening makes a job longer.
+  std::string cryptography() { return is_secured_ ? fmt::format(R"(, "cryptography": {{"seal": "{}ns", "open": "{}ns"}})", chance_.below(30'000), chance_.below(30'000)) : ""; }
+
   sim::RandomStream chance_;
   bool has_program_ = false;
+  bool is_secured_ = false;
   std::string nodes_, streams_;
 };
 

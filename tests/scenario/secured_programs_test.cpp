@@ -41,6 +41,24 @@ TEST(SecuredPrograms, RoundTripToThePicosecond) {
   }
 }
 
+// On a thread of 10 us each that is busy with nothing else. Of the state and the data that the master sends in a turn the data wait for the state: on the wire, which both come to by then, and
+// at the slave, whose thread opens and hears the state first. So sealing the state, the 46 octets that the state has more, and opening both are what securing costs.
+TEST(SecuredPrograms, OnAProcessorTheyOccupyTheThread) {
+  const std::string processor = R"(, "cpu": {"threads": [{"name": "t", "priority": 1, "execution": "10us", "runs": ["p"]}]})";
+  const auto one_way = [&](const std::string& security, const std::string& cryptography) {
+    const auto resolved = sound(pair(security, cryptography + processor));
+    LiveRun run(*resolved);
+    run.advance();
+    const results::RunResult result = evaluation::evaluate(run, false);
+    const results::RoundTripResult& trip = result.programs.at(0).round_trips.at(0);
+    EXPECT_GT(trip.count, 80u);
+    return trip.one_way->max.ps();
+  };
+  const std::int64_t clear = one_way("", "");
+  EXPECT_EQ(one_way(R"(, "security": "sign")", "") - clear, 46 * 8'000);
+  EXPECT_EQ(one_way(R"(, "security": "sign")", R"(, "cryptography": {"seal": "700ns", "open": "900ns"})") - clear, 700'000 + 46 * 8'000 + 2 * 900'000);
+}
+
 // What is on the wire is what a node sends: as long, and without a readable word.
 TEST(SecuredPrograms, StreamsAreAsLongAsSealedMessages) {
   const auto resolved = sound(pair(R"(, "security": {"policy": "aes256-ctr"})"));

@@ -34,7 +34,7 @@ const json::Object& describe(json::Type<Cryptography>) {
       optional<&Cryptography::seal>("seal", "Before a message is sent.", {.max = 1_s}),
       optional<&Cryptography::open>("open", "Before a message that has come is heard.", {.max = 1_s}),
   };
-  static constexpr json::Object table = json::object<Cryptography>("cryptography", "How long securing takes for each message of programs with `security`. Messages do not wait for each other in it.", fields);
+  static constexpr json::Object table = json::object<Cryptography>("cryptography", "How long securing takes for each message of programs with `security`. Messages do not wait for each other in it, but on a thread of a processor.", fields);
   return table;
 }
 

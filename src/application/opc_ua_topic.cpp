@@ -2,6 +2,7 @@
 
 #include "plant/topic_check.hpp"
 #include "sim/check.hpp"
+#include "uadp/network_message.hpp"
 
 namespace takt::application {
 namespace {
@@ -29,9 +30,22 @@ static_assert(1U << static_cast<unsigned>(plant::DataValuePart::source_timestamp
 constexpr uadp::FieldEncoding encodings[] = {uadp::FieldEncoding::Variant, uadp::FieldEncoding::RawData, uadp::FieldEncoding::DataValue};
 
 struct Longest final : pubsub::PublishedData {
-  void publish(uadp::Octets message, const pubsub::Destination&) override { octets = message.size(); }
+  void publish(uadp::Octets message, const pubsub::Destination&) override {
+    octets = message.size();
+    uadp::NetworkMessage decoded;
+    if (uadp::decode(message, decoded) == uadp::DecodeStatus::ok) data_set_octets = decoded.payload.size();   // of the only DataSetMessage
+  }
   std::size_t octets = 0;
+  std::size_t data_set_octets = 0;
 };
+
+Longest longest_of(const TopicShape& topic, const OpcUaAddress& address) {
+  Longest longest;
+  OpcUaPublication publication(topic, address, longest, sim::LocalTime());
+  const bool are_fields = publication.publish(topic.longest(), sim::LocalTime());
+  TAKT_CHECK(are_fields, "the longest values are values of the topic");
+  return longest;
+}
 
 /// Of the PublisherId that is off any stands for none: it is not sent.
 uadp::PublisherId sent_id(const TopicShape& topic, const OpcUaAddress& address) { return publisher_of(topic, address).value_or(uadp::PublisherId::uint16(address.publisher_id)); }
@@ -41,6 +55,7 @@ pubsub::DataSetReaderSettings reader_settings(const TopicShape& topic) {
   settings.data_set_writer_id = topic.layout.data_set_writer_id;
   if (topic.layout.major_version != 0) settings.major_version = topic.layout.major_version;
   settings.needs_key_after_gap = true;
+  settings.configured_size = topic.layout.configured_size.value_or(0);
   return settings;
 }
 
@@ -76,15 +91,23 @@ pubsub::DataSetWriterSettings writer_settings(const TopicShape& topic) {
   settings.key_frame_count = topic.layout.key_frame_count;
   settings.major_version = topic.layout.major_version;
   settings.minor_version = topic.layout.minor_version;
+  settings.configured_size = topic.layout.configured_size.value_or(0);
   return settings;
 }
 
-std::size_t longest_message(const TopicShape& topic, const OpcUaAddress& address) {
-  Longest longest;
-  OpcUaPublication publication(topic, address, longest, sim::LocalTime());
-  const bool are_fields = publication.publish(topic.longest(), sim::LocalTime());
-  TAKT_CHECK(are_fields, "the longest values are values of the topic");
-  return longest.octets;
+std::size_t longest_message(const TopicShape& topic, const OpcUaAddress& address) { return longest_of(topic, address).octets; }
+
+std::size_t longest_data_set_message(const TopicShape& topic) {
+  TopicShape as_long_as_it_is = topic;
+  as_long_as_it_is.layout.configured_size.reset();
+  return longest_of(as_long_as_it_is, {1, 1}).data_set_octets;
+}
+
+void check_configured_size(const plant::Topic& topic, const TopicShape& shape, json::Diagnostics& diagnostics) {
+  if (!shape.layout.configured_size) return;
+  const std::size_t needed = longest_data_set_message(shape);
+  if (needed <= *shape.layout.configured_size) return;
+  diagnostics.error(topic.uadp->where.at("configured_size"), "a DataSetMessage longer than its ConfiguredSize", {std::to_string(*shape.layout.configured_size) + " octets", "at least " + std::to_string(needed) + ", which the longest values of the fields take"});
 }
 
 OpcUaPublication::OpcUaPublication(const TopicShape& topic, const OpcUaAddress& address, pubsub::PublishedData& stack, sim::LocalTime now, uadp::DateTime epoch)

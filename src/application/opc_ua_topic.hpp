@@ -26,6 +26,11 @@ pubsub::DataSetWriterSettings writer_settings(const TopicShape& topic);
 /// Octets of the longest NetworkMessage of the topic; 0 if a sample may be too long for one.
 std::size_t longest_message(const TopicShape& topic, const OpcUaAddress& address);
 
+/// Octets of its longest DataSetMessage, without what a ConfiguredSize adds.
+std::size_t longest_data_set_message(const TopicShape& topic);
+/// Each DataSetMessage has room in the ConfiguredSize of the topic, if it has one.
+void check_configured_size(const plant::Topic& topic, const TopicShape& shape, json::Diagnostics& diagnostics);
+
 /// Calls the stack once for each value, and with delta frames not if nothing has changed; neither moves while it lives.
 class OpcUaPublication {
  public:

@@ -31,6 +31,8 @@ void print_warnings(const std::string& warnings) {
     std::fprintf(stderr, "takt: warning: %s\n", warnings.substr(begin, warnings.find('\n', begin) - begin).c_str());
 }
 
+std::string folder_of(const std::string& file) { return file.substr(0, file.find('/') == std::string::npos ? 0 : file.rfind('/')); }
+
 ExitStatus run_applications(const std::string& file, bool is_check) {
   json::Diagnostics diagnostics;
   const auto loaded = node::load_applications(file, diagnostics);
@@ -40,7 +42,10 @@ ExitStatus run_applications(const std::string& file, bool is_check) {
   if (is_check) return ExitStatus::pass;
   std::string problem;
   std::string warnings;
-  const auto host = node::ApplicationHost::make(*loaded, problem, warnings);
+  node::KeyMailbox mailbox;
+  const bool pulls = loaded->secured && loaded->secured->key_access;
+  const auto puller = pulls ? node::KeyPuller::make(*loaded->secured, folder_of(file), mailbox, problem) : nullptr;
+  const auto host = pulls && !puller ? nullptr : node::ApplicationHost::make(*loaded, problem, warnings, puller ? &mailbox : nullptr);
   if (!host) {
     std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
     return ExitStatus::internal_error;
@@ -49,12 +54,14 @@ ExitStatus run_applications(const std::string& file, bool is_check) {
   const InterruptGuard interrupt;  // before the start is told, which somebody may answer with a signal
   std::printf("{\"event\": \"start\", \"node\": %s}\n", json::quote(loaded->config.node).c_str());
   std::fflush(stdout);
+  if (puller) puller->start();
   host->run([](const void* guard) { return static_cast<const InterruptGuard*>(guard)->requested(); }, &interrupt);
-  const auto statistics = host->statistics();
-  const std::string json = node::to_json({loaded->config.node, statistics});
+  if (puller) puller->stop();
+  const node::ApplicationsReport report = host->report();
+  const std::string json = node::to_json(report);
   std::printf("{\"event\": \"end\", %s\n", json.substr(1).c_str());
   std::fflush(stdout);
-  std::fputs(node::to_text(statistics).c_str(), stderr);
+  std::fputs(node::to_text(report).c_str(), stderr);
   if (!loaded->config.statistics) return ExitStatus::pass;
   if (const std::string unwritten = node::write_statistics(*loaded->config.statistics, json + "\n"); !unwritten.empty()) {
     std::fprintf(stderr, "takt: cannot write %s: %s\n", loaded->config.statistics->c_str(), unwritten.c_str());
@@ -91,8 +98,6 @@ ExitStatus describe_node(const std::string& file) {
   std::fputs(node::to_json(node::description_of(*loaded)).c_str(), stdout);
   return ExitStatus::pass;
 }
-
-std::string folder_of(const std::string& file) { return file.substr(0, file.find('/') == std::string::npos ? 0 : file.rfind('/')); }
 
 /// A server without Programs.
 ExitStatus run_key_service(const std::string& file, bool is_check) {

@@ -130,12 +130,11 @@ class Checker {
   void load_keys_of_node() {
     if (!config_.security) return;
     const MessageSecurity& security = *config_.security;
-    const json::Place place = security.where.at("keys");
-    if (security.keys) loaded_.keys = load_keys(beside(place, *security.keys), place, diagnostics_);
-    if (security.key_service) loaded_.key_access = load_key_access(security, diagnostics_);
-    if (loaded_.keys && loaded_.keys->policy != security.policy) diagnostics_.error(place, "keys of another policy", {"other lengths", "those of \"policy\" beside it"});
-    if (loaded_.keys && security.group && *security.group != loaded_.keys->group)
-      diagnostics_.error(security.where.at("group"), "keys of another group", {json::quote(loaded_.keys->group) + " in the file", json::quote(*security.group)});
+    LoadedSecurity found = load_security(security, diagnostics_);
+    loaded_.keys = std::move(found.keys);
+    loaded_.key_access = std::move(found.access);
+    for (const char* const key : {"nonces", "sender"})
+      if (security.where.has(key)) diagnostics_.error(security.where.at(key), "not of programs", {json::quote(key), "a file with topics, or none: messages of programs have the nonces of takt, and the PublisherId of their node"});
     for (const LoadedProgram& each : loaded_.programs) {
       if (!each.endpoint.format) continue;
       const std::size_t longest = each.endpoint.format->longest() + security::added_octets(security.mode);

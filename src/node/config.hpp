@@ -137,6 +137,7 @@ struct LoadedConfig {
   std::optional<LoadedKeys> keys = {};  ///< if its messages are secured with keys of a file, or
   std::optional<LoadedKeyAccess> key_access = {};  ///< with those of a key service
   std::vector<LoadedGroup> served = {}; ///< keys that its server gives
+  std::uint16_t sender = 0;             ///< number in nonces, of a node without Programs
 };
 
 /// Which of a node's Programs a command that names none is for: the only one that is not nested in another of them.

@@ -43,6 +43,7 @@ const json::Record& describe(json::Type<DescribedTopic>) {
       json::output<&DescribedTopic::group_version>("group_version", "GroupVersion; 0: any is heard."),
       json::output<&DescribedTopic::major_version>("major_version", "MajorVersion of the ConfigurationVersion; 0: any is heard."),
       json::output<&DescribedTopic::minor_version>("minor_version", "MinorVersion of the ConfigurationVersion."),
+      json::output<&DescribedTopic::configured_size>("configured_size", "ConfiguredSize: octets of each DataSetMessage; null: as long as it is."),
       json::output<&DescribedTopic::data_set_offset>("data_set_offset", "DataSetOffset: where the DataSetMessage begins in the NetworkMessage, in octets, before it is secured."),
       json::output<&DescribedTopic::octets>("octets", "Of the longest NetworkMessage; with RawData of all."),
       json::output<&DescribedTopic::fields>("fields", "The fields of the DataSet, in their order."),

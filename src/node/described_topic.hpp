@@ -46,6 +46,7 @@ struct DescribedTopic {
   std::int64_t group_version = 0;
   std::int64_t major_version = 0;
   std::int64_t minor_version = 0;
+  std::optional<std::int64_t> configured_size = {};
   std::int64_t data_set_offset = 0;
   std::int64_t octets = 0;
   std::vector<DescribedField> fields;

@@ -138,9 +138,13 @@ NodeDescription description_of(const std::string& node, const Transport& transpo
   return made;
 }
 
+std::string security_text(const std::optional<MessageSecurity>& security) {
+  return !security ? "none" : security->mode == security::MessageMode::sign ? "sign" : "sign-and-encrypt";
+}
+
 NodeDescription description_of(const LoadedConfig& loaded) {
   NodeDescription made = description_of(loaded.config.node, loaded.config.transport);
-  made.security = !loaded.config.security ? "none" : loaded.config.security->mode == security::MessageMode::sign ? "sign" : "sign-and-encrypt";
+  made.security = security_text(loaded.config.security);
   for (const LoadedProgram& program : loaded.programs) {
     const wire::ProgramFormat& format = *program.endpoint.format;
     DescribedProgram& described = made.programs.emplace_back(DescribedProgram{format.shape().name, format.group_version(), program.endpoint.cycle, {}});

@@ -17,6 +17,9 @@ struct Record;
 
 namespace takt::node {
 
+/// `none`, `sign` or `sign-and-encrypt`.
+std::string security_text(const std::optional<MessageSecurity>& security);
+
 struct DescribedMessage {
   wire::MessageOnWire message;
   bool is_own = false;              ///< this node publishes it; others it may hear

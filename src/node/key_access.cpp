@@ -52,6 +52,17 @@ std::optional<LoadedKeyAccess> load_key_access(const MessageSecurity& security, 
   return LoadedKeyAccess{*security.group, *address, std::move(*certificate), std::move(*password)};
 }
 
+LoadedSecurity load_security(const MessageSecurity& security, json::Diagnostics& diagnostics) {
+  LoadedSecurity loaded;
+  const json::Place place = security.where.at("keys");
+  if (security.keys) loaded.keys = load_keys(beside(place, *security.keys), place, diagnostics);
+  if (security.key_service) loaded.access = load_key_access(security, diagnostics);
+  if (loaded.keys && loaded.keys->policy != security.policy) diagnostics.error(place, "keys of another policy", {"other lengths", "those of \"policy\" beside it"});
+  if (loaded.keys && security.group && *security.group != loaded.keys->group)
+    diagnostics.error(security.where.at("group"), "keys of another group", {json::quote(loaded.keys->group) + " in the file", json::quote(*security.group)});
+  return loaded;
+}
+
 std::vector<LoadedGroup> load_groups(const ServerConfig& server, json::Diagnostics& diagnostics) {
   const KeyServiceConfig& service = *server.key_service;
   const bool encrypts = std::find(server.modes.begin(), server.modes.end(), ServerMode::sign_and_encrypt) != server.modes.end() &&

@@ -21,6 +21,13 @@ struct LoadedKeyAccess {
 /// Nothing if there was a mistake.
 std::optional<LoadedKeyAccess> load_key_access(const MessageSecurity& security, json::Diagnostics& diagnostics);
 
+/// What `security` needs: keys of a file, or the way to a service.
+struct LoadedSecurity {
+  std::optional<LoadedKeys> keys;
+  std::optional<LoadedKeyAccess> access;
+};
+LoadedSecurity load_security(const MessageSecurity& security, json::Diagnostics& diagnostics);
+
 /// A SecurityGroup that the server of this node gives the keys of.
 struct LoadedGroup {
   LoadedKeys keys;

@@ -9,6 +9,11 @@
 #include "security/secure_channel.hpp"
 #include "sim/time.hpp"
 
+// Words of files for a value of protocol code: a description is looked for in the namespace of what it describes.
+namespace takt::security {
+const json::Enumeration& describe(json::Type<Nonces>);
+}  // namespace takt::security
+
 namespace takt::node {
 
 /// A key service, and as whom the node asks it.
@@ -31,6 +36,8 @@ struct MessageSecurity {
   std::optional<KeyServiceAccess> key_service;
   std::optional<std::string> group;      ///< needed with a service; of a file what it says
   std::optional<std::string> memory;
+  security::Nonces nonces = security::Nonces::lives;
+  std::optional<std::uint16_t> sender;   ///< of a node with topics, where no PublisherId is its own
   bool operator==(const MessageSecurity&) const = default;
 };
 

@@ -53,7 +53,8 @@ std::unique_ptr<NodeSecurity> NodeSecurity::make(const LoadedConfig& loaded, Key
   const MessageSecurity& security = *loaded.config.security;
   auto memory = SecurityMemory::open(security.memory.value_or(default_memory_path(loaded.config.node)), problem);
   if (!memory) return nullptr;
-  const security::ChannelSettings settings{security.mode, security::Nonces::lives, sender_of(loaded.programs.front()), memory->life()};
+  const std::uint16_t sender = loaded.programs.empty() ? loaded.sender : sender_of(loaded.programs.front());
+  const security::ChannelSettings settings{security.mode, security.nonces, sender, memory->life()};
   if (loaded.key_access) return std::unique_ptr<NodeSecurity>(new NodeSecurity(loaded.key_access->group, no_keys(security.policy), settings, std::move(memory), CLOCK_BOOTTIME, mailbox));
   const int clock = loaded.config.clock == ClockName::tai ? CLOCK_TAI : CLOCK_REALTIME;  // keys outlive the machine's start
   return std::unique_ptr<NodeSecurity>(new NodeSecurity(loaded.keys->group, loaded.keys->ring(security.key_lifetime), settings, std::move(memory), clock, nullptr));

@@ -115,6 +115,12 @@ bool is_of_program(const json::Node& node) { return node.find("state") != nullpt
 
 }  // namespace
 
+std::string sources_text(const std::string& json) {
+  json::Diagnostics diagnostics;
+  const auto document = json::parse(json, "statistics", diagnostics);
+  return document ? lines_of_sources(document->root()) : std::string();
+}
+
 std::string status_text(const std::string& json) {
   json::Diagnostics diagnostics;
   const auto document = json::parse(json, "status", diagnostics);

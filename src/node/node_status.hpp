@@ -36,5 +36,7 @@ const json::Record& describe(json::Type<NodeStatus>);
 std::string to_json(const NodeStatus& status);
 /// Some lines of text from what to_json made; the text itself if it is something else.
 std::string status_text(const std::string& json);
+/// Of them those that tell of `sources` and `security`, also of the statistics of applications.
+std::string sources_text(const std::string& json);
 
 }  // namespace takt::node

@@ -50,6 +50,7 @@ struct UadpLayout {
   std::uint32_t group_version = 0;
   std::uint32_t major_version = 0;
   std::uint32_t minor_version = 0;
+  std::optional<std::uint16_t> configured_size;           ///< octets of each DataSetMessage
   bool operator==(const UadpLayout&) const = default;
 };
 

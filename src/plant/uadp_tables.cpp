@@ -114,6 +114,7 @@ const json::Object& describe(json::Type<UadpLayout>) {
       optional<&UadpLayout::group_version>("group_version", "GroupVersion, in seconds since 2000-01-01 UTC; messages with another one are not heard, with 0 all are."),
       optional<&UadpLayout::major_version>("major_version", "MajorVersion of the ConfigurationVersion, in seconds since 2000-01-01 UTC; messages with another one are not heard, with 0 all are."),
       optional<&UadpLayout::minor_version>("minor_version", "MinorVersion of the ConfigurationVersion."),
+      optional<&UadpLayout::configured_size>("configured_size", "ConfiguredSize: octets of each DataSetMessage, shorter ones end with zeros; as long as they are if absent.", {.min = 1, .max = longest_string}),
   };
   static constexpr json::Object table = json::object<UadpLayout>("uadp", "How messages of a topic of OPC UA are laid out.", fields);
   return table;

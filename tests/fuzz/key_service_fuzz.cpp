@@ -3,6 +3,7 @@
 #include <cstring>
 #include <limits>
 
+#include "security/pull_plan.hpp"
 #include "security/pulled_keys.hpp"
 #include "support/key_service_bench.hpp"
 
@@ -170,14 +171,24 @@ class Service {
 void feed_keys(Source& source) {
   security::PulledKeys keys(security::MessagePolicy::aes128_ctr);
   security::KeyRing ring(security::MessagePolicy::aes128_ctr, {1, std::numeric_limits<std::int64_t>::max(), 0}, std::make_unique<security::ListedKeys>(1, std::vector<security::Secret>()));
+  security::PullPlan plan;
   std::int64_t now = 0;
+  std::int64_t wished = std::numeric_limits<std::int64_t>::min();
   std::uint32_t last = 0;
   for (int i = 0; i < 100 && !source.is_empty(); ++i) {
     now += std::int64_t{source.number<std::uint16_t>()} * 1'000'000;
+    const auto token = source.number<std::uint32_t>();
+    if (ring.find(token, now) == nullptr && ring.is_missing(token, now)) plan.wished(now);
+    if (plan.is_wished()) {
+      TAKT_CHECK(i == 0 || wished + security::PullPlan::least_between_wishes_ns <= now, "pulls that were wished for are a second apart");
+      wished = now;
+    }
     auto answer = keys_in(any_result(source));
-    if (answer && keys.take({answer->policy_uri.value, answer->first_token, std::move(answer->keys), answer->time_to_next_ms, answer->lifetime_ms}, now).empty())
-      ring.replace(keys.schedule(), keys.source());
+    const bool is_given = answer && keys.take({answer->policy_uri.value, answer->first_token, std::move(answer->keys), answer->time_to_next_ms, answer->lifetime_ms}, now).empty();
+    if (is_given) ring.replace(keys.schedule(), keys.source());
     if (!keys.is_empty()) TAKT_CHECK(keys.next_pull_ns(now) >= now, "the next pull lies ahead");
+    is_given ? plan.gave(now, keys.next_pull_ns(now), keys.has_news()) : plan.failed(now, source.octet());
+    TAKT_CHECK(plan.next_ns() >= now && !plan.is_wished(), "the next pull lies ahead");
     if (const auto current = ring.current(now)) {
       TAKT_CHECK(last == 0 || !security::is_later_token(last, current->token), "a token is not gone back behind");
       last = current->token;

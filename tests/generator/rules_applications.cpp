@@ -169,6 +169,18 @@ bool has_payload_header(const Scope& s) {
   return parts == nullptr || std::ranges::any_of(parts->items, [](const Node& each) { return each.text == "PayloadHeader"; });
 }
 
+/// Room for all fields, whatever their encoding, and whatever headers and DataValues have besides.
+Made configured_size(Maker& m, const Scope& s) {
+  constexpr std::uint64_t most = 1000;
+  std::uint64_t octets = 40;
+  for (const json::Member& member : s.around("topic")->made->find("fields")->members) {
+    const Node& field = member.value;
+    const auto number_of = [&field](const char* key) { return field.find(key) == nullptr ? std::uint64_t{0} : static_cast<std::uint64_t>(std::stoul(field.find(key)->text)); };
+    octets += 40 + std::max<std::uint64_t>(1, number_of("count")) * (20 + number_of("max_length"));
+  }
+  return octets > most ? std::nullopt : Made(number(octets + m.draw.below(20)));
+}
+
 Made any_host(Maker& m, const Scope&) { return text(m.draw.any(m.world.hosts)); }
 Made interval(Maker& m, const Scope&) { return m.word("500us 1ms 2ms 1500us"); }
 Made phase(Maker& m, const Scope&) { return m.word("0us 100us 250us 499us"); }
@@ -214,6 +226,7 @@ std::span<const Rule> application_rules() {
       {.key = "uadp.key_frame_count", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.text("encoding") != "RawData" && has_payload_header(s) ? Made(m.word("2 5")) : std::nullopt; }},
       {.key = "uadp.group_version", .percent = 20, .words = "0 760000000"},
       {.key = "uadp.major_version", .percent = 20, .words = "0 760000001"},
+      {.key = "uadp.configured_size", .percent = 20, .make = configured_size},
       {.key = "uadp.minor_version", .percent = 20, .words = "0 760000002"},
       {.key = "topic.pcp", .percent = 60, .words = "0 2 4 5"},
       {.key = "topic.vlan", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return s.has("pcp") ? m.word("0 10") : Made(); }},

@@ -229,6 +229,43 @@ class Rollover(KeyServiceTest):
         self.group.wait_for_state("Running")
 
 
+class Topics(KeyServiceTest):
+    def test_topics_with_keys_of_the_service(self):
+        """A node that publishes and one that subscribes pull keys, which change under way; each tells at its end what it has seen."""
+        self.start_service()
+        processes = {}
+        for node, port, other in (("left", PORTS, PORTS + 1), ("right", PORTS + 1, PORTS)):
+            path = self.folder / f"{node}.json"
+            path.write_text(json.dumps({"node": node, "topics": [{"name": "x", "protocol": "opc-ua", "fields": {"n": "UInt32", "m": "UInt32"}}],
+                                        "applications": [{"name": "p", "on": "left", "threads": [{"name": "t", "publish": "x", "every": "5ms"}]},
+                                                         {"name": "s", "on": "right", "threads": [{"name": "t", "subscribe": "x", "every": "5ms", "buffer": 1000}]}],
+                                        "transport": {"kind": "udp", "interface": "lo", "port": port, "destinations": [f"127.0.0.1:{other}"]}} | self.pulled(node)), encoding="utf-8")
+            with open(self.folder / f"{node}.out", "w", encoding="utf-8") as out, open(self.folder / f"{node}.err", "w", encoding="utf-8") as err:
+                processes[node] = subprocess.Popen([real_node_test.TAKT, "node", str(path)], stdout=out, stderr=err)
+            self.addCleanup(processes[node].kill)
+        self.let_in("left", "right")
+        for node in processes:
+            self.wait_until_said(node, "keys of cell: pulled from")
+        time.sleep(3 * LIFETIME)
+        seen = {}
+        for node, process in processes.items():
+            process.send_signal(signal.SIGTERM)
+            self.assertEqual(process.wait(timeout=PATIENCE), 0, self.said_by(node))
+            seen[node] = json.loads((self.folder / f"{node}.out").read_text(encoding="utf-8").splitlines()[-1])
+        sent = seen["left"]["applications"][0]["threads"][0]
+        taken = seen["right"]["applications"][0]["threads"][0]
+        self.assertGreater(sent["sent"], 100)
+        self.assertGreater(taken["taken"], 100)
+        self.assertEqual(taken["lost"], 0)
+        for node in processes:
+            service = seen[node]["security"]["key_service"]
+            self.assertGreaterEqual(service["pulls"] - service["failures"], 3)
+            self.assertEqual(service["answered_by"], f"127.0.0.1:{PORT}")
+            refused = {each["verdict"] for source in seen[node]["sources"] for each in source["refused"]}
+            self.assertLessEqual(refused, {"token"}, (node, "but for what comes before the first keys"))
+        self.assertIn(f"  keys of opc.tcp://127.0.0.1:{PORT}: ", self.said_by("left"))
+
+
 class Refusals(KeyServiceTest):
     """One node against services that give nothing: it says why, once, sends nothing, and goes on."""
 

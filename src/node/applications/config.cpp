@@ -15,6 +15,8 @@
 namespace takt::node {
 namespace {
 
+constexpr std::size_t most_message_octets = 1472;   // what UDP over IPv4 leaves of an Ethernet frame
+
 /// OMG DDS 1.4, annex B, and '/', which implementations take too.
 bool is_dds_name(const std::string& name) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -38,6 +40,7 @@ class Checker {
     std::set<std::string> names;
     for (const plant::Application& each : config_.applications) check_application(each, names);
     for (const plant::Gateway& each : config_.gateways) check_gateway(each, names);
+    if (config_.security) load_security_of_topics(*config_.security);
     if (uses_opc_ua_ && !config_.transport) diagnostics_.error(config_.where.at("node"), "no transport", {"topics of OPC UA", "a \"transport\" for them"});
   }
 
@@ -87,9 +90,46 @@ class Checker {
       const bool is_sound = diagnostics_.errors() == errors_before;
       loaded.is_sound = is_sound;
       loaded.shape = application::shape_of(topic, is_dds && is_sound ? topic.keys : std::vector<std::string>());
+      if (!is_dds && is_sound) application::check_configured_size(topic, loaded.shape, diagnostics_);
       if (!is_dds && is_sound && application::longest_message(loaded.shape, {1, 1}) == 0)
-        diagnostics_.error(topic.where.at("fields"), "a sample too long for a NetworkMessage", {std::to_string(loaded.shape.longest().size()) + " octets of values with their types", "fields that fit 1472 octets with their headers"});
+        diagnostics_.error(topic.where.at("fields"), "a sample too long for a NetworkMessage", {std::to_string(loaded.shape.longest().size()) + " octets of values with their types", "fields that fit " + std::to_string(most_message_octets) + " octets with their headers"});
     }
+  }
+
+  /// Nonces of two nodes differ by a number that is a node's alone.
+  void load_security_of_topics(const MessageSecurity& security) {
+    if (!uses_opc_ua_) return diagnostics_.error(security.where.place(), "nothing to secure", {"no topic of OPC UA here", "a topic of OPC UA that this node publishes or subscribes to"});
+    LoadedSecurity found = load_security(security, diagnostics_);
+    auto made = std::make_shared<LoadedConfig>();
+    made->config.node = config_.node;
+    made->config.clock = config_.clock;
+    made->config.security = security;
+    made->keys = std::move(found.keys);
+    made->key_access = std::move(found.access);
+    made->sender = security.sender.value_or(own_publisher_id());
+    const bool publishes = std::any_of(loaded_.publications.begin(), loaded_.publications.end(), [&](const LoadedPublication& each) { return is_of_opc_ua(each) && each.on == config_.node; });
+    if (publishes && made->sender == 0)
+      diagnostics_.error(security.where.place(), "nonces without a number of this node", {"no topic with a PublisherId that is a UInt16 and that this node alone publishes to", "\"sender\": a number that no other node with these keys has"});
+    for (std::size_t i = 0; i < config_.topics.size(); ++i) {
+      if (config_.topics[i].protocol != Protocol::opc_ua) continue;
+      // ExtendedFlags1 may have to be added, too.
+      const std::size_t longest = application::longest_message(loaded_.topics[i].shape, {1, 1}) + security::added_octets(security.mode) + 1;
+      if (longest > most_message_octets)
+        diagnostics_.error(config_.topics[i].where.at("fields"), "a sample too long for a NetworkMessage", {std::to_string(longest) + " octets with all headers and a signature", "at most " + std::to_string(most_message_octets)});
+    }
+    loaded_.secured = std::move(made);
+  }
+
+  bool is_of_opc_ua(const LoadedPublication& publication) const {
+    return std::any_of(config_.topics.begin(), config_.topics.end(), [&](const Topic& topic) { return topic.name == publication.topic && topic.protocol == Protocol::opc_ua; });
+  }
+
+  /// That of a topic to which this node alone publishes, by one publication; 0 if there is none.
+  std::uint16_t own_publisher_id() const {
+    for (const LoadedPublication& each : loaded_.publications)
+      for (std::size_t i = 0; i < config_.topics.size(); ++i)
+        if (each.on == config_.node && config_.topics[i].name == each.topic && plant::has_uint16_publisher(config_.topics[i]) && loaded_.topics[i].writer_groups == 1) return loaded_.topics[i].publisher_id;
+    return 0;
   }
 
   void check_qos(const plant::Qos& qos) {

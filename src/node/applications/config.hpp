@@ -43,6 +43,7 @@ struct ApplicationsConfig {
   ClockName clock = ClockName::monotonic;
   std::optional<Duration> duration;
   bool realtime = false;
+  std::optional<MessageSecurity> security = {};
   std::uint64_t seed = 1;
   std::optional<std::string> statistics;
   bool operator==(const ApplicationsConfig&) const = default;
@@ -87,6 +88,8 @@ struct LoadedApplications {
   std::map<std::pair<std::string, std::string>, gateway::ContentFilter> filters;
   /// By application or gateway: that of its scheduler.
   std::map<std::string, sim::Distribution> scheduler_responses;
+  /// What secures its topics of OPC UA, as of a node without Programs; null: nothing does.
+  std::shared_ptr<const LoadedConfig> secured;
   std::size_t topic(const std::string& name) const;
 };
 

@@ -31,6 +31,7 @@ const json::Object& describe(json::Type<ApplicationsConfig>) {
       optional<&ApplicationsConfig::clock>("clock", "The clock that the nodes share."),
       optional<&ApplicationsConfig::duration>("duration", "How long it runs; until a signal if absent.", {.min = 1_ms, .max = longest_step}),
       optional<&ApplicationsConfig::realtime>("realtime", "Ask for SCHED_FIFO and locked memory; a warning where that is not permitted."),
+      optional<&ApplicationsConfig::security>("security", "All messages of topics of OPC UA are signed, or signed and encrypted, with these keys; neither if absent."),
       optional<&ApplicationsConfig::seed>("seed", "The seed of drawn responses; with that of a scenario they are those of its run."),
       optional<&ApplicationsConfig::statistics>("statistics", "Where the statistics go at the end, besides standard output.", {.min_length = 1}),
   };

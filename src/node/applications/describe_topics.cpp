@@ -53,6 +53,7 @@ DescribedTopic describe_topic(const std::string& name, const TopicShape& shape, 
   topic.group_version = group.group_version;
   topic.major_version = writer.major_version;
   topic.minor_version = writer.minor_version;
+  if (shape.layout.configured_size) topic.configured_size = *shape.layout.configured_size;
   for (const gateway::DataSetField& field : shape.fields) {
     DescribedField& made = topic.fields.emplace_back();
     made.name = field.name;
@@ -69,7 +70,7 @@ DescribedTopic describe_topic(const std::string& name, const TopicShape& shape, 
 NodeDescription description_of(const LoadedApplications& loaded) {
   const ApplicationsConfig& config = loaded.config;
   NodeDescription made = config.transport ? description_of(config.node, *config.transport) : NodeDescription{.node = config.node, .transport = "none"};
-  made.security = "none";
+  made.security = security_text(loaded.config.security);
   for (std::size_t i = 0; i < config.topics.size(); ++i) {
     if (config.topics[i].protocol != Protocol::opc_ua) continue;
     const std::string& name = config.topics[i].name;

@@ -7,6 +7,7 @@
 #include "node/applications/tasks.hpp"
 #include "node/applications/thread_group.hpp"
 #include "node/real_node.hpp"
+#include "node/secured_socket.hpp"
 #include "sim/check.hpp"
 #include "plant/qos_of_thread.hpp"
 
@@ -135,19 +136,24 @@ ApplicationHost::ApplicationHost(const LoadedApplications& loaded) : loaded_(loa
 
 ApplicationHost::~ApplicationHost() = default;
 
-std::unique_ptr<ApplicationHost> ApplicationHost::make(const LoadedApplications& loaded, std::string& problem, std::string& warnings) {
+std::unique_ptr<ApplicationHost> ApplicationHost::make(const LoadedApplications& loaded, std::string& problem, std::string& warnings, KeyMailbox* keys) {
   // Before any thread is made: threads inherit it.
   if (loaded.config.realtime)
     if (const std::string refused = ask_for_real_time(); !refused.empty()) warnings += "without real time: " + refused + "\n";
   std::unique_ptr<ApplicationHost> host(new ApplicationHost(loaded));
-  return host->open(problem) ? std::move(host) : nullptr;
+  return host->open(problem, keys) ? std::move(host) : nullptr;
 }
 
-bool ApplicationHost::open(std::string& problem) {
+bool ApplicationHost::open(std::string& problem, KeyMailbox* keys) {
   const ApplicationsConfig& config = loaded_.config;
   if (config.transport) {
     std::unique_ptr<Socket> socket = std::visit([&problem](const auto& transport) { return open_socket(transport, problem); }, *config.transport);
     if (!socket) return false;
+    if (loaded_.secured) {
+      security_ = NodeSecurity::make(*loaded_.secured, keys, problem);
+      if (!security_) return false;
+      socket = std::make_unique<SecuredSocket>(std::move(socket), *security_);
+    }
     opc_ua_ = std::make_unique<OpcUaTopics>(std::move(socket), &monotonic_ns);
   }
   return std::all_of(config.applications.begin(), config.applications.end(), [&](const auto& each) { return add_application(each, problem); }) &&
@@ -301,6 +307,13 @@ void ApplicationHost::run(bool (*stop_requested)(const void* context), const voi
   for (const auto& watched : watched_)
     for (const auto& task : watched->tasks)
       if (task->statistics.role == "subscribe") task->statistics.taken += task->work->call(clock.now()).taken;
+}
+
+ApplicationsReport ApplicationHost::report() const {
+  ApplicationsReport made{loaded_.config.node, statistics()};
+  if (opc_ua_) made.sources = opc_ua_->sources();
+  if (security_) made.security = security_->status();
+  return made;
 }
 
 std::vector<ApplicationStatistics> ApplicationHost::statistics() const {

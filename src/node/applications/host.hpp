@@ -13,6 +13,8 @@
 #include "gateway/channel.hpp"
 #include "node/applications/config.hpp"
 #include "node/applications/topic_end.hpp"
+#include "node/key_mailbox.hpp"
+#include "node/node_security.hpp"
 #include "node/statistics.hpp"
 #include "plant/criterion.hpp"
 
@@ -57,6 +59,8 @@ struct ApplicationStatistics {
 struct ApplicationsReport {
   std::string node;
   std::vector<ApplicationStatistics> all;
+  std::vector<HeardSource> sources = {};            ///< of topics of OPC UA
+  std::optional<SecurityStatus> security = {};      ///< of topics that are secured
 };
 const json::Record& describe(json::Type<SignalStatistics>);
 const json::Record& describe(json::Type<ThreadStatistics>);
@@ -66,19 +70,21 @@ const json::Record& describe(json::Type<ApplicationsReport>);
 class ApplicationHost {
  public:
   /// Null, and `problem` says why, if the machine does not give what the file asks for. What it can do without is a line of `warnings`.
-  static std::unique_ptr<ApplicationHost> make(const LoadedApplications& loaded, std::string& problem, std::string& warnings);
+  /// `keys`, by which those of a key service come, outlives it.
+  static std::unique_ptr<ApplicationHost> make(const LoadedApplications& loaded, std::string& problem, std::string& warnings, KeyMailbox* keys = nullptr);
   ~ApplicationHost();
 
   /// Runs until the file's duration is over or `stop_requested` says so. Throws what one of its threads has thrown, after all have ended.
   void run(bool (*stop_requested)(const void* context), const void* context);
   /// After `run`.
   std::vector<ApplicationStatistics> statistics() const;
+  ApplicationsReport report() const;
 
  private:
   struct Task;
   struct Watched;
   ApplicationHost(const LoadedApplications& loaded);
-  bool open(std::string& problem);
+  bool open(std::string& problem, KeyMailbox* keys);
   TopicWriter* writer_of(const std::string& topic, std::uint16_t writer_group, const std::optional<plant::Qos>& qos, std::string& problem);
   /// `filter`: of a subscription over DDS; or null.
   TopicReader* reader_of(const std::string& topic, const std::optional<plant::Qos>& qos, const gateway::ContentFilter* filter, std::string& problem);
@@ -93,6 +99,7 @@ class ApplicationHost {
 
   LoadedApplications loaded_;
   sim::Distribution at_once_ = sim::Distribution::constant({});  // the response where the file has none: it passes by itself
+  std::unique_ptr<NodeSecurity> security_;   ///< of the topics below, under their lock
   std::unique_ptr<OpcUaTopics> opc_ua_;
   std::vector<std::pair<std::uint16_t, std::unique_ptr<DdsParticipant>>> participants_;
   std::vector<std::unique_ptr<TopicWriter>> dds_writers_;
@@ -105,6 +112,6 @@ class ApplicationHost {
 /// One JSON object, as `takt schema statistics` describes it.
 std::string to_json(const ApplicationsReport& report);
 /// For people.
-std::string to_text(const std::vector<ApplicationStatistics>& statistics);
+std::string to_text(const ApplicationsReport& report);
 
 }  // namespace takt::node

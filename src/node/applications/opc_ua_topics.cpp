@@ -4,6 +4,7 @@
 
 #include "application/opc_ua_topic.hpp"
 #include "node/applications/topic_end.hpp"
+#include "uadp/network_message.hpp"
 
 namespace takt::node {
 
@@ -13,6 +14,16 @@ uadp::DateTime utc_at_begin() {
   constexpr std::int64_t ticks_from_1601_to_1970 = 116'444'736'000'000'000;
   const auto since_1970 = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch());
   return {ticks_from_1601_to_1970 + since_1970.count() / 100};
+}
+
+/// Of a message that no subscription takes.
+wire::Verdict verdict_of_untaken(uadp::Octets octets) {
+  uadp::NetworkMessage message;
+  switch (uadp::decode(octets, message)) {
+    case uadp::DecodeStatus::ok: return wire::Verdict::unsubscribed;
+    case uadp::DecodeStatus::secured: return wire::Verdict::secured;
+    default: return wire::Verdict::not_uadp;
+  }
 }
 
 }  // namespace
@@ -32,6 +43,7 @@ struct OpcUaTopics::Shared {
   uadp::DateTime epoch;   ///< UTC then, for time stamps
   std::vector<std::unique_ptr<Writer>> writers;
   std::vector<std::unique_ptr<Reader>> readers;
+  SourceTable sources;
 };
 
 class OpcUaTopics::Writer final : public TopicWriter {
@@ -64,11 +76,13 @@ class OpcUaTopics::Reader final : public TopicReader {
   }
   std::uint64_t lost() const override { return subscription_.lost(); }
 
-  void receive(uadp::Octets message) {
+  /// False if it is not for this one.
+  bool receive(uadp::Octets message) {
     const auto value = subscription_.receive(message, shared_.now());
-    if (!value) return;
+    if (!value) return false;
     if (waiting_.size() == most_taken) waiting_.pop_front();
     waiting_.emplace_back(value->begin(), value->end());
+    return true;
   }
 
  private:
@@ -88,8 +102,13 @@ void OpcUaTopics::Shared::distribute() {
   for (int i = 0; i < most_at_once; ++i) {
     const auto arrival = socket->take();
     if (!arrival) return;
-    if (arrival->verdict != wire::Verdict::taken) continue;  // counts, too: a flood of it does not hold the lock
-    for (const auto& reader : readers) reader->receive(arrival->message);
+    wire::Verdict verdict = arrival->verdict;   // of what is refused, too: a flood of it does not hold the lock
+    if (verdict == wire::Verdict::taken) {
+      bool is_taken = false;
+      for (const auto& reader : readers) is_taken = reader->receive(arrival->message) || is_taken;
+      if (!is_taken) verdict = verdict_of_untaken(arrival->message);
+    }
+    sources.count(*arrival, verdict, now_ns());
   }
 }
 
@@ -100,6 +119,10 @@ TopicWriter& OpcUaTopics::add_writer(const LoadedTopic& topic, std::uint16_t wri
   return *shared_->writers.emplace_back(std::make_unique<Writer>(*shared_, topic, writer_group));
 }
 TopicReader& OpcUaTopics::add_reader(const LoadedTopic& topic) { return *shared_->readers.emplace_back(std::make_unique<Reader>(*shared_, topic)); }
+std::vector<HeardSource> OpcUaTopics::sources() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->sources.all();
+}
 std::uint64_t OpcUaTopics::send_failures() const { return shared_->socket->send_failures(); }
 
 }  // namespace takt::node

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "node/applications/host.hpp"
+#include "node/node_status.hpp"
 
 namespace takt::node {
 namespace {
@@ -14,9 +15,9 @@ std::string percent_of(const plant::CriterionFigures& figures) {
 
 }  // namespace
 
-std::string to_text(const std::vector<ApplicationStatistics>& statistics) {
+std::string to_text(const ApplicationsReport& report) {
   std::string out = fmt::format("  {:<30} {:>9} {:>9} {:>8} {:>8} {:>10} {:>10} {:>12} {:>12}\n", "thread", "every us", "calls", "missed", "taken", "calls", "buffered", "late p99 us", "max us");
-  for (const ApplicationStatistics& each : statistics) {
+  for (const ApplicationStatistics& each : report.all) {
     for (const ThreadStatistics& thread : each.threads)
       out += fmt::format("  {:<30} {:>9} {:>9} {:>8} {:>8} {:>10} {:>10} {:>12.1f} {:>12.1f}\n", each.name + "/" + thread.name, thread.every_ns / 1000, thread.calls, thread.missed, thread.taken,
                          percent_of(thread.call_windows), percent_of(thread.value_windows), static_cast<double>(thread.late.percentile(99)) / 1000,
@@ -37,7 +38,7 @@ std::string to_text(const std::vector<ApplicationStatistics>& statistics) {
                        figures.buffer.forwarded, figures.buffer.overwritten, figures.buffer.dropped, figures.buffer.stale, figures.mapping_error_total(),
                        static_cast<double>(figures.age.mean().ps()) / 1e6, static_cast<double>(figures.age.greatest.ps()) / 1e6);
   }
-  return out;
+  return out + sources_text(to_json(report));
 }
 
 }  // namespace takt::node

@@ -148,6 +148,8 @@ const json::Record& describe(json::Type<ApplicationsReport>) {
       json::output<&ApplicationsReport::node>("node", "Its name."),
       json::output<&applications_of>("applications", "Its applications."),
       json::output<&gateways_of>("gateways", "Its gateways."),
+      json::output<&ApplicationsReport::sources>("sources", "Whom it has heard over OPC UA, and what was refused of them; 64 senders at most, and the others together."),
+      json::output_if_any<&ApplicationsReport::security>("security", "Its secured messages.", "of a node whose topics are secured"),
   };
   static constexpr json::Record record{"statistics", "What the applications and gateways of a node did.", outputs};
   return record;

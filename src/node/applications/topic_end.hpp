@@ -9,6 +9,7 @@
 #include "node/applications/config.hpp"
 #include "node/dds/participant.hpp"
 #include "node/socket.hpp"
+#include "node/sources.hpp"
 
 namespace takt::node {
 
@@ -39,6 +40,8 @@ class OpcUaTopics {
   TopicReader& add_reader(const LoadedTopic& topic);
 
   std::uint64_t send_failures() const;
+  /// Whom it has heard, and what became of that.
+  std::vector<HeardSource> sources() const;
 
  private:
   struct Shared;

@@ -113,6 +113,8 @@ class ApplicationResolver {
     r_.topics.push_back(std::move(made));
     if (topic.protocol == Protocol::opc_ua && !topic.fields.empty() && !are_fields_refused && application::longest_message(r_.topics.back().shape, {1, 1}) == 0)
       diagnostics_.error(topic.where.at("fields"), "a sample too long for a NetworkMessage", {std::to_string(r_.topics.back().shape.longest().size()) + " octets of values with their types", "fields that fit 1472 octets with their headers"});
+    else if (topic.protocol == Protocol::opc_ua && !topic.fields.empty() && !are_fields_refused && topic.uadp)
+      application::check_configured_size(topic, r_.topics.back().shape, diagnostics_);
   }
 
   void refuse_of_dds(const json::Place& place, std::string_view key) {

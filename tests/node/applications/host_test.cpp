@@ -85,7 +85,7 @@ TEST(ApplicationHost, AChainOfThreeRolesTakesWhatItPublishes) {
       EXPECT_EQ(thread.call_windows.expected, 2 * thread.call_windows.tests);
       EXPECT_LE(thread.call_windows.counted, thread.call_windows.expected);
     }
-  const std::string json = to_json({"all", statistics});
+  const std::string json = to_json(host->report());
   EXPECT_NE(json.find("\"criterion_1\""), std::string::npos);
 }
 
@@ -125,9 +125,9 @@ TEST(ApplicationHost, ASignalFollowsWhatAThreadTakesAfterItsResponse) {
   EXPECT_GT(never.missed, 0u);
   EXPECT_EQ(never.signal->figures.latency.count(), 0u);
   EXPECT_FALSE(statistics[0].threads[0].signal);
-  const std::string json = to_json({"all", statistics});
+  const std::string json = to_json(host->report());
   EXPECT_NE(json.find(R"("signal": {"name": "valve", "nominal_ns": 5000000,)"), std::string::npos) << json;
-  EXPECT_NE(to_text(statistics).find("control signal valve: "), std::string::npos);
+  EXPECT_NE(to_text(host->report()).find("control signal valve: "), std::string::npos);
 }
 
 }  // namespace

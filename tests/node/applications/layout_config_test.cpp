@@ -48,6 +48,19 @@ TEST(LayoutFile, WhatWouldDoNothingIsRefused) {
   EXPECT_EQ(load(topic("x", two, R"({"publisher": {"byte": 256}})")).said.size(), 1u);
 }
 
+// Header 1 + 2, FieldCount 2, UInt32 1 + 4, Double 1 + 8: 19 octets.
+TEST(LayoutFile, AConfiguredSizeHasRoomForAllFields) {
+  EXPECT_EQ(load(topic("x", two, R"({"configured_size": 18})")).said, Lines{"/topics/0/uadp/configured_size: a DataSetMessage longer than its ConfiguredSize"});
+  const Outcome as_long = load(topic("x", two, R"({"configured_size": 19})"));
+  const Outcome longer = load(topic("x", two, R"({"configured_size": 119})"));
+  ASSERT_TRUE(as_long.loaded && longer.loaded);
+  const DescribedTopic described = description_of(*longer.loaded).topics.at(0);
+  EXPECT_EQ(described.configured_size, 119);
+  EXPECT_EQ(described.octets, description_of(*as_long.loaded).topics.at(0).octets + 100);
+  EXPECT_EQ(load(topic("x", two, R"({"configured_size": 1401})")).said.size(), 1u);
+  EXPECT_EQ(load(topic("x", two, R"({"configured_size": 1400, "publisher": {"string": ")" + std::string(100, 'p') + R"("}})")).said, Lines{"/topics/0/fields: a sample too long for a NetworkMessage"});
+}
+
 TEST(LayoutFile, FieldsThatAreNoNumbers) {
   EXPECT_EQ(load(topic("x", R"("n": "UInt32", "s": "String")", "")).said, Lines{"/topics/0/fields/s: a text without a greatest length"});
   EXPECT_EQ(load(topic("x", R"("n": {"type": "UInt32", "max_length": 4})", "")).said, Lines{"/topics/0/fields/n/max_length: a length of what always has the same"});

@@ -70,6 +70,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Layout{"PeriodicFixed", R"({"network_message": ["PublisherId", "GroupHeader", "WriterGroupId", "GroupVersion", "NetworkMessageNumber", "SequenceNumber"], "data_set_message": ["Status", "SequenceNumber"], "encoding": "RawData", "group_version": 760000000})"},
                       Layout{"Everything", R"({"network_message": ["PublisherId", "GroupHeader", "WriterGroupId", "GroupVersion", "NetworkMessageNumber", "SequenceNumber", "PayloadHeader", "Timestamp", "PicoSeconds"],
                                                "data_set_message": ["Timestamp", "PicoSeconds", "Status", "MajorVersion", "MinorVersion", "SequenceNumber"], "major_version": 760000001, "minor_version": 760000002})"},
+                      Layout{"ConfiguredSize", R"({"configured_size": 300})"}, Layout{"ConfiguredSizeOfDeltaFrames", R"({"configured_size": 301, "key_frame_count": 4})"},
+                      Layout{"ConfiguredSizeOfRawData", R"({"configured_size": 1400, "encoding": "RawData", "network_message": ["PublisherId"], "data_set_message": ["SequenceNumber"]})"},
                       Layout{"Nothing", R"({"network_message": [], "data_set_message": []})", false}),
     [](const auto& each) { return std::string(each.param.name); });
 

@@ -72,8 +72,12 @@ class CpuNetwork {
     return fmt::format(R"({{"cores": {}, "switching": "{}us", "slice": "{}us", "threads": [{}]}})", cores, chance_.below(4), 10 + chance_.below(50), threads);
   }
 
-  /// Sealing is a job, which may be shorter than those of the thread; opening makes a job longer.
-  std::string cryptography() { return is_secured_ ? fmt::format(R"(, "cryptography": {{"seal": "{}ns", "open": "{}ns"}})", chance_.below(30'000), chance_.below(30'000)) : ""; }
+  /// Sealing is a job, which may be shorter than those of the thread; opening makes a job longer. One without the other, too, so that neither hides behind what the other costs.
+  std::string cryptography() {
+    if (!is_secured_) return "";
+    const std::uint64_t seal = one_in(3) ? 0 : chance_.below(200'000);
+    return fmt::format(R"(, "cryptography": {{"seal": "{}ns", "open": "{}ns"}})", seal, one_in(3) ? 0 : chance_.below(300'000));
+  }
 
   sim::RandomStream chance_;
   bool has_program_ = false;

@@ -46,7 +46,7 @@ const std::vector<Way>& Ground::ways(StreamIndex stream) const {
 
 Attempt::Attempt(const Ground& ground, std::uint32_t number)
     : ground_(ground), number_(number), random_(ground.options().seed, "attempt " + std::to_string(number), "order"), board_(ground.periods(), ground.problem().links.size()),
-      stands_(ground.problem().streams.size()), price_(ground.problem().streams.size(), 1), covers_(ground.problem().streams.size()) {
+      stands_(ground.problem().streams.size()), price_(ground.problem().streams.size(), 1), covers_(ground.problem().streams.size()), last_span_(ground.problem().streams.size()) {
   waits_ = number >= 2 && number % 3 != 1 && !ground.problem().model.no_wait;
 }
 
@@ -60,12 +60,18 @@ std::vector<StreamIndex> Attempt::order() {
     double weight;
   };
   std::vector<Key> keys(streams.size());
+  const bool knows_hardness = !ground_.options().hardness.empty() && number_ % 2 == 0;
   for (const StreamIndex s : streams) {
     const Stream& stream = problem.streams[s];
     double work = 0;
     if (const auto& way = ground_.first(s)) work = static_cast<double>(std::accumulate(way->occupied.begin(), way->occupied.end(), Ps{0}));
     const Ps slack = stream.deadline && ground_.first(s) ? start_window(stream, *ground_.first(s)).last : stream.period;
     const double noise = number_ < 2 ? 1.0 : 1.0 + random_.unit() * std::min(4u, number_) / 2;
+    if (knows_hardness) {
+      // What was in the way most often before comes first.
+      keys[s] = {0, static_cast<double>(ground_.options().hardness[s]) * noise};
+      continue;
+    }
     keys[s] = {number_ % 4 == 3 ? 0 : std::min(stream.period, number_ % 2 == 0 ? stream.period : slack), work * noise};
   }
   std::stable_sort(streams.begin(), streams.end(), [&](StreamIndex a, StreamIndex b) { return keys[a].period != keys[b].period ? keys[a].period < keys[b].period : keys[a].weight > keys[b].weight; });
@@ -136,22 +142,43 @@ void Attempt::look_for_cheaper(StreamIndex stream, const Way& way, Spot& best) {
   const StartWindow window = start_window(ground_.problem().streams[stream], way);
   if (window.is_empty()) return;
   const std::uint32_t period = ground_.periods().of(stream);
-  edges_.clear();
+  // What a stream forbids on one link and on the next mostly overlaps: that is one span, and copies are made of it only once.
+  spans_.clear();
   for (std::size_t hop = 0; hop < way.links.size(); ++hop) {
     const Ps lag = way.lags[hop];
     board_.for_blocked(way.links[hop], period, way.occupied[hop], [&](StreamIndex other, Ps begin, Ps end, Ps every) {
-      const Ps blocked = end - begin - 1;
-      if (blocked >= every || window.last - window.first > every * most_places) {
-        edges_.push_back({window.first, other, 1});
-        return;
+      Span span{begin + 1 - lag, end - lag, every, other};
+      std::uint32_t& last = last_span_[other];
+      if (last != 0) {
+        Span& before = spans_[last - 1];
+        const Ps length = span.until - span.from;
+        span.from = before.from + phase(span.from - before.from, every);
+        if (span.from - before.from > every / 2) span.from -= every;
+        span.until = span.from + length;
+        if (span.from <= before.until && span.until >= before.from) {
+          before.from = std::min(before.from, span.from);
+          before.until = std::max(before.until, span.until);
+          return;
+        }
       }
-      for (Ps at = window.first - every + phase(begin + 1 - lag - window.first, every); at <= window.last; at += every) {
-        const Ps until = at + blocked;
-        if (until <= window.first) continue;
-        edges_.push_back({std::max(at, window.first), other, 1});
-        if (until <= window.last) edges_.push_back({until, other, -1});
-      }
+      spans_.push_back(span);
+      last = static_cast<std::uint32_t>(spans_.size());
     });
+  }
+  edges_.clear();
+  for (const Span& span : spans_) {
+    last_span_[span.other] = 0;
+    const Ps blocked = span.until - span.from;
+    if (blocked >= span.every || window.last - window.first > span.every * most_places) {
+      edges_.push_back({window.first, span.other, 1});
+      continue;
+    }
+    for (Ps at = window.first - span.every + phase(span.from - window.first, span.every); at <= window.last; at += span.every) {
+      const Ps until = at + blocked;
+      if (until <= window.first) continue;
+      edges_.push_back({std::max(at, window.first), span.other, 1});
+      if (until <= window.last) edges_.push_back({until, span.other, -1});
+    }
   }
   std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.at < b.at; });
   std::uint64_t cost = 0;
@@ -203,7 +230,8 @@ Attempt::Spot Attempt::cheapest(StreamIndex stream) {
   for (std::size_t i = 0; i < std::min(ways.size(), at_a_time); ++i) {
     const Way& way = ways[(start + i) % ways.size()];
     look_for_cheaper(stream, way, best);
-    if (waits_ && best.cost > 0) look_for_cheaper_waiting(stream, way, best);
+    const auto& latency = ground_.problem().streams[stream].latency;
+    if (waits_ && best.cost > 0 && !(latency && *latency <= way.arrival)) look_for_cheaper_waiting(stream, way, best);
   }
   return best;
 }

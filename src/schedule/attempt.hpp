@@ -60,6 +60,8 @@ class Attempt {
   std::vector<LeftOver> left_over();
   std::size_t most_placed() const { return best_count_; }
   std::uint64_t steps() const { return steps_; }
+  /// By stream: one, and one more for each time that it was taken out. Those that are dear are hard to place together.
+  const std::vector<std::uint64_t>& prices() const { return price_; }
   Solution solution() const;
 
  private:
@@ -67,6 +69,11 @@ class Attempt {
     Ps at;
     StreamIndex stream;
     std::int32_t change;
+  };
+  /// Starts from `from` until before `until`, and all that are multiples of `every` later, meet the other one.
+  struct Span {
+    Ps from, until, every;
+    StreamIndex other;
   };
   struct Spot {
     Stand stand;
@@ -112,6 +119,8 @@ class Attempt {
   std::vector<std::uint64_t> price_;        ///< of taking a stream out
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> covers_;       ///< by stream, while edges are swept
+  std::vector<Span> spans_;
+  std::vector<std::uint32_t> last_span_;    ///< by stream, while spans are made: index of its last one, counted from 1
   bool waits_ = false;
   std::vector<std::vector<Piece>> pieces_;  ///< by hop
   std::vector<std::vector<Label>> labels_;  ///< by hop

@@ -45,11 +45,15 @@ SearchResult search(const Problem& problem, const SearchOptions& options) {
   bool has_any = false;
   std::size_t best_count = 0;
   std::int64_t best_score = 0;
-  std::atomic<std::uint32_t> next = 0;
+  std::vector<std::uint64_t> hardness = options.hardness;
+  hardness.resize(problem.streams.size());
+  std::atomic<std::uint32_t> next = options.first;
   std::atomic<std::uint32_t> end = options.attempts;   // attempts from this number on cannot count any more
-  const std::uint64_t unit = std::max<std::uint64_t>(400, 4 * problem.streams.size());
+  // The first two are short: what they do not find soon the others, which may wait, find sooner.
+  const auto steps_of = [&](std::uint32_t number) { return std::max<std::uint64_t>(400, (number < 2 ? 2 : 6) * problem.streams.size()) * luby(number / 2); };
   const auto note = [&](Attempt& attempt, std::uint32_t number, bool done) {
     const std::lock_guard lock(mutex);
+    for (StreamIndex s = 0; s < hardness.size(); ++s) hardness[s] += attempt.prices()[s] - 1;
     if (done) {
       if (number >= end) return;
       const std::int64_t score = options.score ? options.score(attempt.solution()) : 0;
@@ -66,9 +70,9 @@ SearchResult search(const Problem& problem, const SearchOptions& options) {
   const auto work = [&] {
     for (;;) {
       const std::uint32_t number = next++;
-      if (number >= end || (number > 0 && options.stop())) return;
+      if (number >= end || (number > options.first && options.stop())) return;
       Attempt attempt(ground, number);
-      const bool done = attempt.run(unit * luby(number), [&] { return number >= end || options.stop(); });
+      const bool done = attempt.run(steps_of(number), [&] { return number >= end || options.stop(); });
       note(attempt, number, done);
     }
   };
@@ -89,6 +93,7 @@ SearchResult search(const Problem& problem, const SearchOptions& options) {
     work_and_catch();
   }
   if (failure) std::rethrow_exception(failure);
+  best.hardness = std::move(hardness);
   return best;
 }
 

@@ -25,7 +25,9 @@ struct SearchOptions {
   RouteChoice routes = RouteChoice::search;
   std::uint64_t seed = 1;
   unsigned jobs = 1;
-  std::uint32_t attempts = 64;        ///< at most
+  std::uint32_t first = 0;            ///< number of the first attempt
+  std::uint32_t attempts = 64;        ///< number behind the last one
+  std::vector<std::uint64_t> hardness;  ///< by stream, of attempts before: those that were moved most are placed first by some attempts; empty: nothing is known
   std::uint32_t most_ways = 16;       ///< of a stream without prescribed route
   Score score;                        ///< if there is one, the first `scored` attempts all count, and the best of them is taken
   std::uint32_t scored = 12;
@@ -44,12 +46,13 @@ struct SearchResult {
   bool is_complete() const { return left_over.empty(); }
   std::uint32_t attempt = 0;          ///< the one that it is from
   std::uint64_t steps = 0;            ///< of that attempt: streams placed or placed again
+  std::vector<std::uint64_t> hardness;  ///< by stream: how often attempts moved it, these and those before
 };
 
 /// One quick try: each stream once, on its first way, nobody taken out.
 SearchResult place_once(const Problem& problem, const SearchOptions& options);
 
-/// All attempts, from the first on.
+/// All attempts, from `first` on.
 SearchResult search(const Problem& problem, const SearchOptions& options);
 
 }  // namespace takt::schedule

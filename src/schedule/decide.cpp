@@ -2,16 +2,44 @@
 
 #include <algorithm>
 
+#include "schedule/clausal.hpp"
 #include "schedule/gate_lists.hpp"
 #include "schedule/refute.hpp"
 
 namespace takt::schedule {
 namespace {
 
+constexpr std::uint32_t first_attempts = 2;
+
 std::int64_t longest_list(const Problem& problem, const Solution& solution) {
   Solution with_lists = solution;
   if (make_gate_lists(problem, with_lists, {})) return longest_time;
   return static_cast<std::int64_t>(most_entries(with_lists));
+}
+
+/// Attempts and proofs in turn, more of both each time: who was moved most often is tried in proofs, and placed first by the next attempts.
+void search_or_refute(const Problem& problem, const SearchOptions& options, Decision& decision) {
+  SearchOptions now = options;
+  ClausalEffort effort;
+  for (std::uint32_t round = 0;; ++round) {
+    // Scores compare attempts of one search.
+    now.attempts = options.score ? options.attempts : std::min(options.attempts, first_attempts << std::min(2 * round, 24u));
+    SearchResult found = search(problem, now);
+    const bool is_better = round == 0 || found.left_over.size() < decision.found.left_over.size();
+    now.hardness = std::move(found.hardness);
+    if (is_better) decision.found = std::move(found);
+    if (decision.found.is_complete() || options.stop()) return;
+    decision.certificate = refute_by_clauses(problem, now.hardness, effort, options.stop);
+    if (decision.certificate) {
+      decision.verdict = Decision::Verdict::infeasible;
+      return;
+    }
+    if (now.attempts >= options.attempts || options.stop()) return;
+    now.first = now.attempts;
+    effort.conflicts = std::min<std::uint32_t>(effort.conflicts * 4, 1u << 24);
+    effort.most_thresholds *= 2;
+    effort.most_clauses *= 4;
+  }
 }
 
 Decision decide_as_it_is(const Problem& problem, const SearchOptions& options) {
@@ -26,7 +54,8 @@ Decision decide_as_it_is(const Problem& problem, const SearchOptions& options) {
       return decision;
     }
     decision.how = "search";
-    decision.found = search(problem, options);
+    search_or_refute(problem, options, decision);
+    if (decision.certificate) return decision;
   }
   if (decision.found.is_complete()) decision.verdict = Decision::Verdict::scheduled;
   return decision;

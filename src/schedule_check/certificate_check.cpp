@@ -4,7 +4,9 @@
 #include <numeric>
 #include <set>
 
+#include "schedule_check/clausal_check.hpp"
 #include "schedule_check/instance_check.hpp"
+#include "schedule_check/reach.hpp"
 #include "sim/time.hpp"
 
 namespace takt::schedule_check {
@@ -20,12 +22,10 @@ using schedule::Stream;
 using schedule::StreamIndex;
 using sim::int128;
 
-constexpr int128 no_way = static_cast<int128>(1) << 100;
-
-/// Everything is worked out from the problem, by relaxing over all links until nothing changes.
-class Proof {
+/// Everything is worked out from the problem.
+class Proof : private Reach {
  public:
-  Proof(const Problem& problem, const Certificate& certificate) : problem_(problem), certificate_(certificate) {}
+  Proof(const Problem& problem, const Certificate& certificate) : Reach(problem, certificate.in_time), problem_(problem), certificate_(certificate) {}
 
   std::string why_not() {
     for (const StreamIndex s : certificate_.streams)
@@ -43,69 +43,12 @@ class Proof {
       case Certificate::Kind::interval: return interval();
       case Certificate::Kind::folded: return folded();
       case Certificate::Kind::pair: return pair();
+      case Certificate::Kind::clausal: return why_clauses_prove_nothing(problem_, certificate_);
     }
     return "no kind";
   }
 
  private:
-  Ps frame(const Stream& s, const Link& l) const { return (Ps{s.octets} + problem_.model.preamble) * l.octet; }
-  Ps step(const Stream& s, const Link& l) const { return frame(s, l) + problem_.model.gap * l.octet; }
-  Ps work(const Stream& s, const Link& l) const { return s.frames * step(s, l); }
-  Ps block(const Stream& s, const Link& l) const { return work(s, l) - problem_.model.gap * l.octet; }
-
-  Ps onward(const Stream& s, const Link& l, const Link& next) const {
-    const Ps head = l.cut_through && l.octet == next.octet ? Ps{*l.cut_through} * l.octet : frame(s, l);
-    const Ps behind = (s.frames - 1) * (step(s, l) - step(s, next));
-    return head + l.propagation + l.forwarding + (behind > 0 ? behind : 0);
-  }
-
-  bool usable(const Stream& s, LinkIndex l, const std::set<LinkIndex>& without) const {
-    if (without.contains(l)) return false;
-    if (s.route && std::find(s.route->begin(), s.route->end(), l) == s.route->end()) return false;
-    return problem_.links[l].from == s.talker || problem_.nodes[problem_.links[l].from].is_bridge;
-  }
-
-  /// Earliest starts on all links, from the start at the talker or on `first`.
-  std::vector<int128> starts(const Stream& s, const LinkIndex* first, const std::set<LinkIndex>& without) const {
-    std::vector<int128> at(problem_.links.size(), no_way);
-    std::vector<LinkIndex> fresh;
-    for (LinkIndex l = 0; l < at.size(); ++l)
-      if (first != nullptr ? l == *first : problem_.links[l].from == s.talker && usable(s, l, without)) at[l] = 0, fresh.push_back(l);
-    while (!fresh.empty()) {
-      std::vector<LinkIndex> next;
-      for (const LinkIndex l : fresh) {
-        if (!problem_.nodes[problem_.links[l].to].is_bridge) continue;
-        for (LinkIndex m = 0; m < at.size(); ++m) {
-          if (problem_.links[m].from != problem_.links[l].to || !usable(s, m, without)) continue;
-          const int128 there = at[l] + onward(s, problem_.links[l], problem_.links[m]);
-          if (there < at[m]) at[m] = there, next.push_back(m);
-        }
-      }
-      fresh = std::move(next);
-    }
-    return at;
-  }
-
-  int128 arrival(const Stream& s, NodeIndex listener, const std::vector<int128>& at) const {
-    int128 soonest = no_way;
-    for (LinkIndex l = 0; l < at.size(); ++l)
-      if (problem_.links[l].to == listener && at[l] != no_way) soonest = std::min<int128>(soonest, at[l] + block(s, problem_.links[l]) + problem_.links[l].propagation + problem_.links[l].forwarding);
-    return soonest;
-  }
-
-  /// Listeners that are not reached without the links; in time, if the certificate asks for that.
-  std::vector<NodeIndex> must_cross(const Stream& s, const std::vector<LinkIndex>& links) const {
-    const auto at = starts(s, nullptr, {links.begin(), links.end()});
-    std::vector<NodeIndex> found;
-    for (const NodeIndex n : s.listeners) {
-      const int128 least = arrival(s, n, at);
-      if (least == no_way || (certificate_.in_time && is_late(s, least))) found.push_back(n);
-    }
-    return found;
-  }
-
-  static bool is_late(const Stream& s, int128 least) { return (s.latency && least > *s.latency) || (s.deadline && least > *s.deadline - s.release); }
-
   std::string latency() const {
     if (certificate_.streams.size() != 1) return "not one stream";
     const Stream& s = problem_.streams[certificate_.streams.front()];

@@ -40,7 +40,7 @@ const json::Record& describe(json::Type<ScheduleReport>) {
       json::output<&ScheduleReport::streams>("streams", "Streams to schedule."),
       json::output<&ScheduleReport::links>("links", "Links of the network, by direction."),
       json::output<&ScheduleReport::verdict>("verdict", "scheduled, infeasible or undecided."),
-      json::output<&ScheduleReport::how>("how", "first fit or search; of an infeasible one the kind of its certificate: latency, load, interval, folded, pair."),
+      json::output<&ScheduleReport::how>("how", "first fit or search; of an infeasible one the kind of its certificate: latency, load, interval, folded, pair, clausal."),
       json::output_if_any<&ScheduleReport::proof>("proof", "Why there is no schedule.", "infeasible"),
       json::output<&ScheduleReport::busiest_link>("busiest_link", "Share of its time that the busiest link is used by what is scheduled."),
       json::output_if_any<&ScheduleReport::normalised_latency>("normalised_latency", "Mean over the streams: latency over the least on any way.", "scheduled"),
@@ -82,6 +82,13 @@ std::string proof_of(const Problem& problem, const Certificate& certificate) {
     case Kind::pair:
       return fmt::format("{} and {} meet on some link that both must cross, whatever their phases: neither may wait long enough for the other", json::quote(problem.streams[certificate.streams[0]].name),
                          json::quote(problem.streams[certificate.streams[1]].name));
+    case Kind::clausal: {
+      std::string names;
+      constexpr std::size_t most = 8;
+      for (std::size_t i = 0; i < std::min(most, certificate.streams.size()); ++i) names += (i == 0 ? "" : ", ") + json::quote(problem.streams[certificate.streams[i]].name);
+      if (certificate.streams.size() > most) names += fmt::format(" and {} more", certificate.streams.size() - most);
+      return fmt::format("{} streams have no place beside each other, by {} clauses and {} steps: {}", certificate.streams.size(), certificate.clauses.axioms.size(), certificate.clauses.steps.size(), names);
+    }
     case Kind::folded: {
       double sum = 0;
       for (const StreamIndex s : certificate.streams)
@@ -137,7 +144,7 @@ std::uint64_t count_waiting(const Problem& problem, const Solution& solution) {
 
 ScheduleReport report(const Problem& problem, const Decision& decision, const std::optional<std::string>& no_lists) {
   static constexpr const char* verdicts[] = {"scheduled", "infeasible", "undecided"};
-  static constexpr const char* kinds[] = {"latency", "load", "interval", "folded", "pair"};
+  static constexpr const char* kinds[] = {"latency", "load", "interval", "folded", "pair", "clausal"};
   constexpr std::size_t most_measured = 5'000;
   ScheduleReport report;
   report.instance = problem.name;

@@ -21,6 +21,39 @@ Node stream_names(const Problem& problem, const std::vector<StreamIndex>& stream
   return names;
 }
 
+template <class Number>
+Node numbers(const std::vector<Number>& list) {
+  Node all = Node::array();
+  for (const Number each : list) all.items.push_back(Node::of_integer(static_cast<std::int64_t>(each)));
+  return all;
+}
+
+/// `thresholds`: [stream, link, modulus, at]; `axioms`: literals; `steps`: [literals, from].
+void add_clauses(const Problem& problem, const ClausalProof& proof, Node& all) {
+  if (proof.anchor) all.add("anchor", Node::of_string(problem.streams[*proof.anchor].name));
+  Node thresholds = Node::array();
+  for (const Threshold& each : proof.thresholds) {
+    Node threshold = Node::array();
+    threshold.items.push_back(Node::of_string(problem.streams[each.stream].name));
+    threshold.items.push_back(Node::of_string(problem.links[each.link].name));
+    threshold.items.push_back(Node::of_integer(each.modulus));
+    threshold.items.push_back(Node::of_integer(each.at));
+    thresholds.items.push_back(std::move(threshold));
+  }
+  all.add("thresholds", std::move(thresholds));
+  Node axioms = Node::array();
+  for (const Clause& each : proof.axioms) axioms.items.push_back(numbers(each));
+  all.add("axioms", std::move(axioms));
+  Node steps = Node::array();
+  for (const ClausalProof::Step& each : proof.steps) {
+    Node step = Node::array();
+    step.items.push_back(numbers(each.clause));
+    step.items.push_back(numbers(each.from));
+    steps.items.push_back(std::move(step));
+  }
+  all.add("steps", std::move(steps));
+}
+
 }  // namespace
 
 Node write_problem(const Problem& problem) {
@@ -136,7 +169,7 @@ Node write_certificate(const Problem& problem, const Certificate& certificate) {
   using Kind = Certificate::Kind;
   Node all = Node::object();
   all.add("problem", Node::of_string(problem.name));
-  static constexpr std::string_view names[] = {"latency", "load", "interval", "folded", "pair"};
+  static constexpr std::string_view names[] = {"latency", "load", "interval", "folded", "pair", "clausal"};
   all.add("kind", Node::of_string(names[static_cast<std::size_t>(certificate.kind)]));
   if (certificate.in_time) all.add("in_time", Node::of_bool(true));
   switch (certificate.kind) {
@@ -164,6 +197,10 @@ Node write_certificate(const Problem& problem, const Certificate& certificate) {
     }
     case Kind::pair:
       all.add("streams", stream_names(problem, certificate.streams));
+      break;
+    case Kind::clausal:
+      all.add("streams", stream_names(problem, certificate.streams));
+      add_clauses(problem, certificate.clauses, all);
       break;
     case Kind::folded:
       all.add("link", Node::of_string(problem.links[certificate.links.front()].name));

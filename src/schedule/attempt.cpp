@@ -9,6 +9,7 @@ namespace takt::schedule {
 namespace {
 
 Ps phase(Ps at, Ps period) {
+  if (at >= 0 && at < period) return at;   // mostly, and a division takes long
   const Ps rest = at % period;
   return rest < 0 ? rest + period : rest;
 }
@@ -266,8 +267,9 @@ bool Attempt::run(std::uint64_t most_steps, const Stop& stop) {
   remember_best();
   std::reverse(waiting.begin(), waiting.end());
   std::vector<StreamIndex> met;
+  std::uint64_t until = most_steps;
   for (std::uint64_t step = 0; !waiting.empty(); ++step) {
-    if (step >= most_steps || ((step & 15) == 0 && stop())) return false;
+    if (step >= until || ((step & 15) == 0 && stop())) return false;
     const StreamIndex stream = waiting.back();
     waiting.pop_back();
     ++steps_;
@@ -281,7 +283,10 @@ bool Attempt::run(std::uint64_t most_steps, const Stop& stop) {
     }
     put(stream, std::move(spot.stand));
     for (const StreamIndex other : met) waiting.push_back(other);
-    if (placed_ > best_count_) remember_best();
+    if (placed_ > best_count_) {
+      remember_best();
+      until = step + most_steps;   // it gets on
+    }
     if (!waiting.empty()) {
       if (met.size() > 1) std::swap(waiting[waiting.size() - 1 - random_.below(met.size())], waiting.back());
       perturb();

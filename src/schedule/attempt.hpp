@@ -51,7 +51,7 @@ class Attempt {
  public:
   Attempt(const Ground& ground, std::uint32_t number);
 
-  /// Places all streams, or as many as it can within the steps. True if all are placed.
+  /// Places all streams, or as many as it can: it gives up after so many steps without a stream more than ever before. True if all are placed.
   bool run(std::uint64_t most_steps, const Stop& stop);
   /// Each stream once, nobody taken out. True if all are placed.
   bool place_all_once();

@@ -33,6 +33,7 @@ namespace {
 
 /// An instant, which may lie before 0, within a period.
 Ps phase(Ps at, Ps period) {
+  if (at >= 0 && at < period) return at;   // mostly, and a division takes long
   const Ps rest = at % period;
   return rest < 0 ? rest + period : rest;
 }

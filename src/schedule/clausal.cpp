@@ -139,7 +139,7 @@ std::optional<Certificate> refute_by_clauses(const Problem& problem, std::span<c
   std::vector<StreamIndex> tried;
   std::size_t size = 2;
   for (const StreamIndex s : streams) {
-    if (hardness[s] == 0 || refuter.is_spent() || stop()) break;
+    if (hardness[s] == 0 || (refuter.is_spent() && tried.size() >= 3) || stop()) break;
     if (!refuter.has_course(s)) continue;
     tried.push_back(s);
     if (tried.size() < size) continue;

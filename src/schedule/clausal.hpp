@@ -13,7 +13,7 @@ namespace takt::schedule {
 /// How much is tried; work is counted, so that the answer is the same on every machine.
 struct ClausalEffort {
   std::uint64_t most_thresholds = 15'000;    ///< of one set of clauses
-  std::uint64_t most_clauses = 200'000;      ///< that are made altogether
+  std::uint64_t most_clauses = 100'000;      ///< that are made altogether
   std::uint32_t conflicts = 500;             ///< of one call of the solver, and four times as many of one while streams are dropped
 };
 

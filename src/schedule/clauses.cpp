@@ -111,7 +111,7 @@ class Growing {
 
 }  // namespace
 
-ClauseMaker::ClauseMaker(const Problem& problem, std::span<const StreamIndex> streams, std::span<const std::optional<Course>> courses) : problem_(problem) {
+ClauseMaker::ClauseMaker(const Problem& problem, std::span<const StreamIndex> streams, std::span<const std::optional<Course>> courses) {
   std::map<LinkIndex, int> crossed;
   for (const StreamIndex s : streams)
     for (const Course::At& at : courses[s]->links) ++crossed[at.link];

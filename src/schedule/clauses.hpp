@@ -59,7 +59,6 @@ class ClauseMaker {
     std::optional<std::size_t> place(LinkIndex link) const;
   };
 
-  const Problem& problem_;
   std::vector<Member> members_;
   std::optional<std::size_t> anchor_;
   Ps unit_ = 0;

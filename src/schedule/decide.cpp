@@ -29,7 +29,11 @@ void search_or_refute(const Problem& problem, const SearchOptions& options, Deci
     now.hardness = std::move(found.hardness);
     if (is_better) decision.found = std::move(found);
     if (decision.found.is_complete() || options.stop()) return;
-    decision.certificate = refute_by_clauses(problem, now.hardness, effort, options.stop);
+    // Where many are left over a proof is more likely than a schedule, where few are, a schedule.
+    const std::size_t left = decision.found.left_over.size(), all = problem.streams.size();
+    ClausalEffort here = effort;
+    if (left * 7 > all) here.most_clauses *= 4;
+    if (round > 0 || left * 50 > all) decision.certificate = refute_by_clauses(problem, now.hardness, here, options.stop);
     if (decision.certificate) {
       decision.verdict = Decision::Verdict::infeasible;
       return;

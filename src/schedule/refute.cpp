@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "schedule/crossings.hpp"
+#include "schedule/cuts.hpp"
 #include "sim/time.hpp"
 
 namespace takt::schedule {
@@ -67,6 +68,8 @@ class Refuter {
     }
     for (LinkIndex l = 0; l < problem_.links.size(); ++l)
       if (auto found = load(l)) return found;
+    if (!in_time_)
+      if (auto found = cut_load()) return found;
     if (problem_.model.is_strict) {
       if (moduli_.empty()) note_moduli();
       for (LinkIndex l = 0; l < problem_.links.size(); ++l)
@@ -148,6 +151,35 @@ class Refuter {
     certificate.links = {l};
     certificate.streams = crossing_[l];
     return certificate;
+  }
+
+  /// Rings and the like: more goes from one part to the other than two cables carry. Of networks of some hundred cables.
+  std::optional<Certificate> cut_load() const {
+    constexpr std::size_t most_links = 1'000, most_looks = 20'000'000;
+    std::optional<Certificate> found;
+    std::size_t looks = 0;
+    if (problem_.links.size() > most_links) return found;
+    for_each_double_cut(problem_, [&](const Cut& cut) {
+      std::vector<StreamIndex> crossing;
+      Sum sum(common_);
+      for (StreamIndex s = 0; s < problem_.streams.size(); ++s) {
+        const Stream& stream = problem_.streams[s];
+        if (cut.is_behind[stream.talker] || std::none_of(stream.listeners.begin(), stream.listeners.end(), [&](NodeIndex n) { return cut.is_behind[n] != 0; })) continue;
+        Ps least = longest_time;
+        for (const LinkIndex l : cut.links) least = std::min(least, work(s, l));
+        sum.add(least, stream.period);
+        crossing.push_back(s);
+      }
+      looks += problem_.streams.size() + problem_.links.size();
+      if (!cut.links.empty() && sum.exceeds(cut.links.size())) {
+        found.emplace();
+        found->kind = Certificate::Kind::load;
+        found->links = cut.links;
+        found->streams = std::move(crossing);
+      }
+      return !found && looks < most_looks && !stop_();
+    });
+    return found;
   }
 
   /// Least common multiples of periods and of what two of them have in common: moduli that are worth a try.

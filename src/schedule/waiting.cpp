@@ -8,6 +8,7 @@ namespace takt::schedule {
 namespace {
 
 Ps phase(Ps at, Ps period) {
+  if (at >= 0 && at < period) return at;   // mostly, and a division takes long
   const Ps rest = at % period;
   return rest < 0 ? rest + period : rest;
 }

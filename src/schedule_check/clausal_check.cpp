@@ -205,12 +205,13 @@ class ClausalProof {
 
   /// Whether two streams meet on a link whatever their numbers within the claims.
   bool meet(const std::pair<const StreamIndex, Claims>& one, const std::pair<const StreamIndex, Claims>& two) const {
-    const auto& [a, claims_a] = one;
-    const auto& [b, claims_b] = two;
+    const StreamIndex a = one.first, b = two.first;
+    const Claims& claims_a = one.second;
+    const Claims& claims_b = two.second;
     const Fact& fact_a = facts_.at(a);
     const Fact& fact_b = facts_.at(b);
-    const auto& [key_a, bounds_a] = *claims_a.begin();
-    const auto& [key_b, bounds_b] = *claims_b.begin();
+    const Key key_a = claims_a.begin()->first, key_b = claims_b.begin()->first;
+    const Bounds bounds_a = claims_a.begin()->second, bounds_b = claims_b.begin()->second;
     const int128 every = std::gcd(fact_a.period, fact_b.period);
     if (key_a.modulus % every != 0 || key_b.modulus % every != 0) return false;
     std::vector<LinkIndex> links = shared(fact_a, fact_b);

@@ -42,6 +42,37 @@ TEST(Refute, Load) {
   EXPECT_EQ(refuted(problem), Kind::load);
 }
 
+// In a ring of four there are two ways from b0 to b2: three streams that need two links, and a little more.
+TEST(Refute, LoadOfTwoCablesOfARing) {
+  Problem problem = line(4);
+  for (const auto& [a, b] : {std::pair("b0", "b3"), std::pair("b3", "b0")}) {
+    Link link = problem.links.back();
+    link.from = node_of(problem, a);
+    link.to = node_of(problem, b);
+    link.name = std::string(a) + ">" + b;
+    problem.links.push_back(link);
+  }
+  // Stations x0, x1, x2 at b0 and y0, y1, y2 at b2, so that no link of theirs is loaded by more than one.
+  for (int i = 0; i < 3; ++i) {
+    const std::string x = "x" + std::to_string(i), y = "y" + std::to_string(i);
+    problem.nodes.push_back({x, false});
+    problem.links.push_back({x + ">b0", node_of(problem, x), node_of(problem, "b0"), 8'000, 0, us, std::nullopt, 1024});
+    problem.nodes.push_back({y, false});
+    problem.links.push_back({"b2>" + y, node_of(problem, "b2"), node_of(problem, y), 8'000, 0, 0, std::nullopt, 1024});
+    add_stream(problem, x, y, i == 0 ? 60 : 70, 100 * us);
+  }
+  EXPECT_EQ(refuted(problem), std::nullopt);   // two cables, exactly full
+  problem.streams[0].octets += 1;
+  const auto certificate = refute(problem);
+  ASSERT_TRUE(certificate);
+  EXPECT_EQ(certificate->kind, Kind::load);
+  EXPECT_EQ(certificate->links.size(), 2u);
+  EXPECT_EQ(schedule_check::why_not_proved(problem, *certificate), "");
+  Certificate bad = *certificate;
+  bad.links.pop_back();
+  EXPECT_NE(schedule_check::why_not_proved(problem, bad), "");
+}
+
 // Two frames of 10 us that must be out of h0 within 20 us (less one gap), and a third.
 TEST(Refute, Interval) {
   Problem problem = line(2, 0, 0);

@@ -75,7 +75,10 @@ std::string proof_of(const Problem& problem, const Certificate& certificate) {
     case Kind::load: {
       double sum = 0;
       for (const StreamIndex s : certificate.streams) sum += static_cast<double>(timing.work(problem.streams[s], problem.links[certificate.links.front()])) / static_cast<double>(problem.streams[s].period);
-      return fmt::format("{} streams load {} by {:.2f} % ({})", certificate.streams.size(), json::quote(problem.links[certificate.links.front()].name), sum * 100, crossing);
+      std::string links;
+      for (const LinkIndex l : certificate.links) links += (links.empty() ? "" : ", ") + json::quote(problem.links[l].name);
+      if (certificate.links.size() > 1) return fmt::format("{} streams load {} by {:.2f} % together (each must cross one of them)", certificate.streams.size(), links, sum / static_cast<double>(certificate.links.size()) * 100);
+      return fmt::format("{} streams load {} by {:.2f} % ({})", certificate.streams.size(), links, sum * 100, crossing);
     }
     case Kind::interval:
       return fmt::format("{} frames must be sent on {} from {} to {}, and take longer", certificate.jobs.size(), json::quote(problem.links[certificate.links.front()].name), in_us(certificate.from), in_us(certificate.until));

@@ -50,7 +50,7 @@ SearchResult search(const Problem& problem, const SearchOptions& options) {
   std::atomic<std::uint32_t> next = options.first;
   std::atomic<std::uint32_t> end = options.attempts;   // attempts from this number on cannot count any more
   // The first two are short: what they do not find soon the others, which may wait, find sooner.
-  const auto steps_of = [&](std::uint32_t number) { return std::max<std::uint64_t>(300, (number < 2 ? 1 : 3) * problem.streams.size()) * luby(number / 2); };
+  const auto steps_of = [&](std::uint32_t number) { return std::max<std::uint64_t>(300, (number < 2 ? 1 : 6) * problem.streams.size()) * luby(number / 2); };
   const auto note = [&](Attempt& attempt, std::uint32_t number, bool done) {
     const std::lock_guard lock(mutex);
     for (StreamIndex s = 0; s < hardness.size(); ++s) hardness[s] += attempt.prices()[s] - 1;

@@ -91,13 +91,13 @@ void Attempt::look_for_cheaper_waiting(StreamIndex stream, const Way& way, Spot&
       if (root <= window.last) roots_.push_back(root);
     }
   }
-  std::sort(roots_.begin(), roots_.end());
-  roots_.erase(std::unique(roots_.begin(), roots_.end()), roots_.end());
   // Of very many some, drawn anew each time.
   if (roots_.size() > most_roots) {
     for (std::size_t i = 0; i < most_roots; ++i) std::swap(roots_[i], roots_[i + random_.below(roots_.size() - i)]);
     roots_.resize(most_roots);
   }
+  std::sort(roots_.begin(), roots_.end());
+  roots_.erase(std::unique(roots_.begin(), roots_.end()), roots_.end());
   if (labels_.size() < hops) labels_.resize(hops);
   for (const Ps root : roots_) {
     const Ps until = std::min(what.latency ? root + *what.latency : root + way.arrival + period, what.deadline ? *what.deadline : longest_time);

@@ -198,7 +198,7 @@ ExitStatus run(const ScheduleOptions& options) {
 void add_schedule_command(Command app, ExitStatus& status) {
   const Command command = app.add_subcommand("schedule", "Find routes, phases and gate lists, or say why there are none");
   const auto options = std::make_shared<ScheduleOptions>();
-  command.add_option("SCENARIO|INSTANCE", options->files, "A scenario with automatic gates, or instances: TAS_Benchmark, TSNBenchScenarios, tsnkit, TSNsched, ECRTS'25 or neutral, told by their content; network and streams one after the other where they are two files").required();
+  command.add_option("SCENARIO|INSTANCE", options->files, "A scenario with automatic gates, or instances: TAS_Benchmark, TSNBenchScenarios, tsnkit, TSNsched, ECRTS'25, GraphML with applications or neutral, told by their content; network and streams one after the other where they are two files").required();
   command.add_option("--routes", options->routes, "given: streams without a route are refused; shortest: one way each; search: other ways, too (search)").one_of({"given", "shortest", "search"}).type_name("ROUTES");
   command.add_option("--objective", options->objective, "feasible: the first schedule; latency, entries: of an instance the best of twelve attempts; slack: the greatest clock error (feasible)")
       .one_of({"feasible", "latency", "entries", "slack"})

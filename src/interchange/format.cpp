@@ -11,6 +11,7 @@
 #include "interchange/linux/linux.hpp"
 #include "interchange/lldp/lldp.hpp"
 #include "interchange/pcap/import.hpp"
+#include "interchange/planning/planning.hpp"
 #include "interchange/qcc/qcc.hpp"
 #include "interchange/wireshark/wireshark.hpp"
 #include "interchange/yang/yang.hpp"
@@ -26,6 +27,9 @@ const std::array exports{
     ExportFormat{"inet", "a network (NED) and its configuration (ini) for INET 4.6", "network, streams with UDP, queues, gates, shapers, redundancy", "requirements, verification, bounds", {}, export_inet},
     ExportFormat{"qcc", "requests for streams as a CUC gives them (ieee802-dot1q-cnc-config)", "streams with intervals, sizes, offsets, priorities, listeners; required latencies", "network, nodes, ports, clocks, faults", {}, export_qcc},
     ExportFormat{"wireshark", "a profile of Wireshark for captures of the scenario: ethers, colorfilters, dfilter_buttons, preferences", "names of addresses, priorities, streams", "all else", {}, export_wireshark},
+    ExportFormat{"neutral", "the neutral scheduling problem (schedule-problem-1) that takt schedule reads", "network, streams with periods, sizes, classes, offsets and paths, latency and jitter that are required",
+                 "gates that takt lays out, offsets that it chooses; other requirements", {}, export_neutral},
+    ExportFormat{"tsnkit", "tasks and a topology as CSV for tsnkit, and a table of names", "network, streams with periods and sizes, latency and jitter that are required", "gates that takt lays out, offsets that it chooses; other requirements", {}, export_tsnkit},
     ExportFormat{"graphml", "the topology as GraphML", "nodes, links, ports, rates, delays", "all else", {}, export_graphml},
     ExportFormat{"dot", "the topology for Graphviz", "nodes, links", "all else", {}, export_dot},
     ExportFormat{"svg", "the topology as a picture", "nodes, links", "all else", {}, export_svg},
@@ -38,6 +42,13 @@ const std::array imports{
     ImportFormat{"lldp", "the topology that LLDP daemons see", "NODE.*.json, NODE.*.json0 (of `lldpcli -f json show neighbors details` and `show chassis` on each machine)", {}, false, false, import_lldp},
     ImportFormat{"inet", "a network of INET: the TSN subset of NED and ini", "*.ned, one .ini", inet_import_settings, false, false, import_inet},
     ImportFormat{"graphml", "a topology as GraphML", "one .graphml", graphml_import_settings, false, false, import_graphml},
+    ImportFormat{"neutral", "a neutral scheduling problem, and perhaps its schedule", "PROBLEM.json, SOLUTION.json (of takt schedule --out)", planning_import_settings, false, false, import_neutral},
+    ImportFormat{"tsnkit", "an instance of tsnkit", "TASK.csv and TOPOLOGY.csv; *.names.json of an export", planning_import_settings, false, false, import_tsnkit},
+    ImportFormat{"tas-benchmark", "an instance of TAS_Benchmark (Tuebingen)", "one .json", planning_import_settings, false, false, import_tas_benchmark},
+    ImportFormat{"tsnbench", "an instance of TSNBenchScenarios (Rostock)", "TOPOLOGY.top and STREAMS.pat", planning_import_settings, false, false, import_tsnbench},
+    ImportFormat{"tsnsched", "an input of TSNsched", "one .json", planning_import_settings, false, false, import_tsnsched},
+    ImportFormat{"ecrts", "the industrial challenge of ECRTS'25", "one .txt", planning_import_settings, false, false, import_ecrts},
+    ImportFormat{"applications", "a network as GraphML with applications (TT and AVB) as XML", "NETWORK.graphml and APPLICATIONS.xml", applications_import_settings, false, false, import_applications},
     ImportFormat{"csv", "a table of streams", "*.csv with a header: name, from, to, payload, every; offset, jitter, pcp, vlan, encapsulation, latency", {}, true, false, import_csv},
     ImportFormat{"pcap", "the talkers of a running plant, by what a capture holds: period, jitter, sizes", "captures of Ethernet (pcap, pcapng); *.names.json of an export", {}, true, true, import_pcap},
 };

@@ -62,7 +62,7 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/json/", all_of({base, json})});
     list.push_back({"src/results/", all_of({base, json, results})});
     list.push_back({"src/schedule/", all_of({base, chance, schedule})});
-    list.push_back({"src/interchange/schedules/", all_of({base, json, schedule, interchange_schedules})});
+    list.push_back({"src/interchange/schedules/", all_of({base, json, schedule, interchange_schedules, {"interchange/xml/"}})});
     const Prefixes below = all_of({schedule, kernel, models, protocol, plant, application, json, results, scenario});
     list.push_back({"src/scenario/", below});
     list.push_back({"src/explain/", all_of({below, explain})});

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "interchange/graph/graph.hpp"
-#include "interchange/xml.hpp"
+#include "interchange/xml/xml.hpp"
 #include "json/quantity.hpp"
 #include "json/suggest.hpp"
 

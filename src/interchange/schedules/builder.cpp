@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <unordered_set>
 
 namespace takt::interchange::schedules {
 
@@ -25,6 +27,7 @@ std::optional<StreamIndex> Builder::stream(const std::string& name) const {
 void Builder::add_node(const std::string& name, bool is_bridge, const json::Place& where) {
   if (!nodes_.emplace(name, static_cast<NodeIndex>(problem_.nodes.size())).second) return diagnostics_.error(where, fmt::format("node {} is there twice", json::quote(name)));
   problem_.nodes.push_back({name, is_bridge});
+  places_.nodes.push_back(where);
 }
 
 Ps Builder::octet_of(std::int64_t rate, const json::Place& where) {
@@ -50,6 +53,7 @@ void Builder::add_link(Link link, const std::string& from, const std::string& to
   if (!links_.emplace(link.name, static_cast<LinkIndex>(problem_.links.size())).second) return diagnostics_.error(where, fmt::format("link {} is there twice", json::quote(link.name)));
   between_.emplace(std::uint64_t{link.from} << 32 | link.to, static_cast<LinkIndex>(problem_.links.size()));
   problem_.links.push_back(std::move(link));
+  places_.links.push_back(where);
 }
 
 std::optional<LinkIndex> Builder::link(const std::string& name) const {
@@ -65,21 +69,28 @@ std::optional<LinkIndex> Builder::link_between(const std::string& from, const st
 }
 
 void Builder::set_route(Stream& stream, std::vector<LinkIndex> links, const json::Place& where) {
+  std::unordered_map<NodeIndex, std::vector<std::size_t>> from;
+  for (std::size_t i = 0; i < links.size(); ++i) from[problem_.links[links[i]].from].push_back(i);
   std::vector<LinkIndex> ordered;
-  std::vector<NodeIndex> there{stream.talker};
-  const auto is_there = [&](NodeIndex n) { return std::find(there.begin(), there.end(), n) != there.end(); };
-  while (!links.empty()) {
-    const auto next = std::find_if(links.begin(), links.end(), [&](LinkIndex l) { return is_there(problem_.links[l].from); });
-    if (next == links.end() || is_there(problem_.links[*next].to))
-      return diagnostics_.error(where, fmt::format("the route of {} is no tree from its talker", json::quote(stream.name)));
-    if (problem_.links[*next].from != stream.talker && !problem_.nodes[problem_.links[*next].from].is_bridge)
-      return diagnostics_.error(where, fmt::format("the route of {} goes through {}, which forwards nothing", json::quote(stream.name), json::quote(problem_.nodes[problem_.links[*next].from].name)));
-    there.push_back(problem_.links[*next].to);
-    ordered.push_back(*next);
-    links.erase(next);
+  std::unordered_set<NodeIndex> there;
+  std::set<std::size_t> ready;   // of the links that begin where the route has come to, the first is next
+  const auto come_to = [&](NodeIndex node) {
+    there.insert(node);
+    if (const auto found = from.find(node); found != from.end()) ready.insert(found->second.begin(), found->second.end());
+  };
+  come_to(stream.talker);
+  while (ordered.size() < links.size()) {
+    if (ready.empty()) return diagnostics_.error(where, fmt::format("the route of {} is no tree from its talker", json::quote(stream.name)));
+    const Link& next = problem_.links[links[*ready.begin()]];
+    ordered.push_back(links[*ready.begin()]);
+    ready.erase(ready.begin());
+    if (there.contains(next.to)) return diagnostics_.error(where, fmt::format("the route of {} is no tree from its talker", json::quote(stream.name)));
+    if (next.from != stream.talker && !problem_.nodes[next.from].is_bridge)
+      return diagnostics_.error(where, fmt::format("the route of {} goes through {}, which forwards nothing", json::quote(stream.name), json::quote(problem_.nodes[next.from].name)));
+    come_to(next.to);
   }
   for (const NodeIndex listener : stream.listeners)
-    if (!is_there(listener)) return diagnostics_.error(where, fmt::format("the route of {} does not come to {}", json::quote(stream.name), json::quote(problem_.nodes[listener].name)));
+    if (!there.contains(listener)) return diagnostics_.error(where, fmt::format("the route of {} does not come to {}", json::quote(stream.name), json::quote(problem_.nodes[listener].name)));
   stream.route = std::move(ordered);
 }
 
@@ -91,6 +102,7 @@ void Builder::add_stream(Stream stream, const json::Place& where) {
   if (std::find(stream.listeners.begin(), stream.listeners.end(), stream.talker) != stream.listeners.end())
     return diagnostics_.error(where, fmt::format("the talker of stream {} is its listener, too", json::quote(stream.name)));
   problem_.streams.push_back(std::move(stream));
+  places_.streams.push_back(where);
 }
 
 }  // namespace takt::interchange::schedules

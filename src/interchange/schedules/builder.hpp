@@ -17,6 +17,17 @@ inline constexpr Range delay_range{0, 100'000'000'000'000};           ///< ps
 inline constexpr Range period_range{1, schedule::longest_time >> 4};
 inline constexpr Range time_range{0, schedule::longest_time};
 
+/// Where in its files the parts of a problem stand, by their indices.
+struct Places {
+  json::Place whole;
+  std::vector<json::Place> nodes, links, streams;
+};
+
+struct Instance {
+  schedule::Problem problem;
+  Places places = {};
+};
+
 class Builder {
  public:
   explicit Builder(json::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -37,11 +48,14 @@ class Builder {
   void add_stream(schedule::Stream stream, const json::Place& where);
 
   schedule::Problem& problem() { return problem_; }
+  /// What has come together; the builder is empty then.
+  Instance take() { return {std::move(problem_), std::move(places_)}; }
   json::Diagnostics& diagnostics() { return diagnostics_; }
 
  private:
   json::Diagnostics& diagnostics_;
   schedule::Problem problem_;
+  Places places_;
   std::unordered_map<std::string, schedule::NodeIndex> nodes_;
   std::unordered_map<std::string, schedule::LinkIndex> links_;
   std::unordered_map<std::uint64_t, schedule::LinkIndex> between_;

@@ -31,7 +31,7 @@ std::vector<std::string> words_of(std::string_view text) {
 
 }  // namespace
 
-Problem read_ecrts(const TextFile& file, json::Diagnostics& diagnostics) {
+Instance read_ecrts(const TextFile& file, json::Diagnostics& diagnostics) {
   std::vector<std::string> order;
   std::map<std::string, std::map<std::string, Field>> fields;
   std::string_view rest = file.text;
@@ -96,7 +96,7 @@ Problem read_ecrts(const TextFile& file, json::Diagnostics& diagnostics) {
     builder.set_route(stream, std::move(links), path.where);
     if (diagnostics.errors() == mistakes) builder.add_stream(std::move(stream), path.where);
   }
-  return std::move(builder.problem());
+  return builder.take();
 }
 
 }  // namespace takt::interchange::schedules

@@ -5,21 +5,24 @@
 
 #include "interchange/schedules/builder.hpp"
 #include "interchange/schedules/instances.hpp"
+#include "interchange/xml/xml.hpp"
 #include "json/document.hpp"
 
 namespace takt::interchange::schedules {
 
-schedule::Problem read_neutral(const json::Document& document, json::Diagnostics& diagnostics);
+Instance read_neutral(const json::Document& document, json::Diagnostics& diagnostics);
 /// One entry of its "streams".
 void read_neutral_stream(const Pick& pick, json::Reader& reader, Builder& builder);
-schedule::Problem read_tas_benchmark(const json::Document& document, json::Diagnostics& diagnostics);
-schedule::Problem read_tsnsched(const json::Document& document, json::Diagnostics& diagnostics);
+Instance read_tas_benchmark(const json::Document& document, json::Diagnostics& diagnostics);
+Instance read_tsnsched(const json::Document& document, json::Diagnostics& diagnostics);
 /// A topology (".top") and a set of streams (".pat").
-schedule::Problem read_tsn_bench_scenario(const json::Document& topology, const json::Document& streams, json::Diagnostics& diagnostics);
+Instance read_tsn_bench_scenario(const json::Document& topology, const json::Document& streams, json::Diagnostics& diagnostics);
 
-schedule::Problem read_tsnkit(const TextFile& tasks, const TextFile& topology, json::Diagnostics& diagnostics);
+Instance read_tsnkit(const TextFile& tasks, const TextFile& topology, json::Diagnostics& diagnostics);
 /// Streams of the given traffic class at 100 Mbit/s are scheduled.
-schedule::Problem read_ecrts(const TextFile& streams, json::Diagnostics& diagnostics);
+Instance read_ecrts(const TextFile& streams, json::Diagnostics& diagnostics);
+
+Instance read_graphml(const XmlElement& network, const XmlElement& applications, const std::string& name, const GraphmlAssumptions& assumptions, json::Diagnostics& diagnostics);
 
 /// "folder/name.json" is "name".
 std::string stem_of(std::string_view path);

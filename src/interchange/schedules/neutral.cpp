@@ -64,7 +64,7 @@ void read_neutral_stream(const Pick& pick, json::Reader& reader, Builder& builde
   builder.add_stream(std::move(stream), where);
 }
 
-Problem read_neutral(const json::Document& document, json::Diagnostics& diagnostics) {
+Instance read_neutral(const json::Document& document, json::Diagnostics& diagnostics) {
   json::Reader reader(document, diagnostics);
   const Pick top(reader, document.root());
   Builder builder(diagnostics);
@@ -83,7 +83,7 @@ Problem read_neutral(const json::Document& document, json::Diagnostics& diagnost
   if (diagnostics.has_errors()) return {};
   if (const Node* const streams = top.need_array("streams"))
     for (const Node& each : streams->items) read_neutral_stream(Pick(reader, each), reader, builder);
-  return std::move(builder.problem());
+  return builder.take();
 }
 
 }  // namespace takt::interchange::schedules

@@ -8,7 +8,7 @@ namespace takt::interchange::schedules {
 using namespace schedule;
 using json::Node;
 
-Problem read_tas_benchmark(const json::Document& document, json::Diagnostics& diagnostics) {
+Instance read_tas_benchmark(const json::Document& document, json::Diagnostics& diagnostics) {
   constexpr double ns = 1'000;
   json::Reader reader(document, diagnostics);
   const Pick top(reader, document.root());
@@ -76,7 +76,7 @@ Problem read_tas_benchmark(const json::Document& document, json::Diagnostics& di
       builder.set_route(stream, std::move(links), where);
       builder.add_stream(std::move(stream), where);
     }
-  return std::move(builder.problem());
+  return builder.take();
 }
 
 }  // namespace takt::interchange::schedules

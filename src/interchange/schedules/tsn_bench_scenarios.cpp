@@ -80,7 +80,7 @@ void read_stream(json::Reader& reader, const std::string& name, const Pick& pick
 
 }  // namespace
 
-Problem read_tsn_bench_scenario(const json::Document& topology, const json::Document& streams, json::Diagnostics& diagnostics) {
+Instance read_tsn_bench_scenario(const json::Document& topology, const json::Document& streams, json::Diagnostics& diagnostics) {
   Builder builder(diagnostics);
   builder.problem().name = stem_of(streams.file_name());
   builder.problem().source = "TSNBenchScenarios";
@@ -90,7 +90,7 @@ Problem read_tsn_bench_scenario(const json::Document& topology, const json::Docu
   if (diagnostics.has_errors()) return {};
   json::Reader reader(streams, diagnostics);
   for (const json::Member& member : streams.root().members) read_stream(reader, member.key, Pick(reader, member.value), builder);
-  return std::move(builder.problem());
+  return builder.take();
 }
 
 }  // namespace takt::interchange::schedules

@@ -46,7 +46,7 @@ void read_topology(const TextFile& file, Builder& builder, json::Diagnostics& di
 
 }  // namespace
 
-Problem read_tsnkit(const TextFile& tasks, const TextFile& topology, json::Diagnostics& diagnostics) {
+Instance read_tsnkit(const TextFile& tasks, const TextFile& topology, json::Diagnostics& diagnostics) {
   Builder builder(diagnostics);
   std::string name = stem_of(tasks.name);
   for (const std::string_view ending : {"_task", "-task", "task"})
@@ -80,7 +80,7 @@ Problem read_tsnkit(const TextFile& tasks, const TextFile& topology, json::Diagn
     if (const Ps limit = csv.scaled(row, jitter, ps_per_ns, time_range); limit < *stream.latency) stream.jitter = limit;
     if (diagnostics.errors() == mistakes) builder.add_stream(std::move(stream), csv.place(row, stream_column));
   }
-  return std::move(builder.problem());
+  return builder.take();
 }
 
 }  // namespace takt::interchange::schedules

@@ -75,7 +75,7 @@ void read_flow(json::Reader& reader, const Pick& pick, const std::map<std::strin
 
 }  // namespace
 
-Problem read_tsnsched(const json::Document& document, json::Diagnostics& diagnostics) {
+Instance read_tsnsched(const json::Document& document, json::Diagnostics& diagnostics) {
   json::Reader reader(document, diagnostics);
   const Pick top(reader, document.root());
   Builder builder(diagnostics);
@@ -101,7 +101,7 @@ Problem read_tsnsched(const json::Document& document, json::Diagnostics& diagnos
   if (diagnostics.has_errors()) return {};
   if (const Node* const flows = top.need_array("flows"))
     for (const Node& each : flows->items) read_flow(reader, Pick(reader, each), devices, builder);
-  return std::move(builder.problem());
+  return builder.take();
 }
 
 }  // namespace takt::interchange::schedules

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <map>
 
-#include "interchange/xml.hpp"
+#include "interchange/xml/xml.hpp"
 #include "interchange/yang/data.hpp"
 #include "interchange/yang/modules.hpp"
 #include "json/document.hpp"

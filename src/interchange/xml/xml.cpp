@@ -1,4 +1,4 @@
-#include "interchange/xml.hpp"
+#include "interchange/xml/xml.hpp"
 
 #include <expat.h>
 

@@ -2,17 +2,12 @@
 //
 // Whatever takes long runs without the interpreter's lock; it asks `keep_going` ten times a second, which takes the lock for that moment, looks for Ctrl-C and
 // tells how far things are.
-#include <pybind11/functional.h>
 #include <pybind11/numpy.h>
-#include <pybind11/pybind11.h>
-#include <pybind11/stl.h>
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdio>
 #include <memory>
-#include <mutex>
 
 #include "analysis/bounds.hpp"
 #include "analysis/report.hpp"
@@ -24,6 +19,7 @@
 #include "json/record.hpp"
 #include "output/frame_columns.hpp"
 #include "output/text_report.hpp"
+#include "python/common.hpp"
 #include "report/replay.hpp"
 #include "report/run_page.hpp"
 #include "results/result_json.hpp"
@@ -42,55 +38,6 @@
 namespace takt::python {
 namespace {
 
-namespace py = pybind11;
-
-/// A mistake of the user; Python gets it as takt.Mistake. The text is what the command prints, the JSON what --format json does.
-struct Mistake : std::exception {
-  explicit Mistake(std::string what, std::string diagnostics = "") : text(std::move(what)), json(std::move(diagnostics)) {}
-  const char* what() const noexcept override { return text.c_str(); }
-  std::string text;
-  std::string json;
-};
-
-Mistake mistake_of(const json::Diagnostics& diagnostics) { return Mistake(diagnostics.to_text(), json::compact(diagnostics.to_json())); }
-
-using Progress = std::optional<std::function<void(double)>>;   // a share from 0 to 1
-
-/// Asked now and then by what runs without the interpreter's lock.
-class Watch {
- public:
-  explicit Watch(const Progress& progress) : progress_(progress) {}
-  bool keep_going(double share) {
-    // Threads of a search may ask at the same time: one of them is enough.
-    const std::unique_lock alone(mutex_, std::try_to_lock);
-    if (!alone || is_interrupted_) return !is_interrupted_;
-    const auto now = Clock::now();
-    if (now - asked_ < std::chrono::milliseconds(100)) return true;
-    asked_ = now;
-    const py::gil_scoped_acquire lock;
-    try {
-      if (progress_ && *progress_) (*progress_)(share);
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    } catch (const py::error_already_set&) {
-      failure_ = std::current_exception();
-      is_interrupted_ = true;
-    }
-    return !is_interrupted_;
-  }
-  /// With the lock: what Python raised meanwhile, Ctrl-C among it.
-  void raise() const {
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  const Progress& progress_;
-  Clock::time_point asked_ = Clock::now();
-  std::mutex mutex_;
-  std::atomic<bool> is_interrupted_ = false;
-  std::exception_ptr failure_;
-};
-
 /// A read-only NumPy array over a vector that somebody else owns.
 template <class T, class Owner>
 py::array column(const std::vector<T>& values, const std::shared_ptr<Owner>& owner) {
@@ -100,11 +47,6 @@ py::array column(const std::vector<T>& values, const std::shared_ptr<Owner>& own
   array.attr("setflags")(py::arg("write") = false);
   return array;
 }
-
-struct Scenario {
-  std::shared_ptr<scenario::Resolved> resolved;
-  std::string warnings;
-};
 
 Scenario scenario_of(std::unique_ptr<scenario::Resolved> resolved, const json::Diagnostics& diagnostics) {
   if (!resolved) throw mistake_of(diagnostics);
@@ -430,6 +372,7 @@ PYBIND11_MODULE(_takt, m) {
   m.def("verify", &verification_of);
   m.def("explain", &explanation_of);
   m.def("compare", &comparison_of);
+  add_questions(m);
 
   py::class_<study::Plan, PlanPointer>(m, "Plan")
       .def_property_readonly("name", [](const study::Plan& p) { return p.study.name; })

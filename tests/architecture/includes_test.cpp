@@ -77,7 +77,7 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/property/", all_of({below, questions, evaluation, output, {"property/"}})});
     list.push_back({"src/interchange/", all_of({below, chart, interchange})});
     list.push_back({"src/emulate/", all_of({below, node, emulate})});
-    list.push_back({"src/python/", all_of({below, questions, study, evaluation, explain, output, chart, report})});
+    list.push_back({"src/python/", all_of({below, questions, study, evaluation, explain, output, chart, report, interchange_schedules, {"python/"}})});
     list.push_back({"src/studio/", all_of({below, questions, study, evaluation, explain, output, chart, report, studio})});
     list.push_back({"src/cli/", all_of({below, questions, study, evaluation, explain, output, node, emulate, report, studio, papers, interchange, cli})});
     list.push_back({"src/main.cpp", all_of({below, questions, study, evaluation, explain, output, node, emulate, report, studio, papers, interchange, cli})});
@@ -105,7 +105,7 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, explain, output, cli, node, emulate, plant, application, chart, report, studio, papers, study, schedule, interchange_schedules, interchange, {"property/"}});
+  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, explain, output, cli, node, emulate, plant, application, chart, report, studio, papers, study, schedule, interchange_schedules, interchange, {"property/", "python/"}});
   return roots;
 }
 

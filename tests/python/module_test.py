@@ -31,6 +31,60 @@ def command(*arguments):
     return subprocess.run([TAKT, *map(str, arguments)], capture_output=True, text=True, check=False, timeout=1000).stdout
 
 
+class Questions(unittest.TestCase):
+    def test_a_schedule_is_that_of_the_command(self):
+        path = SCENARIOS / "tsn" / "automatic-gates.json"
+        found = takt.schedule(path)
+        told = json.loads(command("schedule", path, "--format", "json"))
+        self.assertEqual(found.to_dict(), told)
+        self.assertEqual(found.verdict, "scheduled")
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder) / "out.json"
+            command("schedule", path, "--out", out)
+            self.assertEqual(found.scenario.override(duration="100ms").run().digest, takt.load(out, duration="100ms").run().digest)
+        self.assertIsNone(found.solution)
+        self.assertEqual(takt.load(path).schedule().to_dict(), told)
+
+    def test_instances_are_scheduled_or_refuted(self):
+        def instance(period):
+            nodes = [{"name": "a", "bridge": False}, {"name": "b", "bridge": False}]
+            links = [{"from": "a", "to": "b", "rate": 1_000_000_000}]
+            streams = [{"name": name, "talker": "a", "listeners": ["b"], "octets": 1000, "period": period} for name in "xy"]
+            return {"format": "schedule-problem-1", "nodes": nodes, "links": links, "streams": streams}
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "two.json"
+            path.write_text(json.dumps(instance(20_000_000)))
+            found = takt.schedule(path, gates=True)
+            self.assertEqual((found.verdict, set(found.solution["streams"])), ("scheduled", {"x", "y"}))
+            self.assertIn("gates", found.solution)
+            path.write_text(json.dumps(instance(16_000_000)))   # two frames of 1,020 octets on the wire take 16.32 us
+            found = takt.schedule(path)
+            self.assertEqual((found.verdict, found.certificate["kind"], found.solution), ("infeasible", "load", None))
+            path.write_text("{")
+            with self.assertRaises(takt.Mistake):
+                takt.schedule(path)
+        with self.assertRaisesRegex(takt.Mistake, "expected feasible"):
+            takt.schedule(SCENARIOS / "robot-arm.json", objective="best")
+
+    def test_an_exploration_is_that_of_the_command(self):
+        def without_time(page):
+            return {**page, "cpu_s": 0}
+
+        found = takt.explore(1, variant="paper", finish=False, calls=2)
+        told = json.loads(command("explore", "--slaves", 1, "--variant", "paper", "--no-finish", "--calls", 2, "--format", "json", "--quiet"))
+        self.assertEqual(found.to_dict(), without_time(told))
+        self.assertIn("violated", set(found.properties.to_dict().values()))
+        arm = takt.load(SCENARIOS / "robot-arm.json").explore(faults="loss", calls=2)
+        told = json.loads(command("explore", SCENARIOS / "robot-arm.json", "--faults", "loss", "--calls", 2, "--format", "json", "--quiet"))
+        self.assertEqual(arm.to_dict(), without_time(told))
+        for wrong in ({"slaves": 9}, {"slaves": 1, "faults": ["rain"]}, {"slaves": 1, "calls": -1}, {"slaves": 1, "network": "tubes"}):
+            with self.assertRaises(takt.Mistake):
+                takt.explore(**wrong)
+        with self.assertRaisesRegex(TypeError, "there is no argument 'fault'"):
+            takt.explore(1, fault="loss")
+
+
 class SameAnswers(unittest.TestCase):
     def test_a_run_is_that_of_the_command(self):
         for name in ("robot-arm", "three-slaves-star", "redundant-ring"):

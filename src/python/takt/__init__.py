@@ -17,20 +17,21 @@ from . import _takt
 from ._takt import Mistake
 from .records import Record
 
-__all__ = ["Figure", "Frames", "Mistake", "Plan", "Record", "Result", "Scenario", "Table", "load", "loads", "read_store", "study"]
+__all__ = ["Figure", "Frames", "Mistake", "Plan", "Record", "Result", "Scenario", "Schedule", "Table", "explore", "load", "loads", "read_store", "schedule", "study"]
 __version__ = _takt.version
 
 
 def load(path, **overrides):
     """The scenario of a file. `overrides` are as in Scenario.override. Mistakes are a takt.Mistake with all of them."""
-    return Scenario(_takt.load_file(_os.fspath(path), []), lambda options: _takt.load_file(_os.fspath(path), options)).override(**overrides)
+    path = _os.fspath(path)
+    return Scenario(_takt.load_file(path, []), lambda options: _takt.load_file(path, options), lambda options, how, progress: _takt.schedule_file(path, options, how, progress)).override(**overrides)
 
 
 def loads(text, name="scenario.json", **overrides):
     """The scenario of a text, or of what json.dumps makes one of. `name` stands in diagnostics; traces are sought beside it."""
     if not isinstance(text, str):
         text = _json.dumps(text)
-    return Scenario(_takt.load_text(text, name, []), lambda options: _takt.load_text(text, name, options)).override(**overrides)
+    return Scenario(_takt.load_text(text, name, []), lambda options: _takt.load_text(text, name, options), lambda options, how, progress: _takt.schedule_text(text, name, options, how, progress)).override(**overrides)
 
 
 def study(path):
@@ -41,6 +42,43 @@ def study(path):
 def read_store(path):
     """What a study has left behind (takt study --out STORE)."""
     return Table(_takt.read_store(_os.fspath(path)))
+
+
+def _how_to_schedule(*, routes="search", objective="feasible", limit="10s", seed=1, jobs=None, entries=1_000_000, gates=False, progress=None):
+    return _takt.HowToSchedule(routes, objective, limit, seed, jobs or 0, entries, gates)
+
+
+def schedule(*paths, routes="search", objective="feasible", limit="10s", seed=1, jobs=None, entries=1_000_000, gates=False, progress=None):
+    """Routes, phases and gate lists that are found, or why there are none, as `takt schedule` does: of the file of a scenario with automatic gates, or of instances of scheduling problems
+    (network and streams one after the other where they are two files).
+
+    A Schedule, or a list of them if the files hold several instances. Names are those of docs/reference/schedule.md. What is found by `limit`, a real time, may depend on the machine; progress is its share.
+    """
+    how = _how_to_schedule(routes=routes, objective=objective, limit=limit, seed=seed, jobs=jobs, entries=entries, gates=gates)
+    found = [Schedule(each) for each in _takt.schedule_files([_os.fspath(path) for path in paths], how, progress)]
+    return found[0] if len(found) == 1 else found
+
+
+def _explored(core, what):
+    known = dict(slaves=None, variant=None, faults=(), fault_budget=1, calls=None, depth=None, budget=100_000_000, network="registers", subscription=None, beginnings="all", nested=False,
+                 inner_slaves=None, joining=False, candidates=None, starts_again=False, signed=False, key_changes=None, symmetry=True, finish=True, progress=None)
+    for name in what:
+        if name not in known:
+            raise TypeError(f"there is no argument {name!r}; there are {', '.join(known)}")
+    asked = {**known, **what}
+    asked["faults"] = [asked["faults"]] if isinstance(asked["faults"], str) else list(asked["faults"])
+    found = [Record(_json.loads(page)) for page in _takt.explore(core, {name: value for name, value in asked.items() if name != "progress"}, asked["progress"])]
+    return found[0] if len(found) == 1 else found
+
+
+def explore(slaves, **what):
+    """Every order of messages, calls and faults of a group of so many slaves, as `takt explore` does: verdicts of the properties and a shortest counter-example of each that is violated.
+
+    Arguments are the options of the command: variant, faults (a list), fault_budget, calls, depth, budget (states), network, subscription, beginnings, nested, inner_slaves, joining, candidates, starts_again,
+    signed, key_changes; symmetry=False and finish=False are --no-symmetry and --no-finish. Names of the result are those of docs/reference/explore.md; cpu_s is 0. `progress` gets the share of the states that
+    are done of those found.
+    """
+    return _explored(None, {"slaves": slaves, **what})
 
 
 class Figure:
@@ -68,9 +106,10 @@ class _Figures(list):
 class Scenario:
     """A scenario, checked and resolved. It does not change: override() gives another one."""
 
-    def __init__(self, core, again, options=()):
+    def __init__(self, core, again, plan, options=()):
         self._core = core
         self._again = again
+        self._plan = plan
         self._options = list(options)
 
     @property
@@ -91,7 +130,7 @@ class Scenario:
         for pointer, value in {**(changes or {}), **more}.items():
             pointer = pointer if pointer.startswith("/") or "." in pointer else "/" + pointer
             options.append(f"{pointer}={value if isinstance(value, str) else _json.dumps(value)}")
-        return Scenario(self._again(options), self._again, options)
+        return Scenario(self._again(options), self._again, self._plan, options)
 
     def to_dict(self):
         """The resolved scenario, with all defaults."""
@@ -117,12 +156,53 @@ class Scenario:
         """Why a frame took so long: the slowest of the stream (of any without one), number `frame`, or the first that was lost; names as in docs/reference/explain.md."""
         return Record(_json.loads(_takt.explain(self._core, stream, frame, lost, progress)))
 
+    def schedule(self, **how):
+        """Offsets, paths and gate lists for the scenario as it was written, or why there are none: see takt.schedule."""
+        return Schedule(self._plan(list(self._options), _how_to_schedule(**how), how.get("progress")))
+
+    def explore(self, **what):
+        """Every order of messages, calls and faults in its Programs: see takt.explore. A list if there are several."""
+        return _explored(self._core, what)
+
     def compare(self, other, *, pairs=10, seed=1, jobs=1, progress=None):
         """This one (a) and another (b) with the same seeds, and where they part; names as in docs/reference/compare.md."""
         return Record(_json.loads(_takt.compare(self._core, other._core, pairs, seed, jobs, progress)))
 
     def __repr__(self):
         return f"<takt.Scenario {self.name}>"
+
+
+class Schedule(Record):
+    """What `takt schedule --format json` says, and what was found."""
+
+    __slots__ = ("_found", "_proof")
+
+    def __init__(self, answer):
+        report, found, proof = answer
+        super().__init__(_json.loads(report))
+        object.__setattr__(self, "_found", found)
+        object.__setattr__(self, "_proof", proof)
+
+    @property
+    def scenario(self):
+        """Of a scenario that was scheduled: the same with offsets, paths and gate lists. None otherwise."""
+        return loads(self._found) if self._found and not self._is_solution() else None
+
+    @property
+    def solution(self):
+        """Of an instance that was scheduled: starts, routes and gates as a dictionary (schedule-solution-1). None otherwise."""
+        return _json.loads(self._found) if self._found and self._is_solution() else None
+
+    @property
+    def certificate(self):
+        """Why there is no schedule, for a checker; None if nothing was proved."""
+        return _json.loads(self._proof) if self._proof else None
+
+    def _is_solution(self):
+        return _json.loads(self._found).get("format") == "schedule-solution-1"
+
+    def __repr__(self):
+        return f"<takt.Schedule: {self.verdict} ({self.how})>"
 
 
 class Result(Record):

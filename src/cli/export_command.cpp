@@ -79,10 +79,14 @@ ExitStatus run_export(const ExportOptions& options) {
   if (!exported.losses.empty() && !options.lossy) return refuse_export(fmt::format("nothing was written, since {} {} lost; --lossy writes the rest", exported.losses.size(), exported.losses.size() == 1 ? "thing would be" : "things would be"));
   if (!options.folder.empty()) return write_files(exported, options.folder);
   if (exported.files.size() == 1) {
-    std::fputs(exported.files.front().content.c_str(), stdout);
+    std::fwrite(exported.files.front().content.data(), 1, exported.files.front().content.size(), stdout);
     return ExitStatus::pass;
   }
-  for (const interchange::OutputFile& file : exported.files) std::printf("==> %s <==\n%s\n", file.name.c_str(), file.content.c_str());
+  for (const interchange::OutputFile& file : exported.files) {
+    std::printf("==> %s <==\n", file.name.c_str());
+    std::fwrite(file.content.data(), 1, file.content.size(), stdout);
+    std::printf("\n");
+  }
   return ExitStatus::pass;
 }
 

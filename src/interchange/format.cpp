@@ -13,6 +13,7 @@
 #include "interchange/pcap/import.hpp"
 #include "interchange/planning/planning.hpp"
 #include "interchange/qcc/qcc.hpp"
+#include "interchange/uadp/uadp.hpp"
 #include "interchange/wireshark/wireshark.hpp"
 #include "interchange/yang/yang.hpp"
 
@@ -26,6 +27,8 @@ const std::array exports{
                  "times of hosts and switches; clocks, streams, programs, applications, faults, requirements", yang_export_settings, export_yang},
     ExportFormat{"inet", "a network (NED) and its configuration (ini) for INET 4.6", "network, streams with UDP, queues, gates, shapers, redundancy", "requirements, verification, bounds", {}, export_inet},
     ExportFormat{"qcc", "requests for streams as a CUC gives them (ieee802-dot1q-cnc-config)", "streams with intervals, sizes, offsets, priorities, listeners; required latencies", "network, nodes, ports, clocks, faults", {}, export_qcc},
+    ExportFormat{"uadp", "publishers and subscribers of each node as a PubSub configuration of OPC UA (a binary file with a PubSubConfigurationDataType, as open62541 loads it)",
+                 "messages of programs: data sets, ids, content masks, intervals, offsets, time-outs, addresses", "network, streams, faults, requirements; the handshake itself", {}, export_uadp},
     ExportFormat{"wireshark", "a profile of Wireshark for captures of the scenario: ethers, colorfilters, dfilter_buttons, preferences", "names of addresses, priorities, streams", "all else", {}, export_wireshark},
     ExportFormat{"neutral", "the neutral scheduling problem (schedule-problem-1) that takt schedule reads", "network, streams with periods, sizes, classes, offsets and paths, latency and jitter that are required",
                  "gates that takt lays out, offsets that it chooses; other requirements", {}, export_neutral},

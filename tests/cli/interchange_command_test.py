@@ -10,6 +10,9 @@ import sys
 import tempfile
 import unittest
 
+sys.dont_write_bytecode = True
+import pubsub_configuration
+
 TAKT, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 SCENARIOS = SOURCE / "scenarios"
 
@@ -70,6 +73,33 @@ class Interchange(unittest.TestCase):
         self.assertIn("sw1.sh:1:46: error", error)
         self.assertIn("sw1.sh:2:1: error", error)
         self.assertFalse((self.out / "x.json").exists())
+
+    def test_pubsub_configurations_say_what_is_on_the_wire(self):
+        scenario = SCENARIOS / "robot-arm.json"
+        status, _, error = takt("export", "uadp", scenario, "--out", self.out / "uadp")
+        self.assertEqual((status, error), (0, ""))
+        self.assertEqual(sorted(path.name for path in (self.out / "uadp").iterdir()), ["generator.uadp.bin", "robot.uadp.bin"])
+        nodes = {path.name.split(".")[0]: pubsub_configuration.read(path.read_bytes()) for path in (self.out / "uadp").iterdir()}
+        sent, heard = {}, {}
+        for node, configuration in nodes.items():
+            self.assertEqual([each["Name"] for each in configuration["PublishedDataSets"]], [each["Name"] for each in configuration["Connections"] if each["WriterGroups"]])
+            for connection in configuration["Connections"]:
+                self.assertRegex(connection["Address"]["Url"], r"^opc\.eth://([0-9a-f]{2}-){5}[0-9a-f]{2}:0\.6$")
+                for group in connection["WriterGroups"]:
+                    self.assertEqual((group["PublishingInterval"], group["MessageSettings"]["NetworkMessageContentMask"]), (0.2, 0x3F))   # 200 us; UADP-Periodic-Fixed
+                    sent[connection["PublisherId"], group["WriterGroupId"]] = (connection["Name"], connection["Address"]["Url"], group["MessageSettings"]["GroupVersion"])
+                for group in connection["ReaderGroups"]:
+                    for reader in group["DataSetReaders"]:
+                        heard[reader["PublisherId"], reader["WriterGroupId"]] = (connection["Name"], connection["Address"]["Url"], reader["MessageSettings"]["GroupVersion"])
+                        self.assertEqual(len(reader["SubscribedDataSet"]["TargetVariables"]), len(reader["DataSetMetaData"]["Fields"]))
+        self.assertEqual(sent, heard)   # two nodes: what the one sends the other hears
+        self.assertEqual({name for name, _, _ in sent.values()}, {"trajectory/state/generator", "trajectory/state/robot", "trajectory/target", "trajectory/actual"})
+        # The state of robust: README of src/wire.
+        fields = next(each for each in nodes["robot"]["PublishedDataSets"] if "state" in each["Name"])["DataSetMetaData"]["Fields"]
+        self.assertEqual([each["BuiltInType"] for each in fields], [6, 7, 7, 7, 7, 3, 3])
+        status, _, error = takt("export", "uadp", SCENARIOS / "tsn" / "ats.json")
+        self.assertEqual(status, 2)
+        self.assertIn("no Programs", error)
 
     def test_settings_are_those_of_the_format(self):
         for arguments in (("-o", "gates=nowhere"), ("-o", "speed=1"), ("-o", "start=-1")):

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "analysis/report_record.hpp"
+#include "json/page_text.hpp"
 #include "json/quantity.hpp"
 #include "json/record.hpp"
 #include "scenario/figures/requirement.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 using sim::Duration;
 
-std::string text_of(const std::optional<Duration>& value) { return value ? json::to_text(*value) : "unbounded"; }
+std::string text_of(const std::optional<Duration>& value) { return value ? json::to_page_text(*value) : "unbounded"; }
 
 std::string numbers_of(const Assumptions& assumptions, const std::vector<Assumption>& all) {
   std::string text;
@@ -54,12 +55,17 @@ std::string standing_text(const AssessedAssumption& each) {
 
 std::string streams_text(const Bounds& bounds, const scenario::Resolved& r, const std::vector<Assumption>& all) {
   std::string text = "Streams: the longest latency from production to delivery, by total-flow and by separated-flow analysis; of each port the longest delay and the greatest backlog of the class\n";
+  std::size_t width = 24;
+  for (const StreamBound& stream : bounds.streams) {
+    width = std::max(width, stream.name.size());
+    for (const HopBound& hop : stream.hops) width = std::max(width, hop.name.size() + 2);
+  }
   for (const StreamBound& stream : bounds.streams) {
     const std::string second = stream.separated_flow ? text_of(stream.separated_flow) : "-";
-    text += fmt::format("  {:<32} {:>16} {:>16}  to {}{}{}\n", stream.name, text_of(stream.total_flow), second, r.plan.nodes[stream.listener.value].name,
+    text += fmt::format("  {:<{}} {:>16} {:>16}  to {}{}{}\n", stream.name, width, text_of(stream.total_flow), second, r.plan.nodes[stream.listener.value].name,
                         numbers_of(stream.assumptions, all), stream.reason.empty() ? "" : "  " + stream.reason);
     for (const HopBound& hop : stream.hops)
-      text += fmt::format("    {:<30} {:>16} {:>16}  {}\n", hop.name, text_of(hop.delay), "", hop.backlog_bits ? fmt::format("{} bits", *hop.backlog_bits) : "unbounded");
+      text += fmt::format("    {:<{}} {:>16} {:>16}  {}\n", hop.name, width - 2, text_of(hop.delay), "", hop.backlog_bits ? fmt::format("{} bits", *hop.backlog_bits) : "unbounded");
   }
   return text;
 }

@@ -3,7 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <iostream>
+#include <sstream>
 
+#include "cli/terminal.hpp"
 #include "json/node.hpp"
 #include "json/suggest.hpp"
 
@@ -179,7 +182,10 @@ ExitStatus run_command_line(int argc, char** argv, const std::string& help, cons
     return ExitStatus::bad_input;
   } catch (const CLI::ParseError& error) {
     // Help and version are "errors" of the library with status 0.
-    return app.exit(error) == 0 ? ExitStatus::pass : ExitStatus::bad_input;
+    std::ostringstream page;
+    const bool is_fine = app.exit(error, page, std::cerr) == 0;
+    std::fputs(folded(page.str(), page_width()).c_str(), stdout);
+    return is_fine ? ExitStatus::pass : ExitStatus::bad_input;
   }
   return status;
 }

@@ -64,7 +64,8 @@ ExitStatus run(const CompareOptions& options) {
   comparison.b = options.b;
   for (const std::string& option : options.overrides_of_a) comparison.a += " " + option;
   for (const std::string& option : options.overrides_of_b) comparison.b += " " + option;
-  std::fputs((options.format == "json" ? json::write(comparison) : study::text_of(comparison)).c_str(), stdout);
+  if (options.format == "json") std::fputs(json::write(comparison).c_str(), stdout);
+  else print(study::text_of(comparison));
   return comparison.troubles.empty() ? ExitStatus::pass : ExitStatus::undecided;
 }
 

@@ -7,6 +7,7 @@
 
 #include "analysis/bounds.hpp"
 #include "cli/commands.hpp"
+#include "cli/terminal.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/load.hpp"
 #include "evaluation/evaluate.hpp"
@@ -236,7 +237,7 @@ class Asking {
   ExitStatus print() const {
     if (interrupt_.requested()) return ExitStatus::interrupted;
     const std::string page = options_.scenario.is_json() ? json::pretty(json::write_record(describe(json::Type<explain::Explanation>{}), &explanation_)) : explain::text_of(explanation_);
-    std::fputs(page.c_str(), stdout);
+    cli::print(page);
     return ExitStatus::pass;
   }
 

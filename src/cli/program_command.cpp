@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/terminal.hpp"
 #include "program/documentation.hpp"
 
 namespace takt::cli {
@@ -18,7 +19,8 @@ void add_program_command(Command app, ExitStatus& status) {
       "  takt program --table\n"
       "  takt program --dot | dot -Tsvg > program.svg");
   command.callback([is_table, is_dot, &status] {
-    std::fputs((*is_dot ? program::table_dot() : program::table_text()).c_str(), stdout);
+    if (*is_dot) std::fputs(program::table_dot().c_str(), stdout);
+    else print(program::table_text());
     status = ExitStatus::pass;
   });
 }

@@ -12,12 +12,14 @@
 
 #include "cli/commands.hpp"
 #include "cli/schedule_change.hpp"
+#include "cli/terminal.hpp"
 #include "interchange/schedules/instances.hpp"
 #include "interchange/schedules/report.hpp"
 #include "interchange/schedules/write.hpp"
 #include "json/document.hpp"
 #include "json/fields.hpp"
 #include "json/quantity.hpp"
+#include "output/result_folder.hpp"
 #include "schedule/decide.hpp"
 #include "schedule/gate_lists.hpp"
 #include "schedule_check/instance_check.hpp"
@@ -108,7 +110,7 @@ ExitStatus schedule_instance(const schedule::Problem& problem, const ScheduleOpt
   if (decision.verdict == Decision::Verdict::scheduled) solution = json::compact(interchange::schedules::write_solution(problem, decision.found.solution)) + "\n";
   if (decision.certificate) certificate = json::compact(interchange::schedules::write_certificate(problem, *decision.certificate)) + "\n";
   if (options.format == "json") reports.items.push_back(json::ShapeOf<interchange::schedules::ScheduleReport>::write(report));
-  if (options.format == "text") std::fputs((interchange::schedules::text_of(report) + fmt::format("  in {:.3f} ms of the processor\n", took * 1e3)).c_str(), stdout);
+  if (options.format == "text") print(interchange::schedules::text_of(report) + fmt::format("  in {:.3f} ms of the processor\n", took * 1e3));
   if (options.format == "neutral") std::fputs((solution ? *solution : certificate.value_or(std::string())).c_str(), stdout);
   if (options.out && solution && !write_file(path_for(*options.out, problem, ".solution.json"), *solution)) return ExitStatus::internal_error;
   if (options.certificate && certificate && !write_file(path_for(*options.certificate, problem, ".certificate.json"), *certificate)) return ExitStatus::internal_error;
@@ -136,7 +138,7 @@ ExitStatus schedule_scenario(const ScheduleOptions& options, sim::Duration limit
   for (const std::string& each : answer->wrong) std::fprintf(stderr, "takt: %s is answered wrongly: %s\n", wanted.name.c_str(), each.c_str());
   if (!answer->wrong.empty()) return ExitStatus::internal_error;
   if (options.format == "json") std::fputs(json::write(*answer).c_str(), stdout);
-  if (options.format == "text") std::fputs(synthesis::text_of(wanted.name, *answer).c_str(), stdout);
+  if (options.format == "text") print(synthesis::text_of(wanted.name, *answer));
   if (options.format == "neutral" && answer->instance) std::fputs((json::compact(interchange::schedules::write_problem(*answer->instance)) + "\n").c_str(), stdout);
   if (options.out && answer->resolved && !write_file(*options.out, json::encode(answer->resolved->scenario))) return ExitStatus::internal_error;
   if (options.certificate && answer->certificate && !write_file(*options.certificate, json::compact(interchange::schedules::write_certificate(*answer->instance, *answer->certificate)) + "\n"))
@@ -157,6 +159,14 @@ ExitStatus run(const ScheduleOptions& options) {
   if (!limit || (*limit).ps() <= 0) {
     diagnostics.error({"--limit", 0, 0, ""}, "not a time to search", {json::quote(options.limit), "a duration such as \"10s\""});
     return report_mistakes(diagnostics, options);
+  }
+  // Found now, not when the search is over. A folder ("DIR/") has a file for each instance.
+  for (const std::optional<std::string>& path : {options.out, options.certificate}) {
+    if (!path) continue;
+    const std::string unwritable = path->ends_with('/') ? output::prepare_folder(*path) : output::prepare_file(*path);
+    if (unwritable.empty()) continue;
+    std::fprintf(stderr, "takt: cannot write: %s\n", unwritable.c_str());
+    return ExitStatus::internal_error;
   }
   if (options.files.size() == 1 && !interchange::schedules::is_instance(options.files.front())) return schedule_scenario(options, *limit);
   if (!options.to && (options.change.add || options.change.plant || !options.change.remove.empty() || !options.change.fail.empty())) {

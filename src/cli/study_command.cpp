@@ -133,7 +133,7 @@ ExitStatus answer(study::Plan& plan, const StudyOptions& options, const study::R
     std::fprintf(stderr, "takt: %s\n", finding.problem.c_str());
     return ExitStatus::internal_error;
   }
-  std::fputs(study::text_of(plan, *question, finding).c_str(), stdout);
+  print(study::text_of(plan, *question, finding));
   return finding.interrupted ? ExitStatus::interrupted : finding.level ? ExitStatus::pass : ExitStatus::requirement_failed;
 }
 
@@ -192,7 +192,7 @@ ExitStatus report(const std::string& store, const std::string& out) {
   std::string problem;
   const auto content = study::read_store(store, problem);
   if (!content) return bad(problem);
-  std::fputs(study::text_summary(*content).c_str(), stdout);
+  print(study::text_summary(*content));
   problem = output::write_file(out, study::html_report(*content));
   if (problem.empty()) return ExitStatus::pass;
   std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());

@@ -76,6 +76,51 @@ std::string by_line(std::string_view page, Paint paint) {
   return out;
 }
 
+/// Columns that a text takes: continuation octets of UTF-8 take none.
+std::size_t columns_of(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+/// With its newline, if it has one.
+std::string folded_line(std::string_view line, std::size_t width) {
+  const std::string_view end = line.ends_with('\n') ? "\n" : "";
+  line.remove_suffix(end.size());
+  std::string out, rest;
+  const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
+  // A part begins behind two spaces; far to the right there is no room below it.
+  std::size_t hang = indent + 2;
+  for (std::size_t gap = line.find("  ", indent); gap != std::string_view::npos; gap = line.find("  ", gap)) {
+    gap = line.find_first_not_of(' ', gap);
+    if (gap == std::string_view::npos || gap > width / 2) break;
+    hang = gap;
+  }
+  while (columns_of(line) > width) {
+    std::size_t limit = 0;   // octets that fit
+    for (std::size_t columns = 0; limit < line.size(); ++limit)
+      if ((static_cast<unsigned char>(line[limit]) & 0xC0) != 0x80 && ++columns > width) break;
+    const std::size_t least = out.empty() ? indent : hang;
+    std::size_t at = line.rfind(' ', limit);
+    if (at == std::string_view::npos || at <= least) {
+      // A word that is longer than the line, such as a list of choices.
+      const std::size_t comma = line.rfind(',', limit - 1);
+      if (comma != std::string_view::npos && comma > least) {
+        out.append(line.substr(0, comma + 1)).append("\n");
+        rest = std::string(hang, ' ').append(line.substr(comma + 1));
+        line = rest;
+        continue;
+      }
+      at = line.find(' ', std::max(limit, least));
+    }
+    if (at == std::string_view::npos) break;
+    const std::size_t last = line.find_last_not_of(' ', at), next = line.find_first_not_of(' ', at);
+    if (last == std::string_view::npos || next == std::string_view::npos || last < least) break;
+    out.append(line.substr(0, last + 1)).append("\n");
+    rest = std::string(hang, ' ').append(line.substr(next));
+    line = rest;
+  }
+  return out.append(line).append(end);
+}
+
 }  // namespace
 
 std::size_t page_width() {
@@ -88,7 +133,16 @@ std::size_t page_width() {
 
 std::string with_colour(std::string_view page) { return by_line(page, with_verdict); }
 
-void print(const std::string& page) { std::fputs((wants_colour(STDOUT_FILENO) ? with_colour(page) : page).c_str(), stdout); }
+std::string folded(std::string_view page, std::size_t width) {
+  return width == 0 ? std::string(page) : by_line(page, [width](std::string_view line, bool) { return folded_line(line, width); });
+}
+
+void print(const std::string& page) {
+  // JSON is for programs, wherever it goes.
+  const bool is_json = page.starts_with('{') || page.starts_with('[');
+  const std::string fitting = is_json ? page : folded(page, page_width());
+  std::fputs((wants_colour(STDOUT_FILENO) ? with_colour(fitting) : fitting).c_str(), stdout);
+}
 
 void tell_files(const std::string& summary, const std::string& report) {
   std::fflush(stdout);

@@ -15,7 +15,10 @@ std::size_t page_width();
 /// The page with verdicts coloured: words such as "pass" and "FAIL" that begin a line, and the verdict of the last line. Other text is left as it is.
 std::string with_colour(std::string_view page);
 
-/// Prints a page for people on standard output, in colour if a terminal looks and NO_COLOR (https://no-color.org) is not set.
+/// The page with lines that are longer than `width` (0: none is) broken between words; what follows stands below the column in which the line's last part begins.
+std::string folded(std::string_view page, std::size_t width);
+
+/// Prints a page for people on standard output, folded to the width of a terminal, in colour if a terminal looks and NO_COLOR (https://no-color.org) is not set.
 void print(const std::string& page);
 
 /// Says on standard error, behind the page, what was written: what WrittenFiles says of a folder, and a page with pictures; each may be empty.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "explain/explanation.hpp"
+#include "json/page_text.hpp"
 #include "json/quantity.hpp"
 
 namespace takt::explain {
@@ -26,22 +27,36 @@ std::string end_of(const ExplainedFrame& frame) {
   return frame.end == "delivered" ? "delivered at " + where : "under way at the end, at " + where;
 }
 
+/// Of the two columns of text of a table.
+struct Widths {
+  std::size_t where = 5, what = 4;   // their titles
+  void hold(std::string_view a, std::string_view b) {
+    where = std::max(where, a.size());
+    what = std::max(what, b.size());
+  }
+};
+
 void add_frame(std::string& page, const ExplainedFrame& frame, std::string_view indent) {
-  page += fmt::format("{}{} frame {} from {}: {}, {} after it was produced at {}\n", indent, frame.stream, frame.sequence, frame.talker, end_of(frame), json::to_text(frame.takes), json::to_text(frame.produced.since_start()));
+  Widths widths;
+  for (const ExplainedHop& hop : frame.hops)
+    for (const ExplainedPart& part : hop.parts) widths.hold(place_of(hop, part), blame_of(part));
+  page += fmt::format("{}{} frame {} from {}: {}, {} after it was produced at {}\n", indent, frame.stream, frame.sequence, frame.talker, end_of(frame), json::to_page_text(frame.takes), json::to_page_text(frame.produced.since_start()));
   std::string last = "-";
   for (const ExplainedHop& hop : frame.hops)
     for (const ExplainedPart& part : hop.parts) {
       std::string where = place_of(hop, part);
       const bool is_same = where == last;
       last = where;
-      page += fmt::format("{}  {:<24} {:<58} {:>14} {:>7}\n", indent, is_same ? "" : where, blame_of(part), json::to_text(part.takes), share_of(part.takes, frame.takes));
+      page += fmt::format("{}  {:<{}} {:<{}} {:>14} {:>7}\n", indent, is_same ? "" : where, widths.where, blame_of(part), widths.what, json::to_page_text(part.takes), share_of(part.takes, frame.takes));
     }
 }
 
 void add_reaction(std::string& page, const ExplainedReaction& reaction) {
-  page += fmt::format("Program {}: {} from {} at {} took {}\n", reaction.program, reaction.kind, reaction.cause, json::to_text(reaction.began.since_start()), json::to_text(reaction.takes));
+  page += fmt::format("Program {}: {} from {} at {} took {}\n", reaction.program, reaction.kind, reaction.cause, json::to_page_text(reaction.began.since_start()), json::to_page_text(reaction.takes));
+  Widths widths;
+  for (const ExplainedStep& step : reaction.steps) widths.hold(step.who, step.what);
   for (const ExplainedStep& step : reaction.steps) {
-    page += fmt::format("  {:<24} {:<58} {:>14} {:>7}\n", step.who, step.what, json::to_text(step.takes), share_of(step.takes, reaction.takes));
+    page += fmt::format("  {:<{}} {:<{}} {:>14} {:>7}\n", step.who, widths.where, step.what, widths.what, json::to_page_text(step.takes), share_of(step.takes, reaction.takes));
     if (step.message) add_frame(page, *step.message, "      ");
   }
 }
@@ -59,9 +74,11 @@ std::string text_of(const Explanation& explanation) {
   if (explanation.reaction) add_reaction(page, *explanation.reaction);
   for (const ExplainedFrame& frame : explanation.frames) add_frame(page, frame, "");
   if (explanation.bound) {
-    page += fmt::format("{}Bound {}\n  {:<24} {:<58} {:>14} {:>14}\n", page.ends_with("\n\n") ? "" : "\n", json::to_text(*explanation.bound), "where", "what", "bound", "worst run");
+    Widths widths;
+    for (const ExplainedShare& share : explanation.shares) widths.hold(share.where, share.what);
+    page += fmt::format("{}Bound {}\n  {:<{}} {:<{}} {:>14} {:>14}\n", page.ends_with("\n\n") ? "" : "\n", json::to_page_text(*explanation.bound), "where", widths.where, "what", widths.what, "bound", "worst run");
     for (const ExplainedShare& share : explanation.shares)
-      page += fmt::format("  {:<24} {:<58} {:>14} {:>14}\n", share.where, share.what, share.bound ? json::to_text(*share.bound) : "", share.run ? json::to_text(*share.run) : "");
+      page += fmt::format("  {:<{}} {:<{}} {:>14} {:>14}\n", share.where, widths.where, share.what, widths.what, share.bound ? json::to_page_text(*share.bound) : "", share.run ? json::to_page_text(*share.run) : "");
   }
   return page;
 }

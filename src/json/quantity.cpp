@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "json/node.hpp"
+#include "json/page_text.hpp"
 #include "json/suggest.hpp"
 
 namespace takt::json {
@@ -263,6 +264,11 @@ Parsed<Probability> parse_probability(std::string_view text) {
 }
 
 std::string to_text(sim::Duration value) { return quantity_text(duration_dimension, value.ps()); }
+std::string to_page_text(sim::Duration value) {
+  std::string text = to_text(value);
+  text.insert(text.find_last_of("0123456789.") + 1, " ");
+  return text;
+}
 std::string to_text(sim::DataRate value) {
   return quantity_text(data_rate_dimension, static_cast<sim::int128>(value.bits_per_second));
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "json/record.hpp"
@@ -128,10 +129,15 @@ Comparison compare(const Plan& a, const Plan& b, const RunOptions& options) {
 
 std::string text_of(const Comparison& comparison) {
   std::string text = fmt::format("A: {}\nB: {}\n{} pairs of runs with the same seeds, {} of them the same run\n", comparison.a, comparison.b, comparison.pairs, comparison.same_digest);
-  text += fmt::format("\n{:<22} {:>26} {:>26} {:>26}\n", "mean, 95 % interval", "A", "B", "B - A");
+  std::array<std::size_t, 4> widths = {19, 1, 1, 5};   // of the titles
+  for (const ComparedMeasure& m : comparison.measures) {
+    widths[0] = std::max(widths[0], m.name.size() + (m.unit.empty() ? 0 : m.unit.size() + 1));
+    for (const auto& [column, summary] : {std::pair(1, &m.a), std::pair(2, &m.b), std::pair(3, &m.difference)}) widths[static_cast<std::size_t>(column)] = std::max(widths[static_cast<std::size_t>(column)], interval(*summary).size());
+  }
+  text += fmt::format("\n{:<{}}  {:>{}}  {:>{}}  {:>{}}\n", "mean, 95 % interval", widths[0], "A", widths[1], "B", widths[2], "B - A", widths[3]);
   for (const ComparedMeasure& m : comparison.measures) {
     const std::string name = m.name + (m.unit.empty() ? "" : " " + m.unit);
-    text += fmt::format("{:<22} {:>26} {:>26} {:>26}", name, interval(m.a), interval(m.b), interval(m.difference));
+    text += fmt::format("{:<{}}  {:>{}}  {:>{}}  {:>{}}", name, widths[0], interval(m.a), widths[1], interval(m.b), widths[2], interval(m.difference), widths[3]);
     const std::string verdict = verdict_of(m);
     if (!verdict.empty()) text += "  " + verdict;
     text += m.unpaired > 0 ? fmt::format("{}in {} pairs only one run has it\n", verdict.empty() ? "  " : "; ", m.unpaired) : "\n";

@@ -75,7 +75,7 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/report/", all_of({below, questions, evaluation, explain, output, chart, report})});
     list.push_back({"src/papers/", all_of({below, questions, evaluation, chart, report, papers})});
     list.push_back({"src/property/", all_of({below, questions, evaluation, output, {"property/"}})});
-    list.push_back({"src/interchange/", all_of({below, chart, interchange})});
+    list.push_back({"src/interchange/", all_of({below, chart, interchange, {"schedule_check/"}})});
     list.push_back({"src/emulate/", all_of({below, node, emulate})});
     list.push_back({"src/python/", all_of({below, questions, study, evaluation, explain, output, chart, report, interchange_schedules, {"python/"}})});
     list.push_back({"src/studio/", all_of({below, questions, study, evaluation, explain, output, chart, report, studio})});

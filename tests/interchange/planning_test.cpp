@@ -150,6 +150,18 @@ TEST(Planning, AScheduleMovesTheStreamAndOpensGates) {
   EXPECT_EQ(accounts.delivered, 6u);
 }
 
+TEST(Planning, SchedulesThatAreNoneAreRefused) {
+  for (const char* const wrong : {R"({"format": "schedule-solution-1", "streams": {"x": {"route": ["a>s"], "start": [9000000]}}})",            // ends at the switch
+                                  R"({"format": "schedule-solution-1", "streams": {"x": {"route": ["s>b"], "start": [9000000]}}})",            // begins there
+                                  R"({"format": "schedule-solution-1", "streams": {"x": {"route": ["b>s", "s>b"], "start": [1, 2]}}})",        // in a circle
+                                  R"({"format": "schedule-solution-1", "streams": {"x": {"route": [], "start": []}}})",
+                                  R"({"format": "schedule-solution-1", "streams": {}})"}) {
+    const Reading reading = read("neutral", {{"two.json", "two", two_hosts}, {"s.json", "s", wrong}});
+    EXPECT_FALSE(reading.imported.scenario) << wrong;
+    EXPECT_TRUE(reading.diagnostics.has_errors()) << wrong;
+  }
+}
+
 TEST(Planning, WhatTaktDoesOtherwiseIsTold) {
   const std::string tasks = "stream,src,dst,size,period,deadline,jitter\n0,0,\"[1]\",50,1000000,1000000,1000000\n1,0,\"[1]\",4000,1000000,1000000,1000000\n";
   const std::string topology = "link,q_num,rate,t_proc,t_prop\n\"(0, 2)\",8,1,2000,0\n\"(2, 0)\",8,1,0,0\n\"(1, 2)\",8,1,1000,0\n\"(2, 1)\",8,1,3000,0\n";

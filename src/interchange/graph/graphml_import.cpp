@@ -146,6 +146,7 @@ Imported import_graphml(const ImportRequest& request, json::Diagnostics& diagnos
   for (const InputFile& file : request.files) {
     const auto elements = parse_xml(file.text, file.name, diagnostics);
     if (!elements) continue;
+    if (elements->empty()) diagnostics.error({file.name, 1, 1, ""}, "not GraphML", {"nothing", "graphml"});
     for (const XmlElement& element : *elements) {
       if (element.name != "graphml" || (!element.name_space.empty() && element.name_space != graphml)) diagnostics.error(element.place, "not GraphML", {json::quote(element.name), "graphml"});
       else Reader(request, imported, diagnostics).read(element, scenario);

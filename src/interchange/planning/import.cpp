@@ -10,6 +10,7 @@
 #include "json/fields.hpp"
 #include "json/quantity.hpp"
 #include "schedule/gate_lists.hpp"
+#include "schedule_check/instance_check.hpp"
 
 namespace takt::interchange {
 namespace {
@@ -68,9 +69,9 @@ Imported import_instance(const ImportRequest& request, const Family& family, jso
     auto document = family.contents.front() == Content::neutral ? json::parse(other->text, other->name, unheard) : std::nullopt;
     const json::Node* const format = document && document->root().kind == json::Kind::object ? document->root().find("format") : nullptr;
     if (format != nullptr && format->text == "schedule-solution-1" && !solution_document) solution_document = std::move(document);
-    else diagnostics.error_unless(diagnostics.has_errors(), {other->name, 0, 0, ""}, std::string("not of ") + family.what, {"something else", family.files});
+    else diagnostics.error_unless(diagnostics.has_errors(), {other->name, 1, 1, ""}, std::string("not of ") + family.what, {"something else", family.files});
   }
-  if (files.empty()) diagnostics.error_unless(diagnostics.has_errors(), {request.files.empty() ? "command line" : request.files.front().name, 0, 0, ""}, "no instance", {"none", family.files});
+  if (files.empty()) diagnostics.error_unless(diagnostics.has_errors(), {request.files.empty() ? "command line" : request.files.front().name, 1, 1, ""}, "no instance", {"none", family.files});
   if (diagnostics.has_errors()) return imported;
   // A neutral problem of takt's has these beside it in the same file.
   if (family.contents.front() == Content::neutral)
@@ -82,21 +83,25 @@ Imported import_instance(const ImportRequest& request, const Family& family, jso
   schedules::InstanceReader reader(std::move(files), assumptions);
   const auto instance = reader.next_instance(diagnostics);
   if (!instance) {
-    diagnostics.error_unless(diagnostics.has_errors(), {request.files.front().name, 0, 0, ""}, "a network without streams", {"no streams beside it", family.files});
+    diagnostics.error_unless(diagnostics.has_errors(), {request.files.front().name, 1, 1, ""}, "a network without streams", {"no streams beside it", family.files});
     return imported;
   }
   if (!reader.is_at_end()) diagnostics.error(instance->places.whole, "several instances", {"more than one", "one instance: it becomes one scenario"});
   std::optional<schedule::Solution> solution;
   if (solution_document) {
     solution = schedules::read_solution(*solution_document, instance->problem, diagnostics);
+    // Whoever wrote it: what is no schedule of the problem is refused, in the words of the checker.
+    if (!diagnostics.has_errors())
+      if (const auto wrong = schedule_check::check(instance->problem, *solution); !wrong.empty())
+        diagnostics.error({solution_document->file_name(), 1, 1, ""}, "no schedule of the problem", {wrong.front(), "what takt schedule --out writes for it"});
     if (!diagnostics.has_errors()) {
       const auto no_lists = schedule::make_gate_lists(instance->problem, *solution, {});
-      if (no_lists) imported.remark(RemarkKind::lost, {solution_document->file_name(), 0, 0, ""}, "gate control lists: " + *no_lists);
+      if (no_lists) imported.remark(RemarkKind::lost, {solution_document->file_name(), 1, 1, ""}, "gate control lists: " + *no_lists);
       if (const json::Node* const gates = solution_document->root().find("gates")) imported.remark(RemarkKind::changed, json::place_of(*solution_document->tree(), *gates), "gate control lists are made anew of the starts");
     }
   }
   const bool plans_gates = request.settings["gates"] == "auto";
-  if (plans_gates && solution) diagnostics.error({solution_document->file_name(), 0, 0, ""}, "a schedule, and gates that takt shall lay out", {"both", "a schedule, or -o gates=auto"});
+  if (plans_gates && solution) diagnostics.error({solution_document->file_name(), 1, 1, ""}, "a schedule, and gates that takt shall lay out", {"both", "a schedule, or -o gates=auto"});
   if (diagnostics.has_errors()) return imported;
   make_scenario({*instance, solution ? &*solution : nullptr, extras ? &*extras : nullptr, family.has_classes, plans_gates}, imported, diagnostics);
   return imported;

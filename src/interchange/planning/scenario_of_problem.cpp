@@ -248,14 +248,20 @@ class ScenarioMaker {
   void set_path(StreamIndex s, const std::vector<LinkIndex>& route, scenario::Stream& stream) {
     const schedule::Stream& from = problem_.streams[s];
     if (from.listeners.size() > 1) return remark(RemarkKind::lost, "tree", places_.streams[s], "routes to several listeners, such as those of " + json::quote(from.name) + ": takt goes the shortest ways");
-    auto& path = stream.path.emplace();
-    path.push_back(name_of(from.talker));
-    NodeIndex at = from.talker;
-    // A tree to one listener may have branches to nobody.
+    // A tree to one listener may have branches to nobody. That of a schedule may be none: it is walked no further than there are nodes.
     std::map<NodeIndex, LinkIndex> into;
     for (const LinkIndex l : route) into[problem_.links[l].to] = l;
     std::vector<std::string> back;
-    for (at = from.listeners.front(); at != from.talker; at = problem_.links[into.at(at)].from) back.push_back(name_of(at));
+    NodeIndex at = from.listeners.front();
+    while (at != from.talker && back.size() < problem_.nodes.size()) {
+      const auto link = into.find(at);
+      if (link == into.end()) break;
+      back.push_back(name_of(at));
+      at = problem_.links[link->second].from;
+    }
+    if (at != from.talker) return diagnostics_.error(places_.streams[s], "a route that does not come to the listener", {json::quote(from.name), "links from the talker to the listener"});
+    auto& path = stream.path.emplace();
+    path.push_back(name_of(from.talker));
     path.insert(path.end(), back.rbegin(), back.rend());
   }
 
@@ -266,6 +272,7 @@ class ScenarioMaker {
     if (!placement) return diagnostics_.error(places_.streams[s], "a stream that the schedule has not", {json::quote(from.name), "a start for each"});
     stream.path.reset();
     set_path(s, placement->route, stream);
+    if (placement->starts.empty() || placement->starts.front().empty()) return diagnostics_.error(places_.streams[s], "a stream without a start", {json::quote(from.name), "a start on each link"});
     const auto& starts = placement->starts.front();
     bool is_periodic = true;
     for (std::size_t k = 0; k < starts.size(); ++k) is_periodic = is_periodic && starts[k] == starts.front() + static_cast<Ps>(k) * from.period;

@@ -105,7 +105,7 @@ void tell_what_is_wrong(const File& file, json::Diagnostics& diagnostics) {
   if (begins == '{' && !file.document) json::parse(file.text.text, file.path, diagnostics);
   else if (begins == '<' && !file.element) parse_xml(file.text.text, file.path, diagnostics);
   if (diagnostics.has_errors()) return;
-  diagnostics.error({file.path, 0, 0, ""}, "not an instance of a format that is read here",
+  diagnostics.error({file.path, 1, 1, ""}, "not an instance of a format that is read here",
                     {file.text.text.empty() ? "nothing that can be read" : "something else", "TAS_Benchmark, TSNBenchScenarios, tsnkit, TSNsched, ECRTS'25, GraphML with applications or a neutral problem"});
 }
 
@@ -165,14 +165,14 @@ std::optional<Instance> InstanceReader::next_instance(json::Diagnostics& diagnos
       if (network && fits(network->content, file.content) && (!network_ || !fits(look_at(text(*network_)).content, file.content))) ++at_;
       else network = network_ ? std::optional(look_at(text(*network_))) : std::nullopt;
       if (!network || !fits(network->content, file.content)) {
-        diagnostics.error({file.path, 0, 0, ""}, "streams without their network", {"no network beside them", pair->files});
+        diagnostics.error({file.path, 1, 1, ""}, "streams without their network", {"no network beside them", pair->files});
         return std::nullopt;
       }
       network_ = network->path;
     }
     Instance instance = read_file(file, network, assumptions_, diagnostics);
-    instance.places.whole = {file.path, 0, 0, ""};
-    if (!diagnostics.has_errors() && instance.problem.streams.empty()) diagnostics.error({file.path, 0, 0, ""}, "no streams to schedule");
+    instance.places.whole = {file.path, 1, 1, ""};
+    if (!diagnostics.has_errors() && instance.problem.streams.empty()) diagnostics.error({file.path, 1, 1, ""}, "no streams to schedule");
     if (diagnostics.has_errors()) return std::nullopt;
     return instance;
   }

@@ -181,18 +181,6 @@ class Terminal(CliTest):
         self.assertNotIn("\033", self.on_terminal("run", path, TERM="dumb")[0])
         self.assertIn("\033", self.on_terminal("run", path, NO_COLOR="")[0])   # empty means: not set
 
-    def test_every_page_fits_eighty_columns(self):
-        arm, line = SCENARIOS / "robot-arm.json", SCENARIOS / "line-of-switches.json"
-        pages = (("check", line), ("bound", line), ("verify", arm, "--budget", "2", "--seeds", "1"), ("explain", arm, "--duration", "3s"), ("explore", "--slaves", "1", "--variant", "paper", "--no-finish", "--calls", "2"),
-                 ("schedule", SCENARIOS / "tsn" / "automatic-gates.json"), ("compare", arm, arm, "--set-b", "seed=2", "--set-a", "duration=2s", "--set-b", "duration=2s", "--pairs", "2"), ("program",), ("--help",), ("run", "--help"),
-                 ("import", "--help"), ("study", "--help"))
-        for arguments in pages:
-            with self.subTest(arguments[0]):
-                page, _ = self.on_terminal(*arguments, NO_COLOR="1")
-                lines = [each.rsplit("\r", 1)[-1] for each in re.sub(r"\033\[[0-9;?]*[A-Za-z]", "", page.replace("\r\n", "\n")).splitlines()]
-                self.assertGreater(len(lines), 5)
-                self.assertLessEqual(max(map(len, lines)), 80, max(lines, key=len))
-
     def test_tables_fit_eighty_columns(self):
         for name in ("robot-arm", "line-of-switches", "tsn/frer-ring" if (SCENARIOS / "tsn/frer-ring.json").exists() else "redundant-ring"):
             with self.subTest(name):

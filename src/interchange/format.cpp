@@ -26,7 +26,7 @@ const std::array exports{
     ExportFormat{"yang", "instance data of IEEE 802.1Q modules for each node", "queues, gates, shapers, preemption, SDU sizes; policing and ATS (published dialect)",
                  "times of hosts and switches; clocks, streams, programs, applications, faults, requirements", yang_export_settings, export_yang},
     ExportFormat{"inet", "a network (NED) and its configuration (ini) for INET 4.6", "network, streams with UDP, queues, gates, shapers, redundancy", "requirements, verification, bounds", {}, export_inet},
-    ExportFormat{"qcc", "requests for streams as a CUC gives them (ieee802-dot1q-cnc-config)", "streams with intervals, sizes, offsets, priorities, listeners; required latencies", "network, nodes, ports, clocks, faults", {}, export_qcc},
+    ExportFormat{"qcc", "requests for streams as a CUC gives them, and the configurations of talkers that a CNC answers (ieee802-dot1q-cnc-config)", "streams with intervals, sizes, offsets, priorities, listeners; required latencies", "network, nodes, ports, clocks, faults", {}, export_qcc},
     ExportFormat{"uadp", "publishers and subscribers of each node as a PubSub configuration of OPC UA (a binary file with a PubSubConfigurationDataType, as open62541 loads it)",
                  "messages of programs: data sets, ids, content masks, intervals, offsets, time-outs, addresses", "network, streams, faults, requirements; the handshake itself", {}, export_uadp},
     ExportFormat{"wireshark", "a profile of Wireshark for captures of the scenario: ethers, colorfilters, dfilter_buttons, preferences", "names of addresses, priorities, streams", "all else", {}, export_wireshark},

@@ -293,5 +293,32 @@ TEST(Requests, SayWhatStreamsAsk) {
   EXPECT_EQ(first.find("talker")->find("user-to-network-requirements")->find("max-latency")->text, "169430");
 }
 
+TEST(Requests, AreAnsweredByHowTalkersAreSet) {
+  // 100 us is asked for; of "auto" any time in the interval, and the answer is what takt has chosen.
+  for (const bool is_auto : {false, true}) {
+    json::Diagnostics diagnostics;
+    const std::string text = R"({"name": "two", "duration": "10ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]},
+        "streams": [{"name": "x", "from": "a", "to": "b", "payload": "100B", "every": "500us", "pcp": 5, "vlan": 7, "offset": )" + std::string(is_auto ? "\"auto\"" : "\"100us\"") + "}]}";
+    const auto resolved = scenario::load_text(text, "two.json", {}, diagnostics);
+    ASSERT_TRUE(resolved) << diagnostics.to_text();
+    std::vector<Loss> losses;
+    const std::vector<InputFile> files = exported("qcc", *resolved, &losses);
+    ASSERT_EQ(files[1].name, "configurations.json");
+    std::vector<json::Document> documents;
+    const auto stream_in = [&](const InputFile& file) {
+      documents.push_back(*json::parse(file.text, file.name, diagnostics));
+      return documents.back().root().find("ieee802-dot1q-cnc-config:cnc-config")->find("domain")->items[0].find("cuc")->items[0].find("stream")->items[0];
+    };
+    const json::Node request = stream_in(files[0]), answer = stream_in(files[1]);
+    EXPECT_EQ(answer.find("stream-id")->text, request.find("stream-id")->text);
+    const json::Node& asked = *request.find("talker")->find("traffic-specification")->find("time-aware");
+    EXPECT_EQ(asked.find("earliest-transmit-offset")->text, is_auto ? "0" : "100000");
+    EXPECT_EQ(asked.find("latest-transmit-offset")->text, is_auto ? "499999" : "100000");
+    const json::Node& values = *answer.find("talker")->find("interface-configuration")->find("interface-list")->items[0].find("config-list");
+    EXPECT_EQ(values.items[0].find("time-aware-offset")->text, std::to_string(resolved->scenario.streams[0].offset->value.ps() / 1000));
+    EXPECT_EQ(values.items[1].find("ieee802-vlan-tag")->find("vlan-id")->text, "7");
+  }
+}
+
 }  // namespace
 }  // namespace takt::interchange::test

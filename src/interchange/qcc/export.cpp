@@ -25,16 +25,24 @@ class RequestWriter {
       if (auto request = request_of(r_.scenario.streams[i], i + 1)) streams.items.push_back(std::move(*request));
     for (const scenario::Program& program : r_.scenario.programs) exported_.lose("program " + program.name, "what it sends: a program's messages are no streams of the file");
     for (const scenario::Application& application : r_.scenario.applications) exported_.lose("application " + application.name, "what it sends");
-    Node cuc = object({{"cuc-id", Node::of_string("takt")}, {"stream", std::move(streams)}});
-    Node domain = object({{"domain-id", Node::of_string(r_.scenario.name)}, {"cnc-enabled", Node::of_bool(true)}, {"cuc", list(std::move(cuc))}});
-    return json::pretty(object({{"ieee802-dot1q-cnc-config:cnc-config", object({{"domain", list(std::move(domain))}})}}));
+    return cnc_config(std::move(streams), true);
   }
+
+  /// What a CNC answers: the streams are ready, and how their talkers' interfaces are set.
+  std::string configurations() { return cnc_config(std::move(configurations_), false); }
 
  private:
   static Node object(std::vector<std::pair<std::string_view, Node>> members) {
     Node made = Node::object();
     for (auto& [key, value] : members) made.add(key, std::move(value));
     return made;
+  }
+  std::string cnc_config(Node streams, bool is_request) const {
+    Node cuc = object({{"cuc-id", Node::of_string("takt")}, {"stream", std::move(streams)}});
+    Node domain = object({{"domain-id", Node::of_string(r_.scenario.name)}});
+    if (is_request) domain.add("cnc-enabled", Node::of_bool(true));
+    domain.add("cuc", list(std::move(cuc)));
+    return json::pretty(object({{"ieee802-dot1q-cnc-config:cnc-config", object({{"domain", list(std::move(domain))}})}}));
   }
   static Node list(Node item) {
     Node made = Node::array();
@@ -67,7 +75,10 @@ class RequestWriter {
     if (stream.burst && stream.burst->spacing > Duration()) exported_.lose(where, "the distance between the frames of a burst");
     if (stream.launch) exported_.lose(where, "launch times");
     if (std::ranges::find(r_.plan.talker_ats, resolved.index, &models::TalkerAtsPlan::stream) != r_.plan.talker_ats.end()) exported_.lose(where, "its ATS scheduler at the talker");
-    std::uint64_t numerator = whole_ns(every, where, "an interval"), denominator = 1'000'000'000;
+    const std::uint64_t numerator_ns = std::max<std::uint64_t>(whole_ns(every, where, "an interval"), 1);
+    const std::uint64_t numerator = numerator_ns, denominator = 1'000'000'000;
+    // Of an offset that is left to takt the request says the whole interval, and the answer which one it is.
+    const bool is_chosen = std::ranges::find(r_.chosen_offsets, stream.name, &scenario::ResolvedOffset::name) != r_.chosen_offsets.end();
     const std::uint64_t common = std::gcd(numerator, denominator);
     const std::uint64_t offset = whole_ns(stream.offset ? stream.offset->value : Duration(), where, "an offset");
     const std::uint64_t jitter = whole_ns(stream.jitter, where, "jitter");
@@ -77,7 +88,7 @@ class RequestWriter {
                            // Without preamble, MAC header, tag, check sequence and gap.
                            {"max-frame-size", number(stream.payload.count + (has_udp ? models::ipv4_and_udp_headers.count : 0))},
                            {"transmission-selection", number(0)},
-                           {"time-aware", object({{"earliest-transmit-offset", number(offset)}, {"latest-transmit-offset", number(offset + jitter)}, {"jitter", number(0)}})}});
+                           {"time-aware", object({{"earliest-transmit-offset", number(is_chosen ? 0 : offset)}, {"latest-transmit-offset", number(is_chosen ? numerator_ns - 1 : offset + jitter)}, {"jitter", number(0)}})}});
     const std::uint32_t talker = plan->talker.value;
     const std::string own = mac_text(mac_of(r_, {talker}), '-');
     Node frames = list(object({{"index", number(0)}, {"ieee802-mac-addresses", object({{"destination-mac-address", Node::of_string(mac_text(mac_of(r_, plan->destination), '-'))}, {"source-mac-address", Node::of_string(own)}})}}));
@@ -97,7 +108,16 @@ class RequestWriter {
                            {"user-to-network-requirements", needs(latency)}, {"interface-capabilities", abilities()}});
     const std::string id = fmt::format("{}:{:02x}-{:02x}", own, number_of_stream >> 8 & 0xFF, number_of_stream & 0xFF);
     names_.emplace_back(id, stream.name);
+    configurations_.items.push_back(configuration_of(id, station(talker, next), offset, *plan));
     return object({{"stream-id", Node::of_string(id)}, {"talker", std::move(talking)}, {"listener", std::move(listeners)}});
+  }
+
+  Node configuration_of(const std::string& id, Node talker, std::uint64_t offset, const models::StreamPlan& plan) const {
+    Node values = list(object({{"index", number(0)}, {"time-aware-offset", number(offset)}}));
+    if (plan.priority) values.items.push_back(object({{"index", number(1)}, {"ieee802-vlan-tag", object({{"priority-code-point", number(*plan.priority)}, {"vlan-id", number(plan.vlan)}})}}));
+    talker.items.front().add("config-list", std::move(values));
+    return object({{"stream-id", Node::of_string(id)}, {"talker", object({{"interface-configuration", object({{"interface-list", std::move(talker)}})}})},
+                   {"status-info", object({{"talker-status", Node::of_string("ready")}, {"listener-status", Node::of_string("ready")}})}});
   }
 
   /// takt's latency ends with the last bit, a request's with the first one at the listener; 0: none is asked.
@@ -128,6 +148,7 @@ class RequestWriter {
   const scenario::Resolved& r_;
   Exported& exported_;
   std::vector<std::pair<std::string, std::string>> names_;
+  Node configurations_ = Node::array();
 };
 
 }  // namespace
@@ -136,6 +157,7 @@ Exported export_qcc(const ExportRequest& request) {
   Exported exported;
   RequestWriter writer(request.resolved, exported);
   exported.files.push_back({"requests.json", writer.write()});
+  exported.files.push_back({"configurations.json", writer.configurations()});
   exported.files.push_back({"stream-ids.json", writer.names()});
   return exported;
 }

@@ -261,7 +261,7 @@ std::pair<std::uint64_t, std::uint64_t> run_to(const Plan& plan, const std::stri
   std::string problem;
   const auto store = Store::create(path, plan, problem);
   EXPECT_EQ(problem, "");
-  const RunOptions options{jobs, shard, {}, {}};
+  const RunOptions options{.jobs = jobs, .shard = shard, .progress = {}, .interrupted = {}};
   EXPECT_EQ(run_study(plan, *store, options, std::vector<bool>(plan.points(), false)).problem, "");
   return digest_of(*store);
 }

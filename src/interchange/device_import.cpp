@@ -46,7 +46,7 @@ class Builder {
       peers.emplace_back(&port, std::move(peer));
     }
     set_ports(scenario_.network.nodes[own].second, device, peers);
-    set_rest(scenario_.network.nodes[own].second, device);
+    set_rest(scenario_.network.nodes[own].second, device, peers);
   }
 
   void add_to(const scenario::Topology& topology, const ImportedDevice& device) {
@@ -70,25 +70,30 @@ class Builder {
     }
     expand(topology, *index, found->second);
     set_ports(found->second, device, peers);
-    set_rest(found->second, device);
+    set_rest(found->second, device, peers);
   }
 
-  void set_gptp(const ImportedDevice& device) {
+  void set_gptp(const ImportedDevice& device, const std::vector<std::pair<const ImportedPort*, std::string>>& peers) {
     if (device.gptp_of_all) {
       if (!scenario_.clocks.gptp) scenario_.clocks.gptp.emplace();
       const scenario::Gptp before = *scenario_.clocks.gptp;
-      take_over(*device.gptp_of_all, *scenario_.clocks.gptp);
+      take_over(*device.gptp_of_all, device.gptp_by_data_sets, *scenario_.clocks.gptp);
       if (seen_gptp_ && !(before == *scenario_.clocks.gptp))
         diagnostics_.error(device.place, "gPTP that is set differently at two devices", {json::quote(device.name) + " with other intervals, timeouts or thresholds", "the same for all nodes, as takt has it"});
       seen_gptp_ = true;
       scenario_.clocks.model = scenario::ClockModel::free_running;
     }
     if (device.gptp && scenario_.clocks.gptp) {
-      scenario::GptpNode& node = entry_of(scenario_.clocks.gptp->nodes, device.name, scenario::GptpNode{});
-      node.priority1 = device.gptp->priority1;
-      node.priority2 = device.gptp->priority2;
-      node.clock_class = device.gptp->clock_class;
-      node.clock_accuracy = device.gptp->clock_accuracy;
+      set_node(entry_of(scenario_.clocks.gptp->nodes, device.name, scenario::GptpNode{}), *device.gptp, device.gptp_by_data_sets, peers);
+      for (const scenario::GptpDomain& domain : device.gptp_domains) {
+        auto found = std::ranges::find(scenario_.clocks.gptp->domains, domain.domain, &scenario::GptpDomain::domain);
+        if (found == scenario_.clocks.gptp->domains.end()) {
+          scenario::GptpDomain& made = scenario_.clocks.gptp->domains.emplace_back();
+          made.domain = domain.domain;
+          found = std::prev(scenario_.clocks.gptp->domains.end());
+        }
+        set_node(entry_of(found->nodes, device.name, scenario::GptpNode{}), domain.nodes.front().second, device.gptp_by_data_sets, peers);
+      }
     }
     if (device.clock) {
       scenario::Clock& clock = entry_of(scenario_.clocks.nodes, device.name, scenario_.clocks.all.value_or(scenario::Clock{}));
@@ -104,8 +109,26 @@ class Builder {
     return text.empty() ? "none" : text;
   }
 
+  static void set_node(scenario::GptpNode& node, const scenario::GptpNode& said, bool says_roles, const std::vector<std::pair<const ImportedPort*, std::string>>& peers) {
+    node.priority1 = said.priority1;
+    node.priority2 = said.priority2;
+    node.clock_class = said.clock_class;
+    node.clock_accuracy = said.clock_accuracy;
+    if (said.time) node.time = said.time;
+    if (!says_roles) return;
+    node.roles.reset();
+    if (!said.roles) return;
+    node.roles.emplace();
+    for (scenario::GptpPortRole role : *said.roles) {
+      const auto peer = std::ranges::find(peers, role.to, [](const auto& each) -> const std::string& { return each.first->interface; });
+      if (peer == peers.end() || std::ranges::any_of(*node.roles, [&](const scenario::GptpPortRole& each) { return each.to == peer->second; })) continue;
+      role.to = peer->second;
+      node.roles->push_back(std::move(role));
+    }
+  }
+
   /// What devices say of gPTP; the rest is as before.
-  static void take_over(const scenario::Gptp& from, scenario::Gptp& to) {
+  static void take_over(const scenario::Gptp& from, bool by_data_sets, scenario::Gptp& to) {
     to.log_sync_interval = from.log_sync_interval;
     to.log_announce_interval = from.log_announce_interval;
     to.log_pdelay_interval = from.log_pdelay_interval;
@@ -113,6 +136,9 @@ class Builder {
     to.announce_receipt_timeout = from.announce_receipt_timeout;
     to.link_delay_threshold = from.link_delay_threshold;
     to.one_step = from.one_step;
+    if (from.log_gptp_capable_interval) to.log_gptp_capable_interval = from.log_gptp_capable_interval;
+    if (from.drift_tracking) to.drift_tracking = true;
+    if (by_data_sets) return;
     to.servo.first_step_threshold = from.servo.first_step_threshold;
     to.servo.step_threshold = from.servo.step_threshold;
     to.servo.max_frequency = from.servo.max_frequency;
@@ -167,12 +193,12 @@ class Builder {
     if (!device.forwards && device.ports.size() == 1 && ports.egress.size() == 1) ports.egress.front().to.reset();
   }
 
-  void set_rest(scenario::Node& node, const ImportedDevice& device) {
+  void set_rest(scenario::Node& node, const ImportedDevice& device, const std::vector<std::pair<const ImportedPort*, std::string>>& peers) {
     if (device.ingress) {
       if (scenario::Relay* const relay = scenario::relay_of(node)) relay->ingress = device.ingress;
       else diagnostics_.error(device.place, "an ingress that polices in a host", {json::quote(device.name), "a node that forwards"});
     }
-    set_gptp(device);
+    set_gptp(device, peers);
   }
 
   scenario::Scenario& scenario_;

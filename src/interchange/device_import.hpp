@@ -31,6 +31,8 @@ struct ImportedDevice {
   std::vector<ImportedPort> ports;
   std::optional<scenario::Ingress> ingress = {};
   std::optional<scenario::GptpNode> gptp = {};
+  bool gptp_by_data_sets = false;                         ///< those of IEEE 802.1AS: "roles" are said (of interfaces, not neighbours), servos are not
+  std::vector<scenario::GptpDomain> gptp_domains = {};    ///< further domains, each with this device alone
   std::optional<scenario::Gptp> gptp_of_all = {};         ///< intervals and the like, which takt has once for all nodes
   std::optional<scenario::Clock> clock = {};
 };

@@ -23,8 +23,8 @@ namespace {
 const std::array exports{
     ExportFormat{"linux", "a script for each node (tc, ethtool, bridge, ip) and ptp4l.conf", "queues, gates, shapers, preemption, SDU sizes, policing, launch times, filtering entries, gPTP",
                  "times of hosts and switches; streams, programs, applications, faults, requirements", linux_export_settings, export_linux},
-    ExportFormat{"yang", "instance data of IEEE 802.1Q modules for each node", "queues, gates, shapers, preemption, SDU sizes; policing and ATS (published dialect)",
-                 "times of hosts and switches; clocks, streams, programs, applications, faults, requirements", yang_export_settings, export_yang},
+    ExportFormat{"yang", "instance data of IEEE 802.1Q modules for each node", "queues, gates, shapers, preemption, SDU sizes; policing, ATS, redundancy and gPTP (published dialect)",
+                 "times of hosts and switches; oscillators and servos, streams, programs, applications, faults, requirements", yang_export_settings, export_yang},
     ExportFormat{"inet", "a network (NED) and its configuration (ini) for INET 4.6", "network, streams with UDP, queues, gates, shapers, redundancy", "requirements, verification, bounds", {}, export_inet},
     ExportFormat{"qcc", "requests for streams as a CUC gives them, and the configurations of talkers that a CNC answers (ieee802-dot1q-cnc-config)", "streams with intervals, sizes, offsets, priorities, listeners; required latencies", "network, nodes, ports, clocks, faults", {}, export_qcc},
     ExportFormat{"uadp", "publishers and subscribers of each node as a PubSub configuration of OPC UA (a binary file with a PubSubConfigurationDataType, as open62541 loads it)",

@@ -26,6 +26,24 @@ scenario::Scenario stripped(const scenario::Scenario& whole) {
   return bare;
 }
 
+/// Without what the data sets of gPTP say, too. Linux's files say less of it (roles, announced times), and keep the base's.
+void strip_gptp(scenario::Scenario& bare) {
+  if (!bare.clocks.gptp) return;
+  scenario::Gptp kept = *bare.clocks.gptp;
+  const scenario::Gptp usual;
+  kept.log_sync_interval = usual.log_sync_interval;
+  kept.log_announce_interval = usual.log_announce_interval;
+  kept.log_pdelay_interval = usual.log_pdelay_interval;
+  kept.log_gptp_capable_interval.reset();
+  kept.sync_receipt_timeout = usual.sync_receipt_timeout;
+  kept.announce_receipt_timeout = usual.announce_receipt_timeout;
+  kept.one_step = kept.drift_tracking = false;
+  kept.link_delay_threshold = usual.link_delay_threshold;
+  kept.nodes.clear();
+  kept.domains.clear();
+  bare.clocks.gptp = std::move(kept);
+}
+
 /// Exports, imports into the stripped scenario, and compares the runs. False: the format cannot say all of it.
 bool goes_round(const std::string& format, const std::vector<std::string>& settings, const std::vector<std::string>& import_settings, const std::filesystem::path& path) {
   const std::string name = path.filename().string();
@@ -39,7 +57,8 @@ bool goes_round(const std::string& format, const std::vector<std::string>& setti
   if (!exported.losses.empty()) return false;
   std::vector<InputFile> files;
   for (const OutputFile& file : exported.files) files.push_back({file.name, file.name.substr(0, file.name.find('.')), file.content});
-  const scenario::Scenario bare = stripped(resolved->scenario);
+  scenario::Scenario bare = stripped(resolved->scenario);
+  if (format == "yang") strip_gptp(bare);
   const Reading reading = read(format, files, &bare, import_settings);
   EXPECT_TRUE(reading.imported.scenario) << name << "\n" << reading.diagnostics.to_text();
   if (!reading.imported.scenario) return true;

@@ -50,6 +50,14 @@ bool is_mac(std::string_view text) {
   return true;
 }
 
+template <class Number>
+std::optional<Number> number_of(const Data* leaf) {
+  if (leaf == nullptr) return std::nullopt;
+  Number number = 0;
+  const auto [stop, error] = std::from_chars(leaf->text.data(), leaf->text.data() + leaf->text.size(), number);
+  return error == std::errc() && stop == leaf->text.data() + leaf->text.size() ? std::optional(number) : std::nullopt;
+}
+
 const Schema& child_schema(const Schema& schema, std::string_view module, std::string_view name) {
   const auto found = std::ranges::find_if(schema.children, [&](const Schema& each) { return each.name == name && (module.empty() || each.module == module); });
   TAKT_CHECK(found != schema.children.end(), "only what the schema has is written");
@@ -76,13 +84,8 @@ std::optional<std::string> Data::value(std::string_view name) const {
   const Data* const found = find(name);
   return found == nullptr ? std::nullopt : std::optional(found->text);
 }
-std::optional<std::uint64_t> Data::number(std::string_view name) const {
-  const Data* const found = find(name);
-  if (found == nullptr) return std::nullopt;
-  std::uint64_t number = 0;
-  const auto [stop, error] = std::from_chars(found->text.data(), found->text.data() + found->text.size(), number);
-  return error == std::errc() && stop == found->text.data() + found->text.size() ? std::optional(number) : std::nullopt;
-}
+std::optional<std::uint64_t> Data::number(std::string_view name) const { return number_of<std::uint64_t>(find(name)); }
+std::optional<std::int64_t> Data::signed_number(std::string_view name) const { return number_of<std::int64_t>(find(name)); }
 bool Data::is_true(std::string_view name) const { return value(name) == "true"; }
 
 Data& Data::add(std::string_view name, std::string_view module) {
@@ -139,9 +142,16 @@ void LeafCheck::check_children(const Data& data) {
   std::set<const Schema*> seen;
   for (const Data& child : data.children) {
     if (child.schema->type == Type::list) {
-      const auto key = child.value(child.schema->key);
-      if (key && !keys.emplace(child.schema, *key).second)
-        diagnostics_.error(child.place, "two entries with one key", {std::string(child.schema->key) + " " + json::quote(*key) + " of " + std::string(child.schema->name) + " a second time", "a key of its own for each entry"});
+      std::string key;
+      bool is_whole = true;
+      for (const Schema& leaf : child.schema->children) {
+        if (!child.schema->is_key(leaf.name)) continue;
+        const auto value = child.value(leaf.name);
+        is_whole = is_whole && value;
+        key += (key.empty() ? "" : " ") + value.value_or("");
+      }
+      if (is_whole && !keys.emplace(child.schema, key).second)
+        diagnostics_.error(child.place, "two entries with one key", {std::string(child.schema->key) + " " + json::quote(key) + " of " + std::string(child.schema->name) + " a second time", "a key of its own for each entry"});
     } else if (!child.schema->is_leaf_list && !seen.insert(child.schema).second) {
       diagnostics_.error(child.place, "said twice", {json::quote(child.schema->name) + " a second time", "one"});
     }

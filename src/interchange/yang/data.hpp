@@ -23,6 +23,7 @@ struct Data {
   const Data* find(std::string_view module, std::string_view name) const;
   /// The value of a leaf, or nothing.
   std::optional<std::uint64_t> number(std::string_view name) const;
+  std::optional<std::int64_t> signed_number(std::string_view name) const;
   std::optional<std::string> value(std::string_view name) const;
   bool is_true(std::string_view name) const;
 

@@ -9,6 +9,7 @@
 #include "interchange/device_import.hpp"
 #include "interchange/gate_times.hpp"
 #include "interchange/ports.hpp"
+#include "interchange/yang/gptp.hpp"
 #include "interchange/yang/limits.hpp"
 #include "interchange/yang/modules.hpp"
 #include "interchange/yang/policing_export.hpp"
@@ -36,10 +37,9 @@ class NodeWriter {
     Data root{&root_of(dialect_), {}, {}, {}, false};
     Data& interfaces = root.make("interfaces");
     for (const DevicePort& port : device_.ports) write_port(interfaces.add("interface"), port);
+    write_gptp(root, r_, device_, dialect_, exported_);
     if (device_.ingress != nullptr) write_policing(root, r_, device_, dialect_, start_, exported_);
-    const bool splits = std::ranges::any_of(r_.plan.host_splits, [&](const models::HostSplitPlan& each) { return r_.plan.streams[each.stream.value].talker.value == device_.node; });
-    const bool recovers = std::ranges::any_of(r_.plan.host_recoveries, [&](const models::HostRecoveryPlan& each) { return each.host.value == device_.node; });
-    if (splits || recovers) exported_.lose(device_.name, "redundancy (802.1CB) in the host");
+    write_redundancy(root, r_, device_, dialect_, exported_);
     if (std::ranges::any_of(r_.plan.talker_ats, [&](const models::TalkerAtsPlan& each) { return r_.plan.streams[each.stream.value].talker.value == device_.node; })) exported_.lose(device_.name, "ATS schedulers of what the host itself sends");
     return root;
   }

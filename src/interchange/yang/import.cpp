@@ -5,6 +5,7 @@
 #include "interchange/class_map.hpp"
 #include "interchange/device_import.hpp"
 #include "interchange/gate_times.hpp"
+#include "interchange/yang/gptp.hpp"
 #include "interchange/yang/limits.hpp"
 #include "interchange/yang/modules.hpp"
 #include "interchange/yang/policing_import.hpp"
@@ -323,7 +324,8 @@ Imported import_yang(const ImportRequest& request, json::Diagnostics& diagnostic
     yang::PortReader ports(imported, diagnostics);
     if (const yang::Data* const interfaces = data.find("interfaces"))
       for (const yang::Data& interface : interfaces->children) device->ports.push_back(ports.read(interface));
-    yang::read_policing(data, names, *device, imported, diagnostics);
+    yang::read_gptp(data, *device, imported, diagnostics);
+    yang::read_policing(data, names, request.base != nullptr, *device, imported, diagnostics);
   }
   if (!diagnostics.has_errors()) build_scenario(std::move(devices), request, imported, diagnostics);
   return imported;

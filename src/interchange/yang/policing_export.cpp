@@ -220,7 +220,6 @@ class PolicingWriter {
 }  // namespace
 
 void write_policing(Data& root, const scenario::Resolved& resolved, const Device& device, Dialect dialect, std::uint64_t start_ns, Exported& exported) {
-  if (!device.ingress->splits.empty() || !device.ingress->recoveries.empty()) exported.lose(device.name, "redundancy (802.1CB)");
   const bool has_policing = !device.ingress->stream_filters.empty();
   if (!has_policing) return;
   if (dialect == Dialect::of_2018) return exported.lose(device.name, "policing: in the dialect of 2018 gates, sizes and preemption are written");

@@ -1,6 +1,7 @@
 #include "interchange/yang/policing_import.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "interchange/gate_times.hpp"
 #include "interchange/yang/limits.hpp"
@@ -16,9 +17,14 @@ class PolicingReader {
  public:
   PolicingReader(const Names& names, Imported& imported, json::Diagnostics& diagnostics) : names_(names), imported_(imported), diagnostics_(diagnostics) {}
 
-  void read_identities(const Data& root) {
-    for (const Data& entry : root.children)
-      if (entry.schema->name == "stream-identity") read_identity(entry);
+  void read_identities(const Data& root, bool has_base) {
+    const std::set<std::string> redundant = redundant_handles(root, has_base);
+    const std::set<std::string> filtered = filtered_handles(root);
+    for (const Data& entry : root.children) {
+      if (entry.schema->name != "stream-identity") continue;
+      const std::string handle = entry.value("handle").value_or("");
+      if (!redundant.contains(handle) || filtered.contains(handle)) read_identity(entry);
+    }
   }
 
   void read_component(const Data& component) {
@@ -51,6 +57,27 @@ class PolicingReader {
 
  private:
   void error(const json::Place& place, std::string message, std::string found, std::string expected) { diagnostics_.error(place, std::move(message), {std::move(found), std::move(expected)}); }
+
+  /// The handles that redundancy uses. takt has redundancy with its streams: a device's means nothing without them.
+  std::set<std::string> redundant_handles(const Data& root, bool has_base) {
+    std::set<std::string> handles;
+    const Data* const frer = root.find("frer");
+    if (frer == nullptr) return handles;
+    if (!has_base) error(frer->place, "redundancy (802.1CB) of a device without its streams", "no network", "--into SCENARIO, whose streams are redundant");
+    else imported_.remark(RemarkKind::lost, frer->place, "redundancy (802.1CB): takt has it with the streams, and that of the base stays");
+    for (const Data& table : frer->children)
+      for (const Data& leaf : table.children)
+        if (leaf.schema->name == "stream" || leaf.schema->name == "input-id" || leaf.schema->name == "output-id") handles.insert(leaf.text);
+    return handles;
+  }
+
+  /// The handles of stream filters, wherever they stand.
+  static std::set<std::string> filtered_handles(const Data& data) {
+    std::set<std::string> handles;
+    if (const auto handle = data.schema->name == "stream-filter-instance-table" ? data.value("stream-handle") : std::nullopt) handles.insert(*handle);
+    for (const Data& child : data.children) handles.merge(filtered_handles(child));
+    return handles;
+  }
 
   static scenario::TaggedFrames tagged_of(const std::optional<std::string>& text) {
     return text == "tagged" ? scenario::TaggedFrames::tagged : text == "priority" ? scenario::TaggedFrames::priority : scenario::TaggedFrames::all;
@@ -252,9 +279,9 @@ class PolicingReader {
 
 }  // namespace
 
-void read_policing(const Data& root, const Names& names, ImportedDevice& device, Imported& imported, json::Diagnostics& diagnostics) {
+void read_policing(const Data& root, const Names& names, bool has_base, ImportedDevice& device, Imported& imported, json::Diagnostics& diagnostics) {
   PolicingReader reader(names, imported, diagnostics);
-  reader.read_identities(root);
+  reader.read_identities(root, has_base);
   if (const Data* const bridges = root.find("bridges"))
     for (const Data& bridge : bridges->children)
       for (const Data& component : bridge.children)

@@ -6,6 +6,6 @@
 
 namespace takt::interchange::yang {
 
-void read_policing(const Data& root, const Names& names, ImportedDevice& device, Imported& imported, json::Diagnostics& diagnostics);
+void read_policing(const Data& root, const Names& names, bool has_base, ImportedDevice& device, Imported& imported, json::Diagnostics& diagnostics);
 
 }  // namespace takt::interchange::yang

@@ -21,6 +21,8 @@ void refuse_unknown(const Schema& parent, std::string_view module, std::string_v
   diagnostics.error(place, "not in the module", {json::quote(std::string(module) + ":" + std::string(name)), std::move(expected), json::suggest(name, names)});
 }
 
+std::string unheard(const Schema& schema) { return std::string(schema.name) + ", which takt does not have"; }
+
 }  // namespace
 
 class JsonToData {
@@ -55,7 +57,10 @@ class JsonToData {
   }
 
   void read_member(const json::Node& node, const Schema& schema, Data& parent) {
-    if (schema.type == Type::anything) return;
+    if (schema.type == Type::anything) {
+      if (!schema.is_state) reader_.imported_.remark(RemarkKind::ignored, place(node), unheard(schema));
+      return;
+    }
     if (schema.type == Type::list || schema.is_leaf_list) {
       if (!expect(node, json::Kind::array, schema, "an array, since it is a list")) return;
       for (const json::Node& item : node.items) read_one(item, schema, parent);
@@ -126,7 +131,10 @@ class XmlToData {
     }
     const Schema* const schema = parent.schema->find(module, element.name);
     if (schema == nullptr) return refuse_unknown(*parent.schema, module, element.name, element.place, reader_.diagnostics_);
-    if (schema->type == Type::anything) return;
+    if (schema->type == Type::anything) {
+      if (!schema->is_state) reader_.imported_.remark(RemarkKind::ignored, element.place, unheard(*schema));
+      return;
+    }
     Data data{schema, element.place, {}, {}, parent.is_deleted};
     for (const XmlAttribute& attribute : element.attributes)
       if (attribute.name_space == netconf && attribute.name == "operation") data.is_deleted = data.is_deleted || attribute.value == "delete" || attribute.value == "remove";

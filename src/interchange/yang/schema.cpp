@@ -31,6 +31,9 @@ constexpr Module modules[] = {
     {ats_bridge_m, "urn:ieee:std:802.1Q:yang:ieee802-dot1q-ats-bridge"},
     {sid_m, "urn:ieee:std:802.1Q:yang:ieee802-dot1cb-stream-identification"},
     {frer_m, "urn:ieee:std:802.1Q:yang:ieee802-dot1cb-frer"},
+    {ptp_m, "urn:ieee:std:1588:yang:ieee1588-ptp-tt"},
+    {gptp_m, "urn:ieee:std:802.1AS:yang:ieee802-dot1as-gptp"},
+    {hs_m, "urn:ieee:std:802.1AS:yang:ieee802-dot1as-hs"},
     {eth_m, "urn:ieee:std:802.3:yang:ieee802-ethernet-interface"},
     {mac_merge_m, "urn:ieee:std:802.3:yang:ieee802-ethernet-mac-merge"},
     {iec_sched_m, "urn:ieee:std:60802:yang:iecieee60802-sched-bridge"},
@@ -56,6 +59,8 @@ constexpr Schema state(std::string_view module, std::string_view name) {
   schema.is_state = true;
   return schema;
 }
+/// What a device can be told and takt has nothing for: read past, with a remark.
+constexpr Schema unheard(std::string_view module, std::string_view name) { return {module, name, anything}; }
 constexpr Schema leaves(std::string_view module, std::string_view name, Type type) {
   Schema schema{module, name, type};
   schema.is_leaf_list = true;
@@ -260,11 +265,92 @@ constexpr Schema bridges_of_2018[] = {entries(dot1q_m, "bridge", "name", bridge_
 constexpr Schema facing[] = {leaves(sid_m, "input-port", text), leaves(sid_m, "output-port", text)};
 constexpr Schema null_identification[] = {leaf(sid_m, "destination-mac", mac), one_of(sid_m, "tagged", "tagged|priority|all"), leaf(sid_m, "vlan", uint16, false, 0, 4095), state(sid_m, "identification-type")};
 constexpr Schema source_identification[] = {leaf(sid_m, "source-mac", mac), one_of(sid_m, "tagged", "tagged|priority|all"), leaf(sid_m, "vlan", uint16, false, 0, 4095), state(sid_m, "identification-type")};
+constexpr Schema active_address[] = {leaf(sid_m, "destination-mac", mac), one_of(sid_m, "tagged", "tagged|priority|all"), leaf(sid_m, "vlan", uint16, false, 0, 4095), leaf(sid_m, "priority", uint8, false, 0, 7)};
+constexpr Schema active_identification[] = {node(sid_m, "down", active_address), node(sid_m, "up", active_address), state(sid_m, "identification-type")};
 constexpr Schema stream_identity[] = {leaf(sid_m, "index", uint32, true), leaf(sid_m, "handle", uint32, true), node(sid_m, "in-facing", facing), node(sid_m, "out-facing", facing),
                                       node(sid_m, "null-stream-identification", null_identification), node(sid_m, "smac-vlan-stream-identification", source_identification), state(sid_m, "tsn-stream-id"),
-                                      node(sid_m, "dmac-vlan-stream-identification", {}), node(sid_m, "ip-stream-identification", {})};
+                                      node(sid_m, "dmac-vlan-stream-identification", active_identification), node(sid_m, "ip-stream-identification", {})};
 
-constexpr Schema published[] = {node(if_m, "interfaces", interfaces_published), node(dot1q_m, "bridges", bridges_published), entries(sid_m, "stream-identity", "index", stream_identity)};
+// Redundancy (802.1CB).
+constexpr Schema sequence_generation[] = {leaf(frer_m, "index", uint32, true), leaves(frer_m, "stream", uint32), leaf(frer_m, "direction-out-facing", boolean), leaf(frer_m, "reset", boolean)};
+constexpr Schema recovery_algorithm[] = {node(frer_m, "vector", {}), node(frer_m, "match", {}), unheard(frer_m, "organization-specific")};
+constexpr Schema latent_errors[] = {leaf(frer_m, "difference", int32), leaf(frer_m, "period", uint32), leaf(frer_m, "paths", uint16), leaf(frer_m, "reset-period", uint32)};
+constexpr Schema sequence_recovery[] = {
+    leaf(frer_m, "index", uint32, true), leaves(frer_m, "stream", uint32), leaves(frer_m, "port", text), leaf(frer_m, "direction-out-facing", boolean), leaf(frer_m, "reset", boolean),
+    node(frer_m, "algorithm", recovery_algorithm), leaf(frer_m, "history-length", uint32, false, 2), leaf(frer_m, "reset-timeout", uint32), state(frer_m, "invalid-sequence-value"),
+    leaf(frer_m, "take-no-sequence", boolean), leaf(frer_m, "individual-recovery", boolean), leaf(frer_m, "latent-error-detection", boolean), node(frer_m, "latent-error-detection-parameters", latent_errors),
+};
+constexpr Schema encapsulation[] = {node(frer_m, "r-tag", {}), unheard(frer_m, "hsr-sequence-tag"), unheard(frer_m, "prp-sequence-tag"), unheard(frer_m, "organization-specific")};
+constexpr Schema sequence_identification[] = {leaf(frer_m, "port", text, true), leaf(frer_m, "direction-out-facing", boolean, true), leaves(frer_m, "stream", uint32), leaf(frer_m, "active", boolean),
+                                              node(frer_m, "encapsulation", encapsulation), unheard(frer_m, "path-id-lan-id")};
+constexpr Schema stream_split[] = {leaf(frer_m, "port", text, true), leaf(frer_m, "direction-out-facing", boolean, true), leaves(frer_m, "input-id", uint32), leaves(frer_m, "output-id", uint32)};
+constexpr Schema frer[] = {entries(frer_m, "sequence-generation", "index", sequence_generation), entries(frer_m, "sequence-recovery", "index", sequence_recovery),
+                           entries(frer_m, "sequence-identification", "port direction-out-facing", sequence_identification), entries(frer_m, "stream-split", "port direction-out-facing", stream_split),
+                           unheard(frer_m, "autoconfiguration")};
+
+// gPTP.
+constexpr std::string_view clock_classes =
+    "ieee1588-ptp-tt:cc-primary-sync|ieee1588-ptp-tt:cc-primary-sync-lost|ieee1588-ptp-tt:cc-application-specific-sync|ieee1588-ptp-tt:cc-application-specific-sync-lost|ieee1588-ptp-tt:cc-primary-sync-alternative-a|"
+    "ieee1588-ptp-tt:cc-application-specific-alternative-a|ieee1588-ptp-tt:cc-primary-sync-alternative-b|ieee1588-ptp-tt:cc-application-specific-alternative-b|ieee1588-ptp-tt:cc-default|ieee1588-ptp-tt:cc-time-receiver-only";
+constexpr std::string_view clock_accuracies =
+    "ieee1588-ptp-tt:ca-time-accurate-to-1000-fs|ieee1588-ptp-tt:ca-time-accurate-to-2500-fs|ieee1588-ptp-tt:ca-time-accurate-to-10-ps|ieee1588-ptp-tt:ca-time-accurate-to-25ps|ieee1588-ptp-tt:ca-time-accurate-to-100-ps|"
+    "ieee1588-ptp-tt:ca-time-accurate-to-250-ps|ieee1588-ptp-tt:ca-time-accurate-to-1000-ps|ieee1588-ptp-tt:ca-time-accurate-to-2500-ps|ieee1588-ptp-tt:ca-time-accurate-to-10-ns|ieee1588-ptp-tt:ca-time-accurate-to-25-ns|"
+    "ieee1588-ptp-tt:ca-time-accurate-to-100-ns|ieee1588-ptp-tt:ca-time-accurate-to-250-ns|ieee1588-ptp-tt:ca-time-accurate-to-1000-ns|ieee1588-ptp-tt:ca-time-accurate-to-2500-ns|ieee1588-ptp-tt:ca-time-accurate-to-10-us|"
+    "ieee1588-ptp-tt:ca-time-accurate-to-25-us|ieee1588-ptp-tt:ca-time-accurate-to-100-us|ieee1588-ptp-tt:ca-time-accurate-to-250-us|ieee1588-ptp-tt:ca-time-accurate-to-1000-us|ieee1588-ptp-tt:ca-time-accurate-to-2500-us|"
+    "ieee1588-ptp-tt:ca-time-accurate-to-10-ms|ieee1588-ptp-tt:ca-time-accurate-to-25-ms|ieee1588-ptp-tt:ca-time-accurate-to-100-ms|ieee1588-ptp-tt:ca-time-accurate-to-250-ms|ieee1588-ptp-tt:ca-time-accurate-to-1-s|"
+    "ieee1588-ptp-tt:ca-time-accurate-to-10-s|ieee1588-ptp-tt:ca-time-accurate-to-gt-10-s";
+constexpr std::string_view time_sources =
+    "ieee1588-ptp-tt:atomic-clock|ieee1588-ptp-tt:gnss|ieee1588-ptp-tt:terrestrial-radio|ieee1588-ptp-tt:serial-time-code|ieee1588-ptp-tt:ptp|ieee1588-ptp-tt:ntp|ieee1588-ptp-tt:hand-set|ieee1588-ptp-tt:other|"
+    "ieee1588-ptp-tt:internal-oscillator";
+constexpr std::string_view port_states = "initializing|faulty|disabled|listening|pre-time-transmitter|time-transmitter|passive|uncalibrated|time-receiver";
+constexpr Schema clock_quality[] = {identity_of(ptp_m, "clock-class", clock_classes), identity_of(ptp_m, "clock-accuracy", clock_accuracies), unheard(ptp_m, "offset-scaled-log-variance")};
+constexpr Schema default_ds[] = {
+    node(ptp_m, "clock-quality", clock_quality), leaf(ptp_m, "priority1", uint8), leaf(ptp_m, "priority2", uint8), leaf(ptp_m, "domain-number", uint8), leaf(ptp_m, "time-receiver-only", boolean),
+    leaf(ptp_m, "sdo-id", uint16, false, 0, 4095), leaf(ptp_m, "instance-enable", boolean), leaf(ptp_m, "external-port-config-enable", boolean), unheard(ptp_m, "max-steps-removed"),
+    one_of(ptp_m, "instance-type", "oc|bc|p2p-tc|e2e-tc"), state(ptp_m, "two-step-flag"), state(ptp_m, "clock-identity"), state(ptp_m, "number-ports"), state(ptp_m, "current-time"),
+    state(gptp_m, "gm-capable"), state(gptp_m, "current-utc-offset"), state(gptp_m, "current-utc-offset-valid"), state(gptp_m, "leap59"), state(gptp_m, "leap61"), state(gptp_m, "time-traceable"),
+    state(gptp_m, "frequency-traceable"), state(gptp_m, "ptp-timescale"), state(gptp_m, "time-source"),
+};
+constexpr Schema time_properties[] = {leaf(ptp_m, "current-utc-offset", int16), leaf(ptp_m, "current-utc-offset-valid", boolean), leaf(ptp_m, "leap59", boolean), leaf(ptp_m, "leap61", boolean),
+                                      leaf(ptp_m, "time-traceable", boolean), leaf(ptp_m, "frequency-traceable", boolean), leaf(ptp_m, "ptp-timescale", boolean), identity_of(ptp_m, "time-source", time_sources)};
+constexpr Schema ptp_port_ds[] = {
+    leaf(ptp_m, "log-announce-interval", int8), leaf(ptp_m, "announce-receipt-timeout", uint8), leaf(ptp_m, "log-sync-interval", int8), one_of(ptp_m, "delay-mechanism", "e2e|p2p|no-mechanism|common-p2p|special"),
+    leaf(ptp_m, "log-min-pdelay-req-interval", int8), leaf(ptp_m, "port-enable", boolean), leaf(gptp_m, "mean-link-delay-thresh", int64), leaf(gptp_m, "initial-log-announce-interval", int8),
+    leaf(gptp_m, "initial-log-sync-interval", int8), leaf(gptp_m, "initial-log-pdelay-req-interval", int8), leaf(gptp_m, "initial-log-gptp-cap-interval", int8), leaf(gptp_m, "sync-receipt-timeout", uint8),
+    leaf(gptp_m, "initial-one-step-tx-oper", boolean), leaf(hs_m, "gptp-capable-state-machines-enabled", boolean),
+    unheard(ptp_m, "log-min-delay-req-interval"), unheard(ptp_m, "version-number"), unheard(ptp_m, "minor-version-number"), unheard(ptp_m, "delay-asymmetry"), unheard(ptp_m, "time-transmitter-only"),
+    unheard(gptp_m, "neg-mean-link-delay-thresh"), unheard(gptp_m, "use-mgt-log-announce-interval"), unheard(gptp_m, "use-mgt-log-sync-interval"), unheard(gptp_m, "use-mgt-log-pdelay-req-interval"),
+    unheard(gptp_m, "mgt-log-pdelay-req-interval"), unheard(gptp_m, "use-mgt-log-gptp-cap-interval"), unheard(gptp_m, "mgt-log-gptp-cap-interval"), unheard(gptp_m, "initial-compute-neighbor-rate-ratio"),
+    unheard(gptp_m, "use-mgt-compute-neighbor-rate-ratio"), unheard(gptp_m, "mgt-compute-neighbor-rate-ratio"), unheard(gptp_m, "initial-compute-mean-link-delay"), unheard(gptp_m, "use-mgt-compute-mean-link-delay"),
+    unheard(gptp_m, "mgt-compute-mean-link-delay"), unheard(gptp_m, "allowed-lost-responses"), unheard(gptp_m, "allowed-faults"), unheard(gptp_m, "gptp-cap-receipt-timeout"), unheard(gptp_m, "nup"),
+    unheard(gptp_m, "ndown"), unheard(gptp_m, "use-mgt-one-step-tx-oper"), unheard(gptp_m, "mgt-one-step-tx-oper"), unheard(hs_m, "nrr-comp-method"),
+    state(ptp_m, "port-identity"), state(ptp_m, "port-state"), state(ptp_m, "mean-link-delay"), state(ptp_m, "peer-mean-path-delay"), state(gptp_m, "is-measuring-delay"), state(gptp_m, "as-capable"),
+    state(gptp_m, "neighbor-rate-ratio"), state(gptp_m, "current-log-announce-interval"), state(gptp_m, "current-log-sync-interval"), state(gptp_m, "sync-receipt-timeout-interval"),
+    state(gptp_m, "current-log-pdelay-req-interval"), state(gptp_m, "current-log-gptp-cap-interval"), state(gptp_m, "current-compute-neighbor-rate-ratio"), state(gptp_m, "current-compute-mean-link-delay"),
+    state(gptp_m, "one-step-tx-oper"), state(gptp_m, "one-step-receive"), state(gptp_m, "one-step-transmit"), state(gptp_m, "current-one-step-tx-oper"), state(gptp_m, "sync-locked"),
+    state(gptp_m, "pdelay-truncated-timestamps"), state(hs_m, "nrr-pdelay"), state(hs_m, "nrr-sync"), state(hs_m, "as-capable-across-domains"),
+};
+constexpr Schema timestamp_correction[] = {leaf(ptp_m, "egress-latency", int64), leaf(ptp_m, "ingress-latency", int64)};
+constexpr Schema external_config[] = {one_of(ptp_m, "desired-state", port_states)};
+constexpr Schema ptp_port[] = {
+    leaf(ptp_m, "port-index", uint16, true), leaf(ptp_m, "underlying-interface", text), node(ptp_m, "port-ds", ptp_port_ds), node(ptp_m, "timestamp-correction-port-ds", timestamp_correction),
+    node(ptp_m, "external-port-config-port-ds", external_config), unheard(ptp_m, "asymmetry-correction-port-ds"), unheard(ptp_m, "unicast-negotiation-port-ds"), unheard(ptp_m, "alternate-time-transmitter-port-ds"),
+    unheard(ptp_m, "unicast-discovery-port-ds"), unheard(ptp_m, "acceptable-time-transmitter-port-ds"), unheard(ptp_m, "l1-sync-basic-port-ds"), unheard(ptp_m, "l1-sync-opt-params-port-ds"),
+    unheard(ptp_m, "common-services-port-ds"), unheard(ptp_m, "time-receiver-monitoring-port-ds"), unheard(gptp_m, "asymmetry-measurement-mode-ds"), state(ptp_m, "description-port-ds"),
+    state(ptp_m, "communication-cap-port-ds"), state(ptp_m, "performance-monitoring-port-ds"), state(gptp_m, "port-statistics-ds"),
+};
+constexpr Schema ptp_ports[] = {entries(ptp_m, "port", "port-index", ptp_port)};
+constexpr Schema drift_tracking[] = {leaf(hs_m, "drift-tracking-tlv-support", boolean), state(hs_m, "sync-grandmaster-identity"), state(hs_m, "sync-steps-removed"), state(hs_m, "rate-ratio-drift")};
+constexpr Schema ptp_instance[] = {
+    leaf(ptp_m, "instance-index", uint32, true), node(ptp_m, "default-ds", default_ds), node(ptp_m, "time-properties-ds", time_properties), node(ptp_m, "ports", ptp_ports), node(hs_m, "drift-tracking-ds", drift_tracking),
+    unheard(hs_m, "ptp-instance-sync-ds"), unheard(ptp_m, "alternate-timescale-ds"), unheard(ptp_m, "holdover-upgrade-ds"), unheard(ptp_m, "grandmaster-cluster-ds"), unheard(ptp_m, "acceptable-time-transmitter-ds"),
+    state(ptp_m, "current-ds"), state(ptp_m, "parent-ds"), state(ptp_m, "description-ds"), state(ptp_m, "fault-log-ds"), state(ptp_m, "path-trace-ds"), state(ptp_m, "performance-monitoring-ds"),
+    state(ptp_m, "enhanced-metrics-ds"),
+};
+constexpr Schema ptp_instances[] = {entries(ptp_m, "instance", "instance-index", ptp_instance)};
+constexpr Schema ptp[] = {node(ptp_m, "instances", ptp_instances), unheard(ptp_m, "common-services"), unheard(ptp_m, "transparent-clock-default-ds"), unheard(ptp_m, "transparent-clock-ports")};
+
+constexpr Schema published[] = {node(if_m, "interfaces", interfaces_published), node(dot1q_m, "bridges", bridges_published), entries(sid_m, "stream-identity", "index", stream_identity), node(frer_m, "frer", frer), node(ptp_m, "ptp", ptp)};
 constexpr Schema of_2018[] = {node(if_m, "interfaces", interfaces_of_2018), node(dot1q_m, "bridges", bridges_of_2018)};
 constexpr Schema published_root = node({}, {}, published);
 constexpr Schema root_of_2018 = node({}, {}, of_2018);
@@ -285,6 +371,11 @@ std::string_view module_of(std::string_view name_space) {
   return found == std::end(modules) ? std::string_view() : found->name;
 }
 bool is_known(std::string_view module) { return !namespace_of(module).empty(); }
+std::vector<std::string_view> known_modules() {
+  std::vector<std::string_view> names;
+  for (const Module& module : modules) names.push_back(module.name);
+  return names;
+}
 
 const Schema& root_of(Dialect dialect) { return dialect == Dialect::published ? published_root : root_of_2018; }
 

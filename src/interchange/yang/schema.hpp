@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace takt::interchange::yang {
 
@@ -28,13 +30,14 @@ struct Schema {
   std::string_view name;
   Type type = Type::anything;
   std::span<const Schema> children = {};
-  std::string_view key = {};             ///< of lists
+  std::string_view key = {};             ///< of lists; several with blanks between
   std::string_view choices = {};         ///< "zero|one", of enumerations; of identities the module and names: "ieee802-dot1q-sched:set-gate-states|.."
   bool is_mandatory = false;
   std::uint64_t least = 0;
   std::uint64_t most = ~std::uint64_t{0};
   bool is_leaf_list = false;
   bool is_state = false;                 ///< read, and of no account for what is configured
+  bool is_key(std::string_view child) const { return (" " + std::string(key) + " ").find(" " + std::string(child) + " ") != std::string::npos; }
   const Schema* find(std::string_view which_module, std::string_view which_name) const;
 };
 
@@ -43,6 +46,7 @@ std::string_view namespace_of(std::string_view module);
 /// The module of a namespace; empty if takt does not know it.
 std::string_view module_of(std::string_view name_space);
 bool is_known(std::string_view module);
+std::vector<std::string_view> known_modules();
 
 enum class Dialect : std::uint8_t { published, of_2018 };
 

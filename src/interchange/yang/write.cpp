@@ -60,7 +60,7 @@ void write_element(const Data& data, std::string_view outer_module, std::size_t 
     }
     text += ">\n";
     // The key of a list comes first.
-    const auto is_key = [&](const Data& child) { return schema.type == Type::list && child.schema->name == schema.key; };
+    const auto is_key = [&](const Data& child) { return schema.type == Type::list && schema.is_key(child.schema->name); };
     for (const Data& child : data.children)
       if (is_key(child)) write_element(child, schema.module, depth + 1, text);
     for (const Data& child : data.children)

@@ -12,6 +12,7 @@
 #include "cli/commands.hpp"
 #include "cli/load.hpp"
 #include "interchange/format.hpp"
+#include "interchange/yang/validate.hpp"
 
 namespace takt::cli {
 namespace {
@@ -23,6 +24,7 @@ struct ExportOptions {
   std::string folder;
   std::vector<std::string> settings;
   bool lossy = false;
+  std::string modules;
 };
 
 std::string export_formats_help() {
@@ -62,6 +64,8 @@ ExitStatus run_export(const ExportOptions& options) {
   std::string mistake;
   const auto settings = interchange::Settings::read(options.settings, format.settings, mistake);
   if (!settings) return refuse_export(mistake);
+  if (!options.modules.empty() && format.name != "yang") return refuse_export("--validate: found format " + json::quote(options.format) + ", expected yang, whose files modules describe");
+  if (!options.modules.empty() && !interchange::can_validate_yang()) return refuse_export("--validate: this takt is built without libyang; install libyang2-dev (Debian) and build it again, or give the files to yanglint (libyang2-tools)");
   const auto resolved = load(options.scenario);
   if (!resolved) return ExitStatus::bad_input;
   std::optional<std::uint32_t> node;
@@ -77,6 +81,15 @@ ExitStatus run_export(const ExportOptions& options) {
   if (!exported.mistake.empty()) return refuse_export(exported.mistake);
   for (const interchange::Loss& loss : exported.losses) std::fprintf(stderr, "takt: %s cannot say: %s: %s\n", options.format.c_str(), loss.where.c_str(), loss.what.c_str());
   if (!exported.losses.empty() && !options.lossy) return refuse_export(fmt::format("nothing was written, since {} {} lost; --lossy writes the rest", exported.losses.size(), exported.losses.size() == 1 ? "thing would be" : "things would be"));
+  if (!options.modules.empty()) {
+    const interchange::YangValidation validation = interchange::validate_yang(exported.files, (*settings)["dialect"] == "2018", options.modules);
+    if (!validation.mistake.empty()) return refuse_export("--validate: " + validation.mistake);
+    for (const std::string& invalid : validation.invalid) std::fprintf(stderr, "takt: not valid by the modules: %s\n", invalid.c_str());
+    if (!validation.invalid.empty()) {
+      std::fprintf(stderr, "takt: nothing was written, since %zu of the files are not valid\n", validation.invalid.size());
+      return ExitStatus::requirement_failed;
+    }
+  }
   if (!options.folder.empty()) return write_files(exported, options.folder);
   if (exported.files.size() == 1) {
     std::fwrite(exported.files.front().content.data(), 1, exported.files.front().content.size(), stdout);
@@ -102,6 +115,7 @@ void add_export_command(Command app, ExitStatus& status) {
   command.add_option("--node", options->node, "Only what is for this node").type_name("NODE");
   command.add_option("--out", options->folder, "The folder for the files; standard output if absent").type_name("DIR");
   command.add_option("-o", options->settings, "A setting of the format (repeatable)").type_name("KEY=VALUE").one_value_each();
+  command.add_option("--validate", options->modules, "Of yang: first validates the files by the modules in this folder, with libyang; if one is not valid nothing is written").type_name("MODULES");
   command.add_flag("--lossy", options->lossy, "Write even if something is lost that the scenario says and the format cannot");
   command.footer(
       "Formats:\n" + export_formats_help() +
@@ -109,7 +123,7 @@ void add_export_command(Command app, ExitStatus& status) {
       "  takt export linux scenarios/tsn/gates-on-a-line.json --out scripts   a script for each node\n"
       "  takt export linux scenarios/tsn/gates-on-a-line.json --node sw1      the one of sw1, on standard output\n"
       "  takt export dot scenarios/robot-arm.json | neato -Tsvg > arm.svg     the topology\n"
-      "Exit status: 0 written, 2 mistakes, or something is lost and --lossy is not given (nothing was written then).");
+      "Exit status: 0 written, 1 not valid by the modules of --validate, 2 mistakes, or something is lost and --lossy is not given (nothing was written then).");
   command.callback([options, &status] { status = run_export(*options); });
 }
 

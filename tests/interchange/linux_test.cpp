@@ -1,7 +1,7 @@
 // Sets of Linux commands, right and wrong: data/tc/expected.csv has what a kernel says of them and what they mean in takt.
 #include <gtest/gtest.h>
 
-#include "files.hpp"
+#include "round_trip.hpp"
 #include "scenario/resolve/resolve.hpp"
 
 namespace takt::interchange::test {
@@ -91,6 +91,19 @@ TEST(Ptp4l, FilesMeanWhatTheTableSays) {
   EXPECT_EQ(station.log_sync_interval, -5);
   EXPECT_EQ(station.servo.first_step_threshold, sim::Duration::from_ps(20'000'000));
   EXPECT_EQ(station.servo.max_frequency.parts_per_trillion, 500'000'000);   // 500000 ppb
+}
+
+TEST(LinuxClocks, HaveAFileForEachDomain) {
+  json::Diagnostics diagnostics;
+  const auto resolved = scenario::load_file(std::filesystem::path(TAKT_SOURCE_DIR) / "scenarios/clocks/hot-standby.json", {}, diagnostics);
+  ASSERT_TRUE(resolved) << diagnostics.to_text();
+  const std::uint8_t second = resolved->scenario.clocks.gptp->domains.front().domain;
+  const std::string node = resolved->plan.nodes.front().name;
+  std::string mistake;
+  const ExportFormat* const format = find_export_format("linux");
+  const Exported exported = format->write({*resolved, {}, *Settings::read({}, format->settings, mistake)});
+  for (const int domain : {0, static_cast<int>(second)})
+    EXPECT_TRUE(std::ranges::any_of(exported.files, [&](const OutputFile& file) { return file.name == node + ".domain" + std::to_string(domain) + ".ptp4l.conf"; })) << domain;
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ std::vector<Ptp4lFile> ptp4l_files(const scenario::Resolved& resolved, const Dev
     return found == nodes.end() ? scenario::GptpNode{} : found->second;
   };
   std::vector<std::pair<std::uint8_t, scenario::GptpNode>> domains;
-  if (gptp.domains.empty()) domains.emplace_back(std::uint8_t{0}, node_in(gptp.nodes));
+  domains.emplace_back(std::uint8_t{0}, node_in(gptp.nodes));
   for (const scenario::GptpDomain& domain : gptp.domains) domains.emplace_back(domain.domain, node_in(domain.nodes));
   const auto lose = [&](bool is_said, const char* what) { if (is_said) exported.lose("clock of " + device.name, what); };
   lose(gptp.hot_standby, "hot standby (IEEE 802.1ASdm): ptp4l runs each domain by itself");

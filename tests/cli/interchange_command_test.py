@@ -56,6 +56,20 @@ class Interchange(unittest.TestCase):
         self.assertEqual(status, 0, error)
         self.assertIn("# cannot be said: ", (self.out / "scripts" / "sw3.sh").read_text())
 
+    def test_validation_is_refused_where_it_cannot_be(self):
+        scenario = SCENARIOS / "tsn" / "preemption-on-a-line.json"
+        status, page, error = takt("export", "linux", scenario, "--validate", self.out, "--out", self.out / "scripts")
+        self.assertEqual((status, page), (2, ""))
+        self.assertIn("expected yang", error)
+        status, page, error = takt("export", "yang", scenario, "--validate", self.out / "nowhere", "--out", self.out / "data")
+        self.assertEqual((status, page), (2, ""))
+        has_libyang = "with libyang" in takt("--version")[1]
+        self.assertIn("expected a folder with YANG modules" if has_libyang else "install libyang2-dev", error)
+        status, page, error = takt("export", "yang", scenario, "--validate", self.out, "--out", self.out / "data")
+        self.assertEqual((status, page), (2, ""))
+        self.assertIn("module ietf-interfaces" if has_libyang else "install libyang2-dev", error)
+        self.assertFalse((self.out / "data").exists())
+
     def test_one_node_goes_to_standard_output(self):
         status, page, _ = takt("export", "linux", SCENARIOS / "robot-arm.json", "--node", "sw1")
         self.assertEqual(status, 0)

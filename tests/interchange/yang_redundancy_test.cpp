@@ -52,6 +52,14 @@ TEST(YangRedundancy, OfARingIsThis) {
   EXPECT_EQ(part_of(ring.exported, "h1.json", "ieee802-dot1cb-frer:frer"), "");
 }
 
+TEST(YangRedundancy, OfHostsBeginsAboveTheirPorts) {
+  const Written hosts = written("tsn/frer-hosts.json");
+  EXPECT_TRUE(hosts.exported.losses.empty());
+  const std::string identities = part_of(hosts.exported, "talker.json", "ieee802-dot1cb-stream-identification:stream-identity");
+  EXPECT_TRUE(identities.starts_with(R"([{"index":1,"handle":1,"in-facing":{"input-port":["eth0"]},"null-stream-identification":)")) << identities;
+  EXPECT_NE(part_of(hosts.exported, "listener.json", "ieee802-dot1cb-frer:frer").find(R"("individual-recovery":true)"), std::string::npos);
+}
+
 TEST(YangRedundancy, WhatTheTablesCannotSayIsTold) {
   const auto says = [](const Exported& exported, const std::string& what) {
     return std::ranges::any_of(exported.losses, [&](const Loss& loss) { return loss.what.find(what) != std::string::npos; });

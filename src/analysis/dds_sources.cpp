@@ -19,6 +19,7 @@ using scenario::ResolvedApplication;
 using scenario::ResolvedParticipant;
 using scenario::ResolvedThread;
 using namespace dds_messages;
+
 /// Greetings of a reader that hears nothing: so many until they are a heartbeat period apart.
 std::int64_t greetings_of(sim::Duration first, sim::Duration greatest) {
   std::int64_t count = 1;

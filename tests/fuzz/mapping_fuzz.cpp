@@ -1,8 +1,9 @@
-// A mapping of the gateway and a value for it: neither crash nor hang; what is mapped survives the way there and back; and of its key the hash is found.
+// A mapping of the gateway and a value for it: neither crash nor hang; what is mapped survives the way there and back; of its key the hash is found, and filters know what is a sample.
 //
 // The first octets describe the mapping: direction and number of fields, then five octets for each field; what is left is the value.
 #include <vector>
 
+#include "gateway/content_filter.hpp"
 #include "gateway/field_values.hpp"
 #include "gateway/key_layout.hpp"
 #include "gateway/type_mapping.hpp"
@@ -99,6 +100,26 @@ void check_key(const Agreement& agreed, const std::vector<std::byte>& payload) {
   if (key.size() == layout.octets()) TAKT_CHECK(layout.of_data(payload) == layout.of_key(alone), "a key alone is the same instance");
 }
 
+/// Of members that have places: a sample passes either a comparison or its opposite, and what is no sample neither. The octets as an expression are refused or are one.
+void check_filter(const Agreement& agreed, const std::vector<std::byte>& payload) {
+  for (const gateway::IdlMember& member : agreed.type.members)
+    if (gateway::info(member.kind).octets == 0 || member.collection == IdlCollection::sequence) return;
+  gateway::FilterMistake mistake;
+  const std::string text(reinterpret_cast<const char*>(payload.data()), payload.size());
+  if (const auto any = gateway::ContentFilter::parse(text, agreed.type, mistake)) static_cast<void>(any->passes(payload));
+  for (const gateway::IdlMember& member : agreed.type.members) {
+    if (member.collection == IdlCollection::array || gateway::info(member.kind).octets > 8) continue;
+    const auto passes = [&](const std::string& expression) {
+      const auto filter = gateway::ContentFilter::parse(expression, agreed.type, mistake);
+      TAKT_CHECK(filter.has_value(), "a comparison of a number");
+      return filter->passes(payload);
+    };
+    const bool is_one = passes(member.name + " = 1"), is_other = passes(member.name + " <> 1");
+    TAKT_CHECK(!(is_one && is_other), "a number is 1 or it is not");
+    TAKT_CHECK(passes("NOT " + member.name + " = 1 OR " + member.name + " = 1") == (is_one || is_other), "what passes neither is no sample");
+  }
+}
+
 /// Of what was mapped: mapped back and again it is what it was.
 void check_return(const Agreement& agreed, TypeMapping& there, const std::vector<std::byte>& mapped) {
   auto back = mapping_of(agreed, agreed.direction == Direction::to_dds ? Direction::to_opc_ua : Direction::to_dds);
@@ -118,6 +139,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!mapping) return 0;
   const std::vector<std::byte> value(input.rest().begin(), input.rest().end());  // of its exact size, so that reads behind it are seen
   check_key(agreed, value);
+  check_filter(agreed, value);
   std::vector<std::byte> mapped;
   if (mapping->convert(value, mapped) != MappingError::none) return 0;
   check_return(agreed, *mapping, mapped);

@@ -75,6 +75,10 @@ class Deliveries {
     if (there == nullptr) return nothing("participants of one host do not hear each other");
     if (config.asynchronous) return nothing("what an asynchronous writer sends waits for its flow controller");
     one_way(*there, made);
+    if (reader.filter) {
+      made.reaches_all = false;
+      made.loss_reason = "the filter of the reader may keep samples out";
+    }
     made.repair_reason = why_not_repaired(config, reader);
     if (!made.one_way) made.repair_reason = made.reason;
     const StreamBound* const back = stream_between(*reader.participant, *writer.participant, 0);

@@ -12,11 +12,11 @@ namespace {
 using sim::Duration;
 using namespace sim::literals;  // NOLINT
 
-std::shared_ptr<scenario::Resolved> plant(const std::string& qos, const std::string& every, const std::string& more = {}) {
+std::shared_ptr<scenario::Resolved> plant(const std::string& qos, const std::string& every, const std::string& more = {}, const std::string& reader = {}) {
   const std::string text = R"({"name": "t", "duration": "12s", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"], "delay": "0s"}]},
    "topics": [{"name": "sample", "protocol": "dds", "pcp": 4, "qos": {)" + qos + R"(}, "fields": {"level": "Int32"}}],
    "applications": [{"name": "sensor", "on": "a", "threads": [{"name": "publish", "publish": "sample", "every": ")" + every + R"(")" + (every == "10s" ? R"(, "offset": "2s")" : "") + R"(}]},
-                    {"name": "actor", "on": "b", "threads": [{"name": "take", "subscribe": "sample", "every": "1ms"}]}])" + more + "}";
+                    {"name": "actor", "on": "b", "threads": [{"name": "take", "subscribe": "sample", "every": "1ms")" + reader + R"(}]}])" + more + "}";
   json::Diagnostics diagnostics;
   auto resolved = scenario::load_text(text, "t.json", {}, diagnostics);
   EXPECT_NE(resolved, nullptr) << diagnostics.to_text();
@@ -58,6 +58,13 @@ TEST(Deliveries, WhatMayBeLostIsSaid) {
   const DeliveryBound found = delivery(*plant(R"("reliability": "reliable", "history": "keep-all")", "10s", R"(, "faults": [{"kind": "frame-errors", "link": ["a", "b"], "loss": 0.1}])"));
   EXPECT_FALSE(found.reaches_all);
   EXPECT_NE(found.loss_reason.find("chance"), std::string::npos);
+}
+
+TEST(Deliveries, AFilterKeepsSamplesOut) {
+  const DeliveryBound found = delivery(*plant(R"("reliability": "best-effort")", "10s", {}, R"(, "filter": "level > 5")"));
+  EXPECT_TRUE(found.one_way);
+  EXPECT_FALSE(found.reaches_all);
+  EXPECT_NE(found.loss_reason.find("filter"), std::string::npos);
 }
 
 /// The last message with data on the stream, and when the first was made.

@@ -9,7 +9,7 @@
 #include "analysis/bounds.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::assessment_test {
 namespace {
 
 using sim::Duration;
@@ -300,4 +300,4 @@ TEST(Assessment, ReceiversTakeTime) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::assessment_test

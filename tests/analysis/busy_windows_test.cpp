@@ -3,7 +3,7 @@
 
 #include "analysis/response_times.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::busy_windows_test {
 namespace {
 
 using models::CpuPlan;
@@ -124,4 +124,4 @@ TEST(BusyWindows, OfThreadsThatRunAnywhere) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::busy_windows_test

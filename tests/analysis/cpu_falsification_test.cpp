@@ -10,7 +10,7 @@
 #include "sim/random.hpp"
 #include "tests/analysis/host_falsification.hpp"
 
-namespace takt::analysis::test {
+namespace takt::analysis::test::cpu_falsification_test {
 namespace {
 
 using sim::Duration;
@@ -129,4 +129,4 @@ TEST(CpuFalsification, NoRunExceedsABound) {
 }
 
 }  // namespace
-}  // namespace takt::analysis::test
+}  // namespace takt::analysis::test::cpu_falsification_test

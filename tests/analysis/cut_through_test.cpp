@@ -3,7 +3,7 @@
 
 #include "tests/analysis/falsification.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::cut_through_test {
 namespace {
 
 using sim::Duration;
@@ -55,4 +55,4 @@ TEST(CutThrough, WhatComesByAnotherLinkIsNoCutThrough) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::cut_through_test

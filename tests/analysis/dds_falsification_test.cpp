@@ -14,7 +14,7 @@
 #include "sim/random.hpp"
 #include "tests/analysis/falsification.hpp"
 
-namespace takt::analysis::test {
+namespace takt::analysis::test::dds_falsification_test {
 namespace {
 
 std::size_t dds_networks() {
@@ -198,4 +198,4 @@ TEST(DdsFalsification, NoRunExceedsABoundOrACurve) {
 }
 
 }  // namespace
-}  // namespace takt::analysis::test
+}  // namespace takt::analysis::test::dds_falsification_test

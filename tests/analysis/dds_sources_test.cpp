@@ -8,7 +8,7 @@
 #include "analysis/dds_sources.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::dds_sources_test {
 namespace {
 
 using sim::Duration;
@@ -139,4 +139,4 @@ TEST(DdsSources, WhatHasNoCurveHasItsReason) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::dds_sources_test

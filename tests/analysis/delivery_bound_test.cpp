@@ -6,7 +6,7 @@
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::delivery_bound_test {
 namespace {
 
 using sim::Duration;
@@ -102,4 +102,4 @@ TEST(Deliveries, ARepairInARunIsNoLater) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::delivery_bound_test

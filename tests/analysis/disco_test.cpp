@@ -8,7 +8,7 @@
 #include "analysis/server_network.hpp"
 #include "sim/random.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::disco_test {
 namespace {
 
 struct KnownFlow {
@@ -283,4 +283,4 @@ TEST(Disco, NoRunExceedsSeparatedFlows) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::disco_test

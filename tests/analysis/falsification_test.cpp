@@ -11,7 +11,7 @@
 #include "tests/analysis/falsification.hpp"
 #include "tests/property/random_scenario.hpp"
 
-namespace takt::analysis::test {
+namespace takt::analysis::test::falsification_test {
 namespace {
 
 using property::Feature;
@@ -199,4 +199,4 @@ TEST(Falsification, CatchesABoundWithoutPacketiser) {
 }
 
 }  // namespace
-}  // namespace takt::analysis::test
+}  // namespace takt::analysis::test::falsification_test

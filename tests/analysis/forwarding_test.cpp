@@ -6,7 +6,7 @@
 #include "analysis/bounds.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::forwarding_test {
 namespace {
 
 using sim::Duration;
@@ -74,4 +74,4 @@ TEST(HostPriority, CountsAtTheHostAlone) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::forwarding_test

@@ -9,7 +9,7 @@
 #include "sim/random.hpp"
 #include "tests/analysis/falsification.hpp"
 
-namespace takt::analysis::test {
+namespace takt::analysis::test::gated_falsification_test {
 namespace {
 
 std::size_t gated_networks() {
@@ -224,4 +224,4 @@ TEST(GatedFalsification, CatchesClocksThatAreWorse) {
 }
 
 }  // namespace
-}  // namespace takt::analysis::test
+}  // namespace takt::analysis::test::gated_falsification_test

@@ -5,7 +5,7 @@
 #include "analysis/thread_bound.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::host_times_test {
 namespace {
 
 using sim::Duration;
@@ -74,4 +74,4 @@ TEST(HostTimes, CallsThatOverrunAreNotCertain) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::host_times_test

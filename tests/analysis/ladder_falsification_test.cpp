@@ -12,7 +12,7 @@
 #include "scenario/run/run.hpp"
 #include "sim/random.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::ladder_falsification_test {
 namespace {
 
 using sim::Duration;
@@ -174,4 +174,4 @@ TEST(Ladder, WhatIsForgottenBeforeItComesBackGoesInCircles) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::ladder_falsification_test

@@ -5,7 +5,7 @@
 
 #include "sim/random.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::max_plus_test {
 namespace {
 
 MaxPlus any(sim::RandomStream& chance) {
@@ -71,4 +71,4 @@ TEST(MaxPlus, AProductIsTheSlowestWay) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::max_plus_test

@@ -7,7 +7,7 @@
 #include "scenario/resolve/resolve.hpp"
 #include "tests/analysis/falsification.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::no_wait_test {
 namespace {
 
 using sim::Duration;
@@ -214,4 +214,4 @@ TEST(FrameSequence, OthersTakeTime) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::no_wait_test

@@ -7,7 +7,7 @@
 #include "sim/random.hpp"
 #include "tests/analysis/falsification.hpp"
 
-namespace takt::analysis::test {
+namespace takt::analysis::test::packed_falsification_test {
 namespace {
 
 class PackedNetwork {
@@ -91,4 +91,4 @@ TEST(PackedFalsification, NoRunIsAboveItsBound) {
 }
 
 }  // namespace
-}  // namespace takt::analysis::test
+}  // namespace takt::analysis::test::packed_falsification_test

@@ -10,7 +10,7 @@
 #include "analysis/port_bound.hpp"
 #include "sim/random.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::packed_windows_test {
 namespace {
 
 constexpr Ps ns = 1'000;
@@ -270,4 +270,4 @@ TEST(PackedWindows, NoRunIsAboveItsBound) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::packed_windows_test

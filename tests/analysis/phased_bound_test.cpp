@@ -7,7 +7,7 @@
 #include "analysis/bounds.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::phased_bound_test {
 namespace {
 
 constexpr Ps octet = 80'000;
@@ -125,4 +125,4 @@ TEST(PhasedBound, OneHostWithAFreeClock) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::phased_bound_test

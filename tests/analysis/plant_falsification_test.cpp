@@ -12,7 +12,7 @@
 #include "sim/random.hpp"
 #include "tests/analysis/host_falsification.hpp"
 
-namespace takt::analysis::test {
+namespace takt::analysis::test::plant_falsification_test {
 namespace {
 
 std::size_t plants() {
@@ -173,4 +173,4 @@ TEST(PlantFalsification, NoRunExceedsABound) {
 }
 
 }  // namespace
-}  // namespace takt::analysis::test
+}  // namespace takt::analysis::test::plant_falsification_test

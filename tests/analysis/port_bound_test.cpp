@@ -6,7 +6,7 @@
 
 #include "analysis/gate_windows.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::port_bound_test {
 namespace {
 
 constexpr Ps octet = 80'000;
@@ -236,4 +236,4 @@ TEST(TokenBucket, AsArrivalCurve) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::port_bound_test

@@ -8,7 +8,7 @@
 
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::program_assessment_test {
 namespace {
 
 using sim::Duration;
@@ -169,4 +169,4 @@ TEST(ProgramAssessment, RolesAreSettledWhileTheProgramRuns) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::program_assessment_test

@@ -6,7 +6,7 @@
 #include "analysis/bounds.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::random_gaps_test {
 namespace {
 
 using sim::Duration;
@@ -40,4 +40,4 @@ TEST(RandomGaps, WithoutOneThereIsNoBound) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::random_gaps_test

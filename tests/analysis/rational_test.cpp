@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::analysis {
+namespace takt::analysis::rational_test {
 namespace {
 
 TEST(Rational, IsInLowestTerms) {
@@ -52,4 +52,4 @@ TEST(Rational, NeverWraps) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::rational_test

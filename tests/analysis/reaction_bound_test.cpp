@@ -7,7 +7,7 @@
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::reaction_bound_test {
 namespace {
 
 ReactionGroup group(std::size_t participants, Ps initialise) {
@@ -229,4 +229,4 @@ TEST(ReactionBound, HoldsForNestedGroupsAtAllPhases) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::reaction_bound_test

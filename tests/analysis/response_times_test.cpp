@@ -3,7 +3,7 @@
 
 #include "analysis/response_times.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::response_times_test {
 namespace {
 
 using models::CpuThreadPlan;
@@ -109,4 +109,4 @@ TEST(ResponseTimes, WhoMovesWaitsForAllCores) { EXPECT_EQ(of({{3, 2, 100}, {3, 2
 TEST(ResponseTimes, WhatWasThereBeforeCounts) { EXPECT_EQ(of({{3, 4, 6}, {3, 4, 6}, {1, 3, 100}}, 2), (std::vector<Ps>{4, 4, 11})); }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::response_times_test

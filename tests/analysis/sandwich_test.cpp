@@ -6,7 +6,7 @@
 #include "tests/analysis/falsification.hpp"
 #include "tests/scenario/support.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::sandwich_test {
 namespace {
 
 using scenario::test::shipped_names;
@@ -88,4 +88,4 @@ TEST(Verification, RobotArm) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::sandwich_test

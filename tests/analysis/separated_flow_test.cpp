@@ -5,7 +5,7 @@
 #include "analysis/picoseconds.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::separated_flow_test {
 namespace {
 
 using sim::Duration;
@@ -56,4 +56,4 @@ TEST(SeparatedFlow, SaysWhereItDoesNotApply) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::separated_flow_test

@@ -5,7 +5,7 @@
 
 #include "analysis/server_network_file.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::server_network_test {
 namespace {
 
 using Paths = std::vector<std::vector<std::size_t>>;
@@ -116,4 +116,4 @@ TEST(ServerNetworkFile, RefusesCircles) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::server_network_test

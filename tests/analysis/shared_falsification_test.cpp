@@ -9,7 +9,7 @@
 #include "sim/random.hpp"
 #include "tests/analysis/falsification.hpp"
 
-namespace takt::analysis::test {
+namespace takt::analysis::test::shared_falsification_test {
 namespace {
 
 std::size_t shared_networks() {
@@ -119,4 +119,4 @@ TEST(SharedFalsification, NoRunExceedsABound) {
 }
 
 }  // namespace
-}  // namespace takt::analysis::test
+}  // namespace takt::analysis::test::shared_falsification_test

@@ -7,7 +7,7 @@
 #include "scenario/resolve/resolve.hpp"
 #include "tests/scenario/support.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::slack_test {
 namespace {
 
 std::unique_ptr<scenario::Resolved> load(const std::string& text) {
@@ -100,4 +100,4 @@ TEST(Slack, RandomGapsBehindAFullQueue) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::slack_test

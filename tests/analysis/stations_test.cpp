@@ -4,7 +4,7 @@
 #include "analysis/bounds.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::stations_test {
 namespace {
 
 using namespace sim::literals;  // NOLINT
@@ -30,4 +30,4 @@ TEST(StationBounds, OfAFrameThatIsAlone) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::stations_test

@@ -7,7 +7,7 @@
 #include "analysis/bounds.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::surviving_copies_test {
 namespace {
 
 struct Found {
@@ -79,4 +79,4 @@ TEST(SurvivingCopies, IndividualRecoveryIsNotTrustedBehindAnOutage) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::surviving_copies_test

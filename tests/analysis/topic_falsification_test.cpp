@@ -10,7 +10,7 @@
 #include "sim/random.hpp"
 #include "tests/analysis/falsification.hpp"
 
-namespace takt::analysis::test {
+namespace takt::analysis::test::topic_falsification_test {
 namespace {
 
 std::size_t topic_networks() {
@@ -146,4 +146,4 @@ TEST(TopicFalsification, NoRunExceedsABound) {
 }
 
 }  // namespace
-}  // namespace takt::analysis::test
+}  // namespace takt::analysis::test::topic_falsification_test

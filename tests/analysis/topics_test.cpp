@@ -9,7 +9,7 @@
 #include "analysis/thread_bound.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::analysis {
+namespace takt::analysis::topics_test {
 namespace {
 
 using sim::Duration;
@@ -106,4 +106,4 @@ TEST(Topics, AFullInboxLosesMessages) {
 }
 
 }  // namespace
-}  // namespace takt::analysis
+}  // namespace takt::analysis::topics_test

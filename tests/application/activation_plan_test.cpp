@@ -5,7 +5,7 @@
 
 #include "application/activation_grid.hpp"
 
-namespace takt::application {
+namespace takt::application::activation_plan_test {
 namespace {
 
 using namespace sim::literals;  // NOLINT: units
@@ -58,4 +58,4 @@ TEST(ActivationGrid, WhatIsDueIsDecidedWhenTheNextOneIs) {
 }
 
 }  // namespace
-}  // namespace takt::application
+}  // namespace takt::application::activation_plan_test

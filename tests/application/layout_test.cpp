@@ -8,7 +8,7 @@
 #include "application/opc_ua_topic.hpp"
 #include "application/topic_values.hpp"
 
-namespace takt::application {
+namespace takt::application::layout_test {
 namespace {
 
 using plant::DataSetMessagePart;
@@ -351,4 +351,4 @@ TEST(Strangers, AllTypes) {
 }
 
 }  // namespace
-}  // namespace takt::application
+}  // namespace takt::application::layout_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::application {
+namespace takt::application::output_level_test {
 namespace {
 
 using namespace sim::literals;  // NOLINT: units
@@ -41,4 +41,4 @@ TEST(OutputLevel, PulsesEndWithAFallAndPeriodsWithARise) {
 }
 
 }  // namespace
-}  // namespace takt::application
+}  // namespace takt::application::output_level_test

@@ -7,7 +7,7 @@
 #include "application/opc_ua_topic.hpp"
 #include "application/topic_values.hpp"
 
-namespace takt::application {
+namespace takt::application::topic_test {
 namespace {
 
 plant::Topic topic_of(plant::Protocol protocol) {
@@ -114,4 +114,4 @@ TEST(OpcUaTopic, FromOneEndToTheOther) {
 }
 
 }  // namespace
-}  // namespace takt::application
+}  // namespace takt::application::topic_test

@@ -7,7 +7,7 @@
 
 #include "source_tree.hpp"
 
-namespace takt::architecture {
+namespace takt::architecture::includes_test {
 namespace {
 
 using Prefixes = std::vector<std::string>;
@@ -204,4 +204,4 @@ TEST(Protocol, HasNoInputOrOutput) {
 }
 
 }  // namespace
-}  // namespace takt::architecture
+}  // namespace takt::architecture::includes_test

@@ -7,7 +7,7 @@
 #include <regex>
 #include <set>
 
-namespace takt::architecture {
+namespace takt::architecture::links_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,4 +74,4 @@ TEST(Links, PointAtSomething) {
 }
 
 }  // namespace
-}  // namespace takt::architecture
+}  // namespace takt::architecture::links_test

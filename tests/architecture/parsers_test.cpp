@@ -7,7 +7,7 @@
 
 #include "source_tree.hpp"
 
-namespace takt::architecture {
+namespace takt::architecture::parsers_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,4 +76,4 @@ TEST(Parsers, TargetsAreBuiltAndRun) {
 }
 
 }  // namespace
-}  // namespace takt::architecture
+}  // namespace takt::architecture::parsers_test

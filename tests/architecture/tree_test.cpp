@@ -7,7 +7,7 @@
 
 #include "source_tree.hpp"
 
-namespace takt::architecture {
+namespace takt::architecture::tree_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ TEST(Tree, NoPlacesOutsideTheTree) {
 }
 
 }  // namespace
-}  // namespace takt::architecture
+}  // namespace takt::architecture::tree_test

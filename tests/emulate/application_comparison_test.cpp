@@ -10,7 +10,7 @@
 #include "node/dds/participant.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::emulate {
+namespace takt::emulate::application_comparison_test {
 namespace {
 
 /// Ten milliseconds for 2 s: 200 activations each.
@@ -148,4 +148,4 @@ TEST(ApplicationFiles, WhatRealNodesCannotDoIsRefused) {
 }
 
 }  // namespace
-}  // namespace takt::emulate
+}  // namespace takt::emulate::application_comparison_test

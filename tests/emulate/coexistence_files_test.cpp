@@ -10,7 +10,7 @@
 #include "node/applications/config.hpp"
 #include "node/dds/participant.hpp"
 
-namespace takt::emulate {
+namespace takt::emulate::coexistence_files_test {
 namespace {
 
 TEST(CoexistenceFiles, EveryNodeHasASoundFileWithItsOwnPart) {
@@ -38,4 +38,4 @@ TEST(CoexistenceFiles, EveryNodeHasASoundFileWithItsOwnPart) {
 }
 
 }  // namespace
-}  // namespace takt::emulate
+}  // namespace takt::emulate::coexistence_files_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::emulate {
+namespace takt::emulate::comparison_test {
 namespace {
 
 using handshake::PublishedState;
@@ -86,4 +86,4 @@ TEST(Comparison, WhatTheSimulationLeavesOpenIsNotDemanded) {
 }
 
 }  // namespace
-}  // namespace takt::emulate
+}  // namespace takt::emulate::comparison_test

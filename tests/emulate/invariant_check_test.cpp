@@ -5,7 +5,7 @@
 
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::emulate {
+namespace takt::emulate::invariant_check_test {
 namespace {
 
 using handshake::PublishedState;
@@ -115,4 +115,4 @@ TEST(LogReader, NamesThePrograms) {
 }
 
 }  // namespace
-}  // namespace takt::emulate
+}  // namespace takt::emulate::invariant_check_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::emulate {
+namespace takt::emulate::pace_test {
 namespace {
 
 using handshake::PublishedState;
@@ -52,4 +52,4 @@ TEST(Pace, KnowsWhichCallsWereGood) {
 }
 
 }  // namespace
-}  // namespace takt::emulate
+}  // namespace takt::emulate::pace_test

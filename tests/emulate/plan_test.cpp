@@ -9,7 +9,7 @@
 #include "node/config.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::emulate {
+namespace takt::emulate::plan_test {
 namespace {
 
 std::string scenario(const std::string& nodes, const std::string& links, const std::string& more) {
@@ -179,4 +179,4 @@ TEST(Plan, RolesHaveCandidates) {
 TEST(Plan, WithoutAProgramThereIsNothingToRun) { EXPECT_FALSE(Planned(scenario("", R"({"ends": ["a", "x"]})", "")).plan.refusals.empty()); }
 
 }  // namespace
-}  // namespace takt::emulate
+}  // namespace takt::emulate::plan_test

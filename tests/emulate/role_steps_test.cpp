@@ -7,7 +7,7 @@
 #include "emulate/invariant_check.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::emulate {
+namespace takt::emulate::role_steps_test {
 namespace {
 
 using handshake::PublishedState;
@@ -131,4 +131,4 @@ TEST(Expectation, OfAStatus) {
 }
 
 }  // namespace
-}  // namespace takt::emulate
+}  // namespace takt::emulate::role_steps_test

@@ -5,7 +5,7 @@
 #include "scenario/figures/requirement.hpp"
 #include "tests/scenario/support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::judges_test {
 namespace {
 
 using results::RequirementResult;
@@ -365,4 +365,4 @@ TEST(After, HoldsForApplications) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::judges_test

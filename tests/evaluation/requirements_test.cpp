@@ -2,7 +2,7 @@
 #include "evaluation/evaluate.hpp"
 #include "tests/scenario/support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::requirements_test {
 namespace {
 
 using results::RequirementResult;
@@ -131,4 +131,4 @@ TEST(Requirements, OfAPartialRunStayOpen) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::requirements_test

@@ -7,7 +7,7 @@
 #include "pubsub/communication.hpp"
 #include "pubsub/memory_stack.hpp"
 
-namespace takt::gateway {
+namespace takt::gateway::channel_test {
 namespace {
 
 using namespace sim::literals;  // NOLINT
@@ -144,4 +144,4 @@ TEST(FieldValues, BeginAsZerosThatTheirMappingTakes) {
 }
 
 }  // namespace
-}  // namespace takt::gateway
+}  // namespace takt::gateway::channel_test

@@ -7,7 +7,7 @@
 #include "gateway/content_filter.hpp"
 #include "sim/random.hpp"
 
-namespace takt::gateway {
+namespace takt::gateway::content_filter_test {
 namespace {
 
 const IdlStruct sample{"Sample",
@@ -175,4 +175,4 @@ TEST(ContentFilter, RandomExpressionsSayWhatTheyMean) {
 }
 
 }  // namespace
-}  // namespace takt::gateway
+}  // namespace takt::gateway::content_filter_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::gateway {
+namespace takt::gateway::key_layout_test {
 namespace {
 
 std::vector<std::byte> octets(std::initializer_list<unsigned> values) {
@@ -74,4 +74,4 @@ TEST(KeyLayout, ALongKeyIsHashed) {
 }
 
 }  // namespace
-}  // namespace takt::gateway
+}  // namespace takt::gateway::key_layout_test

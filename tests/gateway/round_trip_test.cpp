@@ -8,7 +8,7 @@
 #include "gateway/type_pairs.hpp"
 #include "uadp/value.hpp"
 
-namespace takt::gateway {
+namespace takt::gateway::round_trip_test {
 namespace {
 
 using uadp::BuiltInType;
@@ -156,4 +156,4 @@ RC_GTEST_PROP(RoundTrip, FieldsToCdrAndBack, ()) {
 }
 
 }  // namespace
-}  // namespace takt::gateway
+}  // namespace takt::gateway::round_trip_test

@@ -6,7 +6,7 @@
 
 #include <deque>
 
-namespace takt::gateway {
+namespace takt::gateway::shared_buffer_test {
 namespace {
 
 using namespace sim::literals;  // NOLINT
@@ -154,4 +154,4 @@ RC_GTEST_PROP(SharedBufferProperty, IsItsModel, ()) {
 }
 
 }  // namespace
-}  // namespace takt::gateway
+}  // namespace takt::gateway::shared_buffer_test

@@ -8,7 +8,7 @@
 
 #include "uadp/variant.hpp"
 
-namespace takt::gateway {
+namespace takt::gateway::type_mapping_test {
 namespace {
 
 using uadp::BuiltInType;
@@ -169,4 +169,4 @@ TEST(TypeMapping, PayloadsThatAreNotTheAgreedOnes) {
 }
 
 }  // namespace
-}  // namespace takt::gateway
+}  // namespace takt::gateway::type_mapping_test

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace takt::gateway {
+namespace takt::gateway::type_pairs_test {
 namespace {
 
 using uadp::BuiltInType;
@@ -86,4 +86,4 @@ TEST(TypePairs, WhatDoesNotFitIsNamed) {
 }
 
 }  // namespace
-}  // namespace takt::gateway
+}  // namespace takt::gateway::type_pairs_test

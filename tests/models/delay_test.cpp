@@ -3,7 +3,7 @@
 
 #include "tests/models/network_fixture.hpp"
 
-namespace takt::models {
+namespace takt::models::delay_test {
 namespace {
 
 using namespace test;
@@ -162,4 +162,4 @@ TEST(Delay, EventsOfAnUncongestedPath) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::delay_test

@@ -3,7 +3,7 @@
 
 #include "tests/models/network_fixture.hpp"
 
-namespace takt::models {
+namespace takt::models::host_priority_test {
 namespace {
 
 using namespace test;
@@ -69,4 +69,4 @@ TEST(HostPriority, BesideLaunchTimes) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::host_priority_test

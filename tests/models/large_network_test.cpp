@@ -3,7 +3,7 @@
 
 #include "tests/models/network_fixture.hpp"
 
-namespace takt::models {
+namespace takt::models::large_network_test {
 namespace {
 
 using namespace test;
@@ -50,4 +50,4 @@ TEST(LargeNetwork, LookingAheadChangesNothing) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::large_network_test

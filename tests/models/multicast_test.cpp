@@ -2,7 +2,7 @@
 
 #include "tests/models/network_fixture.hpp"
 
-namespace takt::models {
+namespace takt::models::multicast_test {
 namespace {
 
 using namespace test;
@@ -117,4 +117,4 @@ TEST(Multicast, ADroppedCopyDoesNotHurtTheOthers) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::multicast_test

@@ -5,7 +5,7 @@
 
 #include "tests/models/network_fixture.hpp"
 
-namespace takt::models {
+namespace takt::models::overflow_test {
 namespace {
 
 using namespace test;
@@ -220,4 +220,4 @@ TEST(Overflow, AtABridge) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::overflow_test

@@ -7,7 +7,7 @@
 
 #include "tests/models/network_fixture.hpp"
 
-namespace takt::models {
+namespace takt::models::run_digest_test {
 namespace {
 
 using namespace test;
@@ -121,4 +121,4 @@ TEST(RunDigest, ProductionsOfAllStreamsDiffer) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::run_digest_test

@@ -4,7 +4,7 @@
 #include "models/ingress/stream_gate.hpp"
 #include "tests/models/network_fixture.hpp"
 
-namespace takt::models {
+namespace takt::models::running_gates_test {
 namespace {
 
 using namespace test;
@@ -65,4 +65,4 @@ TEST(RunningGates, StreamGatesAreToo) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::running_gates_test

@@ -6,7 +6,7 @@
 
 #include "tests/models/network_fixture.hpp"
 
-namespace takt::models {
+namespace takt::models::station_test {
 namespace {
 
 using namespace test;  // NOLINT
@@ -291,4 +291,4 @@ TEST(HostWithTwoInterfaces, TakesInTheFramesOfAnInstantByPort) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::station_test

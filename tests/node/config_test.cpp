@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace takt::node {
+namespace takt::node::config_test {
 namespace {
 
 const std::string udp = R"({"kind": "udp", "destinations": ["127.0.0.1:4841"]})";
@@ -79,4 +79,4 @@ TEST(Config, AMessageFitsIntoAFrame) {
 }
 
 }  // namespace
-}  // namespace takt::node
+}  // namespace takt::node::config_test

@@ -5,7 +5,7 @@
 
 #include "support/word_bench.hpp"
 
-namespace takt::node {
+namespace takt::node::forged_words_test {
 namespace {
 
 using handshake::PublishedState;
@@ -145,4 +145,4 @@ TEST(ForgedWords, AFloodOfAnnouncements) {
 }
 
 }  // namespace
-}  // namespace takt::node
+}  // namespace takt::node::forged_words_test

@@ -11,12 +11,12 @@
 #include "node/config.hpp"
 #include "node/security_memory.hpp"
 
-namespace takt::node {
+namespace takt::node::key_file_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-class KeyFiles : public testing::Test {
+class KeyFiles : public ::testing::Test {
  protected:
   KeyFiles() : folder_(fs::temp_directory_path() / ("takt-key-file-" + std::to_string(::getpid()))) { fs::create_directories(folder_); }
   ~KeyFiles() override { fs::remove_all(folder_); }
@@ -105,4 +105,4 @@ TEST_F(KeyFiles, MemoriesAreOfOneNodeAndLastLonger) {
 }
 
 }  // namespace
-}  // namespace takt::node
+}  // namespace takt::node::key_file_test

@@ -10,7 +10,7 @@
 #include "plant/protocol.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::node {
+namespace takt::node::nested_config_test {
 namespace {
 
 std::string file(const std::string& node, const std::string& programs, const std::string& more = {}) {
@@ -165,4 +165,4 @@ TEST(Clock, SaysHowFarIntoACycleItsEpochIs) {
 }
 
 }  // namespace
-}  // namespace takt::node
+}  // namespace takt::node::nested_config_test

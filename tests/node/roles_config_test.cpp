@@ -6,7 +6,7 @@
 
 #include "node/config.hpp"
 
-namespace takt::node {
+namespace takt::node::roles_config_test {
 namespace {
 
 const std::string transport = R"("transport": {"kind": "udp", "destinations": ["127.0.0.1:4841"]})";
@@ -116,4 +116,4 @@ TEST(RolesConfig, MistakesAreFound) {
 }
 
 }  // namespace
-}  // namespace takt::node
+}  // namespace takt::node::roles_config_test

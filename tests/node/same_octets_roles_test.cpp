@@ -17,7 +17,7 @@
 #include "uadp/octets.hpp"
 #include "wire/program_node.hpp"
 
-namespace takt::node {
+namespace takt::node::same_octets_roles_test {
 namespace {
 
 using namespace sim::literals;
@@ -189,4 +189,4 @@ TEST(SameOctets, OfMastersAndCandidates) {
 }
 
 }  // namespace
-}  // namespace takt::node
+}  // namespace takt::node::same_octets_roles_test

@@ -8,7 +8,7 @@
 #include "plant/protocol.hpp"
 #include "scenario/resolve/resolve.hpp"
 
-namespace takt::node {
+namespace takt::node::same_octets_test {
 namespace {
 
 const std::string program = R"({"name": "p", "master": "m", "slaves": ["a", "b"], "cycle": "1ms",
@@ -56,4 +56,4 @@ TEST(SameOctets, OfStatesAndProcessData) {
 }
 
 }  // namespace
-}  // namespace takt::node
+}  // namespace takt::node::same_octets_test

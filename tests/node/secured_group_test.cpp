@@ -5,7 +5,7 @@
 
 #include "support/word_bench.hpp"
 
-namespace takt::node {
+namespace takt::node::secured_group_test {
 namespace {
 
 using handshake::PublishedState;
@@ -48,7 +48,7 @@ std::vector<std::byte> attack(const std::vector<std::vector<std::byte>>& heard, 
   }
 }
 
-class SecuredGroups : public testing::TestWithParam<const char*> {};
+class SecuredGroups : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SecuredGroups, ChangeTheirKeysWithoutALostMessage) {
   test::WordBench bench(GetParam());
@@ -131,7 +131,7 @@ TEST_P(SecuredGroups, StartAgainAfterOneWasRestarted) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, SecuredGroups, testing::Values("secured", "signed"), [](const auto& mode) { return std::string(mode.param); });
+INSTANTIATE_TEST_SUITE_P(Modes, SecuredGroups, ::testing::Values("secured", "signed"), [](const auto& mode) { return std::string(mode.param); });
 
 // What security is for: the same stranger halts a group without it.
 TEST(UnsecuredGroups, AreHaltedByOneReplay) {
@@ -153,4 +153,4 @@ TEST(UnsecuredGroups, AreHaltedByOneReplay) {
 }
 
 }  // namespace
-}  // namespace takt::node
+}  // namespace takt::node::secured_group_test

@@ -9,7 +9,7 @@
 #include "pubsub/data_set.hpp"
 #include "support/reservation.hpp"
 
-namespace takt::node {
+namespace takt::node::sockets_test {
 namespace {
 
 std::unique_ptr<Socket> open(std::uint16_t port, std::uint16_t other) {
@@ -102,4 +102,4 @@ TEST(Sockets, SayWhatIsInTheWayOfLaunchTimes) {
 }
 
 }  // namespace
-}  // namespace takt::node
+}  // namespace takt::node::sockets_test

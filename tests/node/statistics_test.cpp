@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::node {
+namespace takt::node::statistics_test {
 namespace {
 
 TEST(Distribution, ExtremesAndMeanAreExact) {
@@ -82,4 +82,4 @@ TEST(PeerWatch, AnIntentThatThePeerBroughtHasNoRoundTrip) {
 }
 
 }  // namespace
-}  // namespace takt::node
+}  // namespace takt::node::statistics_test

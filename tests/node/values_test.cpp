@@ -7,7 +7,7 @@
 #include "node/built_in_values.hpp"
 #include "node/data_set_binding.hpp"
 
-namespace takt::node {
+namespace takt::node::values_test {
 namespace {
 
 wire::ProgramShape shape() {
@@ -99,4 +99,4 @@ TEST(BuiltInValues, OutOfRangeIsTheEndOfTheRange) {
 }
 
 }  // namespace
-}  // namespace takt::node
+}  // namespace takt::node::values_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace takt::program {
+namespace takt::program::documentation_test {
 namespace {
 
 TEST(Documentation, TheTable) {
@@ -50,4 +50,4 @@ TEST(Documentation, TheGraph) {
 }
 
 }  // namespace
-}  // namespace takt::program
+}  // namespace takt::program::documentation_test

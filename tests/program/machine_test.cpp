@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace takt::program {
+namespace takt::program::machine_test {
 namespace {
 
 /// A machine in a state, reached by legal calls from Ready.
@@ -87,4 +87,4 @@ TEST(Machine, BeginsHaltedOrReady) {
 }
 
 }  // namespace
-}  // namespace takt::program
+}  // namespace takt::program::machine_test

@@ -5,7 +5,7 @@
 
 #include "program/program.hpp"
 
-namespace takt::program {
+namespace takt::program::nested_machine_test {
 namespace {
 
 sim::LocalTime at(std::int64_t ms) { return sim::LocalTime::from_ps(ms * 1'000'000'000); }
@@ -77,4 +77,4 @@ TEST(NestedMachines, AUsersOwnBelowRunning) {
 }
 
 }  // namespace
-}  // namespace takt::program
+}  // namespace takt::program::nested_machine_test

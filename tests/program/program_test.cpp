@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::program {
+namespace takt::program::program_test {
 namespace {
 
 using namespace sim::literals;
@@ -201,4 +201,4 @@ TEST(Programs, InternalCauses) {
 }
 
 }  // namespace
-}  // namespace takt::program
+}  // namespace takt::program::program_test

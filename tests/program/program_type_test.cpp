@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::program {
+namespace takt::program::program_type_test {
 namespace {
 
 const sim::LocalTime now;
@@ -63,4 +63,4 @@ TEST(ProgramTypes, AutoDeleteAfterTheLastEvent) {
 }
 
 }  // namespace
-}  // namespace takt::program
+}  // namespace takt::program::program_type_test

@@ -9,7 +9,7 @@
 
 #include "program/status.hpp"
 
-namespace takt::program {
+namespace takt::program::table_test {
 namespace {
 
 nlohmann::json golden() {
@@ -90,4 +90,4 @@ TEST(Status, NamesAreTheStandards) {
 }
 
 }  // namespace
-}  // namespace takt::program
+}  // namespace takt::program::table_test

@@ -5,7 +5,7 @@
 #include "evaluation/evaluate.hpp"
 #include "support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::applications_test {
 namespace {
 
 /// Two hosts on a wire; `threads` of the publisher on a, of the subscriber on b.
@@ -290,4 +290,4 @@ TEST(Applications, AMistakeIsSaidOnce) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::applications_test

@@ -1,7 +1,7 @@
 // What ports do beyond strict priority, and launch times, that name what is not there, contradict themselves or cannot be.
 #include "bad_input.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::bad_egress_test {
 namespace {
 
 /// `text` is the egress of the switch; its entry begins in column 1 of line 2. `nodes` and `links` are there besides.
@@ -134,4 +134,4 @@ TEST(LongControlLists, AreSupportedOrTold) {
 INSTANTIATE_TEST_SUITE_P(BadEgress, BadInput, testing::ValuesIn(cases), name_of_case);
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::bad_egress_test

@@ -1,7 +1,7 @@
 // Faults and rerouting that name what is not there, cannot happen or would do nothing.
 #include "bad_input.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::bad_fault_test {
 namespace {
 
 /// `text` is the list of faults, from column 1 of line 2 on, in a network a - sw - b with another switch at sw.
@@ -78,4 +78,4 @@ const BadCase cases[] = {
 INSTANTIATE_TEST_SUITE_P(BadFaults, BadInput, testing::ValuesIn(cases), name_of_case);
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::bad_fault_test

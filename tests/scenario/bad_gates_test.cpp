@@ -1,7 +1,7 @@
 // Automatic gates that cannot be: everything that is said about them.
 #include "bad_input.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::bad_gates_test {
 namespace {
 
 const std::string three = R"({"name": "t", "duration": "1ms", "network": {"generate": [{"topology": "line", "switches": 2, "hosts_per_switch": 2}]}, "streams": [)";
@@ -98,4 +98,4 @@ const BadCase cases[] = {
 INSTANTIATE_TEST_SUITE_P(BadGates, BadInput, testing::ValuesIn(cases), name_of_case);
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::bad_gates_test

@@ -1,7 +1,7 @@
 // Nested programs and programs with roles that cannot be.
 #include "bad_input.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::bad_groups_test {
 namespace {
 
 /// A master "a", hosts "b" and "c"; "b" offers welding, "c" gripping.
@@ -67,4 +67,4 @@ const BadCase groups_cases[] = {
 INSTANTIATE_TEST_SUITE_P(Groups, BadInput, testing::ValuesIn(groups_cases), name_of_case);
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::bad_groups_test

@@ -1,7 +1,7 @@
 // Policing, CQF and redundancy that name what is not there, contradict themselves or can let no frame pass.
 #include "bad_input.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::bad_ingress_test {
 namespace {
 
 /// `text` is the content of the switch's ingress.
@@ -115,4 +115,4 @@ const BadCase cases[] = {
 INSTANTIATE_TEST_SUITE_P(BadIngress, BadInput, testing::ValuesIn(cases), name_of_case);
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::bad_ingress_test

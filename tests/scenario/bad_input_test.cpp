@@ -6,7 +6,7 @@
 
 #include "bad_input.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::bad_input_test {
 namespace {
 
 std::string without_file(std::string text) {
@@ -108,4 +108,4 @@ TEST(BadInputInBulk, ManyGeneratorsOfTooManyNodes) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::bad_input_test

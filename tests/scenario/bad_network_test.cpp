@@ -1,7 +1,7 @@
 // Nodes and links that do not make a network. Generators that are asked for what they cannot make, a thousand million nodes among it.
 #include "bad_input.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::bad_network_test {
 namespace {
 
 const BadCase nodes_cases[] = {
@@ -178,4 +178,4 @@ INSTANTIATE_TEST_SUITE_P(BadNetwork, BadInput, testing::ValuesIn(nodes_cases), n
 INSTANTIATE_TEST_SUITE_P(BadGenerator, BadInput, testing::ValuesIn(generators_cases), name_of_case);
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::bad_network_test

@@ -1,7 +1,7 @@
 // The text itself, and values of the wrong kind.
 #include "bad_input.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::bad_text_test {
 namespace {
 
 const BadCase text_cases[] = {
@@ -63,4 +63,4 @@ const BadCase text_cases[] = {
 INSTANTIATE_TEST_SUITE_P(BadText, BadInput, testing::ValuesIn(text_cases), name_of_case);
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::bad_text_test

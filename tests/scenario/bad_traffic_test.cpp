@@ -1,7 +1,7 @@
 // Streams that cannot be. Programs, scripts and requirements that cannot be.
 #include "bad_input.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::bad_traffic_test {
 namespace {
 
 const BadCase streams_cases[] = {
@@ -140,4 +140,4 @@ INSTANTIATE_TEST_SUITE_P(BadStream, BadInput, testing::ValuesIn(streams_cases), 
 INSTANTIATE_TEST_SUITE_P(BadProgram, BadInput, testing::ValuesIn(programs_cases), name_of_case);
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::bad_traffic_test

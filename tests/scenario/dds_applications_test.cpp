@@ -5,7 +5,7 @@
 #include "evaluation/evaluate.hpp"
 #include "support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::dds_applications_test {
 namespace {
 
 /// Two hosts on a wire; p on a publishes the topic x, s on b subscribes to it.
@@ -348,4 +348,4 @@ TEST(DdsApplications, MistakesOfServicesAreNamed) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::dds_applications_test

@@ -4,7 +4,7 @@
 
 #include "support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::demand_test {
 namespace {
 
 const PortDemand& port(const Resolved& r, const char* from, const char* to) {
@@ -82,4 +82,4 @@ TEST(Demand, OverloadMayBeAllowed) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::demand_test

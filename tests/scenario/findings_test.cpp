@@ -4,7 +4,7 @@
 #include "evaluation/evaluate.hpp"
 #include "support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::findings_test {
 namespace {
 
 using sim::TrueTime;
@@ -154,4 +154,4 @@ TEST(Reactions, OnlyHaltsHaveFaultsAsCauses) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::findings_test

@@ -9,7 +9,7 @@
 #include "scenario/topology/generators.hpp"
 #include "support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::generators_test {
 namespace {
 
 Generator of(Shape shape, std::uint64_t hosts_per_switch = 1) {
@@ -227,4 +227,4 @@ TEST(Generators, ThousandSwitchesInOneLine) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::generators_test

@@ -7,7 +7,7 @@
 #include "evaluation/evaluate.hpp"
 #include "support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::groups_test {
 namespace {
 
 using results::ProgramResult;
@@ -201,4 +201,4 @@ TEST(NestedRoles, HoldUnderRandomSchedules) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::groups_test

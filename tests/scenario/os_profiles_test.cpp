@@ -4,7 +4,7 @@
 #include "sim/random.hpp"
 #include "support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::os_profiles_test {
 namespace {
 
 using sim::operator""_us;
@@ -121,4 +121,4 @@ TEST(OsProfiles, EqualSystemsAreOne) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::os_profiles_test

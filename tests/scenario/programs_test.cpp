@@ -6,7 +6,7 @@
 #include "evaluation/evaluate.hpp"
 #include "support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::programs_test {
 namespace {
 
 using results::ProgramResult;
@@ -281,4 +281,4 @@ TEST(Programs, TwoOnTheSameHostsDoNotMix) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::programs_test

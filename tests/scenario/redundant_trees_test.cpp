@@ -9,7 +9,7 @@
 #include "sim/random.hpp"
 #include "tests/scenario/support.hpp"
 
-namespace takt::scenario {
+namespace takt::scenario::redundant_trees_test {
 namespace {
 
 /// Nodes "a" .. are stations or, capital, hosts; links are two letters.
@@ -140,4 +140,4 @@ TEST(RedundantTrees, SurviveEveryLinkThatCanBeSurvived) {
 }
 
 }  // namespace
-}  // namespace takt::scenario
+}  // namespace takt::scenario::redundant_trees_test

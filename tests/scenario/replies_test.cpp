@@ -3,7 +3,7 @@
 #include "scenario/programs/reply_worker.hpp"
 #include "support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::replies_test {
 namespace {
 
 std::string pair(const std::string& more, const std::string& processing = R"("processing": {"per_message": "30us", "per_field": "2us"})") {
@@ -104,4 +104,4 @@ TEST(Replies, ATailIsAsRareAsItSays) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::replies_test

@@ -4,7 +4,7 @@
 
 #include "support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::resolved_copy_test {
 namespace {
 
 // What is resolved points into itself: another object of its contents would point into the first one.
@@ -61,4 +61,4 @@ TEST(ResolvedCopy, KeepsOverrides) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::resolved_copy_test

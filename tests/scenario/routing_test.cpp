@@ -7,7 +7,7 @@
 
 #include "support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::routing_test {
 namespace {
 
 std::string stream(const std::string& from, const std::string& to, const std::string& more = {}) {
@@ -144,4 +144,4 @@ TEST(Routing, FilteringEntriesAreConsistent) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::routing_test

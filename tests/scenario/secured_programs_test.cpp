@@ -5,7 +5,7 @@
 #include "support.hpp"
 #include "wire/program_format.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::secured_programs_test {
 namespace {
 
 /// A request and its answer between two hosts; what securing takes of each.
@@ -93,4 +93,4 @@ TEST(SecuredPrograms, ACrashIsSurvived) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::secured_programs_test

@@ -1,7 +1,7 @@
 // Ports and links of written and generated nodes.
 #include "support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::topology_test {
 namespace {
 
 std::string network(const std::string& links) {
@@ -75,4 +75,4 @@ TEST(Topology, AsManyLinksAsPorts) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::topology_test

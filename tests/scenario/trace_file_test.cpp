@@ -9,7 +9,7 @@
 
 #include "support.hpp"
 
-namespace takt::scenario::test {
+namespace takt::scenario::test::trace_file_test {
 namespace {
 
 /// What was read, and what was said about it.
@@ -97,4 +97,4 @@ TEST(TraceFile, FoldersAndPayloadsBeyondAFrameAreRefused) {
 }
 
 }  // namespace
-}  // namespace takt::scenario::test
+}  // namespace takt::scenario::test::trace_file_test

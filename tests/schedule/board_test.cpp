@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::schedule {
+namespace takt::schedule::board_test {
 namespace {
 
 Problem with_periods(std::vector<Ps> periods) {
@@ -75,4 +75,4 @@ TEST(Board, ManyRepetitionsCostNoMoreThanSlots) {
 }
 
 }  // namespace
-}  // namespace takt::schedule
+}  // namespace takt::schedule::board_test

@@ -7,7 +7,7 @@
 #include "schedule_check/instance_check.hpp"
 #include "small_problem.hpp"
 
-namespace takt::schedule {
+namespace takt::schedule::change_test {
 namespace {
 
 Solution scheduled(const Problem& problem) {
@@ -96,4 +96,4 @@ TEST(Change, WhatWaitsIsNotChanged) {
 }
 
 }  // namespace
-}  // namespace takt::schedule
+}  // namespace takt::schedule::change_test

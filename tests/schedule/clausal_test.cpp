@@ -13,7 +13,7 @@
 #include "sim/random.hpp"
 #include "small_problem.hpp"
 
-namespace takt::schedule {
+namespace takt::schedule::clausal_test {
 namespace {
 
 constexpr Ps half_us = us / 2;
@@ -253,4 +253,4 @@ TEST(Clausal, RefutesNothingThatHasASchedule) {
 }
 
 }  // namespace
-}  // namespace takt::schedule
+}  // namespace takt::schedule::clausal_test

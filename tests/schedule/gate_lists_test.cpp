@@ -7,7 +7,7 @@
 #include "schedule_check/instance_check.hpp"
 #include "small_problem.hpp"
 
-namespace takt::schedule {
+namespace takt::schedule::gate_lists_test {
 namespace {
 
 /// h0 sends 10 us at each of these times a 100 us.
@@ -91,4 +91,4 @@ TEST(GateLists, ListsOfRandomSchedulesAreRight) {
 }
 
 }  // namespace
-}  // namespace takt::schedule
+}  // namespace takt::schedule::gate_lists_test

@@ -8,7 +8,7 @@
 #include "schedule_check/instance_check.hpp"
 #include "small_problem.hpp"
 
-namespace takt::schedule {
+namespace takt::schedule::judge_test {
 namespace {
 
 struct Case {
@@ -103,4 +103,4 @@ TEST(Judge, RefusesOvertakingInAQueue) {
 }
 
 }  // namespace
-}  // namespace takt::schedule
+}  // namespace takt::schedule::judge_test

@@ -6,7 +6,7 @@
 #include "schedule_check/instance_check.hpp"
 #include "small_problem.hpp"
 
-namespace takt::schedule {
+namespace takt::schedule::refute_test {
 namespace {
 
 using Kind = Certificate::Kind;
@@ -173,4 +173,4 @@ TEST(Refute, SpoiltCertificatesProveNothing) {
 }
 
 }  // namespace
-}  // namespace takt::schedule
+}  // namespace takt::schedule::refute_test

@@ -8,7 +8,7 @@
 #include "schedule_check/instance_check.hpp"
 #include "small_problem.hpp"
 
-namespace takt::schedule {
+namespace takt::schedule::search_test {
 namespace {
 
 using Verdict = Decision::Verdict;
@@ -152,4 +152,4 @@ TEST(Objective, SlackIsTheGreatestMargin) {
 }
 
 }  // namespace
-}  // namespace takt::schedule
+}  // namespace takt::schedule::search_test

@@ -5,7 +5,7 @@
 
 #include "small_problem.hpp"
 
-namespace takt::schedule {
+namespace takt::schedule::way_test {
 namespace {
 
 TEST(Way, StoreAndForward) {
@@ -80,4 +80,4 @@ TEST(Way, IsATreeOfBridges) {
 }
 
 }  // namespace
-}  // namespace takt::schedule
+}  // namespace takt::schedule::way_test

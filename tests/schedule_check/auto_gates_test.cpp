@@ -12,7 +12,7 @@
 #include "sim/random.hpp"
 #include "schedule_check/check.hpp"
 
-namespace takt::schedule_check {
+namespace takt::schedule_check::auto_gates_test {
 namespace {
 
 using namespace sim::literals;  // NOLINT
@@ -186,4 +186,4 @@ TEST(AutoGates, RandomNetworks) {
 }
 
 }  // namespace
-}  // namespace takt::schedule_check
+}  // namespace takt::schedule_check::auto_gates_test

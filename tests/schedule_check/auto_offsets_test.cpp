@@ -17,7 +17,7 @@
 #include "schedule_check/check.hpp"
 #include "sim/random.hpp"
 
-namespace takt::schedule_check {
+namespace takt::schedule_check::auto_offsets_test {
 namespace {
 
 using namespace sim::literals;  // NOLINT
@@ -299,4 +299,4 @@ TEST(AutoOffsets, TheFirstThreeAndHowManyMore) {
 }
 
 }  // namespace
-}  // namespace takt::schedule_check
+}  // namespace takt::schedule_check::auto_offsets_test

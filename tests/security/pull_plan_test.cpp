@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::security {
+namespace takt::security::pull_plan_test {
 namespace {
 
 constexpr std::int64_t s = 1'000'000'000;
@@ -75,4 +75,4 @@ TEST(PullPlan, AFloodOfWishesIsBounded) {
 }
 
 }  // namespace
-}  // namespace takt::security
+}  // namespace takt::security::pull_plan_test

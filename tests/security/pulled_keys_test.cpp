@@ -8,7 +8,7 @@
 
 #include "security/secure_channel.hpp"
 
-namespace takt::security {
+namespace takt::security::pulled_keys_test {
 namespace {
 
 constexpr std::int64_t ms = 1'000'000;
@@ -221,4 +221,4 @@ TEST(KeyRing, IsReplacedWithoutGoingBack) {
 }
 
 }  // namespace
-}  // namespace takt::security
+}  // namespace takt::security::pulled_keys_test

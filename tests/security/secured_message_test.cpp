@@ -11,7 +11,7 @@
 #include "hex.hpp"
 #include "security/secure_channel.hpp"
 
-namespace takt::security {
+namespace takt::security::secured_message_test {
 namespace {
 
 using nlohmann::json;
@@ -292,4 +292,4 @@ TEST(Overhead, IsBelowTwoMicroseconds) {
 }
 
 }  // namespace
-}  // namespace takt::security
+}  // namespace takt::security::secured_message_test

@@ -9,7 +9,7 @@
 
 #include "security/random.hpp"
 
-namespace takt::security {
+namespace takt::security::symmetric_test {
 namespace {
 
 std::vector<std::byte> from_hex(std::string_view hex) {
@@ -143,4 +143,4 @@ TEST(SystemRandom, Differs) {
 }
 
 }  // namespace
-}  // namespace takt::security
+}  // namespace takt::security::symmetric_test

@@ -8,7 +8,7 @@
 #include "verify/probe.hpp"
 #include "verify/shortened.hpp"
 
-namespace takt::verify {
+namespace takt::verify::adversary_test {
 namespace {
 
 using sim::Duration;
@@ -206,4 +206,4 @@ TEST(Adversary, ChoosesFrequenciesWithinTheirRange) {
 }
 
 }  // namespace
-}  // namespace takt::verify
+}  // namespace takt::verify::adversary_test

@@ -10,7 +10,7 @@
 #include "tests/verify/support.hpp"
 #include "verify/verification.hpp"
 
-namespace takt::verify {
+namespace takt::verify::assumptions_test {
 namespace {
 
 using analysis::Assumption;
@@ -173,4 +173,4 @@ TEST(Assumptions, ARunAboveABoundIsAContradiction) {
 }
 
 }  // namespace
-}  // namespace takt::verify
+}  // namespace takt::verify::assumptions_test

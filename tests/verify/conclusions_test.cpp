@@ -3,7 +3,7 @@
 
 #include "verify/verification.hpp"
 
-namespace takt::verify {
+namespace takt::verify::conclusions_test {
 namespace {
 
 using analysis::Assumption;
@@ -116,4 +116,4 @@ TEST(Conclusions, TheWorstLineIsTheVerdict) {
 }
 
 }  // namespace
-}  // namespace takt::verify
+}  // namespace takt::verify::conclusions_test

@@ -6,7 +6,7 @@
 #include "tests/verify/support.hpp"
 #include "verify/verification.hpp"
 
-namespace takt::verify {
+namespace takt::verify::figures_test {
 namespace {
 
 using sim::Duration;
@@ -125,4 +125,4 @@ TEST(Figures, SayWhatTheirBoundGivesAway) {
 }
 
 }  // namespace
-}  // namespace takt::verify
+}  // namespace takt::verify::figures_test

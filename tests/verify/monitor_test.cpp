@@ -10,7 +10,7 @@
 #include "scenario/run/run.hpp"
 #include "tests/verify/support.hpp"
 
-namespace takt::verify {
+namespace takt::verify::monitor_test {
 namespace {
 
 using analysis::Assumption;
@@ -110,4 +110,4 @@ TEST(Monitor, ClocksThatAreWorseThanRequired) {
 }
 
 }  // namespace
-}  // namespace takt::verify
+}  // namespace takt::verify::monitor_test

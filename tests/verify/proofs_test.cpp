@@ -8,7 +8,7 @@
 #include "tests/verify/support.hpp"
 #include "verify/bounds.hpp"
 
-namespace takt::verify {
+namespace takt::verify::proofs_test {
 namespace {
 
 using analysis::Assumption;
@@ -126,4 +126,4 @@ TEST(Proofs, OfInvariantsNeedWordsInTime) {
 }
 
 }  // namespace
-}  // namespace takt::verify
+}  // namespace takt::verify::proofs_test

@@ -8,7 +8,7 @@
 #include "tests/verify/support.hpp"
 #include "verify/report.hpp"
 
-namespace takt::verify {
+namespace takt::verify::remedy_test {
 namespace {
 
 using sim::Duration;
@@ -70,4 +70,4 @@ TEST(Remedies, NoneOfWhatIsProvedOrNotAskedFor) {
 }
 
 }  // namespace
-}  // namespace takt::verify
+}  // namespace takt::verify::remedy_test

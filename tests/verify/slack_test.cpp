@@ -7,7 +7,7 @@
 #include "tests/verify/support.hpp"
 #include "verify/report.hpp"
 
-namespace takt::verify {
+namespace takt::verify::slack_test {
 namespace {
 
 using sim::Duration;
@@ -148,4 +148,4 @@ TEST(Slack, StandsInTheReport) {
 }
 
 }  // namespace
-}  // namespace takt::verify
+}  // namespace takt::verify::slack_test

@@ -9,7 +9,7 @@
 #include "tests/verify/support.hpp"
 #include "verify/report.hpp"
 
-namespace takt::verify {
+namespace takt::verify::verification_test {
 namespace {
 
 using sim::Duration;
@@ -179,4 +179,4 @@ TEST(Verification, InvariantsOfNestedProgramsAreExplored) {
 }
 
 }  // namespace
-}  // namespace takt::verify
+}  // namespace takt::verify::verification_test

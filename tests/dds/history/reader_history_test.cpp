@@ -6,7 +6,7 @@
 
 #include "arrivals.hpp"
 
-namespace takt::dds {
+namespace takt::dds::reader_history_test {
 namespace {
 
 using namespace sim::literals;
@@ -136,4 +136,4 @@ RC_GTEST_PROP(ReaderHistory, KeepsTheNewestThatWereNotTaken, ()) {
 }
 
 }  // namespace
-}  // namespace takt::dds
+}  // namespace takt::dds::reader_history_test

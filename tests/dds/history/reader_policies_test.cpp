@@ -3,7 +3,7 @@
 
 #include "arrivals.hpp"
 
-namespace takt::dds {
+namespace takt::dds::reader_policies_test {
 namespace {
 
 using namespace sim::literals;
@@ -153,4 +153,4 @@ TEST(DestinationOrder, ByReceptionKeepLastKeepsTheLatestReceived) {
 }
 
 }  // namespace
-}  // namespace takt::dds
+}  // namespace takt::dds::reader_policies_test

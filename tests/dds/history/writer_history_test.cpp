@@ -7,7 +7,7 @@
 #include "dds/history/expiry.hpp"
 #include "sim/check.hpp"
 
-namespace takt::dds {
+namespace takt::dds::writer_history_test {
 namespace {
 
 using namespace sim::literals;
@@ -159,4 +159,4 @@ RC_GTEST_PROP(WriterHistory, KeepsTheNewestOfEachInstance, ()) {
 }
 
 }  // namespace
-}  // namespace takt::dds
+}  // namespace takt::dds::writer_history_test

@@ -2,7 +2,7 @@
 
 #include "tests/models/network_fixture.hpp"
 
-namespace takt::models {
+namespace takt::models::bridge_test {
 namespace {
 
 using namespace test;
@@ -138,4 +138,4 @@ TEST(DropReason, EachHasAName) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::bridge_test

@@ -7,7 +7,7 @@
 
 #include "tests/models/network_fixture.hpp"
 
-namespace takt::models {
+namespace takt::models::forwarding_jitter_test {
 namespace {
 
 using namespace test;
@@ -72,4 +72,4 @@ TEST(ForwardingJitter, NobodyOvertakes) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::forwarding_jitter_test

@@ -6,7 +6,7 @@
 
 #include "models/clock/fixed_sine.hpp"
 
-namespace takt::models {
+namespace takt::models::clock_rate_test {
 namespace {
 
 using namespace sim::literals;
@@ -61,4 +61,4 @@ TEST(FixedSine, AgreesWithLibm) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::clock_rate_test

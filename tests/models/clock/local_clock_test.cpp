@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace takt::models {
+namespace takt::models::local_clock_test {
 namespace {
 
 using namespace sim::literals;
@@ -151,4 +151,4 @@ TEST(LocalClockProperty, TrueAtIsMonotonousAndLiesInItsSegment) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::local_clock_test

@@ -7,7 +7,7 @@
 
 #include "models/clock/local_clock.hpp"
 
-namespace takt::models {
+namespace takt::models::oscillator_test {
 namespace {
 
 using namespace sim::literals;
@@ -131,4 +131,4 @@ TEST(Oscillator, AFaultChangesItsOffset) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::oscillator_test

@@ -8,7 +8,7 @@
 #include "models/clock/local_clock.hpp"
 #include "models/clock/oscillator.hpp"
 
-namespace takt::models {
+namespace takt::models::servo_test {
 namespace {
 
 using namespace sim::literals;
@@ -191,4 +191,4 @@ TEST(Servo, AnotherIntervalKeepsTheFrequency) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::servo_test

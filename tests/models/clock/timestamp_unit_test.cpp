@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::models {
+namespace takt::models::timestamp_unit_test {
 namespace {
 
 using namespace sim::literals;
@@ -56,4 +56,4 @@ TEST(TimestampUnit, JitterIsUniformAndRepeatable) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::timestamp_unit_test

@@ -8,7 +8,7 @@
 #include "models/egress/gate_schedule.hpp"
 #include "tests/models/schedule_executor.hpp"
 
-namespace takt::models {
+namespace takt::models::gate_control_list_test {
 namespace {
 
 using namespace sim::literals;
@@ -430,4 +430,4 @@ TEST(GateSchedule, AnswersAsTheStateMachinesDo) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::gate_control_list_test

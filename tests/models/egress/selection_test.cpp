@@ -7,7 +7,7 @@
 #include "models/egress/class_set.hpp"
 #include "tests/models/network_fixture.hpp"
 
-namespace takt::models {
+namespace takt::models::selection_test {
 namespace {
 
 using namespace test;
@@ -186,4 +186,4 @@ TEST(TransmissionSelection, TakesTheHighestCandidate) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::selection_test

@@ -3,7 +3,7 @@
 
 #include "gptp_fixture.hpp"
 
-namespace takt::models::gptp {
+namespace takt::models::gptp::capability_test {
 namespace {
 
 const sim::Duration cable = sim::Duration::from_ps(100'000);
@@ -93,4 +93,4 @@ TEST(GptpCapable, IsMeant) {
 }
 
 }  // namespace
-}  // namespace takt::models::gptp
+}  // namespace takt::models::gptp::capability_test

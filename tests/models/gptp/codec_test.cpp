@@ -7,7 +7,7 @@
 
 #include "sim/random.hpp"
 
-namespace takt::models::gptp {
+namespace takt::models::gptp::codec_test {
 namespace {
 
 const PortIdentity source{ClockIdentity::from_number(0x0011'22FF'FE33'4455), 2};
@@ -238,4 +238,4 @@ TEST(ClockIdentity, OfAMacAddress) {
 }
 
 }  // namespace
-}  // namespace takt::models::gptp
+}  // namespace takt::models::gptp::codec_test

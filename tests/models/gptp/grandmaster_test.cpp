@@ -5,7 +5,7 @@
 
 #include "gptp_fixture.hpp"
 
-namespace takt::models::gptp {
+namespace takt::models::gptp::grandmaster_test {
 namespace {
 
 using sim::Duration;
@@ -290,4 +290,4 @@ TEST(HotStandbyNetwork, SwitchesOverWithoutAJump) {
 }
 
 }  // namespace
-}  // namespace takt::models::gptp
+}  // namespace takt::models::gptp::grandmaster_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::models::gptp {
+namespace takt::models::gptp::hot_standby_test {
 namespace {
 
 using namespace sim::literals;
@@ -149,4 +149,4 @@ TEST(HotStandby, TheGrandmasterOfTheSecondaryHasItsOwnTimeUntilThePrimaryIsSynce
 }
 
 }  // namespace
-}  // namespace takt::models::gptp
+}  // namespace takt::models::gptp::hot_standby_test

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace takt::models::gptp {
+namespace takt::models::gptp::link_delay_test {
 namespace {
 
 using namespace sim::literals;
@@ -204,4 +204,4 @@ TEST(LinkDelay, ASilentPortWhenTheLinkIsDown) {
 }
 
 }  // namespace
-}  // namespace takt::models::gptp
+}  // namespace takt::models::gptp::link_delay_test

@@ -5,7 +5,7 @@
 
 #include "gptp_fixture.hpp"
 
-namespace takt::models::gptp {
+namespace takt::models::gptp::lock_test {
 namespace {
 
 using sim::Duration;
@@ -247,4 +247,4 @@ TEST(Lock, ADistantNeighbourIsNotAsCapable) {
 }
 
 }  // namespace
-}  // namespace takt::models::gptp
+}  // namespace takt::models::gptp::lock_test

@@ -12,7 +12,7 @@
 
 #include "gptp_fixture.hpp"
 
-namespace takt::models::gptp {
+namespace takt::models::gptp::long_line_test {
 namespace {
 
 struct Remedies {
@@ -63,4 +63,4 @@ TEST(LongLine, EachRemedyIsNeeded) {
 }
 
 }  // namespace
-}  // namespace takt::models::gptp
+}  // namespace takt::models::gptp::long_line_test

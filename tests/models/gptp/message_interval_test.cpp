@@ -5,7 +5,7 @@
 
 #include "gptp_fixture.hpp"
 
-namespace takt::models::gptp {
+namespace takt::models::gptp::message_interval_test {
 namespace {
 
 const sim::Duration cable = sim::Duration::from_ps(100'000);
@@ -138,4 +138,4 @@ TEST(IntervalRequest, OfWhoIsNotMeant) {
 }
 
 }  // namespace
-}  // namespace takt::models::gptp
+}  // namespace takt::models::gptp::message_interval_test

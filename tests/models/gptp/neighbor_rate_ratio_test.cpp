@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace takt::models::gptp {
+namespace takt::models::gptp::neighbor_rate_ratio_test {
 namespace {
 
 using namespace sim::literals;
@@ -60,4 +60,4 @@ TEST(NeighborRateRatio, ForgetsWhatIsNotPlausible) {
 }
 
 }  // namespace
-}  // namespace takt::models::gptp
+}  // namespace takt::models::gptp::neighbor_rate_ratio_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::models::gptp {
+namespace takt::models::gptp::port_selection_test {
 namespace {
 
 ClockIdentity clock(std::uint64_t n) { return ClockIdentity::from_number(n); }
@@ -79,4 +79,4 @@ TEST(SelectRoles, OwnInformationComingBackIsNoPath) {
 }
 
 }  // namespace
-}  // namespace takt::models::gptp
+}  // namespace takt::models::gptp::port_selection_test

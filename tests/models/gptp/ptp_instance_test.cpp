@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace takt::models::gptp {
+namespace takt::models::gptp::ptp_instance_test {
 namespace {
 
 using namespace sim::literals;
@@ -291,4 +291,4 @@ TEST(PtpInstance, HostileNumbersAreRefused) {
 }
 
 }  // namespace
-}  // namespace takt::models::gptp
+}  // namespace takt::models::gptp::ptp_instance_test

@@ -4,7 +4,7 @@
 
 #include "models/gptp/rate_ratio_drift.hpp"
 
-namespace takt::models::gptp {
+namespace takt::models::gptp::sync_information_test {
 namespace {
 
 using namespace sim::literals;
@@ -59,4 +59,4 @@ TEST(SourceTime, WholeNanosecondsAndTheRest) {
 }
 
 }  // namespace
-}  // namespace takt::models::gptp
+}  // namespace takt::models::gptp::sync_information_test

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-namespace takt::models {
+namespace takt::models::ats_scheduler_test {
 namespace {
 
 using namespace sim::literals;
@@ -175,4 +175,4 @@ TEST(AtsScheduler, AgreesWithATokenBucket) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::ats_scheduler_test

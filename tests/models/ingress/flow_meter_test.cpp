@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-namespace takt::models {
+namespace takt::models::flow_meter_test {
 namespace {
 
 using namespace sim::literals;
@@ -191,4 +191,4 @@ TEST(FlowMeter, AgreesWithRationalArithmetic) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::flow_meter_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace takt::models {
+namespace takt::models::stream_filter_test {
 namespace {
 
 constexpr StreamHandle camera{1};
@@ -73,4 +73,4 @@ TEST(StreamFilter, CountsWhatGateAndMeterSay) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::stream_filter_test

@@ -9,7 +9,7 @@
 #include "models/ingress/stream_gate_list.hpp"
 #include "tests/models/schedule_executor.hpp"
 
-namespace takt::models {
+namespace takt::models::stream_gate_list_test {
 namespace {
 
 using namespace sim::literals;
@@ -127,4 +127,4 @@ TEST(StreamGate, ExecutesAsTheStateMachinesDo) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::stream_gate_list_test

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-namespace takt::models {
+namespace takt::models::stream_identification_test {
 namespace {
 
 constexpr MacAddress here{0x02005E000001};
@@ -112,4 +112,4 @@ TEST(StreamIdentityTable, RefusesEntriesThatMeanNothing) {
 }
 
 }  // namespace
-}  // namespace takt::models
+}  // namespace takt::models::stream_identification_test

@@ -45,11 +45,11 @@ class alignas(64) Mailbox {
       consignment.clear();
       has_mail_.store(true, std::memory_order_relaxed);
     }
-    promise_.store(promise.ps(), std::memory_order_release);
+    promise_.store(promise.ps());   // sequentially consistent: see Bell
   }
 
   /// Until when nothing comes but what take() gives when it is called afterwards.
-  sim::TrueTime promise() const { return sim::TrueTime::from_ps(promise_.load(std::memory_order_acquire)); }
+  sim::TrueTime promise() const { return sim::TrueTime::from_ps(promise_.load()); }
 
   /// What has been posted, into `consignment`, which is empty before. False if nothing was.
   bool take(Consignment& consignment) {

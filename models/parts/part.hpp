@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "models/network.hpp"
+#include "models/parts/bell.hpp"
 #include "models/parts/mailbox.hpp"
 #include "sim/simulation.hpp"
 
@@ -25,10 +26,11 @@ class Part {
     sim::Duration promise;
     Mailbox* to = nullptr;
     Mailbox* from = nullptr;
+    Bell* bell = nullptr;   ///< the neighbour's
   };
 
-  /// Both outlive the part. `parts` is how many there are in all.
-  Part(sim::Simulation& simulation, Network& network, std::uint32_t parts) : simulation_(&simulation), network_(&network), outgoing_(parts) {}
+  /// Both outlive the part. `parts` is how many there are in all; `is_crowded`: more than the machine has processors.
+  Part(sim::Simulation& simulation, Network& network, std::uint32_t parts, bool is_crowded) : simulation_(&simulation), network_(&network), is_crowded_(is_crowded), outgoing_(parts) {}
 
   void add_neighbour(const Neighbour& neighbour) {
     neighbours_.push_back(neighbour);
@@ -38,7 +40,10 @@ class Part {
   /// See FrameExchange.
   void send(std::uint32_t part, const sim::Event& arrival, FrameIndex frame);
 
-  /// Goes on until `until`, together with the other parts, whose threads do the same; gives up when `stop` is set.
+  /// What wakes this part.
+  Bell& bell() { return bell_; }
+
+  /// Goes on until `until`, together with the other parts, whose threads do the same; gives up when `stop` is set, for which bell() is rung.
   void advance(sim::TrueTime until, const std::atomic<bool>& stop);
   /// Takes what has been posted, whenever it is due. When the other parts have come to an end, too.
   void take_mail();
@@ -49,6 +54,8 @@ class Part {
 
   sim::Simulation* simulation_;
   Network* network_;
+  bool is_crowded_;
+  Bell bell_;
   std::vector<Neighbour> neighbours_;
   sim::Duration shortest_promise_ = sim::Duration::from_ps(INT64_MAX);
   std::vector<Consignment> outgoing_;   // by part

@@ -1,6 +1,7 @@
 #include "tests/generator/check_scenario.hpp"
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -48,7 +49,8 @@ class Checks {
     if (!result_) return;
     check("load", [&] { copy(text); });
     check("digest", [&] { digests(); });
-    const scenario::Division division = scenario::divide_at_random(r_, 2 + static_cast<unsigned>(digest_ % 3), digest_);
+    constexpr std::array parts = {2U, 3U, 4U, 8U};
+    const scenario::Division division = scenario::divide_at_random(r_, parts[digest_ % parts.size()], digest_);
     if (division.is_divided()) check("threads", [&] { threads(division); });
     if (is_ideal()) check("wire", [&] { wire(); });
     check("frames", [&] { frames(); });

@@ -12,7 +12,7 @@ namespace takt::scenario {
 /// The exchange is there before the network that sends by it, and knows the network afterwards.
 struct DividedRun::PartOfRun final : models::FrameExchange {
   PartOfRun(const Resolved& resolved, const Division& division, std::uint32_t number, std::uint64_t tie_shuffle)
-      : run(resolved, tie_shuffle, {division.part_of_node, number, this}), part(run.simulation(), run.network(), division.parts) {}
+      : run(resolved, tie_shuffle, {division.part_of_node, number, this}), part(run.simulation(), run.network(), division.parts, division.parts > std::thread::hardware_concurrency()) {}
   void send(std::uint32_t to, const sim::Event& arrival, models::FrameIndex frame) override { part.send(to, arrival, frame); }
 
   Run run;
@@ -54,7 +54,7 @@ DividedRun::DividedRun(const Resolved& resolved, const Division& division, std::
     between[{boundary.from, boundary.to}] = mailboxes_.back().get();
   }
   for (const Boundary& boundary : division.boundaries)
-    parts_[boundary.from]->part.add_neighbour({boundary.to, boundary.promise, between.at({boundary.from, boundary.to}), between.at({boundary.to, boundary.from})});
+    parts_[boundary.from]->part.add_neighbour({boundary.to, boundary.promise, between.at({boundary.from, boundary.to}), between.at({boundary.to, boundary.from}), &parts_[boundary.to]->part.bell()});
 }
 
 DividedRun::~DividedRun() = default;
@@ -71,7 +71,11 @@ void DividedRun::advance(sim::TrueTime until) {
   until = std::min(until, end());
   std::atomic<bool> stop = false;
   // Without one of them the others would wait for ever.
-  on_threads(parts_.size(), [&](std::size_t p) { parts_[p]->part.advance(until, stop); }, [&] { stop.store(true, std::memory_order_relaxed); });
+  const auto give_up = [&] {
+    stop.store(true);
+    for (const auto& each : parts_) each->part.bell().ring();
+  };
+  on_threads(parts_.size(), [&](std::size_t p) { parts_[p]->part.advance(until, stop); }, give_up);
   now_ = until;
 }
 

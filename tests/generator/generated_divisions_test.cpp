@@ -1,0 +1,48 @@
+// Random scenarios on 2, 3, 4 and 8 threads, divided at random, beside one thread.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+
+#include "evaluation/evaluate.hpp"
+#include "results/result_json.hpp"
+#include "scenario/run/divided_run.hpp"
+#include "tests/generator/generated.hpp"
+
+namespace takt::generator {
+namespace {
+
+std::string result_of(const scenario::Run& run) { return results::run_json(evaluation::evaluate(run, false)); }
+
+// TAKT_DIVIDED=1000: so many scenarios of more than one part instead.
+TEST(GeneratedScenarios, HaveTheResultOfOneThread) {
+  const char* const wanted = std::getenv("TAKT_DIVIDED");
+  const std::uint64_t count = wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : 12;
+  constexpr std::array<unsigned, 4> threads = {2, 3, 4, 8};
+  std::array<std::uint64_t, 9> runs_in_parts = {};
+  std::uint64_t divided = 0;
+  for (std::uint64_t number = 100'000; divided < count; ++number) {
+    const Generated made = generate(number);
+    ASSERT_TRUE(made.resolved) << number << ": " << made.problem;
+    const scenario::Resolved& resolved = *made.resolved;
+    if (!scenario::divide_at_random(resolved, 2, number).is_divided()) continue;
+    ++divided;
+    scenario::Run whole(resolved);
+    whole.advance();
+    const std::string expected = result_of(whole);
+    for (const unsigned each : threads) {
+      // The order of equal events is another one in every second of them.
+      const scenario::Division division = scenario::divide_at_random(resolved, each, number + each);
+      scenario::DividedRun run(resolved, division, number % 2 == 0 ? 0 : number);
+      run.advance(run.end());
+      ASSERT_EQ(result_of(run.gathered()), expected) << "takt_soak --show " << number << ", " << division.parts << " parts";
+      ++runs_in_parts[division.parts];
+    }
+  }
+  // Most networks have few nodes that may be apart.
+  EXPECT_GT(runs_in_parts[2] + runs_in_parts[3] + runs_in_parts[4], count);
+  for (unsigned parts = 1; parts <= 8; ++parts) RecordProperty("in_" + std::to_string(parts) + "_parts", std::to_string(runs_in_parts[parts]));
+}
+
+}  // namespace
+}  // namespace takt::generator

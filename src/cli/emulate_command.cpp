@@ -6,12 +6,14 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/load.hpp"
+#include "cli/places.hpp"
 #include "emulate/emulation.hpp"
 
 namespace takt::cli {
 namespace {
 
 ExitStatus run_emulation(const ScenarioOptions& options, const std::string& keep, int patience) {
+  if (!can_write({{"--keep", keep, Place::Kind::folder}}, options.is_json())) return ExitStatus::bad_input;
   const auto resolved = load(options, true);
   if (!resolved) return ExitStatus::bad_input;
   const emulate::Plan plan = emulate::plan_of(*resolved);

@@ -10,6 +10,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/places.hpp"
 #include "cli/status_line.hpp"
 #include "cli/terminal.hpp"
 #include "output/result_folder.hpp"
@@ -110,12 +111,9 @@ bool write_findings(const verify::Group& subject, const explore::SearchResult& r
 }
 
 ExitStatus run(const ExploreOptions& options) {
+  if (!can_write({{"--out", options.out, Place::Kind::folder}}, options.format == "json")) return ExitStatus::bad_input;
   const std::vector<verify::Group> subjects = groups_of(options);
   if (subjects.empty()) return ExitStatus::bad_input;
-  if (const std::string problem = options.out.empty() ? std::string() : output::prepare_folder(options.out); !problem.empty()) {
-    std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
-    return ExitStatus::internal_error;
-  }
   std::optional<output::WrittenFiles> folder;
   if (!options.out.empty()) folder.emplace(options.out, "explore", options.scenario);
   const InterruptGuard interrupt;

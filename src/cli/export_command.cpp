@@ -1,18 +1,18 @@
 // takt export: a scenario in the words of devices and other tools.
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <system_error>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/load.hpp"
+#include "cli/places.hpp"
 #include "interchange/format.hpp"
 #include "interchange/yang/validate.hpp"
+#include "output/result_folder.hpp"
 
 namespace takt::cli {
 namespace {
@@ -42,18 +42,21 @@ ExitStatus refuse_export(const std::string& text) {
   return ExitStatus::bad_input;
 }
 
-ExitStatus write_files(const interchange::Exported& exported, const std::string& folder) {
+ExitStatus write_files(const interchange::Exported& exported, const std::string& folder, bool is_json) {
   namespace fs = std::filesystem;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  for (const interchange::OutputFile& file : exported.files) {
-    const fs::path path = fs::path(folder) / file.name;
-    std::ofstream stream(path, std::ios::binary);
-    stream << file.content;
-    if (!stream.flush()) {
-      std::fprintf(stderr, "takt: cannot write %s: %s\n", path.c_str(), std::strerror(errno));
+  std::vector<std::string> paths;
+  for (const interchange::OutputFile& file : exported.files) paths.push_back((fs::path(folder) / file.name).string());
+  std::vector<Place> places;
+  for (const std::string& path : paths) places.push_back({"--out", path, Place::Kind::file});
+  if (!can_write(places, is_json)) return ExitStatus::bad_input;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const interchange::OutputFile& file = exported.files[i];
+    const std::string& path = paths[i];
+    if (const std::string problem = output::write_file(path, file.content); !problem.empty()) {
+      std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
       return ExitStatus::internal_error;
     }
+    std::error_code error;
     if (file.is_executable) fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add, error);
   }
   return ExitStatus::pass;
@@ -66,6 +69,7 @@ ExitStatus run_export(const ExportOptions& options) {
   if (!settings) return refuse_export(mistake);
   if (!options.modules.empty() && format.name != "yang") return refuse_export("--validate: found format " + json::quote(options.format) + ", expected yang, whose files modules describe");
   if (!options.modules.empty() && !interchange::can_validate_yang()) return refuse_export("--validate: this takt is built without libyang; install libyang2-dev (Debian) and build it again, or give the files to yanglint (libyang2-tools)");
+  if (!can_write({{"--out", options.folder, Place::Kind::folder}}, options.scenario.is_json())) return ExitStatus::bad_input;
   const auto resolved = load(options.scenario);
   if (!resolved) return ExitStatus::bad_input;
   std::optional<std::uint32_t> node;
@@ -90,7 +94,7 @@ ExitStatus run_export(const ExportOptions& options) {
       return ExitStatus::requirement_failed;
     }
   }
-  if (!options.folder.empty()) return write_files(exported, options.folder);
+  if (!options.folder.empty()) return write_files(exported, options.folder, options.scenario.is_json());
   if (exported.files.size() == 1) {
     std::fwrite(exported.files.front().content.data(), 1, exported.files.front().content.size(), stdout);
     return ExitStatus::pass;

@@ -2,16 +2,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/places.hpp"
 #include "interchange/format.hpp"
 #include "json/fields.hpp"
+#include "output/result_folder.hpp"
 #include "scenario/resolve/resolve.hpp"
 
 namespace takt::cli {
@@ -79,6 +79,7 @@ ExitStatus run_import(const ImportOptions& options) {
     std::fprintf(stderr, "takt: %s\n", mistake.c_str());
     return ExitStatus::bad_input;
   }
+  if (!can_write({{"--out", options.out, Place::Kind::file}})) return ExitStatus::bad_input;
   json::Diagnostics diagnostics;
   std::optional<scenario::Scenario> base;
   if (!options.into.empty()) {
@@ -99,10 +100,9 @@ ExitStatus run_import(const ImportOptions& options) {
     std::fputs(text.c_str(), stdout);
     return ExitStatus::pass;
   }
-  std::ofstream stream(options.out, std::ios::binary);
-  stream << text;
-  if (stream.flush()) return ExitStatus::pass;
-  std::fprintf(stderr, "takt: cannot write %s: %s\n", options.out.c_str(), std::strerror(errno));
+  const std::string problem = output::write_file(options.out, text);
+  if (problem.empty()) return ExitStatus::pass;
+  std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
   return ExitStatus::internal_error;
 }
 

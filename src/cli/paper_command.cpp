@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/places.hpp"
 #include "cli/real_coexistence.hpp"
 #include "cli/terminal.hpp"
 #include "papers/coexistence/report.hpp"
@@ -24,6 +25,8 @@ struct PaperOptions {
 };
 
 void say(const std::string& what) { std::fprintf(stderr, "%s\n", what.c_str()); }
+
+bool can_write_into(const PaperOptions& options) { return can_write({{"--out", options.out, Place::Kind::folder}}, options.format == "json"); }
 
 /// Shows and writes what was made, or why nothing was.
 template <typename Reproduction>
@@ -47,6 +50,7 @@ ExitStatus hand_over(const PaperOptions& options, const std::optional<Reproducti
 }
 
 ExitStatus run_programs(PaperOptions& options) {
+  if (!can_write_into(options)) return ExitStatus::bad_input;
   if (!options.quiet) options.programs.progress = say;
   json::Diagnostics diagnostics;
   const auto made = papers::reproduce_programs(options.programs, diagnostics);
@@ -60,6 +64,7 @@ ExitStatus run_programs(PaperOptions& options) {
 }
 
 ExitStatus run_coexistence(PaperOptions& options) {
+  if (!can_write_into(options)) return ExitStatus::bad_input;
   if (!options.quiet) options.coexistence.progress = say;
   std::string measured_text;
   if (options.is_real) {
@@ -82,6 +87,7 @@ ExitStatus run_coexistence(PaperOptions& options) {
 }
 
 ExitStatus run_validation(PaperOptions& options) {
+  if (!can_write_into(options)) return ExitStatus::bad_input;
   if (!options.quiet) options.validation.progress = say;
   json::Diagnostics diagnostics;
   const auto made = papers::validation::validate(options.validation, diagnostics);

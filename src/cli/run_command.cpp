@@ -1,12 +1,15 @@
 // takt run: what happens.
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/load.hpp"
+#include "cli/places.hpp"
 #include "cli/progress.hpp"
 #include "cli/recording.hpp"
 #include "cli/terminal.hpp"
@@ -78,14 +81,20 @@ std::string write_page(const std::string& path, const scenario::Resolved& resolv
   return output::write_file(path, report::run_page(resolved, result, replay));
 }
 
-/// What is wrong with the places that results go to; empty: nothing.
-std::string unwritable(const RunOptions& options) {
-  std::string problem = options.out.empty() ? std::string() : output::prepare_folder(options.out);
-  if (problem.empty() && !options.report.empty()) problem = output::prepare_file(options.report);
-  return problem;
+/// The files of the folder whose names are known before the run: where one of them is a folder, the run would be for nothing.
+bool can_write_files(const RunOptions& options, const Recording* recording) {
+  if (options.out.empty()) return true;
+  std::vector<std::string> names(output::result_files.begin(), output::result_files.end());
+  if (recording != nullptr)
+    for (std::string& name : recording->files()) names.push_back(std::move(name));
+  for (std::string& name : names) name = (std::filesystem::path(options.out) / name).string();
+  std::vector<Place> places;
+  for (const std::string& name : names) places.push_back({"--out", name, Place::Kind::file});
+  return can_write(places, options.scenario.is_json());
 }
 
 ExitStatus run(const RunOptions& options) {
+  if (!can_write({{"--out", options.out, Place::Kind::folder}, {"--report", options.report, Place::Kind::file}}, options.scenario.is_json())) return ExitStatus::bad_input;
   const auto resolved = load(options.scenario, options.quiet);
   if (!resolved) return ExitStatus::bad_input;
   json::Diagnostics diagnostics;
@@ -101,8 +110,7 @@ ExitStatus run(const RunOptions& options) {
     tell(diagnostics);
     return ExitStatus::bad_input;
   }
-  // Nobody waits an hour to hear that the disk is not there.
-  if (const std::string problem = unwritable(options); !problem.empty()) return cannot_write(problem);
+  if (!can_write_files(options, recording ? &*recording : nullptr)) return ExitStatus::bad_input;
   std::optional<output::WrittenFiles> folder;
   if (!options.out.empty()) {
     folder.emplace(options.out, "run", options.scenario.file);

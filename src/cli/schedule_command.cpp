@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/places.hpp"
 #include "cli/schedule_change.hpp"
 #include "cli/terminal.hpp"
 #include "interchange/schedules/instances.hpp"
@@ -58,13 +59,9 @@ ExitStatus report_mistakes(const json::Diagnostics& diagnostics, const ScheduleO
 std::string path_for(const std::string& out, const schedule::Problem& problem, const char* ending) { return out.ends_with('/') ? out + problem.name + ending : out; }
 
 bool write_file(const std::string& path, const std::string& text) {
-  std::FILE* const file = std::fopen(path.c_str(), "wb");
-  const bool written = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  if ((file != nullptr && std::fclose(file) != 0) || !written) {
-    std::fprintf(stderr, "takt: cannot write %s\n", path.c_str());
-    return false;
-  }
-  return true;
+  const std::string problem = output::write_file(path, text);
+  if (!problem.empty()) std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
+  return problem.empty();
 }
 
 schedule::SearchOptions search_options(const ScheduleOptions& options, Clock::time_point begin, sim::Duration limit) {
@@ -160,14 +157,10 @@ ExitStatus run(const ScheduleOptions& options) {
     diagnostics.error({"--limit", 0, 0, ""}, "not a time to search", {json::quote(options.limit), "a duration such as \"10s\""});
     return report_mistakes(diagnostics, options);
   }
-  // Found now, not when the search is over. A folder ("DIR/") has a file for each instance.
-  for (const std::optional<std::string>& path : {options.out, options.certificate}) {
-    if (!path) continue;
-    const std::string unwritable = path->ends_with('/') ? output::prepare_folder(*path) : output::prepare_file(*path);
-    if (unwritable.empty()) continue;
-    std::fprintf(stderr, "takt: cannot write: %s\n", unwritable.c_str());
-    return ExitStatus::internal_error;
-  }
+  // A folder ("DIR/") has a file for each instance.
+  const std::string out = options.out.value_or(""), certificate = options.certificate.value_or(""), plant = options.change.plant.value_or("");
+  if (!can_write({{"--out", out, Place::Kind::either}, {"--certificate", certificate, Place::Kind::either}, {"--plant", plant, Place::Kind::file}}, options.format == "json"))
+    return ExitStatus::bad_input;
   if (options.files.size() == 1 && !interchange::schedules::is_instance(options.files.front())) return schedule_scenario(options, *limit);
   if (!options.to && (options.change.add || options.change.plant || !options.change.remove.empty() || !options.change.fail.empty())) {
     diagnostics.error({"command line", 0, 0, ""}, "a change without a schedule", {"--add, --remove, --fail or --plant", "--to SCHEDULE as well"});

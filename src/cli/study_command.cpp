@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/input_kind.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/places.hpp"
 #include "cli/study_progress.hpp"
 #include "cli/terminal.hpp"
 #include "cli/threads.hpp"
@@ -141,6 +142,8 @@ ExitStatus run(const StudyOptions& options) {
   if (options.file.empty()) return bad("takt study: a study file is missing (takt study --help)");
   const auto shard = shard_of(options.shard);
   if (!shard) return bad("--shard " + options.shard + ": expected I/N with I from 1 to N, such as 2/10");
+  if (options.out.empty()) return bad("--out: expected the name of a file");
+  if (options.find.empty() && !options.dry_run && !can_write({{"--out", options.out, Place::Kind::file}})) return ExitStatus::bad_input;
   const auto plan = load_plan(options.file);
   if (!plan) return ExitStatus::bad_input;
   const InterruptGuard interrupt;
@@ -183,12 +186,17 @@ void add_merge(Command study, ExitStatus& status) {
   command.add_option("PARTS", *parts, "The stores that are joined").required();
   command.footer("Example:\n  takt study merge all.sqlite part-*.sqlite");
   command.callback([out, parts, &status] {
+    if (!can_write({{"OUT", *out, Place::Kind::file}})) {
+      status = ExitStatus::bad_input;
+      return;
+    }
     const std::string problem = study::merge_stores(*out, *parts);
     status = problem.empty() ? say_merged(*out) : bad(problem);
   });
 }
 
 ExitStatus report(const std::string& store, const std::string& out) {
+  if (!can_write({{"--out", out, Place::Kind::file}})) return ExitStatus::bad_input;
   std::string problem;
   const auto content = study::read_store(store, problem);
   if (!content) return bad(problem);
@@ -216,6 +224,7 @@ struct ShrinkOptions {
 };
 
 ExitStatus shrink(const ShrinkOptions& options) {
+  if (!can_write({{"--out", options.out, Place::Kind::file}})) return ExitStatus::bad_input;
   const auto plan = load_plan(options.file);
   if (!plan) return ExitStatus::bad_input;
   if (options.point >= plan->points()) return bad("the study has points 0 to " + std::to_string(plan->points() - 1));

@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/load.hpp"
+#include "cli/places.hpp"
 #include "cli/status_line.hpp"
 #include "cli/terminal.hpp"
 #include "output/result_folder.hpp"
@@ -76,14 +77,9 @@ ExitStatus status_of(const verify::Verification& verification) {
 }
 
 ExitStatus run(VerifyOptions& options) {
+  if (!can_write({{"--out", options.out, Place::Kind::folder}, {"--report", options.report, Place::Kind::file}}, options.scenario.is_json())) return ExitStatus::bad_input;
   const auto resolved = load(options.scenario, options.quiet);
   if (!resolved) return ExitStatus::bad_input;
-  std::string unwritable = options.out.empty() ? std::string() : output::prepare_folder(options.out);
-  if (unwritable.empty() && !options.report.empty()) unwritable = output::prepare_file(options.report);
-  if (!unwritable.empty()) {
-    std::fprintf(stderr, "takt: cannot write: %s\n", unwritable.c_str());
-    return ExitStatus::internal_error;
-  }
   const InterruptGuard interrupt;
   StatusLine line(!options.quiet && !options.scenario.is_json());
   verify::Options what;

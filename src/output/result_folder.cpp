@@ -68,24 +68,15 @@ std::string failure(const std::string& path) { return fmt::format("{}: {}", path
 
 }  // namespace
 
-std::string prepare_file(const std::string& path) {
-  std::error_code error;
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  if (error) return folder.string() + ": " + error.message();
-  if (std::filesystem::is_directory(path, error)) return path + ": " + std::strerror(EISDIR);
-  const std::string temporary = path + ".part";
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
-  if (file < 0) return failure(temporary);
-  ::close(file);
-  ::unlink(temporary.c_str());
-  return {};
-}
-
-std::string prepare_folder(const std::string& folder) { return prepare_file((std::filesystem::path(folder) / "result.json").string()); }
-
 std::string write_file(const std::string& path, const std::string& content) {
-  const std::string temporary = path + ".part";
+  namespace fs = std::filesystem;
+  std::error_code untold, error;
+  fs::path to(path);
+  const bool is_stream = fs::is_character_file(to, untold) || fs::is_fifo(to, untold);
+  if (!is_stream && fs::is_symlink(to, untold)) to = fs::weakly_canonical(to, error);   // what it names is replaced, not the link
+  if (!error && to.has_parent_path()) fs::create_directories(to.parent_path(), error);
+  if (error) return path + ": " + error.message();
+  const std::string temporary = is_stream ? to.string() : to.string() + ".part";
   const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (file < 0) return failure(temporary);
   std::size_t written = 0;
@@ -96,9 +87,10 @@ std::string write_file(const std::string& path, const std::string& content) {
     good = n > 0;
     if (good) written += static_cast<std::size_t>(n);
   }
-  std::string problem = good && ::fsync(file) == 0 ? std::string() : failure(temporary);
+  std::string problem = good && (is_stream || ::fsync(file) == 0) ? std::string() : failure(temporary);
   if (::close(file) != 0 && problem.empty()) problem = failure(temporary);
-  if (problem.empty() && ::rename(temporary.c_str(), path.c_str()) != 0) problem = failure(path);
+  if (is_stream) return problem;
+  if (problem.empty() && ::rename(temporary.c_str(), to.c_str()) != 0) problem = failure(to.string());
   if (!problem.empty()) ::unlink(temporary.c_str());
   return problem;
 }

@@ -129,6 +129,13 @@ void remove_files(const std::string& path) {
   for (const char* const suffix : {"", "-wal", "-shm", "-journal"}) std::remove((path + suffix).c_str());
 }
 
+/// If it cannot be made, whoever opens the file says so.
+void make_folder_of(const std::string& path) {
+  std::error_code untold;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder, untold);
+}
+
 std::uint64_t hash_of(std::uint64_t hash, std::string_view text) {
   for (const char c : text) hash = sim::mix64(hash ^ static_cast<unsigned char>(c)) + 0x9E3779B97F4A7C15ULL;
   return sim::mix64(hash + text.size());
@@ -141,6 +148,7 @@ std::unique_ptr<Store> Store::create(const std::string& path, const Plan& plan, 
     problem = path + " is there already: go on with it by --resume, or name another one by --out";
     return nullptr;
   }
+  make_folder_of(path);
   // Under another name until it is one: who is killed before leaves nothing that is neither a store nor absent.
   const std::string unfinished = path + ".new";
   remove_files(unfinished);
@@ -310,6 +318,7 @@ std::string merge_stores(const std::string& path, const std::vector<std::string>
     if (header.takt != first->takt) return fmt::format("{} was made by takt {}, {} by {}", part, header.takt, parts.front(), first->takt);
     store->tidy();
   }
+  make_folder_of(path);
   // Whole or not at all: under another name until it is complete.
   const std::string unfinished = path + ".tmp";
   remove_files(unfinished);

@@ -46,6 +46,23 @@ class Interchange(unittest.TestCase):
         self.assertEqual(status, 0, error)
         self.assertEqual(digest(scenario), digest(self.out / "again.json"))
 
+    def test_a_capture_of_a_run_gives_its_talkers_back(self):
+        """Talkers on a grid, at hosts without delays: a capture of their run, into the bare network, is the same run."""
+        plant = {"name": "plant", "duration": "20ms", "network": {"nodes": {name: {"kind": "switch" if name == "sw" else "host"} for name in ("a", "b", "c", "sw")},
+                 "links": [{"ends": ["a", "sw"]}, {"ends": ["b", "sw"]}, {"ends": ["c", "sw"], "rate": "100Mbps"}]}}
+        streams = [{"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "500us", "offset": "0s", "pcp": 5},
+                   {"name": "t", "from": "b", "to": "c", "payload": "300B", "every": "1ms", "offset": "100us", "pcp": 3, "vlan": 7},
+                   {"name": "u", "from": "c", "to": "a", "payload": "60B", "every": "250us", "offset": "30us", "encapsulation": "ethernet"}]
+        (self.out / "bare.json").write_text(json.dumps(plant))
+        (self.out / "plant.json").write_text(json.dumps(plant | {"streams": streams}))
+        self.assertEqual(takt("run", self.out / "plant.json", "--pcap", "all", "--out", self.out / "run")[0], 0)
+        self.assertEqual(takt("export", "linux", self.out / "plant.json", "--out", self.out / "names")[0], 0)
+        status, _, error = takt("import", "pcap", self.out / "run" / "all.pcapng", self.out / "names" / "takt.names.json", "--into", self.out / "bare.json", "--out", self.out / "again.json")
+        self.assertEqual(status, 0, error)
+        self.assertNotIn("lost:", error)
+        self.assertEqual(digest(self.out / "plant.json"), digest(self.out / "again.json"))
+        self.assertNotEqual(digest(self.out / "plant.json"), digest(self.out / "bare.json"))
+
     def test_nothing_is_written_if_something_is_lost(self):
         scenario = SCENARIOS / "tsn" / "ats.json"
         status, page, error = takt("export", "linux", scenario, "--out", self.out / "scripts")

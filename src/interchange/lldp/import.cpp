@@ -133,13 +133,18 @@ class Reader {
     machine.sights.push_back(std::move(sight));
   }
 
-  /// "10GbaseT - ...", "1000BaseTFD - ...", "100BaseTXFD".
+  /// "10GbaseT - ...", "1000BaseTFD - ...", "100BaseTXFD"; "2p5GigT" is 2.5 Gb/s.
   static std::optional<std::uint64_t> rate_of(const std::string& type) {
+    const auto is_digit = [&](std::size_t at) { return at < type.size() && type[at] >= '0' && type[at] <= '9'; };
     std::size_t at = 0;
-    std::uint64_t number = 0;
-    while (at < type.size() && type[at] >= '0' && type[at] <= '9' && number < 1'000'000) number = number * 10 + static_cast<std::uint64_t>(type[at++] - '0');
-    if (at == 0 || number == 0) return std::nullopt;
-    return number * (at < type.size() && (type[at] == 'G' || type[at] == 'g') ? 1'000'000'000 : 1'000'000);
+    std::uint64_t number = 0, tenths = 0;
+    while (is_digit(at) && number < 1'000'000) number = number * 10 + static_cast<std::uint64_t>(type[at++] - '0');
+    if (at > 0 && at < type.size() && (type[at] == 'p' || type[at] == '.') && is_digit(at + 1)) {
+      tenths = static_cast<std::uint64_t>(type[at + 1] - '0');
+      at += 2;
+    }
+    if (number == 0 && tenths == 0) return std::nullopt;
+    return (number * 10 + tenths) * (at < type.size() && (type[at] == 'G' || type[at] == 'g') ? 100'000'000 : 100'000);
   }
 
   Imported& imported_;

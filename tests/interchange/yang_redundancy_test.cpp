@@ -70,17 +70,113 @@ TEST(YangRedundancy, WhatTheTablesCannotSayIsTold) {
   EXPECT_TRUE(says(written("tsn/frer-ring.json", {"dialect=2018"}).exported, "no module of 2018"));
 }
 
-TEST(YangRedundancy, ComesInWithTheStreamsThatHaveIt) {
-  const Written ring = written("tsn/frer-ring.json");
+std::vector<InputFile> inputs(const Exported& exported) {
   std::vector<InputFile> files;
-  for (const OutputFile& file : ring.exported.files) files.push_back({file.name, file.name.substr(0, file.name.find('.')), file.content});
-  const Reading with = read("yang", files, &ring.resolved->scenario);
-  ASSERT_TRUE(with.imported.scenario) << with.remarks();
-  EXPECT_TRUE(with.lost());
-  EXPECT_TRUE(with.imported.scenario->streams.front().redundancy);
-  const Reading without = read("yang", files);
-  EXPECT_FALSE(without.imported.scenario);
-  EXPECT_NE(without.diagnostics.to_text().find("redundancy (802.1CB) of a device without its streams"), std::string::npos) << without.diagnostics.to_text();
+  for (const OutputFile& file : exported.files) files.push_back({file.name, file.name.substr(0, file.name.find('.')), file.content});
+  return files;
+}
+
+/// The scenario without what the tables say of redundancy: without all of it, or with nothing but the ways of the copies.
+scenario::Scenario without_redundancy(const scenario::Scenario& whole) {
+  scenario::Scenario bare = whole;
+  for (scenario::Stream& stream : bare.streams) {
+    if (!stream.redundancy) continue;
+    const auto paths = stream.redundancy->paths;
+    stream.redundancy.reset();
+    if (paths) stream.redundancy.emplace().paths = paths;
+  }
+  return bare;
+}
+
+/// A copy in which one thing is otherwise than by default, so that it must come back.
+struct Varied {
+  const char* name;
+  const char* scenario;
+  void (*change)(scenario::Redundancy& redundancy);
+};
+
+TEST(YangRedundancy, ComesBackToStreamsThatHaveNone) {
+  using scenario::Redundancy;
+  const Varied all[] = {
+      {"a ring", "tsn/frer-ring.json", [](Redundancy&) {}},
+      {"hosts, by VLANs of their own", "tsn/frer-hosts.json", [](Redundancy&) {}},
+      {"a published validation", "validation/frer.json", [](Redundancy&) {}},
+      {"matching", "tsn/frer-ring.json", [](Redundancy& r) { r.algorithm = scenario::Recovery::match; }},
+      {"other times", "tsn/frer-ring.json", [](Redundancy& r) { r.reset_timeout = sim::Duration::from_ps(7'000'000'000); r.latent_errors->difference = 9; r.latent_errors->reset_period = sim::Duration::from_ps(3'000'000'000); }},
+      {"each copy by itself", "tsn/frer-ring.json", [](Redundancy& r) { r.individual = true; }},
+      {"frames without a number", "tsn/frer-ring.json", [](Redundancy& r) { r.take_untagged = true; r.latent_errors.reset(); }},
+      {"the tag stays", "tsn/frer-ring.json", [](Redundancy& r) { r.keep_tag = true; }},
+      {"numbered by the talker", "tsn/frer-ring.json", [](Redundancy& r) { r.number = "h1"; }},
+  };
+  for (const Varied& each : all) {
+    for (const char* const encoding : {"encoding=json", "encoding=xml"}) {
+      SCOPED_TRACE(std::string(each.name) + ", " + encoding);
+      json::Diagnostics diagnostics;
+      scenario::Scenario said = scenario::load_file(std::filesystem::path(TAKT_SOURCE_DIR) / "scenarios" / each.scenario, {}, diagnostics)->scenario;
+      each.change(*said.streams.front().redundancy);
+      const auto resolved = load(sparse_text(said), each.scenario);
+      ASSERT_TRUE(resolved);
+      const ExportFormat* const yang = find_export_format("yang");
+      std::string mistake;
+      const Exported exported = yang->write({*resolved, {}, *Settings::read(std::vector<std::string>{encoding}, yang->settings, mistake)});
+      ASSERT_TRUE(exported.losses.empty()) << exported.losses.front().what;
+      const scenario::Scenario bare = without_redundancy(said);
+      const Reading reading = read("yang", inputs(exported), &bare);
+      ASSERT_TRUE(reading.imported.scenario) << reading.remarks();
+      EXPECT_FALSE(reading.lost()) << reading.remarks();
+      const auto again = load(sparse_text(*reading.imported.scenario), each.scenario);
+      ASSERT_TRUE(again);
+      const sim::Duration duration = sim::Duration::from_ps(100'000'000'000);
+      EXPECT_EQ(digest_of(*again, duration), digest_of(*resolved, duration));
+      scenario::Redundancy found = *reading.imported.scenario->streams.front().redundancy, wanted = *said.streams.front().redundancy;
+      EXPECT_EQ(found.individual, wanted.individual);
+      EXPECT_EQ(found.keep_tag, wanted.keep_tag);
+      EXPECT_EQ(found.take_untagged, wanted.take_untagged);
+      EXPECT_EQ(found.algorithm, wanted.algorithm);
+      EXPECT_EQ(found.history, wanted.history);
+      EXPECT_EQ(found.reset_timeout, wanted.reset_timeout);
+      EXPECT_EQ(found.vlans, wanted.vlans);
+      ASSERT_EQ(found.latent_errors.has_value(), wanted.latent_errors.has_value());
+      if (found.latent_errors) { EXPECT_EQ(found.latent_errors->difference, wanted.latent_errors->difference); }
+    }
+  }
+}
+
+TEST(YangRedundancy, ThatIsNotWholeIsRefusedAtItsPlace) {
+  const Written ring = written("tsn/frer-ring.json");
+  const std::vector<InputFile> files = inputs(ring.exported);
+  const scenario::Scenario bare = without_redundancy(ring.resolved->scenario);
+  const auto said = [&](std::vector<InputFile> some, const scenario::Scenario* base) {
+    const Reading reading = read("yang", std::move(some), base);
+    EXPECT_FALSE(reading.imported.scenario);
+    return reading.diagnostics.to_text();
+  };
+  const auto but = [&](const std::string& name) {
+    std::vector<InputFile> some = files;
+    std::erase_if(some, [&](const InputFile& each) { return each.name == name; });
+    return some;
+  };
+  const auto with = [&](const std::string& name, const std::string& text, const std::string& other) {
+    std::vector<InputFile> some = files;
+    InputFile& file = *std::ranges::find(some, name, &InputFile::name);
+    const std::size_t at = file.text.find(text);
+    EXPECT_NE(at, std::string::npos) << text;
+    file.text.replace(at, text.size(), other);
+    return some;
+  };
+  EXPECT_NE(said(files, nullptr).find("redundancy (802.1CB) of a device without its streams"), std::string::npos);
+  EXPECT_NE(said(but("sw3.json"), &bare).find("redundancy that is recovered nowhere: stream \"control\""), std::string::npos);
+  EXPECT_NE(said(but("sw1.json"), &bare).find("redundancy that is split nowhere: stream \"control\""), std::string::npos);
+  EXPECT_NE(said(but("takt.names.json"), &bare).find("an address of no stream"), std::string::npos);
+  EXPECT_NE(said(with("sw3.json", "1000001", "1000007"), &bare).find("handle 1000007"), std::string::npos);
+  scenario::Scenario another = bare;
+  std::erase_if(another.streams, [](const scenario::Stream& each) { return each.name == "control"; });
+  another.require.clear();
+  EXPECT_NE(said(files, &another).find("redundancy of a stream that the base has not"), std::string::npos);
+  scenario::Scenario three = ring.resolved->scenario;
+  three.streams.front().redundancy->count.reset();
+  three.streams.front().redundancy->paths = std::vector<std::vector<std::string>>(3);
+  EXPECT_NE(said(files, &three).find("another number of copies than the base has ways"), std::string::npos);
 }
 
 }  // namespace

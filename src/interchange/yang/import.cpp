@@ -9,6 +9,7 @@
 #include "interchange/yang/limits.hpp"
 #include "interchange/yang/modules.hpp"
 #include "interchange/yang/policing_import.hpp"
+#include "interchange/yang/redundancy_import.hpp"
 #include "interchange/yang/yang.hpp"
 #include "json/quantity.hpp"
 
@@ -327,7 +328,13 @@ Imported import_yang(const ImportRequest& request, json::Diagnostics& diagnostic
     yang::read_gptp(data, *device, imported, diagnostics);
     yang::read_policing(data, names, request.base != nullptr, *device, imported, diagnostics);
   }
-  if (!diagnostics.has_errors()) build_scenario(std::move(devices), request, imported, diagnostics);
+  if (diagnostics.has_errors()) return imported;
+  build_scenario(std::move(devices), request, imported, diagnostics);
+  if (!imported.scenario) return imported;
+  yang::DeviceData tables;
+  for (const auto& [file, data] : read) tables.emplace_back(file->device, &data);
+  yang::read_redundancy(tables, names, *imported.scenario, imported, diagnostics);
+  if (diagnostics.has_errors()) imported.scenario.reset();
   return imported;
 }
 

@@ -64,7 +64,6 @@ class PolicingReader {
     const Data* const frer = root.find("frer");
     if (frer == nullptr) return handles;
     if (!has_base) error(frer->place, "redundancy (802.1CB) of a device without its streams", "no network", "--into SCENARIO, whose streams are redundant");
-    else imported_.remark(RemarkKind::lost, frer->place, "redundancy (802.1CB): takt has it with the streams, and that of the base stays");
     for (const Data& table : frer->children)
       for (const Data& leaf : table.children)
         if (leaf.schema->name == "stream" || leaf.schema->name == "input-id" || leaf.schema->name == "output-id") handles.insert(leaf.text);

@@ -78,7 +78,8 @@ class Builder {
       if (!scenario_.clocks.gptp) scenario_.clocks.gptp.emplace();
       const scenario::Gptp before = *scenario_.clocks.gptp;
       take_over(*device.gptp_of_all, device.gptp_by_data_sets, *scenario_.clocks.gptp);
-      if (seen_gptp_ && !(before == *scenario_.clocks.gptp))
+      const bool has_other_standby = seen_gptp_ && device.gptp_by_data_sets && device.gptp_of_all->hot_standby != scenario_.clocks.gptp->hot_standby;
+      if (seen_gptp_ && (has_other_standby || !(before == *scenario_.clocks.gptp)))
         diagnostics_.error(device.place, "gPTP that is set differently at two devices", {json::quote(device.name) + " with other intervals, timeouts or thresholds", "the same for all nodes, as takt has it"});
       seen_gptp_ = true;
       scenario_.clocks.model = scenario::ClockModel::free_running;
@@ -94,6 +95,9 @@ class Builder {
         }
         set_node(entry_of(found->nodes, device.name, scenario::GptpNode{}), domain.nodes.front().second, device.gptp_by_data_sets, peers);
       }
+      const auto& domains = scenario_.clocks.gptp->domains;
+      if (device.gptp_of_all && device.gptp_of_all->hot_standby && device.gptp_domains.front().domain != domains.front().domain)
+        diagnostics_.error(device.place, "another secondary than the first of the domains", {"domain " + std::to_string(device.gptp_domains.front().domain), "domain " + std::to_string(domains.front().domain)});
     }
     if (device.clock) {
       scenario::Clock& clock = entry_of(scenario_.clocks.nodes, device.name, scenario_.clocks.all.value_or(scenario::Clock{}));
@@ -138,6 +142,10 @@ class Builder {
     to.one_step = from.one_step;
     if (from.log_gptp_capable_interval) to.log_gptp_capable_interval = from.log_gptp_capable_interval;
     if (from.drift_tracking) to.drift_tracking = true;
+    if (from.hot_standby) {
+      to.hot_standby = true;
+      to.standby_thresholds = from.standby_thresholds;
+    }
     if (by_data_sets) return;
     to.servo.first_step_threshold = from.servo.first_step_threshold;
     to.servo.step_threshold = from.servo.step_threshold;

@@ -41,6 +41,8 @@ void strip_gptp(scenario::Scenario& bare) {
   kept.link_delay_threshold = usual.link_delay_threshold;
   kept.nodes.clear();
   kept.domains.clear();
+  kept.hot_standby = false;
+  kept.standby_thresholds.reset();
   bare.clocks.gptp = std::move(kept);
 }
 

@@ -89,6 +89,79 @@ TEST(YangGptp, GoesOutAndInAgainWithAllThatItSays) {
   }
 }
 
+TEST(YangGptp, ScaledNsHas96Bits) {
+  EXPECT_EQ(yang::scaled_ns(Duration::from_ps(1'000'000)), "00-00-00-00-00-00-00-00-03-E8-00-00");    // 1000 ns * 2^16
+  EXPECT_EQ(yang::scaled_ns(Duration::from_ps(-1'000)), "FF-FF-FF-FF-FF-FF-FF-FF-FF-FF-00-00");       // -1 ns
+  for (const std::int64_t ps : {0LL, 1LL, -1LL, 999LL, -123'456'789LL, 1'000'000'000'001LL}) EXPECT_EQ(yang::duration_of_scaled_ns(yang::scaled_ns(Duration::from_ps(ps))), Duration::from_ps(ps)) << ps;
+  for (const char* const text : {"", "00-00-00-00-00-00-00-00-03-E8-00", "00-00-00-00-00-00-00-00-03-e8-00-00", "00-00-00-01-00-00-00-00-03-E8-00-00", "FF-FF-FF-FF-00-00-00-00-03-E8-00-00", "00-00-00-00-00-00-00-00-03-E8-00+00",
+                                 "00-00-00-00-7F-FF-FF-FF-FF-FF-FF-FF", "00-00-00-00-80-00-00-00-00-00-00-00"})
+    EXPECT_FALSE(yang::duration_of_scaled_ns(text)) << text;
+}
+
+TEST(YangGptp, LogarithmsOfSeconds) {
+  EXPECT_EQ(yang::log_of_seconds(Duration()), -128);
+  EXPECT_EQ(yang::log_of_seconds(Duration::from_ps(4'000'000'000'000)), 2);
+  EXPECT_EQ(yang::log_of_seconds(Duration::from_ps(125'000'000'000)), -3);
+  EXPECT_FALSE(yang::log_of_seconds(Duration::from_ps(3'000'000'000'000)));
+  for (const int exponent : {-128, -12, -1, 0, 11}) EXPECT_EQ(yang::log_of_seconds(*yang::duration_of_log(exponent)), exponent);
+  for (const int exponent : {-127, -13, 12, 127}) EXPECT_FALSE(yang::duration_of_log(exponent)) << exponent;
+}
+
+constexpr const char* standby = R"({
+  "hot_standby": true, "standby_thresholds": {"offset_max": "1500ns", "offset_met": 5, "offset_exceeded": 3, "rx_sync_count": 6, "primary_secondary_offset": "2500001ps", "waiting_time": "500ms"},
+  "nodes": {"a": {"priority1": 100}}, "domains": [{"domain": 4, "nodes": {"b": {"priority1": 100}}}]
+})";
+
+std::vector<InputFile> standby_files(const std::string& encoding) {
+  const auto resolved = load(with_gptp(standby), "standby.json");
+  const ExportFormat* const format = find_export_format("yang");
+  std::string mistake;
+  const Exported exported = format->write({*resolved, {}, *Settings::read(std::vector<std::string>{"encoding=" + encoding}, format->settings, mistake)});
+  for (const Loss& loss : exported.losses) ADD_FAILURE() << loss.where << ": " << loss.what;
+  std::vector<InputFile> files;
+  for (const OutputFile& file : exported.files) files.push_back({file.name, file.name.substr(0, file.name.find('.')), file.content});
+  return files;
+}
+
+TEST(YangGptp, AHotStandbyComesBack) {
+  const auto resolved = load(with_gptp(standby), "standby.json");
+  const auto bare = load(with_gptp("{}"), "bare.json");
+  scenario::Scenario base = bare->scenario;
+  base.clocks.all.reset();
+  for (const char* const encoding : {"json", "xml"}) {
+    const Reading reading = read("yang", standby_files(encoding), &base);
+    ASSERT_TRUE(reading.imported.scenario) << reading.remarks();
+    const scenario::Gptp &found = *reading.imported.scenario->clocks.gptp, &expected = *resolved->scenario.clocks.gptp;
+    EXPECT_TRUE(found.hot_standby);
+    EXPECT_TRUE(found.standby_thresholds == expected.standby_thresholds);
+    const auto again = load(sparse_text(*reading.imported.scenario), "again.json");
+    ASSERT_TRUE(again);
+    EXPECT_EQ(digest_of(*again, Duration::from_ps(2'000'000'000'000)), digest_of(*resolved, Duration::from_ps(2'000'000'000'000))) << encoding;
+  }
+}
+
+TEST(YangGptp, AHotStandbyThatTaktDoesNotHaveIsRefused) {
+  const auto bare = load(with_gptp("{}"), "bare.json");
+  struct Case {
+    const char* from;
+    const char* to;
+    const char* message;
+  };
+  for (const Case& each : {Case{"<primary-ptp-instance-index>0<", "<primary-ptp-instance-index>1<", "a primary that is not domain 0"}, Case{"<secondary-ptp-instance-index>1<", "<secondary-ptp-instance-index>0<", "a secondary that is not the first"},
+                           Case{"<secondary-ptp-instance-index>1<", "<secondary-ptp-instance-index>9<", "an instance that is not there"}, Case{"split-functionality>false<", "split-functionality>true<", "a function that takt does not have"},
+                           Case{">-1</hot-standby-system-log", ">-13</hot-standby-system-log", "a waiting time that takt does not have"}, Case{">00-00-", ">7F-00-", "a threshold that takt does not have"},
+                           Case{"<offset-max-met-count-thresh>5<", "<offset-max-met-count-thresh>70000<", "a count that takt does not have"}, Case{"<offset-max-met-count-thresh>5<", "<offset-max-met-count-thresh>6<", "synced by different thresholds"},
+                           Case{"system-enable>true<", "system-enable>false<", "gPTP that is set differently at two devices"}}) {
+    std::vector<InputFile> files = standby_files("xml");
+    InputFile& file = *std::ranges::find(files, "b", &InputFile::device);
+    ASSERT_NE(file.text.find(each.from), std::string::npos) << each.from;
+    file.text.replace(file.text.find(each.from), std::string(each.from).size(), each.to);
+    const Reading reading = read("yang", files, &bare->scenario);
+    EXPECT_FALSE(reading.imported.scenario) << each.to;
+    EXPECT_NE(reading.diagnostics.to_text().find(each.message), std::string::npos) << each.to << "\n" << reading.diagnostics.to_text();
+  }
+}
+
 TEST(YangGptp, TellsWhatTheModulesCannotSay) {
   const auto losses_of = [](const std::string& gptp, std::vector<std::string> settings) {
     const auto resolved = load(with_gptp(gptp), "lossy.json");
@@ -101,6 +174,7 @@ TEST(YangGptp, TellsWhatTheModulesCannotSay) {
   EXPECT_NE(losses_of("{}", {"dialect=2018"}).find("no module of 2018"), std::string::npos);
   EXPECT_NE(losses_of(R"({"boundary": true})", {}).find("boundary clocks"), std::string::npos);
   EXPECT_NE(losses_of(R"({"sync_locked": false})", {}).find("sync-locked"), std::string::npos);
+  EXPECT_NE(losses_of(R"({"hot_standby": true, "standby_thresholds": {"waiting_time": "3s"}, "nodes": {"a": {"priority1": 1}}, "domains": [{"domain": 1, "nodes": {"b": {"priority1": 1}}}]})", {}).find("no power of two"), std::string::npos);
   EXPECT_NE(losses_of(R"({"nodes": {"a": {"clock_class": 100}}})", {}).find("clockClass 100"), std::string::npos);
   EXPECT_NE(losses_of(R"({"nodes": {"a": {"clock_accuracy": 1}}})", {}).find("clockAccuracy 1"), std::string::npos);
 }

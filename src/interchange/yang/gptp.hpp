@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "interchange/device_import.hpp"
@@ -31,5 +32,13 @@ std::optional<std::uint8_t> number_of_identity(std::string_view leaf, std::strin
 /// IEEE 1588 5.3.2, TimeInterval: 2^-16 ns. Rounded; every whole number of ps comes back.
 std::int64_t time_interval(sim::Duration duration);
 std::optional<sim::Duration> duration_of_time_interval(std::int64_t interval);   ///< null beyond an hour
+
+/// IEEE 802.1AS 6.4.3.1, ScaledNs: the same unit in 96 bits, as twelve octets in hexadecimal ("00-00-...-28").
+std::string scaled_ns(sim::Duration duration);
+std::optional<sim::Duration> duration_of_scaled_ns(std::string_view text);   ///< null if it is none, or beyond an hour
+
+/// A time as the logarithm to base 2 of seconds; -128 is no time at all. Null if it is no power of two.
+std::optional<std::int8_t> log_of_seconds(sim::Duration duration);
+std::optional<sim::Duration> duration_of_log(std::int64_t exponent);   ///< null beyond an hour, or if it is no whole number of ps
 
 }  // namespace takt::interchange::yang

@@ -19,11 +19,13 @@ class GptpWriter {
     clock_ = own != clocks_.nodes.end() ? &own->second : clocks_.all ? &*clocks_.all : nullptr;
   }
 
-  void write(Data& instances) {
+  void write(Data& ptp) {
     tell_losses();
+    Data& instances = ptp.make("instances");
     write_instance(instances.add("instance"), 0, 0, node_in(gptp_.nodes, device_.name));
     std::size_t index = 0;
     for (const scenario::GptpDomain& domain : gptp_.domains) write_instance(instances.add("instance"), ++index, domain.domain, node_in(domain.nodes, device_.name));
+    if (gptp_.hot_standby) write_standby(ptp.make("common-services").make("hot-standby-service").add("hot-standby-system"));
   }
 
  private:
@@ -32,7 +34,6 @@ class GptpWriter {
   }
 
   void tell_losses() {
-    lose(gptp_.hot_standby, "hot standby (IEEE 802.1ASdm): each domain is written by itself");
     lose(gptp_.boundary, "boundary clocks: IEEE 802.1AS has relays only");
     lose(!gptp_.sync_locked, "bridges that are not sync-locked: the module has it as state");
     lose(std::ranges::any_of(gptp_.interval_requests, [&](const scenario::IntervalRequest& each) { return each.node == device_.name; }), "interval requests to neighbours, which come during the run");
@@ -52,8 +53,30 @@ class GptpWriter {
     defaults.set("external-port-config-enable", node.roles ? "true" : "false");
     if (node.time) write_time(instance.make("time-properties-ds"), *node.time);
     if (gptp_.drift_tracking) instance.make("drift-tracking-ds").set("drift-tracking-tlv-support", "true");
+    if (gptp_.hot_standby && index < 2) write_thresholds(instance.make("ptp-instance-sync-ds"));
     Data& ports = instance.make("ports");
     for (const DevicePort& port : device_.ports) write_port(ports.add("port"), port, node);
+  }
+
+  /// Domain 0 is the primary, the first further one the secondary: instances 0 and 1.
+  void write_standby(Data& system) {
+    system.set("hot-standby-system-index", "0");
+    Data& set = system.make("hot-standby-system-ds");
+    set.set("primary-ptp-instance-index", "0");
+    set.set("secondary-ptp-instance-index", "1");
+    set.set("hot-standby-system-enable", "true");
+    set.set("hot-standby-system-split-functionality", "false");
+    set.set("primary-secondary-offset-thresh", scaled_ns(standby_.primary_secondary_offset));
+    const auto exponent = log_of_seconds(standby_.waiting_time);
+    lose(!exponent, "a waiting time of the hot standby that is no power of two of a second");
+    if (exponent) set.set("hot-standby-system-log-sync-time-thresh", std::to_string(*exponent));
+  }
+
+  void write_thresholds(Data& set) {
+    set.set("offset-from-time-transmitter-max", std::to_string(time_interval(standby_.offset_max)));
+    set.set("rx-sync-count-time-receiver-p-thresh", std::to_string(standby_.rx_sync_count));
+    set.set("offset-max-exceeded-count-thresh", std::to_string(standby_.offset_exceeded));
+    set.set("offset-max-met-count-thresh", std::to_string(standby_.offset_met));
   }
 
   void write_quality(Data& quality, const scenario::GptpNode& node) {
@@ -109,6 +132,7 @@ class GptpWriter {
 
   const scenario::Clocks& clocks_;
   const scenario::Gptp& gptp_;
+  const scenario::StandbyThresholds standby_ = gptp_.standby_thresholds.value_or(scenario::StandbyThresholds());
   const Device& device_;
   Exported& exported_;
   const scenario::Clock* clock_ = nullptr;
@@ -120,7 +144,7 @@ void write_gptp(Data& root, const scenario::Resolved& resolved, const Device& de
   const auto& gptp = resolved.scenario.clocks.gptp;
   if (!gptp || std::ranges::find(gptp->without, device.name) != gptp->without.end() || device.ports.empty()) return;
   if (dialect == Dialect::of_2018) return exported.lose("clock of " + device.name, "gPTP: there is no module of 2018 for it");
-  GptpWriter(resolved, device, exported).write(root.make("ptp").make("instances"));
+  GptpWriter(resolved, device, exported).write(root.make("ptp"));
 }
 
 }  // namespace takt::interchange::yang

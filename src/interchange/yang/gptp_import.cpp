@@ -1,5 +1,6 @@
 // The data sets of a device to what takt has of gPTP.
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "interchange/yang/gptp.hpp"
@@ -15,7 +16,7 @@ class GptpReader {
  public:
   GptpReader(ImportedDevice& device, Imported& imported, json::Diagnostics& diagnostics) : device_(device), imported_(imported), diagnostics_(diagnostics) {}
 
-  void read(const Data& instances) {
+  void read(const Data& ptp, const Data& instances) {
     std::set<std::uint64_t> domains;
     for (const Data& instance : instances.children) {
       const Data* const defaults = instance.find("default-ds");
@@ -27,6 +28,7 @@ class GptpReader {
       if (domain > 127) { error(instance.place, "a domain that gPTP does not have", std::to_string(domain), "0 to 127"); continue; }
       if (!domains.insert(domain).second) { error(instance.place, "two instances of one domain", "domain " + std::to_string(domain) + " a second time", "a domain-number of its own for each instance"); continue; }
       const scenario::GptpNode node = read_instance(instance, defaults);
+      instances_.emplace(instance.number("instance-index").value_or(0), Instance{domain, instance.find("ptp-instance-sync-ds")});
       if (domain == 0) {
         device_.gptp = node;
       } else {
@@ -39,11 +41,85 @@ class GptpReader {
     if (!device_.gptp) error(instances.place, "no domain 0", "domain " + std::to_string(*domains.begin()) + " and none with number 0", "an instance of domain 0, which takt always has");
     device_.gptp_by_data_sets = true;
     device_.gptp_of_all = all_.value_or(scenario::Gptp{});
+    const Data* const services = ptp.find("common-services");
+    if (const Data* const standby = services == nullptr ? nullptr : services->find("hot-standby-service")) read_standby(*standby, *device_.gptp_of_all);
+    if (!device_.gptp_of_all->hot_standby)
+      for (const auto& [index, instance] : instances_)
+        if (instance.sync != nullptr) imported_.remark(RemarkKind::ignored, instance.sync->place, "when an instance is synced, without a hot standby that asks it");
     if (has_clock_) device_.clock = clock_;
   }
 
  private:
   void error(const json::Place& place, std::string message, std::string found, std::string expected) { diagnostics_.error(place, std::move(message), {std::move(found), std::move(expected)}); }
+
+  struct Instance {
+    std::uint64_t domain = 0;
+    const Data* sync = nullptr;   ///< ptp-instance-sync-ds
+  };
+
+  /// IEEE 802.1ASdm. takt's primary is domain 0, its secondary the first of the others.
+  void read_standby(const Data& service, scenario::Gptp& all) {
+    for (const Data& system : service.children) {
+      const Data* const set = system.find("hot-standby-system-ds");
+      if (set == nullptr || !set->is_true("hot-standby-system-enable")) {
+        imported_.remark(RemarkKind::ignored, system.place, "a hot standby that is not enabled");
+        continue;
+      }
+      if (all.hot_standby) return error(system.place, "a second hot standby", "two that are enabled", "one, as takt has it");
+      const Instance* const primary = instance_of(*set, "primary-ptp-instance-index");
+      const Instance* const secondary = instance_of(*set, "secondary-ptp-instance-index");
+      if (primary == nullptr || secondary == nullptr) return;
+      if (primary->domain != 0) return error(set->place, "a primary that is not domain 0", "domain " + std::to_string(primary->domain), "domain 0");
+      if (device_.gptp_domains.empty() || secondary->domain != device_.gptp_domains.front().domain)
+        return error(set->place, "a secondary that is not the first of the other domains", "domain " + std::to_string(secondary->domain), device_.gptp_domains.empty() ? "a second instance" : "domain " + std::to_string(device_.gptp_domains.front().domain));
+      if (set->is_true("hot-standby-system-split-functionality")) return error(set->find("hot-standby-system-split-functionality")->place, "a function that takt does not have", "hot-standby-system-split-functionality true", "false");
+      all.hot_standby = true;
+      scenario::StandbyThresholds thresholds = synced_of(primary->sync);
+      if (!(thresholds == synced_of(secondary->sync))) return error(secondary->sync == nullptr ? set->place : secondary->sync->place, "two domains that are synced by different thresholds", "those of instance " + set->value("secondary-ptp-instance-index").value_or(""), "the same, as takt has them");
+      read_redundant(*set, thresholds);
+      if (!(thresholds == scenario::StandbyThresholds())) all.standby_thresholds = thresholds;
+    }
+  }
+
+  const Instance* instance_of(const Data& set, std::string_view leaf) {
+    const auto index = set.number(leaf);
+    const auto found = index ? instances_.find(*index) : instances_.end();
+    if (found != instances_.end()) return &found->second;
+    error(set.place, "an instance that is not there", std::string(leaf) + " " + (index ? std::to_string(*index) : "not said"), "the instance-index of one that is enabled");
+    return nullptr;
+  }
+
+  scenario::StandbyThresholds synced_of(const Data* set) {
+    scenario::StandbyThresholds thresholds;
+    if (set == nullptr) return thresholds;
+    if (const auto offset = set->signed_number("offset-from-time-transmitter-max")) {
+      const auto duration = duration_of_time_interval(*offset);
+      if (!duration || *duration < Duration()) error(set->find("offset-from-time-transmitter-max")->place, "a threshold that takt does not have", std::to_string(*offset) + " (2^-16 ns)", "0 to an hour");
+      else thresholds.offset_max = *duration;
+    }
+    const auto count = [&](std::string_view name, std::uint16_t& into) {
+      const auto value = set->number(name);
+      if (value && *value > 0xFFFF) error(set->find(name)->place, "a count that takt does not have", std::to_string(*value), "at most 65535");
+      else if (value) into = static_cast<std::uint16_t>(*value);
+    };
+    count("rx-sync-count-time-receiver-p-thresh", thresholds.rx_sync_count);
+    count("offset-max-exceeded-count-thresh", thresholds.offset_exceeded);
+    count("offset-max-met-count-thresh", thresholds.offset_met);
+    return thresholds;
+  }
+
+  void read_redundant(const Data& set, scenario::StandbyThresholds& thresholds) {
+    if (const Data* const offset = set.find("primary-secondary-offset-thresh")) {
+      const auto duration = duration_of_scaled_ns(offset->text);
+      if (!duration || *duration < Duration()) error(offset->place, "a threshold that takt does not have", json::quote(offset->text), "a ScaledNs from 0 to an hour, such as " + scaled_ns(Duration::from_ps(1'000'000)));
+      else thresholds.primary_secondary_offset = *duration;
+    }
+    if (const auto exponent = set.signed_number("hot-standby-system-log-sync-time-thresh")) {
+      const auto waiting = duration_of_log(*exponent);
+      if (!waiting) error(set.find("hot-standby-system-log-sync-time-thresh")->place, "a waiting time that takt does not have", "2^" + std::to_string(*exponent) + " s", "-128, or 2^-12 s to 2^11 s");
+      else thresholds.waiting_time = *waiting;
+    }
+  }
 
   scenario::GptpNode read_instance(const Data& instance, const Data* defaults) {
     scenario::GptpNode node;
@@ -164,6 +240,7 @@ class GptpReader {
   ImportedDevice& device_;
   Imported& imported_;
   json::Diagnostics& diagnostics_;
+  std::map<std::uint64_t, Instance> instances_;   // those that are enabled, by index
   std::optional<scenario::Gptp> all_;
   scenario::Clock clock_;
   bool has_clock_ = false;
@@ -176,7 +253,7 @@ void read_gptp(const Data& root, ImportedDevice& device, Imported& imported, jso
   const Data* const instances = ptp == nullptr ? nullptr : ptp->find("instances");
   if (instances == nullptr) return;
   if (device.gptp) return diagnostics.error(device.place, "gPTP of one device in two files", {json::quote(device.name), "all of it in one file"});
-  GptpReader(device, imported, diagnostics).read(*instances);
+  GptpReader(device, imported, diagnostics).read(*ptp, *instances);
 }
 
 }  // namespace takt::interchange::yang

@@ -57,6 +57,56 @@ std::int64_t nearest(sim::int128 numerator, std::int64_t denominator) {
 
 std::int64_t time_interval(sim::Duration duration) { return nearest(static_cast<sim::int128>(duration.ps()) * 65536, 1000); }
 
+std::string scaled_ns(sim::Duration duration) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  const std::int64_t value = time_interval(duration);
+  std::string text;
+  for (int octet = 11; octet >= 0; --octet) {
+    const auto bits = octet < 8 ? static_cast<std::uint64_t>(value) >> (8 * octet) & 0xFF : value < 0 ? 0xFFU : 0U;   // the sign goes on
+    text += text.empty() ? "" : "-";
+    text += digits[bits >> 4];
+    text += digits[bits & 0xF];
+  }
+  return text;
+}
+
+std::optional<sim::Duration> duration_of_scaled_ns(std::string_view text) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  if (text.size() != 12 * 3 - 1) return std::nullopt;
+  std::uint64_t value = 0;
+  unsigned above = 0, sign = 0;   // the four octets above 64 bits repeat the sign
+  for (std::size_t octet = 0; octet < 12; ++octet) {
+    const std::size_t high = digits.find(text[3 * octet]), low = digits.find(text[3 * octet + 1]);
+    if (high == std::string_view::npos || low == std::string_view::npos || (octet < 11 && text[3 * octet + 2] != '-')) return std::nullopt;
+    const auto bits = static_cast<unsigned>(high << 4 | low);
+    if (octet == 0) sign = bits;
+    if (octet < 4) above |= bits ^ sign;
+    else value = value << 8 | bits;
+  }
+  const bool is_negative = value >> 63 != 0;
+  if (above != 0 || sign != (is_negative ? 0xFFU : 0U)) return std::nullopt;
+  return duration_of_time_interval(static_cast<std::int64_t>(value));
+}
+
+namespace {
+constexpr std::int64_t least_log = -12;   // 10^12 ps have twelve factors of two
+constexpr std::int64_t most_log = 11;     // 2048 s
+std::int64_t ps_of_log(std::int64_t exponent) { return exponent < 0 ? 1'000'000'000'000 >> -exponent : std::int64_t{1'000'000'000'000} << exponent; }
+}  // namespace
+
+std::optional<std::int8_t> log_of_seconds(sim::Duration duration) {
+  if (duration == sim::Duration()) return std::int8_t{-128};
+  for (std::int64_t exponent = least_log; exponent <= most_log; ++exponent)
+    if (ps_of_log(exponent) == duration.ps()) return static_cast<std::int8_t>(exponent);
+  return std::nullopt;
+}
+
+std::optional<sim::Duration> duration_of_log(std::int64_t exponent) {
+  if (exponent == -128) return sim::Duration();
+  if (exponent < least_log || exponent > most_log) return std::nullopt;
+  return sim::Duration::from_ps(ps_of_log(exponent));
+}
+
 std::optional<sim::Duration> duration_of_time_interval(std::int64_t interval) {
   const sim::int128 hour = static_cast<sim::int128>(3'600'000'000'000) * 65536;   // ns
   if (interval > hour || -static_cast<sim::int128>(interval) > hour) return std::nullopt;

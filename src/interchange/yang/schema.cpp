@@ -341,14 +341,23 @@ constexpr Schema ptp_port[] = {
 };
 constexpr Schema ptp_ports[] = {entries(ptp_m, "port", "port-index", ptp_port)};
 constexpr Schema drift_tracking[] = {leaf(hs_m, "drift-tracking-tlv-support", boolean), state(hs_m, "sync-grandmaster-identity"), state(hs_m, "sync-steps-removed"), state(hs_m, "rate-ratio-drift")};
+constexpr Schema instance_sync[] = {leaf(hs_m, "offset-from-time-transmitter-max", int64), leaf(hs_m, "rx-sync-count-time-receiver-p-thresh", uint32), leaf(hs_m, "offset-max-exceeded-count-thresh", uint32),
+                                    leaf(hs_m, "offset-max-met-count-thresh", uint32), state(hs_m, "is-synced")};
 constexpr Schema ptp_instance[] = {
     leaf(ptp_m, "instance-index", uint32, true), node(ptp_m, "default-ds", default_ds), node(ptp_m, "time-properties-ds", time_properties), node(ptp_m, "ports", ptp_ports), node(hs_m, "drift-tracking-ds", drift_tracking),
-    unheard(hs_m, "ptp-instance-sync-ds"), unheard(ptp_m, "alternate-timescale-ds"), unheard(ptp_m, "holdover-upgrade-ds"), unheard(ptp_m, "grandmaster-cluster-ds"), unheard(ptp_m, "acceptable-time-transmitter-ds"),
+    node(hs_m, "ptp-instance-sync-ds", instance_sync), unheard(ptp_m, "alternate-timescale-ds"), unheard(ptp_m, "holdover-upgrade-ds"), unheard(ptp_m, "grandmaster-cluster-ds"), unheard(ptp_m, "acceptable-time-transmitter-ds"),
     state(ptp_m, "current-ds"), state(ptp_m, "parent-ds"), state(ptp_m, "description-ds"), state(ptp_m, "fault-log-ds"), state(ptp_m, "path-trace-ds"), state(ptp_m, "performance-monitoring-ds"),
     state(ptp_m, "enhanced-metrics-ds"),
 };
 constexpr Schema ptp_instances[] = {entries(ptp_m, "instance", "instance-index", ptp_instance)};
-constexpr Schema ptp[] = {node(ptp_m, "instances", ptp_instances), unheard(ptp_m, "common-services"), unheard(ptp_m, "transparent-clock-default-ds"), unheard(ptp_m, "transparent-clock-ports")};
+// Hot standby (IEEE 802.1ASdm).
+constexpr Schema standby_system_ds[] = {leaf(hs_m, "primary-ptp-instance-index", uint32), leaf(hs_m, "secondary-ptp-instance-index", uint32), leaf(hs_m, "hot-standby-system-enable", boolean),
+                                        leaf(hs_m, "hot-standby-system-split-functionality", boolean), leaf(hs_m, "primary-secondary-offset-thresh", text), leaf(hs_m, "hot-standby-system-log-sync-time-thresh", int8),
+                                        state(hs_m, "hot-standby-system-state"), state(hs_m, "primary-secondary-offset")};
+constexpr Schema standby_system[] = {leaf(hs_m, "hot-standby-system-index", uint8, true), node(hs_m, "hot-standby-system-ds", standby_system_ds), unheard(hs_m, "hot-standby-system-description-ds")};
+constexpr Schema standby_service[] = {entries(hs_m, "hot-standby-system", "hot-standby-system-index", standby_system)};
+constexpr Schema common_services[] = {node(hs_m, "hot-standby-service", standby_service), unheard(ptp_m, "cmlds")};
+constexpr Schema ptp[] = {node(ptp_m, "instances", ptp_instances), node(ptp_m, "common-services", common_services), unheard(ptp_m, "transparent-clock-default-ds"), unheard(ptp_m, "transparent-clock-ports")};
 
 constexpr Schema published[] = {node(if_m, "interfaces", interfaces_published), node(dot1q_m, "bridges", bridges_published), entries(sid_m, "stream-identity", "index", stream_identity), node(frer_m, "frer", frer), node(ptp_m, "ptp", ptp)};
 constexpr Schema of_2018[] = {node(if_m, "interfaces", interfaces_of_2018), node(dot1q_m, "bridges", bridges_of_2018)};

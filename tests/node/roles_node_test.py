@@ -5,7 +5,9 @@ come, however long it takes.
 usage: roles_node_test.py TAKT [unittest options]
 """
 import json
+import random
 import signal
+import socket
 import sys
 import time
 import unittest
@@ -28,10 +30,11 @@ class Roles(real_node_test.Ctl):
         self.group.processes, self.group.files = {}, {}
         self.addCleanup(self.group.kill)
         self.logs = {}
+        self.also_to = []  # who else hears all nodes
 
     def start(self, node, more=None):
         port = {name: 48441 + i for i, name in enumerate(self.NAMES)}
-        transport = {"kind": "udp", "port": port[node], "destinations": [f"127.0.0.1:{port[other]}" for other in self.NAMES if other != node]}
+        transport = {"kind": "udp", "port": port[node], "destinations": [f"127.0.0.1:{port[other]}" for other in self.NAMES if other != node] + self.also_to}
         config = {"node": node, "program": self.PROGRAM, "transport": transport, "control": str(self.folder / f"{node}.sock"), "realtime": True} | (more or {})
         if node != "plc":
             config = {"offers": ["welding"], "sources": [{"data_set": "seam", "kind": "constant", "value": 7}]} | config
@@ -138,6 +141,64 @@ class Roles(real_node_test.Ctl):
         logs = self.end()
         self.assertEqual([(e["event"], e.get("role")) for e in logs["robotB"] if e["event"] in ("leave", "role taken", "role dropped")], [("role taken", "right"), ("leave", None), ("role dropped", "right")])
         self.assertIn(("halt", "peer left"), [(e["kind"], e["cause"]) for e in logs["plc"] if e["event"] == "intent"])
+
+    def settled(self):
+        """Waits until all roles are bound to nodes that know it, and all run; who has them."""
+        for _ in range(3000):
+            status = self.status("plc")
+            roles = self.roles_of(status) if status else {}
+            if status and status["state"] == "Running" and status["complete"] and None not in roles.values():
+                theirs = {role: self.status(node) for role, node in roles.items()}
+                if all(each and (each["bound_to"], each["state"]) == (role, "Running") for role, each in theirs.items()):
+                    return roles
+            time.sleep(0.02)
+        self.fail(f"not settled: {status}")
+
+    def test_after_a_flood_of_forged_announcements_roles_settle(self):
+        """A stranger hears the announcements and says them again with other octets, for seconds: the group may halt meanwhile. Then all run again without a call, and the next loss is replaced."""
+        stranger = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.addCleanup(stranger.close)
+        stranger.bind(("127.0.0.1", 0))
+        stranger.settimeout(10)
+        self.also_to = [f"127.0.0.1:{stranger.getsockname()[1]}"]
+        self.start_all()
+        self.join_the_spare()
+        heard = {}  # the newest of each sender and length
+        until = time.monotonic() + 3
+        while time.monotonic() < until:
+            octets, (_, port) = stranger.recvfrom(2048)
+            heard[port, len(octets)] = octets
+        lengths = {length for port, length in heard if port == 48444}  # a spare says nothing but announcements
+        self.assertEqual(len(lengths), 1)
+        announcements = [octets for (_, length), octets in heard.items() if length in lengths]
+        self.assertGreaterEqual(len(announcements), 3)
+        chance = random.Random(1)
+        forged = 0
+        until = time.monotonic() + 5
+        while time.monotonic() < until:
+            for octets in announcements:
+                other = bytearray(octets)
+                for _ in range(chance.randrange(3)):
+                    other[chance.randrange(8, len(other))] = chance.randrange(256)
+                for port in range(48441, 48445):
+                    stranger.sendto(other, ("127.0.0.1", port))
+                forged += 1
+            time.sleep(0.0005)
+        self.assertGreater(forged, 1000)
+        before = self.settled()
+        time.sleep(4)  # longer than three announcements and a time-out: nothing that was said in the flood may count any more
+        self.assertEqual(self.settled(), before)
+        lost = before["left"]
+        self.group.processes[lost].kill()
+        self.group.processes.pop(lost).wait()
+        for _ in range(3000):
+            if self.roles_of(self.status("plc") or {"roles": []}).get("left") not in (lost, None):
+                break
+            time.sleep(0.02)
+        after = self.settled()
+        self.assertNotIn(lost, after.values())
+        bound = [e for e in self.end()["plc"] if e["event"] == "bound"]
+        self.assertGreater(len(bound), 5, "the flood was believed: nothing is signed")
 
     # Nothing left to fill the role: the group halts, a Start is refused until the script of the leaver lets it come back.
     def test_a_role_that_nobody_has(self):

@@ -34,6 +34,7 @@ class alignas(64) Bridge final : public sim::Component {
   void set_ingress_chain(IngressChain* chain) {
     chain_ = chain;
     looks_closer_ = true;
+    find_whether_it_only_polices();
   }
   /// What is found in the filtering database is noted there; `first_port` is the number of the bridge's first port. `routes` outlives the bridge. Not for stations.
   void note_routes(Routes& routes, std::uint32_t first_port) {
@@ -46,13 +47,19 @@ class alignas(64) Bridge final : public sim::Component {
   void set_jitter(ForwardingJitter* jitter) {
     jitter_ = jitter;
     looks_closer_ = true;
+    find_whether_it_only_polices();
   }
   /// Some port takes tags off.
-  void set_untags() { looks_closer_ = true; }
+  void set_untags() {
+    untags_ = true;
+    looks_closer_ = true;
+    find_whether_it_only_polices();
+  }
   /// Whoever records the run is told of each frame that comes.
   void tell_arrivals() {
     tells_arrivals_ = true;
     looks_closer_ = true;
+    find_whether_it_only_polices();
   }
   /// The host of the station; it outlives the bridge.
   void set_host(InternalReceiver& host) {
@@ -88,6 +95,18 @@ class alignas(64) Bridge final : public sim::Component {
   [[gnu::noinline]] void leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16_t from);
   [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   void look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
+  void take_in(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header);
+  [[gnu::noinline]] void police_alone(sim::Simulation& simulation, ArrivalArgument arrival);
+  /// The frame as the chain is to see it: what an earlier bridge has marked is forgotten.
+  FrameIndex unmarked(FrameIndex frame) {
+    if (!traffic_->frame(frame).marked) return frame;
+    frame = traffic_->own(frame);
+    Frame& record = traffic_->frame(frame);
+    record.marked = false;
+    record.queue_priority = record.priority;
+    return frame;
+  }
+  void find_whether_it_only_polices() { only_polices_ = chain_ != nullptr && jitter_ == nullptr && !untags_ && !tells_arrivals_; }
   void pass_through(sim::Simulation& simulation, std::span<const FrameIndex> frames, std::uint16_t from, const Header* header);
   // `rank` is the number of the port by which the frame came, or greater than that of any port.
   void forward(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, const Header* header);
@@ -100,6 +119,7 @@ class alignas(64) Bridge final : public sim::Component {
   Traffic* traffic_;
   EgressPort* ports_;
   bool looks_closer_ = false;
+  bool only_polices_ = false;             // it looks closer because it has a chain, for no other reason
   bool holds_ = false;                    // held_ is not empty
   std::uint32_t first_port_ = 0;
   Routes* routes_ = nullptr;              // null in stations and hosts
@@ -115,6 +135,7 @@ class alignas(64) Bridge final : public sim::Component {
   std::vector<Arrived> arrived_;          // at this instant; waits for the chain
   InternalReceiver* host_ = nullptr;      // of a station
   bool tells_arrivals_ = false;
+  bool untags_ = false;
 };
 
 }  // namespace takt::models

@@ -92,23 +92,6 @@ void CreditBasedShaper::set_slopes(CreditSlope idle_slope) {
   send_slope_ = idle_slope.numerator - static_cast<std::int64_t>(rate);
 }
 
-/// Credit at `now`, from what is known since updated_.
-void CreditBasedShaper::advance(TrueTime now) {
-  TAKT_CHECK(now >= updated_, "a shaper is not asked about its past");
-  if (updated_ < free_at_) {
-    const TrueTime sent_until = std::min(now, free_at_);
-    credit_.units += int128{send_slope_} * (sent_until - updated_).ps();
-    updated_ = sent_until;
-    if (now < free_at_) return;
-  }
-  if (queue_empty_ && credit_.units > 0) credit_.units = 0;
-  if (gate_open_ && (!queue_empty_ || credit_.units < 0)) {
-    credit_.units += int128{idle_slope_.numerator} * (now - updated_).ps();
-    if (queue_empty_ && credit_.units > 0) credit_.units = 0;
-  }
-  updated_ = now;
-}
-
 sim::Duration second_class_interference(sim::Octets lower, sim::Octets frame_a, CreditSlope idle_slope_a,
                                         sim::DataRate port_transmit_rate) {
   const int128 rate = static_cast<int128>(port_transmit_rate.bits_per_second);

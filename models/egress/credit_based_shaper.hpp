@@ -1,6 +1,7 @@
 // The credit-based shaper of one traffic class, in exact integers (IEEE 802.1Q clause 8.6.8.2, formerly Qav).
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
 
@@ -62,6 +63,15 @@ class CreditBasedShaper {
 
   /// A frame waits in the queue.
   void frame_enqueued(sim::TrueTime now) { advance(now); queue_empty_ = false; }
+  /// frame_enqueued(), and transmission_started() if the frame may start at once and is the only one: true then. Precondition: nothing of the class is being sent.
+  bool start_alone(sim::TrueTime now, sim::Duration occupancy) {
+    frame_enqueued(now);
+    if (!gate_open_ || credit_.units < 0) return false;
+    TAKT_CHECK(now >= free_at_ && occupancy >= sim::Duration(), "one transmission of a class follows another");
+    free_at_ = now + occupancy;
+    queue_empty_ = true;
+    return true;
+  }
   /// No frame waits any more, for another reason than a start.
   void queue_emptied(sim::TrueTime now) { advance(now); queue_empty_ = true; advance(now); }
   /// A frame leaves the queue and occupies the medium for `occupancy`. Precondition: may_start(now).
@@ -94,7 +104,22 @@ class CreditBasedShaper {
   }
 
  private:
-  void advance(sim::TrueTime now);
+  /// Credit at `now`, from what is known since updated_.
+  void advance(sim::TrueTime now) {
+    TAKT_CHECK(now >= updated_, "a shaper is not asked about its past");
+    if (updated_ < free_at_) {
+      const sim::TrueTime sent_until = std::min(now, free_at_);
+      credit_.units += sim::int128{send_slope_} * (sent_until - updated_).ps();
+      updated_ = sent_until;
+      if (now < free_at_) return;
+    }
+    if (queue_empty_ && credit_.units > 0) credit_.units = 0;
+    if (gate_open_ && (!queue_empty_ || credit_.units < 0)) {
+      credit_.units += sim::int128{idle_slope_.numerator} * (now - updated_).ps();
+      if (queue_empty_ && credit_.units > 0) credit_.units = 0;
+    }
+    updated_ = now;
+  }
   void set_slopes(CreditSlope idle_slope);
 
   Credit credit_;                // at updated_

@@ -34,7 +34,7 @@ inline void EgressPort::find_path() {
   if (extras_ && !shaping_ && queues_.empty() && extras_->merge && !extras_->merge->rest() && link_.is_plain() && !extras_->expects_headers)
     path_ = Path::merging;
   else
-    path_ = !queues_.empty() || extras_ ? Path::general : !shaping_ ? Path::plain : only_gates_ != nullptr ? Path::gated : Path::general;
+    path_ = !queues_.empty() || extras_ ? Path::general : !shaping_ ? Path::plain : only_gates_ != nullptr ? Path::gated : shaping_->limits_sdu() ? Path::general : Path::shaped;
 }
 
 /// To be called when the port gets other features.
@@ -91,23 +91,29 @@ void EgressPort::take_last(sim::Simulation& simulation, FrameIndex frame, const 
     offer(simulation, frame, rank);
     return;
   }
-  if (simulation.now() >= link_.free_at()) {
-    if (path_ == Path::plain) {
-      start(simulation, frame, record);
-      return;
-    }
-    if (path_ == Path::gated) {
-      pass_gate(simulation, frame);
-      return;
-    }
-    if (path_ == Path::merging) {
-      start_with_extras(simulation, frame, class_of(frame));
-      return;
-    }
+  take_only(simulation, frame, record, rank);
+}
+
+void EgressPort::take_only(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
+  if (simulation.now() >= link_.free_at() && path_ != Path::general) [[likely]] {
+    pass_alone(simulation, frame, record);
+    return;
   }
   has_arrival_ = true;
   arrival_ = {frame, rank};
   settle_many(simulation);
+}
+
+/// One frame, nothing waits, the medium is free, and the path is not the general one.
+inline void EgressPort::pass_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  if (path_ == Path::plain)
+    start(simulation, frame, record);
+  else if (path_ == Path::gated)
+    pass_gate(simulation, frame, record);
+  else if (path_ == Path::shaped)
+    pass_shaping(simulation, frame, record);
+  else
+    start_with_extras(simulation, frame, config_->traffic_class_of_priority[record.queue_priority]);
 }
 
 void EgressPort::settle(sim::Simulation& simulation) {
@@ -115,26 +121,20 @@ void EgressPort::settle(sim::Simulation& simulation) {
   // The common case: one frame, nothing waits, the medium is free.
   if (has_arrival_ && path_ != Path::general && more_arrivals_.empty() && simulation.now() >= link_.free_at()) [[likely]] {
     has_arrival_ = false;
-    if (path_ == Path::plain)
-      start(simulation, arrival_.frame);
-    else if (path_ == Path::gated)
-      pass_gate(simulation, arrival_.frame);
-    else
-      start_with_extras(simulation, arrival_.frame, class_of(arrival_.frame));
+    pass_alone(simulation, arrival_.frame, shared_->traffic->frame(arrival_.frame));
     return;
   }
   settle_many(simulation);
 }
 
 /// A frame comes alone to a free medium at a port that has gates and nothing else.
-void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame) {
+void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
   const sim::TrueTime now = simulation.now();
-  const Frame& record = shared_->traffic->frame(frame);
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
   const StartAnswer answer = only_gates_->may_start(q, clock_->local_at(now), octet_time() * (preamble_and_sfd.count + std::int64_t{record.length}));
   if (answer.may_start) [[likely]] {
     sending_ = q;
-    start(simulation, frame);
+    start(simulation, frame, record);
     return;
   }
   admit(simulation, frame);
@@ -145,30 +145,34 @@ void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame) {
   wake_at(simulation, promised_);
 }
 
-/// The common case of a port with gates or shapers: one frame, nothing waits.
-inline void EgressPort::settle_one(sim::Simulation& simulation, FrameIndex frame) {
-  if (shaping_->limits_sdu() && !passes_max_sdu(simulation, frame)) return;
+/// The same at a port that has other shapers, too.
+void EgressPort::pass_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
   const sim::TrueTime now = simulation.now();
-  const Frame& record = shared_->traffic->frame(frame);
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
-  shaping_->frame_waits(now, q);
-  if (now < link_.free_at()) {
-    admit(simulation, frame);
-    wake_at(simulation, link_.free_at());
-    return;
-  }
-  const sim::TrueTime ready = shaping_->ready_time(now, q, {record.length, eligible_of(frame)});
-  if (ready == now) {
-    shaping_->started(now, q, record.length, true);
+  const sim::TrueTime ready = shaping_->start_alone(now, q, {record.length, eligible_of(record)});
+  if (ready == now) [[likely]] {
     sending_ = q;
-    start(simulation, frame);
+    start(simulation, frame, record);
     return;
   }
   admit(simulation, frame);
+  find_path();
   promised_ = shaping_->is_gated_only(q) ? ready : sim::TrueTime::never();
   // As above.
   if (simulation.trace() != nullptr && !queues_.empty()) [[unlikely]] tell_refusal(simulation, q, frame, ready);
   wake_at(simulation, ready);
+}
+
+/// One frame has come to a port with gates or shapers where nothing waits.
+inline void EgressPort::settle_one(sim::Simulation& simulation, FrameIndex frame) {
+  if (shaping_->limits_sdu() && !passes_max_sdu(simulation, frame)) return;
+  if (simulation.now() >= link_.free_at()) {
+    pass_shaping(simulation, frame, shared_->traffic->frame(frame));
+    return;
+  }
+  shaping_->frame_waits(simulation.now(), class_of(frame));
+  admit(simulation, frame);
+  wake_at(simulation, link_.free_at());
 }
 
 /// The common case of a port that wakes up: frames of one class wait.

@@ -82,6 +82,8 @@ class alignas(64) EgressPort final : public sim::Component {
     static_cast<void>(gather(frame, rank));
     settle(simulation);
   }
+  /// offer_last() at an instant that is complete.
+  void take_only(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank);
 
   /// The same for a frame of which only the header has come: it may start at once if this port cuts its class through, the medium
   /// is free, nothing waits and the link it comes from is as fast. Otherwise it is offered at `stored`, when it has wholly come
@@ -145,6 +147,7 @@ class alignas(64) EgressPort final : public sim::Component {
   enum class Path : std::uint8_t {
     plain,     ///< it starts
     gated,     ///< it starts when its gate lets it; nothing else has a say, and nothing waits
+    shaped,    ///< it starts when gate, eligibility time and credit let it; nothing waits
     merging,   ///< it starts; it may be cut later, or is express; nothing else has a say, nothing waits
     general,   ///< frames wait already, or there is more to consider
   };
@@ -180,8 +183,10 @@ class alignas(64) EgressPort final : public sim::Component {
   void settle_many(sim::Simulation& simulation);
   void settle_all_classes(sim::Simulation& simulation);
   void settle_one(sim::Simulation& simulation, FrameIndex frame);
+  void pass_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  void pass_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   void settle_waiting(sim::Simulation& simulation);
-  void pass_gate(sim::Simulation& simulation, FrameIndex frame);
+  void pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   void find_path();
   void find_gates();
   void settle_later(sim::Simulation& simulation) {
@@ -233,9 +238,9 @@ class alignas(64) EgressPort final : public sim::Component {
   /// Preamble and gap included.
   std::int64_t octets_on_medium(FrameIndex frame) const { return wire_length(Octets{shared_->traffic->frame(frame).length}).count; }
   sim::LocalTime eligible_of(FrameIndex frame) const {
-    const Frame& record = shared_->traffic->frame(frame);
-    return record.marked ? record.eligible : sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min());
+    return eligible_of(shared_->traffic->frame(frame));
   }
+  static sim::LocalTime eligible_of(const Frame& record) { return record.marked ? record.eligible : sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min()); }
 
   // One cache line holds all that a frame touches at a port that is free.
   bool settling_ = false;

@@ -43,11 +43,18 @@ ConfigChange PortShaping::request_gates(sim::TrueTime now, sim::LocalTime asked,
 }
 
 sim::TrueTime PortShaping::ready_time(sim::TrueTime now, TrafficClass q, const Head& head, sim::Duration delay) {
-  if (timed_ != 0 && is_timed(q) && head.eligible > clock_->local_at(now)) return clock_->true_after(head.eligible, now);
+  if (is_held(q, now, head)) return clock_->true_after(head.eligible, now);
   const sim::TrueTime gate = gate_ready_time(now, q, head.length, delay);
   if (gate != now) return gate;
   if (CreditBasedSelection* const credit = credit_based(q)) return credit->ready_time(gate_of(q), now);
   return now;
+}
+
+sim::TrueTime PortShaping::start_alone_if_ready(sim::TrueTime now, TrafficClass q, const Head& head) {
+  frame_waits(now, q);
+  const sim::TrueTime ready = ready_time(now, q, head);
+  if (ready == now) started(now, q, head.length, true);
+  return ready;
 }
 
 sim::TrueTime PortShaping::rest_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t remaining) { return gate_ready_time(now, q, remaining, {}); }
@@ -62,7 +69,7 @@ Refusal PortShaping::gate_refusal(sim::TrueTime now, TrafficClass q) {
 }
 
 Refusal PortShaping::refusal(sim::TrueTime now, TrafficClass q, const Head& head) {
-  if (is_timed(q) && head.eligible > clock_->local_at(now)) return {.hindrance = Hindrance::not_eligible, .traffic_class = q};
+  if (is_held(q, now, head)) return {.hindrance = Hindrance::not_eligible, .traffic_class = q};
   CreditBasedSelection* const credit = credit_based(q);
   if (credit == nullptr || gate_ready_time(now, q, head.length, {}) != now) return gate_refusal(now, q);
   return {.hindrance = Hindrance::credit, .traffic_class = q, .amount = credit->missing_bits(gate_of(q), now)};

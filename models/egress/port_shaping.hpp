@@ -62,6 +62,14 @@ class PortShaping {
   void started(sim::TrueTime now, TrafficClass q, std::uint32_t length, bool queue_is_empty) {
     if (CreditBasedShaper* const credit = credit_of(q, now)) credit->transmission_started(now, occupancy(length), queue_is_empty);
   }
+  /// frame_waits() and ready_time() of a frame that comes where none of its class waits and the medium is free, and started() if that is `now`. `now` if it has started.
+  sim::TrueTime start_alone(sim::TrueTime now, TrafficClass q, const Head& head) {
+    if (!has_gates_ && !is_held(q, now, head)) [[likely]] {
+      CreditBasedSelection* const credit = credit_based(q);
+      if (credit == nullptr || credit->start_alone(now, occupancy(head.length))) return now;
+    }
+    return start_alone_if_ready(now, q, head);
+  }
   /// The frame under way is cut; the medium is free at `free_at`.
   void cut(sim::TrueTime now, TrafficClass q, sim::TrueTime free_at) {
     if (CreditBasedShaper* const credit = credit_of(q, now)) credit->transmission_cut(now, free_at);
@@ -107,6 +115,9 @@ class PortShaping {
   using Selection = std::variant<StrictPriority, CreditPtr, TimeBased, EnhancedTransmissionSelection>;
 
   ConfigChange request_gates(sim::TrueTime now, sim::LocalTime asked, const GateConfig& gates);
+  sim::TrueTime start_alone_if_ready(sim::TrueTime now, TrafficClass q, const Head& head);
+  /// Its time is still to come.
+  bool is_held(TrafficClass q, sim::TrueTime now, const Head& head) const { return is_timed(q) && head.eligible > clock_->local_at(now); }
   sim::Duration occupancy(std::uint32_t length) const { return octet_time_ * wire_length(Octets{length}).count; }
   sim::TrueTime gate_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t length, sim::Duration delay);
   bool is_stuck(TrafficClass q) const { return ((forced_open_ | forced_closed_) >> q & 1u) != 0; }

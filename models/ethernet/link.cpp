@@ -16,18 +16,18 @@ void Link::redirect(const Reception& reception) {
   const LinkEnd& far_end = reception.far_end;
   TAKT_CHECK(far_end.delay.ps() >= 0 && far_end.delay.ps() < (std::int64_t{1} << 44), "a link and its far node delay a frame by at most 17 s");
   order_ = sim::Event::order_of(sim::Phase::arrival, far_end.node, sender());
-  port_ = far_end.port;
+  set_every_arrival(far_end.port, checks() ? unsigned{ArrivalArgument::check} : 0u);
   delay_ps_ = static_cast<std::uint64_t>(far_end.delay.ps()) & 0xFFF'FFFF'FFFF;
   reception_ = reception;
 }
 
 void Link::expect_faults(const sim::Simulation& simulation, std::string_view path) {
-  checks_ = true;
+  check_arrivals();
   if (!fault_) fault_ = std::make_unique<LinkFault>(simulation.seed(), path);
 }
 
 sim::TrueTime Link::transmit_any(sim::Simulation& simulation, FrameIndex frame, const Frame& record, bool is_preemptable) {
-  unsigned flags = checks_ || record.marked || record.bad_fcs ? unsigned{ArrivalArgument::check} : is_preemptable ? unsigned{ArrivalArgument::preemptable} : 0u;
+  unsigned flags = checks() || record.marked || record.bad_fcs ? unsigned{ArrivalArgument::check} : is_preemptable ? unsigned{ArrivalArgument::preemptable} : 0u;
   Octets told_after = preamble_and_sfd + Octets{record.length};
   // A header that is as long as the frame is a frame that is stored.
   if (!is_preemptable && (reception_.noticed_priorities >> record.priority & 1) != 0 && header_notice(record) < told_after) {
@@ -42,7 +42,7 @@ sim::TrueTime Link::transmit_any(sim::Simulation& simulation, FrameIndex frame, 
 sim::TrueTime Link::transmit_rest(sim::Simulation& simulation, FrameIndex frame, const Frame& record, Octets remaining) {
   ++other_events_;
   free_at_ = simulation.now() + octet_time() * wire_length(remaining).count;
-  return schedule_arrival(simulation, frame, preamble_and_sfd + remaining, checks_ || record.marked ? ArrivalArgument::check : ArrivalArgument::preemptable);
+  return schedule_arrival(simulation, frame, preamble_and_sfd + remaining, checks() || record.marked ? ArrivalArgument::check : ArrivalArgument::preemptable);
 }
 
 sim::TrueTime Link::schedule_arrival(sim::Simulation& simulation, FrameIndex frame, Octets told_after, unsigned flags) {

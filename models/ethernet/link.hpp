@@ -34,8 +34,10 @@ struct ArrivalArgument {
   std::uint16_t flags = 0;
   /// The link is to be asked.
   bool is_uncertain() const { return (flags & (check | preemptable)) != 0; }
+  static constexpr int frame_bits = 32;
+  static constexpr int port_bits = 16;
   static constexpr std::uint64_t pack(FrameIndex frame, std::uint16_t port, unsigned flags = 0) {
-    return static_cast<std::uint64_t>(flags) << 48 | static_cast<std::uint64_t>(port) << 32 | frame.value;
+    return static_cast<std::uint64_t>(flags) << (frame_bits + port_bits) | static_cast<std::uint64_t>(port) << frame_bits | frame.value;
   }
   static constexpr ArrivalArgument unpack(std::uint64_t argument) {
     return {FrameIndex{static_cast<std::uint32_t>(argument)}, static_cast<std::uint16_t>(argument >> 32), static_cast<std::uint16_t>(argument >> 48)};
@@ -78,7 +80,7 @@ class Link {
     reception_.noticed_header = header;
   }
   /// The sender marks frames, changes their tags, or may pass on damaged ones: the receiver looks at each.
-  void check_arrivals() { checks_ = true; }
+  void check_arrivals() { set_every_arrival(port(), ArrivalArgument::check); }
   /// Something may go wrong; `path` names the direction in the random streams, e.g. "sw1 to sw2".
   void expect_faults(const sim::Simulation& simulation, std::string_view path);
   /// Precondition: expect_faults().
@@ -88,8 +90,8 @@ class Link {
     exchange_ = &exchange;
     far_part_ = part;
   }
-  /// Nothing of all that: transmit() will do.
-  bool is_plain() const { return !checks_ && reception_.noticed_priorities == 0 && exchange_ == nullptr; }
+  /// Nothing of all that, but that the receiver may look at each frame: the link is always up, and transmit() will do.
+  bool is_plain() const { return reception_.noticed_priorities == 0 && exchange_ == nullptr && !fault_; }
 
   // The sending port.
   /// When the medium is free for the next frame: the gap after the last one is over.
@@ -105,7 +107,7 @@ class Link {
     free_at_ = now + sim::Duration::from_ps(until_last_bit + octet * inter_packet_gap.count);
     wire_octets_sent_ += wire_length(Octets{record.length}).count;
     simulation.schedule(source_, now + sim::Duration::from_ps(until_last_bit + static_cast<std::int64_t>(delay_ps_)), order_,
-                        static_cast<sim::EventKind>(NodeEvent::frame_arrived), ArrivalArgument::pack(frame, port()));
+                        static_cast<sim::EventKind>(NodeEvent::frame_arrived), static_cast<std::uint64_t>(every_arrival_) << ArrivalArgument::frame_bits | frame.value);
   }
   /// The same for any frame. When the receiver is told of it.
   sim::TrueTime transmit_any(sim::Simulation& simulation, FrameIndex frame, const Frame& record, bool is_preemptable);
@@ -161,13 +163,15 @@ class Link {
   Octets header_notice(const Frame& frame) const {
     return reception_.noticed_header + (frame.tagged ? vlan_tag : Octets{0}) + (frame.r_tagged ? r_tag : Octets{0});
   }
-  std::uint16_t port() const { return static_cast<std::uint16_t>(port_); }
+  std::uint16_t port() const { return static_cast<std::uint16_t>(every_arrival_); }
+  bool checks() const { return static_cast<std::uint64_t>(every_arrival_) >> ArrivalArgument::port_bits != 0; }
+  void set_every_arrival(std::uint16_t port, unsigned flags) { every_arrival_ = (ArrivalArgument::pack(FrameIndex{0}, port, flags) >> ArrivalArgument::frame_bits) & 0xF'FFFF; }
   sim::Duration delay() const { return sim::Duration::from_ps(static_cast<std::int64_t>(delay_ps_)); }
 
   // What every frame touches: the 48 octets that share a cache line with the sending port.
   std::uint64_t order_ = 0;                  // of events for the receiver (sim::Event::order_of)
   std::uint64_t delay_ps_ : 44 = 0;          // see LinkEnd::delay
-  std::uint64_t port_ : 16 = 0;
+  std::uint64_t every_arrival_ : 20 = 0;     // the argument of every arrival but for the frame: the port, and flags
   sim::TrueTime free_at_;
   std::uint64_t wire_octets_sent_ = 0;
   [[no_unique_address]] sim::EventSource source_;  // of the sending port
@@ -179,7 +183,6 @@ class Link {
   std::uint64_t frames_lost_ = 0;
   std::unique_ptr<LinkFault> fault_;
   std::vector<Withdrawn> withdrawn_;
-  bool checks_ = false;
   std::uint32_t far_part_ = 0;
   FrameExchange* exchange_ = nullptr;        // null: the receiver acts here
 };

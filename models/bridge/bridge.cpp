@@ -77,8 +77,10 @@ void Bridge::police_alone(sim::Simulation& simulation, ArrivalArgument arrival) 
   if (const Frame& record = traffic_->frame(frame); record.bad_fcs || record.link_local) [[unlikely]] {
     take_in(simulation, frame, arrival.port, nullptr);
     return;
+  } else if (record.marked) {
+    frame = unmarked(frame);
   }
-  const std::span<const FrameIndex> passed = chain_->pass(simulation, {unmarked(frame), arrival.port, simulation.now() - forwarding_delay_});
+  const std::span<const FrameIndex> passed = chain_->pass(simulation, {frame, arrival.port, simulation.now() - forwarding_delay_});
   if (passed.size() != 1) {
     for (const FrameIndex copy : passed) forward(simulation, copy, arrival.port, nullptr);
     return;

@@ -50,7 +50,7 @@ sim::TrueTime LocalClock::true_in_segments(sim::LocalTime time) const {
   return std::min(previous_.true_at(time), present_.start);
 }
 
-sim::LocalTime LocalClock::unstepped_at(sim::TrueTime time) const {
+sim::LocalTime LocalClock::unstepped_in_segments(sim::TrueTime time) const {
   const sim::LocalTime shown = local_at(time);
   if (shown == sim::LocalTime::never()) return shown;
   return shown - (time >= present_.start ? present_ : previous_).stepped;

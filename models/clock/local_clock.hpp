@@ -54,7 +54,10 @@ class LocalClock {
 
   /// The time of this clock as if it had never been stepped: follows the rate, never goes back, never jumps. Local intervals
   /// are measured on it. Equal to local_at() until the first step.
-  sim::LocalTime unstepped_at(sim::TrueTime time) const;
+  sim::LocalTime unstepped_at(sim::TrueTime time) const {
+    if (ideal_) [[likely]] return sim::LocalTime::from_ps(time.ps());
+    return unstepped_in_segments(time);
+  }
   /// The first instant at which unstepped_at() is at least `time`.
   sim::TrueTime true_at_unstepped(sim::LocalTime time) const;
 
@@ -90,6 +93,7 @@ class LocalClock {
 
   sim::LocalTime local_in_segments(sim::TrueTime time) const;
   sim::TrueTime true_in_segments(sim::LocalTime time) const;
+  sim::LocalTime unstepped_in_segments(sim::TrueTime time) const;
   void begin_segment(sim::TrueTime now, sim::Duration step);
 
   bool ideal_ = true;

@@ -7,6 +7,7 @@
 // never delayed by a picosecond or more.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -34,7 +35,15 @@ class AtsScheduler {
   /// ProcessFrame (8.6.11.3): the eligibility time of a frame whose last bit came at `arrival`, or nothing if it is to be
   /// discarded, which changes nothing but the group's count. `length` counts what the configuration counts, media
   /// overhead included if it is to be shaped too. Not before `arrival`, not before the group's last eligibility time.
-  std::optional<sim::LocalTime> process(sim::Octets length, sim::LocalTime arrival, AtsGroup& group);
+  std::optional<sim::LocalTime> process(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) {
+    const FineTime length_recovery = units_in_a_bit * 8 * length.count;
+    const FineTime scheduler_eligibility = bucket_empty_time_ + length_recovery;
+    const FineTime fine_arrival = fine(arrival);
+    if (arrival < group.group_eligibility_time || scheduler_eligibility > fine_arrival) [[unlikely]] return process_late(length_recovery, arrival, group);
+    group.group_eligibility_time = arrival;
+    bucket_empty_time_ = std::max(bucket_empty_time_, fine_arrival - empty_to_full_) + length_recovery;  // a full bucket takes no more
+    return arrival;
+  }
 
   sim::DataRate committed_information_rate() const { return {static_cast<std::uint64_t>(rate_)}; }
   std::uint64_t committed_burst_size_bits() const { return static_cast<std::uint64_t>(empty_to_full_ / units_in_a_bit); }
@@ -44,6 +53,8 @@ class AtsScheduler {
  private:
   /// Time in units of 1 ps / CIR: one bit at CIR lasts 10^12 of them, whatever CIR is.
   using FineTime = sim::int128;
+  /// A frame that its group or its bucket keeps.
+  std::optional<sim::LocalTime> process_late(FineTime length_recovery, sim::LocalTime arrival, AtsGroup& group);
   static constexpr FineTime units_in_a_bit = 1'000'000'000'000;
   FineTime fine(sim::LocalTime time) const { return static_cast<FineTime>(time.ps()) * rate_; }
 

@@ -5,6 +5,7 @@
 // picosecond, so nothing is lost between frames at any rate.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -47,7 +48,17 @@ class FlowMeter {
   explicit FlowMeter(const FlowMeterConfig& config);
 
   /// Colours a frame of that length (DA to FCS) at that time. Time that runs backwards (a clock step) brings no tokens.
-  Verdict meter(sim::Octets length, bool drop_eligible, sim::LocalTime arrival);
+  Verdict meter(sim::Octets length, bool drop_eligible, sim::LocalTime arrival) {
+    fill(std::max(arrival - last_, sim::Duration()));
+    last_ = arrival;
+    const bool arrived_green = config_.color_mode == ColorMode::color_blind || !drop_eligible;
+    const Tokens needed = tokens(length);
+    if (arrived_green && needed <= committed_tokens_ && !mark_all_frames_red_) [[likely]] {
+      committed_tokens_ -= needed;
+      return {FrameColor::green, true, drop_eligible};
+    }
+    return not_green(needed, drop_eligible);
+  }
 
   /// MarkAllFramesRed: set by the meter if enabled, cleared by management.
   bool mark_all_frames_red() const { return mark_all_frames_red_; }
@@ -64,11 +75,22 @@ class FlowMeter {
   static constexpr Tokens tokens(sim::Octets octets) { return tokens_in_an_octet * octets.count; }
   static constexpr sim::Octets octets(Tokens tokens) { return {static_cast<std::uint32_t>(tokens / tokens_in_an_octet)}; }
 
-  void fill(sim::Duration elapsed);
-  FrameColor color(Tokens length, bool arrived_green);
+  void fill(sim::Duration elapsed) {
+    committed_tokens_ += brought_by(config_.committed_information_rate, elapsed);
+    const Tokens overflow = committed_tokens_ - committed_burst_;
+    if (overflow > 0) committed_tokens_ = committed_burst_;
+    if (excess_burst_ > 0) fill_excess(elapsed, std::max(Tokens{0}, overflow));
+  }
+  static Tokens brought_by(sim::DataRate rate, sim::Duration elapsed) {
+    return static_cast<Tokens>(static_cast<sim::uint128>(rate.bits_per_second) * static_cast<std::uint64_t>(elapsed.ps()));
+  }
+  void fill_excess(sim::Duration elapsed, Tokens overflow);
+  Verdict not_green(Tokens needed, bool drop_eligible);
 
+  Tokens committed_burst_;
+  Tokens excess_burst_;
   Tokens committed_tokens_;
-  Tokens excess_tokens_;
+  Tokens excess_tokens_;   // none without a burst
   sim::LocalTime last_;
   bool mark_all_frames_red_ = false;
   FlowMeterConfig config_;

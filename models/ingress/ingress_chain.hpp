@@ -27,7 +27,7 @@ class IngressChain {
   /// several where a stream is split. A chain that changes a frame first makes the record its own (Traffic::own); queue_priority
   /// and eligible are set together with `marked`. The frame comes unmarked, with queue_priority == priority.
   /// The span lives until the next call.
-  virtual std::span<const FrameIndex> pass(sim::Simulation& simulation, const Ingress& ingress) = 0;
+  virtual std::span<const FrameIndex> pass(sim::Simulation& simulation, Ingress ingress) = 0;
 };
 
 }  // namespace takt::models

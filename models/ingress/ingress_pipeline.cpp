@@ -42,13 +42,92 @@ void IngressPipeline::lay_out_functions() {
   for (const StreamIdentityEntry& entry : config_->stream_identity_table) functions_of(entry.stream);
 }
 
-std::span<const FrameIndex> IngressPipeline::pass(sim::Simulation& simulation, const Ingress& ingress) {
-  FrameIndex frame = ingress.frame;
-  const StreamTable::Found found = streams_.identify(traffic_->frame(frame));
-  if (found.stream.is_none()) ++unidentified_frames_;
-  const Functions& functions = found.stream.is_none() ? functions_.back() : functions_[found.stream.value];
-  const bool is_member = found.member != StreamTable::no_member;
+bool IngressPipeline::discard(sim::Simulation& simulation, FrameIndex frame, DropReason reason) {
+  traffic_->drop(frame, reason, where_, simulation);
+  return false;
+}
 
+inline AtsGroup& IngressPipeline::group_of(const Scheduler& scheduler, const Frame& frame, std::uint16_t port) {
+  if (!scheduler.config.group.is_none()) return groups_[scheduler.config.group.value];
+  const std::size_t at = port * std::size_t{traffic_class_count} + config_->traffic_class_of_priority[frame.priority];
+  if (port_groups_.size() <= at) [[unlikely]] port_groups_.resize((port + std::size_t{1}) * traffic_class_count, {config_->maximum_residence_time, {}, 0});
+  return port_groups_[at];
+}
+
+inline std::optional<sim::LocalTime> IngressPipeline::shape(Scheduler& scheduler, const Frame& frame, std::uint16_t port, sim::LocalTime arrival) {
+  const Octets length = scheduler.config.media_overhead ? wire_length(Octets{frame.length}) : Octets{frame.length};
+  const std::optional<sim::LocalTime> eligible = scheduler.scheduler.process(length, arrival, group_of(scheduler, frame, port));
+  ++(eligible ? scheduler.passed : scheduler.discarded);
+  if (eligible) scheduler.longest_hold = std::max(scheduler.longest_hold, *eligible - arrival);
+  return eligible;
+}
+
+/// Per-stream filtering, policing and shaping. False: the frame was discarded. `index` is the record that goes on otherwise.
+inline bool IngressPipeline::police(sim::Simulation& simulation, FrameIndex& index, const Ingress& ingress, const Functions& functions) {
+  const Frame& frame = traffic_->frame(index);
+  const std::uint32_t number = functions.filter_of_priority[frame.priority];
+  if (number == none) return true;
+  StreamFilter& filter = filters_[StreamFilterIndex{number}];
+  const Octets msdu = Octets{frame.msdu} + (frame.r_tagged ? r_tag : Octets{0});  // an R-TAG is part of what the VLAN tag carries
+  if (!filter.accept(msdu)) [[unlikely]] return discard(simulation, index, DropReason::stream_max_sdu);
+
+  const sim::LocalTime arrival = clock_->local_at(ingress.on_wire);
+  std::optional<Priority> ipv;
+  if (const StreamGateIndex gate = filter.config().stream_gate; !gate.is_none()) {
+    const StreamGate::Verdict verdict = gates_[gate.value].admit(msdu, arrival);
+    if (verdict.outcome != StreamGate::Outcome::passed) [[unlikely]] {
+      filter.count_gate(false);
+      return discard(simulation, index, DropReason::stream_gate);
+    }
+    ipv = verdict.ipv;
+  }
+  filter.count_gate(true);
+
+  bool drop_eligible = frame.drop_eligible;
+  if (const FlowMeterIndex number_of_meter = filter.config().flow_meter; !number_of_meter.is_none()) {
+    Meter& meter = meters_[number_of_meter.value];
+    const FlowMeter::Verdict verdict = meter.meter.meter(Octets{frame.length}, drop_eligible, clock_->unstepped_at(ingress.on_wire));
+    ++meter.frames[static_cast<std::size_t>(verdict.color)];
+    if (!verdict.pass) [[unlikely]] {
+      ++meter.discarded;
+      filter.count_red();
+      return discard(simulation, index, DropReason::flow_meter);
+    }
+    drop_eligible = verdict.drop_eligible;
+  }
+
+  std::optional<sim::LocalTime> eligible;
+  if (const AtsSchedulerIndex scheduler = filter.config().ats_scheduler; !scheduler.is_none()) {
+    eligible = shape(schedulers_[scheduler.value], frame, ingress.port, arrival);
+    if (!eligible) [[unlikely]] return discard(simulation, index, DropReason::residence_time);
+  }
+
+  if (!ipv && !eligible && drop_eligible == frame.drop_eligible) return true;
+  index = traffic_->own(index);
+  Frame& own = traffic_->frame(index);
+  own.drop_eligible = drop_eligible;
+  if (ipv || eligible) {
+    own.queue_priority = ipv.value_or(own.priority);
+    own.eligible = eligible.value_or(arrival);
+    own.marked = true;
+  }
+  return true;
+}
+
+std::span<const FrameIndex> IngressPipeline::pass(sim::Simulation& simulation, Ingress ingress) {
+  const StreamTable::Found found = streams_.identify(traffic_->frame(ingress.frame));
+  if (found.stream.is_none()) ++unidentified_frames_;
+  const Functions& functions = functions_of(found);
+  if (functions.recovery != none || functions.split != none) return pass_member(simulation, ingress, found);
+  out_ = ingress.frame;
+  return {&out_, police(simulation, out_, ingress, functions) ? 1u : 0u};
+}
+
+/// Of a stream that is recovered here, or split.
+std::span<const FrameIndex> IngressPipeline::pass_member(sim::Simulation& simulation, const Ingress& ingress, const StreamTable::Found& found) {
+  FrameIndex frame = ingress.frame;
+  const Functions& functions = functions_of(found);
+  const bool is_member = found.member != StreamTable::no_member;
   if (functions.recovery != none && (is_member || traffic_->frame(frame).r_tagged)) {
     const std::size_t member = is_member ? found.member : StreamRecovery::no_member;
     const std::optional<FrameIndex> passed =
@@ -64,77 +143,6 @@ std::span<const FrameIndex> IngressPipeline::pass(sim::Simulation& simulation, c
   if (functions.split != none && (!is_member || functions.recovery != none)) return splits_[functions.split].split.split(*traffic_, frame, is_member ? ingress.port : StreamSplit::any_port);
   out_ = frame;
   return {&out_, 1};
-}
-
-/// Per-stream filtering, policing and shaping. False: the frame was discarded. `frame` is the record that goes on otherwise.
-bool IngressPipeline::police(sim::Simulation& simulation, FrameIndex& index, const Ingress& ingress, const Functions& functions) {
-  const Frame& frame = traffic_->frame(index);
-  const std::uint32_t number = functions.filter_of_priority[frame.priority];
-  if (number == none) return true;
-  const auto discard = [&](DropReason reason) {
-    traffic_->drop(index, reason, where_, simulation);
-    return false;
-  };
-  StreamFilter& filter = filters_[StreamFilterIndex{number}];
-  const Octets msdu = Octets{frame.msdu} + (frame.r_tagged ? r_tag : Octets{0});  // an R-TAG is part of what the VLAN tag carries
-  if (!filter.accept(msdu)) return discard(DropReason::stream_max_sdu);
-
-  const sim::LocalTime arrival = clock_->local_at(ingress.on_wire);
-  std::optional<Priority> ipv;
-  if (const StreamGateIndex gate = filter.config().stream_gate; !gate.is_none()) {
-    const StreamGate::Verdict verdict = gates_[gate.value].admit(msdu, arrival);
-    if (verdict.outcome != StreamGate::Outcome::passed) {
-      filter.count_gate(false);
-      return discard(DropReason::stream_gate);
-    }
-    ipv = verdict.ipv;
-  }
-  filter.count_gate(true);
-
-  bool drop_eligible = frame.drop_eligible;
-  if (const FlowMeterIndex number_of_meter = filter.config().flow_meter; !number_of_meter.is_none()) {
-    Meter& meter = meters_[number_of_meter.value];
-    const FlowMeter::Verdict verdict = meter.meter.meter(Octets{frame.length}, drop_eligible, clock_->unstepped_at(ingress.on_wire));
-    ++meter.frames[static_cast<std::size_t>(verdict.color)];
-    if (!verdict.pass) {
-      ++meter.discarded;
-      filter.count_red();
-      return discard(DropReason::flow_meter);
-    }
-    drop_eligible = verdict.drop_eligible;
-  }
-
-  std::optional<sim::LocalTime> eligible;
-  if (const AtsSchedulerIndex scheduler = filter.config().ats_scheduler; !scheduler.is_none()) {
-    eligible = shape(schedulers_[scheduler.value], frame, ingress.port, arrival);
-    if (!eligible) return discard(DropReason::residence_time);
-  }
-
-  if (!ipv && !eligible && drop_eligible == frame.drop_eligible) return true;
-  index = traffic_->own(index);
-  Frame& own = traffic_->frame(index);
-  own.drop_eligible = drop_eligible;
-  if (ipv || eligible) {
-    own.queue_priority = ipv.value_or(own.priority);
-    own.eligible = eligible.value_or(arrival);
-    own.marked = true;
-  }
-  return true;
-}
-
-std::optional<sim::LocalTime> IngressPipeline::shape(Scheduler& scheduler, const Frame& frame, std::uint16_t port, sim::LocalTime arrival) {
-  const Octets length = scheduler.config.media_overhead ? wire_length(Octets{frame.length}) : Octets{frame.length};
-  const std::optional<sim::LocalTime> eligible = scheduler.scheduler.process(length, arrival, group_of(scheduler, frame, port));
-  ++(eligible ? scheduler.passed : scheduler.discarded);
-  if (eligible) scheduler.longest_hold = std::max(scheduler.longest_hold, *eligible - arrival);
-  return eligible;
-}
-
-AtsGroup& IngressPipeline::group_of(const Scheduler& scheduler, const Frame& frame, std::uint16_t port) {
-  if (!scheduler.config.group.is_none()) return groups_[scheduler.config.group.value];
-  const std::size_t at = port * std::size_t{traffic_class_count} + config_->traffic_class_of_priority[frame.priority];
-  if (port_groups_.size() <= at) port_groups_.resize((port + std::size_t{1}) * traffic_class_count, {config_->maximum_residence_time, {}, 0});
-  return port_groups_[at];
 }
 
 const std::vector<IngressPipeline::Recovery>& IngressPipeline::recoveries(sim::TrueTime now) {

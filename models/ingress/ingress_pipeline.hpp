@@ -43,7 +43,7 @@ class IngressPipeline final : public IngressChain {
   /// outlive the pipeline.
   IngressPipeline(Traffic& traffic, const IngressConfig& config, const LocalClock& clock, sim::ComponentId where, std::uint32_t first_group);
 
-  std::span<const FrameIndex> pass(sim::Simulation& simulation, const Ingress& ingress) override;
+  std::span<const FrameIndex> pass(sim::Simulation& simulation, Ingress ingress) override;
 
   struct Meter {
     NamedFlowMeterConfig config;
@@ -93,9 +93,12 @@ class IngressPipeline final : public IngressChain {
     std::array<std::uint32_t, 8> filter_of_priority{};   ///< the first that matches
   };
 
+  std::span<const FrameIndex> pass_member(sim::Simulation& simulation, const Ingress& ingress, const StreamTable::Found& found);
   bool police(sim::Simulation& simulation, FrameIndex& frame, const Ingress& ingress, const Functions& functions);
+  bool discard(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
   std::optional<sim::LocalTime> shape(Scheduler& scheduler, const Frame& frame, std::uint16_t port, sim::LocalTime arrival);
   AtsGroup& group_of(const Scheduler& scheduler, const Frame& frame, std::uint16_t port);
+  const Functions& functions_of(const StreamTable::Found& found) const { return found.stream.is_none() ? functions_.back() : functions_[found.stream.value]; }
   void lay_out_functions();
 
   Traffic* traffic_;

@@ -6,9 +6,10 @@ StreamGate::StreamGate(const StreamGateConfig& config) : config_(config), schedu
   if (!config.admin_control_list.empty()) request_change(first_request(sim::LocalTime(), config.admin_base_time, config.is_running), config);
 }
 
-StreamGate::Verdict StreamGate::admit(Octets msdu, sim::LocalTime now) {
+/// Where it is closed, or octets are counted.
+StreamGate::Verdict StreamGate::admit_exactly(Octets msdu, sim::LocalTime now) {
   const StreamGateState state = schedule_.state(now);
-  if (closed_due_to_invalid_rx_ || closed_due_to_octets_exceeded_ || !state.open) {
+  if (is_latched() || !state.open) {
     ++counters_.closed;
     closed_due_to_invalid_rx_ = closed_due_to_invalid_rx_ || config_.closed_due_to_invalid_rx_enable;
     return {Outcome::closed, std::nullopt};

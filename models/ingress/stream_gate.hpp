@@ -30,7 +30,12 @@ class StreamGate {
   explicit StreamGate(const StreamGateConfig& config);
 
   /// Decides about an MSDU of that many octets whose last bit came at `now`, which does not decrease from call to call.
-  Verdict admit(Octets msdu, sim::LocalTime now);
+  Verdict admit(Octets msdu, sim::LocalTime now) {
+    const StreamGateEntry* const entry = schedule_.entry(now);
+    if (is_latched() || (entry != nullptr ? !entry->open || entry->interval_octet_max : !schedule_.admin_gate_open())) [[unlikely]] return admit_exactly(msdu, now);
+    ++counters_.passed;
+    return {Outcome::passed, entry != nullptr ? entry->ipv : schedule_.admin_ipv()};
+  }
 
   /// Management sets ConfigChange with another list, cycle time, extension and base time.
   ConfigChange request_change(sim::LocalTime now, const StreamGateConfig& config);
@@ -46,6 +51,9 @@ class StreamGate {
   StreamGateSchedule& schedule() { return schedule_; }
 
  private:
+  bool is_latched() const { return closed_due_to_invalid_rx_ || closed_due_to_octets_exceeded_; }
+  Verdict admit_exactly(Octets msdu, sim::LocalTime now);
+
   StreamGateConfig config_;
   std::vector<std::unique_ptr<const StreamGateList>> lists_;  // of all requests: the schedule refers to them
   StreamGateSchedule schedule_;

@@ -81,6 +81,14 @@ class StreamGateSchedule {
   ConfigChange request_change(sim::LocalTime now, const AdminConfig& admin);
 
   StreamGateState state(sim::LocalTime now);
+  /// The entry in force, or null before the first list.
+  const StreamGateEntry* entry(sim::LocalTime now) {
+    const Schedule::Place& place = here(now);
+    const StreamGateList* const list = schedule_.present().list;
+    return list == nullptr ? nullptr : &list->entries()[place.entry];
+  }
+  bool admin_gate_open() const { return admin_gate_open_; }
+  std::optional<Priority> admin_ipv() const { return admin_ipv_; }
   /// The first instant after `now` at which an operation is executed or another list begins; never() if none is.
   sim::LocalTime next_operation(sim::LocalTime now);
 

@@ -66,6 +66,8 @@ void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
     pass_on(simulation, event, arrival);
   else if (only_polices_ && has_arrived && (arrival.flags & ~unsigned{ArrivalArgument::check}) == 0 && simulation.instant_is_surely_complete())
     police_alone(simulation, arrival);
+  else if (!looks_closer_ && arrival.flags == ArrivalArgument::preemptable && has_arrived)
+    receive_preemptable(simulation, event, arrival);
   else
     handle_seldom(simulation, event, arrival);
 }
@@ -74,29 +76,27 @@ void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
 void Bridge::police_alone(sim::Simulation& simulation, ArrivalArgument arrival) {
   FrameIndex frame = arrival.frame;
   if (arrival.flags != 0 && !ports_[arrival.port].incoming().receive(simulation, frame, arrival.flags)) return;
-  if (const Frame& record = traffic_->frame(frame); record.bad_fcs || record.link_local) [[unlikely]] {
+  Frame* record = &traffic_->frame(frame);
+  if (record->bad_fcs || record->link_local) [[unlikely]] {
     take_in(simulation, frame, arrival.port, nullptr);
     return;
-  } else if (record.marked) {
-    frame = unmarked(frame);
   }
+  if (record->marked) frame = unmarked(frame, *record);
   const std::span<const FrameIndex> passed = chain_->pass(simulation, {frame, arrival.port, simulation.now() - forwarding_delay_});
-  if (passed.size() != 1) {
-    for (const FrameIndex copy : passed) forward(simulation, copy, arrival.port, nullptr);
-    return;
+  if (passed.size() == 1) [[likely]] {
+    if (passed.front() != frame || frame != arrival.frame) [[unlikely]] record = &traffic_->frame(passed.front());
+    const std::uint32_t port = port_for(*record);
+    if (port != FilteringDatabase::not_at_once && port != arrival.port) [[likely]] {
+      ports_[port].take_only(simulation, passed.front(), *record, arrival.port);
+      return;
+    }
   }
-  frame = passed.front();
-  Frame& record = traffic_->frame(frame);
-  const std::uint32_t port = port_for(record);
-  if (port != FilteringDatabase::not_at_once && port != arrival.port) [[likely]]
-    ports_[port].take_only(simulation, frame, record, arrival.port);
-  else
-    forward(simulation, frame, arrival.port, nullptr);
+  for (const FrameIndex copy : passed) forward(simulation, copy, arrival.port, nullptr);
 }
 
 void Bridge::handle_seldom(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
   if (event.kind() == static_cast<sim::EventKind>(NodeEvent::frame_arrived))
-    receive_flagged(simulation, event, arrival);
+    look_closer(simulation, arrival);
   else if (event.kind() == stored_for_host)
     take_stored(simulation, arrival);
   else
@@ -110,11 +110,11 @@ void Bridge::leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16
   jitter_->leave(from, [&](FrameIndex frame) { forward(simulation, frame, from, nullptr); });
 }
 
-void Bridge::receive_flagged(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
-  if (looks_closer_ || arrival.flags != ArrivalArgument::preemptable)
-    look_closer(simulation, arrival);
-  else if (ports_[arrival.port].incoming().receive(simulation, arrival.frame, arrival.flags))
+void Bridge::receive_preemptable(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
+  if (ports_[arrival.port].incoming().receive(simulation, arrival.frame, arrival.flags))
     pass_on(simulation, event, arrival);
+  else
+    release_if_last(simulation, event);
 }
 
 void Bridge::prefetch(const sim::Event& event, Ahead ahead) const {
@@ -160,7 +160,7 @@ void Bridge::take_in(sim::Simulation& simulation, FrameIndex frame, std::uint16_
     forward(simulation, frame, from, nullptr);
     return;
   }
-  frame = unmarked(frame);
+  if (Frame& record = traffic_->frame(frame); record.marked) frame = unmarked(frame, record);
   if (chain_ == nullptr) {
     pass_through(simulation, std::span(&frame, 1), from, header);
     return;

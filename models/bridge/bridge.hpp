@@ -93,18 +93,19 @@ class alignas(64) Bridge final : public sim::Component {
   void release_if_last(sim::Simulation& simulation, const sim::Event& event);
   [[gnu::noinline]] void handle_seldom(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   [[gnu::noinline]] void leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16_t from);
-  [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
+  [[gnu::noinline]] void receive_preemptable(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   void look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
   void take_in(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header);
   [[gnu::noinline]] void police_alone(sim::Simulation& simulation, ArrivalArgument arrival);
-  /// The frame as the chain is to see it: what an earlier bridge has marked is forgotten.
-  FrameIndex unmarked(FrameIndex frame) {
-    if (!traffic_->frame(frame).marked) return frame;
-    frame = traffic_->own(frame);
-    Frame& record = traffic_->frame(frame);
-    record.marked = false;
-    record.queue_priority = record.priority;
-    return frame;
+  /// The frame without what an earlier node has marked.
+  FrameIndex unmarked(FrameIndex index, Frame& frame) {
+    if (frame.references != 1) [[unlikely]] {
+      const FrameIndex own = traffic_->own(index);
+      return unmarked(own, traffic_->frame(own));
+    }
+    frame.marked = false;
+    frame.queue_priority = frame.priority;
+    return index;
   }
   void find_whether_it_only_polices() { only_polices_ = chain_ != nullptr && jitter_ == nullptr && !untags_ && !tells_arrivals_; }
   void pass_through(sim::Simulation& simulation, std::span<const FrameIndex> frames, std::uint16_t from, const Header* header);

@@ -85,6 +85,74 @@ void EgressPort::offer(sim::Simulation& simulation, FrameIndex frame, std::uint3
   }
 }
 
+/// A frame comes alone to a free medium at a port that has gates and nothing else: most often in the window of the frame before it.
+inline void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
+  if (clock_->is_ideal() && only_gates_->is_in_known_window(q, clock_->local_at(simulation.now()), octet_time() * (preamble_and_sfd.count + std::int64_t{record.length}))) [[likely]] {
+    sending_ = q;
+    start(simulation, frame, record);
+  } else {
+    pass_gate_exactly(simulation, frame, record);
+  }
+}
+
+void EgressPort::pass_gate_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  const sim::TrueTime now = simulation.now();
+  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
+  const StartAnswer answer = only_gates_->may_start(q, clock_->local_at(now), octet_time() * (preamble_and_sfd.count + std::int64_t{record.length}));
+  if (answer.may_start) [[likely]] {
+    sending_ = q;
+    start(simulation, frame, record);
+    return;
+  }
+  admit(simulation, frame);
+  path_ = Path::general;
+  promised_ = clock_->true_after(answer.ask_again, now);
+  // A frame that found no room is no more.
+  if (simulation.trace() != nullptr && !queues_.empty()) [[unlikely]] tell_refusal(simulation, q, frame, promised_);
+  wake_at(simulation, promised_);
+}
+
+/// The same at a port that has other shapers, too: most often without gates, and what it asks for is there.
+inline void EgressPort::pass_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
+  if (clock_->is_ideal() && shaping_->starts_alone_without_gates(simulation.now(), q, record.length, eligible_of(record))) [[likely]] {
+    sending_ = q;
+    start(simulation, frame, record);
+  } else {
+    pass_shaping_exactly(simulation, frame, record);
+  }
+}
+
+void EgressPort::pass_shaping_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  const sim::TrueTime now = simulation.now();
+  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
+  const sim::TrueTime ready = shaping_->start_alone(now, q, {record.length, eligible_of(record)});
+  if (ready == now) [[likely]] {
+    sending_ = q;
+    start(simulation, frame, record);
+    return;
+  }
+  admit(simulation, frame);
+  find_path();
+  promised_ = shaping_->is_gated_only(q) ? ready : sim::TrueTime::never();
+  // As above.
+  if (simulation.trace() != nullptr && !queues_.empty()) [[unlikely]] tell_refusal(simulation, q, frame, ready);
+  wake_at(simulation, ready);
+}
+
+/// One frame, nothing waits, the medium is free, and the path is not the general one.
+inline void EgressPort::pass_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  if (path_ == Path::plain)
+    start(simulation, frame, record);
+  else if (path_ == Path::gated)
+    pass_gate(simulation, frame, record);
+  else if (path_ == Path::shaped)
+    pass_shaping(simulation, frame, record);
+  else
+    pass_merging(simulation, frame, record);
+}
+
 /// offer_last() where the instant may not be complete, or the frame does not just start.
 void EgressPort::take_last(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
   if (!simulation.instant_is_complete()) {
@@ -104,18 +172,6 @@ void EgressPort::take_only(sim::Simulation& simulation, FrameIndex frame, const 
   settle_many(simulation);
 }
 
-/// One frame, nothing waits, the medium is free, and the path is not the general one.
-inline void EgressPort::pass_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
-  if (path_ == Path::plain)
-    start(simulation, frame, record);
-  else if (path_ == Path::gated)
-    pass_gate(simulation, frame, record);
-  else if (path_ == Path::shaped)
-    pass_shaping(simulation, frame, record);
-  else
-    start_with_extras(simulation, frame, config_->traffic_class_of_priority[record.queue_priority]);
-}
-
 void EgressPort::settle(sim::Simulation& simulation) {
   settling_ = false;
   // The common case: one frame, nothing waits, the medium is free.
@@ -125,42 +181,6 @@ void EgressPort::settle(sim::Simulation& simulation) {
     return;
   }
   settle_many(simulation);
-}
-
-/// A frame comes alone to a free medium at a port that has gates and nothing else.
-void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
-  const sim::TrueTime now = simulation.now();
-  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
-  const StartAnswer answer = only_gates_->may_start(q, clock_->local_at(now), octet_time() * (preamble_and_sfd.count + std::int64_t{record.length}));
-  if (answer.may_start) [[likely]] {
-    sending_ = q;
-    start(simulation, frame, record);
-    return;
-  }
-  admit(simulation, frame);
-  path_ = Path::general;
-  promised_ = clock_->true_after(answer.ask_again, now);
-  // A frame that found no room is no more.
-  if (simulation.trace() != nullptr && !queues_.empty()) [[unlikely]] tell_refusal(simulation, q, frame, promised_);
-  wake_at(simulation, promised_);
-}
-
-/// The same at a port that has other shapers, too.
-void EgressPort::pass_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
-  const sim::TrueTime now = simulation.now();
-  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
-  const sim::TrueTime ready = shaping_->start_alone(now, q, {record.length, eligible_of(record)});
-  if (ready == now) [[likely]] {
-    sending_ = q;
-    start(simulation, frame, record);
-    return;
-  }
-  admit(simulation, frame);
-  find_path();
-  promised_ = shaping_->is_gated_only(q) ? ready : sim::TrueTime::never();
-  // As above.
-  if (simulation.trace() != nullptr && !queues_.empty()) [[unlikely]] tell_refusal(simulation, q, frame, ready);
-  wake_at(simulation, ready);
 }
 
 /// One frame has come to a port with gates or shapers where nothing waits.
@@ -400,36 +420,6 @@ bool EgressPort::passes_max_sdu(sim::Simulation& simulation, FrameIndex frame) {
   if (shaping_->fits_max_sdu(config_->traffic_class_of_priority[record.queue_priority], msdu)) return true;
   give_up(simulation, frame, DropReason::queue_max_sdu);
   return false;
-}
-
-ConfigChange EgressPort::request_gates(sim::Simulation& simulation, const GateConfig& gates) {
-  make_shaping();
-  const ConfigChange change = shaping_->request_gates(simulation.now(), gates);
-  gates_changed(simulation);
-  return change;
-}
-
-void EgressPort::force_gate(sim::Simulation& simulation, TrafficClass q, std::optional<bool> open) {
-  make_shaping().force_gate(simulation.now(), q, open);
-  gates_changed(simulation);
-}
-
-void EgressPort::gates_changed(sim::Simulation& simulation) {
-  if (const sim::TrueTime last_bit = link_.last_bit(); last_bit > simulation.now()) shaping_->check_overrun(simulation.now(), sending_, last_bit);
-  find_gates();
-  ask_again(simulation);
-}
-
-void EgressPort::clock_changed(sim::Simulation& simulation) {
-  if (shaping_) ask_again(simulation);
-}
-
-void EgressPort::ask_again(sim::Simulation& simulation) {
-  promised_ = sim::TrueTime::never();
-  if (extras_ && extras_->merge) extras_->merge->gates_changed();
-  if (!queues_.empty() || (extras_ && extras_->merge)) settle_later(simulation);
-  if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
-    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::gates_changed), id(), 0, 0});
 }
 
 void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {

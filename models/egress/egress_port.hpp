@@ -52,10 +52,12 @@ class alignas(64) EgressPort final : public sim::Component {
   /// The same as the last act of an event handler: spares the settling if nothing else happens at this instant. `record` is that of
   /// the frame.
   void offer_last(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
-    if (simulation.instant_is_surely_complete() && simulation.now() >= link_.free_at() && path_ == Path::plain) [[likely]]
+    if (!simulation.instant_is_surely_complete()) [[unlikely]]
+      take_last(simulation, frame, record, rank);
+    else if (simulation.now() >= link_.free_at() && path_ == Path::plain) [[likely]]
       start(simulation, frame, record);
     else
-      take_last(simulation, frame, record, rank);
+      take_only(simulation, frame, record, rank);
   }
 
   // For a bridge that knows when nothing more comes to it at an instant; what else happens at the instant does not concern a port that decides_by_itself().
@@ -185,6 +187,9 @@ class alignas(64) EgressPort final : public sim::Component {
   void settle_one(sim::Simulation& simulation, FrameIndex frame);
   void pass_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   void pass_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  [[gnu::noinline]] void pass_shaping_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  [[gnu::noinline]] void pass_gate_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  void pass_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   void settle_waiting(sim::Simulation& simulation);
   void pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   void find_path();

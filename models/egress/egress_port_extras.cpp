@@ -1,4 +1,4 @@
-// What few ports do: preemption, cut-through, and sharing bandwidth; and what all say to who records the run.
+// What few ports do: preemption, cut-through, and sharing bandwidth; what all say to who records the run; and what happens to them: other gates, links that fail.
 #include <algorithm>
 
 #include "models/egress/egress_port.hpp"
@@ -18,6 +18,23 @@ void EgressPort::start_with_extras(sim::Simulation& simulation, FrameIndex frame
     merge->express_started();
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({now, static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, TransmissionDetail{record.length, q}.pack()});
+}
+
+/// A frame comes alone to a free medium at a port that preempts and has nothing else.
+void EgressPort::pass_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
+  if (record.link_local || simulation.trace() != nullptr) [[unlikely]] {
+    start_with_extras(simulation, frame, q);
+    return;
+  }
+  MacMerge& merge = *extras_->merge;
+  if (!merge.is_preemptable(q)) {
+    link_.transmit(simulation, frame, record);
+    merge.express_started();
+    return;
+  }
+  const sim::TrueTime arrival = link_.transmit(simulation, frame, record, ArrivalArgument::preemptable);
+  merge.started({frame, q, simulation.now(), Octets{record.length}, arrival});
 }
 
 /// Of classes that share bandwidth the one whose turn it is among those that may start. What is selected for the present instant starts, and pays; for a later one the question is only
@@ -197,6 +214,36 @@ void EgressPort::tell_refusals(sim::Simulation& simulation) {
     }
   }
   if (of_preemptable && merge->rest()) tell_of_preemptable(merge->rest()->traffic_class, true);
+}
+
+ConfigChange EgressPort::request_gates(sim::Simulation& simulation, const GateConfig& gates) {
+  make_shaping();
+  const ConfigChange change = shaping_->request_gates(simulation.now(), gates);
+  gates_changed(simulation);
+  return change;
+}
+
+void EgressPort::force_gate(sim::Simulation& simulation, TrafficClass q, std::optional<bool> open) {
+  make_shaping().force_gate(simulation.now(), q, open);
+  gates_changed(simulation);
+}
+
+void EgressPort::gates_changed(sim::Simulation& simulation) {
+  if (const sim::TrueTime last_bit = link_.last_bit(); last_bit > simulation.now()) shaping_->check_overrun(simulation.now(), sending_, last_bit);
+  find_gates();
+  ask_again(simulation);
+}
+
+void EgressPort::clock_changed(sim::Simulation& simulation) {
+  if (shaping_) ask_again(simulation);
+}
+
+void EgressPort::ask_again(sim::Simulation& simulation) {
+  promised_ = sim::TrueTime::never();
+  if (extras_ && extras_->merge) extras_->merge->gates_changed();
+  if (!queues_.empty() || (extras_ && extras_->merge)) settle_later(simulation);
+  if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
+    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::gates_changed), id(), 0, 0});
 }
 
 void EgressPort::set_link_up(sim::Simulation& simulation, bool up) {

@@ -15,6 +15,7 @@ bool fits(LocalTime start, LocalTime close, Duration duration) {
 
 ConfigChange GateSchedule::request_change(LocalTime now, const AdminConfig& admin) {
   move_to(now);
+  known_ = {};
   const ConfigChange change = schedule_.request_change(now, admin);
   move_to(now);
   return change;

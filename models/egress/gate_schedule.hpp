@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "models/egress/cyclic_schedule.hpp"
@@ -64,6 +65,15 @@ class GateSchedule {
   /// The first instant after `now` at which any gate changes its state.
   sim::LocalTime next_change(sim::LocalTime now);
 
+  /// True if such a frame may start since it fits into the window in which may_start() has last let one of the class start, or into the same one of the next cycle; no answer otherwise.
+  bool is_in_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) {
+    if (now >= known_.next_from) {
+      known_.from = known_.next_from;
+      known_.until = known_.until.plus_saturated(known_.cycle);
+      known_.next_from = known_.from.plus_saturated(known_.cycle);
+    }
+    return q == known_.traffic_class && now >= known_.from && now <= known_.until - duration;
+  }
   /// May a frame of class q that lasts for `duration` (not negative) start now and end before its gate closes (8.6.8.4)?
   /// Which octets are part of the duration is the caller's choice.
   StartAnswer may_start(TrafficClass q, sim::LocalTime now, sim::Duration duration) {
@@ -134,7 +144,10 @@ class GateSchedule {
     const std::int64_t duration_ps = duration.ps();
     for (const GateControlList::Window& window : windows) {
       if (at_ps >= window.from_ps) {
-        if (at_ps < window.until_ps && at_ps + duration_ps <= window.until_ps) return {true, now};
+        if (at_ps < window.until_ps && at_ps + duration_ps <= window.until_ps) {
+          know(q, window, list.cycle_time());
+          return {true, now};
+        }
       } else if (window.from_ps + duration_ps <= window.until_ps) {
         return {false, cursor_ + sim::Duration::from_ps(window.from_ps)};
       }
@@ -142,6 +155,13 @@ class GateSchedule {
     for (const GateControlList::Window& window : windows)
       if (window.from_ps + cycle_ps > at_ps && window.from_ps + duration_ps <= window.until_ps) return {false, cursor_ + sim::Duration::from_ps(window.from_ps + cycle_ps)};
     return {false, sim::LocalTime::never()};
+  }
+  void know(TrafficClass q, const GateControlList::Window& window, sim::Duration cycle) {
+    const sim::LocalTime from = cursor_ + sim::Duration::from_ps(window.from_ps);
+    if (window.from_ps > -CyclicIntervals::longest.ps())
+      known_ = {q, cycle, from, cursor_ + sim::Duration::from_ps(window.until_ps), from + cycle};
+    else
+      known_ = {q, cycle, sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min()), sim::LocalTime::never(), sim::LocalTime::never()};   // it is always open
   }
   StartAnswer may_start_by_search(const Place& place, TrafficClass q, sim::LocalTime now, sim::Duration duration) const;
   bool holds_in(const Place& place) const;
@@ -154,6 +174,15 @@ class GateSchedule {
   const GateControlList* cursor_list_ = nullptr;
   sim::LocalTime cursor_anchor_;
   sim::LocalTime cursor_;
+  /// A window of a list that runs for ever.
+  struct KnownWindow {
+    TrafficClass traffic_class = 0;
+    sim::Duration cycle;
+    sim::LocalTime from = sim::LocalTime::never();   // at first one that holds no instant
+    sim::LocalTime until;
+    sim::LocalTime next_from = sim::LocalTime::never();   // a cycle later
+  };
+  KnownWindow known_;
   bool hold_before_present_ = false;  // whether the MAC held when the present span began
 };
 

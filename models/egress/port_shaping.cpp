@@ -50,7 +50,7 @@ sim::TrueTime PortShaping::ready_time(sim::TrueTime now, TrafficClass q, const H
   return now;
 }
 
-sim::TrueTime PortShaping::start_alone_if_ready(sim::TrueTime now, TrafficClass q, const Head& head) {
+sim::TrueTime PortShaping::start_alone(sim::TrueTime now, TrafficClass q, const Head& head) {
   frame_waits(now, q);
   const sim::TrueTime ready = ready_time(now, q, head);
   if (ready == now) started(now, q, head.length, true);

@@ -63,12 +63,12 @@ class PortShaping {
     if (CreditBasedShaper* const credit = credit_of(q, now)) credit->transmission_started(now, occupancy(length), queue_is_empty);
   }
   /// frame_waits() and ready_time() of a frame that comes where none of its class waits and the medium is free, and started() if that is `now`. `now` if it has started.
-  sim::TrueTime start_alone(sim::TrueTime now, TrafficClass q, const Head& head) {
-    if (!has_gates_ && !is_held(q, now, head)) [[likely]] {
-      CreditBasedSelection* const credit = credit_based(q);
-      if (credit == nullptr || credit->start_alone(now, occupancy(head.length))) return now;
-    }
-    return start_alone_if_ready(now, q, head);
+  sim::TrueTime start_alone(sim::TrueTime now, TrafficClass q, const Head& head);
+  /// The same where there are no gates. True if the frame has started; false: start_alone() says when to ask again.
+  bool starts_alone_without_gates(sim::TrueTime now, TrafficClass q, std::uint32_t length, sim::LocalTime eligible) {
+    if (has_gates_ || (is_timed(q) && eligible > clock_->local_at(now))) return false;
+    CreditBasedSelection* const credit = credit_based(q);
+    return credit == nullptr || credit->start_alone(now, occupancy(length));
   }
   /// The frame under way is cut; the medium is free at `free_at`.
   void cut(sim::TrueTime now, TrafficClass q, sim::TrueTime free_at) {
@@ -115,7 +115,6 @@ class PortShaping {
   using Selection = std::variant<StrictPriority, CreditPtr, TimeBased, EnhancedTransmissionSelection>;
 
   ConfigChange request_gates(sim::TrueTime now, sim::LocalTime asked, const GateConfig& gates);
-  sim::TrueTime start_alone_if_ready(sim::TrueTime now, TrafficClass q, const Head& head);
   /// Its time is still to come.
   bool is_held(TrafficClass q, sim::TrueTime now, const Head& head) const { return is_timed(q) && head.eligible > clock_->local_at(now); }
   sim::Duration occupancy(std::uint32_t length) const { return octet_time_ * wire_length(Octets{length}).count; }

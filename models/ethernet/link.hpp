@@ -100,14 +100,18 @@ class Link {
   sim::TrueTime last_bit() const { return free_at_ - octet_time() * inter_packet_gap.count; }
 
   /// Puts a frame on the free medium. Preconditions: is_plain(); nobody cuts the frame.
-  void transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  void transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record) { transmit(simulation, frame, record, 0); }
+  /// The same with flags for the receiver; of a frame that may be cut, too. When the receiver is told of it.
+  sim::TrueTime transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint64_t flags) {
     const std::int64_t octet = octet_time_ps_;
     const std::int64_t until_last_bit = octet * (preamble_and_sfd.count + record.length);
     const sim::TrueTime now = simulation.now();
     free_at_ = now + sim::Duration::from_ps(until_last_bit + octet * inter_packet_gap.count);
     wire_octets_sent_ += wire_length(Octets{record.length}).count;
-    simulation.schedule(source_, now + sim::Duration::from_ps(until_last_bit + static_cast<std::int64_t>(delay_ps_)), order_,
-                        static_cast<sim::EventKind>(NodeEvent::frame_arrived), static_cast<std::uint64_t>(every_arrival_) << ArrivalArgument::frame_bits | frame.value);
+    const sim::TrueTime arrival = now + sim::Duration::from_ps(until_last_bit + static_cast<std::int64_t>(delay_ps_));
+    simulation.schedule(source_, arrival, order_,
+                        static_cast<sim::EventKind>(NodeEvent::frame_arrived), (static_cast<std::uint64_t>(every_arrival_) | flags << ArrivalArgument::port_bits) << ArrivalArgument::frame_bits | frame.value);
+    return arrival;
   }
   /// The same for any frame. When the receiver is told of it.
   sim::TrueTime transmit_any(sim::Simulation& simulation, FrameIndex frame, const Frame& record, bool is_preemptable);
@@ -129,6 +133,8 @@ class Link {
     if (!withdrawn_.empty() && take_withdrawn(simulation.now(), frame)) return false;
     return !fault_ || passes_faults(simulation, frame, flags);
   }
+  /// Whatever it has sent has come: nothing was cut, nothing may fail.
+  bool surely_delivers() const { return withdrawn_.empty() && !fault_; }
   /// When the frame of which only the header has come, at the present instant, will be here wholly.
   sim::TrueTime complete_at(sim::TrueTime now, const Frame& frame) const {
     return now + octet_time() * (std::int64_t{preamble_and_sfd.count} + frame.length - header_notice(frame).count);

@@ -45,11 +45,14 @@ const Host::Listener* Host::listener_of(StreamIndex stream) const {
 
 void Host::handle(sim::Simulation& simulation, const sim::Event& event) {
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
-  if (looks_closer_ || arrival.flags != 0) [[unlikely]]
+  if (looks_closer_ || (arrival.flags != 0 && is_in_doubt(arrival))) [[unlikely]]
     receive_flagged(simulation, event.kind(), arrival);
   else
     take_in(simulation, event.kind(), arrival);
 }
+
+/// A frame with flags, most of which come as they were sent.
+inline bool Host::is_in_doubt(ArrivalArgument arrival) const { return !ports_[arrival.port].incoming().surely_delivers() || traffic_->frame(arrival.frame).bad_fcs; }
 
 inline void Host::take_in(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
   const Frame& frame = traffic_->frame(arrival.frame);

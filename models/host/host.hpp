@@ -74,6 +74,7 @@ class Host final : public sim::Component, public InternalReceiver, public CpuUse
     std::uint16_t port = 0;
   };
   std::optional<FrameIndex> look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
+  bool is_in_doubt(ArrivalArgument arrival) const;
   std::optional<FrameIndex> recover(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port);
   /// When what comes now is through the operating system. Jobs of a thread come one by one, so that their order is theirs.
   sim::TrueTime through(sim::TrueTime now) { return cpu_ != nullptr ? receive_.pass_strictly(now) : receive_.pass(now); }

@@ -15,8 +15,8 @@ AtsScheduler::AtsScheduler(sim::DataRate committed_information_rate, std::uint64
   bucket_empty_time_ = fine(start) - empty_to_full_;
 }
 
-std::optional<sim::LocalTime> AtsScheduler::process_late(FineTime length_recovery, sim::LocalTime arrival, AtsGroup& group) {
-  const FineTime scheduler_eligibility = bucket_empty_time_ + length_recovery;
+std::optional<sim::LocalTime> AtsScheduler::process_late(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) {
+  const FineTime scheduler_eligibility = bucket_empty_time_ + length_recovery(length);
   const sim::LocalTime not_before = std::max(arrival, group.group_eligibility_time);
   FineTime eligibility = fine(not_before);
   FineTime eligibility_ps = not_before.ps();
@@ -32,7 +32,7 @@ std::optional<sim::LocalTime> AtsScheduler::process_late(FineTime length_recover
     return std::nullopt;
   }
   group.group_eligibility_time = sim::LocalTime::from_ps(static_cast<std::int64_t>(eligibility_ps));
-  bucket_empty_time_ = std::max(bucket_empty_time_, eligibility - empty_to_full_) + length_recovery;
+  bucket_empty_time_ = std::max(bucket_empty_time_, eligibility - empty_to_full_) + length_recovery(length);
   return group.group_eligibility_time;
 }
 

@@ -35,15 +35,18 @@ class AtsScheduler {
   /// ProcessFrame (8.6.11.3): the eligibility time of a frame whose last bit came at `arrival`, or nothing if it is to be
   /// discarded, which changes nothing but the group's count. `length` counts what the configuration counts, media
   /// overhead included if it is to be shaped too. Not before `arrival`, not before the group's last eligibility time.
-  std::optional<sim::LocalTime> process(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) {
-    const FineTime length_recovery = units_in_a_bit * 8 * length.count;
-    const FineTime scheduler_eligibility = bucket_empty_time_ + length_recovery;
+  std::optional<sim::LocalTime> process(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) { return passes_at_once(length, arrival, group) ? arrival : process_late(length, arrival, group); }
+  /// The same in two halves. True: neither group nor bucket keeps the frame, which is eligible at `arrival`; false: nothing has happened, process_late() follows.
+  bool passes_at_once(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) {
     const FineTime fine_arrival = fine(arrival);
-    if (arrival < group.group_eligibility_time || scheduler_eligibility > fine_arrival) [[unlikely]] return process_late(length_recovery, arrival, group);
+    if (arrival < group.group_eligibility_time || bucket_empty_time_ + length_recovery(length) > fine_arrival) return false;
     group.group_eligibility_time = arrival;
-    bucket_empty_time_ = std::max(bucket_empty_time_, fine_arrival - empty_to_full_) + length_recovery;  // a full bucket takes no more
-    return arrival;
+    // A full bucket takes no more.
+    if (const FineTime empty_if_full = fine_arrival - empty_to_full_; bucket_empty_time_ < empty_if_full) bucket_empty_time_ = empty_if_full;
+    bucket_empty_time_ += length_recovery(length);
+    return true;
   }
+  std::optional<sim::LocalTime> process_late(sim::Octets length, sim::LocalTime arrival, AtsGroup& group);
 
   sim::DataRate committed_information_rate() const { return {static_cast<std::uint64_t>(rate_)}; }
   std::uint64_t committed_burst_size_bits() const { return static_cast<std::uint64_t>(empty_to_full_ / units_in_a_bit); }
@@ -53,9 +56,9 @@ class AtsScheduler {
  private:
   /// Time in units of 1 ps / CIR: one bit at CIR lasts 10^12 of them, whatever CIR is.
   using FineTime = sim::int128;
-  /// A frame that its group or its bucket keeps.
-  std::optional<sim::LocalTime> process_late(FineTime length_recovery, sim::LocalTime arrival, AtsGroup& group);
   static constexpr FineTime units_in_a_bit = 1'000'000'000'000;
+  /// How long the bucket takes to get the tokens of a frame.
+  static FineTime length_recovery(sim::Octets length) { return units_in_a_bit * 8 * length.count; }
   FineTime fine(sim::LocalTime time) const { return static_cast<FineTime>(time.ps()) * rate_; }
 
   FineTime bucket_empty_time_;

@@ -49,15 +49,20 @@ class FlowMeter {
 
   /// Colours a frame of that length (DA to FCS) at that time. Time that runs backwards (a clock step) brings no tokens.
   Verdict meter(sim::Octets length, bool drop_eligible, sim::LocalTime arrival) {
-    fill(std::max(arrival - last_, sim::Duration()));
+    if (is_surely_green(length, arrival)) return {FrameColor::green, true, drop_eligible};
+    return meter_exactly(length, drop_eligible, arrival);
+  }
+  /// meter() of a meter with committed tokens alone: true if the frame gets some, and goes on as it is. False: nothing has happened.
+  bool is_surely_green(sim::Octets length, sim::LocalTime arrival) {
+    if (!is_simple_) return false;
+    const sim::Duration elapsed = std::max(arrival - last_, sim::Duration());
+    Tokens left = committed_tokens_ + brought_by(config_.committed_information_rate, elapsed);
+    if (left > committed_burst_) left = committed_burst_;
+    left -= tokens(length);
+    if (left < 0) return false;
+    committed_tokens_ = left;
     last_ = arrival;
-    const bool arrived_green = config_.color_mode == ColorMode::color_blind || !drop_eligible;
-    const Tokens needed = tokens(length);
-    if (arrived_green && needed <= committed_tokens_ && !mark_all_frames_red_) [[likely]] {
-      committed_tokens_ -= needed;
-      return {FrameColor::green, true, drop_eligible};
-    }
-    return not_green(needed, drop_eligible);
+    return true;
   }
 
   /// MarkAllFramesRed: set by the meter if enabled, cleared by management.
@@ -75,23 +80,19 @@ class FlowMeter {
   static constexpr Tokens tokens(sim::Octets octets) { return tokens_in_an_octet * octets.count; }
   static constexpr sim::Octets octets(Tokens tokens) { return {static_cast<std::uint32_t>(tokens / tokens_in_an_octet)}; }
 
-  void fill(sim::Duration elapsed) {
-    committed_tokens_ += brought_by(config_.committed_information_rate, elapsed);
-    const Tokens overflow = committed_tokens_ - committed_burst_;
-    if (overflow > 0) committed_tokens_ = committed_burst_;
-    if (excess_burst_ > 0) fill_excess(elapsed, std::max(Tokens{0}, overflow));
-  }
+  Verdict meter_exactly(sim::Octets length, bool drop_eligible, sim::LocalTime arrival);
+  void fill(sim::Duration elapsed);
   static Tokens brought_by(sim::DataRate rate, sim::Duration elapsed) {
     return static_cast<Tokens>(static_cast<sim::uint128>(rate.bits_per_second) * static_cast<std::uint64_t>(elapsed.ps()));
   }
-  void fill_excess(sim::Duration elapsed, Tokens overflow);
-  Verdict not_green(Tokens needed, bool drop_eligible);
+  FrameColor color(Tokens needed, bool arrived_green);
 
   Tokens committed_burst_;
   Tokens excess_burst_;
   Tokens committed_tokens_;
-  Tokens excess_tokens_;   // none without a burst
+  Tokens excess_tokens_;
   sim::LocalTime last_;
+  bool is_simple_ = false;   // colours do not matter, there are no excess tokens, nothing closes it
   bool mark_all_frames_red_ = false;
   FlowMeterConfig config_;
 };

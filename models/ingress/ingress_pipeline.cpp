@@ -20,6 +20,14 @@ IngressPipeline::IngressPipeline(Traffic& traffic, const IngressConfig& config, 
   for (const AtsGroupConfig& group : config.ats_groups) groups_.push_back({group.maximum_residence_time, {}, 0});
   for (const IngressSplit& split : config.splits) splits_.push_back({split.stream, StreamSplit(split.split)});
   for (const IngressRecovery& recovery : config.recoveries) recoveries_.push_back({recovery.stream, StreamRecovery(recovery.recovery)});
+  for (std::uint32_t i = 0; i < config.stream_filters.size(); ++i) {
+    const StreamFilterConfig& filter = config.stream_filters[i];
+    Instances of{Instances::Kind::other, &filters_[StreamFilterIndex{i}], filter.stream_gate.is_none() ? nullptr : &gates_[filter.stream_gate.value],
+                 filter.flow_meter.is_none() ? nullptr : &meters_[filter.flow_meter.value], filter.ats_scheduler.is_none() ? nullptr : &schedulers_[filter.ats_scheduler.value]};
+    if (of.gate == nullptr && of.scheduler == nullptr && of.meter != nullptr) of.kind = Instances::Kind::meter;
+    if (of.gate == nullptr && of.meter == nullptr && of.scheduler != nullptr) of.kind = Instances::Kind::scheduler;
+    instances_.push_back(of);
+  }
   lay_out_functions();
 }
 
@@ -40,94 +48,64 @@ void IngressPipeline::lay_out_functions() {
   for (std::uint32_t i = 0; i < splits_.size(); ++i) functions_of(splits_[i].stream).split = i;
   for (std::uint32_t i = 0; i < recoveries_.size(); ++i) functions_of(recoveries_[i].stream).recovery = i;
   for (const StreamIdentityEntry& entry : config_->stream_identity_table) functions_of(entry.stream);
-}
-
-bool IngressPipeline::discard(sim::Simulation& simulation, FrameIndex frame, DropReason reason) {
-  traffic_->drop(frame, reason, where_, simulation);
-  return false;
+  for (std::size_t i = 0; i + 1 < functions_.size(); ++i) functions_[i].is_policed_only = functions_[i].recovery == none && functions_[i].split == none;
 }
 
 inline AtsGroup& IngressPipeline::group_of(const Scheduler& scheduler, const Frame& frame, std::uint16_t port) {
   if (!scheduler.config.group.is_none()) return groups_[scheduler.config.group.value];
-  const std::size_t at = port * std::size_t{traffic_class_count} + config_->traffic_class_of_priority[frame.priority];
-  if (port_groups_.size() <= at) [[unlikely]] port_groups_.resize((port + std::size_t{1}) * traffic_class_count, {config_->maximum_residence_time, {}, 0});
-  return port_groups_[at];
+  if (port >= ports_with_groups_) [[unlikely]] make_groups_of(port);
+  return port_groups_[port * std::size_t{traffic_class_count} + config_->traffic_class_of_priority[frame.priority]];
 }
 
-inline std::optional<sim::LocalTime> IngressPipeline::shape(Scheduler& scheduler, const Frame& frame, std::uint16_t port, sim::LocalTime arrival) {
-  const Octets length = scheduler.config.media_overhead ? wire_length(Octets{frame.length}) : Octets{frame.length};
-  const std::optional<sim::LocalTime> eligible = scheduler.scheduler.process(length, arrival, group_of(scheduler, frame, port));
-  ++(eligible ? scheduler.passed : scheduler.discarded);
-  if (eligible) scheduler.longest_hold = std::max(scheduler.longest_hold, *eligible - arrival);
-  return eligible;
+void IngressPipeline::make_groups_of(std::uint16_t port) {
+  ports_with_groups_ = port + 1u;
+  port_groups_.resize(ports_with_groups_ * std::size_t{traffic_class_count}, {config_->maximum_residence_time, {}, 0});
 }
 
-/// Per-stream filtering, policing and shaping. False: the frame was discarded. `index` is the record that goes on otherwise.
-inline bool IngressPipeline::police(sim::Simulation& simulation, FrameIndex& index, const Ingress& ingress, const Functions& functions) {
-  const Frame& frame = traffic_->frame(index);
-  const std::uint32_t number = functions.filter_of_priority[frame.priority];
-  if (number == none) return true;
-  StreamFilter& filter = filters_[StreamFilterIndex{number}];
-  const Octets msdu = Octets{frame.msdu} + (frame.r_tagged ? r_tag : Octets{0});  // an R-TAG is part of what the VLAN tag carries
-  if (!filter.accept(msdu)) [[unlikely]] return discard(simulation, index, DropReason::stream_max_sdu);
+inline Octets IngressPipeline::length_for(const Scheduler& scheduler, const Frame& frame) {
+  return scheduler.config.media_overhead ? wire_length(Octets{frame.length}) : Octets{frame.length};
+}
 
+/// An R-TAG is part of what the VLAN tag carries.
+inline Octets IngressPipeline::msdu_of(const Frame& frame) { return Octets{frame.msdu} + (frame.r_tagged ? r_tag : Octets{0}); }
+
+/// A frame of a filter with a meter or a scheduler alone, most of which find what they ask for. False: nothing has happened, and police() decides.
+inline bool IngressPipeline::passes_at_once(Frame& frame, const Instances& instances, const Ingress& ingress) {
+  StreamFilter& filter = *instances.filter;
+  if (!filter.surely_accepts(msdu_of(frame)) || !clock_->is_ideal()) return false;
   const sim::LocalTime arrival = clock_->local_at(ingress.on_wire);
-  std::optional<Priority> ipv;
-  if (const StreamGateIndex gate = filter.config().stream_gate; !gate.is_none()) {
-    const StreamGate::Verdict verdict = gates_[gate.value].admit(msdu, arrival);
-    if (verdict.outcome != StreamGate::Outcome::passed) [[unlikely]] {
-      filter.count_gate(false);
-      return discard(simulation, index, DropReason::stream_gate);
-    }
-    ipv = verdict.ipv;
+  if (instances.kind == Instances::Kind::meter) {
+    if (!instances.meter->meter.is_surely_green(Octets{frame.length}, arrival)) return false;
+    ++instances.meter->frames[static_cast<std::size_t>(FrameColor::green)];
+  } else {
+    if (instances.kind != Instances::Kind::scheduler || frame.references != 1) return false;
+    Scheduler& scheduler = *instances.scheduler;
+    if (!scheduler.scheduler.passes_at_once(length_for(scheduler, frame), arrival, group_of(scheduler, frame, ingress.port))) return false;
+    ++scheduler.passed;
+    frame.eligible = arrival;
+    frame.queue_priority = frame.priority;
+    frame.marked = true;
   }
-  filter.count_gate(true);
-
-  bool drop_eligible = frame.drop_eligible;
-  if (const FlowMeterIndex number_of_meter = filter.config().flow_meter; !number_of_meter.is_none()) {
-    Meter& meter = meters_[number_of_meter.value];
-    const FlowMeter::Verdict verdict = meter.meter.meter(Octets{frame.length}, drop_eligible, clock_->unstepped_at(ingress.on_wire));
-    ++meter.frames[static_cast<std::size_t>(verdict.color)];
-    if (!verdict.pass) [[unlikely]] {
-      ++meter.discarded;
-      filter.count_red();
-      return discard(simulation, index, DropReason::flow_meter);
-    }
-    drop_eligible = verdict.drop_eligible;
-  }
-
-  std::optional<sim::LocalTime> eligible;
-  if (const AtsSchedulerIndex scheduler = filter.config().ats_scheduler; !scheduler.is_none()) {
-    eligible = shape(schedulers_[scheduler.value], frame, ingress.port, arrival);
-    if (!eligible) [[unlikely]] return discard(simulation, index, DropReason::residence_time);
-  }
-
-  if (!ipv && !eligible && drop_eligible == frame.drop_eligible) return true;
-  index = traffic_->own(index);
-  Frame& own = traffic_->frame(index);
-  own.drop_eligible = drop_eligible;
-  if (ipv || eligible) {
-    own.queue_priority = ipv.value_or(own.priority);
-    own.eligible = eligible.value_or(arrival);
-    own.marked = true;
-  }
+  filter.count_passed();
   return true;
 }
 
 std::span<const FrameIndex> IngressPipeline::pass(sim::Simulation& simulation, Ingress ingress) {
-  const StreamTable::Found found = streams_.identify(traffic_->frame(ingress.frame));
-  if (found.stream.is_none()) ++unidentified_frames_;
+  Frame& frame = traffic_->frame(ingress.frame);
+  const StreamTable::Found found = streams_.identify(frame);
   const Functions& functions = functions_of(found);
-  if (functions.recovery != none || functions.split != none) return pass_member(simulation, ingress, found);
+  const std::uint32_t filter = functions.filter_of_priority[frame.priority];
+  if (!functions.is_policed_only || filter == none || !passes_at_once(frame, instances_[filter], ingress)) return pass_exactly(simulation, ingress, found);
   out_ = ingress.frame;
-  return {&out_, police(simulation, out_, ingress, functions) ? 1u : 0u};
+  return {&out_, 1};
 }
 
-/// Of a stream that is recovered here, or split.
-std::span<const FrameIndex> IngressPipeline::pass_member(sim::Simulation& simulation, const Ingress& ingress, const StreamTable::Found& found) {
+std::span<const FrameIndex> IngressPipeline::pass_exactly(sim::Simulation& simulation, const Ingress& ingress, const StreamTable::Found& found) {
   FrameIndex frame = ingress.frame;
+  if (found.stream.is_none()) ++unidentified_frames_;
   const Functions& functions = functions_of(found);
   const bool is_member = found.member != StreamTable::no_member;
+
   if (functions.recovery != none && (is_member || traffic_->frame(frame).r_tagged)) {
     const std::size_t member = is_member ? found.member : StreamRecovery::no_member;
     const std::optional<FrameIndex> passed =
@@ -143,6 +121,71 @@ std::span<const FrameIndex> IngressPipeline::pass_member(sim::Simulation& simula
   if (functions.split != none && (!is_member || functions.recovery != none)) return splits_[functions.split].split.split(*traffic_, frame, is_member ? ingress.port : StreamSplit::any_port);
   out_ = frame;
   return {&out_, 1};
+}
+
+/// Per-stream filtering, policing and shaping. False: the frame was discarded. `index` is the record that goes on otherwise.
+bool IngressPipeline::police(sim::Simulation& simulation, FrameIndex& index, const Ingress& ingress, const Functions& functions) {
+  const Frame& frame = traffic_->frame(index);
+  const std::uint32_t number = functions.filter_of_priority[frame.priority];
+  if (number == none) return true;
+  const Instances& instances = instances_[number];
+  StreamFilter& filter = *instances.filter;
+  const Octets msdu = msdu_of(frame);
+  if (!filter.accept(msdu)) return discard(simulation, index, DropReason::stream_max_sdu);
+
+  const sim::LocalTime arrival = clock_->local_at(ingress.on_wire);
+  std::optional<Priority> ipv;
+  if (instances.gate != nullptr) {
+    const StreamGate::Verdict verdict = instances.gate->admit(msdu, arrival);
+    if (verdict.outcome != StreamGate::Outcome::passed) {
+      filter.count_gate(false);
+      return discard(simulation, index, DropReason::stream_gate);
+    }
+    ipv = verdict.ipv;
+  }
+  filter.count_gate(true);
+
+  bool drop_eligible = frame.drop_eligible;
+  if (instances.meter != nullptr) {
+    Meter& meter = *instances.meter;
+    const FlowMeter::Verdict verdict = meter.meter.meter(Octets{frame.length}, drop_eligible, clock_->unstepped_at(ingress.on_wire));
+    ++meter.frames[static_cast<std::size_t>(verdict.color)];
+    if (!verdict.pass) {
+      ++meter.discarded;
+      filter.count_red();
+      return discard(simulation, index, DropReason::flow_meter);
+    }
+    drop_eligible = verdict.drop_eligible;
+  }
+
+  std::optional<sim::LocalTime> eligible;
+  if (instances.scheduler != nullptr) {
+    eligible = shape(*instances.scheduler, frame, ingress.port, arrival);
+    if (!eligible) return discard(simulation, index, DropReason::residence_time);
+  }
+
+  if (!ipv && !eligible && drop_eligible == frame.drop_eligible) return true;
+  index = traffic_->own(index);
+  Frame& own = traffic_->frame(index);
+  own.drop_eligible = drop_eligible;
+  if (ipv || eligible) {
+    own.queue_priority = ipv.value_or(own.priority);
+    own.eligible = eligible.value_or(arrival);
+    own.marked = true;
+  }
+  return true;
+}
+
+bool IngressPipeline::discard(sim::Simulation& simulation, FrameIndex frame, DropReason reason) {
+  traffic_->drop(frame, reason, where_, simulation);
+  return false;
+}
+
+std::optional<sim::LocalTime> IngressPipeline::shape(Scheduler& scheduler, const Frame& frame, std::uint16_t port, sim::LocalTime arrival) {
+  const std::optional<sim::LocalTime> eligible = scheduler.scheduler.process(length_for(scheduler, frame), arrival, group_of(scheduler, frame, port));
+  ++(eligible ? scheduler.passed : scheduler.discarded);
+  if (eligible) scheduler.longest_hold = std::max(scheduler.longest_hold, *eligible - arrival);
+  return eligible;
 }
 
 const std::vector<IngressPipeline::Recovery>& IngressPipeline::recoveries(sim::TrueTime now) {

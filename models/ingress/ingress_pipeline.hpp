@@ -42,6 +42,8 @@ class IngressPipeline final : public IngressChain {
   /// `where` is the component that drops are accounted to; `first_group` is the number of nodes (see mac_address_of). All references
   /// outlive the pipeline.
   IngressPipeline(Traffic& traffic, const IngressConfig& config, const LocalClock& clock, sim::ComponentId where, std::uint32_t first_group);
+  IngressPipeline(const IngressPipeline&) = delete;   // instances_ points into it
+  IngressPipeline& operator=(const IngressPipeline&) = delete;
 
   std::span<const FrameIndex> pass(sim::Simulation& simulation, Ingress ingress) override;
 
@@ -90,14 +92,29 @@ class IngressPipeline final : public IngressChain {
   struct Functions {
     std::uint32_t recovery = none;
     std::uint32_t split = none;
+    bool is_policed_only = false;            ///< neither, and it is a stream
     std::array<std::uint32_t, 8> filter_of_priority{};   ///< the first that matches
   };
 
-  std::span<const FrameIndex> pass_member(sim::Simulation& simulation, const Ingress& ingress, const StreamTable::Found& found);
-  bool police(sim::Simulation& simulation, FrameIndex& frame, const Ingress& ingress, const Functions& functions);
+  /// What a stream filter leads to; null where there is nothing.
+  struct Instances {
+    enum class Kind : std::uint8_t { meter, scheduler, other };   ///< that alone, or something else
+    Kind kind = Kind::other;
+    StreamFilter* filter = nullptr;
+    StreamGate* gate = nullptr;
+    Meter* meter = nullptr;
+    Scheduler* scheduler = nullptr;
+  };
+
+  bool passes_at_once(Frame& frame, const Instances& instances, const Ingress& ingress);
+  [[gnu::noinline]] std::span<const FrameIndex> pass_exactly(sim::Simulation& simulation, const Ingress& ingress, const StreamTable::Found& found);
+  bool police(sim::Simulation& simulation, FrameIndex& index, const Ingress& ingress, const Functions& functions);
   bool discard(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
   std::optional<sim::LocalTime> shape(Scheduler& scheduler, const Frame& frame, std::uint16_t port, sim::LocalTime arrival);
   AtsGroup& group_of(const Scheduler& scheduler, const Frame& frame, std::uint16_t port);
+  void make_groups_of(std::uint16_t port);
+  static Octets length_for(const Scheduler& scheduler, const Frame& frame);
+  static Octets msdu_of(const Frame& frame);
   const Functions& functions_of(const StreamTable::Found& found) const { return found.stream.is_none() ? functions_.back() : functions_[found.stream.value]; }
   void lay_out_functions();
 
@@ -112,7 +129,9 @@ class IngressPipeline final : public IngressChain {
   std::vector<Meter> meters_;
   std::vector<Scheduler> schedulers_;
   std::vector<AtsGroup> groups_;
+  std::vector<Instances> instances_;        // by filter
   std::vector<AtsGroup> port_groups_;       // by reception port and traffic class
+  std::uint32_t ports_with_groups_ = 0;
   std::vector<Split> splits_;
   std::vector<Recovery> recoveries_;
   std::uint64_t unidentified_frames_ = 0;

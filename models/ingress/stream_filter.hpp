@@ -59,6 +59,14 @@ class StreamFilter {
     ++(accepted ? counters_.passing_sdu : counters_.not_passing_sdu);
     return accepted;
   }
+  /// accept() would say true.
+  bool surely_accepts(Octets msdu) const { return !blocked_ && (config_.maximum_sdu_size.count == 0 || msdu <= config_.maximum_sdu_size); }
+  /// accept() has said true, and so has the stream gate.
+  void count_passed() {
+    ++counters_.matching_frames;
+    ++counters_.passing_sdu;
+    ++counters_.passing_frames;
+  }
   /// What the stream gate said of an accepted frame.
   void count_gate(bool passed) { ++(passed ? counters_.passing_frames : counters_.not_passing_frames); }
   /// The flow meter has discarded a frame that passed the gate.

@@ -86,7 +86,7 @@ void EgressPort::offer(sim::Simulation& simulation, FrameIndex frame, std::uint3
 }
 
 /// A frame comes alone to a free medium at a port that has gates and nothing else: most often in the window of the frame before it.
-inline void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
   if (clock_->is_ideal() && only_gates_->is_in_known_window(q, clock_->local_at(simulation.now()), octet_time() * (preamble_and_sfd.count + std::int64_t{record.length}))) [[likely]] {
     sending_ = q;
@@ -114,9 +114,9 @@ void EgressPort::pass_gate_exactly(sim::Simulation& simulation, FrameIndex frame
 }
 
 /// The same at a port that has other shapers, too: most often without gates, and what it asks for is there.
-inline void EgressPort::pass_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+void EgressPort::pass_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
-  if (clock_->is_ideal() && shaping_->starts_alone_without_gates(simulation.now(), q, record.length, eligible_of(record))) [[likely]] {
+  if (clock_->is_ideal() && shaping_->starts_alone_without_gates(simulation.now(), clock_->local_at(simulation.now()), q, record.length, eligible_of(record))) [[likely]] {
     sending_ = q;
     start(simulation, frame, record);
   } else {

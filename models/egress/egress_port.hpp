@@ -186,12 +186,13 @@ class alignas(64) EgressPort final : public sim::Component {
   void settle_all_classes(sim::Simulation& simulation);
   void settle_one(sim::Simulation& simulation, FrameIndex frame);
   void pass_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  void pass_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  [[gnu::noinline]] void pass_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   [[gnu::noinline]] void pass_shaping_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   [[gnu::noinline]] void pass_gate_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   void pass_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   void settle_waiting(sim::Simulation& simulation);
-  void pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  // These end with what they call, so that the common case saves no registers.
+  [[gnu::noinline]] void pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   void find_path();
   void find_gates();
   void settle_later(sim::Simulation& simulation) {

@@ -64,9 +64,9 @@ class PortShaping {
   }
   /// frame_waits() and ready_time() of a frame that comes where none of its class waits and the medium is free, and started() if that is `now`. `now` if it has started.
   sim::TrueTime start_alone(sim::TrueTime now, TrafficClass q, const Head& head);
-  /// The same where there are no gates. True if the frame has started; false: start_alone() says when to ask again.
-  bool starts_alone_without_gates(sim::TrueTime now, TrafficClass q, std::uint32_t length, sim::LocalTime eligible) {
-    if (has_gates_ || (is_timed(q) && eligible > clock_->local_at(now))) return false;
+  /// The same where there are no gates; `local` is what the clock shows. True if the frame has started; false: start_alone() says when to ask again.
+  bool starts_alone_without_gates(sim::TrueTime now, sim::LocalTime local, TrafficClass q, std::uint32_t length, sim::LocalTime eligible) {
+    if (has_gates_ || (is_timed(q) && eligible > local)) return false;
     CreditBasedSelection* const credit = credit_based(q);
     return credit == nullptr || credit->start_alone(now, occupancy(length));
   }

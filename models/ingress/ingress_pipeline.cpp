@@ -70,7 +70,7 @@ inline Octets IngressPipeline::length_for(const Scheduler& scheduler, const Fram
 inline Octets IngressPipeline::msdu_of(const Frame& frame) { return Octets{frame.msdu} + (frame.r_tagged ? r_tag : Octets{0}); }
 
 /// A frame of a filter with a meter or a scheduler alone, most of which find what they ask for. False: nothing has happened, and police() decides.
-inline bool IngressPipeline::passes_at_once(Frame& frame, const Instances& instances, const Ingress& ingress) {
+inline bool IngressPipeline::passes_at_once(Frame& frame, const Instances& instances, Ingress ingress) {
   StreamFilter& filter = *instances.filter;
   if (!filter.surely_accepts(msdu_of(frame)) || !clock_->is_ideal()) return false;
   const sim::LocalTime arrival = clock_->local_at(ingress.on_wire);
@@ -92,18 +92,18 @@ inline bool IngressPipeline::passes_at_once(Frame& frame, const Instances& insta
 
 std::span<const FrameIndex> IngressPipeline::pass(sim::Simulation& simulation, Ingress ingress) {
   Frame& frame = traffic_->frame(ingress.frame);
-  const StreamTable::Found found = streams_.identify(frame);
-  const Functions& functions = functions_of(found);
+  const Functions& functions = functions_of(streams_.identify(frame).stream);
   const std::uint32_t filter = functions.filter_of_priority[frame.priority];
-  if (!functions.is_policed_only || filter == none || !passes_at_once(frame, instances_[filter], ingress)) return pass_exactly(simulation, ingress, found);
+  if (!functions.is_policed_only || filter == none || !passes_at_once(frame, instances_[filter], ingress)) return pass_exactly(simulation, ingress);
   out_ = ingress.frame;
   return {&out_, 1};
 }
 
-std::span<const FrameIndex> IngressPipeline::pass_exactly(sim::Simulation& simulation, const Ingress& ingress, const StreamTable::Found& found) {
+std::span<const FrameIndex> IngressPipeline::pass_exactly(sim::Simulation& simulation, Ingress ingress) {
   FrameIndex frame = ingress.frame;
+  const StreamTable::Found found = streams_.identify(traffic_->frame(frame));
   if (found.stream.is_none()) ++unidentified_frames_;
-  const Functions& functions = functions_of(found);
+  const Functions& functions = functions_of(found.stream);
   const bool is_member = found.member != StreamTable::no_member;
 
   if (functions.recovery != none && (is_member || traffic_->frame(frame).r_tagged)) {

@@ -106,8 +106,8 @@ class IngressPipeline final : public IngressChain {
     Scheduler* scheduler = nullptr;
   };
 
-  bool passes_at_once(Frame& frame, const Instances& instances, const Ingress& ingress);
-  [[gnu::noinline]] std::span<const FrameIndex> pass_exactly(sim::Simulation& simulation, const Ingress& ingress, const StreamTable::Found& found);
+  bool passes_at_once(Frame& frame, const Instances& instances, Ingress ingress);
+  [[gnu::noinline]] std::span<const FrameIndex> pass_exactly(sim::Simulation& simulation, Ingress ingress);
   bool police(sim::Simulation& simulation, FrameIndex& index, const Ingress& ingress, const Functions& functions);
   bool discard(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
   std::optional<sim::LocalTime> shape(Scheduler& scheduler, const Frame& frame, std::uint16_t port, sim::LocalTime arrival);
@@ -115,7 +115,7 @@ class IngressPipeline final : public IngressChain {
   void make_groups_of(std::uint16_t port);
   static Octets length_for(const Scheduler& scheduler, const Frame& frame);
   static Octets msdu_of(const Frame& frame);
-  const Functions& functions_of(const StreamTable::Found& found) const { return found.stream.is_none() ? functions_.back() : functions_[found.stream.value]; }
+  const Functions& functions_of(StreamHandle stream) const { return stream.is_none() ? functions_.back() : functions_[stream.value]; }
   void lay_out_functions();
 
   Traffic* traffic_;

@@ -11,6 +11,11 @@ WORKLOADS = {
     "line": (["line", "0.1"], ["line", "0.5"]),
     "line-gates": (["line-gates", "0.1"], ["line-gates", "0.5"]),
     "line-preemption": (["line-preemption", "0.1"], ["line-preemption", "0.5"]),
+    "line-short-gates": (["line-short-gates", "0.1"], ["line-short-gates", "0.5"]),
+    "line-cbs": (["line-cbs", "0.1"], ["line-cbs", "0.5"]),
+    "line-ats": (["line-ats", "0.1"], ["line-ats", "0.5"]),
+    "line-psfp": (["line-psfp", "0.1"], ["line-psfp", "0.5"]),
+    "line-frer": (["line-frer", "0.1"], ["line-frer", "0.5"]),
     "pair": (["pair", "0.05"], ["pair", "0.25"]),
 }
 # valgrind's names: reads of instructions, reads and writes of data, and misses of the first and the last cache; branches and those that were guessed wrong.

@@ -116,6 +116,7 @@ Distribution Distribution::empirical(std::vector<Point> points) {
   TAKT_CHECK(total > 0, "an empirical table needs a positive weight");
   d.kind_ = Kind::empirical;
   d.points_ = std::move(points);
+  d.make_table();
   return d;
 }
 
@@ -126,6 +127,7 @@ Distribution Distribution::mixture(Distribution body, Distribution tail, std::ui
   d.tail_parts_per_billion_ = tail_parts_per_billion;
   d.floor_ = std::min(body.floor_, tail.floor_);
   d.parts_ = {std::move(body), std::move(tail)};
+  d.make_table();
   return d;
 }
 
@@ -134,15 +136,26 @@ Distribution Distribution::clamped(Duration floor, Duration ceiling) const {
   Distribution d = *this;
   d.floor_ = floor;
   d.ceiling_ = ceiling;
+  d.make_table();
   return d;
 }
 
-Duration Distribution::draw(RandomStream& stream) const {
-  const Distribution* from = this;
-  if (kind_ == Kind::mixture) from = &parts_[stream.below(1'000'000'000) < tail_parts_per_billion_ ? 1 : 0];  // no mixture itself
-  // A measured table is what hosts draw from most.
-  const Duration raw = from->equal_weights_ ? from->points_[stream.below(from->points_.back().weight)].value : from->draw_raw(stream);
-  return std::clamp(std::clamp(raw, from->floor_, from->ceiling_), floor_, ceiling_);
+/// To be called when the points, the parts or the bounds have changed.
+void Distribution::make_table() {
+  table_.clear();
+  const Distribution& from = kind_ == Kind::mixture ? parts_[0] : *this;
+  if (!from.equal_weights_) return;
+  for (const Point& point : from.points_) table_.push_back(std::clamp(std::clamp(point.value, from.floor_, from.ceiling_), floor_, ceiling_));
+}
+
+Duration Distribution::draw_slowly(RandomStream& stream) const {
+  if (kind_ != Kind::mixture) return clamped_draw(*this, stream);
+  return clamped_draw(parts_[stream.below(billion) < tail_parts_per_billion_ ? 1 : 0], stream);  // no mixture itself
+}
+
+Duration Distribution::clamped_draw(const Distribution& part, RandomStream& stream) const {
+  const Duration raw = part.equal_weights_ ? part.points_[stream.below(part.points_.size())].value : part.draw_raw(stream);
+  return std::clamp(std::clamp(raw, part.floor_, part.ceiling_), floor_, ceiling_);
 }
 
 Duration Distribution::draw_raw(RandomStream& stream) const {

@@ -40,7 +40,12 @@ class Distribution {
   /// The same distribution with its results clamped to [floor, ceiling].
   Distribution clamped(Duration floor, Duration ceiling) const;
 
-  Duration draw(RandomStream& stream) const;
+  Duration draw(RandomStream& stream) const {
+    // A measured table is what hosts draw from most.
+    if (table_.empty()) [[unlikely]] return draw_slowly(stream);
+    if (kind_ == Kind::mixture && stream.below(billion) < tail_parts_per_billion_) [[unlikely]] return clamped_draw(parts_[1], stream);
+    return table_[stream.below(table_.size())];
+  }
   /// What draws of a truncated normal distribution come to on average.
   Duration truncated_mean() const;
 
@@ -52,7 +57,13 @@ class Distribution {
  private:
   enum class Kind : std::uint8_t { constant, uniform, normal, truncated_normal, exponential, weibull, log_normal, empirical, mixture };
 
+  static constexpr std::uint64_t billion = 1'000'000'000;
+
+  Duration draw_slowly(RandomStream& stream) const;
   Duration draw_raw(RandomStream& stream) const;
+  /// Of a part, within the bounds of both.
+  Duration clamped_draw(const Distribution& part, RandomStream& stream) const;
+  void make_table();
 
   Kind kind_ = Kind::constant;
   std::uint32_t tail_parts_per_billion_ = 0;
@@ -63,6 +74,7 @@ class Distribution {
   Duration floor_ = Duration::from_ps(0);
   Duration ceiling_ = Duration::max();
   bool equal_weights_ = false;          // empirical: every weight is 1, so the draw is the index
+  std::vector<Duration> table_;         // of equal weights, also of the body of a mixture: the results, clamped
   std::vector<Point> points_;           // empirical: weights made cumulative
   std::vector<Distribution> parts_;     // mixture: body, tail
 };
